@@ -1,0 +1,12 @@
+# Libraries from the distribution; scripts/setup installs them all.
+find_package(Eigen3 3.4 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus 3.3 REQUIRED)
+find_path(FRUSTUM_RANDOM123_INCLUDE Random123/philox.h REQUIRED)
+find_path(FRUSTUM_OPENMESH_INCLUDE OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh REQUIRED)
+find_library(FRUSTUM_OPENMESH_CORE OpenMeshCore REQUIRED)

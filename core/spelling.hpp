@@ -1,0 +1,18 @@
+// The known word nearest to a misspelt one, for diagnostics.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace frustum {
+
+// The candidate with the least edit distance (case ignored), when it is near enough to be meant.
+[[nodiscard]] std::optional<std::string> nearest_word(std::string_view word,
+                                                      std::span<const std::string> candidates);
+
+// "did you mean X?" or, with no near candidate, "known: a, b, c".
+[[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace frustum

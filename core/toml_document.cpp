@@ -1,0 +1,416 @@
+#include "core/toml_document.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <variant>
+
+#include "core/spelling.hpp"
+
+namespace frustum {
+namespace toml_detail {
+
+struct Node {
+  using Array = std::vector<Node>;
+  struct Table {
+    std::vector<std::pair<std::string, Node>> entries;
+    mutable std::vector<std::string> asked;  // what readers asked for, known or not
+    mutable bool opened = false;             // a reader looked inside
+  };
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Table> value;
+  int line = 0;
+  int column = 0;
+
+  [[nodiscard]] const Table* table() const { return std::get_if<Table>(&value); }
+  [[nodiscard]] const Array* array() const { return std::get_if<Array>(&value); }
+};
+
+struct State {
+  std::filesystem::path file;
+  Node root;
+  Diagnostics diagnostics;
+};
+
+}  // namespace toml_detail
+
+namespace {
+
+using toml_detail::Node;
+using toml_detail::State;
+
+Node convert(const toml::node& from) {
+  Node node;
+  node.line = static_cast<int>(from.source().begin.line);
+  node.column = static_cast<int>(from.source().begin.column);
+  if (const auto* table = from.as_table()) {
+    Node::Table entries;
+    for (const auto& [key, child] : *table) {
+      entries.entries.emplace_back(std::string(key.str()), convert(child));
+      // A key's own place is what an editor should jump to.
+      entries.entries.back().second.line = static_cast<int>(key.source().begin.line);
+      entries.entries.back().second.column = static_cast<int>(key.source().begin.column);
+    }
+    std::stable_sort(entries.entries.begin(), entries.entries.end(),
+                     [](const auto& a, const auto& b) {
+                       return std::tie(a.second.line, a.second.column) <
+                              std::tie(b.second.line, b.second.column);
+                     });
+    node.value = std::move(entries);
+  } else if (const auto* array = from.as_array()) {
+    Node::Array items;
+    for (const auto& child : *array) items.push_back(convert(child));
+    node.value = std::move(items);
+  } else if (const auto* text = from.as_string()) {
+    node.value = text->get();
+  } else if (const auto* whole = from.as_integer()) {
+    node.value = whole->get();
+  } else if (const auto* real = from.as_floating_point()) {
+    node.value = real->get();
+  } else if (const auto* flag = from.as_boolean()) {
+    node.value = flag->get();
+  }
+  return node;
+}
+
+const char* kind_of(const Node& node) {
+  constexpr const char* kNames[] = {"a date", "true/false", "a whole number", "a number",
+                                    "text",   "an array",   "a table"};
+  return kNames[node.value.index()];
+}
+
+std::string joined(const std::string& path, std::string_view key) {
+  if (path.empty()) return std::string(key);
+  if (key.empty()) return path;
+  return path + "." + std::string(key);
+}
+
+std::optional<double> as_number(const Node& node) {
+  if (const auto* whole = std::get_if<std::int64_t>(&node.value)) return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&node.value); real != nullptr && std::isfinite(*real)) {
+    return *real;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TomlTable::TomlTable(std::shared_ptr<State> state, const Node* node, std::string path)
+    : state_(std::move(state)), node_(node), path_(std::move(path)) {
+  if (node_ != nullptr && node_->table() != nullptr) node_->table()->opened = true;
+}
+
+const Node* TomlTable::find(std::string_view key, bool required) const {
+  if (node_ == nullptr) return nullptr;
+  const Node::Table& table = *node_->table();
+  table.asked.emplace_back(key);
+  for (const auto& [name, child] : table.entries) {
+    if (name == key) return &child;
+  }
+  if (required) fail(key, "this key is missing");
+  return nullptr;
+}
+
+void TomlTable::fail(std::string_view key, std::string message, std::string hint) const {
+  Diagnostic diagnostic = frustum::error(std::move(message), std::move(hint));
+  diagnostic.file = state_->file.string();
+  diagnostic.key = joined(path_, key);
+  const Node* place = node_;
+  if (node_ != nullptr) {
+    for (const auto& [name, child] : node_->table()->entries) {
+      if (name == key) place = &child;
+    }
+  }
+  if (place != nullptr) {
+    diagnostic.line = place->line;
+    diagnostic.column = place->column;
+  }
+  state_->diagnostics.push_back(std::move(diagnostic));
+}
+
+bool TomlTable::has(std::string_view key) const { return find(key, false) != nullptr; }
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> names;
+  if (node_ == nullptr) return names;
+  for (const auto& [name, child] : node_->table()->entries) names.push_back(name);
+  return names;
+}
+
+std::string TomlTable::text(std::string_view key) const {
+  const Node* node = find(key, true);
+  if (node == nullptr) return {};
+  if (const auto* text = std::get_if<std::string>(&node->value)) return *text;
+  fail(key, fmt::format("expected text, found {}", kind_of(*node)));
+  return {};
+}
+
+std::string TomlTable::text_or(std::string_view key, std::string_view fallback) const {
+  return has(key) ? text(key) : std::string(fallback);
+}
+
+std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string>& choices) const {
+  const Node* node = find(key, true);
+  if (node == nullptr) return 0;
+  const std::string word = text(key);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i] == word) return i;
+  }
+  if (std::holds_alternative<std::string>(node->value)) {
+    fail(key, fmt::format("'{}' is not one of the choices", word),
+         fmt::format("{} (choices: {})", suggestion(word, choices), fmt::join(choices, ", ")));
+  }
+  return 0;
+}
+
+std::size_t TomlTable::choice_or(std::string_view key, const std::vector<std::string>& choices,
+                                 std::size_t fallback) const {
+  return has(key) ? choice(key, choices) : fallback;
+}
+
+double TomlTable::bounded(std::string_view key, double value, Bound bound) const {
+  if (bound == Bound::positive && !(value > 0.0)) {
+    fail(key, fmt::format("must be greater than 0, is {}", value));
+  } else if (bound == Bound::non_negative && !(value >= 0.0)) {
+    fail(key, fmt::format("must not be negative, is {}", value));
+  }
+  return value;
+}
+
+double TomlTable::number(std::string_view key, Bound bound) const {
+  const Node* node = find(key, true);
+  if (node == nullptr) return 1.0;
+  if (const auto value = as_number(*node)) return bounded(key, *value, bound);
+  fail(key, fmt::format("expected a finite number, found {}", kind_of(*node)));
+  return 1.0;
+}
+
+double TomlTable::number_or(std::string_view key, double fallback, Bound bound) const {
+  return has(key) ? number(key, bound) : fallback;
+}
+
+std::int64_t TomlTable::integer(std::string_view key, Bound bound) const {
+  const Node* node = find(key, true);
+  if (node == nullptr) return 1;
+  if (const auto* whole = std::get_if<std::int64_t>(&node->value)) {
+    bounded(key, static_cast<double>(*whole), bound);
+    return *whole;
+  }
+  fail(key, fmt::format("expected a whole number, found {}", kind_of(*node)));
+  return 1;
+}
+
+std::int64_t TomlTable::integer_or(std::string_view key, std::int64_t fallback, Bound bound) const {
+  return has(key) ? integer(key, bound) : fallback;
+}
+
+bool TomlTable::boolean_or(std::string_view key, bool fallback) const {
+  const Node* node = find(key, false);
+  if (node == nullptr) return fallback;
+  if (const auto* flag = std::get_if<bool>(&node->value)) return *flag;
+  fail(key, fmt::format("expected true or false, found {}", kind_of(*node)));
+  return fallback;
+}
+
+ParsedQuantity TomlTable::quantity(std::string_view key) const {
+  const Node* node = find(key, true);
+  if (node == nullptr) return {};
+  if (const auto value = as_number(*node)) return {*value, UnitKind::none};
+  if (const auto* text = std::get_if<std::string>(&node->value)) {
+    const auto parsed = parse_quantity(*text);
+    if (parsed) return *parsed;
+    fail(key, parsed.error().front().message, parsed.error().front().hint);
+    return {};
+  }
+  fail(key, fmt::format("expected a number or text with a unit, found {}", kind_of(*node)));
+  return {};
+}
+
+double TomlTable::scaled(std::string_view key, UnitKind kind, double bare_number_scale,
+                         Bound bound) const {
+  const ParsedQuantity parsed = quantity(key);
+  if (parsed.kind == UnitKind::none) return bounded(key, parsed.value * bare_number_scale, bound);
+  if (parsed.kind == kind) return bounded(key, parsed.value, bound);
+  fail(key,
+       kind == UnitKind::length ? "expected a length, found an angle"
+                                : "expected an angle, found a length",
+       kind == UnitKind::length ? "units: mm um nm m in" : "units: deg rad mrad urad arcsec");
+  return 1.0;
+}
+
+Mm TomlTable::length(std::string_view key, Bound bound) const {
+  return {scaled(key, UnitKind::length, 1.0, bound)};
+}
+Mm TomlTable::length_or(std::string_view key, Mm fallback, Bound bound) const {
+  return has(key) ? length(key, bound) : fallback;
+}
+Rad TomlTable::angle(std::string_view key, Bound bound) const {
+  return {scaled(key, UnitKind::angle, kRadPerDeg, bound)};
+}
+Rad TomlTable::angle_or(std::string_view key, Rad fallback, Bound bound) const {
+  return has(key) ? angle(key, bound) : fallback;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key) const {
+  const Node* node = find(key, true);
+  std::vector<double> values;
+  if (node == nullptr) return values;
+  if (const Node::Array* items = node->array()) {
+    for (const Node& item : *items) {
+      if (const auto value = as_number(item)) {
+        values.push_back(*value);
+      } else {
+        fail(key, fmt::format("expected finite numbers only, found {}", kind_of(item)));
+        return values;
+      }
+    }
+    return values;
+  }
+  fail(key, fmt::format("expected an array of numbers, found {}", kind_of(*node)));
+  return values;
+}
+
+Vec3 TomlTable::vector(std::string_view key) const {
+  const std::size_t before = state_->diagnostics.size();
+  const std::vector<double> values = numbers(key);
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  if (state_->diagnostics.size() == before) {
+    fail(key, fmt::format("expected three numbers [x, y, z], found {}", values.size()));
+  }
+  return Vec3::Zero();
+}
+
+Vec3 TomlTable::vector_or(std::string_view key, const Vec3& fallback) const {
+  return has(key) ? vector(key) : fallback;
+}
+
+std::vector<std::string> TomlTable::texts_or(std::string_view key,
+                                             std::vector<std::string> fallback) const {
+  const Node* node = find(key, false);
+  if (node == nullptr) return fallback;
+  std::vector<std::string> words;
+  const Node::Array* items = node->array();
+  if (items == nullptr) {
+    fail(key, fmt::format("expected an array of texts, found {}", kind_of(*node)));
+    return words;
+  }
+  for (const Node& item : *items) {
+    if (const auto* text = std::get_if<std::string>(&item.value)) {
+      words.push_back(*text);
+    } else {
+      fail(key, fmt::format("expected texts only, found {}", kind_of(item)));
+    }
+  }
+  return words;
+}
+
+bool TomlTable::is_table(std::string_view key) const {
+  const Node* node = find(key, false);
+  return node != nullptr && node->table() != nullptr;
+}
+
+bool TomlTable::is_number(std::string_view key) const {
+  const Node* node = find(key, false);
+  return node != nullptr && as_number(*node).has_value();
+}
+
+TomlTable TomlTable::table(std::string_view key) const {
+  const Node* node = find(key, true);
+  if (node != nullptr && node->table() == nullptr) {
+    fail(key, fmt::format("expected a table, found {}", kind_of(*node)));
+    node = nullptr;
+  }
+  return {state_, node, joined(path_, key)};
+}
+
+std::optional<TomlTable> TomlTable::table_if(std::string_view key) const {
+  if (!has(key)) return std::nullopt;
+  return table(key);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  const Node* node = find(key, false);
+  std::vector<TomlTable> found;
+  if (node == nullptr) return found;
+  const Node::Array* items = node->array();
+  if (items == nullptr) {
+    fail(key, fmt::format("expected an array of tables, found {}", kind_of(*node)),
+         fmt::format("write [[{}]]", joined(path_, key)));
+    return found;
+  }
+  for (std::size_t i = 0; i < items->size(); ++i) {
+    if ((*items)[i].table() == nullptr) {
+      fail(key, fmt::format("expected tables only, found {}", kind_of((*items)[i])));
+      continue;
+    }
+    found.push_back(
+        TomlTable(state_, &(*items)[i], fmt::format("{}[{}]", joined(path_, key), i + 1)));
+  }
+  return found;
+}
+
+std::filesystem::path TomlTable::file_path(std::string_view key) const {
+  const std::filesystem::path written = text(key);
+  return written.is_absolute() ? written : state_->file.parent_path() / written;
+}
+
+Result<TomlDocument> TomlDocument::load(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || !text) {
+    Diagnostic failure = frustum::error("the file cannot be read", "check the path and permissions");
+    failure.file = file.string();
+    return failure;
+  }
+  return parse(text.str(), file);
+}
+
+Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::filesystem::path& file) {
+  auto state = std::make_shared<State>();
+  state->file = file;
+  try {  // toml++ reports by exception; it ends here
+    state->root = convert(toml::parse(text, file.string()));
+  } catch (const toml::parse_error& problem) {
+    Diagnostic failure = frustum::error(std::string(problem.description()), "the file is not valid TOML");
+    failure.file = file.string();
+    failure.line = static_cast<int>(problem.source().begin.line);
+    failure.column = static_cast<int>(problem.source().begin.column);
+    return failure;
+  }
+  const Node* root = &state->root;
+  return TomlDocument(TomlTable(std::move(state), root, ""));
+}
+
+std::filesystem::path TomlDocument::folder() const { return file().parent_path(); }
+const std::filesystem::path& TomlDocument::file() const { return root_.state_->file; }
+
+Diagnostics TomlDocument::finish() const {
+  const auto visit = [this](const auto& self, const Node& node, const std::string& path) -> void {
+    if (const Node::Array* items = node.array()) {
+      for (std::size_t i = 0; i < items->size(); ++i) {
+        self(self, (*items)[i], fmt::format("{}[{}]", path, i + 1));
+      }
+      return;
+    }
+    const Node::Table* table = node.table();
+    if (table == nullptr || !table->opened) return;
+    for (const auto& [name, child] : table->entries) {
+      if (std::find(table->asked.begin(), table->asked.end(), name) == table->asked.end()) {
+        std::vector<std::string> known = table->asked;
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        TomlTable(root_.state_, &node, path).fail(name, "unknown key", suggestion(name, known));
+      } else {
+        self(self, child, joined(path, name));
+      }
+    }
+  };
+  visit(visit, root_.state_->root, "");
+  return root_.state_->diagnostics;
+}
+
+}  // namespace frustum

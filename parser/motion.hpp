@@ -1,0 +1,125 @@
+// Canonical motions: what an NC program commands, in program coordinates, knowing no machine.
+//
+// Units: mm, rad, mm/min; positions are in the active work offset's program coordinates unless the
+// motion says machine coordinates. Inch programs, incremental and modal words are already resolved.
+// Axis words that a block does not give keep their last value; words never given are absent, so that a
+// consumer can tell "not programmed" from zero.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/pose.hpp"
+
+namespace frustum::parser {
+
+enum class AxisLetter : std::uint8_t { X, Y, Z, A, B, C };
+constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z,
+                                  AxisLetter::A, AxisLetter::B, AxisLetter::C};
+[[nodiscard]] constexpr char to_char(AxisLetter axis) {
+  return "XYZABC"[static_cast<std::size_t>(axis)];
+}
+[[nodiscard]] constexpr bool is_rotary(AxisLetter axis) { return axis >= AxisLetter::A; }
+
+// Where a motion comes from in the text.
+struct SourcePlace {
+  std::uint32_t line = 0;    // 1-based line of the file
+  std::uint32_t column = 0;  // 1-based column of the first word that matters
+};
+
+// A target in program coordinates: mm for X Y Z, rad for A B C; absent where never programmed.
+class AxisTarget {
+ public:
+  [[nodiscard]] const std::optional<double>& operator[](AxisLetter axis) const {
+    return values_[static_cast<std::size_t>(axis)];
+  }
+  std::optional<double>& operator[](AxisLetter axis) { return values_[static_cast<std::size_t>(axis)]; }
+  bool operator==(const AxisTarget&) const = default;
+
+ private:
+  std::array<std::optional<double>, 6> values_{};
+};
+
+enum class Coordinates : std::uint8_t { program, machine };  // machine: G53, G28
+enum class FeedMode : std::uint8_t { per_minute, inverse_time };
+enum class Plane : std::uint8_t { xy, zx, yz };
+enum class SpindleDirection : std::uint8_t { off, clockwise, counterclockwise };
+
+struct Feed {
+  double value = 0.0;  // mm/min (deg/min for purely rotary moves), or 1/min with inverse_time
+  FeedMode mode = FeedMode::per_minute;
+};
+
+// G0. With tool-centre-point control on, `tool_axis` may give the direction (G43.5 vector words).
+struct Traverse {
+  AxisTarget end{};
+  std::optional<UnitVec3> tool_axis{};
+  Coordinates coordinates = Coordinates::program;
+};
+// G1.
+struct LinearFeed {
+  AxisTarget end{};
+  std::optional<UnitVec3> tool_axis{};
+  Coordinates coordinates = Coordinates::program;
+  Feed feed{};
+};
+// G2/G3: `center` in program coordinates; `turns` > 0 counterclockwise seen from the plane's positive
+// normal (XY: +Z, ZX: +Y, YZ: +X), |turns| = number of started revolutions (1 for an ordinary arc or a
+// full circle). The third axis moves linearly (helix), rotary axes too.
+struct ArcFeed {
+  AxisTarget end{};
+  Vec3 center = Vec3::Zero();
+  Plane plane = Plane::xy;
+  int turns = 1;
+  std::optional<UnitVec3> tool_axis{};
+  Feed feed{};
+};
+struct Dwell {
+  double seconds = 0.0;
+};
+// M6: the tool of that number is now in the spindle.
+struct ToolChange {
+  int tool = 0;
+};
+// G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given).
+enum class LengthCompensation : std::uint8_t { off, length, tool_centre_point };
+struct CompensationChange {
+  LengthCompensation mode = LengthCompensation::off;
+  bool tool_vectors = false;  // G43.5: I J K give the tool axis
+  int offset_number = 0;
+};
+// G54..G59: 1..6.
+struct WorkOffsetChange {
+  int number = 1;
+};
+struct SpindleChange {
+  SpindleDirection direction = SpindleDirection::off;
+  double speed = 0.0;  // 1/min
+};
+struct CoolantChange {
+  bool flood = false;
+};
+enum class StopKind : std::uint8_t { program_stop, optional_stop, program_end };
+struct Stop {
+  StopKind kind = StopKind::program_end;
+};
+// A comment or a known word that is not simulated; never silence.
+struct Event {
+  std::string name{};  // "comment", "message", "G61", ...
+  std::string text{};
+};
+
+using Command = std::variant<Traverse, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
+                             WorkOffsetChange, SpindleChange, CoolantChange, Stop, Event>;
+
+struct Motion {
+  SourcePlace place{};
+  Command command{};
+};
+
+}  // namespace frustum::parser
