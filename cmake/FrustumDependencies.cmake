@@ -1,12 +1,21 @@
-# Libraries from the distribution; scripts/setup installs them all.
-find_package(Eigen3 3.4 REQUIRED)
-find_package(fmt 9 REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
-find_package(TBB REQUIRED)
-find_package(embree 3 REQUIRED)
-find_package(Boost 1.74 REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(tomlplusplus 3.3 REQUIRED)
+# Libraries from the distribution; scripts/setup installs them all. Nothing is downloaded here.
+#
+# What the static libraries need at link time is repeated in FrustumConfig.cmake.in for those who use an
+# installed Frustum.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)   # Eigen3::Eigen
+find_package(fmt 9 REQUIRED)                  # fmt::fmt
+find_package(nlohmann_json 3.11 REQUIRED)     # nlohmann_json::nlohmann_json
+find_package(tomlplusplus 3.3 REQUIRED)       # tomlplusplus::tomlplusplus
+find_package(TBB REQUIRED)                    # TBB::tbb
+find_package(embree 3 REQUIRED)               # embree
+find_package(Boost 1.74 REQUIRED)             # Boost::headers
+find_package(CLI11 REQUIRED)                  # CLI11::CLI11
+find_package(PNG 1.6 REQUIRED)                # PNG::PNG
+find_package(ZLIB REQUIRED)                   # ZLIB::ZLIB
+find_package(OpenMesh CONFIG REQUIRED)        # OpenMeshCore
 find_path(FRUSTUM_RANDOM123_INCLUDE Random123/philox.h REQUIRED)
-find_path(FRUSTUM_OPENMESH_INCLUDE OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh REQUIRED)
-find_library(FRUSTUM_OPENMESH_CORE OpenMeshCore REQUIRED)
+
+if(FRUSTUM_WITH_CGAL)
+  set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+  find_package(CGAL 5.5 REQUIRED)             # CGAL::CGAL
+endif()

@@ -6,6 +6,10 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo or Debug" FORCE)
+endif()
+
 find_program(FRUSTUM_CCACHE ccache)
 if(FRUSTUM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${FRUSTUM_CCACHE}")
@@ -16,3 +20,19 @@ target_compile_features(frustum_flags INTERFACE cxx_std_20)
 target_compile_options(
   frustum_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
                           $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# Our own assertions stay on in optimised builds (a wrong part is worse than a slow one); those of the
+# libraries, which sit in inner loops, do not.
+if(FRUSTUM_ASSERTIONS)
+  target_compile_options(frustum_flags INTERFACE $<$<NOT:$<CONFIG:Debug>>:-UNDEBUG>)
+  target_compile_definitions(
+    frustum_flags INTERFACE $<$<NOT:$<CONFIG:Debug>>:EIGEN_NO_DEBUG;CGAL_NDEBUG>)
+endif()
+
+# FRUSTUM_SANITIZE=address,undefined: the whole build, tests included, runs under the sanitizers.
+if(FRUSTUM_SANITIZE)
+  add_compile_options(-fsanitize=${FRUSTUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${FRUSTUM_SANITIZE})
+  # GCC warns of its own instrumentation inside standard headers (GCC bug 105562).
+  target_compile_options(frustum_flags INTERFACE -Wno-maybe-uninitialized)
+endif()

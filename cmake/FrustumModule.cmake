@@ -10,6 +10,7 @@ function(frustum_module name)
   target_include_directories(
     frustum_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                            $<INSTALL_INTERFACE:include/frustum>)
+  target_compile_features(frustum_${name} PUBLIC cxx_std_20)
   target_link_libraries(
     frustum_${name}
     PUBLIC ${ROOM_USES}

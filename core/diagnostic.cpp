@@ -11,8 +11,7 @@ Diagnostic error(std::string message, std::string hint) {
 }
 
 Diagnostic warning(std::string message, std::string hint) {
-  return {
-      .severity = Severity::warning, .message = std::move(message), .hint = std::move(hint)};
+  return {.severity = Severity::warning, .message = std::move(message), .hint = std::move(hint)};
 }
 
 std::string to_string(Severity severity) {

@@ -1,7 +1,9 @@
 // Sets of disjoint closed intervals on a line, sorted; each end remembers what made it.
 //
-// Units: whatever the caller measures along the line (mm along a ray). Invariant: lo < hi, and every
-// interval ends before the next begins. Intervals that touch are joined.
+// Invariant: lo < hi, and every interval ends before the next begins: those that touch are
+// joined.
+// Units: whatever the caller measures along the line (mm along a ray).
+// Errors: none; intervals that are empty or not numbers are dropped.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +28,7 @@ struct Interval {
 class IntervalSet {
  public:
   IntervalSet() = default;
-  // The union of `intervals`, given in any order and overlapping as they like; empty ones are dropped.
+  // The union of `intervals`, given in any order and overlapping as they like.
   explicit IntervalSet(std::vector<Interval> intervals);
 
   [[nodiscard]] std::span<const Interval> intervals() const { return intervals_; }

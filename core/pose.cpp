@@ -18,7 +18,9 @@ Mat3 rotation_x(double angle) { return rotation_about(Vec3::UnitX(), angle); }
 Mat3 rotation_y(double angle) { return rotation_about(Vec3::UnitY(), angle); }
 Mat3 rotation_z(double angle) { return rotation_about(Vec3::UnitZ(), angle); }
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 Vec3 perpendicular_to(const Vec3& axis) {
   Eigen::Index smallest = 0;

@@ -2,9 +2,10 @@
 //
 // A Pose is a rotation and a translation (mm). Poses are named to_from, so that products cancel:
 //   workpiece_from_tool = workpiece_from_bed * bed_from_tool
-// Invariants: Pose::rotation is orthonormal to 1e-12 when built from the functions below; a UnitVec3
-// has length 1 within one rounding.
+// Invariants: Pose::rotation is orthonormal to 1e-12 when built from the functions below;
+// a UnitVec3 has length 1 within one rounding.
 // Units: mm, rad. Rotations are right-handed and active.
+// Errors: UnitVec3::of is nothing for vectors without a direction; the rest cannot fail.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +28,7 @@ class UnitVec3 {
   [[nodiscard]] static UnitVec3 z() { return UnitVec3(Vec3::UnitZ()); }
 
   [[nodiscard]] const Vec3& vec() const { return direction_; }
-  operator const Vec3&() const { return direction_; }  // NOLINT: a unit vector is a vector
+  operator const Vec3&() const { return direction_; }  // implicit: a unit vector is a vector
   UnitVec3 operator-() const { return UnitVec3(-direction_); }
 
  private:
@@ -61,7 +62,7 @@ struct Pose {
 // Angle between two unit vectors, exact also for tiny and nearly straight angles.
 [[nodiscard]] double angle_between(const Vec3& a, const Vec3& b);
 
-// A unit vector perpendicular to the unit vector `axis`: the best conditioned of the three candidates.
+// A unit vector perpendicular to the unit vector `axis`, well conditioned for every axis.
 [[nodiscard]] Vec3 perpendicular_to(const Vec3& axis);
 
 }  // namespace frustum

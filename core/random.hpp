@@ -1,14 +1,17 @@
 // Counter-based random numbers: a draw is a pure function of (seed, draw, purpose, index).
 //
-// Nothing is shared and nothing advances, so results do not depend on the number of threads nor on the
-// order of evaluation. Source: Philox 4x32-10, Salmon et al. 2011 (SC'11), through Random123.
+// Nothing is shared and nothing advances, so results do not depend on the number of threads nor on
+// the order of evaluation.
+//
+// Units: none. Errors: none; every key and index is valid.
+// Source: Philox 4x32-10, Salmon et al. 2011 (SC'11), through Random123.
 #pragma once
 
 #include <cstdint>
 
 namespace frustum {
 
-// Separates the streams of one draw. Add at the end; never renumber, or old seeds change their meaning.
+// Separates the streams of one draw. Add at the end; never renumber: old seeds keep their meaning.
 enum class RandomPurpose : std::uint32_t { cmm_point = 1, cmm_scale = 2, test_data = 3 };
 
 struct RandomKey {
@@ -19,7 +22,7 @@ struct RandomKey {
 
 // Uniform on the open interval (0, 1), 53 random bits.
 [[nodiscard]] double uniform(const RandomKey& key, std::uint64_t index);
-// Normal with mean 0 and standard deviation 1.
+// Normal with mean 0 and standard deviation 1; depends on uniform at the same key and index.
 [[nodiscard]] double normal(const RandomKey& key, std::uint64_t index);
 
 }  // namespace frustum

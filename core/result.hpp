@@ -18,9 +18,10 @@ class [[nodiscard]] Result {
  public:
   using value_type = T;
 
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit, as std::expected
-  Result(Diagnostic failure) : state_(std::in_place_index<1>, Diagnostics{std::move(failure)}) {}  // NOLINT
-  Result(Diagnostics failure) : state_(std::in_place_index<1>, std::move(failure)) {  // NOLINT
+  // Implicit, as those of std::expected.
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Diagnostic failure) : state_(std::in_place_index<1>, Diagnostics{std::move(failure)}) {}
+  Result(Diagnostics failure) : state_(std::in_place_index<1>, std::move(failure)) {
     assert(has_error(error()));
   }
 

@@ -27,6 +27,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest_word(std::string_view word,
                                         std::span<const std::string> candidates) {
+  if (word.empty()) return std::nullopt;
   const std::string* best = nullptr;
   // A word is "meant" when at most a third of it, and at least one letter, is wrong.
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
@@ -43,8 +44,10 @@ std::optional<std::string> nearest_word(std::string_view word,
 
 std::string suggestion(std::string_view word, std::span<const std::string> candidates) {
   if (const auto nearest = nearest_word(word, candidates)) return "did you mean " + *nearest + "?";
-  std::string known = "known:";
-  for (const std::string& candidate : candidates) known += " " + candidate;
+  std::string known;
+  for (const std::string& candidate : candidates) {
+    known += (known.empty() ? "known: " : ", ") + candidate;
+  }
   return known;
 }
 

@@ -76,9 +76,20 @@ Node convert(const toml::node& from) {
   return node;
 }
 
+std::optional<double> as_number(const Node& node) {
+  if (const auto* whole = std::get_if<std::int64_t>(&node.value))
+    return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&node.value);
+      real != nullptr && std::isfinite(*real)) {
+    return *real;
+  }
+  return std::nullopt;
+}
+
 const char* kind_of(const Node& node) {
   constexpr const char* kNames[] = {"a date", "true/false", "a whole number", "a number",
                                     "text",   "an array",   "a table"};
+  if (std::holds_alternative<double>(node.value) && !as_number(node)) return "inf or nan";
   return kNames[node.value.index()];
 }
 
@@ -86,14 +97,6 @@ std::string joined(const std::string& path, std::string_view key) {
   if (path.empty()) return std::string(key);
   if (key.empty()) return path;
   return path + "." + std::string(key);
-}
-
-std::optional<double> as_number(const Node& node) {
-  if (const auto* whole = std::get_if<std::int64_t>(&node.value)) return static_cast<double>(*whole);
-  if (const auto* real = std::get_if<double>(&node.value); real != nullptr && std::isfinite(*real)) {
-    return *real;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -160,8 +163,10 @@ std::size_t TomlTable::choice(std::string_view key, const std::vector<std::strin
     if (choices[i] == word) return i;
   }
   if (std::holds_alternative<std::string>(node->value)) {
+    const auto nearest = nearest_word(word, choices);
     fail(key, fmt::format("'{}' is not one of the choices", word),
-         fmt::format("{} (choices: {})", suggestion(word, choices), fmt::join(choices, ", ")));
+         fmt::format("{}choices: {}", nearest ? "did you mean " + *nearest + "? " : "",
+                     fmt::join(choices, ", ")));
   }
   return 0;
 }
@@ -215,25 +220,30 @@ bool TomlTable::boolean_or(std::string_view key, bool fallback) const {
   return fallback;
 }
 
-ParsedQuantity TomlTable::quantity(std::string_view key) const {
+std::optional<ParsedQuantity> TomlTable::read_quantity(std::string_view key) const {
   const Node* node = find(key, true);
-  if (node == nullptr) return {};
-  if (const auto value = as_number(*node)) return {*value, UnitKind::none};
+  if (node == nullptr) return std::nullopt;
+  if (const auto value = as_number(*node)) return ParsedQuantity{*value, UnitKind::none};
   if (const auto* text = std::get_if<std::string>(&node->value)) {
     const auto parsed = parse_quantity(*text);
     if (parsed) return *parsed;
     fail(key, parsed.error().front().message, parsed.error().front().hint);
-    return {};
+    return std::nullopt;
   }
   fail(key, fmt::format("expected a number or text with a unit, found {}", kind_of(*node)));
-  return {};
+  return std::nullopt;
+}
+
+ParsedQuantity TomlTable::quantity(std::string_view key) const {
+  return read_quantity(key).value_or(ParsedQuantity{});
 }
 
 double TomlTable::scaled(std::string_view key, UnitKind kind, double bare_number_scale,
                          Bound bound) const {
-  const ParsedQuantity parsed = quantity(key);
-  if (parsed.kind == UnitKind::none) return bounded(key, parsed.value * bare_number_scale, bound);
-  if (parsed.kind == kind) return bounded(key, parsed.value, bound);
+  const std::optional<ParsedQuantity> parsed = read_quantity(key);
+  if (!parsed) return 1.0;
+  if (parsed->kind == UnitKind::none) return bounded(key, parsed->value * bare_number_scale, bound);
+  if (parsed->kind == kind) return bounded(key, parsed->value, bound);
   fail(key,
        kind == UnitKind::length ? "expected a length, found an angle"
                                 : "expected an angle, found a length",
@@ -312,6 +322,11 @@ bool TomlTable::is_table(std::string_view key) const {
   return node != nullptr && node->table() != nullptr;
 }
 
+bool TomlTable::is_array(std::string_view key) const {
+  const Node* node = find(key, false);
+  return node != nullptr && node->array() != nullptr;
+}
+
 bool TomlTable::is_number(std::string_view key) const {
   const Node* node = find(key, false);
   return node != nullptr && as_number(*node).has_value();
@@ -360,9 +375,11 @@ std::filesystem::path TomlTable::file_path(std::string_view key) const {
 Result<TomlDocument> TomlDocument::load(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || !text) {
-    Diagnostic failure = frustum::error("the file cannot be read", "check the path and permissions");
+  // Inserting an empty buffer would set the fail bit, and an empty file is valid TOML.
+  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  if (!in.is_open() || in.bad() || !text) {
+    Diagnostic failure =
+        frustum::error("the file cannot be read", "check the path and permissions");
     failure.file = file.string();
     return failure;
   }
@@ -375,7 +392,8 @@ Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::files
   try {  // toml++ reports by exception; it ends here
     state->root = convert(toml::parse(text, file.string()));
   } catch (const toml::parse_error& problem) {
-    Diagnostic failure = frustum::error(std::string(problem.description()), "the file is not valid TOML");
+    Diagnostic failure =
+        frustum::error(std::string(problem.description()), "the file is not valid TOML");
     failure.file = file.string();
     failure.line = static_cast<int>(problem.source().begin.line);
     failure.column = static_cast<int>(problem.source().begin.column);
@@ -409,8 +427,13 @@ Diagnostics TomlDocument::finish() const {
       }
     }
   };
+  // The verdict is a copy, so that asking twice does not report a key twice.
+  Diagnostics& noted = root_.state_->diagnostics;
+  const std::size_t before = noted.size();
   visit(visit, root_.state_->root, "");
-  return root_.state_->diagnostics;
+  Diagnostics verdict = noted;
+  noted.resize(before);
+  return verdict;
 }
 
 }  // namespace frustum

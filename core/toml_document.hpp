@@ -1,11 +1,13 @@
 // Strict reading of the TOML files people write: every key is typed, has a unit, and is known.
 //
-// A reader asks a TomlTable for its keys; what is missing, has the wrong type, unit or range is noted in
-// the document with file, line and key path, and a harmless value is returned so that reading goes on
-// and all mistakes are reported at once. TomlDocument::finish() adds every key that nobody asked for,
-// with the nearest known one, and hands out the verdict.
+// A reader asks a TomlTable for its keys; what is missing, has the wrong type, unit or range is
+// noted in the document with file, line and key path, and a harmless value is returned so that
+// reading goes on and all mistakes are reported at once. TomlDocument::finish() adds every key that
+// nobody asked for, with the nearest known one, and hands out the verdict.
+//
 // Units: lengths are read in mm (a bare number is mm), angles in rad (a bare number is degrees); a
 // string carries its own unit: "10 um", "30 urad".
+// Errors: load and parse refuse what cannot be read or is not TOML; all else waits for finish().
 #pragma once
 
 #include <cstdint>
@@ -41,11 +43,13 @@ class TomlTable {
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] std::string text_or(std::string_view key, std::string_view fallback) const;
   // One of `choices`; anything else is an error that lists them. Returns the index.
-  [[nodiscard]] std::size_t choice(std::string_view key, const std::vector<std::string>& choices) const;
+  [[nodiscard]] std::size_t choice(std::string_view key,
+                                   const std::vector<std::string>& choices) const;
   [[nodiscard]] std::size_t choice_or(std::string_view key, const std::vector<std::string>& choices,
                                       std::size_t fallback) const;
   [[nodiscard]] double number(std::string_view key, Bound bound = Bound::any) const;
-  [[nodiscard]] double number_or(std::string_view key, double fallback, Bound bound = Bound::any) const;
+  [[nodiscard]] double number_or(std::string_view key, double fallback,
+                                 Bound bound = Bound::any) const;
   [[nodiscard]] std::int64_t integer(std::string_view key, Bound bound = Bound::any) const;
   [[nodiscard]] std::int64_t integer_or(std::string_view key, std::int64_t fallback,
                                         Bound bound = Bound::any) const;
@@ -69,6 +73,7 @@ class TomlTable {
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key) const;
   // True when `key` holds a table (so that a key may be a value or a table).
   [[nodiscard]] bool is_table(std::string_view key) const;
+  [[nodiscard]] bool is_array(std::string_view key) const;
   [[nodiscard]] bool is_number(std::string_view key) const;
 
   // A path in the file, resolved against the folder of the document.
@@ -79,9 +84,11 @@ class TomlTable {
 
  private:
   friend class TomlDocument;
-  TomlTable(std::shared_ptr<toml_detail::State> state, const toml_detail::Node* node, std::string path);
+  TomlTable(std::shared_ptr<toml_detail::State> state, const toml_detail::Node* node,
+            std::string path);
   const toml_detail::Node* find(std::string_view key, bool required) const;
   double bounded(std::string_view key, double value, Bound bound) const;
+  std::optional<ParsedQuantity> read_quantity(std::string_view key) const;
   double scaled(std::string_view key, UnitKind kind, double bare_number_scale, Bound bound) const;
 
   std::shared_ptr<toml_detail::State> state_;
@@ -93,7 +100,8 @@ class TomlDocument {
  public:
   [[nodiscard]] static Result<TomlDocument> load(const std::filesystem::path& file);
   // Parses text; `file` names it in diagnostics and anchors relative paths.
-  [[nodiscard]] static Result<TomlDocument> parse(std::string_view text, const std::filesystem::path& file);
+  [[nodiscard]] static Result<TomlDocument> parse(std::string_view text,
+                                                  const std::filesystem::path& file);
 
   [[nodiscard]] const TomlTable& root() const { return root_; }
   [[nodiscard]] std::filesystem::path folder() const;

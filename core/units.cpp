@@ -16,12 +16,14 @@ struct Unit {
 };
 
 constexpr std::array kUnits{
-    Unit{"mm", UnitKind::length, 1.0},         Unit{"um", UnitKind::length, 1e-3},
-    Unit{"\u00b5m", UnitKind::length, 1e-3},   Unit{"nm", UnitKind::length, 1e-6},
-    Unit{"m", UnitKind::length, 1e3},          Unit{"in", UnitKind::length, kMmPerInch},
-    Unit{"rad", UnitKind::angle, 1.0},         Unit{"mrad", UnitKind::angle, 1e-3},
-    Unit{"urad", UnitKind::angle, 1e-6},       Unit{"\u00b5rad", UnitKind::angle, 1e-6},
-    Unit{"deg", UnitKind::angle, kRadPerDeg},  Unit{"arcsec", UnitKind::angle, kRadPerDeg / 3600.0},
+    Unit{"mm", UnitKind::length, 1.0},        Unit{"um", UnitKind::length, 1e-3},
+    Unit{"\u00b5m", UnitKind::length, 1e-3},  // micro sign
+    Unit{"\u03bcm", UnitKind::length, 1e-3},  // Greek mu
+    Unit{"nm", UnitKind::length, 1e-6},       Unit{"m", UnitKind::length, 1e3},
+    Unit{"in", UnitKind::length, kMmPerInch}, Unit{"rad", UnitKind::angle, 1.0},
+    Unit{"mrad", UnitKind::angle, 1e-3},      Unit{"urad", UnitKind::angle, 1e-6},
+    Unit{"\u00b5rad", UnitKind::angle, 1e-6}, Unit{"\u03bcrad", UnitKind::angle, 1e-6},
+    Unit{"deg", UnitKind::angle, kRadPerDeg}, Unit{"arcsec", UnitKind::angle, kRadPerDeg / 3600.0},
 };
 
 std::string_view trim(std::string_view text) {
@@ -34,10 +36,13 @@ std::string_view trim(std::string_view text) {
 
 Result<ParsedQuantity> parse_quantity(std::string_view text) {
   std::string_view rest = trim(text);
-  if (rest.starts_with('+')) rest.remove_prefix(1);
+  const bool plus = rest.starts_with('+');
+  if (plus) rest.remove_prefix(1);
   double number = 0.0;
   const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  if (status != std::errc{} || !std::isfinite(number)) {
+  // Below the largest double by more than any unit's factor, so that the product is finite too.
+  constexpr double kLargest = 1e300;
+  if (status != std::errc{} || !(std::abs(number) < kLargest) || (plus && rest.starts_with('-'))) {
     return error(fmt::format("'{}' is not a number with a unit", text), "write for example 10 um");
   }
   const std::string_view name = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));

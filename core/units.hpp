@@ -1,7 +1,9 @@
 // Quantities with their unit in the type, and the units people write.
 //
-// Inside: mm, rad. People write "10 um", "0.02 mm", "30 urad", "15 deg", "1 in"; a bare number has the
-// unit that its key documents. Length + Angle does not compile.
+// Inside: mm, rad. People write "10 um", "0.02 mm", "30 urad", "15 deg", "1 in"; a bare number has
+// the unit that its key documents. Length + Angle does not compile.
+//
+// Units: this is where they are defined.
 // Errors: parse_quantity names the text and the units it would have accepted.
 #pragma once
 
@@ -47,7 +49,7 @@ constexpr Rad operator""_urad(long double v) { return {static_cast<double>(v) / 
 
 enum class UnitKind { none, length, angle };
 
-// A number as written, with the kind its unit says; value in mm or rad, or as written when unitless.
+// A number as written, with the kind its unit says; in mm or rad, or as written when unitless.
 struct ParsedQuantity {
   double value = 0.0;
   UnitKind kind = UnitKind::none;
@@ -56,7 +58,7 @@ struct ParsedQuantity {
 // "10 um", "10um", "-0.5 mm", "1e-3 in", "30 urad", "2 mrad", "15 deg", "7".
 [[nodiscard]] Result<ParsedQuantity> parse_quantity(std::string_view text);
 
-// As above, but the dimension must fit; a bare number is refused, because nobody could know its unit.
+// As above, but the dimension must fit; a bare number is refused: nobody could know its unit.
 [[nodiscard]] Result<Mm> parse_length(std::string_view text);
 [[nodiscard]] Result<Rad> parse_angle(std::string_view text);
 

@@ -19,7 +19,7 @@
 namespace frustum::parser {
 
 enum class AxisLetter : std::uint8_t { X, Y, Z, A, B, C };
-constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z,
+inline constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z,
                                   AxisLetter::A, AxisLetter::B, AxisLetter::C};
 [[nodiscard]] constexpr char to_char(AxisLetter axis) {
   return "XYZABC"[static_cast<std::size_t>(axis)];
@@ -60,6 +60,10 @@ struct Traverse {
   AxisTarget end{};
   std::optional<UnitVec3> tool_axis{};
   Coordinates coordinates = Coordinates::program;
+};
+// G28: the named axes go to the machine's home position, by rapid.
+struct HomeReturn {
+  std::array<bool, 6> axes{};  // indexed by AxisLetter
 };
 // G1.
 struct LinearFeed {
@@ -114,7 +118,7 @@ struct Event {
   std::string text{};
 };
 
-using Command = std::variant<Traverse, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
+using Command = std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
                              WorkOffsetChange, SpindleChange, CoolantChange, Stop, Event>;
 
 struct Motion {

@@ -1,0 +1,55 @@
+# The commands of a working day. Each does all it needs, so that on a fresh Debian 12 machine `make demo`
+# and `make test` are the only ones to know. JOBS=1 make test builds with one compiler at a time.
+JOBS ?= $(shell nproc)
+BUILD = cmake --build --parallel $(JOBS)
+DEMO_OUT = out/cone
+
+.PHONY: help demo build test setup asan bench format check-format tidy clean
+.DEFAULT_GOAL := help
+
+help:
+	@echo 'make demo          set up, build, and run the main job: ends with a pass/fail table'
+	@echo '                   and $(DEMO_OUT)/report.html'
+	@echo 'make test          set up, build, and run every test'
+	@echo 'make build         set up and build; the program is build/frustum'
+	@echo 'make asan          the tests under the address and undefined-behaviour sanitizers'
+	@echo 'make bench         build and run the benchmarks'
+	@echo 'make format        format every source file; make check-format only looks'
+	@echo 'make tidy          clang-tidy over the sources (make tidy FILES="core/pose.cpp" for some)'
+	@echo 'make clean         remove build/ and out/'
+
+setup:
+	@scripts/setup
+
+build/%/build.ninja: CMakePresets.json | setup
+	cmake --preset $*
+
+demo: build/release/build.ninja
+	$(BUILD) --preset release --target frustum frustum_link
+	build/frustum run examples/cone/job.toml --out $(DEMO_OUT)
+
+build: build/release/build.ninja
+	$(BUILD) --preset release
+
+test: build
+	ctest --preset release
+
+asan: build/asan/build.ninja
+	$(BUILD) --preset asan
+	ctest --preset asan
+
+bench: build/bench/build.ninja
+	$(BUILD) --preset bench --target frustum_bench
+	build/bench/bench/frustum_bench
+
+format:
+	scripts/format
+
+check-format:
+	scripts/format --check
+
+tidy: build/release/build.ninja
+	JOBS=$(JOBS) scripts/tidy $(FILES)
+
+clean:
+	rm -rf build out

@@ -1,0 +1,34 @@
+# cmake --install: one static library and one header folder a room, the program, the machine
+# definitions, and what find_package(Frustum) reads. tests/install holds it to that.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(FRUSTUM_INSTALL_CMAKE "${CMAKE_INSTALL_LIBDIR}/cmake/Frustum")
+set(FRUSTUM_INSTALL_MACHINES "${CMAKE_INSTALL_DATADIR}/frustum/machines")
+
+get_property(rooms GLOBAL PROPERTY FRUSTUM_ROOMS)
+foreach(room IN LISTS rooms)
+  install(TARGETS frustum_${room} EXPORT FrustumTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+endforeach()
+foreach(folder IN LISTS FRUSTUM_FOLDERS)
+  file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
+  install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/frustum/${folder}")
+endforeach()
+if(TARGET frustum)
+  install(TARGETS frustum RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/machines/" DESTINATION "${FRUSTUM_INSTALL_MACHINES}")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE"
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+install(EXPORT FrustumTargets NAMESPACE frustum:: DESTINATION "${FRUSTUM_INSTALL_CMAKE}")
+configure_package_config_file(
+  "${PROJECT_SOURCE_DIR}/cmake/FrustumConfig.cmake.in" "${PROJECT_BINARY_DIR}/FrustumConfig.cmake"
+  INSTALL_DESTINATION "${FRUSTUM_INSTALL_CMAKE}"
+  PATH_VARS FRUSTUM_INSTALL_MACHINES)
+# Before 1.0 a minor release may change the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/FrustumConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/FrustumConfig.cmake"
+              "${PROJECT_BINARY_DIR}/FrustumConfigVersion.cmake"
+        DESTINATION "${FRUSTUM_INSTALL_CMAKE}")

@@ -1,0 +1,68 @@
+// The volume that the moving cutters cover, asked along rays.
+//
+// Model    : union over all stretches of a ToolPath of the cutter body moving through it
+// Units    : mm; frame: workpiece
+// Errors   : sweep() refuses a path that uses a tool number without a cutter
+// Accuracy : interval ends within 1 nm normal to the swept surface for the given path
+// Threads  : const member functions may be called from any number of threads
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "core/interval_set.hpp"
+#include "core/result.hpp"
+#include "cutter/candidate_tree.hpp"
+#include "cutter/cutter.hpp"
+#include "cutter/ray.hpp"
+#include "kinematics/tool_path.hpp"
+
+namespace frustum::cutter {
+
+// How a point of the swept surface came about.
+struct SweepContact {
+  std::uint32_t stretch = 0;
+  double t = 0.0;                      // moment within the stretch, 0..1
+  kinematics::ToolPose pose{};         // of the cutter at that moment
+  Vec3 normal = Vec3::UnitZ();         // unit, out of the cutter at the point
+};
+
+class SweptCutter {
+ public:
+  static constexpr std::uint32_t kAll = std::numeric_limits<std::uint32_t>::max();
+
+  // `tools` by tool number, as the blocks of the path name them.
+  [[nodiscard]] static Result<SweptCutter> sweep(kinematics::ToolPath path,
+                                                 std::map<int, Cutter> tools);
+
+  // Covered part of the ray; an end's tag is the stretch that made it. Stretches from
+  // `first_excluded` on are left out.
+  [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
+                                  std::uint32_t first_excluded = kAll) const;
+  // The same for the stretches [first, last) alone, with the cutter shrunk radially and lifted off its
+  // end face by `shrunk_by`: what a move surely covers.
+  [[nodiscard]] IntervalSet core_along(const Ray& ray, std::uint32_t first, std::uint32_t last,
+                                       double shrunk_by) const;
+  // The contact behind the end at s that along() tagged with `stretch`.
+  [[nodiscard]] SweepContact contact(const Ray& ray, double s, std::uint32_t stretch) const;
+
+  // Box of the stretch's sweep, and of the whole path's.
+  [[nodiscard]] const Box& box(std::uint32_t stretch) const { return boxes_[stretch]; }
+
+  [[nodiscard]] const kinematics::ToolPath& path() const { return path_; }
+  [[nodiscard]] const Cutter& tool(int number) const { return tools_->at(number); }
+
+ private:
+  SweptCutter(kinematics::ToolPath path, std::map<int, Cutter> tools);
+  [[nodiscard]] const Profile& profile_of(std::uint32_t stretch) const;
+
+  kinematics::ToolPath path_;
+  std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to
+  std::vector<const Profile*> profile_of_block_;
+  std::vector<Box> boxes_;
+  std::shared_ptr<const CandidateTree> tree_;
+};
+
+}  // namespace frustum::cutter

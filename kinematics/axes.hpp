@@ -1,0 +1,36 @@
+// Positions of the machine's axes, by letter.
+// Units: mm for X Y Z, rad for A B C. Letters that a machine lacks stay 0 and are never read.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "parser/motion.hpp"
+
+namespace frustum::kinematics {
+
+using parser::AxisLetter;
+using parser::is_rotary;
+using parser::kAxisLetters;
+using parser::to_char;
+
+class AxisPositions {
+ public:
+  double& operator[](AxisLetter axis) { return values_[static_cast<std::size_t>(axis)]; }
+  double operator[](AxisLetter axis) const { return values_[static_cast<std::size_t>(axis)]; }
+  bool operator==(const AxisPositions&) const = default;
+
+ private:
+  std::array<double, 6> values_{};
+};
+
+// A closed range of positions of one axis.
+struct AxisRange {
+  double lo = 0.0;
+  double hi = 0.0;
+  [[nodiscard]] double width() const { return hi - lo; }
+  [[nodiscard]] double middle() const { return 0.5 * (lo + hi); }
+  [[nodiscard]] bool contains(double q) const { return q >= lo && q <= hi; }
+};
+
+}  // namespace frustum::kinematics

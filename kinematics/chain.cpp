@@ -1,0 +1,148 @@
+#include "kinematics/chain.hpp"
+
+#include <cmath>
+#include <span>
+
+namespace frustum::kinematics {
+namespace {
+
+Mat3 small_rotation(const Vec3& angles, RotationOrder order) {
+  if (angles.isZero(0.0)) return Mat3::Identity();
+  const Mat3 x = rotation_x(angles.x()), y = rotation_y(angles.y()), z = rotation_z(angles.z());
+  return order == RotationOrder::zyx ? Mat3(z * y * x) : Mat3(x * y * z);
+}
+
+Pose about_point(const Mat3& rotation, const Vec3& point) {
+  return {rotation, point - rotation * point};
+}
+
+Pose nominal_joint(const Joint& joint, double q) {
+  if (joint.rotary()) {
+    return {rotation_about(joint.direction, joint.side * q), joint.offset};
+  }
+  return Pose::translated(joint.offset + joint.side * q * joint.direction);
+}
+
+struct JointErrors {
+  Vec3 shift = Vec3::Zero();        // component translations
+  Vec3 turn = Vec3::Zero();         // component rotations
+  Vec3 location = Vec3::Zero();     // location translations
+  Vec3 orientation = Vec3::Zero();  // location rotations
+  Vec3 carried_tilt = Vec3::Zero();
+};
+
+JointErrors errors_at(const AxisErrors& axis, double q) {
+  JointErrors e;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (!axis.component[k].is_zero()) e.shift[i] = axis.component[k](q);
+    if (!axis.component[k + 3].is_zero()) e.turn[i] = axis.component[k + 3](q);
+    e.location[i] = axis.location[k];
+    e.orientation[i] = axis.location[k + 3];
+  }
+  e.carried_tilt = axis.carried_tilt;
+  return e;
+}
+
+// One chain of the machine, walked from the bed outwards.
+class ChainWalk {
+ public:
+  ChainWalk(const Machine& machine, const GeometricErrors* errors, const AxisPositions& q)
+      : machine_(machine), errors_(errors), q_(q) {}
+
+  // `end` is what follows the last joint: where the tip or the table is in its frame.
+  [[nodiscard]] Pose pose(std::span<const Joint> joints, const Pose& end) const {
+    Pose bed_from_end;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      bed_from_end = bed_from_end * (errors_ == nullptr
+                                         ? nominal_joint(joints[i], q_[joints[i].letter])
+                                         : actual_joint(joints, i, end));
+    }
+    return bed_from_end * end;
+  }
+
+ private:
+  [[nodiscard]] Pose actual_joint(std::span<const Joint> joints, std::size_t i,
+                                  const Pose& end) const {
+    const Joint& joint = joints[i];
+    const double q = q_[joint.letter];
+    const JointErrors e = errors_at((*errors_)[joint.letter], q);
+    const RotationOrder order = machine_.rotation_order();
+    const Pose turn =
+        about_point(small_rotation(e.turn, order), functional_point(joints, i, end));
+    if (!joint.rotary()) {
+      const Vec3 line = small_rotation(e.orientation, order) * joint.direction;
+      const Pose place{small_rotation(e.carried_tilt, order), joint.offset + e.location};
+      return place * Pose::translated(joint.side * q * line + e.shift) * turn;
+    }
+    const Pose place{small_rotation(e.orientation, order), joint.offset + e.location};
+    const Pose rotate = Pose::rotated(rotation_about(joint.direction, joint.side * q));
+    const Pose shift = Pose::translated(e.shift);
+    if (machine_.rotary_error_frame() == RotaryErrorFrame::rotor) return place * rotate * turn * shift;
+    return place * shift * turn * rotate;
+  }
+
+  // In the frame where the joint's component rotations act.
+  [[nodiscard]] Vec3 functional_point(std::span<const Joint> joints, std::size_t i,
+                                      const Pose& end) const {
+    const Joint& joint = joints[i];
+    if (!joint.functional_point.at_tip) return joint.functional_point.point;
+    Pose from_end = end;
+    for (std::size_t k = joints.size(); k-- > i + 1;) {
+      from_end = nominal_joint(joints[k], q_[joints[k].letter]) * from_end;
+    }
+    const bool before_rotation =
+        joint.rotary() && machine_.rotary_error_frame() == RotaryErrorFrame::stator;
+    if (before_rotation) {
+      from_end = Pose::rotated(rotation_about(joint.direction, joint.side * q_[joint.letter])) * from_end;
+    }
+    return from_end.translation;
+  }
+
+  const Machine& machine_;
+  const GeometricErrors* errors_;
+  const AxisPositions& q_;
+};
+
+Pose table_from_tool(const Machine& machine, const GeometricErrors* errors, const AxisPositions& q,
+                     double tool_length) {
+  const ChainWalk walk(machine, errors, q);
+  const Pose last_from_tip =
+      Pose::translated(machine.spindle_offset() - tool_length * Vec3::UnitZ());
+  const Pose bed_from_tip = walk.pose(machine.tool_chain(), last_from_tip);
+  const Pose bed_from_table = walk.pose(machine.work_chain(), Pose::translated(machine.table_offset()));
+  return bed_from_table.inverse() * bed_from_tip;
+}
+
+}  // namespace
+
+Pose nominal_pose(const Machine& machine, const AxisPositions& q, double tool_length) {
+  return table_from_tool(machine, nullptr, q, tool_length);
+}
+
+Pose actual_pose(const Machine& machine, const GeometricErrors& errors, const AxisPositions& q,
+                 double tool_length) {
+  return table_from_tool(machine, &errors, q, tool_length);
+}
+
+Mat3 linear_axis_directions(const Machine& machine, const AxisPositions& q) {
+  Mat3 in_bed;
+  Mat3 bed_from_table = Mat3::Identity();
+  const auto walk = [&](const std::vector<Joint>& chain) {
+    Mat3 turned = Mat3::Identity();
+    for (const Joint& joint : chain) {
+      if (joint.rotary()) {
+        turned = turned * rotation_about(joint.direction, joint.side * q[joint.letter]);
+      } else {
+        // Moving the work by -q shows the same tip displacement, in the work, as moving the tool by +q.
+        in_bed.col(static_cast<Eigen::Index>(joint.letter)) = turned * joint.direction;
+      }
+    }
+    return turned;
+  };
+  walk(machine.tool_chain());
+  bed_from_table = walk(machine.work_chain());
+  return bed_from_table.transpose() * in_bed;
+}
+
+}  // namespace frustum::kinematics

@@ -1,0 +1,35 @@
+#include "kinematics/error_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustum::kinematics {
+namespace {
+
+double value(const ConstantTerm& term, double /*q*/) { return term.value; }
+double value(const LinearTerm& term, double q) { return term.slope * (q - term.zero); }
+double value(const HarmonicTerm& term, double q) {
+  return term.amplitude * std::cos(term.angular_frequency * (q - term.origin) + term.phase);
+}
+double value(const TableTerm& term, double q) {
+  const auto& points = term.points;
+  const auto after = std::upper_bound(points.begin(), points.end(), q,
+                                      [](double x, const auto& p) { return x < p.first; });
+  if (after == points.begin()) return points.front().second;
+  if (after == points.end()) return points.back().second;
+  const auto& before = *std::prev(after);
+  const double t = (q - before.first) / (after->first - before.first);
+  return before.second + t * (after->second - before.second);
+}
+
+}  // namespace
+
+double ErrorFunction::operator()(double q) const {
+  double sum = 0.0;
+  for (const ErrorTerm& term : terms_) {
+    sum += std::visit([q](const auto& t) { return value(t, q); }, term);
+  }
+  return sum;
+}
+
+}  // namespace frustum::kinematics

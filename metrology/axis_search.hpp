@@ -1,0 +1,36 @@
+// Directions in which the axis of a cylinder or cone may lie, best first: starting values for fits.
+//
+// Model    : for a given axis a, |x|^2 - (a.x)^2 (cylinder) or |x|^2 (cone) is a linear function of few
+//            monomials of x. Its least-squares residual needs only the moments of the points up to degree
+//            four, so a direction costs the same for any number of points. 200 directions over the
+//            half sphere and the principal directions are ranked
+// Units    : local frame of size one
+// Shape    : at most `most` candidates, at least 12 deg apart
+// Errors   : none
+// Accuracy : starting values only
+// Source   : ours
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "metrology/normalised_points.hpp"
+
+namespace frustum::metrology {
+
+struct AxisCandidate {
+  Vec3 axis = Vec3::UnitZ();
+  Vec3 point = Vec3::Zero();  // on the axis, perpendicular to it from the origin
+  double radius = 1.0;        // cylinder only
+};
+
+enum class RoundKind { cylinder, cone };
+
+[[nodiscard]] std::vector<AxisCandidate> axis_candidates(const NormalisedPoints& local,
+                                                         RoundKind kind, std::size_t most);
+
+// About `most` of the points, spread over the whole sequence without a common stride.
+[[nodiscard]] std::vector<Vec3> thinned(std::span<const Vec3> points, std::size_t most);
+
+}  // namespace frustum::metrology

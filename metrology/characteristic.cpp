@@ -1,0 +1,274 @@
+#include "metrology/characteristic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrology/strategy.hpp"
+#include "metrology/uncertainty.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+double angle_of(const Vec3& w, const AngleFrame& frame) {
+  const double angle = std::atan2(w.dot(frame.axis.vec().cross(frame.zero)), w.dot(frame.zero));
+  return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
+}
+
+double peak_to_valley(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+AngleFrame angle_frame(const FittedFeature& feature) {
+  return {unit(feature.planned->axis), zero_direction(*feature.planned)};
+}
+
+// Everything a characteristic is made of, in mm and rad.
+struct Value {
+  double value = 0.0;
+  double uncertainty = 0.0;  // standard
+  std::optional<double> nominal{};
+  RoundProfile profile{};
+};
+
+class Evaluation {
+ public:
+  Evaluation(const PlannedCharacteristic& planned, std::vector<const FittedFeature*> features,
+             bool in_datum, const CmmModel& cmm)
+      : planned_(planned),
+        features_(std::move(features)),
+        in_datum_(in_datum),
+        u_(point_uncertainty(cmm)) {}
+
+  [[nodiscard]] Result<Value> operator()() const {
+    const FittedFeature& feature = *features_.front();
+    switch (planned_.kind) {
+      case CharacteristicKind::roundness:
+        return round(roundness(feature.section(section(0)), angle_frame(feature)));
+      case CharacteristicKind::equivalent_cone_form:
+        return round(equivalent_cone_form(feature.section(section(0)),
+                                          feature.planned->half_angle, -unit(feature.planned->axis),
+                                          angle_frame(feature)));
+      case CharacteristicKind::cylindricity:
+      case CharacteristicKind::cone_form:
+        return surface_form();
+      case CharacteristicKind::flatness:
+        return Value{feature.form, form_uncertainty(u_, 0.0), {}, {}};
+      case CharacteristicKind::straightness:
+        return straightness();
+      case CharacteristicKind::half_angle:
+        return Value{std::get<Cone>(feature.element).half_angle,
+                     half_angle_uncertainty(u_, feature), feature.planned->half_angle, {}};
+      case CharacteristicKind::concentricity:
+        return concentricity();
+      case CharacteristicKind::perpendicularity:
+        return perpendicularity();
+      case CharacteristicKind::radius:
+        return size(1.0);
+      case CharacteristicKind::diameter:
+        break;
+    }
+    return size(2.0);
+  }
+
+ private:
+  // The i-th section asked for; by default the first, for pairs first and last.
+  [[nodiscard]] std::size_t section(std::size_t i) const {
+    if (!planned_.sections.empty()) return planned_.sections[i];
+    return i == 0 ? 0 : section_count(*features_.back()->planned) - 1;
+  }
+
+  [[nodiscard]] Result<Value> round(Result<RoundProfile> profile) const {
+    if (!profile) return std::move(profile).error();
+    const double r = features_.front()->planned->radius;
+    return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile)};
+  }
+
+  [[nodiscard]] Value surface_form() const {
+    const FittedFeature& feature = *features_.front();
+    Value v{feature.form, form_uncertainty(u_, feature.planned->radius), {}, {}};
+    for (const MeasuredPoint& p : feature.points) {
+      v.profile.angle.push_back(angle_of(p.point - point_of(feature.element), angle_frame(feature)));
+      v.profile.deviation.push_back(p.deviation);
+    }
+    return v;
+  }
+
+  [[nodiscard]] Value straightness() const {
+    const FittedFeature& feature = *features_.front();
+    double farthest = 0.0;
+    for (const MeasuredPoint& p : feature.points) {
+      farthest = std::max(farthest, residual(feature.element, p.point));
+    }
+    return {2.0 * farthest, straightness_uncertainty(u_), {}, {}};
+  }
+
+  [[nodiscard]] Result<Value> concentricity() const {
+    const auto first = fit_circle(features_.front()->section(section(0)));
+    if (!first) return first.error();
+    const auto second = fit_circle(features_.back()->section(section(1)));
+    if (!second) return second.error();
+    const bool along_plan = in_datum_ && features_.size() == 1;
+    const Vec3 axis = along_plan ? unit(features_.front()->planned->axis).vec()
+                                 : axis_of(features_.front()->element)->vec();
+    const Vec3 apart = second->element.point - first->element.point;
+    return Value{2.0 * apart.cross(axis).norm(),
+                 concentricity_uncertainty(u_, *first, *second, *features_.front()), {}, {}};
+  }
+
+  // Length of the toleranced feature over which it may tilt.
+  [[nodiscard]] double extent(const Vec3& datum_direction) const {
+    const PlannedFeature& planned = *features_.front()->planned;
+    if (planned.kind != FeatureKind::plane) {
+      const AxialExtent range = axial_extent(planned);
+      return range.to - range.from;
+    }
+    const Vec3 normal = unit(planned.axis);
+    const auto direction = UnitVec3::of(datum_direction - datum_direction.dot(normal) * normal);
+    const auto across = [&](const Vec3& u, const Vec3& v) {
+      // Without a direction in the plane (datum along its normal) the larger side counts.
+      if (!direction) return std::max(u.norm(), v.norm());
+      return std::abs(u.dot(direction->vec())) + std::abs(v.dot(direction->vec()));
+    };
+    if (const auto* e = std::get_if<RectangleExtent>(&planned.extent)) return across(e->u, e->v);
+    if (const auto* e = std::get_if<RadialExtent>(&planned.extent)) return 2.0 * e->outer;
+    if (const auto* s = std::get_if<GridStrategy>(&planned.strategy)) return across(s->u, s->v);
+    const auto& rings = std::get<RingStrategy>(planned.strategy).rings;
+    return 2.0 * *std::max_element(rings.begin(), rings.end());
+  }
+
+  [[nodiscard]] Value perpendicularity() const {
+    const FittedFeature& toleranced = *features_.front();
+    const FittedFeature& datum = *features_.back();
+    const Vec3 a = *axis_of(toleranced.element);
+    const Vec3 b = *axis_of(datum.element);
+    const bool alike = std::holds_alternative<Plane>(toleranced.element) ==
+                       std::holds_alternative<Plane>(datum.element);
+    // Two planes or two axes are perpendicular when their directions are; a plane and an axis when
+    // theirs are parallel.
+    const double tilt = alike ? std::abs(a.dot(b)) : a.cross(b).norm();
+    const double length = extent(unit(datum.planned->axis));
+    return {length * tilt, perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}};
+  }
+
+  [[nodiscard]] Value size(double factor) const {
+    const FittedFeature& feature = *features_.front();
+    double radius = 0.0;
+    double along = 0.0;
+    if (const auto* cone = std::get_if<Cone>(&feature.element)) {
+      // The section perpendicular to the measured axis through the nominal point.
+      along = (feature.planned->point - cone->point).dot(cone->axis.vec());
+      radius = cone->section_radius(along);
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&feature.element)) {
+      radius = cylinder->radius;
+    } else {
+      radius = std::get<Circle>(feature.element).radius;
+    }
+    return {factor * radius, factor * radius_uncertainty(u_, feature, along),
+            factor * feature.planned->radius, {}};
+  }
+
+  const PlannedCharacteristic& planned_;
+  std::vector<const FittedFeature*> features_;
+  bool in_datum_;
+  PointUncertainty u_;
+};
+
+struct Unit {
+  std::string_view name;
+  double per_internal;
+};
+
+Unit unit_of(CharacteristicKind kind) {
+  switch (kind) {
+    case CharacteristicKind::half_angle:
+      return {"deg", kDegPerRad};
+    case CharacteristicKind::radius:
+    case CharacteristicKind::diameter:
+      return {"mm", 1.0};
+    default:
+      return {"um", kUmPerMm};
+  }
+}
+
+}  // namespace
+
+Result<RoundProfile> roundness(std::span<const Vec3> points, const AngleFrame& angles) {
+  auto fit = fit_circle(points);
+  if (!fit) return std::move(fit).error();
+  RoundProfile profile;
+  profile.peak_to_valley = fit->form;
+  profile.deviation = std::move(fit->residuals);
+  for (const Vec3& p : points) {
+    profile.angle.push_back(angle_of(p - fit->element.point, angles));
+  }
+  return profile;
+}
+
+Result<RoundProfile> equivalent_cone_form(std::span<const Vec3> points, double half_angle,
+                                          const UnitVec3& toward_apex, const AngleFrame& angles) {
+  const auto circle = fit_circle(points);
+  if (!circle) return circle.error();
+  const Vec3 normal = circle->element.axis;
+  const Vec3 axis = normal.dot(toward_apex.vec()) < 0.0 ? Vec3(-normal) : normal;
+  const Vec3 foot =
+      circle->element.point - circle->element.radius * std::tan(half_angle) * axis;
+  // The polar plot turns about the measured axis.
+  const Vec3 zero = (angles.zero - angles.zero.dot(axis) * axis).normalized();
+  const AngleFrame about{axis.dot(angles.axis.vec()) < 0.0 ? unit(-axis) : unit(axis), zero};
+  RoundProfile profile;
+  std::vector<Vec3> polar;
+  for (const Vec3& p : points) {
+    const double angle = angle_of(p - circle->element.point, about);
+    const double d = (p - foot).norm();
+    profile.angle.push_back(angle);
+    polar.emplace_back(d * std::cos(angle), d * std::sin(angle), 0.0);
+  }
+  auto fit = fit_circle_2d(polar);
+  if (!fit) return std::move(fit).error();
+  profile.deviation = std::move(fit->residuals);
+  profile.peak_to_valley = peak_to_valley(profile.deviation);
+  return profile;
+}
+
+Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
+                                      std::span<const FittedFeature> features, bool in_datum,
+                                      const CmmModel& cmm) {
+  std::vector<const FittedFeature*> chosen;
+  for (const std::string& name : planned.features) {
+    const auto found = std::find_if(features.begin(), features.end(), [&](const FittedFeature& f) {
+      return f.planned->name == name;
+    });
+    if (found == features.end()) {
+      return error(fmt::format("characteristic '{}': feature '{}' has no points", planned.name, name),
+                   "measure the feature, or take the characteristic out of the plan");
+    }
+    chosen.push_back(&*found);
+  }
+  auto value = Evaluation(planned, std::move(chosen), in_datum, cmm)();
+  if (!value) {
+    Diagnostics failure = std::move(value).error();
+    for (Diagnostic& d : failure) {
+      d.message = fmt::format("characteristic '{}': {}", planned.name, d.message);
+    }
+    return failure;
+  }
+  const Unit unit = unit_of(planned.kind);
+  CharacteristicResult result;
+  result.name = planned.name;
+  result.kind = std::string(name_of(planned.kind));
+  result.unit = std::string(unit.name);
+  result.value = value->value * unit.per_internal;
+  if (value->nominal) result.nominal = *value->nominal * unit.per_internal;
+  result.tolerance = planned.tolerance * unit.per_internal;
+  constexpr double kCoverage = 2.0;  // 95 % of a normal distribution
+  result.expanded_uncertainty = kCoverage * value->uncertainty * unit.per_internal;
+  result.pass = std::abs(value->value - value->nominal.value_or(0.0)) <= planned.tolerance;
+  result.plot_angle = std::move(value->profile.angle);
+  result.plot_deviation = std::move(value->profile.deviation);
+  return result;
+}
+
+}  // namespace frustum::metrology

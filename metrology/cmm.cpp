@@ -1,0 +1,165 @@
+#include "metrology/cmm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
+#include "core/spelling.hpp"
+#include "metrology/ball_contact.hpp"
+#include "metrology/evaluation.hpp"
+#include "metrology/strategy.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// The machine's errors of one measurement.
+class ErrorField {
+ public:
+  explicit ErrorField(const CmmModel& cmm) : cmm_(cmm) {
+    if (!cmm.length_per_error) return;
+    const double deviation = 0.5e-3 / *cmm.length_per_error;  // mm per um to relative
+    const RandomKey key{.seed = cmm.seed, .draw = cmm.draw, .purpose = RandomPurpose::cmm_scale};
+    const auto term = [&](std::uint64_t index) { return deviation * normal(key, index); };
+    linear_ << term(0), term(3), term(4),  //
+        0.0, term(1), term(5),             //
+        0.0, 0.0, term(2);
+  }
+
+  [[nodiscard]] Vec3 measured(const Vec3& centre, const Vec3& approach, std::size_t feature,
+                              std::size_t point) const {
+    Vec3 seen = centre + linear_ * centre;
+    if (cmm_.e0_mm > 0.0) {
+      const RandomKey key{.seed = cmm_.seed, .draw = cmm_.draw, .purpose = RandomPurpose::cmm_point};
+      const std::uint64_t index = (static_cast<std::uint64_t>(feature) << 32U) | point;
+      seen += 0.5 * cmm_.e0_mm * normal(key, index) * approach;
+    }
+    return seen;
+  }
+
+ private:
+  const CmmModel& cmm_;
+  Mat3 linear_ = Mat3::Zero();
+};
+
+Diagnostic missed(const PlannedFeature& feature, std::size_t index, const PlannedPoint& planned,
+                  ContactState state, const ProbeSettings& probe) {
+  const std::string place =
+      fmt::format("feature '{}', point {} at [{:.3f}, {:.3f}, {:.3f}]", feature.name, index + 1,
+                  planned.point.x(), planned.point.y(), planned.point.z());
+  if (state == ContactState::starts_inside) {
+    return error(fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
+                             "surface",
+                             place, probe.clearance),
+                 "check the nominal geometry and the cut, or enlarge probe.clearance");
+  }
+  return error(
+      fmt::format("{}: the plan misses the part: no surface within {} mm past the nominal one",
+                  place, probe.reach),
+      "check the nominal geometry and the blank, or enlarge probe.reach");
+}
+
+Result<FittedFeature> probed(const InspectionPlan& plan, std::size_t index,
+                             const Pose& workpiece_from_datum, const SurfaceProbeRef& part,
+                             const ErrorField& errors) {
+  const PlannedFeature& feature = plan.features[index];
+  const double ball_radius = 0.5 * plan.probe.ball_diameter;
+  std::vector<Vec3> centres;
+  std::vector<std::size_t> sections;
+  for (const PlannedPoint& planned : planned_points(feature)) {
+    const BallApproach approach{workpiece_from_datum.point(planned.point),
+                                unit(workpiece_from_datum.direction(planned.normal)), ball_radius,
+                                plan.probe.clearance, plan.probe.reach};
+    const BallContact contact = touch_with_ball(part, approach);
+    if (contact.state != ContactState::contact) {
+      return missed(feature, centres.size(), planned, contact.state, plan.probe);
+    }
+    centres.push_back(errors.measured(contact.centre, approach.outward, index, centres.size()));
+    sections.push_back(planned.section);
+  }
+  return fit_feature(feature, centres, sections, ball_radius);
+}
+
+std::vector<std::string> names_of(const InspectionPlan& plan) {
+  std::vector<std::string> names;
+  for (const PlannedFeature& feature : plan.features) names.push_back(feature.name);
+  return names;
+}
+
+}  // namespace
+
+CmmModel read_cmm_model(const TomlTable& table) {
+  CmmModel cmm;
+  cmm.e0_mm = table.length_or("e0", {}, Bound::non_negative).value;
+  if (table.has("l_per_um")) cmm.length_per_error = table.number("l_per_um", Bound::positive);
+  cmm.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Bound::non_negative));
+  return cmm;
+}
+
+Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm) {
+  if (Diagnostics faults = check(plan); has_error(faults)) return faults;
+  const ErrorField errors(cmm);
+  std::vector<std::optional<FittedFeature>> fitted(plan.features.size());
+  std::vector<FittedFeature> datum_features;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (!is_datum_feature(plan, plan.features[i])) continue;
+    auto feature = probed(plan, i, Pose{}, part, errors);
+    if (!feature) return std::move(feature).error();
+    datum_features.push_back(*feature);
+    fitted[i] = std::move(*feature);
+  }
+  const auto workpiece_from_datum = alignment_of(plan, datum_features);
+  if (!workpiece_from_datum) return workpiece_from_datum.error();
+  std::vector<FittedFeature> features;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (!fitted[i]) {
+      auto feature = probed(plan, i, *workpiece_from_datum, part, errors);
+      if (!feature) return std::move(feature).error();
+      fitted[i] = std::move(*feature);
+    }
+    features.push_back(std::move(*fitted[i]));
+  }
+  return evaluated(plan, std::move(features), cmm);
+}
+
+Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const FeaturePoints> features,
+                             PointMeaning meaning, const CmmModel& cmm) {
+  if (Diagnostics faults = check(plan); has_error(faults)) return faults;
+  const double ball_radius =
+      meaning == PointMeaning::ball_centre ? 0.5 * plan.probe.ball_diameter : 0.0;
+  std::vector<FittedFeature> fitted;
+  for (const FeaturePoints& points : features) {
+    const bool nameless = points.feature.empty() && plan.features.size() == 1;
+    const PlannedFeature* feature =
+        nameless ? &plan.features.front() : find_feature(plan, points.feature);
+    if (feature == nullptr) {
+      return points.feature.empty()
+                 ? error("the points name no feature, and the plan has several",
+                         "begin the file with the header feature,section,x,y,z")
+                 : error(fmt::format("the plan has no feature '{}'", points.feature),
+                         suggestion(points.feature, names_of(plan)));
+    }
+    std::vector<std::size_t> sections = points.sections;
+    if (sections.size() != points.points.size()) {
+      sections.clear();
+      for (const Vec3& p : points.points) sections.push_back(nearest_section(*feature, p));
+    }
+    auto fit = fit_feature(*feature, points.points, sections, ball_radius);
+    if (!fit) return std::move(fit).error();
+    fitted.push_back(std::move(*fit));
+  }
+  auto measurement = evaluated(plan, std::move(fitted), cmm);
+  if (!measurement) return measurement;
+  for (const PlannedFeature& feature : plan.features) {
+    const auto& found = measurement->features;
+    if (std::none_of(found.begin(), found.end(),
+                     [&](const MeasuredFeature& f) { return f.name == feature.name; })) {
+      measurement->diagnostics.push_back(
+          warning(fmt::format("feature '{}' of the plan has no points", feature.name)));
+    }
+  }
+  return measurement;
+}
+
+}  // namespace frustum::metrology

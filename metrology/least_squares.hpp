@@ -1,0 +1,59 @@
+// Orthogonal-distance fits (Gaussian association) of the elements, without starting values.
+//
+// Model    : minimise sum d_i^2, d_i = residual(element, x_i) of element.hpp. A 3D circle is fitted as
+//            plane first, then as circle in the projection, as the NIST reference pairs define it
+// Units    : mm, rad; all points in one frame
+// Shape    : n >= 2 (line), 3 (plane, circle), 4 (sphere), 5 (cylinder), 6 (cone) points
+// Errors   : too few points, not finite, degenerate (points that do not tell the element), not converged;
+//            each a Diagnostic that says why
+// Accuracy : 1e-9 mm, 1e-10 rad on the NIST pairs (tests/metrology/reference_fits_test.cpp); exact data
+//            is recovered to 1e-10 mm (tests/metrology/least_squares_test.cpp)
+// Source   : Shakarji 1998, J. Res. NIST 103(6), sections 3 and 4 (models and parameters)
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+#include "metrology/element.hpp"
+
+namespace frustum::metrology {
+
+// Order of the parameters in `covariance` and `cofactor`, with {u, v} = tangents(axis):
+//   line     : shift along u, v; tilt of the axis toward u, v
+//   plane    : shift along the axis; tilt of the axis toward u, v
+//   circle   : shift along u, v; radius; shift along the axis; tilt toward u, v
+//   sphere   : shift along x, y, z; radius
+//   cylinder : shift along u, v; tilt toward u, v; radius
+//   cone     : shift along u, v; tilt toward u, v; radius; half_angle
+// `point` is the centroid of the points or its projection on the axis, so shift and tilt hardly correlate.
+template <typename T>
+struct Fit {
+  T element{};
+  std::vector<double> residuals{};  // mm, in the order of the points
+  double form = 0.0;                // mm, peak to valley of the residuals
+  double rms = 0.0;                 // mm
+  // (J^T J)^-1: variances of the parameters when every point has unit variance along its normal.
+  Eigen::MatrixXd cofactor{};
+  // cofactor * sum d^2 / (n - parameters): what the scatter itself says; zero without redundancy.
+  Eigen::MatrixXd covariance{};
+  int iterations = 0;
+};
+
+[[nodiscard]] Result<Fit<Line>> fit_line(std::span<const Vec3> points);
+[[nodiscard]] Result<Fit<Plane>> fit_plane(std::span<const Vec3> points);
+[[nodiscard]] Result<Fit<Circle>> fit_circle(std::span<const Vec3> points);
+// Circle in a coordinate plane: the one in which the points are constant, z otherwise; the third
+// coordinate of the centre is the mean.
+[[nodiscard]] Result<Fit<Circle>> fit_circle_2d(std::span<const Vec3> points);
+[[nodiscard]] Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points);
+[[nodiscard]] Result<Fit<Cylinder>> fit_cylinder(std::span<const Vec3> points);
+[[nodiscard]] Result<Fit<Cone>> fit_cone(std::span<const Vec3> points);
+
+[[nodiscard]] Result<Fit<Element>> fit_element(ElementKind kind, std::span<const Vec3> points);
+// By the name a user types: those of kElementNames and "circle2d".
+[[nodiscard]] Result<Fit<Element>> fit_element(std::string_view name, std::span<const Vec3> points);
+
+}  // namespace frustum::metrology

@@ -1,0 +1,67 @@
+// What a measurement says: points, fitted elements, characteristics with verdicts.
+//
+// It comes from the virtual CMM or from real CMM points: nothing here tells which. Plain values; JSON is
+// written by report/.
+// Units: mm and rad inside; a characteristic's value, tolerance and uncertainty are in its own `unit`.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "core/pose.hpp"
+
+namespace frustum::metrology {
+
+// One probed point in the datum frame, ball radius already compensated.
+struct MeasuredPoint {
+  Vec3 point = Vec3::Zero();    // mm
+  Vec3 normal = Vec3::Zero();   // unit, outward from the material: the fitted element's
+  double deviation = 0.0;       // mm, signed along `normal` from the fitted element
+  std::size_t section = 0;      // which section (circle, generatrix, row) of the strategy it belongs to
+};
+
+// A feature and the element fitted to its points.
+struct MeasuredFeature {
+  std::string name{};
+  std::string kind{};  // "plane", "cylinder", ...
+  std::vector<MeasuredPoint> points{};
+  // Stable names of interfaces.md: point, axis (3 numbers), radius (mm), half_angle (rad).
+  std::map<std::string, std::vector<double>> parameters{};
+  double form = 0.0;  // mm, peak to valley of the residuals
+  double rms = 0.0;   // mm
+};
+
+struct CharacteristicResult {
+  std::string name{};
+  std::string kind{};
+  double value = 0.0;
+  std::string unit{};               // "um", "deg", "urad", "mm"
+  std::optional<double> nominal{};  // for characteristics that have one (half angle)
+  double tolerance = 0.0;           // in `unit`: limit of the value, or of |value - nominal|
+  double expanded_uncertainty = 0.0;  // k = 2, in `unit`
+  bool pass = false;
+  // The deviations that made the value, for plots: angle about the axis (rad) against deviation (mm).
+  std::vector<double> plot_angle{};
+  std::vector<double> plot_deviation{};
+};
+
+struct Measurement {
+  std::string title{};
+  // Where the datum system sits in the workpiece frame of the plan: workpiece_from_datum.
+  Pose workpiece_from_datum{};
+  std::vector<MeasuredFeature> features{};
+  std::vector<CharacteristicResult> characteristics{};
+  Diagnostics diagnostics{};
+
+  [[nodiscard]] bool passes() const {
+    for (const CharacteristicResult& c : characteristics) {
+      if (!c.pass) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace frustum::metrology

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "metrology/inspection_plan.hpp"
+#include "metrology/plan_names.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// The number that `scale` turns into exactly `value`, the shortest one there is.
+std::optional<double> written_in(double value, double scale) {
+  const double quotient = value / scale;
+  // What people typed has few digits; what was computed is a few roundings away from the quotient.
+  std::array<double, 8> candidates{};
+  candidates[0] = std::stod(fmt::format("{:.12g}", quotient));
+  candidates[1] = quotient;
+  for (std::size_t i = 0; i < 3; ++i) {
+    candidates[2 + 2 * i] = std::nextafter(i == 0 ? quotient : candidates[2 * i], HUGE_VAL);
+    candidates[3 + 2 * i] = std::nextafter(i == 0 ? quotient : candidates[1 + 2 * i], -HUGE_VAL);
+  }
+  for (const double candidate : candidates) {
+    if (candidate * scale == value) return candidate;
+  }
+  return std::nullopt;
+}
+
+// A bare number of degrees, or text in rad when no number of degrees gives the same bits.
+std::string angle(double rad) {
+  if (const auto degrees = written_in(rad, kRadPerDeg)) return fmt::format("{}", *degrees);
+  return fmt::format("\"{} rad\"", rad);
+}
+
+std::string tolerance(const PlannedCharacteristic& c) {
+  const bool is_angle = c.kind == CharacteristicKind::half_angle;
+  if (const auto micro = written_in(c.tolerance, is_angle ? 1e-6 : 1e-3)) {
+    return fmt::format("\"{} {}\"", *micro, is_angle ? "urad" : "um");
+  }
+  return fmt::format("\"{} {}\"", c.tolerance, is_angle ? "rad" : "mm");
+}
+
+std::string toml_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+std::string text_of(const SectionStrategy& s) {
+  return fmt::format(
+      "{{ sections = [{}], points_per_section = {}, start_angle = {}, sweep = {} }}",
+      fmt::join(s.sections, ", "), s.points_per_section, angle(s.start_angle), angle(s.sweep));
+}
+std::string text_of(const RingStrategy& s) {
+  return fmt::format("{{ rings = [{}], points_per_ring = {}, start_angle = {}, sweep = {} }}",
+                     fmt::join(s.rings, ", "), s.points_per_ring, angle(s.start_angle),
+                     angle(s.sweep));
+}
+std::string text_of(const GridStrategy& s) {
+  return fmt::format("{{ u = {}, v = {}, columns = {}, rows = {} }}", vector(s.u), vector(s.v),
+                     s.columns, s.rows);
+}
+std::string text_of(const LineStrategy& s) {
+  return fmt::format("{{ from = {}, to = {}, points = {} }}", s.from, s.to, s.points);
+}
+
+std::string text_of(const std::monostate&) { return {}; }
+std::string text_of(const AxialExtent& e) {
+  return fmt::format("{{ from = {}, to = {} }}", e.from, e.to);
+}
+std::string text_of(const RadialExtent& e) {
+  return fmt::format("{{ inner = {}, outer = {} }}", e.inner, e.outer);
+}
+std::string text_of(const RectangleExtent& e) {
+  return fmt::format("{{ u = {}, v = {} }}", vector(e.u), vector(e.v));
+}
+
+constexpr std::array<std::string_view, 5> kAxisMeaning{
+    "outward normal", "along the axis", "along the axis, toward growing radius",
+    "normal of the circle's plane", "along the line"};
+
+std::string text_of(const PlannedFeature& f) {
+  std::string out = "\n[[feature]]\n";
+  const auto line = [&](std::string_view key, const std::string& value,
+                        std::string_view comment = {}) {
+    out += comment.empty() ? fmt::format("{} = {}\n", key, value)
+                           : fmt::format("{} = {}  # {}\n", key, value, comment);
+  };
+  line("name", toml_text(f.name));
+  line("kind", toml_text(name_of(f.kind)));
+  line("point", vector(f.point));
+  line("axis", vector(f.axis), kAxisMeaning.at(static_cast<std::size_t>(f.kind)));
+  if (f.kind == FeatureKind::cylinder || f.kind == FeatureKind::circle) {
+    line("radius", fmt::format("{}", f.radius));
+  }
+  if (f.kind == FeatureKind::cone) {
+    line("section_radius", fmt::format("{}", f.radius), "across the axis, in the section at point");
+    line("half_angle", angle(f.half_angle));
+  }
+  if (f.kind == FeatureKind::line) {
+    line("normal", vector(f.normal), "outward normal of the surface it lies on");
+  } else {
+    if (f.kind != FeatureKind::plane) {
+      line("side", toml_text(kSideNames.at(static_cast<std::size_t>(f.side))),
+           f.side == Side::outside ? "a boss" : "a hole");
+    }
+    if (f.zero) line("zero", vector(*f.zero), "where angles about the axis start");
+  }
+  line("strategy", std::visit([](const auto& s) { return text_of(s); }, f.strategy));
+  const std::string extent = std::visit([](const auto& e) { return text_of(e); }, f.extent);
+  if (!extent.empty()) line("extent", extent);
+  return out;
+}
+
+std::string text_of(const PlannedCharacteristic& c) {
+  std::vector<std::string> names;
+  for (const std::string& name : c.features) names.push_back(toml_text(name));
+  std::string out = fmt::format("\n[[characteristic]]\nname = {}\nkind = {}\n", toml_text(c.name),
+                                toml_text(name_of(c.kind)));
+  out += names.size() == 1 ? fmt::format("feature = {}\n", names.front())
+                           : fmt::format("features = [{}]\n", fmt::join(names, ", "));
+  if (c.sections.size() == 1) out += fmt::format("section = {}  # first = 0\n", c.sections.front());
+  if (c.sections.size() > 1) {
+    out += fmt::format("sections = [{}]  # first = 0\n", fmt::join(c.sections, ", "));
+  }
+  return out + fmt::format("tolerance = {}\n", tolerance(c));
+}
+
+}  // namespace
+
+std::string to_toml(const InspectionPlan& plan) {
+  std::string out = "# Inspection plan. Lengths in mm, angles in degrees; a text carries its own unit.\n";
+  out += fmt::format("title = {}\n", toml_text(plan.title));
+  out += fmt::format("alignment = {}  # datum: results in the datum system; plan: as probed\n",
+                     toml_text(kAlignmentNames.at(static_cast<std::size_t>(plan.alignment))));
+  out += "\n[probe]\n";
+  out += fmt::format("ball_diameter = {}  # mm\n", plan.probe.ball_diameter);
+  out += fmt::format("clearance = {}  # mm, where the approach starts\n", plan.probe.clearance);
+  out += fmt::format("reach = {}  # mm, how far past the nominal surface it searches\n",
+                     plan.probe.reach);
+  if (plan.datum) {
+    out += "\n[datum]\n";
+    out += fmt::format("primary = {}  # Z: its outward normal\n", toml_text(plan.datum->primary));
+    out += fmt::format("secondary = {}  # origin: its axis pierced with the primary\n",
+                       toml_text(plan.datum->secondary));
+    if (!plan.datum->tertiary.empty()) {
+      out += fmt::format("tertiary = {}  # Y: its trace in the primary\n",
+                         toml_text(plan.datum->tertiary));
+    }
+  }
+  for (const PlannedFeature& feature : plan.features) out += text_of(feature);
+  for (const PlannedCharacteristic& c : plan.characteristics) out += text_of(c);
+  return out;
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,116 @@
+#include "parser/arc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "parser/expression.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// RS-274: what a post-processor's rounding to three decimals, on a large radius, may leave.
+constexpr double kRadiusTolerance = 0.01;           // mm
+constexpr double kRelativeRadiusTolerance = 0.001;  // of the radius
+constexpr double kLargestRadiusTolerance = 0.5;     // mm
+// Shorter than any controller's increment: an arc that ends so near its start is a full circle.
+constexpr double kFullCircleGap = 1e-6;  // mm
+
+double tolerance_at(double radius) {
+  return std::max(kRadiusTolerance,
+                  std::min(kRelativeRadiusTolerance * radius, kLargestRadiusTolerance));
+}
+
+const char* word_of(bool clockwise) { return clockwise ? "G2" : "G3"; }
+
+// A length for a message: the digits that matter and no more.
+std::string mm(double length) { return fmt::format("{:.6g} mm", length); }
+
+Result<Arc> arc_by_radius(const ArcWords& words) {
+  const PlaneAxes axes = axes_of(words.plane);
+  const double radius = *words.radius;
+  if (radius == 0.0) {
+    return error("R is zero",
+                 fmt::format("give the radius, or the centre by {}", centre_words(words.plane)));
+  }
+  const double du = words.end[axes.u] - words.start[axes.u];
+  const double dv = words.end[axes.v] - words.start[axes.v];
+  const double chord = std::hypot(du, dv);
+  if (chord < kFullCircleGap) {
+    return error("an arc with R ends at its start, which leaves its centre open",
+                 fmt::format("give the centre of a full circle by {}", centre_words(words.plane)));
+  }
+  const double half = chord / 2.0;
+  if (half - std::abs(radius) > tolerance_at(half)) {
+    return error(fmt::format("R {} is too small: the end is {} from the start",
+                             mm(std::abs(radius)), mm(chord)),
+                 fmt::format("R must be at least {}; correct R or the end", mm(half)));
+  }
+  // From the middle of the chord to the centre; left of the chord for a short counterclockwise arc.
+  const double height = std::sqrt(std::max(radius * radius - half * half, 0.0));
+  const double side = words.clockwise == (radius > 0.0) ? -1.0 : 1.0;
+  Arc arc{words.start, words.end};
+  arc.centre[axes.u] = words.start[axes.u] + du / 2.0 - side * height * dv / chord;
+  arc.centre[axes.v] = words.start[axes.v] + dv / 2.0 + side * height * du / chord;
+  return arc;
+}
+
+Result<Arc> arc_by_centre(const ArcWords& words) {
+  const PlaneAxes axes = axes_of(words.plane);
+  Arc arc{words.start, words.end};
+  for (const int axis : {axes.u, axes.v}) {
+    const auto& word = words.centre.at(static_cast<std::size_t>(axis));
+    if (words.centre_is_absolute && !word) {
+      return error(fmt::format("{} has half a centre", word_of(words.clockwise)),
+                   fmt::format("after G90.1 give both {}", centre_words(words.plane)));
+    }
+    arc.centre[axis] = words.centre_is_absolute ? *word : words.start[axis] + word.value_or(0.0);
+  }
+  const auto distance = [&](const Vec3& point) {
+    return std::hypot(point[axes.u] - arc.centre[axes.u], point[axes.v] - arc.centre[axes.v]);
+  };
+  const double at_start = distance(words.start);
+  const double at_end = distance(words.end);
+  if (at_start == 0.0) {
+    return error("the centre of the arc is its start",
+                 fmt::format("{} lead from the start to the centre", centre_words(words.plane)));
+  }
+  const double difference = std::abs(at_start - at_end);
+  if (difference > tolerance_at(std::max(at_start, at_end))) {
+    return error(fmt::format("the start of the arc is {} from the centre, its end {}: {} apart",
+                             mm(at_start), mm(at_end), mm(difference)),
+                 fmt::format("allowed are 0.01 mm, or 0.1 % of the radius up to 0.5 mm; "
+                             "correct {} or the end",
+                             centre_words(words.plane)));
+  }
+  const double gap =
+      std::hypot(words.end[axes.u] - words.start[axes.u], words.end[axes.v] - words.start[axes.v]);
+  if (gap < kFullCircleGap) {
+    arc.end[axes.u] = words.start[axes.u];
+    arc.end[axes.v] = words.start[axes.v];
+  }
+  return arc;
+}
+
+}  // namespace
+
+const char* centre_words(Plane plane) {
+  constexpr std::array kWords{"I and J", "I and K", "J and K"};
+  return kWords.at(static_cast<std::size_t>(plane));
+}
+
+Result<Arc> arc_of(const ArcWords& words) {
+  const bool has_centre = std::any_of(words.centre.begin(), words.centre.end(),
+                                      [](const auto& word) { return word.has_value(); });
+  if (has_centre && words.radius) {
+    return error(fmt::format("{} has both R and a centre", word_of(words.clockwise)),
+                 fmt::format("give R, or {}", centre_words(words.plane)));
+  }
+  if (words.radius) return arc_by_radius(words);
+  if (has_centre) return arc_by_centre(words);
+  return error(fmt::format("{} without a centre", word_of(words.clockwise)),
+               fmt::format("give {}, or R", centre_words(words.plane)));
+}
+
+}  // namespace frustum::parser

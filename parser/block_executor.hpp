@@ -1,0 +1,102 @@
+// Carries out one block after another: the modal state, the position, the parameters, and the motions
+// that follow from them.
+//
+// Order within a block, RS-274's: comments; parameters; units; feed mode; F; S; T; M6; M3 M4 M5;
+// M7 M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or the
+// motion; stops and calls.
+// Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc centres,
+// R and F; never rotary words, tool vectors, or the F of a purely rotary move.
+// Errors: with line, column and hint; the file is left to the caller. Nothing of the block that failed
+// is to be relied on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <variant>
+
+#include "core/result.hpp"
+#include "parser/block.hpp"
+#include "parser/block_words.hpp"
+#include "parser/modal_state.hpp"
+#include "parser/motion.hpp"
+#include "parser/parameters.hpp"
+#include "parser/program_position.hpp"
+
+namespace frustum::parser {
+
+using MotionSink = std::function<void(Motion&&)>;
+
+// Where the program goes after a block.
+struct NextBlock {};
+struct EndProgram {};
+struct LeaveSubprogram {
+  std::uint32_t column = 0;
+};
+struct CallSubprogram {
+  std::uint32_t program = 0;
+  bool counted = false;  // L was given
+  std::uint32_t count = 1;
+  std::uint32_t column = 0;
+};
+using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram>;
+
+class BlockExecutor {
+ public:
+  explicit BlockExecutor(const MotionSink& sink) : sink_(sink) {}
+
+  [[nodiscard]] Result<Flow> execute(const Block& block);
+  [[nodiscard]] const ModalState& state() const { return state_; }
+
+ private:
+  struct Done {};
+  using Outcome = Result<Done>;
+  // What of the block moves axes, and how.
+  struct Movement {
+    NonModal non_modal = NonModal::none;
+    MotionMode motion = MotionMode::none;  // none: no move, the words only set modes
+    std::uint32_t column = 0;              // of the word the motion is reported at
+  };
+
+  // Looking: what the block asks for, given the modes.
+  [[nodiscard]] Result<Movement> movement_of(const BlockWords& words) const;
+  [[nodiscard]] LetterSet motion_words(const BlockWords& words, const Movement& movement) const;
+  [[nodiscard]] Outcome check_claims(const BlockWords& words, const Movement& movement) const;
+  [[nodiscard]] Result<int> whole(const BlockWords& words, char letter, int least, int most) const;
+
+  // Doing.
+  [[nodiscard]] Outcome set_parameters(const Block& block);
+  void report_comments(const Block& block);
+  void report_events(const BlockWords& words);
+  [[nodiscard]] Outcome set_feed(const BlockWords& words);
+  [[nodiscard]] Outcome set_tool_and_spindle(const BlockWords& words);
+  [[nodiscard]] Outcome dwell(const BlockWords& words);
+  [[nodiscard]] Outcome set_frames(const BlockWords& words);
+  [[nodiscard]] Outcome go_home(const BlockWords& words);
+  [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_in_machine_coordinates(const BlockWords& words,
+                                                    const Movement& movement);
+  [[nodiscard]] Outcome move_straight(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_along_arc(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Result<Flow> finish(const BlockWords& words);
+
+  [[nodiscard]] double unit_scale() const;
+  [[nodiscard]] double scaled(AxisLetter axis, double value) const;
+  [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
+  [[nodiscard]] Outcome set_targets(const BlockWords& words);
+  [[nodiscard]] Outcome set_tool_axis(const BlockWords& words);
+  [[nodiscard]] Result<Feed> feed_for(const BlockWords& words, const Movement& movement,
+                                      bool linear) const;
+  void leave_program_coordinates(LetterSet axes, PositionLoss loss);
+  void forget(LetterSet axes, PositionLoss loss);
+  [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
+  [[nodiscard]] Diagnostic on_this_line(Diagnostic diagnostic) const;
+  void emit(std::uint32_t column, Command command);
+
+  const MotionSink& sink_;
+  ModalState state_;
+  ProgramPosition position_;
+  Parameters parameters_;
+  std::uint32_t line_ = 0;  // of the block at work
+};
+
+}  // namespace frustum::parser

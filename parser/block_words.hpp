@@ -1,0 +1,65 @@
+// The words of one block with their values computed and sorted by what they do.
+//
+// Units: as written.
+// Errors: an expression that cannot be computed, an unknown or refused G or M word, a letter given
+// twice, two words of one modal group; each with line and column.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/result.hpp"
+#include "parser/block.hpp"
+#include "parser/code_table.hpp"
+#include "parser/parameters.hpp"
+
+namespace frustum::parser {
+
+struct GivenWord {
+  double value = 0.0;
+  std::uint32_t column = 0;
+  bool decimal_point = false;
+};
+
+struct GivenCode {
+  const Code* code = nullptr;  // in the code table, which lives for ever
+  std::uint32_t column = 0;
+};
+
+class BlockWords {
+ public:
+  [[nodiscard]] LetterSet given() const { return given_; }
+  [[nodiscard]] bool has(char letter) const { return given_.has(letter); }
+  // The word of that letter; zero when not given.
+  [[nodiscard]] const GivenWord& operator[](char letter) const { return values_[slot(letter)]; }
+  [[nodiscard]] bool has(CodeGroup group) const { return (*this)[group].code != nullptr; }
+  [[nodiscard]] const GivenCode& operator[](CodeGroup group) const {
+    return codes_[static_cast<std::size_t>(group)];
+  }
+  // What the group's word sets, or `otherwise` when the block has none of the group.
+  template <typename Value>
+  [[nodiscard]] Value value_or(CodeGroup group, Value otherwise) const {
+    const Code* code = (*this)[group].code;
+    return code == nullptr || code->event ? otherwise : static_cast<Value>(code->value);
+  }
+  // Codes that are known but not simulated.
+  [[nodiscard]] const std::vector<GivenCode>& events() const { return events_; }
+  // The first word of the block among `letters`, by column.
+  [[nodiscard]] char first_of(LetterSet letters) const;
+  // "X1.5", as a message names it.
+  [[nodiscard]] std::string text_of(char letter) const;
+
+ private:
+  friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters);
+  static constexpr std::size_t slot(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+
+  std::array<GivenWord, 26> values_{};
+  LetterSet given_{};
+  std::array<GivenCode, kCodeGroups> codes_{};
+  std::vector<GivenCode> events_{};
+};
+
+[[nodiscard]] Result<BlockWords> read_words(const Block& block, const Parameters& parameters);
+
+}  // namespace frustum::parser

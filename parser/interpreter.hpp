@@ -1,0 +1,48 @@
+// Runs a program: its blocks in order, subprograms and their repeats, into a stream of motions.
+//
+// Start    : the state of ModalState's defaults; no axis position is known, no tool is in the spindle.
+//            A motion's target holds only axes the program has placed; an absent axis stays where it is.
+// End      : M2, M30, the tape mark at the end, or the end of the text. What follows is not run.
+// Units    : mm, rad, mm/min, 1/min, seconds (see motion.hpp).
+// G4       : X and U in seconds; P in milliseconds, in seconds when written with a decimal point.
+// M98      : P names the subprogram, L repeats it; without L, P with more than four digits is
+//            repeats and number together (P00032000 is O2000 three times).
+// /        : blocks that begin with it run, unless `block_delete` is on.
+// Errors   : the first block that cannot be run ends the run with its diagnostic; the motions before it
+//            have reached the sink already.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/result.hpp"
+#include "parser/block_executor.hpp"
+#include "parser/modal_state.hpp"
+#include "parser/motion.hpp"
+#include "parser/program.hpp"
+
+namespace frustum::parser {
+
+struct InterpreterOptions {
+  // The operator's switch: on, blocks that begin with / are left out (and reported as events).
+  bool block_delete = false;
+  // Subprograms within subprograms.
+  std::size_t max_call_depth = 32;
+  // A program that runs more blocks than this, by repeats within repeats, is taken for a mistake.
+  std::uint64_t max_blocks = 100'000'000;
+};
+
+struct RunSummary {
+  ModalState state{};        // at the end
+  std::uint64_t blocks = 0;  // that were run
+};
+
+[[nodiscard]] Result<RunSummary> interpret(const Program& program, const MotionSink& sink,
+                                           const InterpreterOptions& options = {});
+
+// All motions at once, for programs that fit into memory.
+[[nodiscard]] Result<std::vector<Motion>> motions_of(const Program& program,
+                                                     const InterpreterOptions& options = {});
+
+}  // namespace frustum::parser

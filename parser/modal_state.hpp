@@ -1,0 +1,61 @@
+// What an NC program has set so far and what stays set: the modes, tool, spindle and feed.
+//
+// The defaults are the state every program starts in: no motion mode, G17, G21, G90, G91.1, G94, G49,
+// G54, no feed, no tool chosen, spindle and coolant off.
+// Units: mm, rad, mm/min, 1/min.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+enum class MotionMode : std::uint8_t {
+  none,
+  traverse,
+  linear,
+  arc_clockwise,
+  arc_counterclockwise
+};
+enum class DistanceMode : std::uint8_t { absolute, incremental };
+enum class LengthUnit : std::uint8_t { millimetre, inch };
+
+// G43, G43.4, G43.5, G49 and their H.
+struct Compensation {
+  LengthCompensation mode = LengthCompensation::off;
+  bool tool_vectors = false;
+  int offset_number = 0;
+
+  bool operator==(const Compensation&) const = default;
+};
+
+// An F word: a purely rotary move reads it in deg/min, whatever the unit of lengths.
+struct FeedWord {
+  double as_written = 0.0;
+  double scaled = 0.0;  // in mm/min when per minute
+};
+
+struct ModalState {
+  MotionMode motion = MotionMode::none;
+  Plane plane = Plane::xy;
+  LengthUnit unit = LengthUnit::millimetre;
+  DistanceMode distance = DistanceMode::absolute;
+  DistanceMode arc_distance = DistanceMode::incremental;
+  FeedMode feed_mode = FeedMode::per_minute;
+  std::optional<FeedWord> feed{};
+  Compensation compensation{};
+  int work_offset = 1;
+  std::optional<int> selected_tool{};
+  SpindleDirection spindle = SpindleDirection::off;
+  double spindle_speed = 0.0;
+  bool flood = false;
+  std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
+
+  [[nodiscard]] bool tool_centre_point() const {
+    return compensation.mode == LengthCompensation::tool_centre_point;
+  }
+};
+
+}  // namespace frustum::parser

@@ -1,0 +1,45 @@
+#include "parser/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "parser/expression.hpp"
+
+namespace frustum::parser {
+
+Result<int> Parameters::index_of(double number) {
+  // A computed index may be off by rounding; RS-274 forgives 1e-4.
+  const double nearest = std::round(number);
+  if (std::abs(number - nearest) > 1e-4) {
+    return error(fmt::format("parameter #{} is not a whole number", decimal_text(number)),
+                 "use ROUND, FIX or FUP on the computed number");
+  }
+  if (nearest < 1.0 || nearest > kMaxParameterNumber) {
+    return error(fmt::format("parameter #{} does not exist", decimal_text(nearest)),
+                 fmt::format("parameters are #1 to #{}", kMaxParameterNumber));
+  }
+  return static_cast<int>(nearest);
+}
+
+Result<double> Parameters::read(double number) const {
+  auto index = index_of(number);
+  if (!index) return std::move(index).error();
+  const auto found = numbered_.find(*index);
+  if (found == numbered_.end()) {
+    return error(fmt::format("parameter #{} has no value", *index),
+                 fmt::format("set it on an earlier block: #{}=...", *index));
+  }
+  return found->second;
+}
+
+Result<double> Parameters::read(std::string_view name) const {
+  const auto found = named_.find(name);
+  if (found == named_.end()) {
+    return error(fmt::format("parameter #<{}> has no value", name),
+                 fmt::format("set it on an earlier block: #<{}>=...", name));
+  }
+  return found->second;
+}
+
+}  // namespace frustum::parser

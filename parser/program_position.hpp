@@ -1,0 +1,52 @@
+// What the program knows of where the axes are, in program coordinates, and why it does not know more.
+//
+// A program that has not yet said where an axis goes, or has moved it by machine coordinates, or has
+// changed the frame under it, does not know where it is. Such an axis is absent from the targets (it
+// stays where it is) until it is programmed absolutely again; what needs its position (G91, arcs) is an
+// error that says why it is not known.
+// Units: mm, rad.
+// Errors: none; why_unknown() words the hint.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+enum class PositionLoss : std::uint8_t {
+  never_programmed,
+  home,                 // G28
+  machine_coordinates,  // G53
+  work_offset,
+  length_compensation,
+  tool_vector,  // I J K moved the rotary axes
+};
+
+class ProgramPosition {
+ public:
+  // All known axes: what a motion's target carries.
+  [[nodiscard]] const AxisTarget& target() const { return target_; }
+  [[nodiscard]] const std::optional<double>& operator[](AxisLetter axis) const {
+    return target_[axis];
+  }
+
+  void set(AxisLetter axis, double value) { target_[axis] = value; }
+  void forget(AxisLetter axis, PositionLoss loss, std::uint32_t line);
+  // "X is not known since G28 on line 12", "X has not been programmed yet".
+  [[nodiscard]] std::string why_unknown(AxisLetter axis) const;
+
+ private:
+  struct Cause {
+    PositionLoss loss = PositionLoss::never_programmed;
+    std::uint32_t line = 0;
+  };
+  AxisTarget target_{};
+  std::array<Cause, kAxisLetters.size()> causes_{};
+};
+
+}  // namespace frustum::parser

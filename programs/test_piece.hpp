@@ -1,0 +1,51 @@
+// A test piece: everything that is needed to cut it and to measure it.
+//
+// Units: mm, rad. Frames: the inspection plan and the blank are in the workpiece frame, which
+// setup.table_from_workpiece places on the table; the NC program is in program coordinates.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cutter/cutter.hpp"
+#include "kinematics/controller.hpp"
+#include "metrology/inspection_plan.hpp"
+#include "stock/blank.hpp"
+
+namespace frustum::programs {
+
+// A named range of NC lines (both included): what the report plots, and where error shapes find the
+// travelled range of each axis.
+struct Operation {
+  std::string name{};
+  std::uint32_t first_line = 0;
+  std::uint32_t last_line = 0;
+};
+
+// How the workpiece lies on the table, as people write it.
+struct Placement {
+  Vec3 origin = Vec3::Zero();  // mm, of the workpiece frame in the table frame
+  Vec3 tilt = Vec3::Zero();    // rad: Rz(tilt.z) Ry(tilt.y) Rx(tilt.x)
+
+  [[nodiscard]] Pose table_from_workpiece() const {
+    return {rotation_z(tilt.z()) * rotation_y(tilt.y()) * rotation_x(tilt.x()), origin};
+  }
+};
+
+struct TestPiece {
+  std::string title{};
+  std::string program{};       // NC text
+  std::string program_file{};  // names it in diagnostics
+  Placement placement{};
+  std::map<int, Vec3> work_offsets{};  // 1 = G54 ...: program origin in the table frame
+  std::map<int, cutter::CutterSpec> tools{};
+  stock::BlankShape blank{};
+  Vec3 blank_origin = Vec3::Zero();  // centre of its bottom, workpiece frame
+  metrology::InspectionPlan plan{};
+  std::vector<Operation> operations{};
+  // Error shapes without a span of their own lie over the range that this operation travels.
+  std::string error_span{};
+};
+
+}  // namespace frustum::programs

@@ -1,0 +1,23 @@
+// What the page's script draws: polar charts, axis charts and the coloured surface, as JSON.
+//
+// Units: rad and um in polar charts, mm and deg in axis charts, um for the colour scale; the surface is
+// quantised (see chart_data.cpp) and packed (packed_array.hpp).
+// Errors: none; numbers that are not finite become null, an inconsistent surface is left out.
+#pragma once
+
+#include <string>
+
+#include "report/run_report.hpp"
+
+namespace frustum::report {
+
+// True when the characteristic carries the deviations for a polar chart.
+[[nodiscard]] bool has_polar_chart(const metrology::CharacteristicResult& characteristic);
+// True when there is a surface to show.
+[[nodiscard]] bool has_surface(const RunReport& report);
+
+// {"polar":[..],"traces":[..],"surface":{..}|null}: charts in the order of the report's characteristics
+// that have one, and of its traces.
+[[nodiscard]] std::string chart_data(const RunReport& report);
+
+}  // namespace frustum::report

@@ -1,0 +1,69 @@
+#include "report/crease_normals.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace frustum::report {
+namespace {
+
+// Which triangles meet at each vertex: triangles[first[v]] .. triangles[first[v + 1] - 1].
+struct VertexFans {
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> triangles;
+};
+
+VertexFans vertex_fans(const SurfacePicture& picture) {
+  VertexFans fans;
+  fans.first.assign(picture.vertices.size() + 1, 0);
+  for (const auto& triangle : picture.triangles) {
+    for (const std::uint32_t corner : triangle) ++fans.first[corner + 1];
+  }
+  for (std::size_t v = 1; v < fans.first.size(); ++v) fans.first[v] += fans.first[v - 1];
+  fans.triangles.resize(fans.first.back());
+  std::vector<std::uint32_t> next(fans.first.begin(), fans.first.end() - 1);
+  for (std::size_t t = 0; t < picture.triangles.size(); ++t) {
+    for (const std::uint32_t corner : picture.triangles[t]) {
+      fans.triangles[next[corner]++] = static_cast<std::uint32_t>(t);
+    }
+  }
+  return fans;
+}
+
+Eigen::Vector3f position(const SurfacePicture& picture, std::uint32_t vertex) {
+  return Eigen::Map<const Eigen::Vector3f>(picture.vertices[vertex].data());
+}
+
+}  // namespace
+
+std::vector<CornerNormals> crease_normals(const SurfacePicture& picture, double crease_angle) {
+  const std::size_t count = picture.triangles.size();
+  std::vector<Eigen::Vector3f> area_normals(count);  // twice the area, along the normal
+  std::vector<Eigen::Vector3f> face_normals(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto& [a, b, c] = picture.triangles[t];
+    const Eigen::Vector3f origin = position(picture, a);
+    area_normals[t] = (position(picture, b) - origin).cross(position(picture, c) - origin);
+    const float length = area_normals[t].norm();
+    face_normals[t] = length > 0.0F ? Eigen::Vector3f(area_normals[t] / length)
+                                    : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
+  }
+
+  const VertexFans fans = vertex_fans(picture);
+  const auto limit = static_cast<float>(std::cos(crease_angle));
+  std::vector<CornerNormals> normals(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = picture.triangles[t][k];
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (std::uint32_t i = fans.first[vertex]; i < fans.first[vertex + 1]; ++i) {
+        const std::uint32_t neighbour = fans.triangles[i];
+        if (face_normals[neighbour].dot(face_normals[t]) >= limit) sum += area_normals[neighbour];
+      }
+      const float length = sum.norm();
+      normals[t][k] = length > 0.0F ? Eigen::Vector3f(sum / length) : face_normals[t];
+    }
+  }
+  return normals;
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,67 @@
+#include "report/html_text.hpp"
+
+#include <cstddef>
+
+namespace frustum::report {
+namespace {
+
+// Length of the UTF-8 sequence at the start of `text`; 0 when there is no valid one.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned lead = byte(0);
+  const std::size_t length = lead < 0x80U                     ? 1
+                             : lead >= 0xC2U && lead < 0xE0U  ? 2
+                             : lead >= 0xE0U && lead < 0xF0U  ? 3
+                             : lead >= 0xF0U && lead <= 0xF4U ? 4
+                                                              : 0;
+  if (length == 0 || length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(k) & 0xC0U) != 0x80U) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+  std::string html;
+  html.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    const char first = text.front();
+    if (length == 0) {
+      html += "\xEF\xBF\xBD";
+    } else if (first == '&') {
+      html += "&amp;";
+    } else if (first == '<') {
+      html += "&lt;";
+    } else if (first == '>') {
+      html += "&gt;";
+    } else if (first == '"') {
+      html += "&quot;";
+    } else if (first == '\'') {
+      html += "&#39;";
+    } else if (length == 1 && (static_cast<unsigned char>(first) < 0x20U || first == '\x7f')) {
+      html += ' ';
+    } else {
+      html += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return html;
+}
+
+std::string json_in_script(std::string_view json) {
+  std::string safe;
+  safe.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,135 @@
+#include "report/json_report.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/units.hpp"
+#include "report/number_text.hpp"
+
+namespace frustum::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json vector(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number(value));
+  return array;
+}
+
+Json feature_json(const metrology::MeasuredFeature& feature) {
+  Json parameters = Json::object();
+  for (const auto& [name, values] : feature.parameters) {
+    parameters[name] = values.size() == 1 ? number(values.front()) : vector(values);
+  }
+  Json json;
+  json["name"] = feature.name;
+  json["kind"] = feature.kind;
+  json["points"] = feature.points.size();
+  json["parameters"] = std::move(parameters);
+  json["form"] = {{"value_um", number(feature.form * kUmPerMm)},
+                  {"rms_um", number(feature.rms * kUmPerMm)}};
+  return json;
+}
+
+Json characteristic_json(const metrology::CharacteristicResult& characteristic) {
+  Json json;
+  json["name"] = characteristic.name;
+  json["kind"] = characteristic.kind;
+  json["value"] = number(characteristic.value);
+  json["unit"] = characteristic.unit;
+  json["tolerance"] = number(characteristic.tolerance);
+  json["expanded_uncertainty"] = number(characteristic.expanded_uncertainty);
+  json["pass"] = characteristic.pass;
+  json["nominal"] = number(characteristic.nominal);
+  json["deviation"] = number(deviation_of(characteristic));
+  json["tolerance_used"] = number(used_share(characteristic));
+  return json;
+}
+
+Json diagnostic_json(const Diagnostic& diagnostic) {
+  Json json;
+  json["severity"] = to_string(diagnostic.severity);
+  json["message"] = diagnostic.message;
+  if (!diagnostic.file.empty()) json["file"] = diagnostic.file;
+  if (diagnostic.line > 0) json["line"] = diagnostic.line;
+  if (diagnostic.column > 0) json["column"] = diagnostic.column;
+  if (!diagnostic.key.empty()) json["key"] = diagnostic.key;
+  if (!diagnostic.hint.empty()) json["hint"] = diagnostic.hint;
+  return json;
+}
+
+Json trace_json(const AxisTrace& trace) {
+  Json axes = Json::object();
+  for (const AxisSeries& series : trace.axes) {
+    const std::optional<AxisRange> range = range_of(series);
+    if (!range) continue;
+    axes[series.axis] = {{"min", number(range->low)},
+                         {"max", number(range->high)},
+                         {"range", number(range->width())},
+                         {"unit", series.rotary ? "deg" : "mm"}};
+  }
+  return {{"operation", trace.operation}, {"axes", std::move(axes)}};
+}
+
+Json timing_json(const std::vector<Timing>& timings) {
+  Json json = Json::object();
+  for (const Timing& timing : timings) {
+    // The same name twice: the work was done in parts.
+    const double before = json.contains(timing.name) ? json[timing.name].get<double>() : 0.0;
+    if (std::isfinite(timing.seconds)) json[timing.name] = before + timing.seconds;
+  }
+  return json;
+}
+
+template <typename Range, typename Writer>
+Json array_of(const Range& range, Writer write) {
+  Json array = Json::array();
+  for (const auto& item : range) array.push_back(write(item));
+  return array;
+}
+
+}  // namespace
+
+std::string json_report(const RunReport& report) {
+  Json json;
+  json["title"] = report.title;
+  json["status"] = report.passes() ? "pass" : "fail";
+  json["machine"] = report.machine;
+  json["structure"] = report.structure;
+  json["program"] = report.program;
+  json["features"] = array_of(report.measurement.features, feature_json);
+  json["characteristics"] = array_of(report.measurement.characteristics, characteristic_json);
+  json["timing"] = timing_json(report.timings);
+  json["diagnostics"] = array_of(report.diagnostics, diagnostic_json);
+  for (const Diagnostic& diagnostic : report.measurement.diagnostics) {
+    json["diagnostics"].push_back(diagnostic_json(diagnostic));
+  }
+  json["errors"] = array_of(report.errors, [](const InjectedError& injected) {
+    return Json{{"name", injected.name}, {"value", injected.written}, {"meaning", injected.meaning}};
+  });
+  json["tools"] = array_of(report.tools, [](const ToolSummary& tool) {
+    return Json{{"number", tool.number}, {"description", tool.description}};
+  });
+  json["volumes"] = {{"blank_mm3", number(report.volumes.blank)},
+                     {"finished_mm3", number(report.volumes.finished)},
+                     {"removed_mm3", number(report.volumes.removed)}};
+  json["collisions"] = array_of(report.collisions, [](const Collision& collision) {
+    return Json{{"line", collision.line}, {"message", collision.text}};
+  });
+  json["axis_ranges"] = array_of(report.traces, trace_json);
+  json["budget"] = array_of(report.budget, [](const BudgetEntry& entry) {
+    return Json{{"name", entry.name},
+                {"bound", number(entry.bound)},
+                {"worst", number(entry.worst)},
+                {"unit", entry.unit}};
+  });
+  json["notes"] = report.notes;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,21 @@
+// The results as JSON with stable names, for other programs.
+//
+// Contract : {"title","status":"pass|fail","machine","features":[{"name","kind","points","parameters",
+//            "form":{"value_um"}}],"characteristics":[{"name","kind","value","unit","tolerance",
+//            "expanded_uncertainty","pass"}],"timing":{name: seconds},"diagnostics":[..]}; names are
+//            added, never renamed.
+// Units    : as the names say (value_um, *_mm3); parameters mm and rad; axis ranges mm and deg;
+//            characteristics in their own unit.
+// Errors   : none; a number that is not finite becomes null, bytes that are not UTF-8 are replaced.
+#pragma once
+
+#include <string>
+
+#include "report/run_report.hpp"
+
+namespace frustum::report {
+
+// Indented, ending with a line end; keys in the order of the contract.
+[[nodiscard]] std::string json_report(const RunReport& report);
+
+}  // namespace frustum::report

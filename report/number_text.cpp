@@ -1,0 +1,67 @@
+#include "report/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustum::report {
+
+std::string fixed_text(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  if (is_zero && text.front() == '-') text.erase(0, 1);
+  return text;
+}
+
+std::string value_text(double value, std::string_view unit) {
+  if (unit == "um") return fixed_text(value, 3);
+  if (unit == "mm") return fixed_text(value, 4);
+  if (unit == "deg") return fixed_text(value, 5);
+  if (unit == "urad") return fixed_text(value, 2);
+  return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-";
+}
+
+std::string uncertainty_text(double value) {
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0) return "0";
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return fixed_text(value, std::clamp(1 - exponent, 0, 9));
+}
+
+std::string unit_symbol(std::string_view unit) {
+  if (unit == "um") return "µm";
+  if (unit == "urad") return "µrad";
+  if (unit == "deg") return "°";
+  if (unit == "mm3") return "mm³";
+  return std::string(unit);
+}
+
+double deviation_of(const metrology::CharacteristicResult& characteristic) {
+  return characteristic.value - characteristic.nominal.value_or(0.0);
+}
+
+std::optional<double> used_share(const metrology::CharacteristicResult& characteristic) {
+  const double share = std::abs(deviation_of(characteristic)) / characteristic.tolerance;
+  if (!(characteristic.tolerance > 0.0) || !std::isfinite(share)) return std::nullopt;
+  return share;
+}
+
+double round_up_125(double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) return 1.0;
+  // A value that is a step already, but for rounding, stays: 1e-9 is far above the rounding of a log.
+  const double decade = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (value <= factor * decade * (1.0 + 1e-9)) return factor * decade;
+  }
+  return 10.0 * decade;
+}
+
+std::string tick_text(double value, double step) {
+  const double exponent = std::floor(std::log10(std::abs(step)) + 1e-9);
+  const int decimals = std::isfinite(exponent) ? std::clamp(static_cast<int>(-exponent), 0, 9) : 0;
+  return fixed_text(value, decimals);
+}
+
+}  // namespace frustum::report

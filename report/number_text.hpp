@@ -1,0 +1,40 @@
+// How results are printed for people: decimals by unit, shares of a tolerance, unit symbols.
+//
+// Units: a characteristic's own unit ("um", "mm", "deg", "urad"); unknown units get six digits.
+// Errors: none; a number that is not finite prints as "-".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "metrology/measurement.hpp"
+
+namespace frustum::report {
+
+// A fixed number of decimals, without a negative zero.
+[[nodiscard]] std::string fixed_text(double value, int decimals);
+
+// The decimals that the unit deserves: 3 for um, 4 for mm, 5 for deg, 2 for urad.
+[[nodiscard]] std::string value_text(double value, std::string_view unit);
+
+// Uncertainties get two significant digits.
+[[nodiscard]] std::string uncertainty_text(double value);
+
+// "um" -> "µm", "deg" -> "°", "urad" -> "µrad", "mm3" -> "mm³"; anything else unchanged. UTF-8.
+[[nodiscard]] std::string unit_symbol(std::string_view unit);
+
+// Value minus nominal, or the value itself for a characteristic without nominal; in its unit.
+[[nodiscard]] double deviation_of(const metrology::CharacteristicResult& characteristic);
+
+// |deviation| / tolerance; nothing when the tolerance is not a positive number.
+[[nodiscard]] std::optional<double> used_share(
+    const metrology::CharacteristicResult& characteristic);
+
+// The smallest of 1, 2, 5 times a power of ten that is not below `value` (> 0); 1 for anything else.
+[[nodiscard]] double round_up_125(double value);
+
+// The smallest form without trailing zeros that tells ticks of `step` apart: "0.5", "20".
+[[nodiscard]] std::string tick_text(double value, double step);
+
+}  // namespace frustum::report

@@ -1,0 +1,177 @@
+// The finished workpiece, coloured by deviation, to be turned with the mouse.
+import * as three from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {creaseNormals} from './crease_normals.js';
+import {unpack} from './packed_array.js';
+
+const CREASE = 25 * Math.PI / 180;
+const VIEWS = {iso: [0.62, -1, 0.72], top: [0, -1e-4, 1], front: [0, -1, 0], side: [1, 0, 0]};
+
+const css = (colour) => `rgb(${colour.map((c) => Math.round(255 * c)).join(' ')})`;
+
+// Linear-light colours of the scale in 1024 steps.
+function colourTable(stops) {
+  const table = [];
+  const colour = new three.Color();
+  for (let k = 0; k < 1024; ++k) {
+    const place = k / 1023 * (stops.length - 1);
+    const below = Math.min(Math.floor(place), stops.length - 2);
+    const mix = (i) => stops[below][i] + (place - below) * (stops[below + 1][i] - stops[below][i]);
+    colour.setRGB(mix(0), mix(1), mix(2), three.SRGBColorSpace);
+    table.push([colour.r, colour.g, colour.b]);
+  }
+  return table;
+}
+
+function micrometres(value) {
+  return `${value > 0 ? '+' : ''}${value.toFixed(3)} µm`;
+}
+
+function drawLegend(legend, surface) {
+  const span = surface.span_um;
+  const unit = span < 0.5 ? 'nm' : 'µm';
+  const shown = span < 0.5 ? span * 1000 : span;
+  const text = (share) => `${share > 0 ? '+' : ''}${Number((share * shown).toPrecision(4))}`;
+  const strip = document.createElement('div');
+  strip.className = 'strip';
+  strip.style.background = `linear-gradient(to top, ${surface.stops.map(css).join(', ')})`;
+  const labels = [1, 0.5, 0, -0.5, -1].map((share) => {
+    const label = document.createElement('span');
+    label.textContent = text(share);
+    label.style.top = `${50 * (1 - share)}%`;
+    return label;
+  });
+  const heading = document.createElement('b');
+  heading.textContent = unit;
+  strip.append(...labels);
+  legend.append(heading, strip);
+  legend.hidden = false;
+}
+
+// Corner positions, colours and normals; `deviation` in um for each vertex, NaN where there is none.
+async function geometryOf(surface) {
+  const grid = await unpack(surface.positions, 3 * surface.vertices, 3);
+  const corners = await unpack(surface.corners, 3 * surface.triangles, 3);
+  const levels = surface.deviation ? await unpack(surface.deviation, surface.vertices, 1) : null;
+  const positions = Float32Array.from(grid, (g, k) => surface.origin[k % 3] + g * surface.step);
+  const deviation = new Float32Array(surface.vertices).fill(NaN);
+  if (levels) {
+    levels.forEach((level, v) => {
+      if (level > 0) deviation[v] = ((level - 1) / 65534 * 2 - 1) * surface.limit_um;
+    });
+  }
+  const table = colourTable(surface.stops);
+  const none = new three.Color().setRGB(...surface.no_nominal, three.SRGBColorSpace).toArray();
+  const place = new Float32Array(3 * corners.length);
+  const colour = new Float32Array(3 * corners.length);
+  for (let t = 0; t < corners.length; t += 3) {
+    const isKnown = [0, 1, 2].every((k) => !Number.isNaN(deviation[corners[t + k]]));
+    for (let k = 0; k < 3; ++k) {
+      const v = corners[t + k];
+      place.set(positions.subarray(3 * v, 3 * v + 3), 3 * (t + k));
+      const share = Math.min(Math.max(deviation[v] / surface.span_um, -1), 1);
+      colour.set(isKnown ? table[Math.round((share + 1) / 2 * 1023)] : none, 3 * (t + k));
+    }
+  }
+  const geometry = new three.BufferGeometry();
+  geometry.setAttribute('position', new three.BufferAttribute(place, 3));
+  geometry.setAttribute('color', new three.BufferAttribute(colour, 3));
+  geometry.setAttribute('normal',
+                        new three.BufferAttribute(creaseNormals(positions, corners, CREASE), 3));
+  geometry.computeBoundingSphere();
+  return {geometry, corners, deviation};
+}
+
+function addLights(scene, camera) {
+  scene.add(new three.HemisphereLight(0xffffff, 0x9aa2ad, 1.75));
+  const key = new three.DirectionalLight(0xffffff, 1.55);
+  key.position.set(-0.6, 0.9, 1);
+  const fill = new three.DirectionalLight(0xffffff, 0.35);
+  fill.position.set(1, 0.1, 0.5);
+  camera.add(key, fill, key.target, fill.target);
+  key.target.position.set(0, 0, -1);
+  fill.target.position.set(0, 0, -1);
+  scene.add(camera);
+}
+
+// Says in `reading` what lies under a click: nearest corner of the triangle that was hit.
+function readDeviations(element, camera, mesh, model, reading) {
+  let pressed = null;
+  element.addEventListener('pointerdown', (event) => pressed = [event.clientX, event.clientY]);
+  element.addEventListener('pointerup', (event) => {
+    if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 3) return;
+    const box = element.getBoundingClientRect();
+    const at = new three.Vector2((event.clientX - box.left) / box.width * 2 - 1,
+                                 1 - (event.clientY - box.top) / box.height * 2);
+    const ray = new three.Raycaster();
+    ray.setFromCamera(at, camera);
+    const [hit] = ray.intersectObject(mesh);
+    if (!hit) {
+      reading.textContent = '';
+      return;
+    }
+    const weights = new three.Vector3();
+    const ends = [hit.face.a, hit.face.b, hit.face.c];
+    const place = mesh.geometry.attributes.position;
+    const [a, b, c] = ends.map((k) => new three.Vector3().fromBufferAttribute(place, k));
+    three.Triangle.getBarycoord(hit.point, a, b, c, weights);
+    const value = ends.reduce(
+        (sum, k, i) => sum + weights.getComponent(i) * model.deviation[model.corners[k]], 0);
+    const where = hit.point.toArray().map((x) => x.toFixed(2)).join(', ');
+    reading.textContent = `(${where}) mm: ${Number.isNaN(value) ? 'no nominal' : micrometres(value)}`;
+  });
+}
+
+export async function drawSurface(element, surface) {
+  const figure = element.closest('figure');
+  let renderer;
+  try {
+    renderer = new three.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+  } catch {
+    element.textContent = 'This browser draws no 3D graphics (WebGL is off).';
+    element.classList.add('missing');
+    return;
+  }
+  const model = await geometryOf(surface);
+  const scene = new three.Scene();
+  const camera = new three.PerspectiveCamera(24, 1, 0.1, 1e5);
+  camera.up.set(0, 0, 1);
+  addLights(scene, camera);
+  const mesh = new three.Mesh(model.geometry, new three.MeshStandardMaterial(
+      {vertexColors: true, roughness: 0.62, metalness: 0, side: three.DoubleSide}));
+  scene.add(mesh);
+  element.append(renderer.domElement);
+  const controls = new OrbitControls(camera, renderer.domElement);
+  const {center, radius} = model.geometry.boundingSphere;
+  const render = () => renderer.render(scene, camera);
+
+  const look = (name) => {
+    const distance = radius * 1.02 / Math.sin(camera.fov / 2 * Math.PI / 180);
+    camera.position.set(...VIEWS[name]).normalize().multiplyScalar(distance).add(center);
+    camera.near = distance / 100;
+    camera.far = distance * 10;
+    camera.updateProjectionMatrix();
+    controls.target.copy(center);
+    controls.update();
+    render();
+  };
+  const resize = () => {
+    const width = element.clientWidth;
+    const height = element.clientHeight;
+    if (width === 0 || height === 0) return;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    renderer.setSize(width, height);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    render();
+  };
+  controls.addEventListener('change', render);
+  new ResizeObserver(resize).observe(element);
+  for (const button of figure.querySelectorAll('[data-view]')) {
+    button.addEventListener('click', () => look(button.dataset.view));
+  }
+  readDeviations(renderer.domElement, camera, mesh, model, figure.querySelector('.reading'));
+  if (surface.deviation) drawLegend(figure.querySelector('.legend'), surface);
+  resize();
+  look('iso');
+}

@@ -1,0 +1,226 @@
+#include "report/terminal_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "report/number_text.hpp"
+
+namespace frustum::report {
+namespace {
+
+// Columns that a UTF-8 text takes: one for each code point, which holds for the texts of this trade.
+std::size_t columns_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == '\x7f'; }, ' ');
+  return text;
+}
+
+std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
+  const std::size_t used = columns_of(text);
+  const std::string fill(width > used ? width - used : 0, ' ');
+  return to_the_right ? fill + text : text + fill;
+}
+
+// One page under way: knows the width, the colours and how to wrap.
+class Page {
+ public:
+  explicit Page(const TerminalOptions& options)
+      : options_(options), width_(static_cast<std::size_t>(std::max(options.width, 60))) {}
+
+  [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::size_t list_limit() const { return options_.list_limit; }
+
+  void line(const std::string& content = {}) {
+    text_ += content;
+    text_.erase(text_.find_last_not_of(' ') + 1);
+    text_ += '\n';
+  }
+
+  void heading(const std::string& content) {
+    line();
+    line(bold(content));
+  }
+
+  // `label`, then `content` wrapped at words and indented behind the label.
+  void labelled(const std::string& label, const std::string& content) {
+    std::string current = label;
+    std::size_t used = columns_of(label);
+    const std::string indent(used, ' ');
+    bool is_line_empty = true;
+    std::size_t at = 0;
+    const std::string clean = printable(content);
+    while (at < clean.size()) {
+      const std::size_t end = std::min(clean.find(' ', at), clean.size());
+      const std::string word = clean.substr(at, end - at);
+      at = end + 1;
+      if (word.empty()) continue;
+      if (!is_line_empty && used + 1 + columns_of(word) > width_) {
+        line(current);
+        current = indent;
+        used = indent.size();
+        is_line_empty = true;
+      }
+      if (!is_line_empty) current += ' ';
+      used += columns_of(word) + (is_line_empty ? 0 : 1);
+      current += word;
+      is_line_empty = false;
+    }
+    line(current);
+  }
+
+  [[nodiscard]] std::string bold(const std::string& content) const { return coded("1", content); }
+  [[nodiscard]] std::string verdict(bool pass) const {
+    return coded(pass ? "1;32" : "1;31", pass ? "PASS" : "FAIL");
+  }
+
+ private:
+  [[nodiscard]] std::string coded(std::string_view code, const std::string& content) const {
+    return options_.colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, content) : content;
+  }
+
+  TerminalOptions options_;
+  std::size_t width_;
+  std::string text_;
+};
+
+void write_head(Page& page, const RunReport& report) {
+  const std::string title = printable(report.title.empty() ? "Untitled run" : report.title);
+  const std::size_t used = columns_of(title) + 4;
+  const std::string gap(page.width() > used ? page.width() - used : 2, ' ');
+  page.line(page.bold(title) + gap + page.verdict(report.passes()));
+  const std::string structure = report.structure.empty() ? "" : "  " + report.structure;
+  if (!report.machine.empty()) page.labelled("Machine    ", report.machine + structure);
+  if (!report.program.empty()) page.labelled("Program    ", report.program);
+  for (const ToolSummary& tool : report.tools) {
+    page.labelled(padded(fmt::format("Tool {}", tool.number), 11, false), tool.description);
+  }
+  if (report.volumes.removed) {
+    page.labelled("Removed    ", fixed_text(*report.volumes.removed / 1e3, 2) + " cm3");
+  }
+}
+
+void write_errors(Page& page, const RunReport& report) {
+  if (report.errors.empty()) {
+    page.labelled("Errors     ", "none injected");
+    return;
+  }
+  page.heading("Errors injected");
+  std::size_t name_width = 0;
+  std::size_t value_width = 0;
+  for (const InjectedError& injected : report.errors) {
+    name_width = std::max(name_width, columns_of(injected.name));
+    value_width = std::max(value_width, columns_of(injected.written));
+  }
+  for (const InjectedError& injected : report.errors) {
+    const std::string label = "  " + padded(printable(injected.name), name_width + 2, false) +
+                              padded(printable(injected.written), value_width + 2, false);
+    page.labelled(label, injected.meaning);
+  }
+}
+
+void write_characteristics(Page& page, const RunReport& report) {
+  const auto& characteristics = report.measurement.characteristics;
+  if (characteristics.empty()) return;
+  const bool has_nominal = std::any_of(characteristics.begin(), characteristics.end(),
+                                       [](const auto& c) { return c.nominal.has_value(); });
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (k=2)", "Used", "Verdict"});
+  for (const metrology::CharacteristicResult& c : characteristics) {
+    const std::optional<double> used = used_share(c);
+    const std::string plus_minus = c.nominal ? "+-" : "";
+    rows.push_back({printable(c.name), value_text(c.value, c.unit) + " " + c.unit,
+                    c.nominal ? value_text(*c.nominal, c.unit) : "",
+                    plus_minus + value_text(c.tolerance, c.unit),
+                    uncertainty_text(c.expanded_uncertainty),
+                    used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});
+  }
+  if (!has_nominal) {
+    for (auto& row : rows) row.erase(row.begin() + 2);
+  }
+  const std::size_t columns = rows.front().size();
+  std::vector<std::size_t> widths(columns, 0);
+  for (const auto& row : rows) {
+    for (std::size_t k = 0; k < columns; ++k) widths[k] = std::max(widths[k], columns_of(row[k]));
+  }
+  page.line();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string text = padded(rows[r][0], widths[0], false);
+    for (std::size_t k = 1; k + 1 < columns; ++k) text += "  " + padded(rows[r][k], widths[k], true);
+    if (r == 0) {
+      page.line(page.bold(text + "  Verdict"));
+      page.line(std::string(columns_of(text) + 9, '-'));
+    } else {
+      page.line(text + "  " + page.verdict(characteristics[r - 1].pass));
+    }
+  }
+}
+
+void write_collisions(Page& page, const RunReport& report) {
+  if (report.collisions.empty()) return;
+  page.heading(fmt::format("Collisions ({})", report.collisions.size()));
+  const std::size_t shown = std::min(report.collisions.size(), page.list_limit());
+  for (std::size_t k = 0; k < shown; ++k) {
+    const Collision& collision = report.collisions[k];
+    const std::string place = collision.line > 0 ? fmt::format("line {}: ", collision.line) : "";
+    page.labelled("  ", place + collision.text);
+  }
+  if (shown < report.collisions.size()) {
+    page.line(fmt::format("  and {} more", report.collisions.size() - shown));
+  }
+}
+
+void write_diagnostics(Page& page, const RunReport& report) {
+  Diagnostics all = report.diagnostics;
+  all.insert(all.end(), report.measurement.diagnostics.begin(),
+             report.measurement.diagnostics.end());
+  if (all.empty() && report.notes.empty()) return;
+  page.heading("Remarks");
+  const std::size_t shown = std::min(all.size(), page.list_limit());
+  for (std::size_t k = 0; k < shown; ++k) page.labelled("  ", to_string(all[k]));
+  if (shown < all.size()) page.line(fmt::format("  and {} more", all.size() - shown));
+  for (const std::string& note : report.notes) page.labelled("  ", note);
+}
+
+void write_foot(Page& page, const RunReport& report) {
+  if (!report.timings.empty()) {
+    std::string text;
+    double sum = 0.0;
+    for (const Timing& timing : report.timings) {
+      sum += timing.seconds;
+      text += fmt::format("{} {} s, ", timing.name, fixed_text(timing.seconds, 2));
+    }
+    page.line();
+    page.labelled("Time     ", text + fmt::format("together {} s", fixed_text(sum, 2)));
+  }
+  if (report.files.empty()) return;
+  if (report.timings.empty()) page.line();
+  bool is_first = true;
+  for (const std::string& file : report.files) {
+    page.labelled(is_first ? "Written  " : "         ", file);
+    is_first = false;
+  }
+}
+
+}  // namespace
+
+std::string terminal_report(const RunReport& report, const TerminalOptions& options) {
+  Page page(options);
+  write_head(page, report);
+  write_errors(page, report);
+  write_characteristics(page, report);
+  write_collisions(page, report);
+  write_diagnostics(page, report);
+  write_foot(page, report);
+  return page.take();
+}
+
+}  // namespace frustum::report

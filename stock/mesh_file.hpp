@@ -1,0 +1,32 @@
+// Surface meshes as files that other programs open: STL, PLY, OBJ.
+//
+// STL is binary, single precision, no per-vertex data. PLY is binary little endian: x y z as double, nx
+// ny nz, deviation_um, quality (the same number, under the name by which viewers colour) as float, and
+// uchar has_nominal (0: no nominal at this vertex, its deviation says 0). OBJ is text with normals.
+// Units: mm; deviations in micrometres (PLY only).
+// Errors: an extension other than .stl .ply .obj, a path that cannot be written. The file appears whole
+// or not at all: an existing file is untouched until the new one is complete.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/result.hpp"
+#include "stock/surface_mesh.hpp"
+
+namespace frustum::stock {
+
+enum class MeshFormat { stl, ply, obj };
+
+// By the extension, upper or lower case.
+[[nodiscard]] Result<MeshFormat> mesh_format_of(const std::filesystem::path& file);
+
+// The bytes of the file.
+[[nodiscard]] std::string mesh_bytes(const SurfaceMesh& mesh, MeshFormat format);
+
+// Writes the mesh in the format of the extension; returns the size of the file in bytes.
+[[nodiscard]] Result<std::uintmax_t> write_mesh(const SurfaceMesh& mesh,
+                                                const std::filesystem::path& file);
+
+}  // namespace frustum::stock

@@ -1,0 +1,157 @@
+#include "stock/surface_mesh_vertex.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace frustum::stock {
+namespace {
+
+// Normals that stay within this angle (rad) are one smooth surface: a vertex on it blunts an edge that
+// is flatter still by less than 0.1 / 8 of the pitch.
+constexpr double kSmooth = 0.1;
+// Half of that angle is the ratio of the singular values of two planes that differ by it.
+constexpr double kUndetermined = 0.03;
+// How far the vertex may leave its cell, in pitches: a sharp corner can pierce the face of its cell
+// without taking a grid node along. Farther out it would fold the quads of its neighbours.
+constexpr double kLeaveCell = 0.25;
+// Each round takes the planes at this fraction of their distance from the vertex. Four rounds end within
+// a thousandth of the pitch, where a face of radius 5 mm leaves its plane by 0.03 nm at 0.5 mm pitch.
+constexpr double kCloser = 0.15;
+constexpr int kRounds = 4;
+
+using Samples = std::span<const HermiteSample>;
+
+Vec3 mean_point(Samples samples) {
+  Vec3 sum = Vec3::Zero();
+  for (const HermiteSample& sample : samples) sum += sample.point;
+  return sum / static_cast<double>(samples.size());
+}
+
+// Zero when the normals cancel.
+Vec3 mean_normal(Samples samples) {
+  Vec3 sum = Vec3::Zero();
+  for (const HermiteSample& sample : samples) sum += sample.normal;
+  const double length = sum.norm();
+  // Rounding of twelve unit vectors is far below 1e-9; a true mean this short has no use either.
+  return length > 1e-9 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+}
+
+bool is_smooth(Samples samples) {
+  for (std::size_t a = 0; a < samples.size(); ++a) {
+    for (std::size_t b = a + 1; b < samples.size(); ++b) {
+      // The chord of two unit vectors is, to its square, their angle; it is exact for small angles.
+      if ((samples[a].normal - samples[b].normal).norm() > kSmooth) return false;
+    }
+  }
+  return true;
+}
+
+// The quadratic error function's minimum: the best of highest rank that lies in `allowed`.
+Vec3 meet(Samples samples, const BoundingBox& allowed) {
+  const Vec3 mean = mean_point(samples);
+  const auto rows = static_cast<Eigen::Index>(samples.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 12, 3> normals(rows, 3);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1> distances(rows);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    normals.row(row) = samples[k].normal.transpose();
+    distances[row] = samples[k].normal.dot(samples[k].point - mean);
+  }
+  // The 3x3 normal equations by SVD: eigenvalues are squares of singular values, hence the square of
+  // the threshold. Their rounding, 1e-16 / kUndetermined^2, is 1e-13 of the pitch.
+  const Mat3 square = normals.transpose() * normals;
+  const Vec3 right = normals.transpose() * distances;
+  const Eigen::JacobiSVD<Mat3> svd(square, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3& sigma = svd.singularValues();
+  std::array<Vec3, 4> by_rank;
+  by_rank[0] = mean;
+  int rank = 0;
+  while (rank < 3 && sigma[rank] > kUndetermined * kUndetermined * sigma[0]) {
+    by_rank[static_cast<std::size_t>(rank) + 1] =
+        by_rank[static_cast<std::size_t>(rank)] +
+        svd.matrixV().col(rank) * (svd.matrixU().col(rank).dot(right) / sigma[rank]);
+    ++rank;
+  }
+  for (; rank > 0; --rank) {
+    const Vec3& point = by_rank[static_cast<std::size_t>(rank)];
+    if ((point.array() >= allowed.min.array()).all() &&
+        (point.array() <= allowed.max.array()).all()) {
+      return point;
+    }
+  }
+  return mean;
+}
+
+// The surface next to `point` that faces along `normal`, at most `reach` away along it.
+std::optional<HermiteSample> nearest_along(SolidView solid, const Vec3& point, const Vec3& normal,
+                                           double reach) {
+  const Ray ray{point - reach * normal, normal};
+  const IntervalSet material = solid.material_along(ray, {0.0, 2.0 * reach});
+  const Interval* best = nullptr;
+  for (const Interval& piece : material.intervals()) {
+    if (piece.hi_tag == -1) continue;  // the end of the search, not a surface
+    if (best == nullptr || std::abs(piece.hi - reach) < std::abs(best->hi - reach)) best = &piece;
+  }
+  if (best == nullptr) return std::nullopt;
+  return HermiteSample{ray.at(best->hi), solid.surface_at(ray, best->hi, best->hi_tag).normal};
+}
+
+// The samples again, but closer to the vertex; a sample keeps its place if the surface found there
+// belongs to another face.
+void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
+                 double reach) {
+  for (HermiteSample& sample : samples) {
+    const Vec3 at = vertex + kCloser * (sample.point - vertex);
+    const auto found = nearest_along(solid, at, sample.normal, reach);
+    // Within a cell a face turns by less than 60 degrees, or the pitch is too coarse for it anyway.
+    if (found && found->normal.dot(sample.normal) > 0.5) sample = *found;
+  }
+}
+
+}  // namespace
+
+PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
+                          const BoundingBox& cell) {
+  std::array<HermiteSample, 12> drawn;
+  const std::size_t count = std::min(samples.size(), drawn.size());
+  std::copy_n(samples.begin(), count, drawn.begin());
+  const std::span<HermiteSample> now(drawn.data(), count);
+
+  const double pitch = cell.max.x() - cell.min.x();
+  const Vec3 spare = Vec3::Constant(kLeaveCell * pitch);
+  const BoundingBox allowed{cell.min - spare, cell.max + spare};
+  const auto is_allowed = [&](const Vec3& p) {
+    return (p.array() >= allowed.min.array()).all() && (p.array() <= allowed.max.array()).all();
+  };
+
+  Vec3 vertex = mean_point(now);
+  bool smooth = is_smooth(now);
+  for (int round = 0; round < kRounds && !smooth; ++round) {
+    const Vec3 before = vertex;
+    vertex = meet(now, allowed);
+    // Flat faces meet where they met before, within rounding; nothing more to learn.
+    if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
+    draw_closer(solid, now, vertex, kLeaveCell * pitch);
+    smooth = is_smooth(now);
+  }
+  PlacedVertex placed{vertex, mean_normal(now), VertexKind::averaged};
+  if (placed.normal.isZero()) {
+    placed.normal = now.front().normal;
+    return placed;
+  }
+  const auto found = nearest_along(solid, vertex, placed.normal, 0.5 * pitch);
+  if (found && is_allowed(found->point)) {
+    const double moved = (found->point - vertex).norm();
+    if (smooth) return {found->point, found->normal, VertexKind::surface};
+    // An edge vertex is on its edge already but for what the curvature of its faces left over.
+    if (moved < 1e-3 * pitch) return {found->point, placed.normal, VertexKind::feature};
+    // The faces do not meet in the cell: any point of the surface is better than none.
+    return {found->point, found->normal, VertexKind::surface};
+  }
+  return placed;
+}
+
+}  // namespace frustum::stock

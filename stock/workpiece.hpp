@@ -1,0 +1,55 @@
+// The finished workpiece: exact along any ray. This is the truth; meshes are pictures of it.
+//
+// Model    : blank minus the union of all swept cutters
+// Units    : mm; frame: workpiece
+// Accuracy : 1 nm normal to the surface for the given ToolPath (tests/cutter/swept_cutter_test.cpp)
+// Threads  : const member functions may be called from any number of threads
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/interval_set.hpp"
+#include "core/pose.hpp"
+#include "cutter/ray.hpp"
+#include "cutter/swept_cutter.hpp"
+#include "stock/blank.hpp"
+
+namespace frustum::stock {
+
+using cutter::Ray;
+using cutter::RaySpan;
+
+// A point of the workpiece surface and what made it.
+struct SurfacePoint {
+  double s = 0.0;                 // mm along the ray
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();    // unit, out of the material
+  std::optional<std::uint32_t> stretch{};  // of the tool path; nothing: the blank's own surface
+  std::uint32_t source_line = 0;  // NC line that cut it; 0: the blank
+};
+
+class Workpiece {
+ public:
+  Workpiece(Blank blank, cutter::SweptCutter removed);
+
+  // Material met by the ray between span.lo and span.hi; ends carry tags for surface_at().
+  [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const;
+  // As above, but only the sweeps of stretches before `first_excluded_stretch` have been removed.
+  [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span,
+                                           std::uint32_t first_excluded_stretch) const;
+  // The surface at an interval end: s and tag as found in material_along() of the same ray.
+  [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const;
+  // Where the ray first enters material after span.lo; nothing when it starts inside or meets none.
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(const Ray& ray, RaySpan span) const;
+
+  [[nodiscard]] const Blank& blank() const { return blank_; }
+  [[nodiscard]] const cutter::SweptCutter& removed() const { return removed_; }
+
+ private:
+  Blank blank_;
+  cutter::SweptCutter removed_;
+};
+
+}  // namespace frustum::stock

@@ -1,0 +1,304 @@
+#include "metrology/least_squares.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "synthetic.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+using synthetic::Draws;
+using synthetic::line_angle;
+using synthetic::off_axis;
+using synthetic::revolution;
+
+constexpr int kSets = 200;
+constexpr double kMm = 1e-10;   // what the fits promise on exact data
+constexpr double kRad = 1e-10;  // at parts of 5 mm and more this is 1e-9 mm over the part or better
+
+std::string first_message(const Diagnostics& diagnostics) { return diagnostics.front().message; }
+
+TEST(LineFit, RecoversExactLinesAnywhere) {
+  Draws draws(1);
+  for (int set = 0; set < kSets; ++set) {
+    const Vec3 point = draws.place(1000.0);
+    const UnitVec3 axis = draws.direction();
+    std::vector<Vec3> points;
+    for (int i = 0; i < 12; ++i) points.emplace_back(point + draws.between(-80.0, 80.0) * axis.vec());
+    const auto fit = fit_line(points);
+    ASSERT_TRUE(fit) << first_message(fit.error());
+    // Coordinates of 1000 mm are rounded to 1e-13 mm; over 100 mm that turns a line by some 1e-14.
+    EXPECT_LT(line_angle(fit->element.axis, axis), 1e-13);
+    EXPECT_LT(off_axis(point, axis, fit->element.point), kMm);
+    EXPECT_LT(fit->form, kMm);
+  }
+}
+
+TEST(PlaneFit, RecoversExactPlanesAnywhere) {
+  Draws draws(2);
+  for (int set = 0; set < kSets; ++set) {
+    const Vec3 point = draws.place(1000.0);
+    const UnitVec3 axis = draws.direction();
+    const auto [u, v] = tangents(axis);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 9; ++i) {
+      points.emplace_back(point + draws.between(-50.0, 50.0) * u + draws.between(-50.0, 50.0) * v);
+    }
+    const auto fit = fit_plane(points);
+    ASSERT_TRUE(fit) << first_message(fit.error());
+    EXPECT_LT(line_angle(fit->element.axis, axis), kRad);
+    EXPECT_LT(std::abs((fit->element.point - point).dot(axis.vec())), kMm);
+  }
+}
+
+TEST(CircleFit, RecoversExactArcsFrom30Degrees) {
+  Draws draws(3);
+  for (int set = 0; set < kSets; ++set) {
+    const Vec3 point = draws.place(500.0);
+    const UnitVec3 axis = draws.direction();
+    const double radius = draws.between(1.0, 250.0);
+    const double arc = draws.between(std::numbers::pi / 6.0, 2.0 * std::numbers::pi);
+    const auto points = revolution(point, axis, 0.0, 0.0, 1, 40, arc, draws.between(0.0, 6.0),
+                                   [&](double) { return radius; });
+    const auto fit = fit_circle(points);
+    ASSERT_TRUE(fit) << first_message(fit.error());
+    EXPECT_LT((fit->element.point - point).norm(), kMm) << "arc " << arc;
+    EXPECT_NEAR(fit->element.radius, radius, kMm);
+  }
+}
+
+TEST(SphereFit, RecoversExactCaps) {
+  Draws draws(4);
+  for (int set = 0; set < kSets; ++set) {
+    const Vec3 point = draws.place(500.0);
+    const double radius = draws.between(1.0, 250.0);
+    const double cap = draws.between(0.3, 3.0);
+    const UnitVec3 axis = draws.direction();
+    std::vector<Vec3> points;
+    for (int i = 0; i < 60;) {
+      const UnitVec3 n = draws.direction();
+      if (angle_between(n, axis) > cap) continue;
+      points.emplace_back(point + radius * n.vec());
+      ++i;
+    }
+    const auto fit = fit_sphere(points);
+    ASSERT_TRUE(fit) << first_message(fit.error());
+    EXPECT_LT((fit->element.point - point).norm(), kMm) << "cap " << cap;
+    EXPECT_NEAR(fit->element.radius, radius, kMm);
+  }
+}
+
+TEST(CylinderFit, RecoversExactPartialAndShortCylinders) {
+  Draws draws(5);
+  for (int set = 0; set < kSets; ++set) {
+    const Vec3 point = draws.place(500.0);
+    const UnitVec3 axis = draws.direction();
+    const double radius = draws.between(2.0, 100.0);
+    const double length = radius * std::exp2(draws.between(-3.0, 3.0));
+    const double arc = draws.between(std::numbers::pi / 6.0, 2.0 * std::numbers::pi);
+    const auto points = revolution(point, axis, draws.between(-20.0, 20.0), length, 4, 20, arc,
+                                   draws.between(0.0, 6.0), [&](double) { return radius; });
+    const auto fit = fit_cylinder(points);
+    ASSERT_TRUE(fit) << first_message(fit.error());
+    EXPECT_LT(line_angle(fit->element.axis, axis), kRad) << "arc " << arc << " length " << length;
+    EXPECT_LT(off_axis(point, axis, fit->element.point), kMm)
+        << "arc " << arc << " length " << length << " radius " << radius;
+    EXPECT_NEAR(fit->element.radius, radius, kMm) << "arc " << arc << " length " << length;
+  }
+}
+
+TEST(ConeFit, RecoversExactPartialShortAndFlatCones) {
+  Draws draws(6);
+  for (int set = 0; set < kSets; ++set) {
+    const Vec3 point = draws.place(300.0);
+    const UnitVec3 axis = draws.direction();
+    const double half_angle = draws.between(2.0, 80.0) * kRadPerDeg;
+    const double radius = draws.between(5.0, 100.0);  // of the small end
+    const double slant = radius * std::exp2(draws.between(-2.0, 2.0));
+    const double arc = draws.between(std::numbers::pi / 3.0, 2.0 * std::numbers::pi);
+    const auto points = revolution(
+        point, axis, 0.0, slant * std::cos(half_angle), 5, 24, arc, draws.between(0.0, 6.0),
+        [&](double along) { return radius + along * std::tan(half_angle); });
+    const auto fit = fit_cone(points);
+    ASSERT_TRUE(fit) << first_message(fit.error());
+    const double at = (fit->element.point - point).dot(axis.vec());
+    const std::string where = "set " + std::to_string(set) + " arc " + std::to_string(arc) +
+                              " half angle " + std::to_string(half_angle) + " radius " +
+                              std::to_string(radius) + " slant " + std::to_string(slant);
+    EXPECT_LT(angle_between(fit->element.axis, axis), kRad) << where;
+    EXPECT_LT(off_axis(point, axis, fit->element.point), kMm) << where;
+    EXPECT_NEAR(fit->element.half_angle, half_angle, kRad) << where;
+    EXPECT_NEAR(fit->element.section_radius(-at), radius, kMm) << where;
+  }
+}
+
+// Every element once, with deviations that are no noise of rounding.
+std::vector<Vec3> wavy(ElementKind kind, Draws& draws) {
+  const UnitVec3 z = UnitVec3::z();
+  std::vector<Vec3> points;
+  switch (kind) {
+    case ElementKind::line:
+      for (int i = 0; i < 30; ++i) points.emplace_back(0.0, 0.0, i);
+      break;
+    case ElementKind::plane:
+      for (int i = 0; i < 30; ++i) points.emplace_back(i % 6, i / 6, 0.0);
+      break;
+    case ElementKind::sphere:
+      for (int i = 0; i < 60; ++i) points.emplace_back(30.0 * draws.direction().vec());
+      break;
+    case ElementKind::circle:
+      points = revolution({0, 0, 0}, z, 0, 0, 1, 30, 5.0, 0.3, [](double) { return 20.0; });
+      break;
+    case ElementKind::cylinder:
+      points = revolution({0, 0, 0}, z, 0, 25, 4, 30, 5.0, 0.3, [](double) { return 20.0; });
+      break;
+    case ElementKind::cone:
+      points =
+          revolution({0, 0, 0}, z, 0, 25, 4, 30, 5.0, 0.3, [](double a) { return 20.0 + 0.6 * a; });
+      break;
+  }
+  for (Vec3& p : points) p += 0.02 * Vec3(draws.gauss(), draws.gauss(), draws.gauss());
+  return points;
+}
+
+constexpr ElementKind kAllKinds[] = {ElementKind::line,   ElementKind::plane,
+                                     ElementKind::circle, ElementKind::sphere,
+                                     ElementKind::cylinder, ElementKind::cone};
+
+TEST(EveryFit, CommutesWithRigidMotionAndPointOrder) {
+  Draws draws(7);
+  for (const ElementKind kind : kAllKinds) {
+    for (int set = 0; set < 25; ++set) {
+      const std::vector<Vec3> points = wavy(kind, draws);
+      const Pose moved_from_here = draws.pose(300.0);
+      std::vector<Vec3> moved;
+      for (const Vec3& p : points) moved.push_back(moved_from_here.point(p));
+      std::reverse(moved.begin(), moved.end());
+      std::rotate(moved.begin(), moved.begin() + 7, moved.end());
+      const auto here = fit_element(kind, points);
+      const auto there = fit_element(kind, moved);
+      ASSERT_TRUE(here) << name_of(kind) << ' ' << first_message(here.error());
+      ASSERT_TRUE(there) << name_of(kind) << ' ' << first_message(there.error());
+      const Element back = transformed(moved_from_here.inverse(), there->element);
+      EXPECT_LT((point_of(back) - point_of(here->element)).norm(), 1e-9) << name_of(kind);
+      if (axis_of(back) != nullptr) {
+        EXPECT_LT(line_angle(*axis_of(back), *axis_of(here->element)), 1e-10) << name_of(kind);
+      }
+      EXPECT_NEAR(there->form, here->form, 1e-9) << name_of(kind);
+      EXPECT_NEAR(there->rms, here->rms, 1e-10) << name_of(kind);
+    }
+  }
+}
+
+// At a least-squares solution no small change of any parameter lowers the sum of squares.
+TEST(EveryFit, IsStationaryAndItsResidualsAreThoseOfTheElement) {
+  Draws draws(8);
+  for (const ElementKind kind : kAllKinds) {
+    const std::vector<Vec3> points = wavy(kind, draws);
+    const auto fit = fit_element(kind, points);
+    ASSERT_TRUE(fit);
+    ASSERT_EQ(fit->residuals.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NEAR(fit->residuals[i], residual(fit->element, points[i]), 1e-12) << name_of(kind);
+    }
+    const auto cost = [&](const Element& e) {
+      double sum = 0.0;
+      for (const Vec3& p : points) sum += residual(e, p) * residual(e, p);
+      return sum;
+    };
+    // 1e-5 mm changes the sum by 1e-10 relative in second order; rounding of the sum is 1e-15.
+    for (const Vec3& step : {Vec3(1e-5, 0, 0), Vec3(0, 1e-5, 0), Vec3(0, 0, 1e-5)}) {
+      const Element moved = transformed(Pose::translated(step), fit->element);
+      const Element turned =
+          transformed(Pose::translated(point_of(fit->element)) *
+                          Pose::rotated(rotation_about(step.normalized(), 1e-6)) *
+                          Pose::translated(-point_of(fit->element)),
+                      fit->element);
+      // A circle is plane and projection in turn: turning it is not free.
+      if (kind != ElementKind::circle) {
+        EXPECT_GT(cost(turned), cost(fit->element) * (1.0 - 1e-14)) << name_of(kind);
+        EXPECT_GT(cost(moved), cost(fit->element) * (1.0 - 1e-14)) << name_of(kind);
+      }
+    }
+  }
+}
+
+TEST(EveryFit, PredictsItsScatterByTheCofactor) {
+  // Variance of the radius over 2000 noisy circles against the cofactor.
+  Draws draws(9);
+  const auto exact = revolution({5, 6, 7}, UnitVec3::z(), 0, 0, 1, 24, 4.0, 0.0,
+                                [](double) { return 20.0; });
+  constexpr double kNoise = 1e-3;
+  constexpr int kRepeats = 2000;
+  double squares = 0.0;
+  double predicted = 0.0;
+  for (int i = 0; i < kRepeats; ++i) {
+    std::vector<Vec3> noisy = exact;
+    for (Vec3& p : noisy) p += kNoise * draws.gauss() * (p - Vec3(5, 6, 7)).normalized();
+    const auto fit = fit_circle_2d(noisy);
+    ASSERT_TRUE(fit);
+    squares += (fit->element.radius - 20.0) * (fit->element.radius - 20.0) / kRepeats;
+    predicted = kNoise * kNoise * fit->cofactor(2, 2);
+  }
+  // The variance of 2000 draws has a standard error of 3 %.
+  EXPECT_NEAR(squares / predicted, 1.0, 0.12);
+}
+
+TEST(EveryFit, RefusesWhatDoesNotTellTheElement) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vec3> two{{0, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(first_message(fit_plane(two).error()),
+            "too few points for a plane: 2 given, 3 needed");
+  EXPECT_EQ(first_message(fit_circle(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {nan, 0, 0}}).error()),
+            "point 3 is not finite");
+  EXPECT_EQ(first_message(fit_line(std::vector<Vec3>{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}).error()),
+            "degenerate points for a line: all of them coincide");
+  std::vector<Vec3> row;
+  for (int i = 0; i < 10; ++i) row.emplace_back(i, 2.0 * i, -i);
+  EXPECT_EQ(first_message(fit_plane(row).error()),
+            "degenerate points for a plane: they lie on one straight line");
+  EXPECT_EQ(first_message(fit_circle(row).error()),
+            "degenerate points for a circle: they lie on one straight line");
+  const auto ring = revolution({1, 2, 3}, unit({1, 1, 2}), 0, 0, 1, 20, 6.0, 0.0,
+                               [](double) { return 10.0; });
+  for (const ElementKind kind : {ElementKind::sphere, ElementKind::cylinder, ElementKind::cone}) {
+    const auto fit = fit_element(kind, ring);
+    ASSERT_FALSE(fit);
+    EXPECT_EQ(first_message(fit.error()), "degenerate points for a " + std::string(name_of(kind)) +
+                                              ": they lie in one plane");
+  }
+  std::vector<Vec3> cube;
+  for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+  EXPECT_EQ(first_message(fit_line(cube).error()),
+            "degenerate points for a line: no direction stands out");
+  EXPECT_EQ(first_message(fit_plane(cube).error()),
+            "degenerate points for a plane: no plane stands out");
+  EXPECT_EQ(to_string(fit_element("cilinder", cube).error().front()),
+            "error: 'cilinder' is not an element (hint: did you mean cylinder?)");
+}
+
+TEST(EveryFit, AnswersRandomCloudsWithAFitOrAReason) {
+  Draws draws(10);
+  for (const ElementKind kind : kAllKinds) {
+    for (int set = 0; set < 300; ++set) {
+      std::vector<Vec3> cloud;
+      const int n = 6 + static_cast<int>(draws.between(0.0, 30.0));
+      const Vec3 stretch(std::exp2(draws.between(-8, 4)), std::exp2(draws.between(-8, 4)), 1.0);
+      for (int i = 0; i < n; ++i) cloud.emplace_back(stretch.cwiseProduct(draws.place(10.0)));
+      const auto fit = fit_element(kind, cloud);
+      if (!fit) {
+        EXPECT_FALSE(first_message(fit.error()).empty());
+        continue;
+      }
+      EXPECT_TRUE(std::isfinite(fit->form) && std::isfinite(fit->rms));
+      EXPECT_TRUE(fit->covariance.allFinite() && fit->cofactor.allFinite());
+      EXPECT_TRUE(point_of(fit->element).allFinite());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace frustum::metrology

@@ -1,0 +1,2 @@
+; 2:7: error: R1 has no meaning in this block (hint: R belongs to G2 and G3)
+G0 X5 R1
