@@ -43,7 +43,8 @@ class Profile {
   // `zones` from the tip upwards, without gaps. Precondition: the body is convex.
   explicit Profile(std::vector<Zone> zones);
 
-  // The chord of the body at `pose`, grown outwards by at least `grown_by` (0: the body itself).
+  // The chord of the body at `pose`, grown outwards by at least `grown_by` (0: the body itself;
+  // negative: shrunk by at least as much).
   [[nodiscard]] std::optional<Chord> chord(const ToolPose& pose, const Ray& ray,
                                            double grown_by = 0.0) const;
   // Largest value of x.n over the body (tip at the origin), for a unit direction n with n.axis = u.

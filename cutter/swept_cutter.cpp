@@ -96,6 +96,22 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
 }
 
+IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
+                                    double shrunk_by) const {
+  std::vector<Interval> all;
+  for (const std::uint32_t i : stretches) {
+    const Stretch& stretch = path_.stretches[i];
+    const Profile& profile = profile_of(i);
+    const StretchMotion motion(path_.from(stretch), path_.to(stretch), profile.reach());
+    const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * profile.max_radius()));
+    for (int k = 0; k <= steps; ++k) {
+      const auto chord = profile.chord(motion.at(static_cast<double>(k) / steps), ray, -shrunk_by);
+      if (chord) all.push_back({chord->lo, chord->hi, i, i});
+    }
+  }
+  return IntervalSet(std::move(all));
+}
+
 SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretch) const {
   const Stretch& at = path_.stretches[stretch];
   const Profile& profile = profile_of(stretch);

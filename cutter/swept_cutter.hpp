@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "core/interval_set.hpp"
 #include "core/result.hpp"
@@ -41,9 +42,9 @@ class SweptCutter {
   // `first_excluded` on are left out.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
-  // The same for the stretches [first, last) alone, with the cutter shrunk radially and lifted off its
-  // end face by `shrunk_by`: what a move surely covers.
-  [[nodiscard]] IntervalSet core_along(const Ray& ray, std::uint32_t first, std::uint32_t last,
+  // What the cutter, shrunk by `shrunk_by` all round, surely covers in these stretches alone: standing
+  // cutters a quarter of its radius apart. For finding collisions, not for surfaces.
+  [[nodiscard]] IntervalSet core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
                                        double shrunk_by) const;
   // The contact behind the end at s that along() tagged with `stretch`.
   [[nodiscard]] SweepContact contact(const Ray& ray, double s, std::uint32_t stretch) const;

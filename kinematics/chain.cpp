@@ -68,12 +68,14 @@ class ChainWalk {
     const double q = q_[joint.letter];
     const JointErrors e = errors_at((*errors_)[joint.letter], q);
     const RotationOrder order = machine_.rotation_order();
-    const Pose turn =
-        about_point(small_rotation(e.turn, order), functional_point(joints, i, end));
+    const Vec3 pivot = functional_point(joints, i, end);
+    const Pose turn = about_point(small_rotation(e.turn, order), pivot);
     if (!joint.rotary()) {
-      const Vec3 line = small_rotation(e.orientation, order) * joint.direction;
       const Pose place{small_rotation(e.carried_tilt, order), joint.offset + e.location};
-      return place * Pose::translated(joint.side * q * line + e.shift) * turn;
+      const Vec3 motion = joint.side * q * joint.direction;
+      const Vec3 on_line = motion + pivot;
+      const Vec3 tilt = small_rotation(e.orientation, order) * on_line - on_line;
+      return place * Pose::translated(motion + tilt + e.shift) * turn;
     }
     const Pose place{small_rotation(e.orientation, order), joint.offset + e.location};
     const Pose rotate = Pose::rotated(rotation_about(joint.direction, joint.side * q));

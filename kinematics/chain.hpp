@@ -2,11 +2,12 @@
 //
 // Model    : workpiece_from_tool = (product of the work chain)^-1 (product of the tool chain)
 //            Trans(spindle offset) Trans(0, 0, -tool length), each joint (side = +1 tool, -1 work):
-//              linear        Trans(offset) Loc Trans(side q e' + d(q)) Rot(eps(q))
+//              linear        Trans(offset) Trans(location) Trans(line(q) + d(q)) Rot(eps(q))
 //              rotary stator Trans(offset) Loc Trans(d(q)) Rot(eps(q)) Rot_e(side q)
 //              rotary rotor  Trans(offset) Loc Rot_e(side q) Rot(eps(q)) Trans(d(q))
 //            Loc: a rotary axis's location errors move all that it carries; a linear axis's orientation
-//            errors only tilt its line, e' = Rot(Loc) e, unless declared to carry.
+//            errors only tilt the line along which its functional point p runs, about the joint's origin:
+//            line(q) = side q e + (Rot - 1)(side q e + p), unless declared to carry.
 //            Full rotations throughout; no small-angle shortcut.
 // Units    : mm, rad; frame: table (the last joint of the work chain)
 // Source   : ISO 230-1, ISO 230-7; exact transforms after machine-tool practice (docs/errors.md)

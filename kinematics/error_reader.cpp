@@ -220,13 +220,21 @@ Result<ErrorEntry> parse_error(std::string_view text) {
   name.erase(name.find_last_not_of(" \t") + 1);
   name.erase(0, name.find_first_not_of(" \t"));
   std::string value(text.substr(equals + 1));
-  auto shape = TermReader(value).read();
-  if (!shape) {
-    Diagnostic failure = shape.error().front();
-    failure.message = fmt::format("error {} = {}: {}", name, value, failure.message);
-    return failure;
+  ErrorEntry entry{name, value, {}};
+  std::size_t start = 0;
+  while (start != std::string::npos) {
+    const std::size_t plus = value.find(" + ", start);
+    const std::size_t length = plus == std::string::npos ? plus : plus - start;
+    auto shape = TermReader(value.substr(start, length)).read();
+    if (!shape) {
+      Diagnostic failure = shape.error().front();
+      failure.message = fmt::format("error {} = {}: {}", name, value, failure.message);
+      return failure;
+    }
+    entry.terms.push_back(*std::move(shape));
+    start = plus == std::string::npos ? plus : plus + 3;
   }
-  return ErrorEntry{name, value, {*shape}};
+  return entry;
 }
 
 std::vector<ErrorEntry> read_errors(const TomlTable& table) {

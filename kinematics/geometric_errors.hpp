@@ -76,7 +76,8 @@ struct ErrorEntry {
   std::vector<ErrorShape> terms{};
 };
 
-// "EB0C=30urad", "EXX=linear 10um", "EYX=harmonic 1 10um over 4.3mm..190mm phase 90deg".
+// "EB0C=30urad", "EXX=linear 10um", "EYX=harmonic 1 10um over 4.3mm..190mm phase 90deg"; terms are
+// added with " + ": "EXY=harmonic 1 10um + -10um".
 [[nodiscard]] Result<ErrorEntry> parse_error(std::string_view text);
 // The [errors] table of a job: text as above, { value = .. }, { linear = .., span = [..] },
 // { harmonic = k, amplitude = .. }, { table = [[q, v], ..], unit = ".." }, or an array of tables.

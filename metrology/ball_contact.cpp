@@ -19,7 +19,7 @@ class Descent {
   // How far the centre travels until the ball's point in direction -m meets the surface.
   std::optional<Touch> ray(const Vec3& m) {
     const Vec3 from = start_ - approach_.ball_radius * m;
-    const auto touch = part_.touch(from, -approach_.outward, approach_.clearance + approach_.reach);
+    auto touch = part_.touch(from, -approach_.outward, approach_.clearance + approach_.reach);
     if (!touch) return std::nullopt;
     last_ = (from - touch->point).dot(approach_.outward.vec());
     travel_ = std::min(travel_, last_);
@@ -34,8 +34,8 @@ class Descent {
       return ray(m.normalized()) ? last_ : approach_.clearance + approach_.reach;
     };
     const double inner = 1.0 / std::numbers::phi;
-    // Golden section: 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then is
-    // exact to rounding.
+    // Golden section: 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then
+    // is exact to rounding.
     Vec3 left = b + inner * (a - b);
     Vec3 right = a + inner * (b - a);
     double at_left = travel_at(left);

@@ -46,11 +46,11 @@ class Evaluation {
     const FittedFeature& feature = *features_.front();
     switch (planned_.kind) {
       case CharacteristicKind::roundness:
-        return round(roundness(feature.section(section(0)), angle_frame(feature)));
+        return round(roundness(at_one_height(feature, section(0), *axis_of(feature.element)),
+                               angle_frame(feature)));
       case CharacteristicKind::equivalent_cone_form:
-        return round(equivalent_cone_form(feature.section(section(0)),
-                                          feature.planned->half_angle, -unit(feature.planned->axis),
-                                          angle_frame(feature)));
+        return round(equivalent_cone_form(feature.section(section(0)), feature.planned->half_angle,
+                                          -unit(feature.planned->axis), angle_frame(feature)));
       case CharacteristicKind::cylindricity:
       case CharacteristicKind::cone_form:
         return surface_form();
@@ -60,7 +60,9 @@ class Evaluation {
         return straightness();
       case CharacteristicKind::half_angle:
         return Value{std::get<Cone>(feature.element).half_angle,
-                     half_angle_uncertainty(u_, feature), feature.planned->half_angle, {}};
+                     half_angle_uncertainty(u_, feature),
+                     feature.planned->half_angle,
+                     {}};
       case CharacteristicKind::concentricity:
         return concentricity();
       case CharacteristicKind::perpendicularity:
@@ -90,7 +92,8 @@ class Evaluation {
     const FittedFeature& feature = *features_.front();
     Value v{feature.form, form_uncertainty(u_, feature.planned->radius), {}, {}};
     for (const MeasuredPoint& p : feature.points) {
-      v.profile.angle.push_back(angle_of(p.point - point_of(feature.element), angle_frame(feature)));
+      v.profile.angle.push_back(
+          angle_of(p.point - point_of(feature.element), angle_frame(feature)));
       v.profile.deviation.push_back(p.deviation);
     }
     return v;
@@ -106,16 +109,18 @@ class Evaluation {
   }
 
   [[nodiscard]] Result<Value> concentricity() const {
-    const auto first = fit_circle(features_.front()->section(section(0)));
-    if (!first) return first.error();
-    const auto second = fit_circle(features_.back()->section(section(1)));
-    if (!second) return second.error();
     const bool along_plan = in_datum_ && features_.size() == 1;
     const Vec3 axis = along_plan ? unit(features_.front()->planned->axis).vec()
                                  : axis_of(features_.front()->element)->vec();
+    const auto first = fit_circle(at_one_height(*features_.front(), section(0), axis));
+    if (!first) return first.error();
+    const auto second = fit_circle(at_one_height(*features_.back(), section(1), axis));
+    if (!second) return second.error();
     const Vec3 apart = second->element.point - first->element.point;
     return Value{2.0 * apart.cross(axis).norm(),
-                 concentricity_uncertainty(u_, *first, *second, *features_.front()), {}, {}};
+                 concentricity_uncertainty(u_, *first, *second, *features_.front()),
+                 {},
+                 {}};
   }
 
   // Length of the toleranced feature over which it may tilt.
@@ -166,8 +171,10 @@ class Evaluation {
     } else {
       radius = std::get<Circle>(feature.element).radius;
     }
-    return {factor * radius, factor * radius_uncertainty(u_, feature, along),
-            factor * feature.planned->radius, {}};
+    return {factor * radius,
+            factor * radius_uncertainty(u_, feature, along),
+            factor * feature.planned->radius,
+            {}};
   }
 
   const PlannedCharacteristic& planned_;
@@ -213,8 +220,7 @@ Result<RoundProfile> equivalent_cone_form(std::span<const Vec3> points, double h
   if (!circle) return circle.error();
   const Vec3 normal = circle->element.axis;
   const Vec3 axis = normal.dot(toward_apex.vec()) < 0.0 ? Vec3(-normal) : normal;
-  const Vec3 foot =
-      circle->element.point - circle->element.radius * std::tan(half_angle) * axis;
+  const Vec3 foot = circle->element.point - circle->element.radius * std::tan(half_angle) * axis;
   // The polar plot turns about the measured axis.
   const Vec3 zero = (angles.zero - angles.zero.dot(axis) * axis).normalized();
   const AngleFrame about{axis.dot(angles.axis.vec()) < 0.0 ? unit(-axis) : unit(axis), zero};
@@ -233,6 +239,23 @@ Result<RoundProfile> equivalent_cone_form(std::span<const Vec3> points, double h
   return profile;
 }
 
+std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t section,
+                                const Vec3& along) {
+  std::vector<Vec3> points = feature.section(section);
+  const auto* cone = std::get_if<Cone>(&feature.element);
+  if (cone == nullptr) return points;
+  Vec3 centroid = Vec3::Zero();
+  for (const Vec3& p : points) centroid += p / static_cast<double>(points.size());
+  for (Vec3& p : points) {
+    const Vec3 w = p - cone->point;
+    const Vec3 lateral = (w - w.dot(cone->axis.vec()) * cone->axis.vec()).normalized();
+    const Vec3 generatrix =
+        std::cos(cone->half_angle) * cone->axis.vec() + std::sin(cone->half_angle) * lateral;
+    p += (centroid - p).dot(along) / generatrix.dot(along) * generatrix;
+  }
+  return points;
+}
+
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                       std::span<const FittedFeature> features, bool in_datum,
                                       const CmmModel& cmm) {
@@ -242,8 +265,9 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
       return f.planned->name == name;
     });
     if (found == features.end()) {
-      return error(fmt::format("characteristic '{}': feature '{}' has no points", planned.name, name),
-                   "measure the feature, or take the characteristic out of the plan");
+      return error(
+          fmt::format("characteristic '{}': feature '{}' has no points", planned.name, name),
+          "measure the feature, or take the characteristic out of the plan");
     }
     chosen.push_back(&*found);
   }

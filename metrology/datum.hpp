@@ -1,7 +1,7 @@
 // The frame that datum features span.
 //
-// Model    : Z = normal of the primary plane; origin = secondary axis pierced with that plane; Y = trace
-//            of the tertiary plane in the primary one, or a given direction laid into it
+// Model    : Z = normal of the primary plane; origin = secondary axis pierced with that plane; Y =
+//            trace of the tertiary plane in the primary one, or a given direction laid into it
 // Units    : mm; all elements in one frame
 // Shape    : one frame
 // Errors   : axis parallel to the primary plane, tertiary parallel to it
@@ -17,8 +17,8 @@
 namespace frustum::metrology {
 
 struct DatumElements {
-  Plane primary{};              // its axis out of the material
-  Line secondary{};             // axis of the datum cylinder
+  Plane primary{};                  // its axis out of the material
+  Line secondary{};                 // axis of the datum cylinder
   std::optional<Plane> tertiary{};  // its axis out of the material
   Vec3 clocking = Vec3::UnitY();    // gives Y when there is no tertiary
 };

@@ -20,8 +20,8 @@ AxialPlace place(const Vec3& point, const UnitVec3& axis, const Vec3& x) {
   const Vec3 lateral = w - along * axis.vec();
   const double away = lateral.norm();
   // A point on the axis has no direction away from it: any one serves.
-  const Vec3 outward = away > std::numeric_limits<double>::min() ? Vec3(lateral / away)
-                                                                 : perpendicular_to(axis);
+  const Vec3 outward =
+      away > std::numeric_limits<double>::min() ? Vec3(lateral / away) : perpendicular_to(axis);
   return {along, away, outward};
 }
 

@@ -1,11 +1,12 @@
 // Ideal geometric elements: what a measured feature is compared with.
 //
-// Model    : signed distance of a point from the element; outside (away from the axis or centre, on the
-//            side of a plane's axis) is positive; for a line the distance, never negative; for a circle
-//            the distance in the plane of the circle
+// Model    : signed distance of a point from the element; outside (away from the axis or centre, on
+//            the side of a plane's axis) is positive; for a line the distance, never negative; for
+//            a circle the distance in the plane of the circle
 // Units    : mm, rad
 // Shape    : one point a call; values without allocation
-// Errors   : none; where a direction is not defined (a point on the axis) any unit vector is returned
+// Errors   : none; where a direction is not defined (a point on the axis) any unit vector is
+//            returned
 // Accuracy : rounding of doubles
 // Source   : definitions of ISO 17450-1; the cone as in the NIST reference pairs
 #pragma once
@@ -77,8 +78,8 @@ inline constexpr std::array<std::string_view, 6> kElementNames{"line",   "plane"
 // Unit normal of the element nearest to `point`: the direction in which `residual` grows.
 [[nodiscard]] Vec3 outward_normal(const Element& element, const Vec3& point);
 
-// The parallel element, `distance` outward: cone and cylinder grow, a plane moves along its axis. Lines
-// have no outside and stay.
+// The parallel element, `distance` outward: cone and cylinder grow, a plane moves along its axis.
+// Lines have no outside and stay.
 [[nodiscard]] Element offset(const Element& element, double distance);
 
 [[nodiscard]] Element transformed(const Pose& to_from, const Element& element);
@@ -87,8 +88,8 @@ inline constexpr std::array<std::string_view, 6> kElementNames{"line",   "plane"
 [[nodiscard]] const UnitVec3* axis_of(const Element& element);
 [[nodiscard]] Vec3 point_of(const Element& element);
 
-// Two unit vectors that complete `axis` to a right-handed frame {u, v, axis}. Covariances of fits are
-// given along them.
+// Two unit vectors that complete `axis` to a right-handed frame {u, v, axis}. Covariances of fits
+// are given along them.
 [[nodiscard]] std::pair<Vec3, Vec3> tangents(const UnitVec3& axis);
 
 // `v` as a unit vector; `v` must have a length (an assertion, for directions known to be good).

@@ -50,8 +50,8 @@ bool is_datum_feature(const InspectionPlan& plan, const PlannedFeature& feature)
 Result<Pose> alignment_of(const InspectionPlan& plan, std::span<const FittedFeature> features) {
   if (!uses_datum(plan)) return Pose{};
   const PlannedFeature* primary = find_feature(plan, plan.datum->primary);
-  // Without a tertiary the workpiece's Y is laid into the plane, or X where Y stands nearly upright on
-  // it (within 26 deg, cosine 0.9). The nominal plane decides, for both frames.
+  // Without a tertiary the workpiece's Y is laid into the plane, or X where Y stands nearly upright
+  // on it (within 26 deg, cosine 0.9). The nominal plane decides, for both frames.
   const Vec3 clocking = primary != nullptr && std::abs(unit(primary->axis).vec().y()) > 0.9
                             ? Vec3(Vec3::UnitX())
                             : Vec3(Vec3::UnitY());

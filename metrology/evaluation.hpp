@@ -1,8 +1,8 @@
 // The road both kinds of points take, from the virtual CMM and from real ones: fits, datum frame,
 // characteristics.
 //
-// Model    : workpiece_from_datum = frame of the measured datum elements times the inverse of the frame
-//            of the nominal ones, so it is the identity for a perfect part
+// Model    : workpiece_from_datum = frame of the measured datum elements times the inverse of the
+//            frame of the nominal ones, so it is the identity for a perfect part
 // Units    : mm, rad
 // Shape    : all features of a plan
 // Errors   : those of datum.hpp and characteristic.hpp; a datum feature without points

@@ -73,11 +73,10 @@ Result<Fit<Circle>> circle_in(const NormalisedPoints& local, const UnitVec3& nor
   cofactor.bottomRightCorner<3, 3>() = information.inverse();
   constexpr std::array kIsAngle{false, false, false, false, true, true};
   const double redundancy = static_cast<double>(flat.size()) - 3.0;
-  const Circle circle{
-      local.back(found.model.centre.x() * u + found.model.centre.y() * v), normal,
-      found.model.radius * local.scale};
-  Fit<Circle> fit = completed(local, circle, found.residuals, cofactor, kIsAngle, redundancy,
-                              found.iterations);
+  const Circle circle{local.back(found.model.centre.x() * u + found.model.centre.y() * v), normal,
+                      found.model.radius * local.scale};
+  Fit<Circle> fit =
+      completed(local, circle, found.residuals, cofactor, kIsAngle, redundancy, found.iterations);
   // The plane has its own scatter.
   const double plane_variance =
       redundancy > 0.0 ? squares * local.scale * local.scale / redundancy : 0.0;

@@ -62,7 +62,8 @@ struct ConeModel {
   // Half angles nearer than 1e-9 to 0 or 90 deg are a cylinder or a plane to rounding, and so is a
   // radius of 1e6 times the part.
   [[nodiscard]] bool plausible() const {
-    return radius > 0.0 && radius < 1e6 && half_angle > 1e-9 && half_angle < std::numbers::pi / 2.0 - 1e-9;
+    return radius > 0.0 && radius < 1e6 && half_angle > 1e-9 &&
+           half_angle < std::numbers::pi / 2.0 - 1e-9;
   }
 };
 

@@ -67,8 +67,7 @@ Result<Fit<Cylinder>> fit_cylinder(std::span<const Vec3> points) {
                    Cylinder{local->back(final.model.point), unit(final.model.axis),
                             final.model.radius * local->scale},
                    final.residuals, final.cofactor, kIsAngle,
-                   static_cast<double>(points.size()) - 5.0,
-                   found->iterations + final.iterations);
+                   static_cast<double>(points.size()) - 5.0, found->iterations + final.iterations);
 }
 
 }  // namespace frustum::metrology

@@ -10,12 +10,8 @@ template <typename T>
 Result<Fit<Element>> widened(Result<Fit<T>> narrow) {
   if (!narrow) return std::move(narrow).error();
   Fit<T>& fit = *narrow;
-  return Fit<Element>{fit.element,
-                      std::move(fit.residuals),
-                      fit.form,
-                      fit.rms,
-                      std::move(fit.cofactor),
-                      std::move(fit.covariance),
+  return Fit<Element>{fit.element,   std::move(fit.residuals), fit.form,
+                      fit.rms,       std::move(fit.cofactor),  std::move(fit.covariance),
                       fit.iterations};
 }
 

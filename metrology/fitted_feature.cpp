@@ -64,9 +64,9 @@ Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vect
   }
   if (const auto* cone = std::get_if<Cone>(&fit->element);
       cone != nullptr && cone->axis.vec().dot(planned.axis) < 0.0) {
-    return error(fmt::format("feature '{}': the measured cone opens against the planned axis",
-                             planned.name),
-                 "the axis of a cone points toward the growing radius");
+    return error(
+        fmt::format("feature '{}': the measured cone opens against the planned axis", planned.name),
+        "the axis of a cone points toward the growing radius");
   }
   const Element centre_element = agreeing(fit->element, planned.axis);
   const double sign = material_sign(planned);

@@ -1,7 +1,7 @@
 // A planned feature with the element that its points gave.
 //
-// Model    : the element is fitted to ball centres and offset by the ball radius along its own normals;
-//            so are the points. Axes are turned to agree with the plan
+// Model    : the element is fitted to ball centres and offset by the ball radius along its own
+//            normals; so are the points. Axes are turned to agree with the plan
 // Units    : mm, rad; one frame for everything
 // Shape    : one feature
 // Errors   : those of the fits, with the feature's name; a cone that opens against the plan

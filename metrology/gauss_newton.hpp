@@ -86,7 +86,8 @@ class GaussNewton {
       const Step full = step(0.0);
       const double length = full.norm();
       if (!std::isfinite(length)) break;
-      // 1e-10 of the part is what the fits promise; steps that small which stop shrinking are rounding.
+      // 1e-10 of the part is what the fits promise; steps that small which stop shrinking are
+      // rounding.
       if (length < 1e-10 && length > 0.7 * previous) converged = true;
       if (length < 1e-15) converged = true;
       if (converged) break;
@@ -145,8 +146,8 @@ class GaussNewton {
         triangle_, Eigen::ComputeFullU | Eigen::ComputeFullV);
     if (svd.info() != Eigen::Success) return result;  // the steps left the numbers
     const Step values = svd.singularValues();
-    // With a ratio of 1e-9 rounding in the coordinates moves the weakest parameter by a ten millionth
-    // of the part: the points do not tell it.
+    // With a ratio of 1e-9 rounding in the coordinates moves the weakest parameter by a ten
+    // millionth of the part: the points do not tell it.
     result.well_posed = std::isfinite(cost_) && values[kN - 1] > 1e-9 * values[0];
     if (result.well_posed) {
       const Eigen::Matrix<double, kN, kN> root =

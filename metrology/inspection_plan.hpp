@@ -3,8 +3,8 @@
 //
 // Units  : mm and rad in these structs; in files mm and degrees unless a text carries its own unit;
 //          a tolerance always carries one ("8 um", "600 urad")
-// Errors : load_plan and parse_plan report every misspelt or unknown key, missing or unsuitable feature
-//          and impossible strategy with file, line and key path
+// Errors : load_plan and parse_plan report every misspelt or unknown key, missing or unsuitable
+//          feature and impossible strategy with file, line and key path
 #pragma once
 
 #include <filesystem>
@@ -35,7 +35,7 @@ enum class Side { outside, inside };  // a boss, probed from without; a hole, pr
 struct SectionStrategy {
   std::vector<double> sections{0.0};  // mm along the axis from `point`
   int points_per_section = 36;
-  double start_angle = 0.0;               // rad, right-handed about the axis from the zero direction
+  double start_angle = 0.0;  // rad, right-handed about the axis from the zero direction
   double sweep = 2.0 * std::numbers::pi;  // rad; a full turn does not repeat its first point
 
   bool operator==(const SectionStrategy&) const = default;
@@ -100,19 +100,21 @@ struct PlannedFeature {
   double half_angle = 0.0;      // rad: cone
   Side side = Side::outside;    // cylinder, cone, circle
   Vec3 normal = Vec3::UnitX();  // line: outward normal of the surface it lies on
-  // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of X.
+  // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of
+  // X.
   std::optional<Vec3> zero{};
   Strategy strategy{};
   Extent extent{};
 
   bool operator==(const PlannedFeature&) const = default;
 };
-// A cone's `radius` in a plan is what a drawing gives: perpendicular to the axis, in the section through
-// `point`. Files call it section_radius. (A fitted Cone holds the orthogonal distance instead.)
+// A cone's `radius` in a plan is what a drawing gives: perpendicular to the axis, in the section
+// through `point`. Files call it section_radius. (A fitted Cone holds the orthogonal distance
+// instead.)
 
-// Z = outward normal of the primary plane; origin = axis of the secondary pierced with it; Y = trace of
-// the tertiary plane (a groove face) in the primary plane. Without a tertiary the plan's own clocking
-// stays.
+// Z = outward normal of the primary plane; origin = axis of the secondary pierced with it; Y =
+// trace of the tertiary plane (a groove face) in the primary plane. Without a tertiary the plan's
+// own clocking stays.
 struct DatumSystem {
   std::string primary{};
   std::string secondary{};
@@ -120,8 +122,8 @@ struct DatumSystem {
 
   bool operator==(const DatumSystem&) const = default;
 };
-// datum: results are in the datum system (when the plan has one); plan: in the workpiece frame as the
-// points come.
+// datum: results are in the datum system (when the plan has one); plan: in the workpiece frame as
+// the points come.
 enum class Alignment { datum, plan };
 
 enum class CharacteristicKind {
@@ -134,15 +136,16 @@ enum class CharacteristicKind {
   half_angle,            // against the nominal
   concentricity,         // two sections: twice the distance of their centres across the axis: the
                          // planned one in the datum system, else that fitted to the first feature
-  perpendicularity,      // features = [toleranced, datum]: zone over the toleranced feature's extent
-  radius,                // against the nominal; cone: in the section through the nominal point
+  perpendicularity,  // features = [toleranced, datum]: zone over the toleranced feature's extent
+  radius,            // against the nominal; cone: in the section through the nominal point
   diameter,
 };
 
 struct PlannedCharacteristic {
   std::string name{};
   CharacteristicKind kind = CharacteristicKind::roundness;
-  std::vector<std::string> features{};  // one; two for perpendicularity; one or two for concentricity
+  std::vector<std::string>
+      features{};  // one; two for perpendicularity; one or two for concentricity
   std::vector<std::size_t> sections{};  // first = 0; empty: first (and last, for concentricity)
   double tolerance = 0.0;               // mm or rad: limit of the value, or of |value - nominal|
 
@@ -170,7 +173,8 @@ struct InspectionPlan {
 // Reading it back gives the same plan to the last bit.
 [[nodiscard]] std::string to_toml(const InspectionPlan& plan);
 
-// What is impossible in a plan made by a program; empty when it can be measured. Key paths as in a file.
+// What is impossible in a plan made by a program; empty when it can be measured. Key paths as in a
+// file.
 [[nodiscard]] Diagnostics check(const InspectionPlan& plan);
 
 [[nodiscard]] const PlannedFeature* find_feature(const InspectionPlan& plan, std::string_view name);

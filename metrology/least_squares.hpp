@@ -1,13 +1,14 @@
 // Orthogonal-distance fits (Gaussian association) of the elements, without starting values.
 //
-// Model    : minimise sum d_i^2, d_i = residual(element, x_i) of element.hpp. A 3D circle is fitted as
-//            plane first, then as circle in the projection, as the NIST reference pairs define it
+// Model    : minimise sum d_i^2, d_i = residual(element, x_i) of element.hpp. A 3D circle is fitted
+//            as plane first, then as circle in the projection, as the NIST reference pairs define
+//            it
 // Units    : mm, rad; all points in one frame
 // Shape    : n >= 2 (line), 3 (plane, circle), 4 (sphere), 5 (cylinder), 6 (cone) points
-// Errors   : too few points, not finite, degenerate (points that do not tell the element), not converged;
-//            each a Diagnostic that says why
-// Accuracy : 1e-9 mm, 1e-10 rad on the NIST pairs (tests/metrology/reference_fits_test.cpp); exact data
-//            is recovered to 1e-10 mm (tests/metrology/least_squares_test.cpp)
+// Errors   : too few points, not finite, degenerate (points that do not tell the element), not
+//            converged; each a Diagnostic that says why
+// Accuracy : 1e-9 mm, 1e-10 rad on the NIST pairs (tests/metrology/reference_fits_test.cpp); exact
+//            data is recovered to 1e-10 mm (tests/metrology/least_squares_test.cpp)
 // Source   : Shakarji 1998, J. Res. NIST 103(6), sections 3 and 4 (models and parameters)
 #pragma once
 
@@ -28,7 +29,8 @@ namespace frustum::metrology {
 //   sphere   : shift along x, y, z; radius
 //   cylinder : shift along u, v; tilt toward u, v; radius
 //   cone     : shift along u, v; tilt toward u, v; radius; half_angle
-// `point` is the centroid of the points or its projection on the axis, so shift and tilt hardly correlate.
+// `point` is the centroid of the points or its projection on the axis, so shift and tilt hardly
+// correlate.
 template <typename T>
 struct Fit {
   T element{};

@@ -1,8 +1,9 @@
 // What a measurement says: points, fitted elements, characteristics with verdicts.
 //
-// It comes from the virtual CMM or from real CMM points: nothing here tells which. Plain values; JSON is
-// written by report/.
-// Units: mm and rad inside; a characteristic's value, tolerance and uncertainty are in its own `unit`.
+// It comes from the virtual CMM or from real CMM points: nothing here tells which. Plain values;
+// JSON is written by report/.
+// Units: mm and rad inside; a characteristic's value, tolerance and uncertainty are in its own
+//        `unit`.
 #pragma once
 
 #include <map>
@@ -17,10 +18,10 @@ namespace frustum::metrology {
 
 // One probed point in the datum frame, ball radius already compensated.
 struct MeasuredPoint {
-  Vec3 point = Vec3::Zero();    // mm
-  Vec3 normal = Vec3::Zero();   // unit, outward from the material: the fitted element's
-  double deviation = 0.0;       // mm, signed along `normal` from the fitted element
-  std::size_t section = 0;      // which section (circle, generatrix, row) of the strategy it belongs to
+  Vec3 point = Vec3::Zero();   // mm
+  Vec3 normal = Vec3::Zero();  // unit, outward from the material: the fitted element's
+  double deviation = 0.0;      // mm, signed along `normal` from the fitted element
+  std::size_t section = 0;  // which section (circle, generatrix, row) of the strategy it belongs to
 };
 
 // A feature and the element fitted to its points.
@@ -38,12 +39,13 @@ struct CharacteristicResult {
   std::string name{};
   std::string kind{};
   double value = 0.0;
-  std::string unit{};               // "um", "deg", "urad", "mm"
-  std::optional<double> nominal{};  // for characteristics that have one (half angle)
-  double tolerance = 0.0;           // in `unit`: limit of the value, or of |value - nominal|
+  std::string unit{};                 // "um", "deg", "urad", "mm"
+  std::optional<double> nominal{};    // for characteristics that have one (half angle)
+  double tolerance = 0.0;             // in `unit`: limit of the value, or of |value - nominal|
   double expanded_uncertainty = 0.0;  // k = 2, in `unit`
   bool pass = false;
-  // The deviations that made the value, for plots: angle about the axis (rad) against deviation (mm).
+  // The deviations that made the value, for plots: angle about the axis (rad) against deviation
+  // (mm).
   std::vector<double> plot_angle{};
   std::vector<double> plot_deviation{};
 };

@@ -1,7 +1,8 @@
 // How far a point of a finished part lies from the surface that its inspection plan asks for.
 //
-// Model    : signed orthogonal distance from the nominal surface of the planned feature that owns the
-//            point: inside its extent, normals within 20 deg, nearer than 1 mm; the nearest such feature
+// Model    : signed orthogonal distance from the nominal surface of the planned feature that owns
+//            the point: inside its extent, normals within 20 deg, nearer than 1 mm; the nearest
+//            such feature
 // Units    : mm; point and normal in the workpiece frame of the plan
 // Shape    : one point a call, no allocation
 // Errors   : nothing is returned when no feature owns the point

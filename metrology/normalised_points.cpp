@@ -11,8 +11,8 @@ namespace frustum::metrology {
 Result<NormalisedPoints> normalise(std::span<const Vec3> points, std::string_view what,
                                    std::size_t least) {
   if (points.size() < least) {
-    return error(fmt::format("too few points for a {}: {} given, {} needed", what, points.size(),
-                             least));
+    return error(
+        fmt::format("too few points for a {}: {} given, {} needed", what, points.size(), least));
   }
   NormalisedPoints local;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -26,7 +26,8 @@ Result<NormalisedPoints> normalise(std::span<const Vec3> points, std::string_vie
     local.points.emplace_back(p - local.centre);
     farthest = std::max(farthest, local.points.back().norm());
   }
-  // Coordinates of 1000 mm are rounded to 1e-13 mm: what is nearer than ten times that is one point.
+  // Coordinates of 1000 mm are rounded to 1e-13 mm: what is nearer than ten times that is one
+  // point.
   if (!(farthest > 1e-15 * (1e3 + local.centre.norm()))) {
     return error(fmt::format("degenerate points for a {}: all of them coincide", what));
   }
@@ -47,7 +48,8 @@ PrincipalDirections principal_directions(const NormalisedPoints& local) {
   for (std::size_t i = 0; i < local.points.size(); ++i) {
     rows.row(static_cast<Eigen::Index>(i)) = local.points[i].transpose();
   }
-  // Directions from the points themselves, not from their covariance matrix, which squares the errors.
+  // Directions from the points themselves, not from their covariance matrix, which squares the
+  // errors.
   const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(rows);
   Mat3 triangle = Mat3::Zero();
   const Eigen::Index filled = std::min<Eigen::Index>(3, rows.rows());
@@ -62,9 +64,9 @@ PrincipalDirections principal_directions(const NormalisedPoints& local) {
 }
 
 void complete(const NormalisedPoints& local, std::span<const double> local_residuals,
-              const Eigen::MatrixXd& local_cofactor, std::span<const bool> is_angle, double redundancy,
-              std::vector<double>& residuals, double& form, double& rms, Eigen::MatrixXd& cofactor,
-              Eigen::MatrixXd& covariance) {
+              const Eigen::MatrixXd& local_cofactor, std::span<const bool> is_angle,
+              double redundancy, std::vector<double>& residuals, double& form, double& rms,
+              Eigen::MatrixXd& cofactor, Eigen::MatrixXd& covariance) {
   double sum = 0.0;
   for (const double d : local_residuals) {
     residuals.push_back(d * local.scale);

@@ -1,7 +1,7 @@
 // Points brought to a local frame of size one, in which the fits work without losing digits.
 //
-// Units  : points in mm; the local frame is (x - centre) / scale. scale is a power of two, so scaling is
-//          exact
+// Units  : points in mm; the local frame is (x - centre) / scale. scale is a power of two, so
+//          scaling is exact
 // Errors : too few points, not finite, all points coincide
 #pragma once
 
@@ -33,24 +33,23 @@ struct PrincipalDirections {
 };
 [[nodiscard]] PrincipalDirections principal_directions(const NormalisedPoints& local);
 
-// Below this ratio of spreads points count as collinear or coplanar: coordinates carry 16 digits, so what
-// is left would be rounding.
+// Below this ratio of spreads points count as collinear or coplanar: coordinates carry 16 digits,
+// so what is left would be rounding.
 inline constexpr double kFlat = 1e-11;
 
-// Completes a fit: residuals (local, in the order of the points), form, rms, and cofactor and covariance
-// from those of the local frame. `is_angle[i]` tells which parameters do not scale with length;
-// `redundancy` is the number of residual components less the number of parameters.
+// Completes a fit: residuals (local, in the order of the points), form, rms, and cofactor and
+// covariance from those of the local frame. `is_angle[i]` tells which parameters do not scale with
+// length; `redundancy` is the number of residual components less the number of parameters.
 void complete(const NormalisedPoints& local, std::span<const double> local_residuals,
-              const Eigen::MatrixXd& local_cofactor, std::span<const bool> is_angle, double redundancy,
-              std::vector<double>& residuals, double& form, double& rms, Eigen::MatrixXd& cofactor,
-              Eigen::MatrixXd& covariance);
+              const Eigen::MatrixXd& local_cofactor, std::span<const bool> is_angle,
+              double redundancy, std::vector<double>& residuals, double& form, double& rms,
+              Eigen::MatrixXd& cofactor, Eigen::MatrixXd& covariance);
 
 template <typename T>
 [[nodiscard]] Fit<T> completed(const NormalisedPoints& local, T element,
                                std::span<const double> local_residuals,
                                const Eigen::MatrixXd& local_cofactor,
-                               std::span<const bool> is_angle, double redundancy,
-                               int iterations) {
+                               std::span<const bool> is_angle, double redundancy, int iterations) {
   Fit<T> fit;
   fit.element = std::move(element);
   fit.iterations = iterations;

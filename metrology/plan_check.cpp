@@ -31,8 +31,7 @@ class FeatureCheck {
       wrong("zero", "the direction where angles start must not lie along the axis");
     }
     if (round) round_geometry();
-    if (feature_.kind == FeatureKind::line &&
-        !UnitVec3::of(feature_.normal.cross(feature_.axis))) {
+    if (feature_.kind == FeatureKind::line && !UnitVec3::of(feature_.normal.cross(feature_.axis))) {
       wrong("normal", "must point away from the surface, across the axis of the line");
     }
     extent();
@@ -51,9 +50,10 @@ class FeatureCheck {
             fmt::format("must be greater than 0, is {}", feature_.radius));
     }
     if (cone && !(feature_.half_angle > 0.0 && feature_.half_angle < std::numbers::pi / 2.0)) {
-      wrong("half_angle",
-            fmt::format("must lie between 0 and 90 deg, is {:.6g}", feature_.half_angle * kDegPerRad),
-            "turn the axis toward the growing radius instead of a negative angle");
+      wrong(
+          "half_angle",
+          fmt::format("must lie between 0 and 90 deg, is {:.6g}", feature_.half_angle * kDegPerRad),
+          "turn the axis toward the growing radius instead of a negative angle");
     }
     if (feature_.side == Side::inside && feature_.radius <= 0.5 * plan_.probe.ball_diameter) {
       wrong(cone ? "section_radius" : "radius",
@@ -118,8 +118,8 @@ class FeatureCheck {
   void sweep(double angle, int count) const {
     // A hair over a full turn is rounding in the file.
     if (!(std::abs(angle) > 0.0) || std::abs(angle) > 2.0 * std::numbers::pi + 1e-9) {
-      wrong("strategy", fmt::format("sweep must lie within one turn, is {:.6g} deg",
-                                    angle * kDegPerRad));
+      wrong("strategy",
+            fmt::format("sweep must lie within one turn, is {:.6g} deg", angle * kDegPerRad));
     }
     if (count < 3) {
       wrong("strategy", fmt::format("at least 3 points on a circle, planned are {}", count));
@@ -129,8 +129,8 @@ class FeatureCheck {
   void counts(const SectionStrategy& s) const {
     sweep(s.sweep, s.points_per_section);
     const std::size_t least = feature_.kind == FeatureKind::circle ? 1 : 2;
-    const bool distinct = std::set<double>(s.sections.begin(), s.sections.end()).size() ==
-                          s.sections.size();
+    const bool distinct =
+        std::set<double>(s.sections.begin(), s.sections.end()).size() == s.sections.size();
     if (s.sections.size() < least || !distinct) {
       wrong("strategy", fmt::format("a {} needs {} or more different sections, planned are {}",
                                     name_of(feature_.kind), least, s.sections.size()));
@@ -153,8 +153,9 @@ class FeatureCheck {
   }
   void counts(const GridStrategy& s) const {
     if (s.columns < 2 || s.rows < 2) {
-      wrong("strategy", fmt::format("a grid needs 2 columns and 2 rows or more, planned are {} and {}",
-                                    s.columns, s.rows));
+      wrong("strategy",
+            fmt::format("a grid needs 2 columns and 2 rows or more, planned are {} and {}",
+                        s.columns, s.rows));
     }
     in_plane("strategy", s.u, s.v);
   }
@@ -336,7 +337,8 @@ void check(const InspectionPlan& plan, const PlanFault& fault) {
   positive("clearance", plan.probe.clearance);
   positive("reach", plan.probe.reach);
   if (plan.features.empty()) {
-    fault(PlanPart::root, 0, "feature", "the plan has no feature", "write at least one [[feature]]");
+    fault(PlanPart::root, 0, "feature", "the plan has no feature",
+          "write at least one [[feature]]");
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const std::string& name = plan.features[i].name;

@@ -14,8 +14,8 @@ inline constexpr std::array<std::string_view, 5> kFeatureNames{"plane", "cylinde
 inline constexpr std::array<std::string_view, 2> kSideNames{"outside", "inside"};
 inline constexpr std::array<std::string_view, 2> kAlignmentNames{"datum", "plan"};
 inline constexpr std::array<std::string_view, 11> kCharacteristicNames{
-    "roundness",  "cylindricity",  "cone_form",        "equivalent_cone_form",
-    "flatness",   "straightness",  "half_angle",       "concentricity",
-    "perpendicularity", "radius",  "diameter"};
+    "roundness",        "cylindricity", "cone_form",  "equivalent_cone_form",
+    "flatness",         "straightness", "half_angle", "concentricity",
+    "perpendicularity", "radius",       "diameter"};
 
 }  // namespace frustum::metrology

@@ -60,9 +60,9 @@ std::string toml_text(std::string_view text) {
 std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
 std::string text_of(const SectionStrategy& s) {
-  return fmt::format(
-      "{{ sections = [{}], points_per_section = {}, start_angle = {}, sweep = {} }}",
-      fmt::join(s.sections, ", "), s.points_per_section, angle(s.start_angle), angle(s.sweep));
+  return fmt::format("{{ sections = [{}], points_per_section = {}, start_angle = {}, sweep = {} }}",
+                     fmt::join(s.sections, ", "), s.points_per_section, angle(s.start_angle),
+                     angle(s.sweep));
 }
 std::string text_of(const RingStrategy& s) {
   return fmt::format("{{ rings = [{}], points_per_ring = {}, start_angle = {}, sweep = {} }}",
@@ -142,7 +142,8 @@ std::string text_of(const PlannedCharacteristic& c) {
 }  // namespace
 
 std::string to_toml(const InspectionPlan& plan) {
-  std::string out = "# Inspection plan. Lengths in mm, angles in degrees; a text carries its own unit.\n";
+  std::string out =
+      "# Inspection plan. Lengths in mm, angles in degrees; a text carries its own unit.\n";
   out += fmt::format("title = {}\n", toml_text(plan.title));
   out += fmt::format("alignment = {}  # datum: results in the datum system; plan: as probed\n",
                      toml_text(kAlignmentNames.at(static_cast<std::size_t>(plan.alignment))));

@@ -76,11 +76,12 @@ class PointReader {
     }
     std::size_t total = 0;
     for (const FeaturePoints& f : found_) total += f.points.size();
-    if (total == 0) return fault(0, "the file holds no points", "write one point x y z (mm) a line");
+    if (total == 0)
+      return fault(0, "the file holds no points", "write one point x y z (mm) a line");
     if (count_ && *count_ != static_cast<double>(total)) {
-      return fault(0, fmt::format("the first line announces {} points, the file holds {}", *count_,
-                                  total),
-                   "correct the count or leave the line out");
+      return fault(
+          0, fmt::format("the first line announces {} points, the file holds {}", *count_, total),
+          "correct the count or leave the line out");
     }
     return std::move(found_);
   }

@@ -1,11 +1,12 @@
 // Files of measured points: CSV or columns separated by blanks.
 //
-// Accepted: "x y z" or "x,y,z" lines (mm); an optional first line that holds only the number of points;
-// an optional header such as feature,section,x,y,z (names in any order; feature and section may be left
-// out); comments from # to the end of the line; blank lines.
+// Accepted: "x y z" or "x,y,z" lines (mm); an optional first line that holds only the number of
+//           points;
+// an optional header such as feature,section,x,y,z (names in any order; feature and section may be
+// left out); comments from # to the end of the line; blank lines.
 // Units  : mm
-// Errors : wrong number of columns, text where a number belongs, NaN or infinity, a count that does not
-//          fit, an empty file: each with file, line and column
+// Errors : wrong number of columns, text where a number belongs, NaN or infinity, a count that does
+//          not fit, an empty file: each with file, line and column
 #pragma once
 
 #include <filesystem>

@@ -47,14 +47,13 @@ template <typename Model>
   auto best = std::min_element(finalists.begin(), finalists.end(), by_cost);
   Minimum<Model> found = best->second.settle();
   if (!found.well_posed || !found.model.plausible()) {
-    return error(fmt::format("degenerate points for a {}: they do not tell all of its parameters",
-                             what),
-                 "probe at two or more heights and around more of the circumference");
+    return error(
+        fmt::format("degenerate points for a {}: they do not tell all of its parameters", what),
+        "probe at two or more heights and around more of the circumference");
   }
   if (!found.converged) {
-    return error(
-        fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
-        fmt::format("check that the points lie near a {}", what));
+    return error(fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
+                 fmt::format("check that the points lie near a {}", what));
   }
   return found;
 }

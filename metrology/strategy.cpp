@@ -25,8 +25,7 @@ class PointMaker {
         v_(axis_.vec().cross(u_)) {}
 
   std::vector<PlannedPoint> operator()(const SectionStrategy& s) {
-    const double growth =
-        feature_.kind == FeatureKind::cone ? std::tan(feature_.half_angle) : 0.0;
+    const double growth = feature_.kind == FeatureKind::cone ? std::tan(feature_.half_angle) : 0.0;
     const double sign = material_sign(feature_);
     for (std::size_t section = 0; section < s.sections.size(); ++section) {
       const double along = s.sections[section];
@@ -102,8 +101,8 @@ std::size_t section_count(const PlannedFeature& feature) {
 Vec3 zero_direction(const PlannedFeature& feature) {
   const UnitVec3 axis = unit(feature.axis);
   // Within 26 deg (cosine 0.9) of X the projection of X would be short and shaky.
-  const Vec3 wanted = feature.zero.value_or(
-      std::abs(axis.vec().x()) > 0.9 ? Vec3(Vec3::UnitY()) : Vec3(Vec3::UnitX()));
+  const Vec3 wanted = feature.zero.value_or(std::abs(axis.vec().x()) > 0.9 ? Vec3(Vec3::UnitY())
+                                                                           : Vec3(Vec3::UnitX()));
   return (wanted - wanted.dot(axis.vec()) * axis.vec()).normalized();
 }
 

@@ -18,17 +18,17 @@ struct Touch {
 
 // First surface point on the segment from `start` along `direction`, `length_mm` long.
 template <typename T>
-concept SurfaceProbe =
-    requires(const T& body, const Vec3& start, const UnitVec3& direction, double length_mm) {
-      { body.touch(start, direction, length_mm) } -> std::same_as<std::optional<Touch>>;
-    };
+concept SurfaceProbe = requires(const T& body, const Vec3& start, const UnitVec3& direction,
+                                double length_mm) {
+  { body.touch(start, direction, length_mm) } -> std::same_as<std::optional<Touch>>;
+};
 
 // A view of any SurfaceProbe; does not own it. Keeps the machine that measures compiled once.
 class SurfaceProbeRef {
  public:
   template <typename T>
-    requires(SurfaceProbe<T> && !std::same_as<T, SurfaceProbeRef>)
-  SurfaceProbeRef(const T& body)  // NOLINT: implicit, like a reference
+  requires(SurfaceProbe<T> && !std::same_as<T, SurfaceProbeRef>)
+      SurfaceProbeRef(const T& body)  // NOLINT: implicit, like a reference
       : body_(&body),
         touch_([](const void* who, const Vec3& start, const UnitVec3& direction, double length_mm) {
           return static_cast<const T*>(who)->touch(start, direction, length_mm);

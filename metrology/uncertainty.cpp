@@ -69,9 +69,8 @@ double concentricity_uncertainty(const PointUncertainty& u, const Fit<Circle>& f
 
 double perpendicularity_uncertainty(const PointUncertainty& u, const FittedFeature& toleranced,
                                     const FittedFeature& datum, double extent) {
-  return extent *
-         std::sqrt(square(u.probing) * (tilt_cofactor(toleranced) + tilt_cofactor(datum)) +
-                   square(u.scale));
+  return extent * std::sqrt(square(u.probing) * (tilt_cofactor(toleranced) + tilt_cofactor(datum)) +
+                            square(u.scale));
 }
 
 }  // namespace frustum::metrology

@@ -1,20 +1,21 @@
 // Standard uncertainties of characteristics from the accuracy of a CMM, by linear propagation.
 //
-// Model    : every point has the standard deviation p = e0/2 along its normal; the machine's linear field
-//            has three scale and three squareness terms of standard deviation s = 1/(2 k). With the
-//            cofactors Q of the fits:
-//              form (peak to valley)  u^2 = 2 p^2 + 3 (s r)^2        two points count; an ellipse
-//              straightness           u^2 = 4 p^2                    twice one point
+// Model    : every point has the standard deviation p = e0/2 along its normal; the machine's linear
+//            field has three scale and three squareness terms of standard deviation s = 1/(2 k).
+//            With the cofactors Q of the fits:
+//              form (peak to valley)  u^2 = 2 p^2 + 3 (s r)^2: two points count; an ellipse
+//              straightness           u^2 = 4 p^2: twice one point
 //              half angle a           u^2 = p^2 Q_aa + 1.5 (s sin(2a)/2)^2
-//              radius                 u^2 = p^2 g^T Q g + (s r)^2/2  g: gradient to the fit's parameters
-//              concentricity          u^2 = 4 (p^2 (Q_1 + Q_2 + h^2 Q_t) + (s h)^2)   h: between sections
-//              perpendicularity       u^2 = L^2 (p^2 (Q_t1 + Q_t2) + s^2)             L: extent
+//              radius                 u^2 = p^2 g^T Q g + (s r)^2/2
+//              concentricity          u^2 = 4 (p^2 (Q_1 + Q_2 + h^2 Q_t) + (s h)^2)
+//              perpendicularity       u^2 = L^2 (p^2 (Q_t1 + Q_t2) + s^2)
+//            g: gradient to the fit's parameters; h: between the sections; L: extent;
 //            Q_1, Q_2: larger variance of a section's centre; Q_t: larger variance of a tilt
 // Units    : mm, rad
 // Shape    : closed formulas
 // Errors   : none
-// Accuracy : first order and on the safe side for forms, whose points share in the fit; the bias that
-//            noise gives to a peak-to-valley value is not part of it
+// Accuracy : first order and on the safe side for forms, whose points share in the fit; the bias
+//            that noise gives to a peak-to-valley value is not part of it
 // Source   : JCGM 100:2008, section 5.1.2
 #pragma once
 

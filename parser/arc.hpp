@@ -1,9 +1,10 @@
 // The centre of a G2 or G3 arc from its centre words or its radius.
 //
-// Model    : in the plane's axes (u, v) and its normal w, a right-handed triple: XY has (X, Y, Z), ZX
-//            has (Z, X, Y), YZ has (Y, Z, X); counterclockwise is seen from +w
+// Model    : in the plane's axes (u, v) and its normal w, a right-handed triple: XY has (X, Y, Z),
+//            ZX has (Z, X, Y), YZ has (Y, Z, X); counterclockwise is seen from +w
 // Units    : mm
-// Shape    : centre words or a radius, not both; a radius below zero is the arc longer than half a turn
+// Shape    : centre words or a radius, not both; a radius below zero is the arc longer than half a
+//            turn
 // Errors   : no centre, both, radius zero or too small, end at the start with a radius, radii that
 //            disagree by more than 0.01 mm and by more than 0.1 % or 0.5 mm
 // Accuracy : 1e-12 relative
@@ -44,7 +45,8 @@ struct ArcWords {
 
 struct Arc {
   Vec3 centre = Vec3::Zero();  // at the height of the start along the normal
-  // Where the arc ends: the programmed end, or exactly the start when it is less than 1e-6 mm from it.
+  // Where the arc ends: the programmed end, or exactly the start when it is less than 1e-6 mm from
+  // it.
   Vec3 end = Vec3::Zero();
 };
 

@@ -1,5 +1,5 @@
-// One block (line) of an NC program as written: words, parameter settings and comments, not yet given a
-// meaning.
+// One block (line) of an NC program as written: words, parameter settings and comments, not yet
+// given a meaning.
 //
 // Units: as written. Columns count bytes from 1. Comments are UTF-8 (Latin-1 text is converted).
 #pragma once

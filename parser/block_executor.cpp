@@ -70,15 +70,20 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   return finish(*words);
 }
 
+MotionMode BlockExecutor::motion_of(const BlockWords& words) const {
+  const bool cancelled = words.has(CodeGroup::cycle);
+  return words.value_or(CodeGroup::motion, cancelled ? MotionMode::none : state_.motion);
+}
+
 Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& words) const {
   const auto non_modal = words.value_or(CodeGroup::non_modal, NonModal::none);
-  const auto mode = words.value_or(CodeGroup::motion, state_.motion);
+  const MotionMode mode = motion_of(words);
   const GivenCode& motion_code = words[CodeGroup::motion];
   const GivenCode& non_modal_code = words[CodeGroup::non_modal];
   const LetterSet move_words = words.given() & kMoveWords;
 
   if (non_modal == NonModal::home) {
-    if (motion_code.code != nullptr && mode != MotionMode::traverse && mode != MotionMode::none) {
+    if (motion_code.code != nullptr && mode != MotionMode::traverse) {
       return fail(motion_code.column,
                   fmt::format("G28 and {} both use the axis words", motion_code.code->name()),
                   "write two blocks");
@@ -363,6 +368,7 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   const auto program = whole(words, 'P', 1, kMaxProgramNumber);
   if (!program) return program.error();
   call.program = static_cast<std::uint32_t>(*program);
+  call.column = words['P'].column;
   if (words.has('L')) {
     const auto count = whole(words, 'L', 0, kMaxRepeats);
     if (!count) return count.error();

@@ -1,13 +1,13 @@
-// Carries out one block after another: the modal state, the position, the parameters, and the motions
-// that follow from them.
+// Carries out one block after another: the modal state, the position, the parameters, and the
+// motions that follow from them.
 //
-// Order within a block, RS-274's: comments; parameters; units; feed mode; F; S; T; M6; M3 M4 M5;
-// M7 M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or the
-// motion; stops and calls.
-// Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc centres,
-// R and F; never rotary words, tool vectors, or the F of a purely rotary move.
-// Errors: with line, column and hint; the file is left to the caller. Nothing of the block that failed
-// is to be relied on.
+// Order within a block, RS-274's: comments; parameters; units; feed mode; F; S; T; M6; M3 M4 M5; M7
+// M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or
+// the motion; stops and calls.
+// Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc
+// centres, R and F; never rotary words, tool vectors, or the F of a purely rotary move.
+// Errors: with line, column and hint; the file is left to the caller. Nothing of the block that
+// failed is to be relied on.
 #pragma once
 
 #include <cstdint>
@@ -58,6 +58,7 @@ class BlockExecutor {
   };
 
   // Looking: what the block asks for, given the modes.
+  [[nodiscard]] MotionMode motion_of(const BlockWords& words) const;
   [[nodiscard]] Result<Movement> movement_of(const BlockWords& words) const;
   [[nodiscard]] LetterSet motion_words(const BlockWords& words, const Movement& movement) const;
   [[nodiscard]] Outcome check_claims(const BlockWords& words, const Movement& movement) const;

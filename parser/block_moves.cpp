@@ -39,7 +39,7 @@ Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
 
 BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Movement& movement) {
   // Axis words or not, the motion word stays in force for the blocks after.
-  state_.motion = words.value_or(CodeGroup::motion, state_.motion);
+  state_.motion = motion_of(words);
   if (movement.non_modal == NonModal::home) return go_home(words);
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);

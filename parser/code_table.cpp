@@ -32,7 +32,7 @@ constexpr std::array kCodes{
     modal('G', 10, motion, MotionMode::linear),
     modal('G', 20, motion, MotionMode::arc_clockwise),
     modal('G', 30, motion, MotionMode::arc_counterclockwise),
-    modal('G', 800, motion, MotionMode::none),
+    modal('G', 800, cycle, 0),
     modal('G', 40, non_modal, NonModal::dwell, kDwellWords),
     modal('G', 280, non_modal, NonModal::home, kAxisWords),
     modal('G', 530, non_modal, NonModal::machine_coordinates),

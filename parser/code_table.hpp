@@ -1,8 +1,8 @@
 // The G and M words a program may use: a table, so that a dialect is data.
 //
-// A code belongs to a modal group, of which a block may hold one word. Codes that are known but change
-// nothing that is simulated are events; codes that would change the part and are not simulated are
-// refused with a remedy. Everything else is unknown.
+// A code belongs to a modal group, of which a block may hold one word. Codes that are known but
+// change nothing that is simulated are events; codes that would change the part and are not
+// simulated are refused with a remedy. Everything else is unknown.
 // Units: none.
 // Errors: none; find_code returns null for what is not in the table.
 #pragma once
@@ -53,6 +53,7 @@ constexpr LetterSet kVectorWords{"IJK"};
 
 enum class CodeGroup : std::uint8_t {
   motion,
+  cycle,  // G80, which may stand beside G0 in a safe line; alone it cancels the motion
   non_modal,
   plane,
   distance,
@@ -101,7 +102,8 @@ struct RefusedCode {
 [[nodiscard]] const RefusedCode* find_refused(char letter, double number);
 // "G0 G1 G2 ...": all known codes of the letter.
 [[nodiscard]] std::string known_codes(char letter);
-// What a letter belongs to, for the hint when nothing in the block uses it; empty for unknown letters.
+// What a letter belongs to, for the hint when nothing in the block uses it; empty for unknown
+// letters.
 [[nodiscard]] std::string_view letter_use(char letter);
 
 }  // namespace frustum::parser

@@ -135,7 +135,7 @@ std::string function_text(Operation operation, const std::string& argument) {
 std::span<const FunctionName> function_names() { return kFunctions; }
 
 Result<double> evaluate(const ExpressionContext& context, ExpressionRange range) {
-  // Each open bracket holds at most three pending operands: of a sum, a product and a power.
+  // Each open bracket holds at most four pending operands: of ATAN, a sum, a product, a power.
   std::array<double, 4 * (kMaxExpressionDepth + 2)> stack;  // NOLINT: written before it is read
   std::size_t top = 0;
   for (const ExpressionStep& step : context.steps.subspan(range.first, range.count)) {
@@ -191,11 +191,11 @@ std::string to_text(std::span<const ExpressionStep> steps, std::span<const std::
     std::string& left = stack.back();
     if (step.operation == Operation::parameter) {
       const bool plain = left.find_first_not_of("0123456789") == std::string::npos;
-      left = plain || left.front() == '#' ? "#" + left : "#[" + left + "]";
+      left = fmt::format(fmt::runtime(plain || left.front() == '#' ? "#{}" : "#[{}]"), left);
     } else if (step.operation == Operation::negate) {
       const bool bare =
           left.front() == '#' || left.front() == '[' || std::isalpha(left.front()) != 0;
-      left = bare ? "-" + left : "-[" + left + "]";
+      left = fmt::format(fmt::runtime(bare ? "-{}" : "-[{}]"), left);
     } else if (step.operation == Operation::arc_tangent) {
       left = fmt::format("ATAN[{}]/[{}]", left, right);
     } else if (takes_two(step.operation)) {

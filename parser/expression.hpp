@@ -1,8 +1,8 @@
 // Expressions of RS-274 ([#1 * SIN[30] + 2]) as postfix code.
 //
-// The steps of all expressions of a block lie in one row in the block; an ExpressionRange names a part
-// of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never negative, and
-// operators of one level bind to the left, `**` too: RS-274's rules.
+// The steps of all expressions of a block lie in one row in the block; an ExpressionRange names a
+// part of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never
+// negative, and operators of one level bind to the left, `**` too: RS-274's rules.
 // Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
 // beyond the range of numbers; each at the column of the operation.
 #pragma once
@@ -52,7 +52,8 @@ struct ExpressionStep {
   bool operator==(const ExpressionStep&) const = default;
 };
 
-// Brackets within brackets beyond this are refused by the grammar, which bounds the stack of evaluate().
+// Brackets within brackets beyond this are refused by the grammar, which bounds the stack of
+// evaluate().
 constexpr int kMaxExpressionDepth = 64;
 
 struct ExpressionRange {

@@ -24,8 +24,8 @@ struct SyntaxStop {
   Diagnostic diagnostic;
 };
 
-// Collects the block while the grammar reads it. The grammar decides by the next character alone, so no
-// action is ever undone.
+// Collects the block while the grammar reads it. The grammar decides by the next character alone,
+// so no action is ever undone.
 class BlockBuilder {
  public:
   BlockBuilder(std::string_view text, std::uint32_t line) : text_(text) { block_.line = line; }

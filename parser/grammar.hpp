@@ -1,6 +1,7 @@
 // The text of one block -> its words, settings and comments.
 //
-//   block      = { blank } [ "%" ... ] | [ "/" ] [ N digits ] [ "/" ] { word | setting | comment | O digits }
+//   block      = "%" { comment }
+//              | [ "/" ] [ N digits ] [ "/" ] { word | setting | comment | O digits }
 //   word       = letter value
 //   setting    = parameter "=" sum
 //   value      = [ sign ] ( number | parameter | function | "[" sum "]" )
@@ -8,11 +9,13 @@
 //   product    = power { ( "*" | "/" | "MOD" ) power }
 //   power      = value { "**" value }
 //   parameter  = "#" ( digits | "<" name ">" | "[" sum "]" | parameter )
-//   function   = name "[" sum "]"   |  "ATAN" "[" sum "]" "/" "[" sum "]"  |  "ATAN" "[" sum "," sum "]"
+//   function   = name "[" sum "]"
+//              | "ATAN" "[" sum "]" "/" "[" sum "]" | "ATAN" "[" sum "," sum "]"
 //   comment    = "(" text ")" | ";" text
 //
-// Letters may be of either case, blanks (space, tab, carriage return) may stand between any two tokens
-// or nowhere. A sign belongs to the value after it: -2**2 is 4, as in RS-274. Numbers have no exponent.
+// Letters may be of either case; blanks (space, tab, carriage return) may stand between any two
+// tokens or nowhere. A sign belongs to the value after it: -2**2 is 4, as in RS-274. Numbers have
+// no exponent.
 // Units: none; values are as written.
 // Errors: the first one of the block, with line, column and hint; the file is left to the caller.
 #pragma once

@@ -1,15 +1,16 @@
 // Runs a program: its blocks in order, subprograms and their repeats, into a stream of motions.
 //
-// Start    : the state of ModalState's defaults; no axis position is known, no tool is in the spindle.
-//            A motion's target holds only axes the program has placed; an absent axis stays where it is.
+// Start    : the state of ModalState's defaults; no axis position is known, no tool is in the
+//            spindle. A motion's target holds only axes the program has placed; an absent axis
+//            stays where it is.
 // End      : M2, M30, the tape mark at the end, or the end of the text. What follows is not run.
 // Units    : mm, rad, mm/min, 1/min, seconds (see motion.hpp).
 // G4       : X and U in seconds; P in milliseconds, in seconds when written with a decimal point.
 // M98      : P names the subprogram, L repeats it; without L, P with more than four digits is
 //            repeats and number together (P00032000 is O2000 three times).
 // /        : blocks that begin with it run, unless `block_delete` is on.
-// Errors   : the first block that cannot be run ends the run with its diagnostic; the motions before it
-//            have reached the sink already.
+// Errors   : the first block that cannot be run ends the run with its diagnostic; the motions
+//            before it have reached the sink already.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // What an NC program has set so far and what stays set: the modes, tool, spindle and feed.
 //
-// The defaults are the state every program starts in: no motion mode, G17, G21, G90, G91.1, G94, G49,
-// G54, no feed, no tool chosen, spindle and coolant off.
+// The defaults are the state every program starts in: no motion mode, G17, G21, G90, G91.1, G94,
+// G49, G54, no feed, no tool chosen, spindle and coolant off.
 // Units: mm, rad, mm/min, 1/min.
 #pragma once
 

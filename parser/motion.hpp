@@ -18,7 +18,7 @@
 
 namespace frustum::parser {
 
-enum class AxisLetter : std::uint8_t { X, Y, Z, A, B, C };
+enum class AxisLetter : std::uint8_t { X, Y, Z, A, B, C };  // NOLINT: the letters of the programs
 inline constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z,
                                   AxisLetter::A, AxisLetter::B, AxisLetter::C};
 [[nodiscard]] constexpr char to_char(AxisLetter axis) {

@@ -1,9 +1,10 @@
-// What the program knows of where the axes are, in program coordinates, and why it does not know more.
+// What the program knows of where the axes are, in program coordinates, and why it does not know
+// more.
 //
-// A program that has not yet said where an axis goes, or has moved it by machine coordinates, or has
-// changed the frame under it, does not know where it is. Such an axis is absent from the targets (it
-// stays where it is) until it is programmed absolutely again; what needs its position (G91, arcs) is an
-// error that says why it is not known.
+// A program that has not yet said where an axis goes, or has moved it by machine coordinates, or
+// has changed the frame under it, does not know where it is. Such an axis is absent from the
+// targets (it stays where it is) until it is programmed absolutely again; what needs its position
+// (G91, arcs) is an error that says why it is not known.
 // Units: mm, rad.
 // Errors: none; why_unknown() words the hint.
 #pragma once

@@ -39,7 +39,7 @@ class ConeProgram {
   Result<TestPiece> write(const ConeGeometry& shape, TestPiece piece) {
     header();
     for (const PathOperation& op : cone_path(cone_, shape)) {
-      nc_.comment(op.name);
+      begin_operation(op.name);
       for (const auto* moves : {&op.lead_in, &op.cut, &op.lead_out}) {
         const std::uint32_t first = nc_.next_line();
         for (const PathMove& move : *moves) {
@@ -65,27 +65,40 @@ class ConeProgram {
     nc_.line("G21 G90 G17 G40 G49 G80 G94");
     nc_.line("T1 M6");
     nc_.line(fmt::format("S{:g} M3", cone_.spindle_speed));
-    nc_.line("G53 G0 " + length_word('Z', machine_.joint(AxisLetter::Z)->home));
+  }
+
+  // Every operation starts from the rotary axes' home, so that none inherits turns from the one before.
+  void begin_operation(const std::string& name) {
+    nc_.comment(name);
+    retract();
+    const AxisPositions home = machine_.home();
+    if (const std::string words = rotary_words(home); !words.empty()) nc_.line("G53 G0" + words);
+    for (const AxisLetter letter : {AxisLetter::A, AxisLetter::B, AxisLetter::C}) {
+      axes_[letter] = home[letter];
+    }
+    axes_[AxisLetter::Z] = home[AxisLetter::Z];
     switch (cone_.form) {
       case ProgramForm::vector:
-        nc_.line("G54");
-        nc_.line("G43.5 H1");
+        nc_.line("G54 G43.5 H1");
         break;
       case ProgramForm::angles:
-        nc_.line("G54");
-        nc_.line("G43.4 H1");
+        nc_.line("G54 G43.4 H1");
         break;
       case ProgramForm::axes:
-        nc_.comment("G59 IS THE MACHINE'S OWN ORIGIN: WORDS ARE AXIS POSITIONS OF THE TOOL TIP");
-        nc_.line("G59");
-        nc_.line("G43 H1");
+        nc_.comment("G59 is the machine's own origin: words are axis positions of the tool tip");
+        nc_.line("G59 G43 H1");
         break;
     }
+    last_rapid_.reset();
+  }
+
+  void retract() {
+    nc_.line("G49");
+    nc_.line("G53 G0 " + length_word('Z', machine_.joint(AxisLetter::Z)->home));
   }
 
   void footer() {
-    nc_.line("G49");
-    nc_.line("G53 G0 " + length_word('Z', machine_.joint(AxisLetter::Z)->home));
+    retract();
     nc_.line("M5");
     nc_.line("M30");
     nc_.line("%");
@@ -242,6 +255,7 @@ Result<TestPiece> cone_frustum(const ConeFrustum& cone, const Machine& machine) 
                                     shape->top_z - shape->bottom_z};
   piece.blank_origin = Vec3(0, 0, shape->bottom_z);
   piece.plan = cone_plan(cone, *shape);
+  piece.program_file = "cone.nc";
   piece.error_span = "cone finishing";
   return ConeProgram(cone, machine).write(*shape, std::move(piece));
 }

@@ -93,7 +93,8 @@ Json surface_json(const SurfacePicture& picture) {
   }
   Json stops = Json::array();
   for (const Colour& stop : kDeviationStops) stops.push_back(colour_json(stop));
-  const bool has_deviation = std::any_of(levels.begin(), levels.end(), [](auto v) { return v > 0; });
+  const bool has_deviation =
+      std::any_of(levels.begin(), levels.end(), [](auto v) { return v > 0; });
   return {{"vertices", picture.vertices.size()},
           {"triangles", picture.triangles.size()},
           {"origin", Json::array({low[0], low[1], low[2]})},

@@ -33,7 +33,8 @@ double natural_span(const SurfacePicture& picture) {
     if (deviation && std::isfinite(*deviation)) sizes.push_back(std::abs(*deviation));
   }
   if (sizes.empty()) return 1e-3;
-  const auto rank = static_cast<std::ptrdiff_t>(kShareInside * static_cast<double>(sizes.size() - 1));
+  const auto rank =
+      static_cast<std::ptrdiff_t>(kShareInside * static_cast<double>(sizes.size() - 1));
   std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
   const double size = static_cast<double>(sizes[static_cast<std::size_t>(rank)]);
   return round_up_125(std::max(size, kSmallest));

@@ -24,7 +24,7 @@ inline constexpr std::array<Colour, 9> kDeviationStops = {{{0.110, 0.196, 0.427}
                                                            {0.890, 0.522, 0.408},
                                                            {0.745, 0.239, 0.212},
                                                            {0.478, 0.059, 0.125}}};
-inline constexpr Colour kNoNominalColour = {0.660, 0.680, 0.700};
+inline constexpr Colour kNoNominalColour = {0.735, 0.755, 0.775};
 
 [[nodiscard]] Colour deviation_colour(double deviation, double span);
 [[nodiscard]] Colour deviation_colour(const std::optional<float>& deviation, double span);

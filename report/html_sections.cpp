@@ -50,8 +50,10 @@ std::string section(std::string_view id, std::string_view heading, const std::st
 
 std::string with_unit(const std::string& number, std::string_view unit) {
   const std::string symbol = html_text(unit_symbol(unit));
-  if (number == "-" || symbol.empty()) return number == "-" ? "–" : number;
-  return number + (symbol == "°" ? "" : "\u202f") + symbol;
+  if (number == "-") return "–";
+  const std::string shown = number.front() == '-' ? "\u2212" + number.substr(1) : number;
+  if (symbol.empty() || symbol == "°") return shown + symbol;
+  return shown + "\u202f" + symbol;
 }
 
 std::string verdict_mark(bool pass) {
@@ -69,8 +71,8 @@ std::string head_html(const RunReport& report) {
                                     [](const Characteristic& c) { return c.pass; });
   std::size_t points = 0;
   for (const auto& feature : report.measurement.features) points += feature.points.size();
-  std::string reason = fmt::format("{} of {} characteristics within tolerance", passed,
-                                   characteristics.size());
+  std::string reason =
+      fmt::format("{} of {} characteristics within tolerance", passed, characteristics.size());
   if (!report.collisions.empty()) {
     reason += fmt::format(", {} collision{}", report.collisions.size(),
                           report.collisions.size() == 1 ? "" : "s");
@@ -83,13 +85,13 @@ std::string head_html(const RunReport& report) {
   const bool pass = report.passes();
   const std::string title = html_text(report.title.empty() ? "Untitled run" : report.title);
   std::string html = "<header><p class=\"brand\"><b>Frustum</b> Measurement report</p>\n";
-  html += fmt::format("<div class=\"top\"><h1>{}</h1><p class=\"verdict {}\"><b>{}</b>{}</p></div>\n",
-                      title, pass ? "pass" : "fail", pass ? "Pass" : "Fail", reason);
+  html +=
+      fmt::format("<div class=\"top\"><h1>{}</h1><p class=\"verdict {}\"><b>{}</b>{}</p></div>\n",
+                  title, pass ? "pass" : "fail", pass ? "Pass" : "Fail", reason);
   html += "<dl class=\"facts\">";
   html += fact("Machine", html_text(report.machine));
-  html += fact("Structure", report.structure.empty()
-                                ? ""
-                                : "<code>" + html_text(report.structure) + "</code>");
+  html += fact("Structure",
+               report.structure.empty() ? "" : "<code>" + html_text(report.structure) + "</code>");
   html += fact("Program", html_text(report.program));
   html += fact("Tool", tools);
   html += fact("Points probed", points > 0 ? std::to_string(points) : "");
@@ -110,9 +112,11 @@ std::string used_cell(const Characteristic& characteristic) {
 
 std::string characteristics_html(const RunReport& report) {
   if (report.measurement.characteristics.empty()) return "";
-  Table table({"Characteristic", ">Value", ">Nominal", ">Tolerance", ">U (k = 2)", ">Used", "Verdict"});
+  Table table(
+      {"Characteristic", ">Value", ">Nominal", ">Tolerance", ">U (k = 2)", ">Used", "Verdict"});
   for (const Characteristic& c : report.measurement.characteristics) {
-    const std::string kind = c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(c.kind));
+    const std::string kind =
+        c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(c.kind));
     table.row({fmt::format("<b>{}</b>{}", html_text(c.name), kind),
                with_unit(value_text(c.value, c.unit), c.unit),
                c.nominal ? with_unit(value_text(*c.nominal, c.unit), c.unit) : "",
@@ -138,11 +142,12 @@ std::string form_html(const RunReport& report) {
         html_text(c.name), index++);
   }
   if (figures.empty()) return "";
-  return section("form", "Form",
-                 "<div class=\"pair\">" + figures +
-                     "</div><p class=\"note\">Deviation from the least-squares element over the "
-                     "angle about its axis, outward where material is left. Dashed: zero deviation; "
-                     "dotted: largest and smallest.</p>\n");
+  return section(
+      "form", "Form",
+      "<div class=\"pair\">" + figures +
+          "</div><p class=\"note\">Deviation from the least-squares element over the "
+          "angle about its axis, outward where material is left. Dashed: zero deviation; "
+          "dotted: largest and smallest.</p>\n");
 }
 
 std::string surface_html(const RunReport& report) {
@@ -187,9 +192,10 @@ std::string axes_html(const RunReport& report) {
 
 std::string errors_html(const RunReport& report) {
   if (report.errors.empty()) {
-    return section("errors", "Injected errors", "<p>None: the machine is geometrically ideal.</p>\n");
+    return section("errors", "Injected errors",
+                   "<p>None: the machine is geometrically ideal.</p>\n");
   }
-  Table table({"Error", ">Value", "Meaning"});
+  Table table({"Error", "Value", "Meaning"});
   for (const InjectedError& injected : report.errors) {
     table.row({"<code>" + html_text(injected.name) + "</code>", html_text(injected.written),
                html_text(injected.meaning)});
@@ -219,7 +225,8 @@ std::string collisions_html(const RunReport& report) {
   if (report.collisions.empty()) return "";
   Table table({">Line", "Collision"});
   for (const Collision& collision : report.collisions) {
-    table.row({collision.line > 0 ? std::to_string(collision.line) : "–", html_text(collision.text)});
+    table.row(
+        {collision.line > 0 ? std::to_string(collision.line) : "–", html_text(collision.text)});
   }
   return section("collisions", "Collisions", table.html());
 }
@@ -230,7 +237,8 @@ std::string remarks_html(const RunReport& report) {
     items += fmt::format("<li class=\"{}\">{}</li>\n", kind, html_text(text));
   };
   for (const Diagnostic& d : report.diagnostics) add(to_string(d.severity), to_string(d));
-  for (const Diagnostic& d : report.measurement.diagnostics) add(to_string(d.severity), to_string(d));
+  for (const Diagnostic& d : report.measurement.diagnostics)
+    add(to_string(d.severity), to_string(d));
   for (const std::string& note : report.notes) add("note", note);
   if (items.empty()) return "";
   return section("remarks", "Remarks", "<ul class=\"remarks\">" + items + "</ul>\n");
@@ -292,7 +300,8 @@ std::string html_sections(const RunReport& report) {
   html += "</main>\n<footer><p>Made by Frustum";
   if (!report.version.empty()) html += " " + html_text(report.version);
   html +=
-      ". Charts: plotly.js (MIT licence). Workpiece view: three.js (MIT licence). The notices of all "
+      ". Charts: plotly.js (MIT licence). Workpiece view: three.js (MIT licence). The notices of "
+      "all "
       "bundled packages are in the source of this page.</p></footer>\n";
   return html;
 }

@@ -110,7 +110,8 @@ std::string json_report(const RunReport& report) {
     json["diagnostics"].push_back(diagnostic_json(diagnostic));
   }
   json["errors"] = array_of(report.errors, [](const InjectedError& injected) {
-    return Json{{"name", injected.name}, {"value", injected.written}, {"meaning", injected.meaning}};
+    return Json{
+        {"name", injected.name}, {"value", injected.written}, {"meaning", injected.meaning}};
   });
   json["tools"] = array_of(report.tools, [](const ToolSummary& tool) {
     return Json{{"number", tool.number}, {"description", tool.description}};

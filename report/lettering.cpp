@@ -40,8 +40,7 @@ Glyph arches(int count) {
   Glyph glyph{0.62 + 0.36 * (count - 1), {{{0.06, 0.0}, {0.06, 0.68}}}};
   for (int k = 0; k < count; ++k) {
     const double middle = 0.24 + 0.36 * k;
-    glyph.lines.push_back(
-        joined(arc({middle, 0.48}, 0.18, 0.20, 180, 0), {{middle + 0.18, 0.0}}));
+    glyph.lines.push_back(joined(arc({middle, 0.48}, 0.18, 0.20, 180, 0), {{middle + 0.18, 0.0}}));
   }
   return glyph;
 }
@@ -61,8 +60,7 @@ Glyph digit(char c) {
     case '4':
       return {0.78, {{{0.44, 0.0}, {0.44, 1.0}, {0.01, 0.29}, {0.60, 0.29}}}};
     case '5':
-      return {0.78,
-              {joined({{0.53, 1.0}, {0.13, 1.0}}, arc({0.28, 0.33}, 0.29, 0.33, 130, -150))}};
+      return {0.78, {joined({{0.53, 1.0}, {0.13, 1.0}}, arc({0.28, 0.33}, 0.29, 0.33, 130, -150))}};
     case '6':
       return {0.78,
               {arc({0.31, 0.31}, 0.27, 0.31, 0, 360), arc({0.52, 0.31}, 0.48, 0.69, 95, 180)}};
@@ -72,8 +70,7 @@ Glyph digit(char c) {
       return {0.78,
               {arc({0.30, 0.755}, 0.23, 0.245, 0, 360), arc({0.30, 0.255}, 0.28, 0.255, 0, 360)}};
     default:  // 9
-      return {0.78,
-              {arc({0.29, 0.69}, 0.27, 0.31, 0, 360), arc({0.08, 0.69}, 0.48, 0.69, 0, -85)}};
+      return {0.78, {arc({0.29, 0.69}, 0.27, 0.31, 0, 360), arc({0.08, 0.69}, 0.48, 0.69, 0, -85)}};
   }
 }
 
@@ -144,7 +141,8 @@ void draw_text(Image& image, double x, double y, std::string_view text, const Le
     const Glyph glyph = glyph_of(c);
     for (const Line& line : glyph.lines) {
       Line placed;
-      for (const Place& p : line) placed.push_back({x + p.x * style.height, y - p.y * style.height});
+      for (const Place& p : line)
+        placed.push_back({x + p.x * style.height, y - p.y * style.height});
       ink(image, placed, style.stroke, style.colour);
     }
     x += glyph.advance * style.height;

@@ -2,16 +2,19 @@
 
 // The assembler copies the files into the object: a megabyte of script is no work for the compiler.
 // The build states the dependence on the files (report/PageBundle.cmake).
-#define FRUSTUM_EMBED(name, file)     \
-  asm(".pushsection .rodata\n"        \
-      ".hidden " name "_begin\n"      \
-      ".hidden " name "_end\n"        \
-      ".global " name "_begin\n"      \
-      ".global " name "_end\n" name   \
-      "_begin:\n"                     \
-      ".incbin \"" file "\"\n" name   \
-      "_end:\n"                       \
-      ".byte 0\n"                     \
+#define FRUSTUM_EMBED(name, file)   \
+  asm(".pushsection .rodata\n"      \
+      ".hidden " name               \
+      "_begin\n"                    \
+      ".hidden " name               \
+      "_end\n"                      \
+      ".global " name               \
+      "_begin\n"                    \
+      ".global " name "_end\n" name \
+      "_begin:\n"                   \
+      ".incbin \"" file "\"\n" name \
+      "_end:\n"                     \
+      ".byte 0\n"                   \
       ".popsection\n")
 
 FRUSTUM_EMBED("frustum_page_template", FRUSTUM_PAGE_TEMPLATE);

@@ -23,8 +23,9 @@ std::optional<Diagnostic> complaint_about(const SurfacePicture& picture,
                                           const PictureOptions& options) {
   if (picture.empty()) return error("the picture has no surface", "cut the workpiece first");
   if (!picture.is_valid()) {
-    return error("the surface is inconsistent: a triangle names a vertex that does not exist, "
-                 "a coordinate is not finite, or deviations and vertices differ in number");
+    return error(
+        "the surface is inconsistent: a triangle names a vertex that does not exist, "
+        "a coordinate is not finite, or deviations and vertices differ in number");
   }
   const auto [low, high] = std::minmax(options.width, options.height);
   if (low < 64 || high > 8192) {
@@ -35,8 +36,7 @@ std::optional<Diagnostic> complaint_about(const SurfacePicture& picture,
     return error(fmt::format("{} samples a pixel", options.samples), "1 to 4");
   }
   if (options.deviation_span && !(*options.deviation_span > 0.0)) {
-    return error(fmt::format("deviation span {} mm", *options.deviation_span),
-                 "a positive length");
+    return error(fmt::format("deviation span {} mm", *options.deviation_span), "a positive length");
   }
   return std::nullopt;
 }
@@ -108,8 +108,9 @@ Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
   if (std::optional<Diagnostic> complaint = complaint_about(picture, options)) {
     return std::move(*complaint);
   }
-  const bool has_deviation = std::any_of(picture.deviation.begin(), picture.deviation.end(),
-                                         [](const auto& deviation) { return deviation.has_value(); });
+  const bool has_deviation =
+      std::any_of(picture.deviation.begin(), picture.deviation.end(),
+                  [](const auto& deviation) { return deviation.has_value(); });
   const bool has_bar = options.colour_bar && has_deviation;
   const double margin = 0.07 * options.height;
   const Frame frame{margin, margin, options.width - (has_bar ? 0.20 * options.height : margin),
@@ -124,8 +125,7 @@ Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
   scene.view = fitted_view(picture, options, frame);
   scene.pixels.reserve(picture.vertices.size());
   for (const auto& vertex : picture.vertices) {
-    scene.pixels.push_back(
-        scene.view.pixel_of(Eigen::Map<const Eigen::Vector3f>(vertex.data())));
+    scene.pixels.push_back(scene.view.pixel_of(Eigen::Map<const Eigen::Vector3f>(vertex.data())));
   }
   scene.buffer = rasterise(scene.pixels, picture.triangles, options.width * options.samples,
                            options.height * options.samples);

@@ -1,5 +1,7 @@
 #include "report/picture_shading.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +14,30 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kDirections = 12;  // of ambient occlusion
+constexpr std::size_t kDirections = 12;  // of ambient occlusion
 constexpr int kRings = 5;
+
+// The deviation scale in linear light, in steps too fine to see.
+class ColourTable {
+ public:
+  explicit ColourTable(double span) : span_(span), none_(linear_from_srgb(kNoNominalColour)) {
+    for (std::size_t k = 0; k < colours_.size(); ++k) {
+      const double share = 2.0 * static_cast<double>(k) / kLast - 1.0;
+      colours_[k] = linear_from_srgb(deviation_colour(share * span, span));
+    }
+  }
+  [[nodiscard]] const LinearColour& of(float deviation) const {
+    const double share = std::clamp(static_cast<double>(deviation) / span_, -1.0, 1.0);
+    return colours_[static_cast<std::size_t>(std::lround((share + 1.0) / 2.0 * kLast))];
+  }
+  [[nodiscard]] const LinearColour& none() const { return none_; }
+
+ private:
+  static constexpr double kLast = 2047.0;
+  double span_;
+  LinearColour none_;
+  std::array<LinearColour, 2048> colours_{};
+};
 
 // Normal and surface colour at a buffer pixel; the normal in camera axes.
 struct Surfel {
@@ -21,31 +45,37 @@ struct Surfel {
   LinearColour colour{};
 };
 
-Surfel surfel_at(const Scene& scene, int x, int y) {
-  const std::uint32_t t = scene.buffer.triangle[scene.buffer.index(x, y)];
+std::array<float, 3> weights_of(const Scene& scene, std::uint32_t t, int x, int y) {
   const auto& corners = scene.picture->triangles[t];
-  const std::array<float, 3> weights = weights_at(
-      {scene.pixels[corners[0]], scene.pixels[corners[1]], scene.pixels[corners[2]]},
-      static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+  return weights_at({scene.pixels[corners[0]], scene.pixels[corners[1]], scene.pixels[corners[2]]},
+                    static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+}
+
+Vector3f normal_in_camera(const Scene& scene, std::uint32_t t,
+                          const std::array<float, 3>& weights) {
   const CornerNormals& normals = (*scene.normals)[t];
   Vector3f normal = weights[0] * normals[0] + weights[1] * normals[1] + weights[2] * normals[2];
   const float length = normal.norm();
   if (length > 0.0F) normal /= length;
+  return scene.view.camera_from_workpiece * normal;
+}
 
-  Surfel surfel;
-  surfel.normal = scene.view.camera_from_workpiece * normal;
-  std::optional<float> deviation;
+Surfel surfel_at(const Scene& scene, const ColourTable& table, int x, int y) {
+  const std::uint32_t t = scene.buffer.triangle[scene.buffer.index(x, y)];
+  const std::array<float, 3> weights = weights_of(scene, t, x, y);
+  const Vector3f normal = normal_in_camera(scene, t, weights);
+  const auto& corners = scene.picture->triangles[t];
   const auto& deviations = scene.picture->deviation;
-  if (!deviations.empty()) {
+  if (deviations.empty()) return {normal, table.none()};
+  float deviation = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
     // One corner without nominal makes the whole triangle grey: nothing is guessed.
-    const bool is_known = deviations[corners[0]] && deviations[corners[1]] && deviations[corners[2]];
-    if (is_known) {
-      deviation = weights[0] * *deviations[corners[0]] + weights[1] * *deviations[corners[1]] +
-                  weights[2] * *deviations[corners[2]];
+    if (!deviations[corners[k]] || !std::isfinite(*deviations[corners[k]])) {
+      return {normal, table.none()};
     }
+    deviation += weights[k] * *deviations[corners[k]];
   }
-  surfel.colour = linear_from_srgb(deviation_colour(deviation, scene.deviation_span));
-  return surfel;
+  return {normal, table.of(deviation)};
 }
 
 // Light arriving at a surface with `normal`, 1 for a face turned to the key light.
@@ -55,8 +85,8 @@ float light_on(const Vector3f& normal, float openness) {
   const float direct = std::max(0.0F, normal.dot(key));
   const float second = std::max(0.0F, 0.25F + 0.75F * normal.dot(fill));
   const float sky = 0.5F + 0.5F * normal.y();
-  return 0.66F * direct * (0.55F + 0.45F * openness) +
-         openness * (0.20F * second + 0.14F * sky + 0.16F);
+  return 0.52F * direct * (0.55F + 0.45F * openness) +
+         openness * (0.26F * second + 0.16F * sky + 0.28F);
 }
 
 float highlight_on(const Vector3f& normal) {
@@ -65,27 +95,45 @@ float highlight_on(const Vector3f& normal) {
   return 0.09F * std::pow(std::max(0.0F, normal.dot(halfway)), 28.0F);
 }
 
+// Rows are independent: the picture does not depend on the number of threads.
+template <typename Row>
+void for_each_row(int rows, const Row& row) {
+  tbb::parallel_for(0, rows, row);
+}
+
+// Unit steps for ambient occlusion: 16 sets of kDirections, each turned a little further.
+std::array<std::array<float, 2>, 16 * kDirections> occlusion_directions() {
+  std::array<std::array<float, 2>, 16 * kDirections> directions{};
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const double angle =
+        2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(directions.size());
+    directions[k] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+  }
+  return directions;
+}
+
 // The share of the sky that is open at each image pixel, from the depths around it.
 std::vector<float> openness_of(const Scene& scene, int width, int height) {
+  const auto directions = occlusion_directions();
   const int samples = scene.samples;
   const VisibilityBuffer& buffer = scene.buffer;
   const auto reach = 0.045F * static_cast<float>(std::max(width, height) * samples);  // buffer px
   const float mm_per_pixel = 1.0F / scene.view.pixels_per_mm;
   std::vector<float> open(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1.0F);
-  for (int y = 0; y < height; ++y) {
+  for_each_row(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const int bx = x * samples + samples / 2;
       const int by = y * samples + samples / 2;
       const std::size_t centre = buffer.index(bx, by);
       if (buffer.triangle[centre] == kNoTriangle) continue;
-      const Vector3f normal = surfel_at(scene, bx, by).normal;
+      const std::uint32_t seen = buffer.triangle[centre];
+      const Vector3f normal = normal_in_camera(scene, seen, weights_of(scene, seen, bx, by));
       // Neighbouring pixels look in other directions; the 4 x 4 mean afterwards joins them.
-      const int turn = (x & 3) + 4 * (y & 3);
+      const std::size_t turn =
+          static_cast<std::size_t>(x) % 4 + 4 * (static_cast<std::size_t>(y) % 4);
       float hidden = 0.0F;
-      for (int d = 0; d < kDirections; ++d) {
-        const double angle = 2.0 * std::numbers::pi * (d + turn / 16.0) / kDirections;
-        const auto ux = static_cast<float>(std::cos(angle));
-        const auto uy = static_cast<float>(std::sin(angle));
+      for (std::size_t d = 0; d < kDirections; ++d) {
+        const auto& [ux, uy] = directions[16 * d + turn];
         float worst = 0.0F;
         for (int r = 1; r <= kRings; ++r) {
           const float share = static_cast<float>(r) / kRings;
@@ -106,9 +154,10 @@ std::vector<float> openness_of(const Scene& scene, int width, int height) {
         hidden += worst;
       }
       open[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x)] = std::max(0.0F, 1.0F - 1.15F * hidden / kDirections);
+           static_cast<std::size_t>(x)] =
+          std::max(0.0F, 1.0F - 1.15F * hidden / static_cast<float>(kDirections));
     }
-  }
+  });
   return open;
 }
 
@@ -156,14 +205,26 @@ void blur_line(std::vector<float>& values, std::size_t start, std::size_t stride
   }
 }
 
+// True when no sample of the image pixel sees the workpiece.
+bool is_empty(const Scene& scene, int x, int y) {
+  for (int s = 0; s < scene.samples * scene.samples; ++s) {
+    const int bx = x * scene.samples + s % scene.samples;
+    const int by = y * scene.samples + s / scene.samples;
+    if (scene.buffer.triangle[scene.buffer.index(bx, by)] != kNoTriangle) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void shade(const Scene& scene, Image& image) {
   const std::vector<float> open = openness_of(scene, image.width, image.height);
+  const ColourTable table(scene.deviation_span);
   const int samples = scene.samples;
   const float share = 1.0F / static_cast<float>(samples * samples);
-  for (int y = 0; y < image.height; ++y) {
+  for_each_row(image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
+      if (is_empty(scene, x, y)) continue;
       LinearColour sum{};
       int seen = 0;
       const float openness = smooth_openness(scene, open, image.width, image.height, x, y);
@@ -171,7 +232,7 @@ void shade(const Scene& scene, Image& image) {
         const int bx = x * samples + s % samples;
         const int by = y * samples + s / samples;
         if (scene.buffer.triangle[scene.buffer.index(bx, by)] == kNoTriangle) continue;
-        const Surfel surfel = surfel_at(scene, bx, by);
+        const Surfel surfel = surfel_at(scene, table, bx, by);
         const float light = light_on(surfel.normal, openness);
         const float highlight = highlight_on(surfel.normal);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -183,7 +244,7 @@ void shade(const Scene& scene, Image& image) {
       const auto count = static_cast<float>(seen);
       image.blend(x, y, {sum[0] / count, sum[1] / count, sum[2] / count}, count * share);
     }
-  }
+  });
 }
 
 void cast_ground_shadow(const Scene& scene, Image& image) {

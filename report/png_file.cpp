@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +17,7 @@ Result<std::filesystem::path> write_png(const std::filesystem::path& path, const
   for (const LinearColour& pixel : image.pixels) {
     for (const float channel : pixel) {
       const double value = srgb_from_linear(std::clamp(static_cast<double>(channel), 0.0, 1.0));
-      bytes.push_back(static_cast<std::uint8_t>(value * 255.0 + 0.5));
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(value * 255.0)));
     }
   }
   png_image png{};

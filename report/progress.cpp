@@ -28,8 +28,7 @@ std::string remaining_text(double elapsed, double share) {
 
 }  // namespace
 
-Progress::Progress(std::ostream& out, ProgressStyle style)
-    : Progress(out, style, steady_seconds) {}
+Progress::Progress(std::ostream& out, ProgressStyle style) : Progress(out, style, steady_seconds) {}
 
 Progress::Progress(std::ostream& out, ProgressStyle style, Clock clock)
     : out_(out), style_(style), clock_(std::move(clock)) {}
@@ -72,7 +71,8 @@ void Progress::draw(double now) {
   }
   if (is_drawn_ && now - drawn_at_ < kRedrawSeconds) return;
   const int full = static_cast<int>(share_ * kBarCells);
-  out_ << fmt::format("\r\x1b[K{} [{}{}] {:3.0f} %{}", step_, std::string(static_cast<std::size_t>(full), '#'),
+  out_ << fmt::format("\r\x1b[K{} [{}{}] {:3.0f} %{}", step_,
+                      std::string(static_cast<std::size_t>(full), '#'),
                       std::string(static_cast<std::size_t>(kBarCells - full), '.'),
                       std::floor(share_ * 100.0), remaining_text(now - started_, share_))
        << std::flush;

@@ -21,6 +21,24 @@ std::array<int, 2> pixel_span(float from, float to, int count) {
           static_cast<int>(std::clamp(std::ceil(to - 0.5F), 0.0F, last))};
 }
 
+// Where the row at height y crosses the triangle, from left to right; empty (from > to) when it does not.
+struct RowCrossing {
+  float from = std::numeric_limits<float>::max();
+  float to = std::numeric_limits<float>::lowest();
+};
+RowCrossing crossing(const std::array<const Eigen::Vector3f*, 3>& corners, float y) {
+  RowCrossing row;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3f& p = *corners[k];
+    const Eigen::Vector3f& q = *corners[(k + 1) % 3];
+    if ((p.y() < y && q.y() < y) || (p.y() > y && q.y() > y) || p.y() == q.y()) continue;
+    const float x = p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+    row.from = std::min(row.from, x);
+    row.to = std::max(row.to, x);
+  }
+  return row;
+}
+
 }  // namespace
 
 Eigen::Vector3f View::pixel_of(const Eigen::Vector3f& in_workpiece) const {
@@ -55,11 +73,13 @@ VisibilityBuffer rasterise(const std::vector<Eigen::Vector3f>& pixels,
     const Eigen::Vector3f& c = pixels[triangles[t][2]];
     const double area = edge(a, b, static_cast<double>(c.x()), static_cast<double>(c.y()));
     if (area == 0.0) continue;
-    const auto [x_low, x_high] = pixel_span(std::min({a.x(), b.x(), c.x()}),
-                                            std::max({a.x(), b.x(), c.x()}), width);
-    const auto [y_low, y_high] = pixel_span(std::min({a.y(), b.y(), c.y()}),
-                                            std::max({a.y(), b.y(), c.y()}), height);
+    const auto [y_low, y_high] =
+        pixel_span(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), height);
     for (int y = y_low; y <= y_high; ++y) {
+      const RowCrossing row = crossing({&a, &b, &c}, static_cast<float>(y) + 0.5F);
+      if (row.from > row.to) continue;
+      // A pixel more on either side: the weights decide, not the rounding of the crossing.
+      const auto [x_low, x_high] = pixel_span(row.from - 1.0F, row.to + 1.0F, width);
       for (int x = x_low; x <= x_high; ++x) {
         const double at_x = x + 0.5;
         const double at_y = y + 0.5;

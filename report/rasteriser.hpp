@@ -44,12 +44,12 @@ struct VisibilityBuffer {
 };
 
 // `pixels` are the vertices as View::pixel_of gives them.
-[[nodiscard]] VisibilityBuffer rasterise(
-    const std::vector<Eigen::Vector3f>& pixels,
-    const std::vector<std::array<std::uint32_t, 3>>& triangles, int width, int height);
+[[nodiscard]] VisibilityBuffer rasterise(const std::vector<Eigen::Vector3f>& pixels,
+                                         const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                         int width, int height);
 
 // Barycentric weights of a pixel position in a triangle of `pixels`; {1, 0, 0} for one without area.
-[[nodiscard]] std::array<float, 3> weights_at(const std::array<Eigen::Vector3f, 3>& corners, float x,
-                                              float y);
+[[nodiscard]] std::array<float, 3> weights_at(const std::array<Eigen::Vector3f, 3>& corners,
+                                              float x, float y);
 
 }  // namespace frustum::report

@@ -88,10 +88,10 @@ struct Timing {
 
 // One entry of the numbers budget: what an approximation promises and what it reached.
 struct BudgetEntry {
-  std::string name{};              // "tool path chord"
-  double bound = 0.0;              // in `unit`
-  std::optional<double> worst{};   // in `unit`, when it was observed
-  std::string unit{};              // "um", "nm"
+  std::string name{};             // "tool path chord"
+  double bound = 0.0;             // in `unit`
+  std::optional<double> worst{};  // in `unit`, when it was observed
+  std::string unit{};             // "um", "nm"
 };
 
 struct RunReport {

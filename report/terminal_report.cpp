@@ -12,8 +12,9 @@ namespace {
 
 // Columns that a UTF-8 text takes: one for each code point, which holds for the texts of this trade.
 std::size_t columns_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
 }
 
 std::string printable(std::string text) {
@@ -97,7 +98,7 @@ void write_head(Page& page, const RunReport& report) {
   const std::size_t used = columns_of(title) + 4;
   const std::string gap(page.width() > used ? page.width() - used : 2, ' ');
   page.line(page.bold(title) + gap + page.verdict(report.passes()));
-  const std::string structure = report.structure.empty() ? "" : "  " + report.structure;
+  const std::string structure = report.structure.empty() ? "" : " [" + report.structure + "]";
   if (!report.machine.empty()) page.labelled("Machine    ", report.machine + structure);
   if (!report.program.empty()) page.labelled("Program    ", report.program);
   for (const ToolSummary& tool : report.tools) {
@@ -154,7 +155,8 @@ void write_characteristics(Page& page, const RunReport& report) {
   page.line();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::string text = padded(rows[r][0], widths[0], false);
-    for (std::size_t k = 1; k + 1 < columns; ++k) text += "  " + padded(rows[r][k], widths[k], true);
+    for (std::size_t k = 1; k + 1 < columns; ++k)
+      text += "  " + padded(rows[r][k], widths[k], true);
     if (r == 0) {
       page.line(page.bold(text + "  Verdict"));
       page.line(std::string(columns_of(text) + 9, '-'));

@@ -16,39 +16,108 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Quad = std::array<std::uint32_t, 4>;
 
-void place_vertices(SolidView solid, const Crossings& crossings, const Cells& cells,
-                    SurfaceMesh& mesh) {
-  const DexelGrid& grid = crossings.grid();
-  mesh.vertices.resize(cells.vertex_count());
-  mesh.normals.resize(cells.vertex_count());
-  mesh.kinds.resize(cells.vertex_count());
-  const auto place_cell = [&](int i, int j, const Cell& cell) {
-    std::array<std::array<HermiteSample, 12>, 4> samples;
-    std::array<std::size_t, 4> counts{};
-    for (int edge = 0; edge < 12; ++edge) {
-      if (!cell.crosses(edge)) continue;
-      const auto [axis, corner] = cell_edge(edge);
-      const auto at = *crossings.find(axis, i + (corner & 1), j + (corner >> 1 & 1),
-                                      cell.level + (corner >> 2 & 1));
-      const std::uint32_t piece = cell.piece(edge);
-      samples[piece][counts[piece]++] = crossings.sample(at, axis);
+// How far a vertex may leave its cell, in pitches: a sharp corner can pierce the face of its cell without
+// taking a grid node along.
+#ifdef LV
+constexpr double kLeaveCell = LV;
+#else
+constexpr double kLeaveCell = 0.25;
+#endif
+// Vertices closer than this, in pitches, would make needles of the triangles between them.
+constexpr double kTooClose = 0.05;
+
+class VertexPlacer {
+ public:
+  VertexPlacer(SolidView solid, const Crossings& crossings, const Cells& cells, SurfaceMesh& mesh)
+      : solid_(solid), crossings_(crossings), cells_(cells), mesh_(mesh) {
+    mesh.vertices.resize(cells.vertex_count());
+    mesh.normals.resize(cells.vertex_count());
+    mesh.kinds.resize(cells.vertex_count());
+  }
+
+  void place_all() {
+    const int rows = crossings_.grid().nodes[1] - 1;
+    std::vector<std::vector<Astray>> astray(static_cast<std::size_t>(rows));
+    tbb::parallel_for(0, rows, [&](int j) {
+      for (int i = 0; i < crossings_.grid().nodes[0] - 1; ++i) {
+        for (const Cell& cell : cells_.column(i, j)) {
+          const std::array<int, 3> place{i, j, cell.level};
+          for (std::uint32_t piece = 0; piece < cell.piece_count; ++piece) {
+            place_piece(place, cell, piece, kLeaveCell);
+            if (cell_of(mesh_.vertices[cell.first_vertex + piece]) != place) {
+              astray[static_cast<std::size_t>(j)].push_back({place, piece});
+            }
+          }
+        }
+      }
+    });
+    // A corner that two cells claim belongs to the one that it lies in, or else to the last.
+    for (const auto& row : astray) {
+      for (const auto& [place, piece] : row) {
+        const Cell& cell = cells_.at(place[0], place[1], place[2]);
+        if (too_close(cell.first_vertex + piece)) place_piece(place, cell, piece, 0.0);
+      }
     }
-    const BoundingBox box{grid.node(i, j, cell.level), grid.node(i + 1, j + 1, cell.level + 1)};
-    for (std::uint32_t piece = 0; piece < cell.piece_count; ++piece) {
-      const auto placed =
-          place_vertex(solid, std::span(samples[piece]).first(counts[piece]), box);
-      const std::uint32_t vertex = cell.first_vertex + piece;
-      mesh.vertices[vertex] = placed.point;
-      mesh.normals[vertex] = placed.normal;
-      mesh.kinds[vertex] = placed.kind;
-    }
+  }
+
+ private:
+  struct Astray {
+    std::array<int, 3> place;
+    std::uint32_t piece;
   };
-  tbb::parallel_for(0, grid.nodes[1] - 1, [&](int j) {
-    for (int i = 0; i < grid.nodes[0] - 1; ++i) {
-      for (const Cell& cell : cells.column(i, j)) place_cell(i, j, cell);
+
+  [[nodiscard]] std::array<int, 3> cell_of(const Vec3& point) const {
+    const Vec3 at = (point - crossings_.grid().origin) / crossings_.grid().pitch;
+    return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+            static_cast<int>(std::floor(at.z()))};
+  }
+
+  void place_piece(const std::array<int, 3>& place, const Cell& cell, std::uint32_t piece,
+                   double leave) {
+    const DexelGrid& grid = crossings_.grid();
+    const auto [i, j, k] = place;
+    std::array<HermiteSample, 12> samples;
+    std::size_t count = 0;
+    for (int edge = 0; edge < 12; ++edge) {
+      if (!cell.crosses(edge) || cell.piece(edge) != piece) continue;
+      const auto [axis, corner] = cell_edge(edge);
+      const auto at = *crossings_.find(axis, i + (corner & 1), j + (corner >> 1 & 1),
+                                       k + (corner >> 2 & 1));
+      samples[count++] = crossings_.sample(at, axis);
     }
-  });
-}
+    const BoundingBox box{grid.node(i, j, k), grid.node(i + 1, j + 1, k + 1)};
+    const auto placed = place_vertex(solid_, std::span(samples).first(count), box, leave);
+    const std::uint32_t vertex = cell.first_vertex + piece;
+    mesh_.vertices[vertex] = placed.point;
+    mesh_.normals[vertex] = placed.normal;
+    mesh_.kinds[vertex] = placed.kind;
+  }
+
+  // True if a vertex of another piece is next to this one.
+  [[nodiscard]] bool too_close(std::uint32_t vertex) const {
+    const Vec3& point = mesh_.vertices[vertex];
+    const auto [ci, cj, ck] = cell_of(point);
+    for (int j = std::max(cj - 1, 0); j <= std::min(cj + 1, crossings_.grid().nodes[1] - 2); ++j) {
+      for (int i = std::max(ci - 1, 0); i <= std::min(ci + 1, crossings_.grid().nodes[0] - 2); ++i) {
+        for (const Cell& cell : cells_.column(i, j)) {
+          if (std::abs(cell.level - ck) > 1) continue;
+          for (std::uint32_t other = cell.first_vertex;
+               other < cell.first_vertex + cell.piece_count; ++other) {
+            if (other == vertex) continue;
+            const double distance = (mesh_.vertices[other] - point).norm();
+            if (distance < kTooClose * crossings_.grid().pitch) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  SolidView solid_;
+  const Crossings& crossings_;
+  const Cells& cells_;
+  SurfaceMesh& mesh_;
+};
 
 // The vertices of the four cells around an edge, counter-clockwise seen from outside.
 Quad quad_around(const Cells& cells, int axis, std::array<int, 3> node, bool lower_inside) {
@@ -162,7 +231,7 @@ SurfaceMesh extract_surface(SolidView solid, const TriDexel& dexels) {
   const Crossings crossings(solid, dexels);
   const Cells cells(crossings);
   SurfaceMesh mesh;
-  place_vertices(solid, crossings, cells, mesh);
+  VertexPlacer(solid, crossings, cells, mesh).place_all();
   connect(crossings, cells, mesh);
   return mesh;
 }

@@ -14,13 +14,18 @@ namespace {
 constexpr double kSmooth = 0.1;
 // Half of that angle is the ratio of the singular values of two planes that differ by it.
 constexpr double kUndetermined = 0.03;
-// How far the vertex may leave its cell, in pitches: a sharp corner can pierce the face of its cell
-// without taking a grid node along. Farther out it would fold the quads of its neighbours.
-constexpr double kLeaveCell = 0.25;
+// How far along its normal a face is looked for, in pitches. Faces that bend more within a cell are
+// beyond what the pitch resolves.
+constexpr double kReach = 0.25;
 // Each round takes the planes at this fraction of their distance from the vertex. Four rounds end within
 // a thousandth of the pitch, where a face of radius 5 mm leaves its plane by 0.03 nm at 0.5 mm pitch.
 constexpr double kCloser = 0.15;
 constexpr int kRounds = 4;
+// Faces of a corner that cross no edge of the cell, and are found when the others do not meet on the
+// surface. At least one face does cross an edge.
+constexpr std::size_t kHiddenFaces = 2;
+constexpr std::size_t kMostSamples = 12 + kHiddenFaces;
+constexpr int kMostRows = static_cast<int>(kMostSamples);
 
 using Samples = std::span<const HermiteSample>;
 
@@ -49,12 +54,16 @@ bool is_smooth(Samples samples) {
   return true;
 }
 
+bool contains(const BoundingBox& box, const Vec3& p) {
+  return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+}
+
 // The quadratic error function's minimum: the best of highest rank that lies in `allowed`.
 Vec3 meet(Samples samples, const BoundingBox& allowed) {
   const Vec3 mean = mean_point(samples);
   const auto rows = static_cast<Eigen::Index>(samples.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 12, 3> normals(rows, 3);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1> distances(rows);
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostRows, 3> normals(rows, 3);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1> distances(rows);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     normals.row(row) = samples[k].normal.transpose();
@@ -77,10 +86,7 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
   }
   for (; rank > 0; --rank) {
     const Vec3& point = by_rank[static_cast<std::size_t>(rank)];
-    if ((point.array() >= allowed.min.array()).all() &&
-        (point.array() <= allowed.max.array()).all()) {
-      return point;
-    }
+    if (contains(allowed, point)) return point;
   }
   return mean;
 }
@@ -111,47 +117,62 @@ void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& 
   }
 }
 
+// What the samples say, and what the surface answers.
+struct Answer {
+  PlacedVertex placed;
+  std::optional<HermiteSample> found;  // the surface next to the vertex
+  bool settled = false;                // it is where, and as, the samples say
+};
+
+Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBox& allowed,
+             double pitch) {
+  Vec3 vertex = mean_point(samples);
+  bool smooth = is_smooth(samples);
+  for (int round = 0; round < kRounds && !smooth; ++round) {
+    const Vec3 before = vertex;
+    vertex = meet(samples, allowed);
+    // Flat faces meet where they met before, within rounding; nothing more to learn.
+    if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
+    draw_closer(solid, samples, vertex, kReach * pitch);
+    smooth = is_smooth(samples);
+  }
+  Answer answer{{vertex, mean_normal(samples), VertexKind::averaged}, std::nullopt, false};
+  if (answer.placed.normal.isZero()) {
+    answer.placed.normal = samples.front().normal;
+    return answer;
+  }
+  answer.found = nearest_along(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch);
+  if (!answer.found || !contains(allowed, answer.found->point)) return answer;
+  // An edge vertex is on its edge already but for what the curvature of its faces left over.
+  const bool meets = (answer.found->point - vertex).norm() < 1e-3 * pitch;
+  answer.settled = smooth ? (answer.found->normal - answer.placed.normal).norm() < kSmooth : meets;
+  const bool feature = !smooth && meets;
+  answer.placed = {answer.found->point, feature ? answer.placed.normal : answer.found->normal,
+                   feature ? VertexKind::feature : VertexKind::surface};
+  return answer;
+}
+
 }  // namespace
 
 PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
-                          const BoundingBox& cell) {
-  std::array<HermiteSample, 12> drawn;
-  const std::size_t count = std::min(samples.size(), drawn.size());
-  std::copy_n(samples.begin(), count, drawn.begin());
-  const std::span<HermiteSample> now(drawn.data(), count);
-
+                          const BoundingBox& cell, double leave) {
   const double pitch = cell.max.x() - cell.min.x();
-  const Vec3 spare = Vec3::Constant(kLeaveCell * pitch);
+  const Vec3 spare = Vec3::Constant(leave * pitch);
   const BoundingBox allowed{cell.min - spare, cell.max + spare};
-  const auto is_allowed = [&](const Vec3& p) {
-    return (p.array() >= allowed.min.array()).all() && (p.array() <= allowed.max.array()).all();
-  };
 
-  Vec3 vertex = mean_point(now);
-  bool smooth = is_smooth(now);
-  for (int round = 0; round < kRounds && !smooth; ++round) {
-    const Vec3 before = vertex;
-    vertex = meet(now, allowed);
-    // Flat faces meet where they met before, within rounding; nothing more to learn.
-    if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
-    draw_closer(solid, now, vertex, kLeaveCell * pitch);
-    smooth = is_smooth(now);
+  std::array<HermiteSample, kMostSamples> known;
+  std::size_t count = std::min(samples.size(), kMostSamples - kHiddenFaces);
+  std::copy_n(samples.begin(), count, known.begin());
+  std::optional<PlacedVertex> first;
+  for (std::size_t hidden = 0; hidden <= kHiddenFaces; ++hidden) {
+    std::array<HermiteSample, kMostSamples> drawn = known;
+    const Answer answer = solve(solid, std::span(drawn).first(count), allowed, pitch);
+    if (answer.settled) return answer.placed;
+    if (!first) first = answer.placed;
+    if (!answer.found) break;
+    known[count++] = *answer.found;
   }
-  PlacedVertex placed{vertex, mean_normal(now), VertexKind::averaged};
-  if (placed.normal.isZero()) {
-    placed.normal = now.front().normal;
-    return placed;
-  }
-  const auto found = nearest_along(solid, vertex, placed.normal, 0.5 * pitch);
-  if (found && is_allowed(found->point)) {
-    const double moved = (found->point - vertex).norm();
-    if (smooth) return {found->point, found->normal, VertexKind::surface};
-    // An edge vertex is on its edge already but for what the curvature of its faces left over.
-    if (moved < 1e-3 * pitch) return {found->point, placed.normal, VertexKind::feature};
-    // The faces do not meet in the cell: any point of the surface is better than none.
-    return {found->point, found->normal, VertexKind::surface};
-  }
-  return placed;
+  return *first;
 }
 
 }  // namespace frustum::stock

@@ -6,10 +6,11 @@
 //            its normal onto the exact surface. If not, there is an edge or a corner: the planes are
 //            taken again where the surface is nearer to the solution, and so on, so that curved faces
 //            meet where they really do. A curved smooth piece reveals itself then: its normals come to
-//            agree.
+//            agree. A face that crosses no edge of the cell is noticed because the others then do not
+//            meet on the surface, and joins them.
 // Units    : mm
 // Shape    : 1 to 12 samples of one piece, all on the edges of `cell`; the vertex stays within the cell
-//            grown by a quarter of its size
+//            grown by `leave` times its size
 // Errors   : none; what cannot be found is VertexKind::averaged
 // Accuracy : see surface_mesh.hpp
 #pragma once
@@ -30,6 +31,6 @@ struct PlacedVertex {
 };
 
 [[nodiscard]] PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
-                                        const BoundingBox& cell);
+                                        const BoundingBox& cell, double leave);
 
 }  // namespace frustum::stock

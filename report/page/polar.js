@@ -97,7 +97,7 @@ export function drawPolar(element, chart) {
         bgcolor: 'rgba(0,0,0,0)',
         radialaxis: {...axis, range: [0, outer], angle: 15, tickangle: 15, showline: false,
                      ticks: '', tickvals: ticks.map((v) => reference + v),
-                     ticktext: ticks.map((v) => (v > 0 ? '+' : '') + tickText(v, division)),
+                     ticktext: ticks.map((v) => (v > 0 ? '+' : v < 0 ? '−' : '') + tickText(Math.abs(v), division)),
                      tickfont: {size: 10, color: t.faint}},
         angularaxis: {...axis, rotation: 0, direction: 'counterclockwise', dtick: 30,
                       ticksuffix: '°', tickfont: {size: 11, color: t.faint}},

@@ -24,14 +24,15 @@ function colourTable(stops) {
 }
 
 function micrometres(value) {
-  return `${value > 0 ? '+' : ''}${value.toFixed(3)} µm`;
+  return `${value > 0 ? '+' : value < 0 ? '−' : ''}${Math.abs(value).toFixed(3)} µm`;
 }
 
 function drawLegend(legend, surface) {
   const span = surface.span_um;
   const unit = span < 0.5 ? 'nm' : 'µm';
   const shown = span < 0.5 ? span * 1000 : span;
-  const text = (share) => `${share > 0 ? '+' : ''}${Number((share * shown).toPrecision(4))}`;
+  const text = (share) =>
+      (share > 0 ? '+' : share < 0 ? '−' : '') + Number(Math.abs(share * shown).toPrecision(4));
   const strip = document.createElement('div');
   strip.className = 'strip';
   strip.style.background = `linear-gradient(to top, ${surface.stops.map(css).join(', ')})`;
@@ -78,7 +79,7 @@ async function geometryOf(surface) {
   geometry.setAttribute('color', new three.BufferAttribute(colour, 3));
   geometry.setAttribute('normal',
                         new three.BufferAttribute(creaseNormals(positions, corners, CREASE), 3));
-  geometry.computeBoundingSphere();
+  geometry.computeBoundingBox();
   return {geometry, corners, deviation};
 }
 
@@ -142,11 +143,13 @@ export async function drawSurface(element, surface) {
   scene.add(mesh);
   element.append(renderer.domElement);
   const controls = new OrbitControls(camera, renderer.domElement);
-  const {center, radius} = model.geometry.boundingSphere;
+  const box = model.geometry.boundingBox;
+  const center = box.getCenter(new three.Vector3());
+  const radius = box.getSize(new three.Vector3()).length() / 2;
   const render = () => renderer.render(scene, camera);
 
   const look = (name) => {
-    const distance = radius * 1.02 / Math.sin(camera.fov / 2 * Math.PI / 180);
+    const distance = radius * 0.76 / Math.sin(camera.fov / 2 * Math.PI / 180);
     camera.position.set(...VIEWS[name]).normalize().multiplyScalar(distance).add(center);
     camera.near = distance / 100;
     camera.far = distance * 10;

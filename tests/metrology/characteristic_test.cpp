@@ -29,8 +29,8 @@ double form_um(const std::vector<Vec3>& points) {
 }
 
 TEST(EquivalentConeForm, FollowsTheFirstOrderFormula) {
-  // Mean, cosine and sine vanish; what is left is 6 um of three lobes and 2 um of five. The sum's peak to
-  // valley is sampled.
+  // Mean, cosine and sine vanish; what is left is 6 um of three lobes and 2 um of five. The sum's
+  // peak to valley is sampled.
   const auto rest = [](double phi) {
     return 0.003 * std::cos(3.0 * phi) + 0.001 * std::sin(5.0 * phi + 0.4);
   };
@@ -44,7 +44,8 @@ TEST(EquivalentConeForm, FollowsTheFirstOrderFormula) {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  // Second order: deviation^2 / radius = 0.025^2 / 40 = 1.6e-5 mm at most, 4e-3 um in published draws.
+  // Second order: deviation^2 / radius = 0.025^2 / 40 = 1.6e-5 mm at most, 4e-3 um in published
+  // draws.
   EXPECT_NEAR(form_um(section(3600, with_all)), 1e3 * (high - low), 0.016);
   EXPECT_NEAR(form_um(section(3600, rest)), 1e3 * (high - low), 1e-3);
 }
@@ -75,8 +76,8 @@ TEST(EquivalentConeForm, IgnoresErrorsAlongTheGeneratrix) {
 
 TEST(Roundness, PlotsDeviationsOverTheAngleAboutTheAxis) {
   std::vector<Vec3> points;
-  for (int i = 0; i < 90; ++i) {
-    const double phi = 4.0 * i * kRadPerDeg;
+  for (int i = 0; i < 120; ++i) {
+    const double phi = 3.0 * i * kRadPerDeg;
     const double r = 20.0 + 0.002 * std::cos(2.0 * phi);
     points.emplace_back(5.0 + r * std::cos(phi), -7.0 + r * std::sin(phi), 3.0);
   }
@@ -84,7 +85,7 @@ TEST(Roundness, PlotsDeviationsOverTheAngleAboutTheAxis) {
   ASSERT_TRUE(profile);
   EXPECT_NEAR(profile->peak_to_valley, 0.004, 1e-6);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_NEAR(profile->angle[i], 4.0 * static_cast<double>(i) * kRadPerDeg, 1e-9);
+    EXPECT_NEAR(profile->angle[i], 3.0 * static_cast<double>(i) * kRadPerDeg, 1e-9);
     EXPECT_NEAR(profile->deviation[i], 0.002 * std::cos(2.0 * profile->angle[i]), 1e-6);
   }
   EXPECT_EQ(roundness(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, {}).error().front().message,

@@ -27,7 +27,8 @@ TEST(LineFit, RecoversExactLinesAnywhere) {
     const Vec3 point = draws.place(1000.0);
     const UnitVec3 axis = draws.direction();
     std::vector<Vec3> points;
-    for (int i = 0; i < 12; ++i) points.emplace_back(point + draws.between(-80.0, 80.0) * axis.vec());
+    for (int i = 0; i < 12; ++i)
+      points.emplace_back(point + draws.between(-80.0, 80.0) * axis.vec());
     const auto fit = fit_line(points);
     ASSERT_TRUE(fit) << first_message(fit.error());
     // Coordinates of 1000 mm are rounded to 1e-13 mm; over 100 mm that turns a line by some 1e-14.
@@ -164,8 +165,8 @@ std::vector<Vec3> wavy(ElementKind kind, Draws& draws) {
   return points;
 }
 
-constexpr ElementKind kAllKinds[] = {ElementKind::line,   ElementKind::plane,
-                                     ElementKind::circle, ElementKind::sphere,
+constexpr ElementKind kAllKinds[] = {ElementKind::line,     ElementKind::plane,
+                                     ElementKind::circle,   ElementKind::sphere,
                                      ElementKind::cylinder, ElementKind::cone};
 
 TEST(EveryFit, CommutesWithRigidMotionAndPointOrder) {
@@ -229,8 +230,8 @@ TEST(EveryFit, IsStationaryAndItsResidualsAreThoseOfTheElement) {
 TEST(EveryFit, PredictsItsScatterByTheCofactor) {
   // Variance of the radius over 2000 noisy circles against the cofactor.
   Draws draws(9);
-  const auto exact = revolution({5, 6, 7}, UnitVec3::z(), 0, 0, 1, 24, 4.0, 0.0,
-                                [](double) { return 20.0; });
+  const auto exact =
+      revolution({5, 6, 7}, UnitVec3::z(), 0, 0, 1, 24, 4.0, 0.0, [](double) { return 20.0; });
   constexpr double kNoise = 1e-3;
   constexpr int kRepeats = 2000;
   double squares = 0.0;
@@ -250,8 +251,7 @@ TEST(EveryFit, PredictsItsScatterByTheCofactor) {
 TEST(EveryFit, RefusesWhatDoesNotTellTheElement) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Vec3> two{{0, 0, 0}, {1, 0, 0}};
-  EXPECT_EQ(first_message(fit_plane(two).error()),
-            "too few points for a plane: 2 given, 3 needed");
+  EXPECT_EQ(first_message(fit_plane(two).error()), "too few points for a plane: 2 given, 3 needed");
   EXPECT_EQ(first_message(fit_circle(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {nan, 0, 0}}).error()),
             "point 3 is not finite");
   EXPECT_EQ(first_message(fit_line(std::vector<Vec3>{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}).error()),
@@ -262,13 +262,13 @@ TEST(EveryFit, RefusesWhatDoesNotTellTheElement) {
             "degenerate points for a plane: they lie on one straight line");
   EXPECT_EQ(first_message(fit_circle(row).error()),
             "degenerate points for a circle: they lie on one straight line");
-  const auto ring = revolution({1, 2, 3}, unit({1, 1, 2}), 0, 0, 1, 20, 6.0, 0.0,
-                               [](double) { return 10.0; });
+  const auto ring =
+      revolution({1, 2, 3}, unit({1, 1, 2}), 0, 0, 1, 20, 6.0, 0.0, [](double) { return 10.0; });
   for (const ElementKind kind : {ElementKind::sphere, ElementKind::cylinder, ElementKind::cone}) {
     const auto fit = fit_element(kind, ring);
     ASSERT_FALSE(fit);
-    EXPECT_EQ(first_message(fit.error()), "degenerate points for a " + std::string(name_of(kind)) +
-                                              ": they lie in one plane");
+    EXPECT_EQ(first_message(fit.error()),
+              "degenerate points for a " + std::string(name_of(kind)) + ": they lie in one plane");
   }
   std::vector<Vec3> cube;
   for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);

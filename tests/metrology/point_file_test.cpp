@@ -11,8 +11,8 @@ std::string complaint(std::string_view text) {
 }
 
 TEST(PointFile, ReadsColumnsAndCommas) {
-  for (const char* text : {"1 2 3\n4 5 6\n", "2\n1,2,3\r\n4, 5 ,6", "# mm\nx,y,z\n\n1,2,3\n4,5,6 # last",
-                           "  1\t2\t3  \n+4 5e0 6.0"}) {
+  for (const char* text : {"1 2 3\n4 5 6\n", "2\n1,2,3\r\n4, 5 ,6",
+                           "# mm\nx,y,z\n\n1,2,3\n4,5,6 # last", "  1\t2\t3  \n+4 5e0 6.0"}) {
     const auto points = parse_feature_points(text);
     ASSERT_TRUE(points) << text << to_string(points.error().front());
     ASSERT_EQ(points->size(), 1U) << text;
@@ -33,7 +33,8 @@ TEST(PointFile, SortsPointsByFeature) {
 }
 
 TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
-  EXPECT_EQ(complaint("1,2\n"), "p.csv:1:3: error: 2 columns, expected 3 (hint: a line holds x, y, z)");
+  EXPECT_EQ(complaint("1,2\n"),
+            "p.csv:1:3: error: 2 columns, expected 3 (hint: a line holds x, y, z)");
   EXPECT_EQ(complaint("1 2 3\n4 nan 6\n"),
             "p.csv:2:3: error: 'nan' is not a finite number (hint: y expected here)");
   EXPECT_EQ(complaint("1 2 3\n4 5 6x\n"),
@@ -49,9 +50,10 @@ TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
             "count or leave the line out)");
   EXPECT_EQ(complaint("# nothing\n"),
             "p.csv: error: the file holds no points (hint: write one point x y z (mm) a line)");
-  EXPECT_EQ(complaint("feature,section,x,y,z\nA,1.5,1,2,3\n"),
-            "p.csv:2:3: error: '1.5' is not a section (hint: sections are whole numbers, the first is "
-            "0)");
+  EXPECT_EQ(
+      complaint("feature,section,x,y,z\nA,1.5,1,2,3\n"),
+      "p.csv:2:3: error: '1.5' is not a section (hint: sections are whole numbers, the first is "
+      "0)");
 }
 
 }  // namespace

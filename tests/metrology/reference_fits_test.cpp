@@ -1,5 +1,5 @@
-// The fits against published reference pairs, which stay outside the repository: the folder named by
-// FRUSTUM_REFERENCE_FITS, or
+// The fits against published reference pairs, which stay outside the repository: the folder named
+// by FRUSTUM_REFERENCE_FITS, or
 // ../shared/spec/reference-fits beside the source tree.
 
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ constexpr double kRad = 1e-10;
 std::filesystem::path folder() {
   const char* named = std::getenv("FRUSTUM_REFERENCE_FITS");  // NOLINT(concurrency-mt-unsafe)
   // Beside the checkout, where the specifications lie.
-  return named != nullptr ? std::filesystem::path(named)
-                          : std::filesystem::path(FRUSTUM_SOURCE_DIR) /
-                                "../shared/spec/reference-fits";
+  return named != nullptr
+             ? std::filesystem::path(named)
+             : std::filesystem::path(FRUSTUM_SOURCE_DIR) / "../shared/spec/reference-fits";
 }
 
 std::vector<double> numbers_in(const std::filesystem::path& file) {
@@ -61,7 +61,9 @@ std::vector<Pair> pairs_of(const std::string& kind) {
   return pairs;
 }
 
-Vec3 point_in(const Pair& pair) { return {pair.reference[0], pair.reference[1], pair.reference[2]}; }
+Vec3 point_in(const Pair& pair) {
+  return {pair.reference[0], pair.reference[1], pair.reference[2]};
+}
 UnitVec3 axis_in(const Pair& pair) {
   return unit({pair.reference[3], pair.reference[4], pair.reference[5]});
 }
@@ -75,8 +77,8 @@ class FitReference : public testing::Test {
     }
   }
   void TearDown() override {
-    RecordProperty("worst_mm", std::to_string(worst_mm_ * 1e15) + "e-15");
-    RecordProperty("worst_rad", std::to_string(worst_rad_ * 1e15) + "e-15");
+    RecordProperty("worst_in_fm", std::to_string(worst_mm_ * 1e12));  // femtometres: no exponent
+    RecordProperty("worst_in_frad", std::to_string(worst_rad_ * 1e15));
   }
   void mm(double deviation, const Pair& pair) {
     EXPECT_LT(std::abs(deviation), kMm) << pair.name;

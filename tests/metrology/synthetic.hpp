@@ -31,8 +31,8 @@ class Draws {
   std::uint64_t index_ = 0;
 };
 
-// Points on a surface of revolution about `axis` through `point`: `rings` circles over `length` from
-// `from`, over `arc` rad, with radius(along).
+// Points on a surface of revolution about `axis` through `point`: `rings` circles over `length`
+// from `from`, over `arc` rad, with radius(along).
 template <typename Radius>
 std::vector<Vec3> revolution(const Vec3& point, const UnitVec3& axis, double from, double length,
                              int rings, int per_ring, double arc, double start, Radius radius) {

@@ -1,7 +1,8 @@
-// A small part with every feature a cone test piece has, as an exact body, and the plan that measures it.
+// A small part with every feature a cone test piece has, as an exact body, and the plan that
+// measures it.
 //
-// Base disc with top z = 0 (plane A), cylinder C of radius 25 up to z = 15, cone of half angle 30 deg on
-// it (radius 22 at z = 15, top at z = 30), groove along Y whose left face is at x = 40.
+// Base disc with top z = 0 (plane A), cylinder C of radius 25 up to z = 15, cone of half angle 30
+// deg on it (radius 22 at z = 15, top at z = 30), groove along Y whose left face is at x = 40.
 // Units: mm, rad.
 #pragma once
 

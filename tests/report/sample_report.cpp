@@ -139,8 +139,11 @@ metrology::MeasuredFeature feature(std::string name, std::string kind, double ra
 
 AxisTrace cone_trace() {
   AxisTrace trace{"Cone, finishing pass", Abscissa::cone_angle, {}, {}};
-  trace.axes = {{"X", false, {}, {}}, {"Y", false, {}, {}}, {"Z", false, {}, {}},
-                {"B", true, {}, {}},  {"C", true, {}, {}}};
+  trace.axes = {{"X", false, {}, {}},
+                {"Y", false, {}, {}},
+                {"Z", false, {}, {}},
+                {"B", true, {}, {}},
+                {"C", true, {}, {}}};
   for (int k = 0; k <= 360; k += 2) {
     const double phi = k * kPi / 180.0;
     trace.abscissa.push_back(k);

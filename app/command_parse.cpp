@@ -1,0 +1,57 @@
+// frustum parse: NC text to canonical motions.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "app/console.hpp"
+#include "parser/canonical_json.hpp"
+#include "parser/interpreter.hpp"
+
+namespace frustum::app {
+namespace {
+
+struct Options {
+  std::string file{};
+  std::string dialect = "fanuc";
+  bool canon = false;
+  bool block_delete = false;
+};
+
+int parse_file(const Options& options) {
+  std::ifstream in(options.file, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || !text) {
+    Diagnostic failure = error("the file cannot be read", "check the path and permissions");
+    failure.file = options.file;
+    return refuse(Diagnostics{failure});
+  }
+  const auto program = parser::parse_program(text.str(), options.file);
+  if (!program) return refuse(program.error());
+  const auto print = [&](parser::Motion&& motion) {
+    if (options.canon) std::cout << parser::to_json_line(motion) << '\n';
+  };
+  const auto summary =
+      parser::interpret(*program, print, {.block_delete = options.block_delete});
+  if (!summary) return refuse(summary.error());
+  return kDone;
+}
+
+}  // namespace
+
+void add_parse(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("parse", "Check an NC program and print its canonical motions");
+  command->add_option("file", options->file, "NC program")->required();
+  command->add_option("--dialect", options->dialect, "fanuc (default) or iso")
+      ->check(CLI::IsMember({"fanuc", "iso"}));
+  command->add_flag("--canon", options->canon, "Print one JSON line a motion (mm, degrees, mm/min)");
+  command->add_flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");
+  command->footer("Example: frustum parse cone.nc --canon");
+  command->callback([options, &exit_code] { exit_code = parse_file(*options); });
+}
+
+}  // namespace frustum::app

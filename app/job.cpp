@@ -1,0 +1,210 @@
+#include "app/job.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "app/machine_files.hpp"
+#include "core/toml_document.hpp"
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<std::string> read_text(const fs::path& file, const TomlTable& table, std::string_view key) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in && fs::is_regular_file(file)) {
+    text << in.rdbuf();
+    return text.str();
+  }
+  table.fail(key, fmt::format("the file {} cannot be read", file.string()),
+             "paths are relative to the job file");
+  return error("unreadable");
+}
+
+void read_program(const TomlTable& root, programs::TestPiece& piece) {
+  const TomlTable program = root.table("program");
+  piece.program_file = program.text("file");
+  (void)program.choice_or("dialect", {"fanuc", "iso"}, 0);
+  if (piece.program_file.empty()) return;
+  const fs::path file = program.file_path("file");
+  if (auto text = read_text(file, program, "file")) {
+    piece.program = *std::move(text);
+    piece.program_file = file.string();
+  }
+}
+
+void read_blank(const TomlTable& root, programs::TestPiece& piece) {
+  const TomlTable blank = root.table("blank");
+  const std::size_t shape = blank.choice("shape", {"box", "cylinder", "frustum"});
+  double height = 0.0;
+  if (shape == 0) {
+    const Vec3 size = blank.vector("size");
+    if (!(size.array() > 0.0).all()) {
+      blank.fail("size", "the blank is empty: every size must be above 0", "size = [x, y, z] in mm");
+    }
+    piece.blank = stock::BoxShape{size.x(), size.y(), size.z()};
+    height = size.z();
+  } else {
+    height = blank.length("height", Bound::positive).value;
+    const char* bottom = shape == 1 ? "diameter" : "bottom_diameter";
+    const double bottom_radius = 0.5 * blank.length(bottom, Bound::positive).value;
+    const double top_radius =
+        shape == 1 ? bottom_radius : 0.5 * blank.length("top_diameter", Bound::positive).value;
+    piece.blank = stock::FrustumShape{bottom_radius, top_radius, height};
+  }
+  // Without a word the top face carries the workpiece origin, as a machinist would zero it.
+  piece.blank_origin = blank.vector_or("origin", Vec3(0.0, 0.0, -height));
+}
+
+void read_tools(const TomlTable& root, programs::TestPiece& piece) {
+  const TomlTable tools = root.table("tool");
+  for (const std::string& key : tools.keys()) {
+    const TomlTable table = tools.table(key);
+    int number = 0;
+    const bool whole = key.find_first_not_of("0123456789") == std::string::npos && key.size() < 6;
+    if (whole) number = std::stoi(key);
+    if (number < 1) {
+      tools.fail(key, "a tool is named by its number", "for example tool.1");
+      continue;
+    }
+    cutter::CutterSpec tool;
+    tool.type = static_cast<cutter::CutterType>(table.choice("type", {"flat", "ball"}));
+    tool.diameter = table.length("diameter", Bound::positive);
+    tool.length = table.length("length", Bound::positive);
+    tool.flute_length = table.length_or("flute_length", {}, Bound::positive);
+    tool.radius_error = table.length_or("radius_error", {});
+    tool.length_error = table.length_or("length_error", {});
+    piece.tools.emplace(number, tool);
+  }
+}
+
+void read_setup(const TomlTable& root, programs::TestPiece& piece) {
+  if (const auto setup = root.table_if("setup")) {
+    piece.placement.origin = setup->vector_or("origin", Vec3::Zero());
+    piece.placement.tilt = setup->vector_or("tilt", Vec3::Zero()) * kRadPerDeg;
+  }
+  // G54 in the table frame's own origin is what a program without a setup sheet means.
+  piece.work_offsets = {{1, Vec3::Zero()}};
+  if (const auto offsets = root.table_if("offsets")) {
+    for (int number = 1; number <= 6; ++number) {
+      const std::string key = fmt::format("G{}", 53 + number);
+      if (offsets->has(key)) piece.work_offsets[number] = offsets->vector(key);
+    }
+  }
+}
+
+void read_operations(const TomlTable& root, programs::TestPiece& piece) {
+  for (const TomlTable& table : root.tables("operation")) {
+    programs::Operation op;
+    op.name = table.text("name");
+    const auto lines = table.numbers("lines");
+    const bool valid = lines.size() == 2 && lines[0] >= 1.0 && lines[1] >= lines[0] && lines[1] < 4e9;
+    if (valid) {
+      op.first_line = static_cast<std::uint32_t>(lines[0]);
+      op.last_line = static_cast<std::uint32_t>(lines[1]);
+    } else if (!lines.empty()) {
+      table.fail("lines", "expected [first, last] line of the NC program");
+    }
+    piece.operations.push_back(std::move(op));
+  }
+  if (const auto span = root.table_if("error_span")) piece.error_span = span->text("operation");
+}
+
+void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece& piece,
+                     metrology::CmmModel& cmm_model, Diagnostics& problems) {
+  const std::optional<TomlTable> inspection =
+      want_plan ? root.table("inspection") : root.table_if("inspection");
+  if (!inspection) return;
+  if (const auto cmm = inspection->table_if("cmm")) cmm_model = metrology::read_cmm_model(*cmm);
+  if (!inspection->has("plan") && !want_plan) return;
+  if (inspection->text("plan").empty()) return;
+  auto plan = metrology::load_plan(inspection->file_path("plan"));
+  if (plan) {
+    piece.plan = *std::move(plan);
+  } else {
+    problems.insert(problems.end(), plan.error().begin(), plan.error().end());
+  }
+}
+
+// Later words win: the command line over the file.
+void override_errors(std::vector<kinematics::ErrorEntry>& errors, const JobOverrides& overrides,
+                     Diagnostics& problems) {
+  for (const std::string& text : overrides.errors) {
+    auto entry = kinematics::parse_error(text);
+    if (!entry) {
+      problems.insert(problems.end(), entry.error().begin(), entry.error().end());
+      continue;
+    }
+    std::erase_if(errors, [&](const kinematics::ErrorEntry& e) { return e.name == entry->name; });
+    errors.push_back(*std::move(entry));
+  }
+}
+
+void override_tool_radius(programs::TestPiece& piece, const JobOverrides& overrides,
+                          Diagnostics& problems) {
+  if (!overrides.tool_radius_error) return;
+  const auto radius_error = parse_length(*overrides.tool_radius_error);
+  if (!radius_error) {
+    problems.insert(problems.end(), radius_error.error().begin(), radius_error.error().end());
+    return;
+  }
+  for (auto& [number, tool] : piece.tools) tool.radius_error = *radius_error;
+}
+
+}  // namespace
+
+Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool want_plan) {
+  auto document = TomlDocument::load(file);
+  if (!document) return document.error();
+  const TomlTable& root = document->root();
+  Diagnostics problems;
+
+  programs::TestPiece piece;
+  piece.title = root.text("title");
+  const std::string machine_name = root.text("machine");
+  read_program(root, piece);
+  read_setup(root, piece);
+  read_blank(root, piece);
+  read_tools(root, piece);
+  read_operations(root, piece);
+  std::vector<kinematics::ErrorEntry> errors;
+  if (const auto table = root.table_if("errors")) errors = kinematics::read_errors(*table);
+  double mesh_pitch = 0.0;
+  bool report = true;
+  if (const auto output = root.table_if("output")) {
+    report = output->boolean_or("report", true);
+    mesh_pitch = output->length_or("mesh_pitch", {}, Bound::positive).value;
+  }
+  double path_bound = 1e-5;
+  if (const auto accuracy = root.table_if("accuracy")) {
+    path_bound = accuracy->length_or("path_bound", Mm{1e-5}, Bound::positive).value;
+  }
+  override_errors(errors, overrides, problems);
+  override_tool_radius(piece, overrides, problems);
+
+  metrology::CmmModel cmm;
+  read_inspection(root, want_plan, piece, cmm, problems);
+  const fs::path machine_file = find_machine(machine_name, document->folder());
+  auto machine = kinematics::Machine::load(machine_file);
+  if (!machine && !machine_name.empty()) {
+    problems.insert(problems.end(), machine.error().begin(), machine.error().end());
+  }
+
+  Diagnostics all = document->finish();
+  all.insert(all.end(), problems.begin(), problems.end());
+  if (has_error(all)) return all;
+  return Job{.machine = *std::move(machine),
+             .machine_file = machine_file,
+             .piece = std::move(piece),
+             .errors = std::move(errors),
+             .cmm = cmm,
+             .path_bound = path_bound,
+             .mesh_pitch = mesh_pitch,
+             .report = report};
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,41 @@
+// A job file: machine, program, blank, tools, errors, inspection.
+//
+// Units: as people write them (mm, degrees, "10 um"); inside mm and rad. Paths are relative to the file.
+// Errors: every misspelt or missing key, wrong unit and unreadable file at once, with file, line and key.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "kinematics/geometric_errors.hpp"
+#include "kinematics/machine.hpp"
+#include "metrology/cmm.hpp"
+#include "programs/test_piece.hpp"
+
+namespace frustum::app {
+
+struct Job {
+  kinematics::Machine machine;
+  std::filesystem::path machine_file{};
+  programs::TestPiece piece{};
+  std::vector<kinematics::ErrorEntry> errors{};
+  metrology::CmmModel cmm{};
+  double path_bound = 1e-5;   // mm
+  double mesh_pitch = 0.0;    // mm; 0: chosen by the size of the blank
+  bool report = true;
+};
+
+// What the command line may change in a job.
+struct JobOverrides {
+  std::vector<std::string> errors{};          // "EB0C=30urad"
+  std::optional<std::string> tool_radius_error{};
+};
+
+// `want_plan`: a job without [inspection] is an error.
+[[nodiscard]] Result<Job> load_job(const std::filesystem::path& file, const JobOverrides& overrides,
+                                   bool want_plan);
+
+}  // namespace frustum::app

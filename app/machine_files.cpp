@@ -1,0 +1,51 @@
+#include "app/machine_files.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside the source while developing, beside the installed program afterwards.
+std::vector<fs::path> machine_folders() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  std::vector<fs::path> folders{FRUSTUM_SOURCE_MACHINES};
+  if (!program.empty()) {
+    folders.push_back(program.parent_path().parent_path() / FRUSTUM_INSTALLED_MACHINES);
+  }
+  return folders;
+}
+
+}  // namespace
+
+fs::path find_machine(const std::string& name, const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path written = name;
+  for (const fs::path& candidate : {folder / written, written}) {
+    if (fs::is_regular_file(candidate, ignored)) return candidate;
+  }
+  for (const fs::path& shipped : machine_folders()) {
+    const fs::path candidate = shipped / (name + ".toml");
+    if (fs::is_regular_file(candidate, ignored)) return candidate;
+  }
+  return folder / written;
+}
+
+std::vector<fs::path> shipped_machines() {
+  std::error_code problem;
+  for (const fs::path& folder : machine_folders()) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder, problem)) {
+      if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    }
+    if (files.empty()) continue;
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+  return {};
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,17 @@
+// Where machine files are: beside the job, in the working folder, or shipped with the program.
+// Units: none. Errors: none here; a file that does not exist is reported by whoever loads it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustum::app {
+
+// A path (relative to `folder`, else to the working folder), or the name of a shipped machine.
+[[nodiscard]] std::filesystem::path find_machine(const std::string& name,
+                                                 const std::filesystem::path& folder);
+// The shipped machine files, by name.
+[[nodiscard]] std::vector<std::filesystem::path> shipped_machines();
+
+}  // namespace frustum::app

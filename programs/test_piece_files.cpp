@@ -1,0 +1,127 @@
+#include "programs/test_piece_files.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+namespace frustum::programs {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string vector_text(const Vec3& v, double scale = 1.0) {
+  return fmt::format("[{}, {}, {}]", v.x() * scale, v.y() * scale, v.z() * scale);
+}
+
+std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
+  if (const auto* box = std::get_if<stock::BoxShape>(&shape)) {
+    return fmt::format("{{ shape = \"box\", size = [{}, {}, {}], origin = {} }}", box->size_x,
+                       box->size_y, box->height, vector_text(origin));
+  }
+  const auto& frustum = std::get<stock::FrustumShape>(shape);
+  if (frustum.bottom_radius == frustum.top_radius) {
+    return fmt::format("{{ shape = \"cylinder\", diameter = {}, height = {}, origin = {} }}",
+                       2.0 * frustum.bottom_radius, frustum.height, vector_text(origin));
+  }
+  return fmt::format(
+      "{{ shape = \"frustum\", bottom_diameter = {}, top_diameter = {}, height = {}, origin = {} }}",
+      2.0 * frustum.bottom_radius, 2.0 * frustum.top_radius, frustum.height, vector_text(origin));
+}
+
+std::string tool_text(const cutter::CutterSpec& tool) {
+  return fmt::format(
+      "{{ type = \"{}\", diameter = {}, length = {}, flute_length = {}, radius_error = \"{} um\" }}",
+      cutter::to_string(tool.type), tool.diameter.value, tool.length.value, tool.flute_length.value,
+      tool.radius_error.value * kUmPerMm);
+}
+
+// Whole or not at all: written beside the target, then renamed over it.
+std::optional<Diagnostic> write_whole(const fs::path& file, const std::string& text) {
+  const fs::path beside = file.string() + ".part";
+  std::ofstream out(beside, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code problem;
+  if (out) fs::rename(beside, file, problem);
+  if (out && !problem) return std::nullopt;
+  fs::remove(beside, problem);
+  Diagnostic failure = error("the file cannot be written", "check the folder and its permissions");
+  failure.file = file.string();
+  return failure;
+}
+
+}  // namespace
+
+std::string job_text(const TestPiece& piece, const std::string& machine, const std::string& plan_file) {
+  std::string text;
+  const auto line = [&text](const std::string& s) { text += s + "\n"; };
+  line(fmt::format("title   = \"{}\"", piece.title));
+  line(fmt::format("machine = \"{}\"", machine));
+  line(fmt::format("program = {{ file = \"{}\", dialect = \"fanuc\" }}", piece.program_file));
+  line("");
+  line("# Workpiece frame (blank and plan) on the table: mm, degrees (Rz Ry Rx)");
+  line(fmt::format("setup   = {{ origin = {}, tilt = {} }}", vector_text(piece.placement.origin),
+                   vector_text(piece.placement.tilt, kDegPerRad)));
+  line("# origin: centre of the blank's bottom face in the workpiece frame, mm");
+  line(fmt::format("blank   = {}", blank_text(piece.blank, piece.blank_origin)));
+  for (const auto& [number, tool] : piece.tools) {
+    line(fmt::format("tool.{}  = {}", number, tool_text(tool)));
+  }
+  line("");
+  line("# Program origins in the table frame, mm");
+  line("[offsets]");
+  for (const auto& [number, origin] : piece.work_offsets) {
+    line(fmt::format("G{} = {}", 53 + number, vector_text(origin)));
+  }
+  line("");
+  line("# Geometric errors of the machine, for example EB0C = \"30 urad\" or EXX = \"linear 10 um\"");
+  line("[errors]");
+  if (!piece.error_span.empty()) {
+    line("");
+    line("# Error shapes without a span of their own lie over the range that this operation travels");
+    line("[error_span]");
+    line(fmt::format("operation = \"{}\"", piece.error_span));
+  }
+  line("");
+  line("# Line numbers of the NC program");
+  for (const Operation& op : piece.operations) {
+    line("[[operation]]");
+    line(fmt::format("name  = \"{}\"", op.name));
+    line(fmt::format("lines = [{}, {}]", op.first_line, op.last_line));
+  }
+  line("");
+  line("[inspection]");
+  line(fmt::format("plan = \"{}\"", plan_file));
+  line("cmm  = { e0 = \"0 um\" }   # ideal; a real one: { e0 = \"0.5 um\", l_per_um = 600, seed = 1 }");
+  line("");
+  line("[output]");
+  line("report = true");
+  return text;
+}
+
+Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs::path& machine_file,
+                                               const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) {
+    Diagnostic failure = error("the folder cannot be made: " + problem.message());
+    failure.file = folder.string();
+    return failure;
+  }
+  fs::path machine = fs::relative(fs::absolute(machine_file), fs::absolute(folder), problem);
+  if (problem || machine.empty()) machine = fs::absolute(machine_file);
+  const fs::path plan = fs::path(piece.program_file).replace_extension(".plan.toml");
+  const std::vector<fs::path> files{folder / "job.toml", folder / piece.program_file, folder / plan};
+  // The job last: while it is missing, nothing half-written can be run.
+  const std::vector<std::pair<fs::path, std::string>> contents{
+      {files[1], piece.program},
+      {files[2], metrology::to_toml(piece.plan)},
+      {files[0], job_text(piece, machine.generic_string(), plan.string())}};
+  for (const auto& [file, text] : contents) {
+    if (const auto failure = write_whole(file, text)) return *failure;
+  }
+  return files;
+}
+
+}  // namespace frustum::programs

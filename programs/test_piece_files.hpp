@@ -1,0 +1,24 @@
+// Writes a test piece as the files that `frustum run` reads: job, NC program, inspection plan.
+//
+// Units: as the files state them. Errors: a folder that cannot be made or a file that cannot be written;
+// each file appears whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/result.hpp"
+#include "programs/test_piece.hpp"
+
+namespace frustum::programs {
+
+// job.toml as text; `machine` is the path of the machine file as the job shall name it.
+[[nodiscard]] std::string job_text(const TestPiece& piece, const std::string& machine,
+                                   const std::string& plan_file);
+
+// Writes job.toml, the NC program and the plan; returns their paths, the job first.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> write_test_piece(
+    const TestPiece& piece, const std::filesystem::path& machine_file,
+    const std::filesystem::path& folder);
+
+}  // namespace frustum::programs

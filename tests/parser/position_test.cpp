@@ -1,0 +1,114 @@
+// What the program may rely on after moves and frame changes whose result it cannot know.
+#include <gtest/gtest.h>
+
+#include "core/units.hpp"
+#include "tests/parser/running.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using enum AxisLetter;
+
+std::string axes_in(const AxisTarget& target) {
+  std::string names;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (target[axis]) names += to_char(axis);
+  }
+  return names;
+}
+
+struct Case {
+  const char* change;
+  const char* known;  // axes that a move of X then carries
+};
+
+TEST(Position, IsKnownOnlyAsFarAsTheProgramCanKnowIt) {
+  for (const Case& c : {
+           Case{"G28 Z5", "XYABC"},
+           Case{"G28 Y0 A0", "XZBC"},
+           Case{"G91 G28 Z0\nG90 G0", "XYABC"},
+           Case{"G53 G0 Z0", "XYABC"},
+           Case{"G53 Y0 C0", "XZAB"},
+           Case{"G54", "XYZABC"},
+           Case{"G55", "X"},
+           Case{"G43 H1", "XYABC"},
+           Case{"G43.4 H1", "XABC"},
+           Case{"G43.5 H1", "XABC"},
+           Case{"G49", "XYZABC"},
+           Case{"G40 G80 G17 G0", "XYZABC"},
+           Case{"T1 M6", "XYZABC"},
+           Case{"G20", "XYZABC"},
+       }) {
+    const std::string text = std::string("G0 X1 Y2 Z3 A4 B5 C6\n") + c.change + "\n";
+    // A move of X shows what the program carries besides X.
+    EXPECT_EQ(axes_in(last_of<Traverse>(motions(text + "X9\n")).end), c.known) << c.change;
+  }
+}
+
+TEST(Position, SurvivesARepeatedOffsetOrCompensation) {
+  const auto move =
+      last_of<Traverse>(motions("G55 G43 H2\nG0 X1 Y2 Z3\nG55\nG43 H2\nG91 X1 Y1 Z1\n"));
+  EXPECT_EQ(axes_in(move.end), "XYZ");
+  EXPECT_EQ(move.end[Z], 4.0);
+}
+
+TEST(Position, ChangesItsHeightWithTheOffsetNumber) {
+  const auto move = last_of<Traverse>(motions("G43 H1\nG0 X1 Z3\nG43 H2\nX2\n"));
+  EXPECT_EQ(axes_in(move.end), "X");
+}
+
+TEST(Position, StaysBetweenTheTwoFormsOfToolCentrePointControl) {
+  const auto move = last_of<Traverse>(motions("G43.4 H1\nG0 X1 Y2 Z3 A5\nG43.5 H1\nX2 K1\n"));
+  EXPECT_EQ(axes_in(move.end), "XYZ");
+}
+
+TEST(Position, IsLostWhenToolCentrePointControlEnds) {
+  const auto move = last_of<Traverse>(motions("G43.4 H1\nG0 X1 Y2 Z3 A5\nG49\nX2\n"));
+  EXPECT_EQ(axes_in(move.end), "XA");
+}
+
+TEST(Position, OfTheTipIsLostByAnyMoveInMachineCoordinates) {
+  const auto move = last_of<Traverse>(motions("G43.4 H1\nG0 X1 Y2 Z3 A5 C6\nG53 C0\nG0 X9\n"));
+  EXPECT_EQ(axes_in(move.end), "XA");
+}
+
+TEST(Home, GoesThroughTheIntermediatePoint) {
+  const auto all = motions("G0 X1 Y2 Z3\nG28 Z50\n");
+  ASSERT_EQ(all.size(), 3U);
+  const auto through = std::get<Traverse>(all[1].command);
+  EXPECT_EQ(through.end[Z], 50.0);
+  EXPECT_EQ(through.end[X], 1.0);
+  const auto home = std::get<HomeReturn>(all[2].command);
+  EXPECT_EQ(home.axes, (std::array<bool, 6>{false, false, true, false, false, false}));
+}
+
+TEST(Home, GoesStraightFromWhereItIsWithAZeroIncrement) {
+  const auto from_nowhere = motions("G91 G28 Z0\n");
+  ASSERT_EQ(from_nowhere.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<HomeReturn>(from_nowhere[0].command));
+  const auto all = motions("G0 Z5\nG91 G28 Z0\n");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_TRUE(std::holds_alternative<HomeReturn>(all[1].command));
+}
+
+TEST(Home, LeavesTheMotionModeAsItWas) {
+  EXPECT_EQ(all_of<LinearFeed>(motions("G1 X1 F100\nG28 Z5\nX2\n")).size(), 2U);
+}
+
+TEST(MachineCoordinates, NameOnlyTheAxesOfTheBlock) {
+  const auto move = last_of<LinearFeed>(motions("G0 X1 Y2 A5\nG20 G53 G1 Z-1 C90 F10\n"));
+  EXPECT_EQ(move.coordinates, Coordinates::machine);
+  EXPECT_EQ(axes_in(move.end), "ZC");
+  EXPECT_EQ(move.end[Z], -25.4);
+  EXPECT_EQ(move.end[C], 90 * kRadPerDeg);
+  EXPECT_EQ(move.feed.value, 254.0);
+}
+
+TEST(MachineCoordinates, LastForOneBlock) {
+  const auto moves = all_of<Traverse>(motions("G53 G0 Z0\nX5\n"));
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_EQ(moves[1].coordinates, Coordinates::program);
+}
+
+}  // namespace
+}  // namespace frustum::parser

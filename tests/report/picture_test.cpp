@@ -1,0 +1,131 @@
+#include "report/picture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "report/colour_scale.hpp"
+#include "sample_report.hpp"
+
+namespace frustum::report {
+namespace {
+
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::vector<unsigned char> rgb{};
+
+  [[nodiscard]] std::array<int, 3> at(int x, int y) const {
+    const std::size_t k = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(x));
+    return {rgb[k], rgb[k + 1], rgb[k + 2]};
+  }
+};
+
+Pixels read_png(const std::filesystem::path& path) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&png, path.c_str()) == 0) return {};
+  png.format = PNG_FORMAT_RGB;
+  Pixels pixels{static_cast<int>(png.width), static_cast<int>(png.height), {}};
+  pixels.rgb.resize(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, pixels.rgb.data(), 0, nullptr) == 0) return {};
+  return pixels;
+}
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+// A square of 10 mm in the xy plane, seen from above.
+SurfacePicture square(std::optional<float> deviation) {
+  SurfacePicture picture;
+  picture.vertices = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  picture.triangles = {{0, 1, 2}, {0, 2, 3}};
+  picture.deviation.assign(4, deviation);
+  return picture;
+}
+
+TEST(Picture, HasTheSizeAskedForAndAWhiteBackground) {
+  PictureOptions options;
+  options.width = 300;
+  options.height = 200;
+  const auto path = scratch("frustum_picture_size.png");
+  const auto written = write_picture(path, sample_report(60, 4).surface, options);
+  ASSERT_TRUE(written.has_value());
+  const Pixels pixels = read_png(path);
+  EXPECT_EQ(pixels.width, 300);
+  EXPECT_EQ(pixels.height, 200);
+  EXPECT_EQ(pixels.at(0, 0), (std::array{255, 255, 255}));
+  EXPECT_NE(pixels.at(130, 100), (std::array{255, 255, 255}));
+  std::filesystem::remove(path);
+}
+
+TEST(Picture, ShowsMissingMaterialBlueAndMaterialLeftRed) {
+  PictureOptions options;
+  options.width = 200;
+  options.height = 200;
+  options.elevation = 90.0;
+  options.deviation_span = 0.002;
+  const auto centre = [&](std::optional<float> deviation) {
+    const auto path = scratch("frustum_picture_colour.png");
+    EXPECT_TRUE(write_picture(path, square(deviation), options).has_value());
+    const std::array<int, 3> colour = read_png(path).at(80, 100);
+    std::filesystem::remove(path);
+    return colour;
+  };
+  const auto left = centre(0.001F);
+  EXPECT_GT(left[0], left[2] + 60);
+  const auto missing = centre(-0.001F);
+  EXPECT_GT(missing[2], missing[0] + 60);
+  const auto unknown = centre(std::nullopt);
+  EXPECT_LT(std::abs(unknown[0] - unknown[2]), 20);
+}
+
+TEST(Picture, ComplainsAboutWhatItCannotDraw) {
+  const auto path = scratch("frustum_picture_bad.png");
+  EXPECT_FALSE(write_picture(path, SurfacePicture{}).has_value());
+  SurfacePicture broken = square(0.0F);
+  broken.triangles.push_back({0, 1, 7});
+  EXPECT_FALSE(write_picture(path, broken).has_value());
+  broken = square(0.0F);
+  broken.vertices[2][1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(write_picture(path, broken).has_value());
+  PictureOptions options;
+  options.width = 3;
+  EXPECT_FALSE(write_picture(path, square(0.0F), options).has_value());
+  options = {};
+  options.deviation_span = 0.0;
+  EXPECT_FALSE(write_picture(path, square(0.0F), options).has_value());
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Picture, NamesTheFileThatCannotBeWritten) {
+  PictureOptions options;
+  options.width = options.height = 64;
+  const auto result = write_picture("/no/such/folder/x.png", square(0.0F), options);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_THAT(result.error().front().message, testing::HasSubstr("/no/such/folder/x.png"));
+}
+
+TEST(ColourScale, HoldsNearlyAllDeviations) {
+  SurfacePicture picture = square(0.0013F);
+  EXPECT_DOUBLE_EQ(natural_span(picture), 0.002);
+  picture.deviation.assign(4, std::nullopt);
+  EXPECT_DOUBLE_EQ(natural_span(picture), 0.001);
+  picture.deviation.assign(1000, 0.0004F);
+  picture.deviation[7] = 5.0F;
+  EXPECT_DOUBLE_EQ(natural_span(picture), 0.0005);
+}
+
+TEST(ColourScale, IsNearWhiteAtNominal) {
+  const Colour nominal = deviation_colour(0.0, 1e-3);
+  for (const double channel : nominal) EXPECT_GT(channel, 0.9);
+}
+
+}  // namespace
+}  // namespace frustum::report

@@ -1,0 +1,235 @@
+#include "stock/polyhedral.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "stock/polyhedral_sweep.hpp"
+#include "stock/workpiece.hpp"
+
+namespace frustum::stock {
+namespace {
+
+using cutter::Cutter;
+using cutter::CutterType;
+using kinematics::ToolPath;
+using kinematics::ToolPose;
+using std::numbers::pi;
+
+constexpr double kRadius = 6.0;
+
+Cutter end_mill(CutterType type) {
+  return cutter::Cutter::make(
+             {.type = type, .diameter = {2.0 * kRadius}, .length = {60.0}, .flute_length = {14.0}})
+      .value();
+}
+
+Blank box(double x, double y, double height) {
+  return Blank::make(BoxShape{x, y, height}, Vec3::Zero()).value();
+}
+
+ToolPath path_through(const std::vector<ToolPose>& poses) {
+  ToolPath path;
+  path.poses = poses;
+  path.blocks = {{.source_line = 1, .tool = 1}};
+  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.stretches.push_back({i, 0});
+  return path;
+}
+
+// Facets, and a tolerance that falls with their square: half of what the facets stand off.
+PolyhedralOptions with_facets(int facets) {
+  const double sagitta = kRadius * (1.0 / std::cos(pi / facets) - 1.0);
+  return {.facets = facets, .arc_facets = std::max(1, facets / 4), .tolerance = {sagitta / 2.0}};
+}
+
+PolyhedralWorkpiece polyhedral(const Blank& blank, const ToolPath& path, CutterType type,
+                               const PolyhedralOptions& options) {
+  auto cut = PolyhedralWorkpiece::cut(blank, path, {{1, end_mill(type)}}, options);
+  if (!cut) ADD_FAILURE() << to_string(cut.error().front());
+  return cut.value();
+}
+
+Workpiece ray_exact(const Blank& blank, const ToolPath& path, CutterType type) {
+  return {blank, cutter::SweptCutter::sweep(path, {{1, end_mill(type)}}).value()};
+}
+
+double draw(std::uint32_t seed, std::uint64_t index, double lo, double hi) {
+  return lo + (hi - lo) * uniform({.seed = seed}, index);
+}
+
+Ray random_ray(const BoundingBox& within, std::uint64_t k) {
+  const double z = draw(1, k, -1.0, 1.0);
+  const double a = draw(2, k, 0.0, 2.0 * pi);
+  const double across = std::sqrt(1.0 - z * z);
+  const Vec3 direction(across * std::cos(a), across * std::sin(a), z);
+  Vec3 aim;
+  for (int d = 0; d < 3; ++d) {
+    aim[d] = draw(3, 3 * k + static_cast<std::uint64_t>(d), within.min[d], within.max[d]);
+  }
+  return {aim - 200.0 * direction, direction};
+}
+
+constexpr RaySpan kAll{0.0, 400.0};
+
+// Distance from a point of one surface to the other along a direction, either way.
+template <typename Solid>
+double distance_along(const Solid& solid, const Vec3& point, const Vec3& direction) {
+  const IntervalSet met = solid.material_along({point - 200.0 * direction, direction}, kAll);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Interval& i : met.intervals()) {
+    nearest = std::min({nearest, std::abs(i.lo - 200.0), std::abs(i.hi - 200.0)});
+  }
+  return nearest;
+}
+
+// Upper bound of the distance of a point of one surface from the other: along its normal, or, where an
+// edge is near, along the best of a few directions.
+template <typename Solid>
+double distance_to(const Solid& solid, const SurfacePoint& from) {
+  double nearest = distance_along(solid, from.point, from.normal);
+  for (int d = 0; d < 3; ++d) {
+    nearest = std::min(nearest, distance_along(solid, from.point, Vec3::Unit(d)));
+  }
+  return nearest;
+}
+
+struct Difference {
+  double worst = 0.0;
+  double rms = 0.0;
+  int points = 0;
+  // How far the polyhedral material reaches out of the true one along a ray.
+  double excess = 0.0;
+};
+
+Difference difference(const Workpiece& exact, const PolyhedralWorkpiece& faceted, int rays) {
+  Difference found;
+  double squares = 0.0;
+  const auto count = [&](double distance) {
+    found.worst = std::max(found.worst, distance);
+    squares += distance * distance;
+    ++found.points;
+  };
+  // Faces that the cutter has not touched are equal, and would only dilute the mean.
+  const BoundingBox bounds = exact.blank().bounds();
+  const auto on_blank = [&](const Vec3& p) {
+    return ((p - bounds.min).cwiseMin(bounds.max - p).array() < 1e-9).any();
+  };
+  for (int k = 0; k < rays; ++k) {
+    const Ray ray = random_ray(bounds, static_cast<std::uint64_t>(k));
+    const IntervalSet truth = exact.material_along(ray, kAll);
+    const IntervalSet approximate = faceted.material_along(ray, kAll);
+    const IntervalSet outside = approximate.minus(truth);
+    for (const Interval& i : outside.intervals()) {
+      found.excess = std::max(found.excess, i.length());
+    }
+    for (const Interval& i : truth.intervals()) {
+      for (const auto& [s, tag] : {std::pair{i.lo, i.lo_tag}, std::pair{i.hi, i.hi_tag}}) {
+        if (on_blank(ray.at(s))) continue;
+        count(distance_to(faceted, exact.surface_at(ray, s, tag)));
+      }
+    }
+    for (const Interval& i : approximate.intervals()) {
+      for (const auto& [s, tag] : {std::pair{i.lo, i.lo_tag}, std::pair{i.hi, i.hi_tag}}) {
+        if (on_blank(ray.at(s))) continue;
+        count(distance_to(exact, faceted.surface_at(ray, s, tag)));
+      }
+    }
+  }
+  found.rms = std::sqrt(squares / std::max(1, found.points));
+  return found;
+}
+
+double order(double coarse, double fine) { return std::log2(coarse / fine); }
+
+void print(const std::string& line) { std::cout << line << std::endl; }
+
+// Cuts with more and more facets, holds each against the rays, and checks the order at which the
+// worst and the mean difference fall over the whole series.
+void expect_second_order(const std::string& name, const Blank& blank, const ToolPath& path,
+                         CutterType type, const std::vector<int>& series) {
+  const Workpiece exact = ray_exact(blank, path, type);
+  std::vector<Difference> found;
+  for (const int facets : series) {
+    const PolyhedralOptions options = with_facets(facets);
+    const PolyhedralWorkpiece faceted = polyhedral(blank, path, type, options);
+    found.push_back(difference(exact, faceted, 150));
+    const Difference& now = found.back();
+    print(fmt::format(
+        "{}: facets {:3d}, hulls {:4d}, triangles {:6d}: worst {:.3e} mm, rms {:.3e} mm "
+        "over {} points",
+        name, facets, faceted.piece_count(), faceted.facet_count(), now.worst, now.rms,
+        now.points));
+    EXPECT_LT(now.worst, polyhedral_bound(options, {kRadius}).value) << facets;
+    EXPECT_LT(now.excess, 1e-8) << "material that the true part lacks, facets " << facets;
+    EXPECT_GT(now.points, 100);
+  }
+  const double doublings = std::log2(static_cast<double>(series.back()) / series.front());
+  const double worst_order = order(found.front().worst, found.back().worst) / doublings;
+  const double rms_order = order(found.front().rms, found.back().rms) / doublings;
+  print(fmt::format("{}: order of the worst {:.2f}, of the rms {:.2f}", name, worst_order,
+                    rms_order));
+  testing::Test::RecordProperty(name + "_order_of_worst", fmt::format("{:.3f}", worst_order));
+  testing::Test::RecordProperty(name + "_order_of_rms", fmt::format("{:.3f}", rms_order));
+  EXPECT_NEAR(worst_order, 2.0, 0.3);
+  EXPECT_NEAR(rms_order, 2.0, 0.3);
+}
+
+// The cutter feeds along X, turns in the feed direction and to the side, and sinks a little.
+ToolPath five_axis_stretch() {
+  return path_through({{Vec3(-9, -1, 5), Vec3(-0.10, 0.02, 1.0).normalized()},
+                       {Vec3(8, 1.5, 4), Vec3(-0.16, 0.08, 1.0).normalized()}});
+}
+
+TEST(PolyhedralReference, ConvergesToTheRaysAtSecondOrderForAFlatEndMillOnAFiveAxisStretch) {
+  expect_second_order("flat_five_axis", box(30, 24, 10), five_axis_stretch(), CutterType::flat,
+                      {16, 32, 64, 128});
+}
+
+TEST(PolyhedralReference, ConvergesToTheRaysAtSecondOrderForABallEndMillOnAFiveAxisStretch) {
+  expect_second_order("ball_five_axis", box(30, 24, 10), five_axis_stretch(), CutterType::ball,
+                      {16, 32, 64});
+}
+
+TEST(PolyhedralReference, ConvergesToTheRaysForSeveralStretchesThatCrossTheirOwnSweep) {
+  // Over itself twice, at changing depth; the third stretch turns the cutter, the fourth plunges.
+  const Vec3 leaning = Vec3(-0.10, 0.05, 1.0).normalized();
+  const Vec3 tilted = Vec3(-0.06, -0.08, 1.0).normalized();
+  const ToolPath path = path_through({{Vec3(-20, -8, 6), leaning},
+                                      {Vec3(10, 6, 5.2), leaning},
+                                      {Vec3(12, -7, 6.3), tilted},
+                                      {Vec3(-12, 8, 5.6), tilted},
+                                      {Vec3(-12, 8, 3.1), tilted}});
+  expect_second_order("crossing", box(40, 30, 10), path, CutterType::flat, {16, 32, 64});
+}
+
+TEST(PolyhedralReference, StraightSlotVolumeConvergesToTheClosedFormAtSecondOrder) {
+  // Slot 5 mm deep, 20 mm between the ends of the tool's axis, all inside the block.
+  const Blank blank = box(50, 30, 10);
+  const ToolPath path =
+      path_through({{Vec3(-10, 1, 5), Vec3::UnitZ()}, {Vec3(10, 1, 5), Vec3::UnitZ()}});
+  const double removed = 5.0 * (2.0 * kRadius * 20.0 + pi * kRadius * kRadius);
+  double before = 0.0;
+  for (const int facets : {16, 32, 64, 128}) {
+    const auto faceted = polyhedral(blank, path, CutterType::flat, with_facets(facets));
+    const double off = blank.volume() - faceted.volume() - removed;
+    print(fmt::format("slot: facets {:3d}: removed volume off by {:.4e} of {:.4f} mm^3", facets,
+                      off, removed));
+    EXPECT_GT(off, 0.0);  // circumscribed: too much, never too little
+    if (before > 0.0) {
+      EXPECT_NEAR(order(before, off), 2.0, 0.1);
+    }
+    before = off;
+  }
+  RecordProperty("slot_volume_error_128_mm3", fmt::format("{:.6f}", before));
+}
+
+}  // namespace
+}  // namespace frustum::stock

@@ -1,0 +1,163 @@
+#include "trials/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "parser/interpreter.hpp"
+
+namespace frustum::trials {
+namespace {
+
+using kinematics::AxisSample;
+using kinematics::AxisSpans;
+using kinematics::Execution;
+using kinematics::GeometricErrors;
+using kinematics::Machine;
+using programs::TestPiece;
+
+Diagnostics in_file(Diagnostics diagnostics, const std::string& file) {
+  for (Diagnostic& d : diagnostics) {
+    if (d.file.empty() && d.line > 0) d.file = file;
+  }
+  return diagnostics;
+}
+
+kinematics::Setup setup_of(const TestPiece& piece) {
+  kinematics::Setup setup;
+  setup.table_from_workpiece = piece.placement.table_from_workpiece();
+  setup.work_offsets = piece.work_offsets;
+  for (const auto& [number, tool] : piece.tools) {
+    const double flutes = tool.flute_length.value > 0.0 ? tool.flute_length.value : tool.length.value;
+    setup.tools[number] = {tool.length.value, tool.length_error.value, flutes};
+  }
+  return setup;
+}
+
+AxisSpans ranges_of(const Machine& machine, std::span<const AxisSample> samples) {
+  AxisSpans ranges;
+  for (const kinematics::Joint& joint : machine.joints()) {
+    const auto [lo, hi] = std::minmax_element(
+        samples.begin(), samples.end(), [&](const AxisSample& a, const AxisSample& b) {
+          return a.axes[joint.letter] < b.axes[joint.letter];
+        });
+    ranges[joint.letter] = {lo->axes[joint.letter], hi->axes[joint.letter]};
+  }
+  return ranges;
+}
+
+// The samples of each operation, with the position before its first block.
+std::vector<OperationTrace> traces_of(const Machine& machine, const TestPiece& piece,
+                                      const std::vector<AxisSample>& axes) {
+  std::vector<OperationTrace> traces;
+  for (const programs::Operation& op : piece.operations) {
+    const auto inside = [&](const AxisSample& s) {
+      return s.source_line >= op.first_line && s.source_line <= op.last_line;
+    };
+    const auto first = std::find_if(axes.begin(), axes.end(), inside);
+    if (first == axes.end() || first == axes.begin()) continue;
+    const auto last = std::find_if_not(first, axes.end(), inside);
+    OperationTrace trace{op.name, std::vector<AxisSample>(std::prev(first), last), {}};
+    trace.ranges = ranges_of(machine, trace.samples);
+    traces.push_back(std::move(trace));
+  }
+  return traces;
+}
+
+Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<OperationTrace>& traces) {
+  if (piece.error_span.empty()) return AxisSpans{};
+  for (const OperationTrace& trace : traces) {
+    if (trace.name == piece.error_span) return trace.ranges;
+  }
+  Diagnostic failure = error(fmt::format("there is no operation '{}' with axis motion", piece.error_span),
+                             "name one of the job's [[operation]] entries");
+  failure.key = "error_span.operation";
+  return failure;
+}
+
+Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) {
+  std::map<int, cutter::Cutter> tools;
+  for (const auto& [number, spec] : piece.tools) {
+    auto tool = cutter::Cutter::make(spec);
+    if (!tool) {
+      Diagnostics problems = tool.error();
+      for (Diagnostic& d : problems) d.key = fmt::format("tool.{}", number);
+      return problems;
+    }
+    tools.emplace(number, *std::move(tool));
+  }
+  auto swept = cutter::SweptCutter::sweep(std::move(path), std::move(tools));
+  if (!swept) return in_file(swept.error(), piece.program_file);
+  auto blank = stock::Blank::make(piece.blank, piece.blank_origin);
+  if (!blank) {
+    Diagnostics problems = blank.error();
+    for (Diagnostic& d : problems) d.key = "blank";
+    return problems;
+  }
+  return stock::Workpiece(*std::move(blank), *std::move(swept));
+}
+
+}  // namespace
+
+std::string_view name_of(Stage stage) {
+  constexpr std::string_view kNames[] = {"parse", "execute", "cut", "find collisions", "measure"};
+  return kNames[static_cast<std::size_t>(stage)];
+}
+
+Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::ErrorEntry> errors,
+                        const TestPiece& piece, const metrology::CmmModel& cmm,
+                        const TrialOptions& options) {
+  const auto begin = [&](Stage stage) {
+    if (options.on_stage) options.on_stage(stage);
+  };
+  begin(Stage::parse);
+  const auto program = parser::parse_program(piece.program, piece.program_file);
+  if (!program) return program.error();
+  const auto motions = parser::motions_of(*program);
+  if (!motions) return motions.error();
+
+  // What the controller commands does not depend on the errors; the errors may depend on its ranges.
+  begin(Stage::execute);
+  const kinematics::Setup setup = setup_of(piece);
+  const auto commanded = kinematics::execute(machine, GeometricErrors{}, setup, *motions,
+                                             {.path_bound = options.path_bound, .sample_path = false});
+  if (!commanded) return in_file(commanded.error(), piece.program_file);
+  Trial trial;
+  trial.operations = traces_of(machine, piece, commanded->axes);
+  trial.warnings = in_file(commanded->warnings, piece.program_file);
+  const auto spans = error_spans(piece, trial.operations);
+  if (!spans) return spans.error();
+  const auto injected = kinematics::resolve(machine, errors, *spans);
+  if (!injected) return injected.error();
+  auto execution =
+      kinematics::execute(machine, *injected, setup, *motions, {.path_bound = options.path_bound});
+  if (!execution) return in_file(execution.error(), piece.program_file);
+
+  begin(Stage::cut);
+  auto workpiece = cut(piece, std::move(execution->path));
+  if (!workpiece) return workpiece.error();
+  trial.workpiece = std::make_shared<const stock::Workpiece>(*std::move(workpiece));
+
+  if (options.find_collisions) {
+    begin(Stage::collide);
+    trial.collisions = stock::find_collisions(*trial.workpiece);
+  }
+  if (options.measure) {
+    begin(Stage::measure);
+    const WorkpieceProbe probe(*trial.workpiece);
+    auto measurement = metrology::measure(piece.plan, probe, cmm);
+    if (!measurement) return measurement.error();
+    trial.measurement = *std::move(measurement);
+  }
+  return trial;
+}
+
+std::optional<metrology::Touch> WorkpieceProbe::touch(const Vec3& start, const UnitVec3& direction,
+                                                      double length_mm) const {
+  const auto surface = workpiece_->first_surface({start, direction}, {0.0, length_mm});
+  if (!surface) return std::nullopt;
+  return metrology::Touch{surface->point, surface->normal};
+}
+
+}  // namespace frustum::trials

@@ -1,0 +1,71 @@
+// One trip round the loop: parse, interpret, execute with errors, cut, measure.
+//
+// A pure function of its arguments: the same input gives the same bits. Everything that runs the loop,
+// once or a million times, goes through run_trial().
+// Units: mm, rad
+// Errors: those of every room on the way, with the place in the NC program or the plan
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+#include "kinematics/controller.hpp"
+#include "kinematics/geometric_errors.hpp"
+#include "kinematics/machine.hpp"
+#include "metrology/cmm.hpp"
+#include "metrology/measurement.hpp"
+#include "programs/test_piece.hpp"
+#include "stock/collision.hpp"
+#include "stock/workpiece.hpp"
+
+namespace frustum::trials {
+
+// Axis positions of one operation: where it starts, then the end of every block.
+struct OperationTrace {
+  std::string name{};
+  std::vector<kinematics::AxisSample> samples{};
+  kinematics::AxisSpans ranges{};  // travelled range of each axis of the machine
+};
+
+// Everything that one trip leaves behind.
+struct Trial {
+  metrology::Measurement measurement{};
+  std::vector<OperationTrace> operations{};
+  std::vector<stock::Collision> collisions{};
+  Diagnostics warnings{};
+  std::shared_ptr<const stock::Workpiece> workpiece{};
+};
+
+enum class Stage { parse, execute, cut, collide, measure };
+[[nodiscard]] std::string_view name_of(Stage stage);
+
+struct TrialOptions {
+  double path_bound = 1e-5;     // mm
+  bool find_collisions = true;
+  bool measure = true;          // false: stop with the finished workpiece
+  // Told when a stage begins; for progress bars and clocks, which live above this room.
+  std::function<void(Stage)> on_stage{};
+};
+
+[[nodiscard]] Result<Trial> run_trial(const kinematics::Machine& machine,
+                                      std::span<const kinematics::ErrorEntry> errors,
+                                      const programs::TestPiece& piece,
+                                      const metrology::CmmModel& cmm,
+                                      const TrialOptions& options = {});
+
+// Makes a workpiece answer approaches: the bridge between stock and metrology.
+class WorkpieceProbe {
+ public:
+  explicit WorkpieceProbe(const stock::Workpiece& workpiece) : workpiece_(&workpiece) {}
+  [[nodiscard]] std::optional<metrology::Touch> touch(const Vec3& start, const UnitVec3& direction,
+                                                      double length_mm) const;
+
+ private:
+  const stock::Workpiece* workpiece_;
+};
+
+}  // namespace frustum::trials
