@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/console.hpp"
 #include "app/machine_files.hpp"
@@ -73,7 +75,7 @@ int forward(const Options& options, const Machine& machine,
   if (!q) return refuse(q.error());
   const Pose nominal = nominal_pose(machine, *q, options.tool_length);
   const Pose actual = actual_pose(machine, errors, *q, options.tool_length);
-  const ToolPose n = tool_pose(nominal), a = tool_pose(actual);
+  const ToolPose n = kinematics::tool_pose(nominal), a = kinematics::tool_pose(actual);
   // The rotation that carries the nominal tool frame to the actual one, as a vector in the table frame.
   const Eigen::AngleAxisd turn(actual.rotation * nominal.rotation.transpose());
   const Vec3 turned = turn.angle() * turn.axis() * kUradPerRad;

@@ -107,6 +107,7 @@ std::vector<AxisCandidate> axis_candidates(const NormalisedPoints& local, RoundK
   std::stable_sort(all.begin(), all.end(),
                    [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
   std::vector<AxisCandidate> chosen;
+  chosen.reserve(most + 3);
   const double apart = std::cos(12.0 * kRadPerDeg);  // wider than the grid, so neighbours are one
   // The principal directions whatever their rank: a flat or a slender part shows its axis there.
   for (int i = 0; i < 3; ++i) {

@@ -70,12 +70,9 @@ Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vect
   }
   const Element centre_element = agreeing(fit->element, planned.axis);
   const double sign = material_sign(planned);
-  FittedFeature feature;
-  feature.planned = &planned;
-  feature.form = fit->form;
-  feature.rms = fit->rms;
-  feature.cofactor = std::move(fit->cofactor);
-  feature.element = offset(centre_element, -sign * ball_radius);
+  FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
+                        {},       fit->form,
+                        fit->rms, std::move(fit->cofactor)};
   const Vec3 axis = axis_of(centre_element)->vec();
   const Vec3 line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
   if (auto* line = std::get_if<Line>(&feature.element)) line->point -= ball_radius * line_normal;

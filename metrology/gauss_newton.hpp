@@ -145,7 +145,7 @@ class GaussNewton {
     const Eigen::JacobiSVD<Eigen::Matrix<double, kN, kN>> svd(
         triangle_, Eigen::ComputeFullU | Eigen::ComputeFullV);
     if (svd.info() != Eigen::Success) return result;  // the steps left the numbers
-    const Step values = svd.singularValues();
+    const Step& values = svd.singularValues();
     // With a ratio of 1e-9 rounding in the coordinates moves the weakest parameter by a ten
     // millionth of the part: the points do not tell it.
     result.well_posed = std::isfinite(cost_) && values[kN - 1] > 1e-9 * values[0];

@@ -7,18 +7,10 @@
 
 #include "core/random.hpp"
 #include "kinematics/chain.hpp"
+#include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {
 namespace {
-
-Machine shipped(const std::string& name) {
-  auto machine = Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" + name + ".toml");
-  if (!machine) {
-    ADD_FAILURE() << to_string(machine.error().front());
-    std::abort();
-  }
-  return *machine;
-}
 
 AxisPositions random_position(const Machine& machine, std::uint32_t draw) {
   AxisPositions q;

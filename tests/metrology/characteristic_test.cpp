@@ -57,6 +57,7 @@ TEST(EquivalentConeForm, IsZeroForADisplacedPart) {
   for (int i = 0; i < 50; ++i) {
     const Pose lie{rotation_about(draws.direction(), draws.between(-0.5, 0.5)), draws.place(100.0)};
     std::vector<Vec3> moved;
+    moved.reserve(exact.size());
     for (const Vec3& p : exact) moved.push_back(lie.point(p));
     EXPECT_LT(form_um(moved), 1e-8);  // rounding of coordinates of 100 mm: 1e-14 mm
   }

@@ -69,13 +69,13 @@ TEST(InspectionPlan, KeepsEveryBitOfRandomNumbers) {
 
 TEST(InspectionPlan, IsTextThatAMetrologistReads) {
   const std::string text = to_toml(test_part::plan());
-  for (const char* line : {"ball_diameter = 3  # mm", "half_angle = 30\n",
-                           "axis = [0, 0, -1]  # along the axis, toward growing radius",
-                           "section_radius = 22  # across the axis, in the section at point",
-                           "strategy = { sections = [-11, -7, -3], points_per_section = 72, "
-                           "start_angle = 0, sweep = 360 }",
-                           "tolerance = \"8 um\"", "tolerance = \"600 urad\"",
-                           "primary = \"A\"  # Z: its outward normal"}) {
+  for (const char* line :
+       {"ball_diameter = 3  # mm", "half_angle = 30\n",
+        "axis = [0, 0, -1]  # along the axis, toward growing radius",
+        "section_radius = 22  # across the axis, in the section at point",
+        "strategy = { sections = [-11, -7, -3], points_per_section = 72, start",
+        "start_angle = 0, sweep = 360 }", "tolerance = \"8 um\"", "tolerance = \"600 urad\"",
+        "primary = \"A\"  # Z: its outward normal"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << '\n' << text;
   }
 }

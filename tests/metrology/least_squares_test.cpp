@@ -27,6 +27,7 @@ TEST(LineFit, RecoversExactLinesAnywhere) {
     const Vec3 point = draws.place(1000.0);
     const UnitVec3 axis = draws.direction();
     std::vector<Vec3> points;
+    points.reserve(12);
     for (int i = 0; i < 12; ++i)
       points.emplace_back(point + draws.between(-80.0, 80.0) * axis.vec());
     const auto fit = fit_line(points);
@@ -45,6 +46,7 @@ TEST(PlaneFit, RecoversExactPlanesAnywhere) {
     const UnitVec3 axis = draws.direction();
     const auto [u, v] = tangents(axis);
     std::vector<Vec3> points;
+    points.reserve(9);
     for (int i = 0; i < 9; ++i) {
       points.emplace_back(point + draws.between(-50.0, 50.0) * u + draws.between(-50.0, 50.0) * v);
     }
@@ -176,6 +178,7 @@ TEST(EveryFit, CommutesWithRigidMotionAndPointOrder) {
       const std::vector<Vec3> points = wavy(kind, draws);
       const Pose moved_from_here = draws.pose(300.0);
       std::vector<Vec3> moved;
+      moved.reserve(points.size());
       for (const Vec3& p : points) moved.push_back(moved_from_here.point(p));
       std::reverse(moved.begin(), moved.end());
       std::rotate(moved.begin(), moved.begin() + 7, moved.end());
@@ -257,6 +260,7 @@ TEST(EveryFit, RefusesWhatDoesNotTellTheElement) {
   EXPECT_EQ(first_message(fit_line(std::vector<Vec3>{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}).error()),
             "degenerate points for a line: all of them coincide");
   std::vector<Vec3> row;
+  row.reserve(10);
   for (int i = 0; i < 10; ++i) row.emplace_back(i, 2.0 * i, -i);
   EXPECT_EQ(first_message(fit_plane(row).error()),
             "degenerate points for a plane: they lie on one straight line");
@@ -271,6 +275,7 @@ TEST(EveryFit, RefusesWhatDoesNotTellTheElement) {
               "degenerate points for a " + std::string(name_of(kind)) + ": they lie in one plane");
   }
   std::vector<Vec3> cube;
+  cube.reserve(8);
   for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
   EXPECT_EQ(first_message(fit_line(cube).error()),
             "degenerate points for a line: no direction stands out");
@@ -287,6 +292,7 @@ TEST(EveryFit, AnswersRandomCloudsWithAFitOrAReason) {
       std::vector<Vec3> cloud;
       const int n = 6 + static_cast<int>(draws.between(0.0, 30.0));
       const Vec3 stretch(std::exp2(draws.between(-8, 4)), std::exp2(draws.between(-8, 4)), 1.0);
+      cloud.reserve(static_cast<std::size_t>(n));
       for (int i = 0; i < n; ++i) cloud.emplace_back(stretch.cwiseProduct(draws.place(10.0)));
       const auto fit = fit_element(kind, cloud);
       if (!fit) {

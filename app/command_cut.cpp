@@ -1,0 +1,114 @@
+// frustum cut: the finished workpiece as a mesh and a picture.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/console.hpp"
+#include "app/job.hpp"
+#include "app/job_report.hpp"
+#include "app/trial_run.hpp"
+#include "report/picture.hpp"
+#include "stock/mesh_file.hpp"
+
+namespace frustum::app {
+namespace {
+
+struct Options {
+  std::string job{};
+  std::string mesh{};
+  std::string picture{};
+  double pitch = 0.0;
+  JobOverrides overrides{};
+  bool json = false;
+  bool quiet = false;
+};
+
+struct DeviationRange {
+  std::size_t vertices = 0;  // with a nominal
+  double lowest = 0.0, highest = 0.0;
+};
+
+DeviationRange range_of(const stock::SurfaceMesh& mesh) {
+  DeviationRange range;
+  for (const auto& d : mesh.deviation) {
+    if (!d) continue;
+    range.lowest = range.vertices == 0 ? *d : std::min(range.lowest, *d);
+    range.highest = range.vertices == 0 ? *d : std::max(range.highest, *d);
+    ++range.vertices;
+  }
+  return range;
+}
+
+int cut(const Options& options) {
+  if (options.mesh.empty() && options.picture.empty()) {
+    return refuse("nothing to write", "give --mesh OUT.stl|.ply|.obj or --picture OUT.png");
+  }
+  if (!options.mesh.empty()) {
+    if (const auto format = stock::mesh_format_of(options.mesh); !format) return refuse(format.error());
+  }
+  const auto job = load_job(options.job, options.overrides, false);
+  if (!job) return refuse(job.error());
+  TrialRun run(progress_style(options.quiet || options.json));
+  const auto trial = run.trial(*job, false);
+  if (!trial) return refuse(trial.error());
+  run.begin("mesh the surface");
+  const auto mesh = finished_surface(*job, *trial->workpiece, options.pitch);
+  run.end();
+  if (!mesh) return refuse(mesh.error());
+  if (!options.mesh.empty()) {
+    if (const auto file = stock::write_mesh(*mesh, options.mesh); !file) return refuse(file.error());
+  }
+  if (!options.picture.empty()) {
+    const auto file = report::write_picture(options.picture, picture_of(*mesh));
+    if (!file) return refuse(file.error());
+  }
+  const stock::MeshMeasure measure = stock::measure(*mesh);
+  const double blank = trial->workpiece->blank().volume();
+  const DeviationRange deviation = range_of(*mesh);
+  if (options.json) {
+    const nlohmann::ordered_json doc{{"vertices", mesh->vertices.size()},
+                                     {"triangles", mesh->triangles.size()},
+                                     {"closed", measure.is_closed},
+                                     {"manifold", measure.is_manifold},
+                                     {"volume_mm3", measure.volume},
+                                     {"blank_volume_mm3", blank},
+                                     {"removed_volume_mm3", blank - measure.volume},
+                                     {"vertices_with_nominal", deviation.vertices},
+                                     {"deviation_um",
+                                      {deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm}},
+                                     {"collisions", trial->collisions.size()}};
+    std::cout << doc.dump(2) << '\n';
+  } else if (!options.quiet) {
+    std::cout << fmt::format(
+        "{} vertices, {} triangles, {}\nvolume {:.3f} mm3 of {:.3f}, removed {:.3f}\n"
+        "deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
+        mesh->vertices.size(), mesh->triangles.size(),
+        measure.is_closed && measure.is_manifold ? "closed and manifold" : "NOT closed", measure.volume,
+        blank, blank - measure.volume, deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm,
+        deviation.vertices);
+  }
+  return trial->collisions.empty() ? kDone : kOutOfTolerance;
+}
+
+}  // namespace
+
+void add_cut(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("cut", "Cut a job and write the finished workpiece");
+  command->add_option("job", options->job, "Job file")->required();
+  command->add_option("--mesh", options->mesh, "Mesh to write: .stl, .ply (with deviations) or .obj");
+  command->add_option("--picture", options->picture, "Picture to write: .png, coloured by deviation");
+  command->add_option("--pitch", options->pitch, "Of the sampling grid, mm (default: longest side / 150)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--error", options->overrides.errors, "NAME=VALUE, repeated; overrides the job");
+  command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
+  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
+  command->add_flag("--quiet", options->quiet, "No progress, no summary");
+  command->footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
+  command->callback([options, &exit_code] { exit_code = cut(*options); });
+}
+
+}  // namespace frustum::app

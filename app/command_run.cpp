@@ -1,0 +1,97 @@
+// frustum run: the whole loop, from a job file to a report.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/console.hpp"
+#include "app/job.hpp"
+#include "app/job_report.hpp"
+#include "app/trial_run.hpp"
+#include "report/html_report.hpp"
+#include "report/json_report.hpp"
+#include "report/points_csv.hpp"
+#include "report/terminal_report.hpp"
+#include "report/text_file.hpp"
+
+namespace frustum::app {
+namespace {
+
+struct Options {
+  std::string job{};
+  std::string out{};
+  JobOverrides overrides{};
+  bool json = false;
+  bool quiet = false;
+};
+
+// Files go to --out, else beside the job into out/.
+std::filesystem::path folder_of(const Options& options) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path(options.job).parent_path() / "out";
+}
+
+// Writes result.json, points.csv and the page; their names go into the report for the terminal.
+std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job,
+                                       const std::filesystem::path& folder) {
+  const auto made = output_folder(folder);
+  if (!made) return made.error();
+  std::vector<Result<std::filesystem::path>> written;
+  written.push_back(report::write_text_file(folder / "result.json", report::json_report(report)));
+  written.push_back(report::write_text_file(folder / "points.csv", report::points_csv(report.measurement)));
+  if (job.report) written.push_back(report::write_html_report(folder / "report.html", report));
+  for (const auto& file : written) {
+    if (!file) return file.error();
+    report.files.push_back(file->string());
+  }
+  return std::nullopt;
+}
+
+int run_job(const Options& options) {
+  const auto job = load_job(options.job, options.overrides, true);
+  if (!job) return refuse(job.error());
+  TrialRun run(progress_style(options.quiet || options.json));
+  auto trial = run.trial(*job);
+  if (!trial) return refuse(trial.error());
+  report::RunReport report = report_of(*job, *trial);
+  if (job->report) {
+    run.begin("mesh the surface");
+    auto mesh = finished_surface(*job, *trial->workpiece, 0.0);
+    if (!mesh) return refuse(mesh.error());
+    report.surface = picture_of(*mesh);
+    const double finished = stock::measure(*mesh).volume;
+    const double blank = trial->workpiece->blank().volume();
+    report.volumes = {blank, finished, blank - finished};
+  }
+  run.end();
+  report.timings = run.timings();
+  if (const auto failure = write_files(report, *job, folder_of(options))) return refuse(*failure);
+  if (options.json) {
+    std::cout << report::json_report(report);
+  } else if (!options.quiet) {
+    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
+  }
+  return report.passes() ? kDone : kOutOfTolerance;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "run", "The whole loop: parse, execute with errors, cut, measure, report");
+  command->add_option("job", options->job, "Job file")->required();
+  command->add_option("--out", options->out, "Folder for report.html, result.json and points.csv "
+                                             "(default: out/ beside the job)");
+  command->add_option("--error", options->overrides.errors,
+                      "NAME=VALUE, repeated; overrides the job, for example --error EB0C=30urad");
+  command->add_option("--tool-radius-error", options->overrides.tool_radius_error,
+                      "Of every tool, with unit, for example 2um");
+  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
+  command->add_flag("--quiet", options->quiet, "No progress, no summary");
+  command->footer("Example: frustum run job.toml --out out --error EX0C=10um");
+  command->callback([options, &exit_code] { exit_code = run_job(*options); });
+}
+
+}  // namespace frustum::app

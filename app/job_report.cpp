@@ -1,0 +1,137 @@
+#include "app/job_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "metrology/nominal.hpp"
+
+namespace frustum::app {
+namespace {
+
+using kinematics::AxisLetter;
+using kinematics::Joint;
+
+std::string describe(const cutter::CutterSpec& tool) {
+  std::string text = fmt::format("{} end mill, diameter {:g} mm, length {:g} mm",
+                                 cutter::to_string(tool.type), tool.diameter.value, tool.length.value);
+  if (tool.radius_error.value != 0.0) {
+    text += fmt::format(", radius error {:g} um", tool.radius_error.value * kUmPerMm);
+  }
+  if (tool.length_error.value != 0.0) {
+    text += fmt::format(", length error {:g} um", tool.length_error.value * kUmPerMm);
+  }
+  return text;
+}
+
+std::string meaning_of(const kinematics::Machine& machine, const std::string& name) {
+  const auto alias = machine.aliases().find(name);
+  if (alias != machine.aliases().end()) return alias->second.meaning;
+  const auto error = kinematics::ErrorName::parse(name);
+  return error ? error->meaning() : "";
+}
+
+// Over the cone angle when the operation is the cone's, over its blocks otherwise.
+report::AxisTrace trace_of(const Job& job, const trials::OperationTrace& operation) {
+  // A page does not show more; every k-th block and the last are kept.
+  constexpr std::size_t kMostSamples = 720;
+  report::AxisTrace trace;
+  trace.operation = operation.name;
+  const bool cone = operation.name.starts_with("cone");
+  trace.abscissa_kind = cone ? report::Abscissa::cone_angle : report::Abscissa::block;
+  const std::size_t last = operation.samples.size() - 1;
+  const std::size_t step = std::max<std::size_t>(1, last / kMostSamples);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i <= last; i += step) kept.push_back(i);
+  if (kept.back() != last) kept.push_back(last);
+  for (const std::size_t i : kept) {
+    const double share = last == 0 ? 0.0 : static_cast<double>(i) / static_cast<double>(last);
+    trace.abscissa.push_back(cone ? 360.0 * share : static_cast<double>(i));
+  }
+  for (const AxisLetter letter : kinematics::kAxisLetters) {
+    const Joint* joint = job.machine.joint(letter);
+    if (joint == nullptr) continue;
+    const double scale = joint->rotary() ? kDegPerRad : 1.0;
+    report::AxisSeries series{.axis = std::string(1, to_char(letter)), .rotary = joint->rotary()};
+    for (const std::size_t i : kept) series.values.push_back(operation.samples[i].axes[letter] * scale);
+    const kinematics::AxisRange range = operation.ranges.at(letter);
+    series.range = report::AxisRange{range.lo * scale, range.hi * scale};
+    trace.axes.push_back(std::move(series));
+  }
+  return trace;
+}
+
+std::string collision_text(const stock::Collision& c) {
+  const char* what = c.kind == stock::CollisionKind::rapid_through_material
+                         ? "rapid move (G0) through material"
+                         : "feed move with the spindle off in material";
+  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f})", what, c.tool, c.depth,
+                     c.point.x(), c.point.y(), c.point.z());
+}
+
+}  // namespace
+
+report::RunReport report_of(const Job& job, const trials::Trial& trial) {
+  report::RunReport report;
+  report.title = job.piece.title;
+  report.version = FRUSTUM_VERSION;
+  report.machine = job.machine.name() + ", " + job.machine.title();
+  report.structure = job.machine.structure();
+  report.program = std::filesystem::path(job.piece.program_file).filename().string();
+  for (const auto& [number, tool] : job.piece.tools) report.tools.push_back({number, describe(tool)});
+  for (const kinematics::ErrorEntry& e : job.errors) {
+    report.errors.push_back({e.name, e.written, meaning_of(job.machine, e.name)});
+  }
+  report.measurement = trial.measurement;
+  for (const trials::OperationTrace& operation : trial.operations) {
+    report.traces.push_back(trace_of(job, operation));
+  }
+  for (const stock::Collision& c : trial.collisions) {
+    report.collisions.push_back({c.source_line, collision_text(c)});
+  }
+  report.budget = {{"tool path chord", job.path_bound * kUmPerMm, {}, "um"},
+                   {"ray against sweep", 1.0, {}, "nm"}};
+  report.diagnostics = trial.warnings;
+  const Vec3& at = job.piece.placement.origin;
+  const Vec3 tilt = job.piece.placement.tilt * kDegPerRad;
+  report.notes.push_back(
+      fmt::format("workpiece frame on the table at ({:g}, {:g}, {:g}) mm, tilted ({:g}, {:g}, {:g}) deg",
+                  at.x(), at.y(), at.z(), tilt.x(), tilt.y(), tilt.z()));
+  if (!job.piece.error_span.empty()) {
+    report.notes.push_back(fmt::format(
+        "error shapes without a span of their own lie over the range that '{}' travels",
+        job.piece.error_span));
+  }
+  return report;
+}
+
+Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpiece& workpiece,
+                                            double pitch) {
+  const stock::BoundingBox box = workpiece.blank().bounds();
+  if (pitch <= 0.0) pitch = job.mesh_pitch;
+  if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 150.0;
+  auto mesh = stock::extract_surface(workpiece, box, Mm{pitch});
+  if (!mesh || job.piece.plan.features.empty()) return mesh;
+  mesh->deviation.reserve(mesh->vertices.size());
+  for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
+    mesh->deviation.push_back(metrology::deviation_from_nominal(job.piece.plan, mesh->vertices[i],
+                                                                mesh->normals[i]));
+  }
+  return mesh;
+}
+
+report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh) {
+  report::SurfacePicture picture;
+  for (const Vec3& v : mesh.vertices) {
+    picture.vertices.push_back(
+        {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
+  }
+  picture.triangles = mesh.triangles;
+  for (const auto& d : mesh.deviation) {
+    picture.deviation.push_back(d ? std::optional(static_cast<float>(*d)) : std::nullopt);
+  }
+  return picture;
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,22 @@
+// From a finished trial to what a report shows.
+// Units: as report/run_report.hpp. Errors: none.
+#pragma once
+
+#include "app/job.hpp"
+#include "report/run_report.hpp"
+#include "stock/surface_mesh.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+
+// Everything but surface, volumes, timings and files.
+[[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
+
+// The finished surface at the pitch the job or `pitch` (mm; 0: the blank's longest side / 150) asks for,
+// with the deviation of each vertex from the plan's nominal surfaces.
+[[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
+                                                          const stock::Workpiece& workpiece,
+                                                          double pitch);
+[[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh);
+
+}  // namespace frustum::app
