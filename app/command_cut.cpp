@@ -101,7 +101,7 @@ void add_cut(CLI::App& program, int& exit_code) {
   command->add_option("job", options->job, "Job file")->required();
   command->add_option("--mesh", options->mesh, "Mesh to write: .stl, .ply (with deviations) or .obj");
   command->add_option("--picture", options->picture, "Picture to write: .png, coloured by deviation");
-  command->add_option("--pitch", options->pitch, "Of the sampling grid, mm (default: longest side / 150)")
+  command->add_option("--pitch", options->pitch, "Of the sampling grid, mm (default: longest side / 120)")
       ->check(CLI::PositiveNumber);
   command->add_option("--error", options->overrides.errors, "NAME=VALUE, repeated; overrides the job");
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");

@@ -110,7 +110,7 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
                                             double pitch) {
   const stock::BoundingBox box = workpiece.blank().bounds();
   if (pitch <= 0.0) pitch = job.mesh_pitch;
-  if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 150.0;
+  if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 120.0;
   auto mesh = stock::extract_surface(workpiece, box, Mm{pitch});
   if (!mesh || job.piece.plan.features.empty()) return mesh;
   mesh->deviation.reserve(mesh->vertices.size());

@@ -12,7 +12,7 @@ namespace frustum::app {
 // Everything but surface, volumes, timings and files.
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
 
-// The finished surface at the pitch the job or `pitch` (mm; 0: the blank's longest side / 150) asks for,
+// The finished surface at the pitch the job or `pitch` (mm; 0: the blank's longest side / 120) asks for,
 // with the deviation of each vertex from the plan's nominal surfaces.
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::Workpiece& workpiece,

@@ -40,7 +40,7 @@ struct CandidateTree::Scene {
   RTCScene scene = nullptr;
 
   explicit Scene(std::vector<Box> all) : boxes(std::move(all)) {
-    device = rtcNewDevice("threads=1,set_affinity=0");
+    device = rtcNewDevice(nullptr);
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);

@@ -16,13 +16,10 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Quad = std::array<std::uint32_t, 4>;
 
-// How far a vertex may leave its cell, in pitches: a sharp corner can pierce the face of its cell without
-// taking a grid node along.
-#ifdef LV
-constexpr double kLeaveCell = LV;
-#else
-constexpr double kLeaveCell = 0.25;
-#endif
+// How far a vertex may leave its cell, in pitches: a sharp corner can pierce the face of its cell
+// without taking a grid node along. With 0.8 every corner of 200 boxes at random attitudes is found
+// (with 0.5, 98 %; with 0.25, 88 %), and no triangle folds over its neighbour.
+constexpr double kLeaveCell = 0.8;
 // Vertices closer than this, in pitches, would make needles of the triangles between them.
 constexpr double kTooClose = 0.05;
 
@@ -87,6 +84,8 @@ class VertexPlacer {
     }
     const BoundingBox box{grid.node(i, j, k), grid.node(i + 1, j + 1, k + 1)};
     const auto placed = place_vertex(solid_, std::span(samples).first(count), box, leave);
+    // Keeping to the cell is not worth leaving the surface.
+    if (leave == 0.0 && placed.kind == VertexKind::averaged) return;
     const std::uint32_t vertex = cell.first_vertex + piece;
     mesh_.vertices[vertex] = placed.point;
     mesh_.normals[vertex] = placed.normal;
@@ -140,7 +139,7 @@ Quad quad_around(const Cells& cells, int axis, std::array<int, 3> node, bool low
 struct Split {
   std::array<Triangle, 2> triangles;
   double miss = 0.0;      // from the exact crossing of the grid edge, along the edge; mm
-  bool folded = false;    // a triangle faces inwards, seen along the edge
+  bool folded = false;    // a triangle faces inwards, seen along the edge, or has no area
   double diagonal = 0.0;  // its length, mm
 };
 
@@ -151,6 +150,16 @@ struct Seen {
 };
 double twice_area(const Seen& a, const Seen& b, const Seen& c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+
+// Three vertices on one straight edge of the solid.
+bool is_needle(const SurfaceMesh& mesh, const Triangle& triangle) {
+  const Vec3 ab = mesh.vertices[triangle[1]] - mesh.vertices[triangle[0]];
+  const Vec3 ac = mesh.vertices[triangle[2]] - mesh.vertices[triangle[0]];
+  const Vec3 bc = ac - ab;
+  // A height of a millionth of the longest side, as measure() counts them.
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
+  return ab.cross(ac).norm() <= 1e-6 * longest;
 }
 
 Split split_along(const SurfaceMesh& mesh, const Quad& quad, std::size_t from, int axis,
@@ -169,6 +178,7 @@ Split split_along(const SurfaceMesh& mesh, const Quad& quad, std::size_t from, i
       seen[k] = {at[(axis + 1) % 3], at[(axis + 2) % 3]};
       along[k] = at[axis];
     }
+    split.folded = split.folded || is_needle(mesh, triangle);
     const double area = sense * twice_area(seen[0], seen[1], seen[2]);
     if (area <= 0.0) {
       split.folded = true;

@@ -150,7 +150,7 @@ TEST_P(BothCutters, NeverMissesWhatAStandingCutterCovers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, BothCutters, testing::Values(CutterType::flat, CutterType::ball),
-                         [](const auto& info) { return to_string(info.param); });
+                         [](const auto& each) { return to_string(each.param); });
 
 TEST(SweptCutter, CutsASlotThatIsABoxAndTwoHalfCylinders) {
   const SweptCutter slot =
