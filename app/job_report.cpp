@@ -62,6 +62,22 @@ report::AxisTrace trace_of(const Job& job, const trials::OperationTrace& operati
   return trace;
 }
 
+// A vertex on an edge has no normal of its own; it is judged by the face of the first triangle there
+// that a planned feature owns.
+void judge_edges(stock::SurfaceMesh& mesh, const metrology::InspectionPlan& plan) {
+  for (const auto& triangle : mesh.triangles) {
+    const Vec3& a = mesh.vertices[triangle[0]];
+    const Vec3 across = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+    const auto normal = UnitVec3::of(across);
+    if (!normal) continue;
+    for (const std::uint32_t corner : triangle) {
+      if (mesh.deviation[corner] || mesh.kinds[corner] == stock::VertexKind::surface) continue;
+      mesh.deviation[corner] =
+          metrology::deviation_from_nominal(plan, mesh.vertices[corner], *normal);
+    }
+  }
+}
+
 std::string collision_text(const stock::Collision& c) {
   const char* what = c.kind == stock::CollisionKind::rapid_through_material
                          ? "rapid move (G0) through material"
@@ -118,6 +134,7 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
     mesh->deviation.push_back(metrology::deviation_from_nominal(job.piece.plan, mesh->vertices[i],
                                                                 mesh->normals[i]));
   }
+  judge_edges(*mesh, job.piece.plan);
   return mesh;
 }
 

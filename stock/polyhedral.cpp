@@ -7,7 +7,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 #include <fmt/format.h>
@@ -59,32 +58,9 @@ ExactMesh hull_of(const ConvexPiece& piece) {
   return mesh;
 }
 
-// The mesh with its vertices rounded to double, unless that would fold it: exact coordinates double
-// in length with each cut through a cut, and the cost of the next cut explodes.
-ExactMesh rounded(ExactMesh mesh) {
-  DoubleMesh copy;
-  std::vector<DoubleMesh::Vertex_index> copies;
-  copies.reserve(mesh.num_vertices());
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v).exact();
-    copies.push_back(
-        copy.add_vertex({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}));
-  }
-  for (const auto f : mesh.faces()) {
-    std::vector<DoubleMesh::Vertex_index> corners;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) corners.push_back(copies[v.idx()]);
-    copy.add_face(corners);
-  }
-  const bool bad = pmp::does_self_intersect(copy);
-  std::size_t bits = 0;
-  for (const auto v : mesh.vertices()) bits = std::max<std::size_t>(bits, mpz_sizeinbase(mesh.point(v).exact().x().get_den_mpz_t(), 2));
-  fmt::print(stderr, "faces {} bits {} bad {}\n", mesh.number_of_faces(), bits, bad);
-  if (bad) return mesh;
-  for (const auto v : mesh.vertices()) {
-    const Doubles::Point_3& p = copy.point(copies[v.idx()]);
-    mesh.point(v) = Exact::Point_3(p.x(), p.y(), p.z());
-  }
-  return mesh;
+// Evaluates what the lazy kernel has put off, so that its expressions do not grow with every cut.
+void settle(ExactMesh& mesh) {
+  for (const auto v : mesh.vertices()) mesh.point(v).exact();
 }
 
 enum class Boolean { united, minus };
@@ -93,13 +69,14 @@ enum class Boolean { united, minus };
 std::optional<ExactMesh> combined(Boolean operation, ExactMesh left, ExactMesh right) {
   ExactMesh result;
   try {
-    // No check for self-intersections: hulls have none, and exact results of exact operands neither.
+    // No check for self-intersections: hulls have none, and exact results of exact operands
+    // neither.
     const bool manifold = operation == Boolean::united
                               ? pmp::corefine_and_compute_union(left, right, result)
                               : pmp::corefine_and_compute_difference(left, right, result);
     if (!manifold) return std::nullopt;
     result.collect_garbage();
-    result = rounded(std::move(result));
+    settle(result);
   } catch (const std::exception&) {  // a precondition of CGAL
     return std::nullopt;
   }

@@ -1,20 +1,23 @@
 // The polyhedral reference engine: a workpiece cut by Boolean operations on faceted solids.
 //
-// Independent of the rays of cutter/ and stock/workpiece.hpp: tests hold the one against the other.
+// Independent of the rays of cutter/ and stock/workpiece.hpp: tests hold the one against the
+// other.
 //
-// Model    : blank minus the union of convex hulls, each of a faceted cutter (or a slab of it) at both
-//            ends of a part of the motion. Cutters are circumscribed, blanks inscribed, and cutters grow
-//            by what the motion departs from a straight line: what is left of the polyhedral workpiece
-//            is material of the true one (within rounding), and what it lacks of it is bounded
+// Model    : blank minus the union of convex hulls, each of a faceted cutter (or a slab of it) at
+//            both ends of a part of the motion. Cutters are circumscribed, blanks inscribed, and
+//            cutters grow by what the motion departs from a straight line: what is left of the
+//            polyhedral workpiece is material of the true one (within rounding), and what it lacks
+//            of it is bounded
 // Units    : mm; frame: workpiece
-// Shape    : a closed triangle mesh with outward facets; memory and time grow with the facets of all
-//            hulls, so this is for tens of stretches, not for thousands
-// Errors   : cut() refuses options out of range, a tool number without a cutter, a sweep of more than
-//            max_pieces hulls, and reports solids that the Boolean operations cannot process
+// Shape    : a closed triangle mesh with outward facets; memory and time grow with the facets of
+//            all hulls, so this is for tens of stretches, not for thousands. How flat faces are
+//            split into triangles may differ from run to run; the solid does not
+// Errors   : cut() refuses options out of range, a tool number without a cutter, a sweep of more
+//            than max_pieces hulls, and reports solids that the Boolean operations cannot process
 // Accuracy : normal to the surface, polyhedral_bound(); order 2 in the number of facets when the
-//            tolerance falls with its square (tests/stock/polyhedral_test.cpp). Topology and order of
-//            crossings are exact (CGAL, exact predicates and constructions); final vertices are rounded
-//            to double
+//            tolerance falls with its square (tests/stock/polyhedral_test.cpp). Topology and order
+//            of crossings are exact (CGAL, exact predicates and constructions); final vertices are
+//            rounded to double
 // Source   : CGAL 5.5, Polygon Mesh Processing, corefinement
 // Threads  : const member functions may be called from any number of threads
 #pragma once
@@ -47,8 +50,8 @@ struct PolyhedralOptions {
   int max_pieces = 20000;
 };
 
-// No point of the polyhedral surface is farther than this from the true one, measured normal to it, for
-// a body of radius `radius` (the cutter's, or the blank's where it is round).
+// No point of the polyhedral surface is farther than this from the true one, measured normal to
+// it, for a body of radius `radius` (the cutter's, or the blank's where it is round).
 [[nodiscard]] Mm polyhedral_bound(const PolyhedralOptions& options, Mm radius);
 
 class PolyhedralWorkpiece {
@@ -62,11 +65,11 @@ class PolyhedralWorkpiece {
                                                        const std::map<int, cutter::Cutter>& cutters,
                                                        const PolyhedralOptions& options = {});
 
-  // Material met by the ray between span.lo and span.hi; an end's tag is its facet, or -1 for an end of
-  // the span. A ray that meets an edge exactly is answered as one 1e-9 mm beside it.
+  // Material met by the ray between span.lo and span.hi; an end's tag is its facet, or -1 for an
+  // end of the span. A ray that meets an edge exactly is answered as one 1e-9 mm beside it.
   [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const;
-  // The surface at an interval end: s and tag as found in material_along() of the same ray. It names
-  // neither stretch nor source line: facets do not remember what made them.
+  // The surface at an interval end: s and tag as found in material_along() of the same ray. It
+  // names neither stretch nor source line: facets do not remember what made them.
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const;
 
   [[nodiscard]] double volume() const;  // mm^3

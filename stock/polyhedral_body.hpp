@@ -1,12 +1,12 @@
 // A cutter as a convex polyhedron around it: rings of regular polygons along the axis.
 //
-// Model    : tangent lines of the outline at equal steps of their slope, each turned around the axis into
-//            a band of `facets` planes that touch the true body. The outline comes from the support
-//            function of the profile, so every convex profile will do
+// Model    : tangent lines of the outline at equal steps of their slope, each turned around the
+//            axis into a band of `facets` planes that touch the true body. The outline comes from
+//            the support function of the profile, so every convex profile will do
 // Units    : mm; frame: tool (tip at the origin, axis +Z)
 // Errors   : none
-// Accuracy : the polyhedron contains the body; its vertices stand off a sphere of radius R by
-//            R (1/(cos(pi/facets) cos(pi/(4 arc_facets))) - 1), its facets touch it
+// Accuracy : the polyhedron contains the body; its vertices stand off a sphere of radius R by R
+//            (1/(cos(pi/facets) cos(pi/(4 arc_facets))) - 1), its facets touch it
 #pragma once
 
 #include <vector>

@@ -90,8 +90,8 @@ double distance_along(const Solid& solid, const Vec3& point, const Vec3& directi
   return nearest;
 }
 
-// Upper bound of the distance of a point of one surface from the other: along its normal, or, where an
-// edge is near, along the best of a few directions.
+// Upper bound of the distance of a point of one surface from the other: along its normal, or,
+// where an edge is near, along the best of a few directions.
 template <typename Solid>
 double distance_to(const Solid& solid, const SurfacePoint& from) {
   double nearest = distance_along(solid, from.point, from.normal);
@@ -201,7 +201,7 @@ TEST(PolyhedralReference, ConvergesToTheRaysAtSecondOrderForABallEndMillOnAFiveA
 TEST(PolyhedralReference, ConvergesToTheRaysForSeveralStretchesThatCrossTheirOwnSweep) {
   // Over itself twice, at changing depth; the third stretch turns the cutter, the fourth plunges.
   const Vec3 leaning = Vec3(-0.10, 0.05, 1.0).normalized();
-  const Vec3 tilted = Vec3(-0.06, -0.08, 1.0).normalized();
+  const Vec3 tilted = Vec3(-0.09, 0.03, 1.0).normalized();
   const ToolPath path = path_through({{Vec3(-20, -8, 6), leaning},
                                       {Vec3(10, 6, 5.2), leaning},
                                       {Vec3(12, -7, 6.3), tilted},
@@ -229,6 +229,76 @@ TEST(PolyhedralReference, StraightSlotVolumeConvergesToTheClosedFormAtSecondOrde
     before = off;
   }
   RecordProperty("slot_volume_error_128_mm3", fmt::format("{:.6f}", before));
+}
+
+TEST(PolyhedralWorkpiece, ARayThroughEdgesAndCornersCountsThemOnce) {
+  const auto uncut = polyhedral(box(10, 10, 10), {}, CutterType::flat, {});
+  EXPECT_EQ(uncut.facet_count(), 12U);
+  EXPECT_DOUBLE_EQ(uncut.volume(), 1000.0);
+  // Through the middle of the top, where the diagonals of the faces are; through two corners;
+  // along an edge (in or out, but not half).
+  const IntervalSet down = uncut.material_along({Vec3(0, 0, 50), -Vec3::UnitZ()}, kAll);
+  ASSERT_EQ(down.intervals().size(), 1U);
+  EXPECT_NEAR(down.intervals().front().lo, 40.0, 1e-12);
+  EXPECT_NEAR(down.intervals().front().hi, 50.0, 1e-12);
+  EXPECT_TRUE(uncut.surface_at({Vec3(0, 0, 50), -Vec3::UnitZ()}, 40.0, down.intervals()[0].lo_tag)
+                  .normal.isApprox(Vec3::UnitZ()));
+  const Vec3 diagonal = Vec3(1, 1, 1).normalized();
+  const Ray through_corners{Vec3(-5, -5, 0) - 10.0 * diagonal, diagonal};
+  EXPECT_NEAR(uncut.material_along(through_corners, kAll).length(), std::sqrt(300.0), 1e-7);
+  const double along = uncut.material_along({Vec3(5, 5, 50), -Vec3::UnitZ()}, kAll).length();
+  EXPECT_TRUE(std::abs(along) < 1e-6 || std::abs(along - 10.0) < 1e-6) << along;
+  // Clipped to the span, and missed.
+  const IntervalSet part = uncut.material_along({Vec3(1, 2, 50), -Vec3::UnitZ()}, {42.0, 47.0});
+  EXPECT_DOUBLE_EQ(part.length(), 5.0);
+  EXPECT_EQ(part.intervals().front().lo_tag, -1);
+  EXPECT_TRUE(uncut.material_along({Vec3(1, 20, 50), -Vec3::UnitZ()}, kAll).empty());
+}
+
+TEST(PolyhedralWorkpiece, MergesStretchesOnOneStraightMotionIntoOneHull) {
+  std::vector<ToolPose> poses;
+  for (int i = 0; i <= 20; ++i) poses.push_back({Vec3(-10 + i, 1, 5), Vec3::UnitZ()});
+  const auto many = polyhedral(box(50, 30, 10), path_through(poses), CutterType::flat, {});
+  const auto one = polyhedral(box(50, 30, 10), path_through({poses.front(), poses.back()}),
+                              CutterType::flat, {});
+  EXPECT_EQ(many.piece_count(), 1U);
+  EXPECT_NEAR(many.volume(), one.volume(), 1e-9);
+}
+
+TEST(PolyhedralWorkpiece, InscribesRoundBlanks) {
+  const auto blank = Blank::make(FrustumShape{20.0, 10.0, 15.0}, Vec3(1, 2, 3)).value();
+  const auto faceted = polyhedral(blank, {}, CutterType::flat, {.facets = 12});
+  const double share = 12.0 / (2.0 * pi) * std::sin(2.0 * pi / 12.0);  // of the circle
+  EXPECT_NEAR(faceted.volume(), share * blank.volume(), 1e-9);
+}
+
+TEST(PolyhedralWorkpiece, NothingIsLeftOfABlankThatTheCutterCoversWhole) {
+  const ToolPath path =
+      path_through({{Vec3(-9, 0, -1), Vec3::UnitZ()}, {Vec3(9, 0, -1), Vec3::UnitZ()}});
+  const auto gone = polyhedral(box(6, 6, 5), path, CutterType::flat, {});
+  EXPECT_EQ(gone.volume(), 0.0);
+  EXPECT_TRUE(gone.material_along({Vec3(0, 0, 50), -Vec3::UnitZ()}, kAll).empty());
+}
+
+TEST(PolyhedralWorkpiece, RefusesWhatMakesNoSolidAndSaysWhatToDo) {
+  const auto message = [](const PolyhedralOptions& options, int tool) {
+    const auto cut = PolyhedralWorkpiece::cut(box(30, 24, 10), five_axis_stretch(),
+                                              {{tool, end_mill(CutterType::flat)}}, options);
+    return cut ? std::string("no error") : to_string(cut.error().front());
+  };
+  EXPECT_EQ(message({.facets = 2}, 1),
+            "error: 2 facets around the axis (hint: at least 3 make a solid)");
+  EXPECT_EQ(message({.arc_facets = 0}, 1),
+            "error: 0 facets on a quarter circle (hint: at least 1)");
+  EXPECT_EQ(message({.tolerance = {0.0}}, 1),
+            "error: facet tolerance 0 mm (hint: it must be a finite number above 0)");
+  EXPECT_EQ(
+      message({.tolerance = {1e-6}, .max_pieces = 100}, 1),
+      ":1: error: the polyhedral sweep needs more than 100 hulls (hint: a facet tolerance above "
+      "1e-06 mm needs fewer)");
+  EXPECT_EQ(message({}, 2),
+            ":1: error: tool T1 cuts but is not defined (hint: add tool.1 with type, diameter and "
+            "length)");
 }
 
 }  // namespace
