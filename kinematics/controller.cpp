@@ -301,7 +301,9 @@ class Controller::State {
     const double linear_travel = (linear_part(end) - linear_part(start)).norm();
     const int parts =
         1 + static_cast<int>(rotary_travel / kRotaryPart + linear_travel / kLinearPart);
-    for (int i = 1; i <= parts; ++i) {
+    // The end first: it is what the block says.
+    if (!within_travel(end)) return;
+    for (int i = 1; i < parts; ++i) {
       if (!within_travel(commanded(static_cast<double>(i) / parts))) return;
     }
     q_ = end;

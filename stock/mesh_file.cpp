@@ -149,10 +149,10 @@ Result<MeshFormat> mesh_format_of(const fs::path& file) {
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".obj") return MeshFormat::obj;
-  Diagnostic unknown = error(extension.empty()
-                                 ? std::string("the mesh file has no extension to tell its format")
-                                 : fmt::format("{} is not a mesh format known here", extension),
-                             kChoices);
+  Diagnostic unknown =
+      error(extension.empty() ? std::string("the mesh file has no extension to tell its format")
+                              : fmt::format("{} is not a mesh format known here", extension),
+            kChoices);
   unknown.file = file.string();
   return unknown;
 }

@@ -1,5 +1,10 @@
 #include "stock/polyhedral.hpp"
 
+// GCC 12 warns of empty function objects inside CGAL's headers, where nothing can be uninitialised.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>

@@ -78,8 +78,8 @@ class VertexPlacer {
     for (int edge = 0; edge < 12; ++edge) {
       if (!cell.crosses(edge) || cell.piece(edge) != piece) continue;
       const auto [axis, corner] = cell_edge(edge);
-      const auto at = *crossings_.find(axis, i + (corner & 1), j + (corner >> 1 & 1),
-                                       k + (corner >> 2 & 1));
+      const auto at =
+          *crossings_.find(axis, i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2 & 1));
       samples[count++] = crossings_.sample(at, axis);
     }
     const BoundingBox box{grid.node(i, j, k), grid.node(i + 1, j + 1, k + 1)};
@@ -97,7 +97,8 @@ class VertexPlacer {
     const Vec3& point = mesh_.vertices[vertex];
     const auto [ci, cj, ck] = cell_of(point);
     for (int j = std::max(cj - 1, 0); j <= std::min(cj + 1, crossings_.grid().nodes[1] - 2); ++j) {
-      for (int i = std::max(ci - 1, 0); i <= std::min(ci + 1, crossings_.grid().nodes[0] - 2); ++i) {
+      for (int i = std::max(ci - 1, 0); i <= std::min(ci + 1, crossings_.grid().nodes[0] - 2);
+           ++i) {
         for (const Cell& cell : cells_.column(i, j)) {
           if (std::abs(cell.level - ck) > 1) continue;
           for (std::uint32_t other = cell.first_vertex;
@@ -222,8 +223,8 @@ void connect(const Crossings& crossings, const Cells& cells, SurfaceMesh& mesh) 
         std::size_t edge = crossings.first(axis, i, j);
         for (const auto& [level, lower_inside] : crossings.edges(axis, i, j)) {
           const Quad quad = quad_around(cells, axis, {i, j, level}, lower_inside);
-          const auto triangles = split(mesh, quad, axis, crossings.sample(edge, axis).point,
-                                       lower_inside, grid.pitch);
+          const auto triangles =
+              split(mesh, quad, axis, crossings.sample(edge, axis).point, lower_inside, grid.pitch);
           const std::size_t at = 2 * (first_of_axis + edge);
           mesh.triangles[at] = triangles[0];
           mesh.triangles[at + 1] = triangles[1];

@@ -51,19 +51,22 @@ struct SurfaceMesh {
 // The surface of what `dexels` sampled from `solid`.
 [[nodiscard]] SurfaceMesh extract_surface(SolidView solid, const TriDexel& dexels);
 // Samples `box` (of the blank) at `pitch` first.
-[[nodiscard]] Result<SurfaceMesh> extract_surface(SolidView solid, const BoundingBox& box, Mm pitch);
+[[nodiscard]] Result<SurfaceMesh> extract_surface(SolidView solid, const BoundingBox& box,
+                                                  Mm pitch);
 
 struct MeshMeasure {
-  double volume = 0.0;  // mm^3, by the divergence theorem; means the enclosed one if closed
-  double area = 0.0;    // mm^2
-  bool is_closed = false;    // no boundary edges
-  bool is_manifold = false;  // every edge in at most two triangles, every vertex one fan, orientable
+  double volume = 0.0;     // mm^3, by the divergence theorem; means the enclosed one if closed
+  double area = 0.0;       // mm^2
+  bool is_closed = false;  // no boundary edges
+  bool is_manifold =
+      false;  // every edge in at most two triangles, every vertex one fan, orientable
   std::size_t components = 0;
   std::size_t degenerate_triangles = 0;  // height below a millionth of the longest side
 };
 
 // Builds the mesh in OpenMesh and asks it. Any indexed triangle mesh will do; only `vertices` and
-// `triangles` are read. Precondition: indices are within range.
+// `triangles` are read. Precondition: indices are within range. (Of a mesh that is not manifold, OpenMesh
+// also complains on stderr.)
 [[nodiscard]] MeshMeasure measure(const SurfaceMesh& mesh);
 
 }  // namespace frustum::stock

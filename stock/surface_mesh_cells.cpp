@@ -59,7 +59,8 @@ class EdgeSets {
 void add_arcs(EdgeSets& sets, const Cell& cell, const CellFace& face, bool joined) {
   if (alternates(cell, face)) {
     for (std::size_t c = 0; c < 4; ++c) {
-      if (cell.inside(face.corners[c]) != joined) sets.unite(face.edges[c], face.edges[(c + 3) % 4]);
+      if (cell.inside(face.corners[c]) != joined)
+        sets.unite(face.edges[c], face.edges[(c + 3) % 4]);
     }
     return;
   }
@@ -192,9 +193,8 @@ void Cells::trace(std::size_t at, const Place& place) {
 void Cells::part_shared_cycles() {
   // The four edges of an alternating face in one piece: both its arcs are in one cycle.
   const auto one_piece = [](const Cell& cell, const CellFace& face) {
-    return std::all_of(face.edges.begin(), face.edges.end(), [&](int edge) {
-      return cell.piece(edge) == cell.piece(face.edges[0]);
-    });
+    return std::all_of(face.edges.begin(), face.edges.end(),
+                       [&](int edge) { return cell.piece(edge) == cell.piece(face.edges[0]); });
   };
   for (int j = 0; j < columns_y_; ++j) {
     for (int i = 0; i < columns_x_; ++i) {
@@ -228,8 +228,8 @@ void Cells::number_vertices() {
 
 std::size_t Cells::find(const Place& place) const {
   const auto cells = column(place[0], place[1]);
-  const auto found = std::partition_point(
-      cells.begin(), cells.end(), [&](const Cell& cell) { return cell.level < place[2]; });
+  const auto found = std::partition_point(cells.begin(), cells.end(),
+                                          [&](const Cell& cell) { return cell.level < place[2]; });
   assert(found != cells.end() && found->level == place[2]);
   return first_[column_index(place[0], place[1])] + static_cast<std::size_t>(found - cells.begin());
 }

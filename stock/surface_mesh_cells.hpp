@@ -36,10 +36,10 @@ struct CellEdge {
 
 struct Cell {
   std::int32_t level = 0;
-  std::uint32_t first_vertex = 0;   // the vertices of its pieces follow one another
-  std::uint32_t pieces = 0;         // two bits an edge: the piece that a crossing edge belongs to
-  std::uint8_t corners = 0;         // a bit a corner: inside
-  std::uint8_t joined = 0;          // a bit for the low face of each axis: arcs run round void corners
+  std::uint32_t first_vertex = 0;  // the vertices of its pieces follow one another
+  std::uint32_t pieces = 0;        // two bits an edge: the piece that a crossing edge belongs to
+  std::uint8_t corners = 0;        // a bit a corner: inside
+  std::uint8_t joined = 0;  // a bit for the low face of each axis: arcs run round void corners
   std::uint8_t piece_count = 0;
 
   [[nodiscard]] bool inside(int corner) const { return (corners >> corner & 1) != 0; }

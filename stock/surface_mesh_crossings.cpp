@@ -109,7 +109,8 @@ HermiteSample nearest_end(SolidView solid, const TriDexel& dexels, const Node& n
   for (int d = 0; d < 3; ++d) {
     const double at = grid.pitch * node[static_cast<std::size_t>(d)];
     for (const Interval& piece : material_through(dexels, d, node)) {
-      for (const End& end : {End{piece.lo, piece.lo_tag, false}, End{piece.hi, piece.hi_tag, true}}) {
+      for (const End& end :
+           {End{piece.lo, piece.lo_tag, false}, End{piece.hi, piece.hi_tag, true}}) {
         if (std::abs(end.s - at) >= distance) continue;
         distance = std::abs(end.s - at);
         best = end;
@@ -168,10 +169,9 @@ void Crossings::find_edges(const TriDexel& dexels, int axis) {
   tbb::parallel_for(0, axis == 1 ? ny - 1 : ny, [&](int j) {
     std::vector<CrossingEdge>& row = rows[static_cast<std::size_t>(j)];
     for (int i = 0; i < (axis == 0 ? nx - 1 : nx); ++i) {
-      const auto found =
-          axis == 2 ? edges_along(dexels.material(2, i, j), grid_.pitch)
-                    : edges_between(edges(2, i, j),
-                                    axis == 0 ? edges(2, i + 1, j) : edges(2, i, j + 1));
+      const auto found = axis == 2 ? edges_along(dexels.material(2, i, j), grid_.pitch)
+                                   : edges_between(edges(2, i, j), axis == 0 ? edges(2, i + 1, j)
+                                                                             : edges(2, i, j + 1));
       row.insert(row.end(), found.begin(), found.end());
       family.first[column(i, j) + 1] = found.size();
     }
@@ -215,9 +215,8 @@ std::optional<std::size_t> Crossings::find(int axis, int i, int j, int level) co
 
 bool Crossings::inside(int i, int j, int k) const {
   const auto column_edges = edges(2, i, j);
-  const auto above =
-      std::partition_point(column_edges.begin(), column_edges.end(),
-                           [k](const CrossingEdge& edge) { return edge.level < k; });
+  const auto above = std::partition_point(column_edges.begin(), column_edges.end(),
+                                          [k](const CrossingEdge& edge) { return edge.level < k; });
   return above != column_edges.begin() && !std::prev(above)->lower_inside;
 }
 

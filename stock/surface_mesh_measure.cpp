@@ -73,8 +73,8 @@ MeshMeasure measure(const SurfaceMesh& mesh) {
     const Vec3 b = mesh.vertices[ib] - about;
     const Vec3 c = mesh.vertices[ic] - about;
     const double twice_area = (b - a).cross(c - a).norm();
-    const double longest = std::sqrt(
-        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     found.volume += a.dot(b.cross(c)) / 6.0;
     found.area += twice_area / 2.0;
     // Height over the longest side, relative to it. A millionth: what single precision files keep.

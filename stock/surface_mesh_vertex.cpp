@@ -136,6 +136,7 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
     draw_closer(solid, samples, vertex, kReach * pitch);
     smooth = is_smooth(samples);
   }
+  if (!smooth) vertex = meet(samples, allowed);
   Answer answer{{vertex, mean_normal(samples), VertexKind::averaged}, std::nullopt, false};
   if (answer.placed.normal.isZero()) {
     answer.placed.normal = samples.front().normal;

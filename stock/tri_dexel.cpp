@@ -38,12 +38,12 @@ Diagnostic too_fine(const BoundingBox& box, double pitch) {
   // The count falls at most with the square of the pitch; a few rounds of a tenth each end the search.
   double enough = pitch;
   while (rays_needed(box, enough) > static_cast<double>(TriDexel::kMaxRays)) enough *= 1.1;
-  return error(fmt::format("a pitch of {} mm needs {:.3g} rays for {:.6g} x {:.6g} x {:.6g} mm; {} "
-                           "is the limit",
-                           pitch, rays_needed(box, pitch), box.max.x() - box.min.x(),
-                           box.max.y() - box.min.y(), box.max.z() - box.min.z(),
-                           TriDexel::kMaxRays),
-               fmt::format("use a pitch of {:.2g} mm or more", enough));
+  return error(
+      fmt::format("a pitch of {} mm needs {:.3g} rays for {:.6g} x {:.6g} x {:.6g} mm; {} "
+                  "is the limit",
+                  pitch, rays_needed(box, pitch), box.max.x() - box.min.x(),
+                  box.max.y() - box.min.y(), box.max.z() - box.min.z(), TriDexel::kMaxRays),
+      fmt::format("use a pitch of {:.2g} mm or more", enough));
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ concept RaySolid = requires(const S& solid, const Ray& ray, RaySpan span, double
 class SolidView {
  public:
   template <RaySolid S>
-    requires(!std::same_as<S, SolidView>)
-  SolidView(const S& solid)  // NOLINT(google-explicit-constructor): a view of it, as string_view
+  requires(!std::same_as<S, SolidView>) SolidView(
+      const S& solid)  // NOLINT(google-explicit-constructor): a view of it, as string_view
       : solid_(&solid),
         along_([](const void* self, const Ray& ray, RaySpan span) -> IntervalSet {
           return static_cast<const S*>(self)->material_along(ray, span);

@@ -110,7 +110,7 @@ TEST(Controller, NeverReplacesATool_Complaint15) {
 
 TEST(Controller, NamesPlaceAndRemedyOfWhatItCannotDo) {
   EXPECT_EQ(problem_of("three-axis", "G21 G90\nT1 M6\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 X900 F100\n"),
-            "5: over-travel: X = 418.0000 mm, travel -400 .. 400");
+            "5: over-travel: X = 910.0000 mm, travel -400 .. 400");
   EXPECT_EQ(problem_of("three-axis", "G21 G90\nT1 M6\nG54\nG0 X0 A10\n"),
             "4: machine three-axis (t-(C)-Z-b-Y-X-w) has no axis A");
   EXPECT_EQ(problem_of("iwf-bc", "G21 G90\nT1 M6\nG55\nG0 X0\n"), "3: work offset G55 is not defined");

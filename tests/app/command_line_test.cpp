@@ -1,0 +1,169 @@
+// The program as users and scripts see it: exit codes, messages, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace frustum {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out{};
+  std::string err{};
+};
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class CommandLineSystem : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("frustum_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome run(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+    const std::string command = "cd '" + folder_.string() + "' && '" FRUSTUM_PROGRAM "' " + arguments +
+                                " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+
+  // A coarse cone piece in folder_/piece; fast to cut.
+  void write_piece(const std::string& more = "--chord-tolerance 1") const {
+    const Outcome made = run("program cone --machine iwf-bc --out piece " + more);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+
+  void replace_in(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = read(folder_ / file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(folder_ / file, std::ios::binary) << text;
+  }
+
+  // The run must refuse, say why, and leave no output folder behind.
+  void expect_refusal(const std::vector<std::string>& words) const {
+    const Outcome outcome = run("run piece/job.toml --out result --quiet");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' in: " << outcome.err;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "result"));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandLineSystem, RunsTheLoopAndWritesItsFiles) {
+  write_piece("--chord-tolerance 0.02");
+  const Outcome outcome = run("run piece/job.toml --out result --json --error EX0C=10um");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto doc = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(doc["status"], "pass");
+  EXPECT_EQ(doc["characteristics"][0]["name"], "cone.equivalent_form");
+  EXPECT_NEAR(doc["characteristics"][0]["value"].get<double>(), 2.763, 0.15 + 0.02 * 2.763);
+  for (const char* file : {"report.html", "result.json", "points.csv"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "result" / file)) << file;
+  }
+  // Points that were measured come back the same when they are evaluated again.
+  const Outcome again = run("measure --plan piece/cone.plan.toml --points result/points.csv --json");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const auto back = nlohmann::json::parse(again.out);
+  EXPECT_NEAR(back["characteristics"][0]["value"].get<double>(),
+              doc["characteristics"][0]["value"].get<double>(), 1e-6);
+}
+
+TEST_F(CommandLineSystem, FailsWithExitCodeOneWhenAToleranceIsMissed) {
+  write_piece("--limits tenth --chord-tolerance 1");
+  const Outcome outcome = run("run piece/job.toml --out result --quiet --error EXX='harmonic 2 40um'");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(fs::exists(folder_ / "result/result.json"));
+}
+
+TEST_F(CommandLineSystem, CutsAClosedMesh) {
+  write_piece();
+  const Outcome outcome = run("cut piece/job.toml --mesh part.ply --pitch 2 --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto doc = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(doc["closed"].get<bool>());
+  EXPECT_TRUE(doc["manifold"].get<bool>());
+  EXPECT_TRUE(fs::exists(folder_ / "part.ply"));
+}
+
+TEST_F(CommandLineSystem, RefusesBadInputWithPlaceAndRemedy) {
+  const struct {
+    const char* file;
+    const char* from;
+    const char* to;
+    std::vector<std::string> words;
+  } cases[] = {
+      {"cone.nc", "G21 G90", "G21 Q7 G90", {"cone.nc:", "error", "Q"}},
+      {"cone.nc", " F500", "", {"cone.nc:", "feed"}},
+      {"cone.nc", "G53 G0 B0. C0.", "G53 G0 A0. C0.", {"cone.nc:", "has no axis A"}},
+      {"cone.nc", "G53 G0 Z500.", "G53 G0 Z5000.", {"cone.nc:", "over-travel: Z", "-300 .. 600"}},
+      {"cone.nc", "T1 M6", "T2 M6", {"cone.nc:", "T2 is not defined"}},
+      {"job.toml", "[errors]", "[erors]", {"job.toml:", "erors", "did you mean errors?"}},
+      {"job.toml", "radius_error", "radius_eror", {"tool.1.radius_eror", "did you mean radius_error?"}},
+      {"job.toml", "diameter = 110", "diameter = 0", {"blank.diameter", "greater than 0"}},
+      {"job.toml", "e0 = \"0 um\"", "e0 = \"0 urad\"", {"inspection.cmm.e0", "length"}},
+      {"job.toml", "cone.nc", "none.nc", {"program.file", "cannot be read"}},
+      {"job.toml", "iwf-bc.toml", "none.toml", {"none.toml", "cannot be read"}},
+      {"cone.plan.toml", "points_per_section", "points_per_sektion", {"points_per_se"}},
+      {"cone.plan.toml", "section_radius = 35", "section_radius = 20", {"cone"}},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.to);
+    write_piece();
+    replace_in(std::string("piece/") + c.file, c.from, c.to);
+    expect_refusal(c.words);
+  }
+}
+
+TEST_F(CommandLineSystem, RefusesAnUnreachableToolDirection) {
+  write_piece();
+  replace_in("piece/job.toml", "iwf-bc.toml", "three-axis.toml");
+  expect_refusal({"cone.nc:", "has no axis B"});
+}
+
+TEST_F(CommandLineSystem, RefusesBadArguments) {
+  for (const char* arguments :
+       {"", "nonsense", "run", "run no-such-job.toml", "pose --machine iwf-bc --axes Q=1",
+        "pose --machine iwf-bc --axes X=1 --error nonsense=1um", "pose --machine iwf-bc --inverse 1,2,3",
+        "pose --machine iwf-bc --inverse 0,0,0,0,0,0", "pose --machine nowhere --axes X=0",
+        "program cone --machine iwf-bc --out p --cone-angle 95",
+        "program cone --machine iwf-bc --out p --radius -3",
+        "program cone --machine iwf-bc --out p --center 1,2",
+        "program cone --machine iwf-bc --form axes --out p --center=900,0,0",
+        "fit cone nothing.csv", "fit banana nothing.csv", "errors nowhere", "parse nowhere.nc"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_FALSE(outcome.err.empty()) << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "p")) << arguments;
+  }
+}
+
+TEST_F(CommandLineSystem, ReadsRotaryWordsInDegreesAlsoInInchPrograms_Complaint18) {
+  std::ofstream(folder_ / "inch.nc") << "G20 G90\nG0 X1 B45\n";
+  const Outcome outcome = run("parse inch.nc --canon");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\"X\":25.4"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\"B\":45"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace frustum
