@@ -1,11 +1,12 @@
 // Surface meshes as files that other programs open: STL, PLY, OBJ.
 //
-// STL is binary, single precision, no per-vertex data. PLY is binary little endian: x y z as double, nx
-// ny nz, deviation_um, quality (the same number, under the name by which viewers colour) as float, and
-// uchar has_nominal (0: no nominal at this vertex, its deviation says 0). OBJ is text with normals.
+// STL is binary, single precision, no per-vertex data. PLY is binary little endian: x y z as
+// double, nx ny nz, deviation_um, quality (the same number, under the name by which viewers colour)
+// as float, and uchar has_nominal (0: no nominal at this vertex, its deviation says 0). OBJ is text
+// with normals.
 // Units: mm; deviations in micrometres (PLY only).
-// Errors: an extension other than .stl .ply .obj, a path that cannot be written. The file appears whole
-// or not at all: an existing file is untouched until the new one is complete.
+// Errors: an extension other than .stl .ply .obj, a path that cannot be written. The file appears
+// whole or not at all: an existing file is untouched until the new one is complete.
 #pragma once
 
 #include <cstdint>

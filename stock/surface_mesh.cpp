@@ -189,15 +189,16 @@ Split split_along(const SurfaceMesh& mesh, const Quad& quad, std::size_t from, i
     const double w0 = sense * twice_area(edge, seen[1], seen[2]) / area;
     const double w1 = sense * twice_area(edge, seen[2], seen[0]) / area;
     const double w2 = 1.0 - w0 - w1;
-    // On the diagonal the edge belongs to both triangles; 1e-9 forgives the rounding of the weights.
+    // On the diagonal the edge belongs to both triangles; 1e-9 forgives the rounding of the
+    // weights.
     if (std::min({w0, w1, w2}) < -1e-9) continue;
     split.miss = std::min(split.miss, std::abs(w0 * along[0] + w1 * along[1] + w2 * along[2]));
   }
   return split;
 }
 
-// The split that meets the exact surface on the grid edge; this also finds the sharp edges. If both do
-// about as well: the one without folds, then the shorter diagonal.
+// The split that meets the exact surface on the grid edge; this also finds the sharp edges. If both
+// do about as well: the one without folds, then the shorter diagonal.
 std::array<Triangle, 2> split(const SurfaceMesh& mesh, const Quad& quad, int axis,
                               const Vec3& crossing, bool lower_inside, double pitch) {
   const Split first = split_along(mesh, quad, 0, axis, crossing, lower_inside);

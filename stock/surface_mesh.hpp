@@ -1,18 +1,19 @@
 // The surface of a solid as a closed triangle mesh with sharp edges.
 //
-// Model    : dual contouring of a tri-dexel sample. A cell whose corners are not all on one side gets one
-//            vertex for each piece of surface in it; every grid edge that crosses the surface becomes a
-//            quad of the four cells around it, split in two triangles. Watertight and 2-manifold by
-//            construction, whatever the solid.
+// Model    : dual contouring of a tri-dexel sample. A cell whose corners are not all on one side
+//            gets one vertex for each piece of surface in it; every grid edge that crosses the
+//            surface becomes a quad of the four cells around it, split in two triangles. Watertight
+//            and 2-manifold by construction, whatever the solid.
 // Units    : mm; frame: that of the solid
-// Shape    : triangles run counter-clockwise seen from outside; all per-vertex arrays are as long as
-//            `vertices` (`deviation` may be empty)
+// Shape    : triangles run counter-clockwise seen from outside; all per-vertex arrays are as long
+//            as `vertices` (`deviation` may be empty)
 // Errors   : those of TriDexel::sample
-// Accuracy : a VertexKind::surface vertex lies on the exact surface as the solid's rays do (1 nm). A
-//            ::feature vertex lies where the planes of the adjoining faces meet: exact for flat faces;
-//            for curved ones the planes are taken within a thousandth of the pitch of the edge. Between
-//            vertices the triangles leave a surface of radius R by up to pitch^2 / (4 R). Walls and
-//            slits thinner than the pitch may be missing. (tests/stock/surface_mesh_test.cpp)
+// Accuracy : a VertexKind::surface vertex lies on the exact surface as the solid's rays do (1 nm).
+//            A ::feature vertex lies where the planes of the adjoining faces meet: exact for flat
+//            faces; for curved ones the planes are taken within a thousandth of the pitch of the
+//            edge. Between vertices the triangles leave a surface of radius R by about
+//            pitch^2 / (4 R). Walls and slits thinner than the pitch may be missing
+//            (tests/stock/surface_mesh_test.cpp)
 // Threads  : runs on oneTBB; the same bits for any number of threads
 // Source   : Ju et al. 2002, SIGGRAPH (dual contouring, QEF); one vertex per surface piece as in
 //            Schaefer, Ju, Warren 2007, IEEE TVCG 13(3); the choice at ambiguous faces is our own
@@ -36,7 +37,7 @@ namespace frustum::stock {
 enum class VertexKind : std::uint8_t {
   surface,   // on a smooth part of the exact surface
   feature,   // on a sharp edge or corner: where its faces meet
-  averaged,  // the exact surface was not found near by (detail below the pitch): a mean of crossings
+  averaged,  // a mean: detail below the pitch, the exact surface was not found near by
 };
 
 struct SurfaceMesh {
@@ -44,7 +45,8 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles{};
   std::vector<Vec3> normals{};  // unit, out of the material; at a feature the mean of its faces
   std::vector<VertexKind> kinds{};
-  // mm from the nominal surface, outside positive; nothing: this vertex has no nominal; empty: none has.
+  // mm from the nominal surface, outside positive; nothing: this vertex has no nominal; empty: none
+  // has.
   std::vector<std::optional<double>> deviation{};
 };
 
@@ -65,8 +67,8 @@ struct MeshMeasure {
 };
 
 // Builds the mesh in OpenMesh and asks it. Any indexed triangle mesh will do; only `vertices` and
-// `triangles` are read. Precondition: indices are within range. (Of a mesh that is not manifold, OpenMesh
-// also complains on stderr.)
+// `triangles` are read. Precondition: indices are within range. (Of a mesh that is not manifold,
+// OpenMesh also complains on stderr.)
 [[nodiscard]] MeshMeasure measure(const SurfaceMesh& mesh);
 
 }  // namespace frustum::stock

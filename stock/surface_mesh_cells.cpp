@@ -23,8 +23,8 @@ constexpr CellFace cell_face(int axis, int side) {
   const int base = side << axis;
   CellFace face;
   face.corners = {base, base | 1 << u, base | 1 << u | 1 << v, base | 1 << v};
-  // An edge along u has a = its place along u + 1 = v, b = along u + 2 = axis; one along v has a = its
-  // place along axis, b = along u.
+  // An edge along u has a = its place along u + 1 = v, b = along u + 2 = axis; one along v has a =
+  // its place along axis, b = along u.
   face.edges = {4 * u + 2 * side, 4 * v + side + 2, 4 * u + 1 + 2 * side, 4 * v + side};
   return face;
 }

@@ -1,12 +1,14 @@
 // The grid cells that the surface passes through, and the pieces of surface in each.
 //
-// On a face of a cell the surface runs in arcs from crossing edge to crossing edge; the arcs of the six
-// faces close to cycles, and every cycle is one piece of surface: one vertex of the mesh. A face whose
-// corners alternate leaves a choice of how its four edges pair up. Both cells at the face make the same
-// one: the pairing whose arcs fit the exact tangents better. Only where that would put both arcs into
-// one cycle on both sides, which would give four triangles a common edge, the other one is taken; that
-// splits the cycle on either side, so the mesh is manifold whatever the signs are.
-// Units: none (indices). Errors: none. Threads: built on oneTBB, same bits for any number of threads.
+// On a face of a cell the surface runs in arcs from crossing edge to crossing edge; the arcs of the
+// six faces close to cycles, and every cycle is one piece of surface: one vertex of the mesh. A
+// face whose corners alternate leaves a choice of how its four edges pair up. Both cells at the
+// face make the same one: the pairing whose arcs fit the exact tangents better. Only where that
+// would put both arcs into one cycle on both sides, which would give four triangles a common edge,
+// the other one is taken; that splits the cycle on either side, so the mesh is manifold whatever
+// the signs are.
+// Units: none (indices). Errors: none. Threads: built on oneTBB, same bits for any number of
+// threads.
 #pragma once
 
 #include <array>
@@ -20,8 +22,8 @@
 
 namespace frustum::stock {
 
-// Corner c of a cell is its low node plus bit d of c along axis d. Edge 4 d + a + 2 b runs along axis d
-// from the corner at a along d + 1 and b along d + 2 (cyclic).
+// Corner c of a cell is its low node plus bit d of c along axis d. Edge 4 d + a + 2 b runs along
+// axis d from the corner at a along d + 1 and b along d + 2 (cyclic).
 struct CellEdge {
   int axis = 0;
   int low_corner = 0;

@@ -66,7 +66,8 @@ std::size_t count_components(const Mesh& mesh) {
 
 MeshMeasure measure(const SurfaceMesh& mesh) {
   MeshMeasure found;
-  // The volume is taken about a point of the mesh, so that a part far from the origin loses no digits.
+  // The volume is taken about a point of the mesh, so that a part far from the origin loses no
+  // digits.
   const Vec3 about = mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices.front();
   for (const auto& [ia, ib, ic] : mesh.triangles) {
     const Vec3 a = mesh.vertices[ia] - about;

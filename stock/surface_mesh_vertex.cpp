@@ -9,20 +9,22 @@
 namespace frustum::stock {
 namespace {
 
-// Normals that stay within this angle (rad) are one smooth surface: a vertex on it blunts an edge that
-// is flatter still by less than 0.1 / 8 of the pitch.
+// Normals that stay within this angle (rad) are one smooth surface: a vertex on it blunts an edge
+// that is flatter still by less than 0.1 / 8 of the pitch.
 constexpr double kSmooth = 0.1;
-// Half of that angle is the ratio of the singular values of two planes that differ by it.
+// The singular values of two planes that differ by an angle are as 1 to its half, 0.05 for kSmooth;
+// less if one of them has more samples than the other. A direction below this is not determined.
 constexpr double kUndetermined = 0.03;
 // How far along its normal a face is looked for, in pitches. Faces that bend more within a cell are
 // beyond what the pitch resolves.
 constexpr double kReach = 0.25;
-// Each round takes the planes at this fraction of their distance from the vertex. Four rounds end within
-// a thousandth of the pitch, where a face of radius 5 mm leaves its plane by 0.03 nm at 0.5 mm pitch.
+// Each round takes the planes at this fraction of their distance from the vertex. Four rounds end
+// within a thousandth of the pitch, where at a pitch of 0.5 mm a face of radius 5 mm leaves its
+// plane by less than 0.03 nm.
 constexpr double kCloser = 0.15;
 constexpr int kRounds = 4;
-// Faces of a corner that cross no edge of the cell, and are found when the others do not meet on the
-// surface. At least one face does cross an edge.
+// Faces of a corner that cross no edge of the cell, and are found when the others do not meet on
+// the surface. At least one face does cross an edge.
 constexpr std::size_t kHiddenFaces = 2;
 constexpr std::size_t kMostSamples = 12 + kHiddenFaces;
 constexpr int kMostRows = static_cast<int>(kMostSamples);
@@ -69,8 +71,8 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
     normals.row(row) = samples[k].normal.transpose();
     distances[row] = samples[k].normal.dot(samples[k].point - mean);
   }
-  // The 3x3 normal equations by SVD: eigenvalues are squares of singular values, hence the square of
-  // the threshold. Their rounding, 1e-16 / kUndetermined^2, is 1e-13 of the pitch.
+  // The 3x3 normal equations by SVD: eigenvalues are squares of singular values, hence the square
+  // of the threshold. Their rounding, 1e-16 / kUndetermined^2, is 1e-13 of the pitch.
   const Mat3 square = normals.transpose() * normals;
   const Vec3 right = normals.transpose() * distances;
   const Eigen::JacobiSVD<Mat3> svd(square, Eigen::ComputeFullU | Eigen::ComputeFullV);

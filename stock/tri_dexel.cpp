@@ -10,8 +10,8 @@
 namespace frustum::stock {
 namespace {
 
-// Irrational, and neither equal nor summing to one in pairs, so that planes at 45 degrees are safe too:
-// sqrt(7) - 2, sqrt(2) - 1, 2 - sqrt(3).
+// Irrational, and neither equal nor summing to one in pairs, so that planes at 45 degrees are safe
+// too: sqrt(7) - 2, sqrt(2) - 1, 2 - sqrt(3).
 constexpr std::array<double, 3> kShift{0.64575131106459059, 0.41421356237309505,
                                        0.26794919243112270};
 
@@ -35,7 +35,8 @@ double rays_needed(const BoundingBox& box, double pitch) {
 }
 
 Diagnostic too_fine(const BoundingBox& box, double pitch) {
-  // The count falls at most with the square of the pitch; a few rounds of a tenth each end the search.
+  // The count falls at most with the square of the pitch; a few rounds of a tenth each end the
+  // search.
   double enough = pitch;
   while (rays_needed(box, enough) > static_cast<double>(TriDexel::kMaxRays)) enough *= 1.1;
   return error(

@@ -1,16 +1,17 @@
 // Three orthogonal families of exact rays through a solid, on one cubic grid.
 //
-// Model    : the ray of axis d through the grid nodes (u, v) of the other two axes keeps the intervals
-//            of material along it; u = d+1, v = d+2 (cyclic). The outermost nodes lie outside the box
-//            and hold no material: a solid that reaches beyond the box is cut off half a pitch inside
-//            them.
+// Model    : the ray of axis d through the grid nodes (u, v) of the other two axes keeps the
+//            intervals of material along it; u = d+1, v = d+2 (cyclic). The outermost nodes lie
+//            outside the box and hold no material: a solid that reaches beyond the box is cut off
+//            half a pitch inside them.
 // Units    : mm; frame: that of the solid
 // Shape    : memory grows with (size of the box / pitch)^2, never with its cube
-// Errors   : sample() refuses a pitch or box that is not finite and positive, and a grid of more than
-//            kMaxRays rays (the message names the least pitch that fits)
-// Accuracy : every end is as exact as the solid's rays; volume() converges at order 2 for curved bodies
-//            (tests/stock/tri_dexel_test.cpp), at order 1 for faces parallel to the rays, where a whole
-//            layer of rays hits or misses at once: the volume of the surface mesh is the better number
+// Errors   : sample() refuses a pitch or box that is not finite and positive, and a grid of more
+//            than kMaxRays rays (the message names the least pitch that fits)
+// Accuracy : every end is as exact as the solid's rays; volume() converges at order 2 for curved
+//            bodies (tests/stock/tri_dexel_test.cpp), at order 1 for faces parallel to the rays,
+//            where a whole layer of rays hits or misses at once: the volume of the surface mesh is
+//            the better number
 // Threads  : sample() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
@@ -34,8 +35,9 @@ struct DexelGrid {
   double pitch = 1.0;
   std::array<int, 3> nodes{};
 
-  // Covers the box with one to two spare layers. The nodes are shifted against the box by irrational
-  // fractions of the pitch, so that rays do not lie in planes where people like to put faces.
+  // Covers the box with one to two spare layers. The nodes are shifted against the box by
+  // irrational fractions of the pitch, so that rays do not lie in planes where people like to put
+  // faces.
   [[nodiscard]] static DexelGrid over(const BoundingBox& box, double pitch);
 
   [[nodiscard]] Vec3 node(int i, int j, int k) const { return origin + pitch * Vec3(i, j, k); }

@@ -1,9 +1,9 @@
 // A solid as the surface extraction sees it: whatever answers along rays.
 //
-// material_along(ray, span) gives the intervals of the ray inside the material, clipped to the span. An
-// end's tag is the solid's own business, but -1 is reserved for the ends of the span.
-// surface_at(ray, s, tag) gives the point and the outward unit normal at such an end (never asked for
-// tag -1). Both must be const, pure and callable from several threads.
+// material_along(ray, span) gives the intervals of the ray inside the material, clipped to the
+// span. An end's tag is the solid's own business, but -1 is reserved for the ends of the span.
+// surface_at(ray, s, tag) gives the point and the outward unit normal at such an end (never asked
+// for tag -1). Both must be const, pure and callable from several threads.
 // Units: mm. Errors: none.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Solids in closed form for the tests of the surface extraction: convex bodies, added and taken away
-// in order.
+// Solids in closed form for the tests of the surface extraction: convex bodies, added and taken
+// away in order.
 // Units: mm, rad.
 #pragma once
 

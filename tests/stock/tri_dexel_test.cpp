@@ -59,8 +59,8 @@ TEST(TriDexel, CutsOffWhatReachesOutOfItsBox) {
   EXPECT_LT(dexels->volume(), 6.0 * 6.0 * 6.0);
 }
 
-// The error oscillates under an envelope of order 2, because rays enter and leave the silhouette; so
-// the law is held against the envelope over a factor of 32 in pitch. Largest factor seen: 4.3.
+// The error oscillates under an envelope of order 2, because rays enter and leave the silhouette;
+// so the law is held against the envelope over a factor of 32 in pitch. Largest factor seen: 4.3.
 TEST(TriDexel, VolumeConvergesAtOrderTwo) {
   const double exact = 4.0 / 3.0 * std::numbers::pi * 125.0;
   for (const double pitch : {2.0, 1.0, 0.5, 0.25, 0.125, 0.0625}) {
