@@ -24,8 +24,8 @@ struct Options {
   std::string limits = "nas979";
   std::string center{};
   std::optional<double> cone_angle{}, inclination{}, orientation{}, radius{}, height{},
-      cylinder_height{}, tool_diameter{}, tool_length{}, start_angle{}, allowance{}, chord_tolerance{},
-      feed{}, speed{};
+      cylinder_height{}, tool_diameter{}, tool_length{}, start_angle{}, allowance{},
+      chord_tolerance{}, feed{}, speed{};
 };
 
 Result<ConeFrustum> cone_of(const Options& o) {
@@ -83,15 +83,18 @@ void add_program(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<Options>();
   CLI::App* cone = kinds->add_subcommand(
       "cone", "The cone frustum test: NAS 979, or an inclined cone with cylinder and groove");
-  cone->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")->required();
+  cone->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
+      ->required();
   cone->add_option("--out", o->out, "Folder for job.toml, cone.nc and cone.plan.toml")->required();
-  cone->add_option("--preset", o->preset, "inclined (default) or nas979: what the options start from")
+  cone->add_option("--preset", o->preset,
+                   "inclined (default) or nas979: what the options start from")
       ->check(CLI::IsMember({"inclined", "nas979"}));
   cone->add_option("--cone-angle", o->cone_angle, "Half apex angle, deg (45)");
   cone->add_option("--inclination", o->inclination, "Tilt of the cone's axis, deg (30)");
   cone->add_option("--orientation", o->orientation, "Turn about the table's Z, deg (0)");
   cone->add_option("--radius", o->radius, "Tool-tip circle, mm (40)");
-  cone->add_option("--center", o->center, "x,y,z of that circle's centre in the table frame, mm (-65,0,150)");
+  cone->add_option("--center", o->center,
+                   "x,y,z of that circle's centre in the table frame, mm (-65,0,150)");
   cone->add_option("--height", o->height, "Height of the cone, mm (5)");
   cone->add_option("--cylinder-height", o->cylinder_height, "Height of the cylinder below, mm (6)");
   cone->add_option("--tool-diameter", o->tool_diameter, "mm (12)");

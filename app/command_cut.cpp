@@ -47,7 +47,8 @@ int cut(const Options& options) {
     return refuse("nothing to write", "give --mesh OUT.stl|.ply|.obj or --picture OUT.png");
   }
   if (!options.mesh.empty()) {
-    if (const auto format = stock::mesh_format_of(options.mesh); !format) return refuse(format.error());
+    if (const auto format = stock::mesh_format_of(options.mesh); !format)
+      return refuse(format.error());
   }
   const auto job = load_job(options.job, options.overrides, false);
   if (!job) return refuse(job.error());
@@ -59,36 +60,37 @@ int cut(const Options& options) {
   run.end();
   if (!mesh) return refuse(mesh.error());
   if (!options.mesh.empty()) {
-    if (const auto file = stock::write_mesh(*mesh, options.mesh); !file) return refuse(file.error());
+    if (const auto file = stock::write_mesh(*mesh, options.mesh); !file)
+      return refuse(file.error());
   }
   if (!options.picture.empty()) {
-    const auto file = report::write_picture(options.picture, picture_of(*mesh));
+    const auto file = report::write_picture(options.picture, picture_of(*mesh, job->piece.plan));
     if (!file) return refuse(file.error());
   }
   const stock::MeshMeasure measure = stock::measure(*mesh);
   const double blank = trial->workpiece->blank().volume();
   const DeviationRange deviation = range_of(*mesh);
   if (options.json) {
-    const nlohmann::ordered_json doc{{"vertices", mesh->vertices.size()},
-                                     {"triangles", mesh->triangles.size()},
-                                     {"closed", measure.is_closed},
-                                     {"manifold", measure.is_manifold},
-                                     {"volume_mm3", measure.volume},
-                                     {"blank_volume_mm3", blank},
-                                     {"removed_volume_mm3", blank - measure.volume},
-                                     {"vertices_with_nominal", deviation.vertices},
-                                     {"deviation_um",
-                                      {deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm}},
-                                     {"collisions", trial->collisions.size()}};
+    const nlohmann::ordered_json doc{
+        {"vertices", mesh->vertices.size()},
+        {"triangles", mesh->triangles.size()},
+        {"closed", measure.is_closed},
+        {"manifold", measure.is_manifold},
+        {"volume_mm3", measure.volume},
+        {"blank_volume_mm3", blank},
+        {"removed_volume_mm3", blank - measure.volume},
+        {"vertices_with_nominal", deviation.vertices},
+        {"deviation_um", {deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm}},
+        {"collisions", trial->collisions.size()}};
     std::cout << doc.dump(2) << '\n';
   } else if (!options.quiet) {
     std::cout << fmt::format(
         "{} vertices, {} triangles, {}\nvolume {:.3f} mm3 of {:.3f}, removed {:.3f}\n"
         "deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
         mesh->vertices.size(), mesh->triangles.size(),
-        measure.is_closed && measure.is_manifold ? "closed and manifold" : "NOT closed", measure.volume,
-        blank, blank - measure.volume, deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm,
-        deviation.vertices);
+        measure.is_closed && measure.is_manifold ? "closed and manifold" : "NOT closed",
+        measure.volume, blank, blank - measure.volume, deviation.lowest * kUmPerMm,
+        deviation.highest * kUmPerMm, deviation.vertices);
   }
   return trial->collisions.empty() ? kDone : kOutOfTolerance;
 }
@@ -99,11 +101,16 @@ void add_cut(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("cut", "Cut a job and write the finished workpiece");
   command->add_option("job", options->job, "Job file")->required();
-  command->add_option("--mesh", options->mesh, "Mesh to write: .stl, .ply (with deviations) or .obj");
-  command->add_option("--picture", options->picture, "Picture to write: .png, coloured by deviation");
-  command->add_option("--pitch", options->pitch, "Of the sampling grid, mm (default: longest side / 120)")
+  command->add_option("--mesh", options->mesh,
+                      "Mesh to write: .stl, .ply (with deviations) or .obj");
+  command->add_option("--picture", options->picture,
+                      "Picture to write: .png, coloured by deviation");
+  command
+      ->add_option("--pitch", options->pitch,
+                   "Of the sampling grid, mm (default: longest side / 120)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--error", options->overrides.errors, "NAME=VALUE, repeated; overrides the job");
+  command->add_option("--error", options->overrides.errors,
+                      "NAME=VALUE, repeated; overrides the job");
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
   command->add_flag("--quiet", options->quiet, "No progress, no summary");

@@ -58,15 +58,13 @@ int fit(const Options& options) {
   ordered_json covariance = ordered_json::array();
   for (Eigen::Index i = 0; i < fitted->covariance.rows(); ++i) {
     ordered_json row = ordered_json::array();
-    for (Eigen::Index j = 0; j < fitted->covariance.cols(); ++j) row.push_back(fitted->covariance(i, j));
+    for (Eigen::Index j = 0; j < fitted->covariance.cols(); ++j)
+      row.push_back(fitted->covariance(i, j));
     covariance.push_back(row);
   }
-  std::cout << ordered_json{{"element", options.element},
-                            {"criterion", options.criterion},
-                            {"parameters", parameters},
-                            {"form", fitted->form},
-                            {"rms", fitted->rms},
-                            {"residuals", fitted->residuals},
+  std::cout << ordered_json{{"element", options.element}, {"criterion", options.criterion},
+                            {"parameters", parameters},   {"form", fitted->form},
+                            {"rms", fitted->rms},         {"residuals", fitted->residuals},
                             {"covariance", covariance}}
                    .dump(2)
             << '\n';
@@ -78,8 +76,9 @@ int fit(const Options& options) {
 void add_fit(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("fit", "One element fitted to points");
-  command->add_option("element", options->element,
-                      "line, plane, circle, circle2d, sphere, cylinder or cone")
+  command
+      ->add_option("element", options->element,
+                   "line, plane, circle, circle2d, sphere, cylinder or cone")
       ->required()
       ->check(CLI::IsMember({"line", "plane", "circle", "circle2d", "sphere", "cylinder", "cone"}));
   command->add_option("points", options->points, "CSV or columns x y z, mm")->required();

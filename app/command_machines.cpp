@@ -49,14 +49,17 @@ int list_errors(const Options& options) {
   const auto machine = Machine::load(find_machine(options.machine, "."));
   if (!machine) return refuse(machine.error());
   ordered_json axes = ordered_json::array(), names = ordered_json::array();
-  const auto error_unit = [](const ErrorName& e) { return is_rotation(e.direction) ? "urad" : "um"; };
+  const auto error_unit = [](const ErrorName& e) {
+    return is_rotation(e.direction) ? "urad" : "um";
+  };
   for (const Joint& joint : machine->joints()) {
     ordered_json axis{{"axis", std::string(1, to_char(joint.letter))},
                       {"side", joint.side > 0 ? "tool" : "workpiece"},
                       {"unit", unit(joint)}};
-    axis["travel"] = joint.endless ? ordered_json(nullptr)
-                                   : ordered_json({shown(joint, joint.travel.lo),
-                                                   shown(joint, joint.travel.hi)});
+    axis["travel"] =
+        joint.endless
+            ? ordered_json(nullptr)
+            : ordered_json({shown(joint, joint.travel.lo), shown(joint, joint.travel.hi)});
     axes.push_back(axis);
   }
   for (const ErrorName& e : machine->error_names()) {
@@ -81,19 +84,19 @@ int list_errors(const Options& options) {
                            machine->structure(), machine->title());
   for (const auto& axis : axes) {
     const std::string travel =
-        axis["travel"].is_null() ? "endless" : fmt::format("{} .. {} {}", axis["travel"][0].dump(),
-                                                           axis["travel"][1].dump(),
-                                                           axis["unit"].get<std::string>());
+        axis["travel"].is_null()
+            ? "endless"
+            : fmt::format("{} .. {} {}", axis["travel"][0].dump(), axis["travel"][1].dump(),
+                          axis["unit"].get<std::string>());
     std::cout << fmt::format("  {}  {:<10} {}\n", axis["axis"].get<std::string>(),
                              axis["side"].get<std::string>(), travel);
   }
   std::cout << "\nerrors (--error NAME=VALUE)\n";
   for (const auto& e : names) {
-    std::cout << fmt::format("  {:<10} {:<5} {}{}\n", e["name"].get<std::string>(),
-                             e["unit"].get<std::string>(), e["meaning"].get<std::string>(),
-                             e.contains("alias_of")
-                                 ? fmt::format(" [{}]", e["alias_of"].get<std::string>())
-                                 : "");
+    std::cout << fmt::format(
+        "  {:<10} {:<5} {}{}\n", e["name"].get<std::string>(), e["unit"].get<std::string>(),
+        e["meaning"].get<std::string>(),
+        e.contains("alias_of") ? fmt::format(" [{}]", e["alias_of"].get<std::string>()) : "");
   }
   return kDone;
 }

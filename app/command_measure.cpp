@@ -62,8 +62,9 @@ int evaluate_points(const Options& options) {
 int measure(const Options& options) {
   const bool points = !options.plan.empty() || !options.points.empty();
   if (points == !options.job.empty() || options.plan.empty() != options.points.empty()) {
-    return refuse("give either a job file, or --plan and --points",
-                  "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv");
+    return refuse(
+        "give either a job file, or --plan and --points",
+        "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv");
   }
   return points ? evaluate_points(options) : measure_job(options);
 }
@@ -79,7 +80,8 @@ void add_measure(CLI::App& program, int& exit_code) {
   command->add_option("--points", options->points, "CSV with feature,section,x,y,z (mm)");
   command->add_flag("--ball-centres", options->ball_centres,
                     "The points are centres of the probe ball, not surface points");
-  command->add_option("--error", options->overrides.errors, "NAME=VALUE, repeated; overrides the job");
+  command->add_option("--error", options->overrides.errors,
+                      "NAME=VALUE, repeated; overrides the job");
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
   command->add_flag("--quiet", options->quiet, "No progress, no summary");

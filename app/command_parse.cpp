@@ -33,8 +33,7 @@ int parse_file(const Options& options) {
   const auto print = [&](parser::Motion&& motion) {
     if (options.canon) std::cout << parser::to_json_line(motion) << '\n';
   };
-  const auto summary =
-      parser::interpret(*program, print, {.block_delete = options.block_delete});
+  const auto summary = parser::interpret(*program, print, {.block_delete = options.block_delete});
   if (!summary) return refuse(summary.error());
   return kDone;
 }
@@ -48,7 +47,8 @@ void add_parse(CLI::App& program, int& exit_code) {
   command->add_option("file", options->file, "NC program")->required();
   command->add_option("--dialect", options->dialect, "fanuc (default) or iso")
       ->check(CLI::IsMember({"fanuc", "iso"}));
-  command->add_flag("--canon", options->canon, "Print one JSON line a motion (mm, degrees, mm/min)");
+  command->add_flag("--canon", options->canon,
+                    "Print one JSON line a motion (mm, degrees, mm/min)");
   command->add_flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");
   command->footer("Example: frustum parse cone.nc --canon");
   command->callback([options, &exit_code] { exit_code = parse_file(*options); });

@@ -56,7 +56,7 @@ Result<AxisPositions> read_axes(const Machine& machine, const std::string& text)
     if (equals == std::string::npos || std::find(known.begin(), known.end(), name) == known.end()) {
       return error(fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
                                machine.structure()),
-                   fmt::format("write {}", fmt::join(known, "=..,") ) + "=..");
+                   fmt::format("write {}", fmt::join(known, "=..,")) + "=..");
     }
     const auto value = numbers_of(part.substr(equals + 1), 1, "axis " + name);
     if (!value) return value.error();
@@ -90,7 +90,8 @@ int forward(const Options& options, const Machine& machine,
     return kDone;
   }
   const auto row = [](const char* name, const Vec3& v, const char* unit) {
-    std::cout << fmt::format("{:<14} {:>16.9f} {:>16.9f} {:>16.9f} {}\n", name, v.x(), v.y(), v.z(), unit);
+    std::cout << fmt::format("{:<14} {:>16.9f} {:>16.9f} {:>16.9f} {}\n", name, v.x(), v.y(), v.z(),
+                             unit);
   };
   row("nominal tip", n.tip, "mm");
   row("nominal axis", n.axis, "");
@@ -151,17 +152,23 @@ int run_pose(const Options& options) {
 void add_pose(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "pose", "Tool tip and axis in the table frame from axis positions, or axis positions from a pose");
-  command->add_option("--machine", options->machine, "Machine file, or the name of a shipped machine")
+      "pose",
+      "Tool tip and axis in the table frame from axis positions, or axis positions from a pose");
+  command
+      ->add_option("--machine", options->machine, "Machine file, or the name of a shipped machine")
       ->required();
-  command->add_option("--axes", options->axes, "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
+  command->add_option("--axes", options->axes,
+                      "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
   command->add_option("--inverse", options->inverse, "\"x,y,z,i,j,k\": tip (mm) and tool axis");
   command->add_option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
-  command->add_option("--tool-length", options->tool_length, "mm, default 0: the tip is the gauge point")
+  command
+      ->add_option("--tool-length", options->tool_length,
+                   "mm, default 0: the tip is the gauge point")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->footer("Shapes without a span lie over the axis's travel.\n"
-                  "Example: frustum pose --machine zx-yac --axes \"X=10,A=-30,C=45\" --error beta_CA=20urad");
+  command->footer(
+      "Shapes without a span lie over the axis's travel.\n"
+      "Example: frustum pose --machine zx-yac --axes \"X=10,A=-30,C=45\" --error beta_CA=20urad");
   command->callback([options, &exit_code] { exit_code = run_pose(*options); });
 }
 

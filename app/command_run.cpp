@@ -39,7 +39,8 @@ std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job
   if (!made) return made.error();
   std::vector<Result<std::filesystem::path>> written;
   written.push_back(report::write_text_file(folder / "result.json", report::json_report(report)));
-  written.push_back(report::write_text_file(folder / "points.csv", report::points_csv(report.measurement)));
+  written.push_back(
+      report::write_text_file(folder / "points.csv", report::points_csv(report.measurement)));
   if (job.report) written.push_back(report::write_html_report(folder / "report.html", report));
   for (const auto& file : written) {
     if (!file) return file.error();
@@ -59,7 +60,7 @@ int run_job(const Options& options) {
     run.begin("mesh the surface");
     auto mesh = finished_surface(*job, *trial->workpiece, 0.0);
     if (!mesh) return refuse(mesh.error());
-    report.surface = picture_of(*mesh);
+    report.surface = picture_of(*mesh, job->piece.plan);
     const double finished = stock::measure(*mesh).volume;
     const double blank = trial->workpiece->blank().volume();
     report.volumes = {blank, finished, blank - finished};
@@ -82,8 +83,9 @@ void add_run(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "run", "The whole loop: parse, execute with errors, cut, measure, report");
   command->add_option("job", options->job, "Job file")->required();
-  command->add_option("--out", options->out, "Folder for report.html, result.json and points.csv "
-                                             "(default: out/ beside the job)");
+  command->add_option("--out", options->out,
+                      "Folder for report.html, result.json and points.csv "
+                      "(default: out/ beside the job)");
   command->add_option("--error", options->overrides.errors,
                       "NAME=VALUE, repeated; overrides the job, for example --error EB0C=30urad");
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error,

@@ -44,7 +44,8 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
   if (shape == 0) {
     const Vec3 size = blank.vector("size");
     if (!(size.array() > 0.0).all()) {
-      blank.fail("size", "the blank is empty: every size must be above 0", "size = [x, y, z] in mm");
+      blank.fail("size", "the blank is empty: every size must be above 0",
+                 "size = [x, y, z] in mm");
     }
     piece.blank = stock::BoxShape{size.x(), size.y(), size.z()};
     height = size.z();
@@ -102,7 +103,8 @@ void read_operations(const TomlTable& root, programs::TestPiece& piece) {
     programs::Operation op;
     op.name = table.text("name");
     const auto lines = table.numbers("lines");
-    const bool valid = lines.size() == 2 && lines[0] >= 1.0 && lines[1] >= lines[0] && lines[1] < 4e9;
+    const bool valid =
+        lines.size() == 2 && lines[0] >= 1.0 && lines[1] >= lines[0] && lines[1] < 4e9;
     if (valid) {
       op.first_line = static_cast<std::uint32_t>(lines[0]);
       op.last_line = static_cast<std::uint32_t>(lines[1]);

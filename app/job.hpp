@@ -23,14 +23,14 @@ struct Job {
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
   metrology::CmmModel cmm{};
-  double path_bound = 1e-5;   // mm
-  double mesh_pitch = 0.0;    // mm; 0: chosen by the size of the blank
+  double path_bound = 1e-5;  // mm
+  double mesh_pitch = 0.0;   // mm; 0: chosen by the size of the blank
   bool report = true;
 };
 
 // What the command line may change in a job.
 struct JobOverrides {
-  std::vector<std::string> errors{};          // "EB0C=30urad"
+  std::vector<std::string> errors{};  // "EB0C=30urad"
   std::optional<std::string> tool_radius_error{};
 };
 

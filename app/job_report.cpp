@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "metrology/nominal.hpp"
 
@@ -14,8 +17,9 @@ using kinematics::AxisLetter;
 using kinematics::Joint;
 
 std::string describe(const cutter::CutterSpec& tool) {
-  std::string text = fmt::format("{} end mill, diameter {:g} mm, length {:g} mm",
-                                 cutter::to_string(tool.type), tool.diameter.value, tool.length.value);
+  std::string text =
+      fmt::format("{} end mill, diameter {:g} mm, length {:g} mm", cutter::to_string(tool.type),
+                  tool.diameter.value, tool.length.value);
   if (tool.radius_error.value != 0.0) {
     text += fmt::format(", radius error {:g} um", tool.radius_error.value * kUmPerMm);
   }
@@ -54,7 +58,8 @@ report::AxisTrace trace_of(const Job& job, const trials::OperationTrace& operati
     if (joint == nullptr) continue;
     const double scale = joint->rotary() ? kDegPerRad : 1.0;
     report::AxisSeries series{.axis = std::string(1, to_char(letter)), .rotary = joint->rotary()};
-    for (const std::size_t i : kept) series.values.push_back(operation.samples[i].axes[letter] * scale);
+    for (const std::size_t i : kept)
+      series.values.push_back(operation.samples[i].axes[letter] * scale);
     const kinematics::AxisRange range = operation.ranges.at(letter);
     series.range = report::AxisRange{range.lo * scale, range.hi * scale};
     trace.axes.push_back(std::move(series));
@@ -82,8 +87,8 @@ std::string collision_text(const stock::Collision& c) {
   const char* what = c.kind == stock::CollisionKind::rapid_through_material
                          ? "rapid move (G0) through material"
                          : "feed move with the spindle off in material";
-  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f})", what, c.tool, c.depth,
-                     c.point.x(), c.point.y(), c.point.z());
+  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f})", what, c.tool,
+                     c.depth, c.point.x(), c.point.y(), c.point.z());
 }
 
 }  // namespace
@@ -95,7 +100,8 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   report.machine = job.machine.name() + ", " + job.machine.title();
   report.structure = job.machine.structure();
   report.program = std::filesystem::path(job.piece.program_file).filename().string();
-  for (const auto& [number, tool] : job.piece.tools) report.tools.push_back({number, describe(tool)});
+  for (const auto& [number, tool] : job.piece.tools)
+    report.tools.push_back({number, describe(tool)});
   for (const kinematics::ErrorEntry& e : job.errors) {
     report.errors.push_back({e.name, e.written, meaning_of(job.machine, e.name)});
   }
@@ -111,13 +117,13 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   report.diagnostics = trial.warnings;
   const Vec3& at = job.piece.placement.origin;
   const Vec3 tilt = job.piece.placement.tilt * kDegPerRad;
-  report.notes.push_back(
-      fmt::format("workpiece frame on the table at ({:g}, {:g}, {:g}) mm, tilted ({:g}, {:g}, {:g}) deg",
-                  at.x(), at.y(), at.z(), tilt.x(), tilt.y(), tilt.z()));
+  report.notes.push_back(fmt::format(
+      "workpiece frame on the table at ({:g}, {:g}, {:g}) mm, tilted ({:g}, {:g}, {:g}) deg",
+      at.x(), at.y(), at.z(), tilt.x(), tilt.y(), tilt.z()));
   if (!job.piece.error_span.empty()) {
-    report.notes.push_back(fmt::format(
-        "error shapes without a span of their own lie over the range that '{}' travels",
-        job.piece.error_span));
+    report.notes.push_back(
+        fmt::format("error shapes without a span of their own lie over the range that '{}' travels",
+                    job.piece.error_span));
   }
   return report;
 }
@@ -131,22 +137,47 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   if (!mesh || job.piece.plan.features.empty()) return mesh;
   mesh->deviation.reserve(mesh->vertices.size());
   for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
-    mesh->deviation.push_back(metrology::deviation_from_nominal(job.piece.plan, mesh->vertices[i],
-                                                                mesh->normals[i]));
+    mesh->deviation.push_back(
+        metrology::deviation_from_nominal(job.piece.plan, mesh->vertices[i], mesh->normals[i]));
   }
   judge_edges(*mesh, job.piece.plan);
   return mesh;
 }
 
-report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh) {
+report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
+                                  const metrology::InspectionPlan& plan) {
   report::SurfacePicture picture;
-  for (const Vec3& v : mesh.vertices) {
+  const auto add = [&](const Vec3& v, const std::optional<double>& deviation) {
     picture.vertices.push_back(
         {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
+    if (mesh.deviation.empty()) return;
+    picture.deviation.push_back(deviation ? std::optional(static_cast<float>(*deviation))
+                                          : std::nullopt);
+  };
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    add(mesh.vertices[i], mesh.deviation.empty() ? std::nullopt : mesh.deviation[i]);
   }
   picture.triangles = mesh.triangles;
-  for (const auto& d : mesh.deviation) {
-    picture.deviation.push_back(d ? std::optional(static_cast<float>(*d)) : std::nullopt);
+  if (mesh.deviation.empty()) return picture;
+  // An edge belongs to two faces with deviations of their own: it gets a vertex for each, so that
+  // colours do not run across it.
+  std::map<std::pair<std::uint32_t, float>, std::uint32_t> split;
+  for (auto& triangle : picture.triangles) {
+    const Vec3& a = mesh.vertices[triangle[0]];
+    const auto normal =
+        UnitVec3::of((mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a));
+    if (!normal) continue;
+    std::array<std::uint32_t, 3> corners = triangle;
+    for (std::uint32_t& corner : corners) {
+      if (mesh.kinds[corner] == stock::VertexKind::surface) continue;
+      const auto own = metrology::deviation_from_nominal(plan, mesh.vertices[corner], *normal);
+      if (!own) continue;
+      const auto next = static_cast<std::uint32_t>(picture.vertices.size());
+      const auto [at, is_new] = split.try_emplace({corner, static_cast<float>(*own)}, next);
+      if (is_new) add(mesh.vertices[corner], own);
+      corner = at->second;
+    }
+    triangle = corners;
   }
   return picture;
 }

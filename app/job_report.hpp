@@ -17,6 +17,7 @@ namespace frustum::app {
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::Workpiece& workpiece,
                                                           double pitch);
-[[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh);
+[[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
+                                                const metrology::InspectionPlan& plan);
 
 }  // namespace frustum::app

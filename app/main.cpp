@@ -8,7 +8,8 @@ int main(int argc, char** argv) {
   using namespace frustum::app;  // NOLINT: main is the whole program
   CLI::App program{
       "Frustum: a virtual five-axis machine tool. NC text goes in, a CMM report comes out.\n"
-      "Exit codes: 0 done and within tolerance, 1 a tolerance or check failed, 2 the input is wrong, "
+      "Exit codes: 0 done and within tolerance, 1 a tolerance or check failed, 2 the input is "
+      "wrong, "
       "3 internal fault.",
       "frustum"};
   program.require_subcommand(1);

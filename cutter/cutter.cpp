@@ -10,8 +10,7 @@ std::string to_string(CutterType type) { return type == CutterType::flat ? "flat
 
 Result<Cutter> Cutter::make(const CutterSpec& spec) {
   const double radius = spec.diameter.value / 2.0 + spec.radius_error.value;
-  const double height =
-      spec.flute_length.value > 0.0 ? spec.flute_length.value : spec.length.value;
+  const double height = spec.flute_length.value > 0.0 ? spec.flute_length.value : spec.length.value;
   if (!(spec.diameter.value > 0.0) || !std::isfinite(spec.diameter.value)) {
     return error(fmt::format("tool diameter {} mm", spec.diameter.value), "it must be above 0");
   }
@@ -33,8 +32,9 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
     return Cutter(spec, Profile({Zone{CylinderZone{radius}, 0.0, height}}));
   }
   if (height < radius) {
-    return error(fmt::format("flute length {} mm of a ball end mill of radius {} mm", height, radius),
-                 "the flutes must reach past the ball: at least the radius");
+    return error(
+        fmt::format("flute length {} mm of a ball end mill of radius {} mm", height, radius),
+        "the flutes must reach past the ball: at least the radius");
   }
   if (height == radius) {
     return Cutter(spec, Profile({Zone{SphereZone{radius, radius}, 0.0, radius}}));

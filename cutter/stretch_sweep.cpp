@@ -124,7 +124,9 @@ class Search {
   [[nodiscard]] SeparatingPlane separate(const ToolPose& pose) const {
     const Vec3 e1 = perpendicular_to(ray_.direction);
     const Vec3 e2 = ray_.direction.cross(e1);
-    const auto normal_at = [&](double psi) -> Vec3 { return std::cos(psi) * e1 + std::sin(psi) * e2; };
+    const auto normal_at = [&](double psi) -> Vec3 {
+      return std::cos(psi) * e1 + std::sin(psi) * e2;
+    };
     constexpr int kCoarse = 12;
     constexpr double kStep = 2.0 * std::numbers::pi / kCoarse;
     double best_psi = 0.0;
@@ -199,8 +201,8 @@ class Search {
     Extremum best{samples_[first].t, value(first)};
     for (std::size_t k = first; k < last; ++k) {
       if (value(k) < best.value) best = {samples_[k].t, value(k)};
-      const bool valley = (k == first || value(k) <= value(k - 1)) &&
-                          (k + 1 == last || value(k) <= value(k + 1));
+      const bool valley =
+          (k == first || value(k) <= value(k - 1)) && (k + 1 == last || value(k) <= value(k + 1));
       if (!valley || first + 1 == last) continue;
       const double left = k == first ? samples_[k].t : samples_[k - 1].t;
       const double right = k + 1 == last ? samples_[k].t : samples_[k + 1].t;

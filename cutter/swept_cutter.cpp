@@ -43,8 +43,9 @@ void append(std::vector<Interval>& all, const std::vector<SweptInterval>& found,
 Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tools) {
   for (const kinematics::PathBlock& block : path.blocks) {
     if (!tools.contains(block.tool)) {
-      Diagnostic failure = error(fmt::format("tool T{} cuts but is not defined", block.tool),
-                                 fmt::format("add tool.{} with type, diameter and length", block.tool));
+      Diagnostic failure =
+          error(fmt::format("tool T{} cuts but is not defined", block.tool),
+                fmt::format("add tool.{} with type, diameter and length", block.tool));
       failure.line = static_cast<int>(block.source_line);
       return failure;
     }
@@ -56,7 +57,8 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
     : path_(std::move(path)),
       tools_(std::make_shared<const std::map<int, Cutter>>(std::move(tools))) {
   profile_of_block_.reserve(path_.blocks.size());
-  for (const auto& block : path_.blocks) profile_of_block_.push_back(&tools_->at(block.tool).profile());
+  for (const auto& block : path_.blocks)
+    profile_of_block_.push_back(&tools_->at(block.tool).profile());
   boxes_.reserve(path_.stretches.size());
   for (const Stretch& stretch : path_.stretches) {
     boxes_.push_back(

@@ -25,9 +25,9 @@ namespace frustum::cutter {
 // How a point of the swept surface came about.
 struct SweepContact {
   std::uint32_t stretch = 0;
-  double t = 0.0;                      // moment within the stretch, 0..1
-  kinematics::ToolPose pose{};         // of the cutter at that moment
-  Vec3 normal = Vec3::UnitZ();         // unit, out of the cutter at the point
+  double t = 0.0;               // moment within the stretch, 0..1
+  kinematics::ToolPose pose{};  // of the cutter at that moment
+  Vec3 normal = Vec3::UnitZ();  // unit, out of the cutter at the point
 };
 
 class SweptCutter {

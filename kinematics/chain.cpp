@@ -54,9 +54,9 @@ class ChainWalk {
   [[nodiscard]] Pose pose(std::span<const Joint> joints, const Pose& end) const {
     Pose bed_from_end;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      bed_from_end = bed_from_end * (errors_ == nullptr
-                                         ? nominal_joint(joints[i], q_[joints[i].letter])
-                                         : actual_joint(joints, i, end));
+      bed_from_end =
+          bed_from_end * (errors_ == nullptr ? nominal_joint(joints[i], q_[joints[i].letter])
+                                             : actual_joint(joints, i, end));
     }
     return bed_from_end * end;
   }
@@ -80,7 +80,8 @@ class ChainWalk {
     const Pose place{small_rotation(e.orientation, order), joint.offset + e.location};
     const Pose rotate = Pose::rotated(rotation_about(joint.direction, joint.side * q));
     const Pose shift = Pose::translated(e.shift);
-    if (machine_.rotary_error_frame() == RotaryErrorFrame::rotor) return place * rotate * turn * shift;
+    if (machine_.rotary_error_frame() == RotaryErrorFrame::rotor)
+      return place * rotate * turn * shift;
     return place * shift * turn * rotate;
   }
 
@@ -96,7 +97,8 @@ class ChainWalk {
     const bool before_rotation =
         joint.rotary() && machine_.rotary_error_frame() == RotaryErrorFrame::stator;
     if (before_rotation) {
-      from_end = Pose::rotated(rotation_about(joint.direction, joint.side * q_[joint.letter])) * from_end;
+      from_end =
+          Pose::rotated(rotation_about(joint.direction, joint.side * q_[joint.letter])) * from_end;
     }
     return from_end.translation;
   }
@@ -112,7 +114,8 @@ Pose table_from_tool(const Machine& machine, const GeometricErrors* errors, cons
   const Pose last_from_tip =
       Pose::translated(machine.spindle_offset() - tool_length * Vec3::UnitZ());
   const Pose bed_from_tip = walk.pose(machine.tool_chain(), last_from_tip);
-  const Pose bed_from_table = walk.pose(machine.work_chain(), Pose::translated(machine.table_offset()));
+  const Pose bed_from_table =
+      walk.pose(machine.work_chain(), Pose::translated(machine.table_offset()));
   return bed_from_table.inverse() * bed_from_tip;
 }
 

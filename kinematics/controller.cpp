@@ -115,7 +115,8 @@ class Controller::State {
     AxisPositions end = q_;
     const AxisPositions home = machine_.home();
     for (const AxisLetter letter : kAxisLetters) {
-      if (move.axes[static_cast<std::size_t>(letter)] && present(letter)) end[letter] = home[letter];
+      if (move.axes[static_cast<std::size_t>(letter)] && present(letter))
+        end[letter] = home[letter];
     }
     if (problems_.empty()) move_axes(end, PathKind::rapid, 0.0);
   }
@@ -171,8 +172,8 @@ class Controller::State {
 
   // --- motion ---------------------------------------------------------------------------------
 
-  void go(const AxisTarget& target, const std::optional<UnitVec3>& tool_axis, Coordinates coordinates,
-          PathKind kind, double feed, const parser::ArcFeed* arc) {
+  void go(const AxisTarget& target, const std::optional<UnitVec3>& tool_axis,
+          Coordinates coordinates, PathKind kind, double feed, const parser::ArcFeed* arc) {
     for (const AxisLetter letter : kAxisLetters) {
       if (target[letter] && !present(letter)) return;
     }
@@ -216,7 +217,8 @@ class Controller::State {
         if (target[letter]) rotary_end[letter] = *target[letter];
       }
     }
-    const TipCurve curve = arc == nullptr ? TipCurve{start, end, {}, {}, 0.0} : arc_curve(*arc, start, end);
+    const TipCurve curve =
+        arc == nullptr ? TipCurve{start, end, {}, {}, 0.0} : arc_curve(*arc, start, end);
     const AxisPositions from = q_;
     travel(
         [this, from, rotary_end, curve](double u) {
@@ -231,8 +233,7 @@ class Controller::State {
 
   // Rotary positions for a programmed tool vector: the solution nearest to where the axes are.
   bool orient_to(const UnitVec3& tool_axis, const Vec3& tip, AxisPositions& rotary_end) {
-    const auto solutions =
-        inverse(machine_, {tip + offset_, tool_axis}, compensated_length_, q_);
+    const auto solutions = inverse(machine_, {tip + offset_, tool_axis}, compensated_length_, q_);
     if (!solutions) {
       fail(solutions.error().front().message, solutions.error().front().hint);
       return false;
@@ -242,7 +243,8 @@ class Controller::State {
   }
 
   // Without tool-centre-point control a word is an axis position; all axes move linearly.
-  void move_words(const AxisTarget& target, PathKind kind, double feed, const parser::ArcFeed* arc) {
+  void move_words(const AxisTarget& target, PathKind kind, double feed,
+                  const parser::ArcFeed* arc) {
     const Vec3 shift = axis_shift();
     const Vec3 start = linear_part(q_) - shift;
     Vec3 end = start;
@@ -255,13 +257,15 @@ class Controller::State {
         end[static_cast<Eigen::Index>(letter)] = *target[letter];
       }
     }
-    const TipCurve curve = arc == nullptr ? TipCurve{start, end, {}, {}, 0.0} : arc_curve(*arc, start, end);
+    const TipCurve curve =
+        arc == nullptr ? TipCurve{start, end, {}, {}, 0.0} : arc_curve(*arc, start, end);
     const AxisPositions from = q_;
     travel(
         [from, q_end, curve, shift](double u) {
           AxisPositions q = from;
           const Vec3 linear = curve.at(u) + shift;
-          for (const AxisLetter letter : kLinear) q[letter] = linear[static_cast<Eigen::Index>(letter)];
+          for (const AxisLetter letter : kLinear)
+            q[letter] = linear[static_cast<Eigen::Index>(letter)];
           for (const AxisLetter letter : kRotary) {
             q[letter] = from[letter] + u * (q_end[letter] - from[letter]);
           }
@@ -290,8 +294,8 @@ class Controller::State {
   }
 
   // Follows commanded(u), u in [0, 1], checks the travels, and samples where the tool really goes.
-  void travel(const std::function<AxisPositions(double)>& commanded, const AxisPositions& rotary_end,
-              PathKind kind, double feed, double arc_turn) {
+  void travel(const std::function<AxisPositions(double)>& commanded,
+              const AxisPositions& rotary_end, PathKind kind, double feed, double arc_turn) {
     const AxisPositions start = q_;
     const AxisPositions end = commanded(1.0);
     double rotary_travel = std::abs(arc_turn);
@@ -321,8 +325,8 @@ class Controller::State {
     if (chain_broken_ || path.poses.empty()) path.poses.push_back(actual(0.0));
     chain_broken_ = false;
     const auto first = static_cast<std::uint32_t>(path.poses.size() - 1);
-    sample_motion(actual, path.poses.back(),
-                  {options_.path_bound, tool.flute_length, parts}, path.poses);
+    sample_motion(actual, path.poses.back(), {options_.path_bound, tool.flute_length, parts},
+                  path.poses);
     const auto block = static_cast<std::uint32_t>(path.blocks.size());
     path.blocks.push_back({place_.line, kind, spindle_on_, tool_, feed});
     for (auto i = first; i + 1 < path.poses.size(); ++i) path.stretches.push_back({i, block});

@@ -13,8 +13,8 @@
 
 #include <functional>
 #include <map>
-#include <span>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/result.hpp"
@@ -47,8 +47,8 @@ struct AxisSample {
 };
 
 struct Execution {
-  ToolPath path{};                  // empty when only axes were asked for
-  std::vector<AxisSample> axes{};   // the first entry is the start position
+  ToolPath path{};                 // empty when only axes were asked for
+  std::vector<AxisSample> axes{};  // the first entry is the start position
   Diagnostics warnings{};
 };
 
@@ -78,8 +78,7 @@ class Controller {
 
 // All at once.
 [[nodiscard]] Result<Execution> execute(const Machine& machine, const GeometricErrors& errors,
-                                        const Setup& setup,
-                                        std::span<const parser::Motion> motions,
+                                        const Setup& setup, std::span<const parser::Motion> motions,
                                         const ControllerOptions& options = {});
 
 }  // namespace frustum::kinematics

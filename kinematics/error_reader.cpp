@@ -31,7 +31,8 @@ std::vector<std::string> words_of(std::string_view text) {
     const bool unit = std::isalpha(static_cast<unsigned char>(word.front())) != 0 ||
                       static_cast<unsigned char>(word.front()) > 127;
     const bool after_order = words.size() == 2 && words[0] == "harmonic";
-    if (unit && !is_keyword(word) && !words.empty() && !after_order && is_bare_number(words.back())) {
+    if (unit && !is_keyword(word) && !words.empty() && !after_order &&
+        is_bare_number(words.back())) {
       words.back() += word;
     } else {
       words.push_back(word);
@@ -52,7 +53,8 @@ class TermReader {
     } else if (take("harmonic")) {
       shape.kind = ErrorShape::Kind::harmonic;
       shape.order = static_cast<int>(quantity(UnitKind::none, "the order of the harmonic").value);
-      if (!(shape.order >= 1 && shape.order <= 1000)) problem("the order of a harmonic is 1 or more");
+      if (!(shape.order >= 1 && shape.order <= 1000))
+        problem("the order of a harmonic is 1 or more");
     } else {
       (void)take("constant");
     }
@@ -122,7 +124,8 @@ class TermReader {
 std::optional<double> position_in(const TomlTable& table, std::string_view key) {
   if (!table.has(key)) return std::nullopt;
   const ParsedQuantity q = table.quantity(key);
-  if (q.kind == UnitKind::none) table.fail(key, "needs a unit", "for example \"10 mm\" or \"15 deg\"");
+  if (q.kind == UnitKind::none)
+    table.fail(key, "needs a unit", "for example \"10 mm\" or \"15 deg\"");
   return q.value;
 }
 
@@ -144,7 +147,8 @@ std::optional<AxisRange> span_in(const TomlTable& table) {
       return AxisRange{lo->value, hi->value};
     }
   }
-  table.fail("span", "expected two increasing positions with units", "span = [\"0 mm\", \"200 mm\"]");
+  table.fail("span", "expected two increasing positions with units",
+             "span = [\"0 mm\", \"200 mm\"]");
   return std::nullopt;
 }
 
@@ -194,8 +198,8 @@ ErrorShape shape_in(const TomlTable& table) {
 
 std::string written(const ErrorShape& shape) {
   const bool length = shape.amount.kind == UnitKind::length;
-  const std::string amount = fmt::format("{:.6g} {}", shape.amount.value * (length ? 1e3 : 1e6),
-                                         length ? "um" : "urad");
+  const std::string amount =
+      fmt::format("{:.6g} {}", shape.amount.value * (length ? 1e3 : 1e6), length ? "um" : "urad");
   switch (shape.kind) {
     case ErrorShape::Kind::linear:
       return "linear " + amount;

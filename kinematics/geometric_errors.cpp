@@ -89,9 +89,9 @@ std::optional<Diagnostic> check_units(const ErrorEntry& entry, const ErrorShape&
                  wanted == UnitKind::angle ? "for example 30 urad" : "for example 10 um");
   }
   if (named.error.location && shape.kind != ErrorShape::Kind::constant) {
-    return error(fmt::format("error {} = {}: a location error is a constant", entry.name,
-                             entry.written),
-                 "component errors such as EXX take shapes");
+    return error(
+        fmt::format("error {} = {}: a location error is a constant", entry.name, entry.written),
+        "component errors such as EXX take shapes");
   }
   return std::nullopt;
 }
@@ -118,7 +118,8 @@ std::optional<ErrorName> ErrorName::parse(std::string_view text) {
   const auto axis = direction_index(text.back());
   const auto direction = direction_index(text.front());
   if (!axis || !direction) return std::nullopt;
-  return ErrorName{static_cast<ErrorDirection>(*direction), static_cast<AxisLetter>(*axis), location};
+  return ErrorName{static_cast<ErrorDirection>(*direction), static_cast<AxisLetter>(*axis),
+                   location};
 }
 
 std::string ErrorName::text() const {

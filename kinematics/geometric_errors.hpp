@@ -45,13 +45,16 @@ struct ErrorName {
 struct AxisErrors {
   std::array<ErrorFunction, 6> component{};  // by ErrorDirection
   std::array<double, 6> location{};
-  Vec3 carried_tilt = Vec3::Zero();  // rad: linear axes, a tilt that also turns what the axis carries
+  Vec3 carried_tilt =
+      Vec3::Zero();  // rad: linear axes, a tilt that also turns what the axis carries
 };
 
 class GeometricErrors {
  public:
   AxisErrors& operator[](AxisLetter axis) { return axes_[static_cast<std::size_t>(axis)]; }
-  const AxisErrors& operator[](AxisLetter axis) const { return axes_[static_cast<std::size_t>(axis)]; }
+  const AxisErrors& operator[](AxisLetter axis) const {
+    return axes_[static_cast<std::size_t>(axis)];
+  }
 
  private:
   std::array<AxisErrors, 6> axes_{};
@@ -63,9 +66,9 @@ struct ErrorShape {
   Kind kind = Kind::constant;
   ParsedQuantity amount{};
   int order = 1;
-  double phase = 0.0;                // rad
-  std::optional<AxisRange> span{};   // mm or rad
-  std::optional<double> zero{};      // mm or rad: where a linear term vanishes (default 0)
+  double phase = 0.0;               // rad
+  std::optional<AxisRange> span{};  // mm or rad
+  std::optional<double> zero{};     // mm or rad: where a linear term vanishes (default 0)
   std::vector<std::pair<double, double>> points{};  // table, internal units
 };
 
@@ -87,7 +90,8 @@ struct ErrorEntry {
 using AxisSpans = std::map<AxisLetter, AxisRange>;
 
 // Later entries replace earlier ones of the same error.
-[[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine, std::span<const ErrorEntry> entries,
+[[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine,
+                                              std::span<const ErrorEntry> entries,
                                               const AxisSpans& spans = {});
 
 }  // namespace frustum::kinematics

@@ -96,15 +96,18 @@ double shortfall(const Vec3& w1, const Vec3& w2, const Vec3& v, double theta) {
   return theta < lowest ? lowest - theta : theta - highest;
 }
 
-std::string in_words(const Vec3& u) { return fmt::format("({:.6f}, {:.6f}, {:.6f})", u.x(), u.y(), u.z()); }
+std::string in_words(const Vec3& u) {
+  return fmt::format("({:.6f}, {:.6f}, {:.6f})", u.x(), u.y(), u.z());
+}
 
 Result<std::vector<InverseSolution>> without_rotary(const Vec3& u, const AxisPositions& previous) {
   const double off = angle_between(u, Vec3::UnitZ());
   if (off > kReachSlack) {
-    return error(fmt::format("tool direction {} is {:.6f} deg off the spindle, and the machine has no "
-                             "rotary axis",
-                             in_words(u), off * kDegPerRad),
-                 "use a five-axis machine, or keep the tool parallel to the spindle");
+    return error(
+        fmt::format("tool direction {} is {:.6f} deg off the spindle, and the machine has no "
+                    "rotary axis",
+                    in_words(u), off * kDegPerRad),
+        "use a five-axis machine, or keep the tool parallel to the spindle");
   }
   return std::vector<InverseSolution>{{.axes = previous}};
 }
@@ -115,10 +118,11 @@ Result<std::vector<InverseSolution>> with_one(const Joint& joint, const Vec3& v,
   const double off = std::abs(std::acos(std::clamp(w.dot(u), -1.0, 1.0)) -
                               std::acos(std::clamp(w.dot(v), -1.0, 1.0)));
   if (off > kReachSlack) {
-    return error(fmt::format("tool direction {} cannot be reached with the one rotary axis {}: it is "
-                             "{:.6f} deg off",
-                             in_words(u), to_char(joint.letter), off * kDegPerRad),
-                 "directions must lie on the cone that the axis turns through");
+    return error(
+        fmt::format("tool direction {} cannot be reached with the one rotary axis {}: it is "
+                    "{:.6f} deg off",
+                    in_words(u), to_char(joint.letter), off * kDegPerRad),
+        "directions must lie on the cone that the axis turns through");
   }
   InverseSolution solution{.axes = previous};
   if (const auto angle = turn_about(w, v, u)) {
@@ -157,10 +161,11 @@ Result<std::vector<InverseSolution>> orient(const Machine& machine, const Vec3& 
   const double off_reach = std::abs(rise) - reach;
   if (off_reach > kReachSlack) {
     return error(
-        fmt::format("tool direction {} cannot be reached with axes {} and {}: it is {:.4f} deg from "
-                    "the nearest direction they reach",
-                    in_words(u), to_char(first.letter), to_char(second.letter),
-                    shortfall(w1, w2, v, theta) * kDegPerRad),
+        fmt::format(
+            "tool direction {} cannot be reached with axes {} and {}: it is {:.4f} deg from "
+            "the nearest direction they reach",
+            in_words(u), to_char(first.letter), to_char(second.letter),
+            shortfall(w1, w2, v, theta) * kDegPerRad),
         "choose another machine or another setup of the workpiece");
   }
   const double cosine = reach > 0.0 ? std::clamp(rise / reach, -1.0, 1.0) : 0.0;
@@ -229,7 +234,8 @@ std::vector<std::string> travel_violations(const Machine& machine, const AxisPos
   for (const Joint& joint : machine.joints()) {
     const double position = q[joint.letter];
     if (joint.endless) continue;
-    if (position >= joint.travel.lo - kLimitSlack && position <= joint.travel.hi + kLimitSlack) continue;
+    if (position >= joint.travel.lo - kLimitSlack && position <= joint.travel.hi + kLimitSlack)
+      continue;
     const double scale = joint.rotary() ? kDegPerRad : 1.0;
     violations.push_back(fmt::format("{} = {:.4f} {}, travel {:g} .. {:g}", to_char(joint.letter),
                                      position * scale, joint.rotary() ? "deg" : "mm",

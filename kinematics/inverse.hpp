@@ -25,7 +25,8 @@ struct InverseSolution {
 };
 
 // Rotary positions alone, at most two solutions; linear axes are left at `previous`.
-[[nodiscard]] Result<std::vector<InverseSolution>> orient(const Machine& machine, const Vec3& tool_axis,
+[[nodiscard]] Result<std::vector<InverseSolution>> orient(const Machine& machine,
+                                                          const Vec3& tool_axis,
                                                           const AxisPositions& previous);
 
 // Linear axes for a tip position at given rotary positions: nominal chain, exact.
@@ -34,8 +35,8 @@ struct InverseSolution {
 
 // Both solutions for a pose, the nearest to `previous` first; each rotary position is the full turn
 // nearest to `previous` within travel.
-[[nodiscard]] Result<std::vector<InverseSolution>> inverse(const Machine& machine, const ToolPose& pose,
-                                                           double tool_length,
+[[nodiscard]] Result<std::vector<InverseSolution>> inverse(const Machine& machine,
+                                                           const ToolPose& pose, double tool_length,
                                                            const AxisPositions& previous);
 
 // Every axis that lies outside its travel, in words: "Z = 512.3 mm, travel -100 .. 500 mm".

@@ -29,17 +29,19 @@ AxisPositions Machine::home() const {
 }
 
 std::optional<std::string> Machine::refused(const ErrorName& error) const {
-  if (!error.location || !is_rotation(error.direction) || is_rotary(error.axis)) return std::nullopt;
+  if (!error.location || !is_rotation(error.direction) || is_rotary(error.axis))
+    return std::nullopt;
   const std::string axis(1, to_char(error.axis));
   const Joint& joint = *this->joint(error.axis);
   const Vec3 about = Vec3::Unit(static_cast<Eigen::Index>(error.direction) - 3);
   // A tilt of a straight line about itself is nothing.
-  if (angle_between(about, joint.direction) < 1e-12 || angle_between(about, -joint.direction) < 1e-12) {
+  if (angle_between(about, joint.direction) < 1e-12 ||
+      angle_between(about, -joint.direction) < 1e-12) {
     return fmt::format("a linear axis cannot be out of square about its own direction {}", axis);
   }
   if (!datum_.empty() && datum_[0] == error.axis) {
-    return fmt::format("{} is the primary reference axis; its orientation errors are zero by choice",
-                       axis);
+    return fmt::format(
+        "{} is the primary reference axis; its orientation errors are zero by choice", axis);
   }
   if (datum_.size() > 1 && datum_[1] == error.axis) {
     const Vec3 square = this->joint(datum_[0])->direction.cross(joint.direction).normalized();

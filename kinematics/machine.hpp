@@ -29,17 +29,17 @@ enum class RotaryErrorFrame : std::uint8_t { stator, rotor };
 
 // About which point an axis's angular component errors turn.
 struct FunctionalPoint {
-  bool at_tip = false;         // the tool tip, wherever it nominally is
-  Vec3 point = Vec3::Zero();   // else: in the joint's moving frame
+  bool at_tip = false;        // the tool tip, wherever it nominally is
+  Vec3 point = Vec3::Zero();  // else: in the joint's moving frame
 };
 
 struct Joint {
   AxisLetter letter = AxisLetter::X;
-  int side = +1;                    // +1 tool side, -1 workpiece side
-  Vec3 direction = Vec3::UnitX();   // unit: of +q of the tool relative to the work
-  Vec3 offset = Vec3::Zero();       // of the joint's frame in the one before, at q = 0
+  int side = +1;                   // +1 tool side, -1 workpiece side
+  Vec3 direction = Vec3::UnitX();  // unit: of +q of the tool relative to the work
+  Vec3 offset = Vec3::Zero();      // of the joint's frame in the one before, at q = 0
   AxisRange travel{};
-  bool endless = false;             // rotary axis without limits (travel spans one turn)
+  bool endless = false;  // rotary axis without limits (travel spans one turn)
   double home = 0.0;
   FunctionalPoint functional_point{};
 

@@ -39,10 +39,10 @@ class MachineReader {
     machine.title_ = root.text_or("title", machine.name_);
     (void)root.text_or("source", "");
     machine.structure_ = root.text("structure");
-    machine.rotation_order_ = static_cast<RotationOrder>(
-        root.choice_or("rotation_order", {"zyx", "xyz"}, 0));
-    machine.rotary_error_frame_ = static_cast<RotaryErrorFrame>(
-        root.choice_or("rotary_error_frame", {"stator", "rotor"}, 0));
+    machine.rotation_order_ =
+        static_cast<RotationOrder>(root.choice_or("rotation_order", {"zyx", "xyz"}, 0));
+    machine.rotary_error_frame_ =
+        static_cast<RotaryErrorFrame>(root.choice_or("rotary_error_frame", {"stator", "rotor"}, 0));
     const auto structure = parse_structure(machine.structure_);
     if (!structure) {
       root.fail("structure", structure.error().front().message, structure.error().front().hint);
@@ -125,7 +125,8 @@ class MachineReader {
       root.fail("axis", "the directions of X, Y and Z lie in one plane", "they must span space");
     }
     if (rotary.size() == 2 && rotary[0].cross(rotary[1]).norm() < 1e-3) {
-      root.fail("axis", "the two rotary axes are parallel", "they must orient the tool in two ways");
+      root.fail("axis", "the two rotary axes are parallel",
+                "they must orient the tool in two ways");
     }
   }
 

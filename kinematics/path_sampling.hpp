@@ -14,9 +14,9 @@
 namespace frustum::kinematics {
 
 struct SamplingOptions {
-  double bound = 1e-5;   // mm
-  double reach = 50.0;   // mm: height of the cutter above the tip, where an axis error weighs most
-  int least_parts = 1;   // the motion is cut into this many equal parts first
+  double bound = 1e-5;  // mm
+  double reach = 50.0;  // mm: height of the cutter above the tip, where an axis error weighs most
+  int least_parts = 1;  // the motion is cut into this many equal parts first
 };
 
 // Appends the poses of motion(u), u in (0, 1]; motion(0) is `from` and is not appended.

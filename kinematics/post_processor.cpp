@@ -12,8 +12,8 @@ AxisPositions halfway(const AxisPositions& a, const AxisPositions& b) {
   return q;
 }
 
-void split(const Machine& machine, const AxisPositions& from, const AxisPositions& to, double length,
-           double tolerance, int depth, std::vector<AxisPositions>& out) {
+void split(const Machine& machine, const AxisPositions& from, const AxisPositions& to,
+           double length, double tolerance, int depth, std::vector<AxisPositions>& out) {
   const AxisPositions middle = halfway(from, to);
   const Vec3 straight = 0.5 * (nominal_pose(machine, from, length).translation +
                                nominal_pose(machine, to, length).translation);

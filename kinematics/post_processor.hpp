@@ -14,7 +14,8 @@ namespace frustum::kinematics {
 
 // Axis positions after `from`, up to and including `to`, such that linear axis motion between them keeps
 // the tip within `tolerance` of the straight line and the rotary axes as they were going anyway.
-[[nodiscard]] std::vector<AxisPositions> linearised(const Machine& machine, const AxisPositions& from,
+[[nodiscard]] std::vector<AxisPositions> linearised(const Machine& machine,
+                                                    const AxisPositions& from,
                                                     const AxisPositions& to, double tool_length,
                                                     double tolerance);
 

@@ -20,7 +20,7 @@ namespace frustum::parser {
 
 enum class AxisLetter : std::uint8_t { X, Y, Z, A, B, C };  // NOLINT: the letters of the programs
 inline constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z,
-                                  AxisLetter::A, AxisLetter::B, AxisLetter::C};
+                                         AxisLetter::A, AxisLetter::B, AxisLetter::C};
 [[nodiscard]] constexpr char to_char(AxisLetter axis) {
   return "XYZABC"[static_cast<std::size_t>(axis)];
 }
@@ -38,7 +38,9 @@ class AxisTarget {
   [[nodiscard]] const std::optional<double>& operator[](AxisLetter axis) const {
     return values_[static_cast<std::size_t>(axis)];
   }
-  std::optional<double>& operator[](AxisLetter axis) { return values_[static_cast<std::size_t>(axis)]; }
+  std::optional<double>& operator[](AxisLetter axis) {
+    return values_[static_cast<std::size_t>(axis)];
+  }
   bool operator==(const AxisTarget&) const = default;
 
  private:
@@ -118,8 +120,9 @@ struct Event {
   std::string text{};
 };
 
-using Command = std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
-                             WorkOffsetChange, SpindleChange, CoolantChange, Stop, Event>;
+using Command =
+    std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
+                 WorkOffsetChange, SpindleChange, CoolantChange, Stop, Event>;
 
 struct Motion {
   SourcePlace place{};

@@ -110,8 +110,7 @@ class ConeProgram {
       return std::nullopt;
     }
     const kinematics::ToolPose in_table{move.pose.tip + cone_.center, move.pose.axis};
-    const auto solutions =
-        kinematics::inverse(machine_, in_table, cone_.tool_length.value, axes_);
+    const auto solutions = kinematics::inverse(machine_, in_table, cone_.tool_length.value, axes_);
     if (!solutions) return solutions.error();
     const AxisPositions next = solutions->front().axes;
     if (!solutions->front().within_travel) {
@@ -123,9 +122,8 @@ class ConeProgram {
     if (cone_.form == ProgramForm::angles) {
       write_line(move, tip_words(move.pose.tip) + rotary_words(next));
     } else {
-      for (const AxisPositions& q : kinematics::linearised(machine_, axes_, next,
-                                                           cone_.tool_length.value,
-                                                           kLineariseTolerance)) {
+      for (const AxisPositions& q : kinematics::linearised(
+               machine_, axes_, next, cone_.tool_length.value, kLineariseTolerance)) {
         write_line(move, axis_words(q) + rotary_words(q));
       }
     }
@@ -134,7 +132,8 @@ class ConeProgram {
   }
 
   static std::string tip_words(const Vec3& tip) {
-    return length_word('X', tip.x()) + " " + length_word('Y', tip.y()) + " " + length_word('Z', tip.z());
+    return length_word('X', tip.x()) + " " + length_word('Y', tip.y()) + " " +
+           length_word('Z', tip.z());
   }
 
   [[nodiscard]] std::string rotary_words(const AxisPositions& q) const {
@@ -151,7 +150,8 @@ class ConeProgram {
   [[nodiscard]] std::string axis_words(const AxisPositions& q) const {
     const AxisPositions origin =
         kinematics::place_tip(machine_, Vec3::Zero(), cone_.tool_length.value, {});
-    return tip_words({q[AxisLetter::X] - origin[AxisLetter::X], q[AxisLetter::Y] - origin[AxisLetter::Y],
+    return tip_words({q[AxisLetter::X] - origin[AxisLetter::X],
+                      q[AxisLetter::Y] - origin[AxisLetter::Y],
                       q[AxisLetter::Z] - origin[AxisLetter::Z]});
   }
 
@@ -184,7 +184,8 @@ ConeFrustum ConeFrustum::nas979() {
   cone.feed = 635.0;
   cone.spindle_speed = 1800.0;
   // The base of the finished cone measures 10 inch; the tip runs outside by the cutter.
-  cone.radius = {5.0 * kMmPerInch + 0.5 * cone.tool_diameter.value * std::cos(cone.cone_angle.value)};
+  cone.radius = {5.0 * kMmPerInch +
+                 0.5 * cone.tool_diameter.value * std::cos(cone.cone_angle.value)};
   cone.center = Vec3(0.0, 0.0, 120.0);
   return cone;
 }
@@ -197,7 +198,8 @@ Result<ConeGeometry> geometry(const ConeFrustum& cone) {
                   "it must lie between 0 and 90 deg");
   }
   if (!(std::abs(cone.inclination.value) < std::numbers::pi)) {
-    return refuse("inclination", fmt::format("an inclination of {:g} deg", cone.inclination.value * kDegPerRad),
+    return refuse("inclination",
+                  fmt::format("an inclination of {:g} deg", cone.inclination.value * kDegPerRad),
                   "it must lie within -180 .. 180 deg");
   }
   if (!cone.center.allFinite()) return refuse("center", "the centre is not finite", "x,y,z in mm");
@@ -223,10 +225,11 @@ Result<ConeGeometry> geometry(const ConeFrustum& cone) {
   // The reference plane on top needs room for a ring of probed points.
   constexpr double kLeastTop = 5.0;
   if (shape.top_radius < kLeastTop) {
-    return refuse("height",
-                  fmt::format("base radius {:.3f} mm and height {:g} mm leave a top of radius {:.3f} mm",
-                              shape.base_radius, cone.height.value, shape.top_radius),
-                  "at least 5 mm are needed: a larger radius, or a smaller height or cone angle");
+    return refuse(
+        "height",
+        fmt::format("base radius {:.3f} mm and height {:g} mm leave a top of radius {:.3f} mm",
+                    shape.base_radius, cone.height.value, shape.top_radius),
+        "at least 5 mm are needed: a larger radius, or a smaller height or cone angle");
   }
   shape.floor_z = shape.base_z - cone.cylinder_height.value;
   shape.groove_floor_z = shape.floor_z - kGrooveDepth;
@@ -246,13 +249,15 @@ Result<TestPiece> cone_frustum(const ConeFrustum& cone, const Machine& machine) 
   piece.placement = {cone.center, Vec3(0.0, cone.inclination.value, cone.orientation.value)};
   piece.work_offsets = {{1, cone.center}, {kMachineOffset, Vec3::Zero()}};
   const double reach = (cone.height.value + 2.0) / std::cos(cone.cone_angle.value);
-  const double flutes = std::max(reach, cone.height.value + cone.cylinder_height.value + kGrooveDepth);
-  piece.tools[kTool] = {.type = cutter::CutterType::flat,
-                        .diameter = cone.tool_diameter,
-                        .length = cone.tool_length,
-                        .flute_length = {std::min(cone.tool_length.value, std::ceil(flutes + 5.0))}};
-  piece.blank = stock::FrustumShape{shape->blank_radius, shape->blank_radius,
-                                    shape->top_z - shape->bottom_z};
+  const double flutes =
+      std::max(reach, cone.height.value + cone.cylinder_height.value + kGrooveDepth);
+  piece.tools[kTool] = {
+      .type = cutter::CutterType::flat,
+      .diameter = cone.tool_diameter,
+      .length = cone.tool_length,
+      .flute_length = {std::min(cone.tool_length.value, std::ceil(flutes + 5.0))}};
+  piece.blank =
+      stock::FrustumShape{shape->blank_radius, shape->blank_radius, shape->top_z - shape->bottom_z};
   piece.blank_origin = Vec3(0, 0, shape->bottom_z);
   piece.plan = cone_plan(cone, *shape);
   piece.program_file = "cone.nc";

@@ -34,19 +34,19 @@ enum class ConeLimits { nas979, tenth };
 struct ConeFrustum {
   Rad cone_angle{45.0 * kRadPerDeg};  // half apex angle
   Rad inclination{30.0 * kRadPerDeg};
-  Rad orientation{};                  // turns the test about the table's Z
-  Mm radius{40.0};                    // of the tool-tip circle
-  Vec3 center{-65.0, 0.0, 150.0};     // of that circle in the table frame
-  Mm height{5.0};                     // of the cone along its axis
-  Mm cylinder_height{6.0};            // of the cylinder below the cone
+  Rad orientation{};               // turns the test about the table's Z
+  Mm radius{40.0};                 // of the tool-tip circle
+  Vec3 center{-65.0, 0.0, 150.0};  // of that circle in the table frame
+  Mm height{5.0};                  // of the cone along its axis
+  Mm cylinder_height{6.0};         // of the cylinder below the cone
   Mm tool_diameter{12.0};
   Mm tool_length{150.0};
-  std::optional<Rad> start_angle{};   // phi of approach and departure; default 0, or 180 deg when
-                                      // cone angle and inclination are equal (the pole is at phi = 0)
-  Mm allowance{0.2};                  // left by roughing, normal to the surface
-  Mm chord_tolerance{5e-6};           // of the finished surfaces
-  double feed = 500.0;                // mm/min
-  double spindle_speed = 8333.0;      // 1/min
+  std::optional<Rad> start_angle{};  // phi of approach and departure; default 0, or 180 deg when
+      // cone angle and inclination are equal (the pole is at phi = 0)
+  Mm allowance{0.2};              // left by roughing, normal to the surface
+  Mm chord_tolerance{5e-6};       // of the finished surfaces
+  double feed = 500.0;            // mm/min
+  double spindle_speed = 8333.0;  // 1/min
   ProgramForm form = ProgramForm::vector;
   ConeLimits limits = ConeLimits::nas979;
 
@@ -58,8 +58,8 @@ struct ConeFrustum {
 struct ConeGeometry {
   double cutter_radius = 0.0;
   double base_radius = 0.0, top_radius = 0.0;
-  double base_z = 0.0, top_z = 0.0;      // of the cone; top_z is also the blank's top face
-  double floor_z = 0.0;                  // of the flange that the cylinder stands on
+  double base_z = 0.0, top_z = 0.0;  // of the cone; top_z is also the blank's top face
+  double floor_z = 0.0;              // of the flange that the cylinder stands on
   double blank_radius = 0.0, bottom_z = 0.0;
   double groove_floor_z = 0.0, groove_inner_y = 0.0;
 };
@@ -70,6 +70,7 @@ struct ConeGeometry {
                                              const kinematics::Machine& machine);
 
 // The inspection plan alone.
-[[nodiscard]] metrology::InspectionPlan cone_plan(const ConeFrustum& cone, const ConeGeometry& shape);
+[[nodiscard]] metrology::InspectionPlan cone_plan(const ConeFrustum& cone,
+                                                  const ConeGeometry& shape);
 
 }  // namespace frustum::programs

@@ -9,9 +9,9 @@ namespace {
 using kinematics::ToolPose;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kClear = 30.0;            // mm above the part, where the tool may travel freely
-constexpr double kRoughChord = 2e-3;       // mm: a hundredth of the stock that finishing removes
-constexpr double kRingStep = 1.4;          // of the cutter radius between neighbouring roughing rings
+constexpr double kClear = 30.0;       // mm above the part, where the tool may travel freely
+constexpr double kRoughChord = 2e-3;  // mm: a hundredth of the stock that finishing removes
+constexpr double kRingStep = 1.4;     // of the cutter radius between neighbouring roughing rings
 
 // Number of equal chords of a full circle that stay within `tolerance` of it.
 int chords_of_circle(double radius, double tolerance) {
@@ -29,7 +29,8 @@ class ConePath {
         start_(cone.start_angle ? cone.start_angle->value : default_start(cone)) {}
 
   std::vector<PathOperation> operations() {
-    return {cylinder_roughing(), cylinder_finishing(), groove(), cone_pass("cone roughing", cone_.allowance.value, kRoughChord),
+    return {cylinder_roughing(), cylinder_finishing(), groove(),
+            cone_pass("cone roughing", cone_.allowance.value, kRoughChord),
             cone_pass("cone finishing", 0.0, cone_.chord_tolerance.value)};
   }
 
@@ -70,7 +71,8 @@ class ConePath {
                   upright(on_circle(outside, start_, shape_.floor_z), true)};
     const double last = shape_.base_radius + shape_.cutter_radius + cone_.allowance.value;
     const double width = shape_.blank_radius - last;
-    const int rings = 1 + std::max(0, static_cast<int>(std::ceil(width / (kRingStep * shape_.cutter_radius))));
+    const int rings =
+        1 + std::max(0, static_cast<int>(std::ceil(width / (kRingStep * shape_.cutter_radius))));
     for (int i = 0; i < rings; ++i) {
       const double radius = rings == 1 ? last : shape_.blank_radius - width * i / (rings - 1);
       op.cut.push_back(upright(on_circle(radius, start_, shape_.floor_z)));
@@ -106,7 +108,8 @@ class ConePath {
   }
 
   // The tool leans on the generatrix; `allowance` keeps it off along the surface normal.
-  [[nodiscard]] PathOperation cone_pass(const char* name, double allowance, double tolerance) const {
+  [[nodiscard]] PathOperation cone_pass(const char* name, double allowance,
+                                        double tolerance) const {
     PathOperation op{.name = name};
     const double a = cone_.cone_angle.value;
     const double radius = cone_.radius.value + allowance * std::cos(a);

@@ -22,6 +22,7 @@ struct PathOperation {
   std::vector<PathMove> lead_out{};  // departure
 };
 
-[[nodiscard]] std::vector<PathOperation> cone_path(const ConeFrustum& cone, const ConeGeometry& shape);
+[[nodiscard]] std::vector<PathOperation> cone_path(const ConeFrustum& cone,
+                                                   const ConeGeometry& shape);
 
 }  // namespace frustum::programs

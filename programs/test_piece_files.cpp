@@ -25,13 +25,15 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
                        2.0 * frustum.bottom_radius, frustum.height, vector_text(origin));
   }
   return fmt::format(
-      "{{ shape = \"frustum\", bottom_diameter = {}, top_diameter = {}, height = {}, origin = {} }}",
+      "{{ shape = \"frustum\", bottom_diameter = {}, top_diameter = {}, height = {}, origin = {} "
+      "}}",
       2.0 * frustum.bottom_radius, 2.0 * frustum.top_radius, frustum.height, vector_text(origin));
 }
 
 std::string tool_text(const cutter::CutterSpec& tool) {
   return fmt::format(
-      "{{ type = \"{}\", diameter = {}, length = {}, flute_length = {}, radius_error = \"{} um\" }}",
+      "{{ type = \"{}\", diameter = {}, length = {}, flute_length = {}, radius_error = \"{} um\" "
+      "}}",
       cutter::to_string(tool.type), tool.diameter.value, tool.length.value, tool.flute_length.value,
       tool.radius_error.value * kUmPerMm);
 }
@@ -53,7 +55,8 @@ std::optional<Diagnostic> write_whole(const fs::path& file, const std::string& t
 
 }  // namespace
 
-std::string job_text(const TestPiece& piece, const std::string& machine, const std::string& plan_file) {
+std::string job_text(const TestPiece& piece, const std::string& machine,
+                     const std::string& plan_file) {
   std::string text;
   const auto line = [&text](const std::string& s) { text += s + "\n"; };
   line(fmt::format("title   = \"{}\"", piece.title));
@@ -75,11 +78,15 @@ std::string job_text(const TestPiece& piece, const std::string& machine, const s
     line(fmt::format("G{} = {}", 53 + number, vector_text(origin)));
   }
   line("");
-  line("# Geometric errors of the machine, for example EB0C = \"30 urad\" or EXX = \"linear 10 um\"");
+  line(
+      "# Geometric errors of the machine, for example EB0C = \"30 urad\" or EXX = \"linear 10 "
+      "um\"");
   line("[errors]");
   if (!piece.error_span.empty()) {
     line("");
-    line("# Error shapes without a span of their own lie over the range that this operation travels");
+    line(
+        "# Error shapes without a span of their own lie over the range that this operation "
+        "travels");
     line("[error_span]");
     line(fmt::format("operation = \"{}\"", piece.error_span));
   }
@@ -93,7 +100,9 @@ std::string job_text(const TestPiece& piece, const std::string& machine, const s
   line("");
   line("[inspection]");
   line(fmt::format("plan = \"{}\"", plan_file));
-  line("cmm  = { e0 = \"0 um\" }   # ideal; a real one: { e0 = \"0.5 um\", l_per_um = 600, seed = 1 }");
+  line(
+      "cmm  = { e0 = \"0 um\" }   # ideal; a real one: { e0 = \"0.5 um\", l_per_um = 600, seed = 1 "
+      "}");
   line("");
   line("[output]");
   line("report = true");
@@ -112,7 +121,8 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs:
   fs::path machine = fs::relative(fs::absolute(machine_file), fs::absolute(folder), problem);
   if (problem || machine.empty()) machine = fs::absolute(machine_file);
   const fs::path plan = fs::path(piece.program_file).replace_extension(".plan.toml");
-  const std::vector<fs::path> files{folder / "job.toml", folder / piece.program_file, folder / plan};
+  const std::vector<fs::path> files{folder / "job.toml", folder / piece.program_file,
+                                    folder / plan};
   // The job last: while it is missing, nothing half-written can be run.
   const std::vector<std::pair<fs::path, std::string>> contents{
       {files[1], piece.program},

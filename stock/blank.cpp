@@ -87,7 +87,8 @@ Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
   } else {
     const auto& frustum = std::get<FrustumShape>(shape);
     if (!positive(frustum.height)) return empty_blank("its height", frustum.height);
-    if (!positive(frustum.bottom_radius)) return empty_blank("its bottom radius", frustum.bottom_radius);
+    if (!positive(frustum.bottom_radius))
+      return empty_blank("its bottom radius", frustum.bottom_radius);
     if (!positive(frustum.top_radius)) return empty_blank("its top radius", frustum.top_radius);
   }
   return Blank(shape, origin);
@@ -140,7 +141,8 @@ BoundingBox Blank::bounds() const {
 }
 
 double Blank::volume() const {
-  if (const auto* box = std::get_if<BoxShape>(&shape_)) return box->size_x * box->size_y * box->height;
+  if (const auto* box = std::get_if<BoxShape>(&shape_))
+    return box->size_x * box->size_y * box->height;
   const auto& f = std::get<FrustumShape>(shape_);
   return std::numbers::pi / 3.0 * f.height *
          (f.bottom_radius * f.bottom_radius + f.bottom_radius * f.top_radius +

@@ -63,9 +63,9 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
   for (int i = 0; i < count(0); ++i) {
     for (int j = 0; j < count(1); ++j) {
       const Ray ray{move.box.min + Vec3((i + 0.5) * pitch, (j + 0.5) * pitch, 0.0), Vec3::UnitZ()};
-      const IntervalSet covered =
-          workpiece.removed().core_along(ray, move.stretches, kMargin).intersected(
-              IntervalSet({{span.lo, span.hi}}));
+      const IntervalSet covered = workpiece.removed()
+                                      .core_along(ray, move.stretches, kMargin)
+                                      .intersected(IntervalSet({{span.lo, span.hi}}));
       if (covered.empty()) continue;
       const IntervalSet met =
           workpiece.material_along(ray, span, move.stretches.front()).intersected(covered);

@@ -23,11 +23,11 @@ using cutter::RaySpan;
 
 // A point of the workpiece surface and what made it.
 struct SurfacePoint {
-  double s = 0.0;                 // mm along the ray
+  double s = 0.0;  // mm along the ray
   Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();    // unit, out of the material
+  Vec3 normal = Vec3::UnitZ();             // unit, out of the material
   std::optional<std::uint32_t> stretch{};  // of the tool path; nothing: the blank's own surface
-  std::uint32_t source_line = 0;  // NC line that cut it; 0: the blank
+  std::uint32_t source_line = 0;           // NC line that cut it; 0: the blank
 };
 
 class Workpiece {

@@ -29,7 +29,8 @@ kinematics::Setup setup_of(const TestPiece& piece) {
   setup.table_from_workpiece = piece.placement.table_from_workpiece();
   setup.work_offsets = piece.work_offsets;
   for (const auto& [number, tool] : piece.tools) {
-    const double flutes = tool.flute_length.value > 0.0 ? tool.flute_length.value : tool.length.value;
+    const double flutes =
+        tool.flute_length.value > 0.0 ? tool.flute_length.value : tool.length.value;
     setup.tools[number] = {tool.length.value, tool.length_error.value, flutes};
   }
   return setup;
@@ -38,10 +39,10 @@ kinematics::Setup setup_of(const TestPiece& piece) {
 AxisSpans ranges_of(const Machine& machine, std::span<const AxisSample> samples) {
   AxisSpans ranges;
   for (const kinematics::Joint& joint : machine.joints()) {
-    const auto [lo, hi] = std::minmax_element(
-        samples.begin(), samples.end(), [&](const AxisSample& a, const AxisSample& b) {
-          return a.axes[joint.letter] < b.axes[joint.letter];
-        });
+    const auto [lo, hi] = std::minmax_element(samples.begin(), samples.end(),
+                                              [&](const AxisSample& a, const AxisSample& b) {
+                                                return a.axes[joint.letter] < b.axes[joint.letter];
+                                              });
     ranges[joint.letter] = {lo->axes[joint.letter], hi->axes[joint.letter]};
   }
   return ranges;
@@ -70,8 +71,9 @@ Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<Operatio
   for (const OperationTrace& trace : traces) {
     if (trace.name == piece.error_span) return trace.ranges;
   }
-  Diagnostic failure = error(fmt::format("there is no operation '{}' with axis motion", piece.error_span),
-                             "name one of the job's [[operation]] entries");
+  Diagnostic failure =
+      error(fmt::format("there is no operation '{}' with axis motion", piece.error_span),
+            "name one of the job's [[operation]] entries");
   failure.key = "error_span.operation";
   return failure;
 }
@@ -120,8 +122,9 @@ Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::Erro
   // What the controller commands does not depend on the errors; the errors may depend on its ranges.
   begin(Stage::execute);
   const kinematics::Setup setup = setup_of(piece);
-  const auto commanded = kinematics::execute(machine, GeometricErrors{}, setup, *motions,
-                                             {.path_bound = options.path_bound, .sample_path = false});
+  const auto commanded =
+      kinematics::execute(machine, GeometricErrors{}, setup, *motions,
+                          {.path_bound = options.path_bound, .sample_path = false});
   if (!commanded) return in_file(commanded.error(), piece.program_file);
   Trial trial;
   trial.operations = traces_of(machine, piece, commanded->axes);

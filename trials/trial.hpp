@@ -44,9 +44,9 @@ enum class Stage { parse, execute, cut, collide, measure };
 [[nodiscard]] std::string_view name_of(Stage stage);
 
 struct TrialOptions {
-  double path_bound = 1e-5;     // mm
+  double path_bound = 1e-5;  // mm
   bool find_collisions = true;
-  bool measure = true;          // false: stop with the finished workpiece
+  bool measure = true;  // false: stop with the finished workpiece
   // Told when a stage begins; for progress bars and clocks, which live above this room.
   std::function<void(Stage)> on_stage{};
 };

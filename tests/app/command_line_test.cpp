@@ -27,8 +27,9 @@ std::string read(const fs::path& file) {
 class CommandLineSystem : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("frustum_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ =
+        fs::path(testing::TempDir()) /
+        ("frustum_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -36,8 +37,8 @@ class CommandLineSystem : public testing::Test {
 
   Outcome run(const std::string& arguments) const {
     const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string command = "cd '" + folder_.string() + "' && '" FRUSTUM_PROGRAM "' " + arguments +
-                                " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const std::string command = "cd '" + folder_.string() + "' && '" FRUSTUM_PROGRAM "' " +
+                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
   }
@@ -61,7 +62,8 @@ class CommandLineSystem : public testing::Test {
     const Outcome outcome = run("run piece/job.toml --out result --quiet");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     for (const std::string& word : words) {
-      EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' in: " << outcome.err;
+      EXPECT_NE(outcome.err.find(word), std::string::npos)
+          << "'" << word << "' in: " << outcome.err;
     }
     EXPECT_FALSE(fs::exists(folder_ / "result"));
   }
@@ -81,7 +83,8 @@ TEST_F(CommandLineSystem, RunsTheLoopAndWritesItsFiles) {
     EXPECT_TRUE(fs::exists(folder_ / "result" / file)) << file;
   }
   // Points that were measured come back the same when they are evaluated again.
-  const Outcome again = run("measure --plan piece/cone.plan.toml --points result/points.csv --json");
+  const Outcome again =
+      run("measure --plan piece/cone.plan.toml --points result/points.csv --json");
   EXPECT_EQ(again.exit_code, 0) << again.err;
   const auto back = nlohmann::json::parse(again.out);
   EXPECT_NEAR(back["characteristics"][0]["value"].get<double>(),
@@ -90,7 +93,8 @@ TEST_F(CommandLineSystem, RunsTheLoopAndWritesItsFiles) {
 
 TEST_F(CommandLineSystem, FailsWithExitCodeOneWhenAToleranceIsMissed) {
   write_piece("--limits tenth --chord-tolerance 1");
-  const Outcome outcome = run("run piece/job.toml --out result --quiet --error EXX='harmonic 2 40um'");
+  const Outcome outcome =
+      run("run piece/job.toml --out result --quiet --error EXX='harmonic 2 40um'");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(fs::exists(folder_ / "result/result.json"));
 }
@@ -118,7 +122,10 @@ TEST_F(CommandLineSystem, RefusesBadInputWithPlaceAndRemedy) {
       {"cone.nc", "G53 G0 Z500.", "G53 G0 Z5000.", {"cone.nc:", "over-travel: Z", "-300 .. 600"}},
       {"cone.nc", "T1 M6", "T2 M6", {"cone.nc:", "T2 is not defined"}},
       {"job.toml", "[errors]", "[erors]", {"job.toml:", "erors", "did you mean errors?"}},
-      {"job.toml", "radius_error", "radius_eror", {"tool.1.radius_eror", "did you mean radius_error?"}},
+      {"job.toml",
+       "radius_error",
+       "radius_eror",
+       {"tool.1.radius_eror", "did you mean radius_error?"}},
       {"job.toml", "diameter = 110", "diameter = 0", {"blank.diameter", "greater than 0"}},
       {"job.toml", "e0 = \"0 um\"", "e0 = \"0 urad\"", {"inspection.cmm.e0", "length"}},
       {"job.toml", "cone.nc", "none.nc", {"program.file", "cannot be read"}},
@@ -143,8 +150,9 @@ TEST_F(CommandLineSystem, RefusesAnUnreachableToolDirection) {
 TEST_F(CommandLineSystem, RefusesBadArguments) {
   for (const char* arguments :
        {"", "nonsense", "run", "run no-such-job.toml", "pose --machine iwf-bc --axes Q=1",
-        "pose --machine iwf-bc --axes X=1 --error nonsense=1um", "pose --machine iwf-bc --inverse 1,2,3",
-        "pose --machine iwf-bc --inverse 0,0,0,0,0,0", "pose --machine nowhere --axes X=0",
+        "pose --machine iwf-bc --axes X=1 --error nonsense=1um",
+        "pose --machine iwf-bc --inverse 1,2,3", "pose --machine iwf-bc --inverse 0,0,0,0,0,0",
+        "pose --machine nowhere --axes X=0",
         "program cone --machine iwf-bc --out p --cone-angle 95",
         "program cone --machine iwf-bc --out p --radius -3",
         "program cone --machine iwf-bc --out p --center 1,2",

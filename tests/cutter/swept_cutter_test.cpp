@@ -44,7 +44,8 @@ double draw(std::uint32_t seed, std::uint64_t index, double lo, double hi) {
 Vec3 random_direction(std::uint32_t seed, std::uint64_t index) {
   const double z = draw(seed, index, -1.0, 1.0);
   const double a = draw(seed, index + 1, 0.0, 2.0 * std::numbers::pi);
-  return Vec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z).normalized();
+  return Vec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z)
+      .normalized();
 }
 
 // Union of `n` cutters standing still between times t0 and t1 of the stretch.
@@ -175,11 +176,13 @@ TEST(SweptCutter, HandlesPlungeDwellAndPureRotation) {
       sweep(CutterType::flat, {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(0, 0, 0), Vec3::UnitZ()}});
   EXPECT_NEAR(dwell.along(across, {0, 100}).length(), chord, 1e-12);
   // Turning about the tip by 0.5 rad, the cutter's side reaches lowest at the end of the turn.
-  const SweptCutter turn = sweep(CutterType::flat, {{Vec3(0, 0, 0), Vec3::UnitZ()},
-                                                    {Vec3(0, 0, 0), rotation_y(0.5) * Vec3::UnitZ()}});
+  const SweptCutter turn =
+      sweep(CutterType::flat,
+            {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(0, 0, 0), rotation_y(0.5) * Vec3::UnitZ()}});
   const IntervalSet below = turn.along({Vec3(5.5, 0, -50), Vec3::UnitZ()}, {0, 50});
   ASSERT_FALSE(below.empty());
-  EXPECT_NEAR(50.0 - below.intervals().front().lo, (6.0 - 5.5 * std::cos(0.5)) / std::sin(0.5), 1e-9);
+  EXPECT_NEAR(50.0 - below.intervals().front().lo, (6.0 - 5.5 * std::cos(0.5)) / std::sin(0.5),
+              1e-9);
 }
 
 TEST(SweptCutter, FindsRaysThatRunInTheMachinedFloor) {

@@ -41,16 +41,17 @@ TEST(ChainReference, ReproducesIbarakiEquations1To5WithAllElevenErrors) {
   const Machine machine = shipped("zx-yac");
   const double a_AY = 31e-6, b_AY = -22e-6, g_AY = 17e-6, b_CA = 12e-6, dx = 3e-3, dy = -4e-3,
                dz = 5e-3, dy_CA = 2e-3, g_YX = 40e-6, a_ZY = -15e-6, b_ZX = 9e-6;
-  const auto e = errors(machine, {"alpha_AY=31urad", "beta_AY=-22urad", "gamma_AY=17urad",
-                                  "beta_CA=12urad", "dx_AY=3um", "dy_AY=-4um", "dz_AY=5um",
-                                  "dy_CA=2um", "gamma_YX=40urad", "alpha_ZY=-15urad", "beta_ZX=9urad"});
+  const auto e =
+      errors(machine, {"alpha_AY=31urad", "beta_AY=-22urad", "gamma_AY=17urad", "beta_CA=12urad",
+                       "dx_AY=3um", "dy_AY=-4um", "dz_AY=5um", "dy_CA=2um", "gamma_YX=40urad",
+                       "alpha_ZY=-15urad", "beta_ZX=9urad"});
   for (std::uint64_t k = 0; k < 100; ++k) {
     AxisPositions q;
     q[X] = draw(5 * k, 200), q[Y] = draw(5 * k + 1, 200), q[Z] = draw(5 * k + 2, 200);
     q[A] = draw(5 * k + 3, 1.5), q[C] = draw(5 * k + 4, 3.0);
     const Pose tool = d1(q[X]) * d4(a_ZY) * d5(b_ZX) * d3(q[Z]);
-    const Pose work = d6(-g_YX) * d2(-q[Y]) * d1(dx) * d2(dy) * d3(dz) * d4(a_AY) * d5(b_AY) * d6(g_AY) *
-                      d4(-q[A]) * d2(dy_CA) * d5(b_CA) * d6(-q[C]);
+    const Pose work = d6(-g_YX) * d2(-q[Y]) * d1(dx) * d2(dy) * d3(dz) * d4(a_AY) * d5(b_AY) *
+                      d6(g_AY) * d4(-q[A]) * d2(dy_CA) * d5(b_CA) * d6(-q[C]);
     EXPECT_LT(difference(actual_pose(machine, e, q, 0.0), work.inverse() * tool), 1e-11);
   }
 }
@@ -58,18 +59,23 @@ TEST(ChainReference, ReproducesIbarakiEquations1To5WithAllElevenErrors) {
 TEST(ChainReference, ReproducesTheTableTrajectoryOfBossoniEquation330) {
   const Machine machine = shipped("iwf-bc");
   // Samples of expected/cone-test.json: phi, X, Y, Z (mm), B, C (deg); alpha 45, beta 30, r 40.
-  constexpr double kSamples[][6] = {
-      {0, 4.3219493040505625, 0, 133.4278406275622, -15, 0},
-      {30, 54.500133749986894, 40.24922359499621, 120.99001197837327, -23.28373172110511, 63.434948822922},
-      {60, 116.14547392736476, 44.86598213592776, 87.00923217295336, -37.893932584052834, 94.4230368942755},
-      {90, 158.29529767543877, 40.24922359499621, 40.59062371834449, -52.23875609296496, 116.56505117707799},
-      {180, 189.99638312248604, 0, -52.24659319087319, -75, 180},
-      {270, 158.29529767543877, -40.24922359499619, 40.59062371834447, -52.23875609296496, 243.434948822922}};
+  constexpr double kSamples[][6] = {{0, 4.3219493040505625, 0, 133.4278406275622, -15, 0},
+                                    {30, 54.500133749986894, 40.24922359499621, 120.99001197837327,
+                                     -23.28373172110511, 63.434948822922},
+                                    {60, 116.14547392736476, 44.86598213592776, 87.00923217295336,
+                                     -37.893932584052834, 94.4230368942755},
+                                    {90, 158.29529767543877, 40.24922359499621, 40.59062371834449,
+                                     -52.23875609296496, 116.56505117707799},
+                                    {180, 189.99638312248604, 0, -52.24659319087319, -75, 180},
+                                    {270, 158.29529767543877, -40.24922359499619, 40.59062371834447,
+                                     -52.23875609296496, 243.434948822922}};
   const double a = 45 * kRadPerDeg, b = 30 * kRadPerDeg;
   for (const auto& s : kSamples) {
     const double phi = s[0] * kRadPerDeg;
-    const Vec3 tip = rotation_y(b) * Vec3(40 * std::cos(phi), 40 * std::sin(phi), 0) + Vec3(-65, 0, 150);
-    const Vec3 axis = rotation_y(b) * Vec3(-std::sin(a) * std::cos(phi), -std::sin(a) * std::sin(phi), std::cos(a));
+    const Vec3 tip =
+        rotation_y(b) * Vec3(40 * std::cos(phi), 40 * std::sin(phi), 0) + Vec3(-65, 0, 150);
+    const Vec3 axis = rotation_y(b) *
+                      Vec3(-std::sin(a) * std::cos(phi), -std::sin(a) * std::sin(phi), std::cos(a));
     AxisPositions near;
     near[B] = s[4] * kRadPerDeg, near[C] = s[5] * kRadPerDeg;
     const auto solution = inverse(machine, {tip, axis}, 0.0, near);
@@ -88,18 +94,20 @@ TEST(ChainReference, FollowsBossoniEquations319And322OnHeadMachines) {
   const double l = 150.0, beta = 0.5, alpha = 0.7;
   for (double phi = 0.1; phi < 6.2; phi += 0.5) {
     const Vec3 tip = rotation_y(beta) * Vec3(40 * std::cos(phi), 40 * std::sin(phi), 0);
-    const Vec3 u = rotation_y(beta) *
-                   Vec3(-std::sin(alpha) * std::cos(phi), -std::sin(alpha) * std::sin(phi), std::cos(alpha));
+    const Vec3 u = rotation_y(beta) * Vec3(-std::sin(alpha) * std::cos(phi),
+                                           -std::sin(alpha) * std::sin(phi), std::cos(alpha));
     const Machine head = shipped("double-pivot-head");
     const auto q = inverse(head, {tip, u}, l, {});
     ASSERT_TRUE(q);
     const Vec3 crossing = tip + l * u;
-    EXPECT_LT((Vec3(q->front().axes[X], q->front().axes[Y], q->front().axes[Z]) - crossing).norm(), 1e-10);
+    EXPECT_LT((Vec3(q->front().axes[X], q->front().axes[Y], q->front().axes[Z]) - crossing).norm(),
+              1e-10);
     const Machine mixed = shipped("swivel-head-table");
     const auto m = inverse(mixed, {tip, u}, l, {});
     ASSERT_TRUE(m);
     const Vec3 seen = rotation_z(-m->front().axes[C]) * crossing;
-    EXPECT_LT((Vec3(m->front().axes[X], m->front().axes[Y], m->front().axes[Z]) - seen).norm(), 1e-10);
+    EXPECT_LT((Vec3(m->front().axes[X], m->front().axes[Y], m->front().axes[Z]) - seen).norm(),
+              1e-10);
   }
 }
 
@@ -113,7 +121,8 @@ TEST(ChainReference, HasTheOffsetsOfTheDvf5000) {
   q[Y] = -225.0, q[Z] = -480.0;
   const auto moved = [&](const std::string& error) {
     return Vec3((actual_pose(machine, errors(machine, {error}), q, 150.0).translation -
-                 nominal_pose(machine, q, 150.0).translation) * 1e3);
+                 nominal_pose(machine, q, 150.0).translation) *
+                1e3);
   };
   EXPECT_LT((moved("exX=1urad") - Vec3(0, 0.474, -0.9425)).norm(), 2e-6);
   EXPECT_LT((moved("eyX=1urad") - Vec3(-0.474, 0, -0.136)).norm(), 2e-6);
@@ -125,33 +134,42 @@ TEST(ChainReference, HasTheOffsetsOfTheDvf5000) {
 }
 
 TEST(Chain, IsTheNominalMachineWithoutErrors) {
-  for (const char* name : {"zx-yac", "iwf-bc", "dvf5000", "double-pivot-head", "swivel-head-table", "three-axis"}) {
+  for (const char* name :
+       {"zx-yac", "iwf-bc", "dvf5000", "double-pivot-head", "swivel-head-table", "three-axis"}) {
     const Machine machine = shipped(name);
     AxisPositions q;
     q[X] = 10, q[Y] = -20, q[Z] = 30, q[A] = 0.3, q[B] = -0.4, q[C] = 1.2;
-    EXPECT_EQ(difference(actual_pose(machine, {}, q, 77.0), nominal_pose(machine, q, 77.0)), 0.0) << name;
+    EXPECT_EQ(difference(actual_pose(machine, {}, q, 77.0), nominal_pose(machine, q, 77.0)), 0.0)
+        << name;
   }
 }
 
 TEST(Chain, MovesTheTipInTheNamedDirectionOnEitherSide_Complaint04) {
   // Complaint 4: ISO 841 signs. +q of a linear axis moves the tool, relative to the work, along +e.
-  for (const char* name : {"zx-yac", "iwf-bc", "double-pivot-head", "swivel-head-table", "three-axis"}) {
+  for (const char* name :
+       {"zx-yac", "iwf-bc", "double-pivot-head", "swivel-head-table", "three-axis"}) {
     const Machine machine = shipped(name);
     for (const AxisLetter letter : {X, Y, Z}) {
       AxisPositions q;
       q[letter] = 7.0;
-      const Vec3 moved = nominal_pose(machine, q, 0.0).translation - nominal_pose(machine, {}, 0.0).translation;
-      EXPECT_LT((moved - 7.0 * Vec3::Unit(static_cast<Eigen::Index>(letter))).norm(), 1e-12) << name;
+      const Vec3 moved =
+          nominal_pose(machine, q, 0.0).translation - nominal_pose(machine, {}, 0.0).translation;
+      EXPECT_LT((moved - 7.0 * Vec3::Unit(static_cast<Eigen::Index>(letter))).norm(), 1e-12)
+          << name;
     }
   }
   // Joint values of the tables: a workpiece-side axis turns the tool, seen from the work, by +q.
   AxisPositions q;
   q[A] = 30 * kRadPerDeg;
-  EXPECT_LT((tool_pose(nominal_pose(shipped("zx-yac"), q, 0)).axis - Vec3(0, -0.5, std::sqrt(0.75))).norm(), 1e-12);
+  EXPECT_LT((tool_pose(nominal_pose(shipped("zx-yac"), q, 0)).axis - Vec3(0, -0.5, std::sqrt(0.75)))
+                .norm(),
+            1e-12);
   q = {};
   q[B] = 30 * kRadPerDeg;
   for (const char* name : {"iwf-bc", "double-pivot-head", "swivel-head-table"}) {
-    EXPECT_LT((tool_pose(nominal_pose(shipped(name), q, 0)).axis - Vec3(0.5, 0, std::sqrt(0.75))).norm(), 1e-12);
+    EXPECT_LT(
+        (tool_pose(nominal_pose(shipped(name), q, 0)).axis - Vec3(0.5, 0, std::sqrt(0.75))).norm(),
+        1e-12);
   }
 }
 
@@ -161,7 +179,8 @@ TEST(Chain, LeavesTheConeUnchangedByATurnOfTheSpindleFrame) {
   AxisPositions q;
   q[X] = 50, q[Z] = 100, q[B] = -0.6, q[C] = 2.0;
   const Pose nominal = nominal_pose(machine, q, 150.0);
-  const Vec3 moved = actual_pose(machine, errors(machine, {"EZ0Z=10um"}), q, 150.0).translation - nominal.translation;
+  const Vec3 moved = actual_pose(machine, errors(machine, {"EZ0Z=10um"}), q, 150.0).translation -
+                     nominal.translation;
   EXPECT_LT((moved - 0.01 * nominal.rotation.col(2)).norm(), 1e-13);
 }
 

@@ -46,7 +46,8 @@ TEST(GeometricErrors, LayShapesOverTheirSpan) {
   EXPECT_NEAR(value_at("EXX=linear 10um", 50.0, spans), 0.01 * 50.0 / 100.0, 1e-15);
   EXPECT_NEAR(value_at("EYX=harmonic 1 10um", 54.0, spans), 0.01, 1e-15);
   EXPECT_NEAR(value_at("EYX=harmonic 1 10um", 104.0, spans), 0.0, 1e-15);
-  EXPECT_NEAR(value_at("EXB=harmonic 2 10um", -0.5, spans), 0.01 * std::cos(4 * std::numbers::pi * 0.5), 1e-15);
+  EXPECT_NEAR(value_at("EXB=harmonic 2 10um", -0.5, spans),
+              0.01 * std::cos(4 * std::numbers::pi * 0.5), 1e-15);
   EXPECT_NEAR(value_at("EXX=linear 10um over 0mm..200mm zero 20mm", 120.0), 0.005, 1e-15);
   EXPECT_NEAR(value_at("EBX=30 urad", 77.0), 30e-6, 1e-18);
   EXPECT_NEAR(value_at("EXY=harmonic 1 10um over -50mm..50mm + -10um", 0.0), 0.0, 1e-15);
@@ -55,16 +56,22 @@ TEST(GeometricErrors, LayShapesOverTheirSpan) {
 TEST(GeometricErrors, NameWhatIsWrong) {
   EXPECT_EQ(problem_of("EB0C"), "'EB0C' is not an error");
   EXPECT_EQ(problem_of("nonsense=1um"), "unknown error name 'nonsense' for machine iwf-bc");
-  EXPECT_EQ(problem_of("EX0A=1um"), "error EX0A: machine iwf-bc (t-(C)-Z-Y-b-X-B-C-w) has no axis A");
+  EXPECT_EQ(problem_of("EX0A=1um"),
+            "error EX0A: machine iwf-bc (t-(C)-Z-Y-b-X-B-C-w) has no axis A");
   EXPECT_EQ(problem_of("EB0C=10um"), "error EB0C = 10um: expected an angle");
   EXPECT_EQ(problem_of("EXX=10urad"), "error EXX = 10urad: expected a length");
   EXPECT_EQ(problem_of("EXX=10"), "error EXX = 10: the amount has no unit");
-  EXPECT_EQ(problem_of("EX0C=linear 10um"), "error EX0C = linear 10um: a location error is a constant");
-  EXPECT_EQ(problem_of("EXX=harmonic 0 10um"), "error EXX = harmonic 0 10um: the order of a harmonic is 1 or more");
-  EXPECT_EQ(problem_of("EXX=linear 10um over 5mm"), "error EXX = linear 10um over 5mm: 'over 5mm' is not a span such as 0mm..200mm");
-  EXPECT_EQ(problem_of("EXX=linear 10um sideways"), "error EXX = linear 10um sideways: 'sideways' is not understood here");
-  EXPECT_EQ(problem_of("EB0X=30urad"),
-            "error EB0X: X is the primary reference axis; its orientation errors are zero by choice");
+  EXPECT_EQ(problem_of("EX0C=linear 10um"),
+            "error EX0C = linear 10um: a location error is a constant");
+  EXPECT_EQ(problem_of("EXX=harmonic 0 10um"),
+            "error EXX = harmonic 0 10um: the order of a harmonic is 1 or more");
+  EXPECT_EQ(problem_of("EXX=linear 10um over 5mm"),
+            "error EXX = linear 10um over 5mm: 'over 5mm' is not a span such as 0mm..200mm");
+  EXPECT_EQ(problem_of("EXX=linear 10um sideways"),
+            "error EXX = linear 10um sideways: 'sideways' is not understood here");
+  EXPECT_EQ(
+      problem_of("EB0X=30urad"),
+      "error EB0X: X is the primary reference axis; its orientation errors are zero by choice");
 }
 
 TEST(ErrorFunction, InterpolatesATableAndHoldsItsEnds) {

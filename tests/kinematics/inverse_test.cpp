@@ -55,7 +55,8 @@ TEST_P(EveryMachine, KeepsThePreviousSolutionAlongASmoothMotion) {
     for (const AxisLetter letter : kAxisLetters) {
       wanted[letter] = start[letter] + i / 2000.0 * (end[letter] - start[letter]);
     }
-    const auto solutions = inverse(machine, tool_pose(nominal_pose(machine, wanted, 100.0)), 100.0, q);
+    const auto solutions =
+        inverse(machine, tool_pose(nominal_pose(machine, wanted, 100.0)), 100.0, q);
     ASSERT_TRUE(solutions);
     q = solutions->front().axes;
     for (const AxisLetter letter : kAxisLetters) ASSERT_NEAR(q[letter], wanted[letter], 1e-8);
@@ -98,8 +99,8 @@ TEST(Inverse, SaysByHowMuchADirectionIsOutOfReach) {
 TEST(Inverse, PrefersTheSolutionWithinTravel) {
   const Machine machine = shipped("iwf-bc");
   // 100 deg of tilt: B = -100 and B = +100 are both in reach; 115 deg is not.
-  const auto out = inverse(machine, {Vec3(0, 0, 100), rotation_y(115.0 * kRadPerDeg) * Vec3::UnitZ()},
-                           0.0, {});
+  const auto out =
+      inverse(machine, {Vec3(0, 0, 100), rotation_y(115.0 * kRadPerDeg) * Vec3::UnitZ()}, 0.0, {});
   ASSERT_TRUE(out);
   EXPECT_FALSE(out->front().within_travel);
   EXPECT_FALSE(travel_violations(machine, out->front().axes).empty());

@@ -42,11 +42,13 @@ TEST(Machine, RefusesBadFilesWithKeyAndReason) {
   EXPECT_EQ(first_problem("t-(C)-Z-Y-b-X-B-C-w", "t-(C)-Z-Y-b-X-B-B-w"),
             "structure: structure code 't-(C)-Z-Y-b-X-B-B-w': axis B stands twice");
   EXPECT_EQ(first_problem("t-(C)-Z-Y-b-X-B-C-w", "t-(C)-Z-Y-X-B-C-w"),
-            "structure: structure code 't-(C)-Z-Y-X-B-C-w': there is no bed b between tool and workpiece");
+            "structure: structure code 't-(C)-Z-Y-X-B-C-w': there is no bed b between tool and "
+            "workpiece");
   EXPECT_EQ(first_problem("t-(C)-Z-Y-b-X-B-C-w", "t-(C)-Z-Y-b-X-B-C"),
             "structure: structure code 't-(C)-Z-Y-b-X-B-C': it must end with w, the workpiece");
-  EXPECT_EQ(first_problem("t-(C)-Z-Y-b-X-B-C-w", "t-(C)-Z-Y-b-A-B-C-w"),
-            "structure: structure code 't-(C)-Z-Y-b-A-B-C-w': 3 rotary axes, at most two are supported");
+  EXPECT_EQ(
+      first_problem("t-(C)-Z-Y-b-X-B-C-w", "t-(C)-Z-Y-b-A-B-C-w"),
+      "structure: structure code 't-(C)-Z-Y-b-A-B-C-w': 3 rotary axes, at most two are supported");
   EXPECT_EQ(first_problem("endless = true", "endless = true\ndirection = [0, 0, 1.1]"),
             "axis.C.direction: the direction has length 1.1, not 1");
   EXPECT_EQ(first_problem("endless = true", "endless = true\ndirection = [0, 1, 0]"),
@@ -55,7 +57,8 @@ TEST(Machine, RefusesBadFilesWithKeyAndReason) {
             "axis.Y.travel: expected [lowest, highest]");
   EXPECT_EQ(first_problem("travel = [-300, 300]", "travell = [-300, 300]"),
             "axis.Y.travel: this key is missing");
-  EXPECT_EQ(first_problem("home   = 500", "home   = 900"), "axis.Z.home: 900 lies outside the travel");
+  EXPECT_EQ(first_problem("home   = 500", "home   = 900"),
+            "axis.Z.home: 900 lies outside the travel");
   EXPECT_EQ(first_problem("\"zyx\"", "\"zxy\""), "rotation_order: 'zxy' is not one of the choices");
 }
 

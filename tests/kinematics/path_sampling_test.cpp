@@ -7,8 +7,8 @@
 namespace frustum::kinematics {
 namespace {
 
-double worst_distance(const std::function<ToolPose(double)>& motion, const std::vector<ToolPose>& poses,
-                      double reach) {
+double worst_distance(const std::function<ToolPose(double)>& motion,
+                      const std::vector<ToolPose>& poses, double reach) {
   // Every point of the motion lies within the bound of some stretch at the same place on it.
   double worst = 0.0;
   for (int k = 0; k <= 1000; ++k) {
@@ -16,10 +16,12 @@ double worst_distance(const std::function<ToolPose(double)>& motion, const std::
     double best = 1e300;
     for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
       const Vec3 step = poses[i + 1].tip - poses[i].tip;
-      const double t = std::clamp((exact.tip - poses[i].tip).dot(step) / step.squaredNorm(), 0.0, 1.0);
+      const double t =
+          std::clamp((exact.tip - poses[i].tip).dot(step) / step.squaredNorm(), 0.0, 1.0);
       const ToolPose near = between(poses[i], poses[i + 1], t);
-      best = std::min(best, std::max((near.tip - exact.tip).norm(),
-                                     (near.tip - exact.tip + reach * (near.axis - exact.axis)).norm()));
+      best = std::min(best,
+                      std::max((near.tip - exact.tip).norm(),
+                               (near.tip - exact.tip + reach * (near.axis - exact.axis)).norm()));
     }
     worst = std::max(worst, best);
   }

@@ -55,23 +55,33 @@ constexpr Row kRows[] = {
 };
 // Section 3.10.5: errors without influence on the cone.
 constexpr const char* kNegligible[] = {
-    "EZ0Z=10um",         "EZX=harmonic 1 10um", "EZY=harmonic 1 10um", "EZZ=linear 10um",
+    "EZ0Z=10um",           "EZX=harmonic 1 10um", "EZY=harmonic 1 10um", "EZZ=linear 10um",
     "EZB=harmonic 2 10um", "EAZ=linear 30urad",   "EBZ=linear 30urad",   "ECY=linear 30urad",
     "ECZ=linear 30urad",   "EC0B=30urad"};
 
-double limit(double expected, double absolute, double relative) { return absolute + relative * expected; }
+double limit(double expected, double absolute, double relative) {
+  return absolute + relative * expected;
+}
 
 std::string table_header() {
   return "# What of the published numbers the project reproduces\n\n"
-         "Written by the test `trials.ConeReproductionReference.HoldsEveryRowOfTable34`; run it with\n"
+         "Written by the test `trials.ConeReproductionReference.HoldsEveryRowOfTable34`; run it "
+         "with\n"
          "`FRUSTUM_UPDATE_DOCS=1` to write this page again.\n\n"
-         "## Cone frustum, single machine errors (Bossoni, Table 3.4, proposed set-up on `iwf-bc`)\n\n"
-         "Equivalent cone form in um. *Expected*: an independent rigid-body computation of the tip trace;\n"
-         "where it differs from the published value, the publication could not be reproduced by any single\n"
-         "convention and the expected value is what the project holds itself to. *Tip*: the actual tip at\n"
-         "the block ends of the finishing pass. *Part*: NC program, cut with a 12 mm end mill, probed 0.5 mm\n"
-         "above the base edge with a 2 mm ball. Limits: tip 0.005 um + 0.5 %, part 0.15 um + 2 %. Rows with\n"
-         "hysteresis (EXXhyst, EYYhyst, EBBhyst) need errors that depend on the direction of motion, which\n"
+         "## Cone frustum, single machine errors (Bossoni, Table 3.4, proposed set-up on "
+         "`iwf-bc`)\n\n"
+         "Equivalent cone form in um. *Expected*: an independent rigid-body computation of the tip "
+         "trace;\n"
+         "where it differs from the published value, the publication could not be reproduced by "
+         "any single\n"
+         "convention and the expected value is what the project holds itself to. *Tip*: the actual "
+         "tip at\n"
+         "the block ends of the finishing pass. *Part*: NC program, cut with a 12 mm end mill, "
+         "probed 0.5 mm\n"
+         "above the base edge with a 2 mm ball. Limits: tip 0.005 um + 0.5 %, part 0.15 um + 2 %. "
+         "Rows with\n"
+         "hysteresis (EXXhyst, EYYhyst, EBBhyst) need errors that depend on the direction of "
+         "motion, which\n"
          "the error functions do not have yet.\n\n"
          "| error | injected | published | expected | tip | part | published value |\n"
          "| --- | --- | --- | --- | --- | --- | --- |\n";
@@ -92,11 +102,12 @@ TEST(ConeReproductionReference, HoldsEveryRowOfTable34) {
     EXPECT_NEAR(tip, row.expected, limit(row.expected, 0.005, 0.005)) << row.name;
     EXPECT_NEAR(part, row.expected, limit(row.expected, 0.15, 0.02)) << row.name;
     const bool reproduced = std::abs(row.published - row.expected) <= 0.05 + 0.012 * row.published;
-    page += fmt::format("| {} | `{}` | {:.1f} | {:.3f} | {:.3f} | {:.3f} | {} |\n", row.name, row.error,
-                        row.published, row.expected, tip, part,
+    page += fmt::format("| {} | `{}` | {:.1f} | {:.3f} | {:.3f} | {:.3f} | {} |\n", row.name,
+                        row.error, row.published, row.expected, tip, part,
                         reproduced ? "reproduced" : "not reproduced");
   }
-  page += "\n## Errors without influence (section 3.10.5)\n\n| injected | part, um |\n| --- | --- |\n";
+  page +=
+      "\n## Errors without influence (section 3.10.5)\n\n| injected | part, um |\n| --- | --- |\n";
   for (const char* error : kNegligible) {
     const double part = ConeTrial::value(cone.run({error}), "cone.equivalent_form");
     EXPECT_LT(part, 0.15) << error;
@@ -150,8 +161,8 @@ TEST(ConeReproductionReference, HoldsTheMixedFamilyRange) {
 }
 
 // Rotary ranges alone do not need a part: the tool vectors of the circle through the inverse solver.
-Ranges vector_ranges(const char* name, double alpha_deg, double beta_deg, double gamma_deg, double start_deg,
-                     double radius, double length) {
+Ranges vector_ranges(const char* name, double alpha_deg, double beta_deg, double gamma_deg,
+                     double start_deg, double radius, double length) {
   const auto machine =
       *kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" + name + ".toml");
   const double a = alpha_deg * kRadPerDeg, b = beta_deg * kRadPerDeg;
@@ -160,7 +171,8 @@ Ranges vector_ranges(const char* name, double alpha_deg, double beta_deg, double
   for (int k = 0; k <= 3600; ++k) {
     const double phi = (start_deg + 0.1 * k) * kRadPerDeg;
     const Mat3 turned = rotation_z(gamma_deg * kRadPerDeg) * rotation_y(b);
-    const Vec3 axis = turned * Vec3(-std::sin(a) * std::cos(phi), -std::sin(a) * std::sin(phi), std::cos(a));
+    const Vec3 axis =
+        turned * Vec3(-std::sin(a) * std::cos(phi), -std::sin(a) * std::sin(phi), std::cos(a));
     const Vec3 tip = turned * Vec3(radius * std::cos(phi), radius * std::sin(phi), 0.0);
     const auto s = kinematics::inverse(machine, {tip, axis}, length, q);
     EXPECT_TRUE(s);
@@ -168,7 +180,8 @@ Ranges vector_ranges(const char* name, double alpha_deg, double beta_deg, double
     const auto& first = k == 0 && s->size() > 1 && (*s)[0].axes[B] > 0.0 ? (*s)[1] : (*s)[0];
     q = first.axes;
     for (const auto letter : {X, Y, Z, B, C}) {
-      auto& r = ranges.try_emplace(letter, kinematics::AxisRange{q[letter], q[letter]}).first->second;
+      auto& r =
+          ranges.try_emplace(letter, kinematics::AxisRange{q[letter], q[letter]}).first->second;
       r = {std::min(r.lo, q[letter]), std::max(r.hi, q[letter])};
     }
   }
@@ -177,9 +190,13 @@ Ranges vector_ranges(const char* name, double alpha_deg, double beta_deg, double
 }
 
 TEST(ConeReproductionReference, HoldsTheRotaryRangesOfTable31) {
-  const struct { double alpha, beta, start, b, c; } rows[] = {
-      {30, 20, 0, 40, 360},  {45, 30, 0, 60, 360},   {30, 50, 0, 60, 81.49151320280751},
-      {45, 60, 0, 90, 109.47122062989364}, {30, 30, 180, 120, 180}};
+  const struct {
+    double alpha, beta, start, b, c;
+  } rows[] = {{30, 20, 0, 40, 360},
+              {45, 30, 0, 60, 360},
+              {30, 50, 0, 60, 81.49151320280751},
+              {45, 60, 0, 90, 109.47122062989364},
+              {30, 30, 180, 120, 180}};
   for (const auto& row : rows) {
     const Ranges r = vector_ranges("iwf-bc", row.alpha, row.beta, 0.0, row.start, 40.0, 0.0);
     EXPECT_NEAR(r.b, row.b, 1e-4) << row.alpha << '/' << row.beta;
@@ -189,15 +206,16 @@ TEST(ConeReproductionReference, HoldsTheRotaryRangesOfTable31) {
 
 TEST(ConeReproductionReference, HoldsTheLinearRangesOfTable33) {
   // Ranges of a head machine's linear axes in units of 2 rQ, rQ = r - l sin(alpha) (upside down: +).
-  const struct { double beta, gamma, x, y, z; } rows[] = {
-      {0, 33, 1, 1, 0},
-      {30, 0, 0.8660254037844386, 1, 0.5},
-      {30, 45, 0.9354143466712959, 0.9354143466712959, 0.5},
-      {30, 90, 1, 0.8660254037844386, 0.5},
-      {54.735610317245346, 45, 0.816496580927726, 0.816496580927726, 0.816496580927726},
-      {90, 0, 0, 1, 1},
-      {90, 90, 1, 0, 1},
-      {90, 45, 0.7071067811865475, 0.7071067811865477, 1}};
+  const struct {
+    double beta, gamma, x, y, z;
+  } rows[] = {{0, 33, 1, 1, 0},
+              {30, 0, 0.8660254037844386, 1, 0.5},
+              {30, 45, 0.9354143466712959, 0.9354143466712959, 0.5},
+              {30, 90, 1, 0.8660254037844386, 0.5},
+              {54.735610317245346, 45, 0.816496580927726, 0.816496580927726, 0.816496580927726},
+              {90, 0, 0, 1, 1},
+              {90, 90, 1, 0, 1},
+              {90, 45, 0.7071067811865475, 0.7071067811865477, 1}};
   const double l = 150.0, r = 40.0;
   const double circle = 2.0 * std::abs(r - l * std::sin(45 * kRadPerDeg));
   for (const auto& row : rows) {

@@ -19,15 +19,16 @@ struct ConeTrial {
   programs::TestPiece piece;
 
   static ConeTrial on(const std::string& machine, programs::ConeFrustum cone = {}) {
-    auto loaded =
-        kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" + machine + ".toml");
+    auto loaded = kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" +
+                                            machine + ".toml");
     EXPECT_TRUE(loaded);
     auto piece = programs::cone_frustum(cone, *loaded);
     EXPECT_TRUE(piece) << (piece ? "" : to_string(piece.error().front()));
     return {*loaded, cone, *piece};
   }
 
-  [[nodiscard]] Trial run(const std::vector<std::string>& errors = {}, bool collisions = false) const {
+  [[nodiscard]] Trial run(const std::vector<std::string>& errors = {},
+                          bool collisions = false) const {
     std::vector<kinematics::ErrorEntry> entries;
     for (const std::string& text : errors) entries.push_back(*kinematics::parse_error(text));
     TrialOptions options;
@@ -49,7 +50,8 @@ struct ConeTrial {
   // Equivalent cone form of the bare tip, um.
   [[nodiscard]] double tip_form(const Trial& trial) const {
     const auto tips = tips_of(trial, piece, "cone finishing");
-    const auto form = metrology::equivalent_cone_form(tips, cone.cone_angle.value, UnitVec3::z(), {});
+    const auto form =
+        metrology::equivalent_cone_form(tips, cone.cone_angle.value, UnitVec3::z(), {});
     EXPECT_TRUE(form);
     return form ? form->peak_to_valley * 1e3 : -1.0;
   }

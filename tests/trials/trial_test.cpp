@@ -48,8 +48,10 @@ TEST(Trial, SeesNoFormErrorFromARigidDisplacementOfThePart) {
   for (std::uint64_t k = 0; k < 3; ++k) {
     ConeTrial cone = ConeTrial::on("iwf-bc");
     // The blank lies askew on the table; the program does not know.
-    cone.piece.placement.origin += Vec3(draw(6 * k, 0.05), draw(6 * k + 1, 0.05), draw(6 * k + 2, 0.05));
-    cone.piece.placement.tilt += Vec3(draw(6 * k + 3, 5e-4), draw(6 * k + 4, 5e-4), draw(6 * k + 5, 5e-4));
+    cone.piece.placement.origin +=
+        Vec3(draw(6 * k, 0.05), draw(6 * k + 1, 0.05), draw(6 * k + 2, 0.05));
+    cone.piece.placement.tilt +=
+        Vec3(draw(6 * k + 3, 5e-4), draw(6 * k + 4, 5e-4), draw(6 * k + 5, 5e-4));
     const Trial trial = cone.run();
     EXPECT_LT(ConeTrial::value(trial, "cone.equivalent_form"), 0.02);
     EXPECT_LT(ConeTrial::value(trial, "cone.form"), 0.02);
@@ -110,7 +112,8 @@ Result<Trial> plate(const std::string& nc) {
 
 TEST(Trial, ReportsRapidsThroughMaterialWithTheirLine) {
   const auto trial = plate(
-      "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG0 X60\nG0 Z10\nG0 X0\nM30\n");
+      "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG0 X60\nG0 Z10\nG0 "
+      "X0\nM30\n");
   ASSERT_TRUE(trial) << to_string(trial.error().front());
   ASSERT_EQ(trial->collisions.size(), 1U);
   EXPECT_EQ(trial->collisions[0].source_line, 7U);
@@ -119,8 +122,8 @@ TEST(Trial, ReportsRapidsThroughMaterialWithTheirLine) {
 }
 
 TEST(Trial, ReportsFeedsWithTheSpindleOffWithTheirLine) {
-  const auto trial = plate(
-      "G21 G90 G17\nT1 M6\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F300\nG0 Z10\nM30\n");
+  const auto trial =
+      plate("G21 G90 G17\nT1 M6\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F300\nG0 Z10\nM30\n");
   ASSERT_TRUE(trial);
   ASSERT_EQ(trial->collisions.size(), 1U);
   EXPECT_EQ(trial->collisions[0].source_line, 6U);
@@ -131,7 +134,8 @@ TEST(Trial, HasNoPhantomContactAtTheStart_Complaint11) {
   // Complaint 11: the first rapid comes from the machine's home, not through the part, and a rapid along
   // the wall just cut is no collision.
   const auto trial = plate(
-      "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F300\nG0 X-60\nG0 Z10\nM30\n");
+      "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F300\nG0 X-60\nG0 "
+      "Z10\nM30\n");
   ASSERT_TRUE(trial);
   EXPECT_TRUE(trial->collisions.empty());
 }
