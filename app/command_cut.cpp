@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,9 @@ int cut(const Options& options) {
     if (const auto format = stock::mesh_format_of(options.mesh); !format)
       return refuse(format.error());
   }
+  if (!options.picture.empty() && std::filesystem::path(options.picture).extension() != ".png") {
+    return refuse("pictures are written as .png, not " + options.picture);
+  }
   const auto job = load_job(options.job, options.overrides, false);
   if (!job) return refuse(job.error());
   TrialRun run(progress_style(options.quiet || options.json));
@@ -70,6 +74,14 @@ int cut(const Options& options) {
   const stock::MeshMeasure measure = stock::measure(*mesh);
   const double blank = trial->workpiece->blank().volume();
   const DeviationRange deviation = range_of(*mesh);
+  nlohmann::ordered_json collision_list = nlohmann::ordered_json::array();
+  for (const report::Collision& c : report_of(*job, *trial).collisions) {
+    collision_list.push_back({{"line", c.line}, {"text", c.text}});
+    Diagnostic told = error(c.text);
+    told.file = job->piece.program_file;
+    told.line = static_cast<int>(c.line);
+    print(std::cerr, {told});
+  }
   if (options.json) {
     const nlohmann::ordered_json doc{
         {"vertices", mesh->vertices.size()},
@@ -78,10 +90,11 @@ int cut(const Options& options) {
         {"manifold", measure.is_manifold},
         {"volume_mm3", measure.volume},
         {"blank_volume_mm3", blank},
-        {"removed_volume_mm3", blank - measure.volume},
+        {"removed_volume_mm3", removed_volume(blank, measure.volume)},
         {"vertices_with_nominal", deviation.vertices},
         {"deviation_um", {deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm}},
-        {"collisions", trial->collisions.size()}};
+        {"collisions", trial->collisions.size()},
+        {"collision_list", collision_list}};
     std::cout << doc.dump(2) << '\n';
   } else if (!options.quiet) {
     std::cout << fmt::format(
@@ -89,7 +102,7 @@ int cut(const Options& options) {
         "deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
         mesh->vertices.size(), mesh->triangles.size(),
         measure.is_closed && measure.is_manifold ? "closed and manifold" : "NOT closed",
-        measure.volume, blank, blank - measure.volume, deviation.lowest * kUmPerMm,
+        measure.volume, blank, removed_volume(blank, measure.volume), deviation.lowest * kUmPerMm,
         deviation.highest * kUmPerMm, deviation.vertices);
   }
   return trial->collisions.empty() ? kDone : kOutOfTolerance;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -49,15 +50,21 @@ Result<AxisPositions> read_axes(const Machine& machine, const std::string& text)
   std::vector<std::string> known;
   for (const Joint& joint : machine.joints()) known.emplace_back(1, to_char(joint.letter));
   AxisPositions q;
+  std::vector<std::string> given;
   std::istringstream in(text);
   for (std::string part; std::getline(in, part, ',');) {
     const auto equals = part.find('=');
-    const std::string name = part.substr(0, equals);
+    std::string name = part.substr(0, equals);
+    std::erase(name, ' ');
     if (equals == std::string::npos || std::find(known.begin(), known.end(), name) == known.end()) {
       return error(fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
                                machine.structure()),
                    fmt::format("write {}", fmt::join(known, "=..,")) + "=..");
     }
+    if (std::find(given.begin(), given.end(), name) != given.end()) {
+      return error(fmt::format("axis {} is given twice", name));
+    }
+    given.push_back(name);
     const auto value = numbers_of(part.substr(equals + 1), 1, "axis " + name);
     if (!value) return value.error();
     for (const Joint& joint : machine.joints()) {
@@ -131,6 +138,10 @@ int inverse(const Options& options, const Machine& machine) {
 }
 
 int run_pose(const Options& options) {
+  if (!std::isfinite(options.tool_length) || options.tool_length < 0.0) {
+    return refuse(
+        fmt::format("--tool-length {}: expected a length in mm, 0 or more", options.tool_length));
+  }
   const auto machine = Machine::load(find_machine(options.machine, "."));
   if (!machine) return refuse(machine.error());
   std::vector<kinematics::ErrorEntry> entries;
@@ -161,10 +172,8 @@ void add_pose(CLI::App& program, int& exit_code) {
                       "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
   command->add_option("--inverse", options->inverse, "\"x,y,z,i,j,k\": tip (mm) and tool axis");
   command->add_option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
-  command
-      ->add_option("--tool-length", options->tool_length,
-                   "mm, default 0: the tip is the gauge point")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--tool-length", options->tool_length,
+                      "mm, default 0: the tip is the gauge point");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->footer(
       "Shapes without a span lie over the axis's travel.\n"

@@ -63,7 +63,7 @@ int run_job(const Options& options) {
     report.surface = picture_of(*mesh, job->piece.plan);
     const double finished = stock::measure(*mesh).volume;
     const double blank = trial->workpiece->blank().volume();
-    report.volumes = {blank, finished, blank - finished};
+    report.volumes = {blank, finished, removed_volume(blank, finished)};
   }
   run.end();
   report.timings = run.timings();

@@ -125,6 +125,10 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
   if (!inspection->has("plan") && !want_plan) return;
   if (inspection->text("plan").empty()) return;
   auto plan = metrology::load_plan(inspection->file_path("plan"));
+  if (plan && want_plan && plan->characteristics.empty()) {
+    inspection->fail("plan", "the plan has no [[characteristic]]: there is nothing to check",
+                     "add at least one characteristic with a tolerance");
+  }
   if (plan) {
     piece.plan = *std::move(plan);
   } else {
@@ -200,6 +204,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   all.insert(all.end(), problems.begin(), problems.end());
   if (has_error(all)) return all;
   return Job{.machine = *std::move(machine),
+             .file = file,
              .machine_file = machine_file,
              .piece = std::move(piece),
              .errors = std::move(errors),

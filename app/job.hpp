@@ -19,6 +19,7 @@ namespace frustum::app {
 
 struct Job {
   kinematics::Machine machine;
+  std::filesystem::path file{};
   std::filesystem::path machine_file{};
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};

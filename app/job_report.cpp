@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -133,6 +134,12 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   const stock::BoundingBox box = workpiece.blank().bounds();
   if (pitch <= 0.0) pitch = job.mesh_pitch;
   if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 120.0;
+  // A grid that the part falls through would be answered with nothing at all.
+  const double coarsest = (box.max - box.min).minCoeff() / 4.0;
+  if (pitch > coarsest) {
+    return error(fmt::format("a pitch of {:g} mm is too coarse for this blank", pitch),
+                 fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
+  }
   auto mesh = stock::extract_surface(workpiece, box, Mm{pitch});
   if (!mesh || job.piece.plan.features.empty()) return mesh;
   mesh->deviation.reserve(mesh->vertices.size());
@@ -142,6 +149,12 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   }
   judge_edges(*mesh, job.piece.plan);
   return mesh;
+}
+
+double removed_volume(double blank, double finished) {
+  constexpr double kRounding = 1e-9;  // of the blank: the mesh's volume is a sum of a million terms
+  const double removed = blank - finished;
+  return std::abs(removed) < kRounding * blank ? 0.0 : removed;
 }
 
 report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,

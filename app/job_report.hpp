@@ -17,6 +17,8 @@ namespace frustum::app {
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::Workpiece& workpiece,
                                                           double pitch);
+// What was cut away; a part that was not cut shows no rounding.
+[[nodiscard]] double removed_volume(double blank, double finished);
 [[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
                                                 const metrology::InspectionPlan& plan);
 

@@ -21,7 +21,13 @@ Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
   options.on_stage = [this](trials::Stage stage) { begin(std::string(name_of(stage))); };
   auto result = run_trial(job.machine, job.errors, job.piece, job.cmm, options);
   end();
-  return result;
+  if (result) return result;
+  // What no room could place belongs to the job that asked for it.
+  Diagnostics problems = result.error();
+  for (Diagnostic& d : problems) {
+    if (d.file.empty()) d.file = job.file.string();
+  }
+  return problems;
 }
 
 void TrialRun::begin(const std::string& step) {

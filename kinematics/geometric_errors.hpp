@@ -27,7 +27,7 @@ namespace frustum::kinematics {
 class Machine;
 
 // Directions of an error: three displacements, three small rotations.
-enum class ErrorDirection : std::uint8_t { X, Y, Z, A, B, C };
+enum class ErrorDirection : std::uint8_t { X, Y, Z, A, B, C };  // NOLINT: the standard's letters
 [[nodiscard]] constexpr bool is_rotation(ErrorDirection d) { return d >= ErrorDirection::A; }
 
 struct ErrorName {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <optional>
 
 #include "kinematics/inverse.hpp"
 #include "kinematics/post_processor.hpp"
@@ -24,10 +26,67 @@ constexpr double kLineariseTolerance = 2e-6;  // mm
 constexpr int kTool = 1;
 constexpr int kMachineOffset = 6;  // G59 = 0: axis positions as the machine shows them
 
-Diagnostic refuse(const char* key, const std::string& what, const char* hint) {
+Diagnostic refuse(const char* key, const std::string& what, const std::string& hint) {
   Diagnostic failure = error(what, hint);
   failure.key = key;
   return failure;
+}
+
+// Every number of the test within what a machine could do: checked before anything is generated.
+std::optional<Diagnostic> check(const ConeFrustum& cone) {
+  constexpr double kLongest = 5000.0;  // mm: larger than any machine that cuts this test
+  const double a = cone.cone_angle.value;
+  if (!(a > 0.0 && a < 0.5 * std::numbers::pi)) {
+    return refuse("cone-angle", fmt::format("a half apex angle of {:g} deg", a * kDegPerRad),
+                  "it must lie between 0 and 90 deg");
+  }
+  const struct {
+    const char* key;
+    double rad;
+  } angles[] = {{"inclination", cone.inclination.value},
+                {"orientation", cone.orientation.value},
+                {"start-angle", cone.start_angle.value_or(Rad{}).value}};
+  for (const auto& [key, rad] : angles) {
+    if (!(std::abs(rad) <= 2.0 * std::numbers::pi)) {
+      return refuse(key, fmt::format("an angle of {:g} deg", rad * kDegPerRad),
+                    "it must lie within -360 .. 360 deg");
+    }
+  }
+  const struct {
+    const char* key;
+    double mm, lowest;
+  } lengths[] = {{"radius", cone.radius.value, 1.0},
+                 {"height", cone.height.value, 1.5},
+                 {"cylinder-height", cone.cylinder_height.value, 4.0},
+                 {"tool-diameter", cone.tool_diameter.value, 1.0},
+                 {"tool-length", cone.tool_length.value, 1.0},
+                 {"allowance", cone.allowance.value, 0.0}};
+  for (const auto& [key, mm, lowest] : lengths) {
+    if (!(mm >= lowest && mm <= kLongest)) {
+      return refuse(key, fmt::format("{:g} mm", mm),
+                    fmt::format("it must lie between {:g} and {:g} mm", lowest, kLongest));
+    }
+  }
+  if (!(cone.allowance.value < 0.5 * cone.tool_diameter.value)) {
+    return refuse("allowance", fmt::format("{:g} mm", cone.allowance.value),
+                  "it must be less than the cutter's radius");
+  }
+  if (!(cone.center.allFinite() && cone.center.norm() < 10.0 * kLongest)) {
+    return refuse("center", "the centre is out of any machine's reach", "x,y,z in mm");
+  }
+  // The finest: about 70,000 chords on a circle of 100 mm.
+  if (!(cone.chord_tolerance.value >= 1e-7 && cone.chord_tolerance.value <= 1.0)) {
+    return refuse("chord-tolerance", fmt::format("{:g} um", cone.chord_tolerance.value * kUmPerMm),
+                  "it must lie between 0.0001 and 1000 um");
+  }
+  if (!(cone.feed > 0.0 && cone.feed <= 1e5)) {
+    return refuse("feed", fmt::format("{:g} mm/min", cone.feed), "above 0, at most 100000");
+  }
+  if (!(cone.spindle_speed >= 1.0 && cone.spindle_speed <= 1e6)) {
+    return refuse("speed", fmt::format("{:g} 1/min", cone.spindle_speed),
+                  "the spindle must turn: 1 to 1000000");
+  }
+  return std::nullopt;
 }
 
 // Writes the moves of one form of program.
@@ -105,10 +164,6 @@ class ConeProgram {
   }
 
   std::optional<Diagnostics> write_move(const PathMove& move) {
-    if (cone_.form == ProgramForm::vector) {
-      write_line(move, tip_words(move.pose.tip) + " " + vector_words(move.pose.axis));
-      return std::nullopt;
-    }
     const kinematics::ToolPose in_table{move.pose.tip + cone_.center, move.pose.axis};
     const auto solutions = kinematics::inverse(machine_, in_table, cone_.tool_length.value, axes_);
     if (!solutions) return solutions.error();
@@ -119,7 +174,9 @@ class ConeProgram {
                             fmt::join(kinematics::travel_violations(machine_, next), "; ")),
                 "change --center, --radius or --orientation, or choose a larger machine")};
     }
-    if (cone_.form == ProgramForm::angles) {
+    if (cone_.form == ProgramForm::vector) {
+      write_line(move, tip_words(move.pose.tip) + " " + vector_words(move.pose.axis));
+    } else if (cone_.form == ProgramForm::angles) {
       write_line(move, tip_words(move.pose.tip) + rotary_words(next));
     } else {
       for (const AxisPositions& q : kinematics::linearised(
@@ -191,30 +248,8 @@ ConeFrustum ConeFrustum::nas979() {
 }
 
 Result<ConeGeometry> geometry(const ConeFrustum& cone) {
+  if (const auto problem = check(cone)) return *problem;
   const double a = cone.cone_angle.value;
-  const auto positive = [](Mm v) { return std::isfinite(v.value) && v.value > 0.0; };
-  if (!(a > 0.0 && a < 0.5 * std::numbers::pi)) {
-    return refuse("cone-angle", fmt::format("a half apex angle of {:g} deg", a * kDegPerRad),
-                  "it must lie between 0 and 90 deg");
-  }
-  if (!(std::abs(cone.inclination.value) < std::numbers::pi)) {
-    return refuse("inclination",
-                  fmt::format("an inclination of {:g} deg", cone.inclination.value * kDegPerRad),
-                  "it must lie within -180 .. 180 deg");
-  }
-  if (!cone.center.allFinite()) return refuse("center", "the centre is not finite", "x,y,z in mm");
-  if (!positive(cone.radius)) return refuse("radius", "the radius must be above 0", "mm");
-  if (!positive(cone.height)) return refuse("height", "the height must be above 0", "mm");
-  if (!positive(cone.cylinder_height)) {
-    return refuse("cylinder-height", "the cylinder's height must be above 0", "mm");
-  }
-  if (!positive(cone.tool_diameter)) return refuse("tool-diameter", "it must be above 0", "mm");
-  if (!positive(cone.tool_length)) return refuse("tool-length", "it must be above 0", "mm");
-  if (!positive(cone.chord_tolerance)) {
-    return refuse("chord-tolerance", "it must be above 0", "for example 0.005 (um)");
-  }
-  if (!(cone.feed > 0.0)) return refuse("feed", "the feed must be above 0", "mm/min");
-
   ConeGeometry shape;
   const double cutter = 0.5 * cone.tool_diameter.value;
   shape.cutter_radius = cutter;

@@ -25,17 +25,25 @@ struct SuspectMove {
   Box box{};
 };
 
+// Feeds with the spindle off that follow each other are one move: one report is enough.
+bool continues(const ToolPath& path, const SuspectMove& move, std::uint32_t block) {
+  if (move.block == block) return true;
+  const PathBlock& before = path.blocks[path.stretches[move.stretches.back()].block];
+  return before.kind == PathKind::feed && path.blocks[block].kind == PathKind::feed;
+}
+
 std::vector<SuspectMove> suspects(const Workpiece& workpiece) {
   const ToolPath& path = workpiece.removed().path();
   const BoundingBox blank = workpiece.blank().bounds();
   std::vector<SuspectMove> moves;
   for (std::uint32_t i = 0; i < path.stretches.size(); ++i) {
-    const PathBlock& block = path.blocks[path.stretches[i].block];
+    const std::uint32_t block_index = path.stretches[i].block;
+    const PathBlock& block = path.blocks[block_index];
     if (block.kind == PathKind::feed && block.spindle_on) continue;
     const Box& box = workpiece.removed().box(i);
     if (!overlap(box, blank)) continue;
-    if (moves.empty() || moves.back().block != path.stretches[i].block) {
-      moves.push_back({path.stretches[i].block, {}, box});
+    if (moves.empty() || !continues(path, moves.back(), block_index)) {
+      moves.push_back({block_index, {}, box});
     }
     SuspectMove& move = moves.back();
     move.stretches.push_back(i);
@@ -51,28 +59,35 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
   const ToolPath& path = workpiece.removed().path();
   const PathBlock& block = path.blocks[move.block];
   const double pitch = workpiece.removed().tool(block.tool).profile().max_radius() / 6.0;
-  const cutter::RaySpan span{0.0, move.box.max.z() - move.box.min.z()};
-  if (!(span.hi > 0.0)) return std::nullopt;
+  const Vec3 size = move.box.max - move.box.min;
+  if (!(size.array() > 0.0).all()) return std::nullopt;
   Collision worst{.kind = block.kind == PathKind::rapid ? CollisionKind::rapid_through_material
                                                         : CollisionKind::feed_with_spindle_off,
                   .source_line = block.source_line,
                   .tool = block.tool};
+  // At least four rays across whatever is there, so that a thin overlap is not stepped over.
   const auto count = [&](int k) {
-    return 1 + static_cast<int>((move.box.max[k] - move.box.min[k]) / pitch);
+    return std::max(4, static_cast<int>(std::ceil(size[k] / pitch)));
   };
-  for (int i = 0; i < count(0); ++i) {
-    for (int j = 0; j < count(1); ++j) {
-      const Ray ray{move.box.min + Vec3((i + 0.5) * pitch, (j + 0.5) * pitch, 0.0), Vec3::UnitZ()};
-      const IntervalSet covered = workpiece.removed()
-                                      .core_along(ray, move.stretches, kMargin)
-                                      .intersected(IntervalSet({{span.lo, span.hi}}));
-      if (covered.empty()) continue;
-      const IntervalSet met =
-          workpiece.material_along(ray, span, move.stretches.front()).intersected(covered);
-      for (const Interval& piece : met.intervals()) {
-        if (piece.length() > worst.depth) {
-          worst.depth = piece.length();
-          worst.point = ray.at(0.5 * (piece.lo + piece.hi));
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const cutter::RaySpan span{0.0, size[axis]};
+    for (int i = 0; i < count(u); ++i) {
+      for (int j = 0; j < count(v); ++j) {
+        const Ray ray{move.box.min + (i + 0.5) / count(u) * size[u] * Vec3::Unit(u) +
+                          (j + 0.5) / count(v) * size[v] * Vec3::Unit(v),
+                      Vec3::Unit(axis)};
+        const IntervalSet covered = workpiece.removed()
+                                        .core_along(ray, move.stretches, kMargin)
+                                        .intersected(IntervalSet({{span.lo, span.hi}}));
+        if (covered.empty()) continue;
+        const IntervalSet met =
+            workpiece.material_along(ray, span, move.stretches.front()).intersected(covered);
+        for (const Interval& piece : met.intervals()) {
+          if (piece.length() > worst.depth) {
+            worst.depth = piece.length();
+            worst.point = ray.at(0.5 * (piece.lo + piece.hi));
+          }
         }
       }
     }

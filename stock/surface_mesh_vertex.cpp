@@ -62,7 +62,7 @@ bool contains(const BoundingBox& box, const Vec3& p) {
 
 // The quadratic error function's minimum: the best of highest rank that lies in `allowed`.
 Vec3 meet(Samples samples, const BoundingBox& allowed) {
-  const Vec3 mean = mean_point(samples);
+  Vec3 mean = mean_point(samples);
   const auto rows = static_cast<Eigen::Index>(samples.size());
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostRows, 3> normals(rows, 3);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1> distances(rows);

@@ -149,15 +149,30 @@ TEST_F(CommandLineSystem, RefusesAnUnreachableToolDirection) {
 
 TEST_F(CommandLineSystem, RefusesBadArguments) {
   for (const char* arguments :
-       {"", "nonsense", "run", "run no-such-job.toml", "pose --machine iwf-bc --axes Q=1",
+       {"",
+        "nonsense",
+        "run",
+        "run no-such-job.toml",
+        "pose --machine iwf-bc --axes Q=1",
         "pose --machine iwf-bc --axes X=1 --error nonsense=1um",
-        "pose --machine iwf-bc --inverse 1,2,3", "pose --machine iwf-bc --inverse 0,0,0,0,0,0",
+        "pose --machine iwf-bc --inverse 1,2,3",
+        "pose --machine iwf-bc --inverse 0,0,0,0,0,0",
         "pose --machine nowhere --axes X=0",
         "program cone --machine iwf-bc --out p --cone-angle 95",
         "program cone --machine iwf-bc --out p --radius -3",
+        "program cone --machine iwf-bc --out p --allowance nan",
+        "program cone --machine iwf-bc --out p --speed 0",
+        "program cone --machine iwf-bc --out p --radius 1e9",
+        "program cone --machine iwf-bc --out p --chord-tolerance 1e-12",
+        "program cone --machine three-axis --out p",
+        "pose --machine iwf-bc --axes X=1,X=2",
+        "pose --machine iwf-bc --axes X=1 --tool-length nan",
         "program cone --machine iwf-bc --out p --center 1,2",
         "program cone --machine iwf-bc --form axes --out p --center=900,0,0",
-        "fit cone nothing.csv", "fit banana nothing.csv", "errors nowhere", "parse nowhere.nc"}) {
+        "fit cone nothing.csv",
+        "fit banana nothing.csv",
+        "errors nowhere",
+        "parse nowhere.nc"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;

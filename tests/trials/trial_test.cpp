@@ -121,6 +121,15 @@ TEST(Trial, ReportsRapidsThroughMaterialWithTheirLine) {
   EXPECT_NEAR(trial->collisions[0].depth, 5.0, 0.02);
 }
 
+TEST(Trial, ReportsARapidThatOnlyShavesTheEdge) {
+  // The cutter of radius 5 reaches 0.3 mm into the face at X = 40.
+  const auto trial = plate(
+      "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X44.7 Y-50 Z10\nG0 Z-5\nG0 Y50\nG0 Z10\nM30\n");
+  ASSERT_TRUE(trial);
+  ASSERT_EQ(trial->collisions.size(), 1U);
+  EXPECT_EQ(trial->collisions[0].source_line, 7U);
+}
+
 TEST(Trial, ReportsFeedsWithTheSpindleOffWithTheirLine) {
   const auto trial =
       plate("G21 G90 G17\nT1 M6\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F300\nG0 Z10\nM30\n");
