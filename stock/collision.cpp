@@ -69,7 +69,10 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
   const auto count = [&](int k) {
     return std::max(4, static_cast<int>(std::ceil(size[k] / pitch)));
   };
+  // The depth is the longest overlap along the direction in which the overlap is thinnest.
   for (int axis = 0; axis < 3; ++axis) {
+    double longest = 0.0;
+    Vec3 at = Vec3::Zero();
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const cutter::RaySpan span{0.0, size[axis]};
     for (int i = 0; i < count(u); ++i) {
@@ -84,15 +87,19 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
         const IntervalSet met =
             workpiece.material_along(ray, span, move.stretches.front()).intersected(covered);
         for (const Interval& piece : met.intervals()) {
-          if (piece.length() > worst.depth) {
-            worst.depth = piece.length();
-            worst.point = ray.at(0.5 * (piece.lo + piece.hi));
+          if (piece.length() > longest) {
+            longest = piece.length();
+            at = ray.at(0.5 * (piece.lo + piece.hi));
           }
         }
       }
     }
+    if (longest > kMargin && (worst.depth == 0.0 || longest < worst.depth)) {
+      worst.depth = longest;
+      worst.point = at;
+    }
   }
-  if (worst.depth <= kMargin) return std::nullopt;
+  if (worst.depth == 0.0) return std::nullopt;
   return worst;
 }
 

@@ -21,7 +21,7 @@ struct Collision {
   std::uint32_t source_line = 0;
   int tool = 0;
   Vec3 point = Vec3::Zero();  // where it is worst
-  double depth = 0.0;         // mm of material on the worst ray
+  double depth = 0.0;         // mm of material, across its thinnest direction
 };
 
 [[nodiscard]] std::vector<Collision> find_collisions(const Workpiece& workpiece);
