@@ -1,7 +1,8 @@
 // Moves that meet material although they must not: rapids through it, feeds with the spindle off.
 //
-// Model    : for each such move, rays along X, Y and Z on grids through what the move covers are held against the material that is left at that moment. The cutter is shrunk by
-//            a margin, so that a retract along a finished wall is no collision.
+// Model    : for each such move, rays along X, Y and Z on grids through what the move covers are held
+//            against the material that is left at that moment. The cutter is shrunk by a margin, so
+//            that a retract along a finished wall is no collision.
 // Units    : mm
 // Accuracy : overlaps of more than the margin (10 um) that hold a ray of the grid (a twelfth of the
 //            cutter's diameter) are found

@@ -70,7 +70,8 @@ TEST_F(MeshFile, PlyCarriesDeviationInMicrometresAndSaysWhereThereIsNone) {
   const std::string end = "end_header\n";
   const std::size_t body = bytes.find(end) + end.size();
   constexpr std::size_t kVertex = 3 * 8 + 3 * 4 + 2 * 4 + 1;
-  ASSERT_EQ(bytes.size(), body + 4 * kVertex + std::size_t{4 * 13});
+  constexpr std::size_t kTriangle = 1 + 3 * 4;
+  ASSERT_EQ(bytes.size(), body + 4 * kVertex + 4 * kTriangle);
   EXPECT_EQ(read<double>(bytes, body + 3 * kVertex + 16), 1.0 / 3.0);
   EXPECT_EQ(read<float>(bytes, body + 32), 1.0F);  // nz
   EXPECT_EQ(read<float>(bytes, body + 36), 1.0F);  // 0.001 mm
