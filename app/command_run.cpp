@@ -9,11 +9,11 @@
 #include "app/job.hpp"
 #include "app/job_report.hpp"
 #include "app/trial_run.hpp"
+#include "core/whole_file.hpp"
 #include "report/html_report.hpp"
 #include "report/json_report.hpp"
 #include "report/points_csv.hpp"
 #include "report/terminal_report.hpp"
-#include "report/text_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -38,9 +38,9 @@ std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job
   const auto made = output_folder(folder);
   if (!made) return made.error();
   std::vector<Result<std::filesystem::path>> written;
-  written.push_back(report::write_text_file(folder / "result.json", report::json_report(report)));
+  written.push_back(write_whole_file(folder / "result.json", report::json_report(report)));
   written.push_back(
-      report::write_text_file(folder / "points.csv", report::points_csv(report.measurement)));
+      write_whole_file(folder / "points.csv", report::points_csv(report.measurement)));
   if (job.report) written.push_back(report::write_html_report(folder / "report.html", report));
   for (const auto& file : written) {
     if (!file) return file.error();

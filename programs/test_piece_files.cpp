@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <system_error>
+
+#include "core/whole_file.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -36,21 +37,6 @@ std::string tool_text(const cutter::CutterSpec& tool) {
       "}}",
       cutter::to_string(tool.type), tool.diameter.value, tool.length.value, tool.flute_length.value,
       tool.radius_error.value * kUmPerMm);
-}
-
-// Whole or not at all: written beside the target, then renamed over it.
-std::optional<Diagnostic> write_whole(const fs::path& file, const std::string& text) {
-  const fs::path beside = file.string() + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code problem;
-  if (out) fs::rename(beside, file, problem);
-  if (out && !problem) return std::nullopt;
-  fs::remove(beside, problem);
-  Diagnostic failure = error("the file cannot be written", "check the folder and its permissions");
-  failure.file = file.string();
-  return failure;
 }
 
 }  // namespace
@@ -129,7 +115,7 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs:
       {files[2], metrology::to_toml(piece.plan)},
       {files[0], job_text(piece, machine.generic_string(), plan.string())}};
   for (const auto& [file, text] : contents) {
-    if (const auto failure = write_whole(file, text)) return *failure;
+    if (const auto written = write_whole_file(file, text); !written) return written.error();
   }
   return files;
 }

@@ -3,11 +3,11 @@
 #include <map>
 #include <string_view>
 
+#include "core/whole_file.hpp"
 #include "report/chart_data.hpp"
 #include "report/html_sections.hpp"
 #include "report/html_text.hpp"
 #include "report/page_bundle.hpp"
-#include "report/text_file.hpp"
 
 namespace frustum::report {
 
@@ -38,7 +38,7 @@ std::string html_report(const RunReport& report) {
 
 Result<std::filesystem::path> write_html_report(const std::filesystem::path& path,
                                                 const RunReport& report) {
-  return write_text_file(path, html_report(report));
+  return write_whole_file(path, html_report(report));
 }
 
 }  // namespace frustum::report

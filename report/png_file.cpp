@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "report/text_file.hpp"
+#include "core/whole_file.hpp"
 
 namespace frustum::report {
 
@@ -25,10 +26,16 @@ Result<std::filesystem::path> write_png(const std::filesystem::path& path, const
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&png, path.c_str(), 0, bytes.data(), 0, nullptr) == 0) {
+  png_alloc_size_t size = 0;
+  if (png_image_write_to_memory(&png, nullptr, &size, 0, bytes.data(), 0, nullptr) == 0) {
     return cannot_write(path, png.message);
   }
-  return path;
+  std::string file(size, '\0');
+  if (png_image_write_to_memory(&png, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0) {
+    return cannot_write(path, png.message);
+  }
+  file.resize(size);
+  return write_whole_file(path, file);
 }
 
 }  // namespace frustum::report

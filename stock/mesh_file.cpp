@@ -5,14 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <iterator>
-#include <memory>
-#include <optional>
-#include <system_error>
-#include <utility>
+
+#include "core/whole_file.hpp"
 
 namespace frustum::stock {
 namespace {
@@ -110,35 +105,6 @@ std::string obj_bytes(const SurfaceMesh& mesh) {
   return out;
 }
 
-Diagnostic cannot_write(const fs::path& file, const std::string& why) {
-  Diagnostic found = error(fmt::format("cannot write the mesh: {}", why),
-                           "name a file in an existing folder that you may write to");
-  found.file = file.string();
-  return found;
-}
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-struct PartFile {
-  fs::path path;
-  File file;
-};
-
-// A new file beside the target, on the same volume so that renaming is one step. errno on failure.
-std::optional<PartFile> open_part(const fs::path& target) {
-  constexpr int kTries = 100;  // others may be writing the same mesh, or have died doing so
-  for (int number = 0; number < kTries; ++number) {
-    fs::path path = target;
-    path += number == 0 ? std::string(".part") : fmt::format(".part{}", number);
-    if (File file{std::fopen(path.c_str(), "wbx")}) return PartFile{path, std::move(file)};
-    if (errno != EEXIST) return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 Result<MeshFormat> mesh_format_of(const fs::path& file) {
@@ -172,22 +138,10 @@ std::string mesh_bytes(const SurfaceMesh& mesh, MeshFormat format) {
 Result<std::uintmax_t> write_mesh(const SurfaceMesh& mesh, const fs::path& file) {
   const auto format = mesh_format_of(file);
   if (!format) return format.error();
-  std::error_code failure;
-  if (fs::is_directory(file, failure)) return cannot_write(file, "it is a folder");
-  auto part = open_part(file);
-  if (!part) return cannot_write(file, std::strerror(errno));
   const std::string bytes = mesh_bytes(mesh, *format);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), part->file.get()) == bytes.size();
-  // Closing writes what is buffered, so its result counts too.
-  const bool closed = std::fclose(part->file.release()) == 0;
-  const int reason = errno;
-  if (written && closed) {
-    fs::rename(part->path, file, failure);
-    if (!failure) return std::uintmax_t{bytes.size()};
-  }
-  const std::string why = written && closed ? failure.message() : std::strerror(reason);
-  fs::remove(part->path, failure);
-  return cannot_write(file, why);
+  const auto written = write_whole_file(file, bytes);
+  if (!written) return written.error();
+  return std::uintmax_t{bytes.size()};
 }
 
 }  // namespace frustum::stock
