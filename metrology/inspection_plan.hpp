@@ -122,6 +122,17 @@ struct DatumSystem {
 
   bool operator==(const DatumSystem&) const = default;
 };
+// A workpiece frame of its own for characteristics that name it. Z = outward normal of the
+// least-squares plane through all points of `planes`; X = along `line`, laid into that plane; the
+// origin keeps the planned height over that plane and the planned distance from the line. Seen from
+// the workpiece frame it is the identity for a perfect part, so planned directions hold in it.
+struct PlannedFrame {
+  std::string name{};
+  std::vector<std::string> planes{};  // features of kind plane, one or more
+  std::string line{};                 // a feature of kind line
+
+  bool operator==(const PlannedFrame&) const = default;
+};
 // datum: results are in the datum system (when the plan has one); plan: in the workpiece frame as
 // the points come.
 enum class Alignment { datum, plan };
@@ -139,6 +150,11 @@ enum class CharacteristicKind {
   perpendicularity,  // features = [toleranced, datum]: zone over the toleranced feature's extent
   radius,            // against the nominal; cone: in the section through the nominal point
   diameter,
+  line_distance,  // features = [first, second], lines: distance of their least-squares lines along
+                  // `direction`, second minus first, minus the planned distance; taken at the planned
+                  // `point` of the first
+  line_angle,     // features = [first, second], lines: angle of the second minus that of the first,
+                  // right-handed about `direction`, minus the planned one
 };
 
 struct PlannedCharacteristic {
@@ -148,6 +164,8 @@ struct PlannedCharacteristic {
       features{};  // one; two for perpendicularity; one or two for concentricity
   std::vector<std::size_t> sections{};  // first = 0; empty: first (and last, for concentricity)
   double tolerance = 0.0;               // mm or rad: limit of the value, or of |value - nominal|
+  std::string frame{};                  // line kinds: evaluated in this frame; empty: as all others
+  Vec3 direction = Vec3::Zero();        // line kinds: measured along it, or the angle about it
 
   bool operator==(const PlannedCharacteristic&) const = default;
 };
@@ -157,6 +175,7 @@ struct InspectionPlan {
   ProbeSettings probe{};
   Alignment alignment = Alignment::datum;
   std::optional<DatumSystem> datum{};
+  std::vector<PlannedFrame> frames{};
   std::vector<PlannedFeature> features{};
   std::vector<PlannedCharacteristic> characteristics{};
 
