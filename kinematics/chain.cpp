@@ -3,6 +3,8 @@
 #include <cmath>
 #include <span>
 
+#include "kinematics/joint_motion.hpp"
+
 namespace frustum::kinematics {
 namespace {
 
@@ -14,34 +16,6 @@ Mat3 small_rotation(const Vec3& angles, RotationOrder order) {
 
 Pose about_point(const Mat3& rotation, const Vec3& point) {
   return {rotation, point - rotation * point};
-}
-
-Pose nominal_joint(const Joint& joint, double q) {
-  if (joint.rotary()) {
-    return {rotation_about(joint.direction, joint.side * q), joint.offset};
-  }
-  return Pose::translated(joint.offset + joint.side * q * joint.direction);
-}
-
-struct JointErrors {
-  Vec3 shift = Vec3::Zero();        // component translations
-  Vec3 turn = Vec3::Zero();         // component rotations
-  Vec3 location = Vec3::Zero();     // location translations
-  Vec3 orientation = Vec3::Zero();  // location rotations
-  Vec3 carried_tilt = Vec3::Zero();
-};
-
-JointErrors errors_at(const AxisErrors& axis, double q) {
-  JointErrors e;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    if (!axis.component[k].is_zero()) e.shift[i] = axis.component[k](q);
-    if (!axis.component[k + 3].is_zero()) e.turn[i] = axis.component[k + 3](q);
-    e.location[i] = axis.location[k];
-    e.orientation[i] = axis.location[k + 3];
-  }
-  e.carried_tilt = axis.carried_tilt;
-  return e;
 }
 
 // One chain of the machine, walked from the bed outwards.
@@ -68,7 +42,7 @@ class ChainWalk {
     const double q = q_[joint.letter];
     const JointErrors e = errors_at((*errors_)[joint.letter], q);
     const RotationOrder order = machine_.rotation_order();
-    const Vec3 pivot = functional_point(joints, i, end);
+    const Vec3 pivot = functional_point(machine_, joints, i, q_, end);
     const Pose turn = about_point(small_rotation(e.turn, order), pivot);
     if (!joint.rotary()) {
       const Pose place{small_rotation(e.carried_tilt, order), joint.offset + e.location};
@@ -83,24 +57,6 @@ class ChainWalk {
     if (machine_.rotary_error_frame() == RotaryErrorFrame::rotor)
       return place * rotate * turn * shift;
     return place * shift * turn * rotate;
-  }
-
-  // In the frame where the joint's component rotations act.
-  [[nodiscard]] Vec3 functional_point(std::span<const Joint> joints, std::size_t i,
-                                      const Pose& end) const {
-    const Joint& joint = joints[i];
-    if (!joint.functional_point.at_tip) return joint.functional_point.point;
-    Pose from_end = end;
-    for (std::size_t k = joints.size(); k-- > i + 1;) {
-      from_end = nominal_joint(joints[k], q_[joints[k].letter]) * from_end;
-    }
-    const bool before_rotation =
-        joint.rotary() && machine_.rotary_error_frame() == RotaryErrorFrame::stator;
-    if (before_rotation) {
-      from_end =
-          Pose::rotated(rotation_about(joint.direction, joint.side * q_[joint.letter])) * from_end;
-    }
-    return from_end.translation;
   }
 
   const Machine& machine_;

@@ -228,7 +228,7 @@ class Controller::State {
           }
           return place_tip(machine_, curve.at(u) + offset_, compensated_length_, q);
         },
-        rotary_end, kind, feed, curve.turn);
+        kind, feed, curve.turn);
   }
 
   // Rotary positions for a programmed tool vector: the solution nearest to where the axes are.
@@ -271,7 +271,7 @@ class Controller::State {
           }
           return q;
         },
-        q_end, kind, feed, curve.turn);
+        kind, feed, curve.turn);
   }
 
   void move_axes(const AxisPositions& end, PathKind kind, double feed) {
@@ -284,7 +284,7 @@ class Controller::State {
           }
           return q;
         },
-        end, kind, feed, 0.0);
+        kind, feed, 0.0);
   }
 
   // What to add to X Y Z words to get axis positions: at rotary zero the tip is where the words say.
@@ -294,13 +294,13 @@ class Controller::State {
   }
 
   // Follows commanded(u), u in [0, 1], checks the travels, and samples where the tool really goes.
-  void travel(const std::function<AxisPositions(double)>& commanded,
-              const AxisPositions& rotary_end, PathKind kind, double feed, double arc_turn) {
+  void travel(const std::function<AxisPositions(double)>& commanded, PathKind kind, double feed,
+              double arc_turn) {
     const AxisPositions start = q_;
     const AxisPositions end = commanded(1.0);
     double rotary_travel = std::abs(arc_turn);
     for (const AxisLetter letter : kRotary) {
-      rotary_travel = std::max(rotary_travel, std::abs(rotary_end[letter] - start[letter]));
+      rotary_travel = std::max(rotary_travel, std::abs(end[letter] - start[letter]));
     }
     const double linear_travel = (linear_part(end) - linear_part(start)).norm();
     const int parts =
@@ -322,11 +322,17 @@ class Controller::State {
       return ToolPose{pose.translation, pose.rotation.col(2)};
     };
     ToolPath& path = execution_.path;
-    if (chain_broken_ || path.poses.empty()) path.poses.push_back(actual(0.0));
+    const auto append = [&](double u, const ToolPose& pose) {
+      path.poses.push_back(pose);
+      path.axes.push_back(commanded(u));
+    };
+    if (chain_broken_ || path.poses.empty()) append(0.0, actual(0.0));
     chain_broken_ = false;
     const auto first = static_cast<std::uint32_t>(path.poses.size() - 1);
-    sample_motion(actual, path.poses.back(), {options_.path_bound, tool.flute_length, parts},
-                  path.poses);
+    const SamplingOptions sampling{options_.path_bound, tool.flute_length, parts};
+    for (const PathSample& sample : sample_motion(actual, path.poses.back(), sampling)) {
+      append(sample.u, sample.pose);
+    }
     const auto block = static_cast<std::uint32_t>(path.blocks.size());
     path.blocks.push_back({place_.line, kind, spindle_on_, tool_, feed});
     for (auto i = first; i + 1 < path.poses.size(); ++i) path.stretches.push_back({i, block});

@@ -1,6 +1,7 @@
 #include "kinematics/path_sampling.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace frustum::kinematics {
 namespace {
@@ -17,20 +18,21 @@ double distance(const ToolPose& a, const ToolPose& b, double reach) {
 
 class Sampler {
  public:
-  Sampler(const std::function<ToolPose(double)>& motion, const SamplingOptions& options,
-          std::vector<ToolPose>& poses)
-      : motion_(motion), options_(options), poses_(poses) {}
+  Sampler(const std::function<ToolPose(double)>& motion, const SamplingOptions& options)
+      : motion_(motion), options_(options) {}
 
   void split(double u0, const ToolPose& from, double u1, const ToolPose& to, int depth) {
     const double middle_u = 0.5 * (u0 + u1);
     const ToolPose middle = motion_(middle_u);
     if (depth >= kDeepest || straight(u0, from, u1, to, middle)) {
-      poses_.push_back(to);
+      samples_.push_back({u1, to});
       return;
     }
     split(u0, from, middle_u, middle, depth + 1);
     split(middle_u, middle, u1, to, depth + 1);
   }
+
+  [[nodiscard]] std::vector<PathSample> samples() && { return std::move(samples_); }
 
  private:
   [[nodiscard]] bool straight(double u0, const ToolPose& from, double u1, const ToolPose& to,
@@ -46,14 +48,14 @@ class Sampler {
 
   const std::function<ToolPose(double)>& motion_;
   const SamplingOptions& options_;
-  std::vector<ToolPose>& poses_;
+  std::vector<PathSample> samples_;
 };
 
 }  // namespace
 
-void sample_motion(const std::function<ToolPose(double)>& motion, const ToolPose& from,
-                   const SamplingOptions& options, std::vector<ToolPose>& poses) {
-  Sampler sampler(motion, options, poses);
+std::vector<PathSample> sample_motion(const std::function<ToolPose(double)>& motion,
+                                      const ToolPose& from, const SamplingOptions& options) {
+  Sampler sampler(motion, options);
   ToolPose before = from;
   for (int part = 1; part <= options.least_parts; ++part) {
     const double u0 = static_cast<double>(part - 1) / options.least_parts;
@@ -62,6 +64,7 @@ void sample_motion(const std::function<ToolPose(double)>& motion, const ToolPose
     sampler.split(u0, before, u1, after, 0);
     before = after;
   }
+  return std::move(sampler).samples();
 }
 
 }  // namespace frustum::kinematics

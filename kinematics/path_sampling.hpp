@@ -19,8 +19,14 @@ struct SamplingOptions {
   int least_parts = 1;  // the motion is cut into this many equal parts first
 };
 
-// Appends the poses of motion(u), u in (0, 1]; motion(0) is `from` and is not appended.
-void sample_motion(const std::function<ToolPose(double)>& motion, const ToolPose& from,
-                   const SamplingOptions& options, std::vector<ToolPose>& poses);
+struct PathSample {
+  double u = 0.0;
+  ToolPose pose{};  // motion(u)
+};
+
+// Samples of motion(u), u in (0, 1]; motion(0) is `from` and is left out.
+[[nodiscard]] std::vector<PathSample> sample_motion(const std::function<ToolPose(double)>& motion,
+                                                    const ToolPose& from,
+                                                    const SamplingOptions& options);
 
 }  // namespace frustum::kinematics

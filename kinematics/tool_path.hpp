@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
+#include "kinematics/axes.hpp"
 
 namespace frustum::kinematics {
 
@@ -41,6 +42,8 @@ struct Stretch {
 
 struct ToolPath {
   std::vector<ToolPose> poses{};
+  std::vector<AxisPositions>
+      axes{};  // commanded at each pose; empty when the path comes from elsewhere
   std::vector<Stretch> stretches{};  // in program order
   std::vector<PathBlock> blocks{};
   double bound = 1e-5;  // mm: the chord bound that the sampling kept

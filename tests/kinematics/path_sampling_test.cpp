@@ -36,7 +36,11 @@ TEST(PathSampling, KeepsTheBoundAtTipAndTopOfTheCutter) {
   };
   for (const double bound : {1e-3, 1e-5}) {
     std::vector<ToolPose> poses{motion(0.0)};
-    sample_motion(motion, poses.front(), {.bound = bound, .reach = 50.0}, poses);
+    for (const PathSample& s :
+         sample_motion(motion, motion(0.0), {.bound = bound, .reach = 50.0})) {
+      EXPECT_EQ(s.pose.tip, motion(s.u).tip);
+      poses.push_back(s.pose);
+    }
     EXPECT_LT(worst_distance(motion, poses, 50.0), bound);
     EXPECT_LT(poses.size(), bound == 1e-3 ? 400U : 4000U);
   }
@@ -44,9 +48,7 @@ TEST(PathSampling, KeepsTheBoundAtTipAndTopOfTheCutter) {
 
 TEST(PathSampling, LeavesAStraightMoveAlone) {
   const auto motion = [](double u) { return ToolPose{Vec3(100 * u, 20 * u, 0), Vec3::UnitZ()}; };
-  std::vector<ToolPose> poses{motion(0.0)};
-  sample_motion(motion, poses.front(), {}, poses);
-  EXPECT_EQ(poses.size(), 2U);
+  EXPECT_EQ(sample_motion(motion, motion(0.0), {}).size(), 1U);
 }
 
 }  // namespace

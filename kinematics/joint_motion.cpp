@@ -1,0 +1,42 @@
+#include "kinematics/joint_motion.hpp"
+
+namespace frustum::kinematics {
+
+Pose nominal_joint(const Joint& joint, double q) {
+  if (joint.rotary()) {
+    return {rotation_about(joint.direction, joint.side * q), joint.offset};
+  }
+  return Pose::translated(joint.offset + joint.side * q * joint.direction);
+}
+
+JointErrors errors_at(const AxisErrors& axis, double q) {
+  JointErrors e;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (!axis.component[k].is_zero()) e.shift[i] = axis.component[k](q);
+    if (!axis.component[k + 3].is_zero()) e.turn[i] = axis.component[k + 3](q);
+    e.location[i] = axis.location[k];
+    e.orientation[i] = axis.location[k + 3];
+  }
+  e.carried_tilt = axis.carried_tilt;
+  return e;
+}
+
+Vec3 functional_point(const Machine& machine, std::span<const Joint> joints, std::size_t i,
+                      const AxisPositions& q, const Pose& end) {
+  const Joint& joint = joints[i];
+  if (!joint.functional_point.at_tip) return joint.functional_point.point;
+  Pose from_end = end;
+  for (std::size_t k = joints.size(); k-- > i + 1;) {
+    from_end = nominal_joint(joints[k], q[joints[k].letter]) * from_end;
+  }
+  const bool before_rotation =
+      joint.rotary() && machine.rotary_error_frame() == RotaryErrorFrame::stator;
+  if (before_rotation) {
+    from_end =
+        Pose::rotated(rotation_about(joint.direction, joint.side * q[joint.letter])) * from_end;
+  }
+  return from_end.translation;
+}
+
+}  // namespace frustum::kinematics
