@@ -22,10 +22,14 @@ constexpr int kOutOfTolerance = 1;
 constexpr int kBadInput = 2;
 constexpr int kInternalFault = 3;
 
+// Columns of tables on stdout, whether a terminal or a file reads them.
+constexpr int kTableWidth = 140;
+
 // A subcommand adds itself to the command line and stores its exit code when it ran.
 using Subcommand = void (*)(CLI::App& program, int& exit_code);
 
 void add_run(CLI::App& program, int& exit_code);
+void add_sensitivity(CLI::App& program, int& exit_code);
 void add_program(CLI::App& program, int& exit_code);
 void add_parse(CLI::App& program, int& exit_code);
 void add_pose(CLI::App& program, int& exit_code);

@@ -129,18 +129,14 @@ double Profile::support(double u) const {
   return best;
 }
 
-Vec3 Profile::normal(const ToolPose& pose, const Vec3& point) const {
+Profile::Nearest Profile::nearest_surface(const ToolPose& pose, const Vec3& point) const {
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
   const Vec3 across = m - z * pose.axis;
   const double rho = across.norm();
-  double nearest = std::abs(z - height_);
-  Vec3 normal = pose.axis;
+  Nearest nearest{std::abs(z - height_), pose.axis};
   const auto offer = [&](double distance, const Vec3& direction) {
-    if (distance < nearest) {
-      nearest = distance;
-      normal = direction;
-    }
+    if (distance < nearest.distance) nearest = {distance, direction};
   };
   if (radius_at(zones_.front(), zones_.front().z_lo) > 0.0) offer(std::abs(z), -pose.axis);
   for (const Zone& zone : zones_) {
@@ -156,7 +152,22 @@ Vec3 Profile::normal(const ToolPose& pose, const Vec3& point) const {
       }
     }
   }
-  return normal;
+  return nearest;
+}
+
+Vec3 Profile::normal(const ToolPose& pose, const Vec3& point) const {
+  return nearest_surface(pose, point).normal;
+}
+
+bool Profile::touches(const ToolPose& pose, const Vec3& point, double tolerance) const {
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  const double rho = (m - z * pose.axis).norm();
+  const bool within = std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) {
+    return z >= zone.z_lo - tolerance && z <= zone.z_hi + tolerance &&
+           rho <= radius_at(zone, std::clamp(z, zone.z_lo, zone.z_hi)) + tolerance;
+  });
+  return within && nearest_surface(pose, point).distance <= tolerance;
 }
 
 }  // namespace frustum::cutter

@@ -51,6 +51,8 @@ class Profile {
   [[nodiscard]] double support(double u) const;
   // Outward unit normal of the body's surface nearest to `point`.
   [[nodiscard]] Vec3 normal(const ToolPose& pose, const Vec3& point) const;
+  // True when `point` lies on the body's surface, within `tolerance` of it.
+  [[nodiscard]] bool touches(const ToolPose& pose, const Vec3& point, double tolerance) const;
 
   [[nodiscard]] double height() const { return height_; }
   [[nodiscard]] double max_radius() const { return max_radius_; }
@@ -58,6 +60,12 @@ class Profile {
   [[nodiscard]] double reach() const { return reach_; }
 
  private:
+  struct Nearest {
+    double distance = 0.0;
+    Vec3 normal = Vec3::UnitZ();
+  };
+  [[nodiscard]] Nearest nearest_surface(const ToolPose& pose, const Vec3& point) const;
+
   std::vector<Zone> zones_;
   double height_ = 0.0;
   double max_radius_ = 0.0;

@@ -22,7 +22,32 @@ double value(const TableTerm& term, double q) {
   return before.second + t * (after->second - before.second);
 }
 
+ErrorTerm scaled(ConstantTerm term, double factor) {
+  term.value *= factor;
+  return term;
+}
+ErrorTerm scaled(LinearTerm term, double factor) {
+  term.slope *= factor;
+  return term;
+}
+ErrorTerm scaled(HarmonicTerm term, double factor) {
+  term.amplitude *= factor;
+  return term;
+}
+ErrorTerm scaled(TableTerm term, double factor) {
+  for (auto& point : term.points) point.second *= factor;
+  return term;
+}
+
 }  // namespace
+
+ErrorFunction ErrorFunction::plus(const ErrorFunction& other, double factor) const {
+  std::vector<ErrorTerm> terms = terms_;
+  for (const ErrorTerm& term : other.terms_) {
+    terms.push_back(std::visit([factor](const auto& t) { return scaled(t, factor); }, term));
+  }
+  return ErrorFunction(std::move(terms));
+}
 
 double ErrorFunction::operator()(double q) const {
   double sum = 0.0;

@@ -38,6 +38,8 @@ class ErrorFunction {
 
   [[nodiscard]] bool is_zero() const { return terms_.empty(); }
   [[nodiscard]] double operator()(double q) const;
+  // This function plus `factor` times the other.
+  [[nodiscard]] ErrorFunction plus(const ErrorFunction& other, double factor) const;
 
  private:
   std::vector<ErrorTerm> terms_;

@@ -144,6 +144,20 @@ std::string ErrorName::meaning() const {
   return fmt::format("{} motion of {} in {}", axial ? "axial" : "radial", axis_text, d);
 }
 
+GeometricErrors GeometricErrors::plus(const GeometricErrors& others, double factor) const {
+  GeometricErrors sum = *this;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    AxisErrors& axis = sum.axes_[i];
+    const AxisErrors& other = others.axes_[i];
+    for (std::size_t k = 0; k < axis.component.size(); ++k) {
+      axis.component[k] = axis.component[k].plus(other.component[k], factor);
+      axis.location[k] += factor * other.location[k];
+    }
+    axis.carried_tilt += factor * other.carried_tilt;
+  }
+  return sum;
+}
+
 Result<GeometricErrors> resolve(const Machine& machine, std::span<const ErrorEntry> entries,
                                 const AxisSpans& spans) {
   GeometricErrors errors;

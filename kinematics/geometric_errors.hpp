@@ -55,6 +55,8 @@ class GeometricErrors {
   const AxisErrors& operator[](AxisLetter axis) const {
     return axes_[static_cast<std::size_t>(axis)];
   }
+  // These errors plus `factor` times the others.
+  [[nodiscard]] GeometricErrors plus(const GeometricErrors& others, double factor) const;
 
  private:
   std::array<AxisErrors, 6> axes_{};

@@ -100,6 +100,75 @@ Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) 
   return stock::Workpiece(*std::move(blank), *std::move(swept));
 }
 
+// What the program commands, whatever the machine's errors.
+struct CommandedRun {
+  std::vector<parser::Motion> motions{};
+  kinematics::Setup setup{};
+  std::vector<OperationTrace> operations{};
+  Diagnostics warnings{};
+};
+
+void tell(const TrialOptions& options, Stage stage) {
+  if (options.on_stage) options.on_stage(stage);
+}
+
+Result<CommandedRun> commanded_run(const Machine& machine, const TestPiece& piece,
+                                   const TrialOptions& options) {
+  tell(options, Stage::parse);
+  const auto program = parser::parse_program(piece.program, piece.program_file);
+  if (!program) return program.error();
+  auto motions = parser::motions_of(*program);
+  if (!motions) return motions.error();
+  CommandedRun run;
+  run.motions = *std::move(motions);
+  run.setup = setup_of(piece);
+  tell(options, Stage::execute);
+  const auto execution =
+      kinematics::execute(machine, GeometricErrors{}, run.setup, run.motions,
+                          {.path_bound = options.path_bound, .sample_path = false});
+  if (!execution) return in_file(execution.error(), piece.program_file);
+  run.operations = traces_of(machine, piece, execution->axes);
+  run.warnings = in_file(execution->warnings, piece.program_file);
+  return run;
+}
+
+Result<GeometricErrors> injected(const Machine& machine,
+                                 std::span<const kinematics::ErrorEntry> errors,
+                                 const TestPiece& piece, const CommandedRun& run) {
+  const auto spans = error_spans(piece, run.operations);
+  if (!spans) return spans.error();
+  return kinematics::resolve(machine, errors, *spans);
+}
+
+Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
+                       const TestPiece& piece, CommandedRun run, const metrology::CmmModel& cmm,
+                       const TrialOptions& options) {
+  auto execution = kinematics::execute(machine, errors, run.setup, run.motions,
+                                       {.path_bound = options.path_bound});
+  if (!execution) return in_file(execution.error(), piece.program_file);
+  Trial trial;
+  trial.operations = std::move(run.operations);
+  trial.warnings = std::move(run.warnings);
+
+  tell(options, Stage::cut);
+  auto workpiece = cut(piece, std::move(execution->path));
+  if (!workpiece) return workpiece.error();
+  trial.workpiece = std::make_shared<const stock::Workpiece>(*std::move(workpiece));
+
+  if (options.find_collisions) {
+    tell(options, Stage::collide);
+    trial.collisions = stock::find_collisions(*trial.workpiece);
+  }
+  if (options.measure) {
+    tell(options, Stage::measure);
+    const WorkpieceProbe probe(*trial.workpiece);
+    auto measurement = metrology::measure(piece.plan, probe, cmm);
+    if (!measurement) return measurement.error();
+    trial.measurement = *std::move(measurement);
+  }
+  return trial;
+}
+
 }  // namespace
 
 std::string_view name_of(Stage stage) {
@@ -110,50 +179,27 @@ std::string_view name_of(Stage stage) {
 Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::ErrorEntry> errors,
                         const TestPiece& piece, const metrology::CmmModel& cmm,
                         const TrialOptions& options) {
-  const auto begin = [&](Stage stage) {
-    if (options.on_stage) options.on_stage(stage);
-  };
-  begin(Stage::parse);
-  const auto program = parser::parse_program(piece.program, piece.program_file);
-  if (!program) return program.error();
-  const auto motions = parser::motions_of(*program);
-  if (!motions) return motions.error();
+  auto run = commanded_run(machine, piece, options);
+  if (!run) return std::move(run).error();
+  const auto resolved = injected(machine, errors, piece, *run);
+  if (!resolved) return resolved.error();
+  return finished(machine, *resolved, piece, *std::move(run), cmm, options);
+}
 
-  // What the controller commands does not depend on the errors; the errors may depend on its ranges.
-  begin(Stage::execute);
-  const kinematics::Setup setup = setup_of(piece);
-  const auto commanded =
-      kinematics::execute(machine, GeometricErrors{}, setup, *motions,
-                          {.path_bound = options.path_bound, .sample_path = false});
-  if (!commanded) return in_file(commanded.error(), piece.program_file);
-  Trial trial;
-  trial.operations = traces_of(machine, piece, commanded->axes);
-  trial.warnings = in_file(commanded->warnings, piece.program_file);
-  const auto spans = error_spans(piece, trial.operations);
-  if (!spans) return spans.error();
-  const auto injected = kinematics::resolve(machine, errors, *spans);
-  if (!injected) return injected.error();
-  auto execution =
-      kinematics::execute(machine, *injected, setup, *motions, {.path_bound = options.path_bound});
-  if (!execution) return in_file(execution.error(), piece.program_file);
+Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
+                        const TestPiece& piece, const metrology::CmmModel& cmm,
+                        const TrialOptions& options) {
+  auto run = commanded_run(machine, piece, options);
+  if (!run) return std::move(run).error();
+  return finished(machine, errors, piece, *std::move(run), cmm, options);
+}
 
-  begin(Stage::cut);
-  auto workpiece = cut(piece, std::move(execution->path));
-  if (!workpiece) return workpiece.error();
-  trial.workpiece = std::make_shared<const stock::Workpiece>(*std::move(workpiece));
-
-  if (options.find_collisions) {
-    begin(Stage::collide);
-    trial.collisions = stock::find_collisions(*trial.workpiece);
-  }
-  if (options.measure) {
-    begin(Stage::measure);
-    const WorkpieceProbe probe(*trial.workpiece);
-    auto measurement = metrology::measure(piece.plan, probe, cmm);
-    if (!measurement) return measurement.error();
-    trial.measurement = *std::move(measurement);
-  }
-  return trial;
+Result<GeometricErrors> errors_for(const Machine& machine,
+                                   std::span<const kinematics::ErrorEntry> errors,
+                                   const TestPiece& piece) {
+  const auto run = commanded_run(machine, piece, {});
+  if (!run) return run.error();
+  return injected(machine, errors, piece, *run);
 }
 
 std::optional<metrology::Touch> WorkpieceProbe::touch(const Vec3& start, const UnitVec3& direction,

@@ -56,6 +56,18 @@ struct TrialOptions {
                                       const programs::TestPiece& piece,
                                       const metrology::CmmModel& cmm,
                                       const TrialOptions& options = {});
+// With errors whose shapes have found their spans already.
+[[nodiscard]] Result<Trial> run_trial(const kinematics::Machine& machine,
+                                      const kinematics::GeometricErrors& errors,
+                                      const programs::TestPiece& piece,
+                                      const metrology::CmmModel& cmm,
+                                      const TrialOptions& options = {});
+
+// The errors as this piece's program meets them: shapes without a span lie over what the operation that
+// its error_span names travels.
+[[nodiscard]] Result<kinematics::GeometricErrors> errors_for(
+    const kinematics::Machine& machine, std::span<const kinematics::ErrorEntry> errors,
+    const programs::TestPiece& piece);
 
 // Makes a workpiece answer approaches: the bridge between stock and metrology.
 class WorkpieceProbe {

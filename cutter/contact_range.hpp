@@ -1,0 +1,30 @@
+// For how long one surface point is touched by the pass that made it.
+//
+// Model    : a generatrix touches a point at one moment; a flat end face that moves in its own plane, or a
+//            side face that moves along its own axis, touches it as long as the point is under the face.
+//            The range begins and ends where the face leaves the point
+// Units    : mm
+// Shape    : one point of one block; walks over the neighbouring stretches of that block
+// Errors   : none
+// Accuracy : a point within 2 nm of the cutter counts as touched; the ends are found to 1e-9 of a stretch
+// Source   : ours
+#pragma once
+
+#include <vector>
+
+#include "cutter/swept_cutter.hpp"
+
+namespace frustum::cutter {
+
+// A moment of a tool path: within a stretch, t in [0, 1].
+struct PathMoment {
+  std::uint32_t stretch = 0;
+  double t = 0.0;
+};
+
+// First and last moment, and the ends of stretches between them, in order; one moment for a contact that
+// is gone at once. The contact's own moment lies between the first and the last.
+[[nodiscard]] std::vector<PathMoment> contact_range(const SweptCutter& swept,
+                                                    const SweepContact& contact, const Vec3& point);
+
+}  // namespace frustum::cutter

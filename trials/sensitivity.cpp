@@ -1,0 +1,138 @@
+#include "trials/sensitivity.hpp"
+
+#include "metrology/characteristic.hpp"
+#include "metrology/cmm.hpp"
+#include "trials/surface_gain.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::trials {
+namespace {
+
+using kinematics::GeometricErrors;
+using kinematics::Machine;
+using programs::TestPiece;
+
+// Steps by which measured points are moved: small against every curvature, large against rounding.
+constexpr DifferenceSteps kEvaluationSteps{1e-3, 1e-6};
+
+double step_of(const Parameter& parameter, const DifferenceSteps& steps) {
+  return parameter.angular ? steps.angle : steps.length;
+}
+
+TrialOptions quiet(double path_bound) {
+  TrialOptions options;
+  options.path_bound = path_bound;
+  options.find_collisions = false;
+  return options;
+}
+
+// Characteristics of the measured part when every point moves along its normal.
+class MovedPoints {
+ public:
+  MovedPoints(const TestPiece& piece, const metrology::Measurement& measurement)
+      : piece_(piece), measurement_(measurement) {}
+
+  [[nodiscard]] Result<Eigen::VectorXd> characteristics(const Eigen::VectorXd& moves) const {
+    std::vector<metrology::FeaturePoints> features;
+    Eigen::Index row = 0;
+    for (const auto& feature : measurement_.features) {
+      metrology::FeaturePoints points{feature.name, {}, {}};
+      for (const metrology::MeasuredPoint& p : feature.points) {
+        const Vec3 moved = p.point + moves[row++] * p.normal;
+        points.points.push_back(measurement_.workpiece_from_datum.point(moved));
+        points.sections.push_back(p.section);
+      }
+      features.push_back(std::move(points));
+    }
+    const auto evaluated = metrology::evaluate(piece_.plan, features);
+    if (!evaluated) return evaluated.error();
+    return values_of(*evaluated);
+  }
+
+ private:
+  const TestPiece& piece_;
+  const metrology::Measurement& measurement_;
+};
+
+Sensitivity empty_for(metrology::Measurement measurement, std::span<const Parameter> parameters) {
+  Sensitivity s;
+  const auto rows = static_cast<Eigen::Index>(measurement.characteristics.size());
+  const auto columns = static_cast<Eigen::Index>(parameters.size());
+  s.measurement = std::move(measurement);
+  s.parameters.assign(parameters.begin(), parameters.end());
+  s.odd = s.even = Eigen::MatrixXd::Zero(rows, columns);
+  return s;
+}
+
+void set_column(Sensitivity& s, Eigen::Index column, double step, const Eigen::VectorXd& plus,
+                const Eigen::VectorXd& minus, const Eigen::VectorXd& centre) {
+  s.odd.col(column) = (plus - minus) / (2.0 * step);
+  s.even.col(column) = (plus + minus - 2.0 * centre) / (2.0 * step);
+}
+
+// The machine and the piece with one parameter raised by `amount`.
+Result<Trial> varied_trial(const Machine& machine, const GeometricErrors& errors, TestPiece piece,
+                           const Parameter& parameter, double amount, double path_bound) {
+  if (parameter.unit) {
+    return run_trial(machine, errors.plus(*parameter.unit, amount), piece, {}, quiet(path_bound));
+  }
+  for (auto& [number, tool] : piece.tools) tool.radius_error.value += amount;
+  return run_trial(machine, errors, piece, {}, quiet(path_bound));
+}
+
+}  // namespace
+
+Eigen::VectorXd values_of(const metrology::Measurement& measurement) {
+  const auto& characteristics = measurement.characteristics;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(characteristics.size()));
+  for (std::size_t i = 0; i < characteristics.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = metrology::internal_value(characteristics[i]);
+  }
+  return values;
+}
+
+Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& errors,
+                                const TestPiece& piece, std::span<const Parameter> parameters,
+                                double path_bound) {
+  const auto trial = run_trial(machine, errors, piece, {}, quiet(path_bound));
+  if (!trial) return trial.error();
+  const auto gains = surface_gains(machine, piece, *trial, parameters);
+  if (!gains) return gains.error();
+  const MovedPoints points(piece, trial->measurement);
+  const auto centre = points.characteristics(Eigen::VectorXd::Zero(gains->odd.rows()));
+  if (!centre) return centre.error();
+  Sensitivity s = empty_for(trial->measurement, parameters);
+  for (Eigen::Index k = 0; k < gains->odd.cols(); ++k) {
+    const double step = step_of(parameters[static_cast<std::size_t>(k)], kEvaluationSteps);
+    const Eigen::VectorXd odd = step * gains->odd.col(k), even = step * gains->even.col(k);
+    const auto plus = points.characteristics(even + odd);
+    const auto minus = points.characteristics(even - odd);
+    if (!plus) return plus.error();
+    if (!minus) return minus.error();
+    set_column(s, k, step, *plus, *minus, *centre);
+  }
+  return s;
+}
+
+Result<Sensitivity> sensitivity_by_differences(const Machine& machine,
+                                               const GeometricErrors& errors,
+                                               const TestPiece& piece,
+                                               std::span<const Parameter> parameters,
+                                               const DifferenceSteps& steps, double path_bound) {
+  const auto trial = run_trial(machine, errors, piece, {}, quiet(path_bound));
+  if (!trial) return trial.error();
+  const Eigen::VectorXd centre = values_of(trial->measurement);
+  Sensitivity s = empty_for(trial->measurement, parameters);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const double step = step_of(parameters[k], steps);
+    const auto plus = varied_trial(machine, errors, piece, parameters[k], step, path_bound);
+    if (!plus) return plus.error();
+    const auto minus = varied_trial(machine, errors, piece, parameters[k], -step, path_bound);
+    if (!minus) return minus.error();
+    set_column(s, static_cast<Eigen::Index>(k), step, values_of(plus->measurement),
+               values_of(minus->measurement), centre);
+  }
+  return s;
+}
+
+}  // namespace frustum::trials

@@ -1,0 +1,55 @@
+// Derivatives of every characteristic of a test piece to machine errors and to the tool radius.
+//
+// Model    : the piece is cut and measured by a noise-free CMM with the errors given. About that trial a
+//            characteristic answers a parameter e by  odd e + even |e|. Two independent ways:
+//              analytic     every measured point is moved by its gain (surface_gain.hpp) and the plan is
+//                           evaluated again: one trial for all parameters
+//              differences  whole trials with the parameter at +step and -step:
+//                           odd = (f+ - f-) / 2 step, even = (f+ + f- - 2 f0) / 2 step
+// Units    : mm and rad: characteristics per parameter
+// Shape    : characteristics of the plan by parameters
+// Errors   : those of the trial and of the evaluation
+// Accuracy : the two agree to 1e-4 relative on the step patterns (tests/trials/sensitivity_test.cpp)
+// Source   : ours; the odd part is what linear models of machining tests call sensitivity, the even part
+//            is the dish that a leaning end face cuts, and what forms answer about a perfect part
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "kinematics/machine.hpp"
+#include "metrology/measurement.hpp"
+#include "programs/test_piece.hpp"
+#include "trials/parameter.hpp"
+
+namespace frustum::trials {
+
+struct Sensitivity {
+  metrology::Measurement measurement{};  // about which the derivatives are taken
+  std::vector<Parameter> parameters{};
+  Eigen::MatrixXd odd{};   // rows: measurement.characteristics; columns: parameters
+  Eigen::MatrixXd even{};  // of the same shape
+};
+
+[[nodiscard]] Result<Sensitivity> sensitivity(const kinematics::Machine& machine,
+                                              const kinematics::GeometricErrors& errors,
+                                              const programs::TestPiece& piece,
+                                              std::span<const Parameter> parameters,
+                                              double path_bound = 1e-5);
+
+struct DifferenceSteps {
+  double length = 1e-3;  // mm
+  double angle = 1e-6;   // rad
+};
+[[nodiscard]] Result<Sensitivity> sensitivity_by_differences(
+    const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
+    const programs::TestPiece& piece, std::span<const Parameter> parameters,
+    const DifferenceSteps& steps = {}, double path_bound = 1e-5);
+
+// Values of all characteristics in mm and rad.
+[[nodiscard]] Eigen::VectorXd values_of(const metrology::Measurement& measurement);
+
+}  // namespace frustum::trials

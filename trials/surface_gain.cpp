@@ -1,0 +1,142 @@
+#include "trials/surface_gain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "cutter/contact_range.hpp"
+#include "kinematics/error_gain.hpp"
+
+namespace frustum::trials {
+namespace {
+
+using cutter::PathMoment;
+using cutter::SweptCutter;
+using kinematics::AxisPositions;
+using programs::TestPiece;
+
+// A measured point has been on the surface but for the accuracy of the ball's contact.
+constexpr double kSearch = 0.05;  // mm, to either side
+// Step of the support function's derivative, which is linear in the radius but for rounding.
+constexpr double kRadiusStep = 1e-3;  // mm
+
+// The cutter with a radius larger and smaller by kRadiusStep.
+struct RadiusPair {
+  cutter::Cutter larger, smaller;
+
+  [[nodiscard]] double support_gain(double u) const {
+    return (larger.profile().support(u) - smaller.profile().support(u)) / (2.0 * kRadiusStep);
+  }
+};
+
+Result<std::map<int, RadiusPair>> radius_pairs(const TestPiece& piece) {
+  std::map<int, RadiusPair> pairs;
+  for (const auto& [number, spec] : piece.tools) {
+    cutter::CutterSpec larger = spec, smaller = spec;
+    larger.radius_error.value += kRadiusStep;
+    smaller.radius_error.value -= kRadiusStep;
+    auto plus = cutter::Cutter::make(larger), minus = cutter::Cutter::make(smaller);
+    if (!plus) return std::move(plus).error();
+    if (!minus) return std::move(minus).error();
+    pairs.emplace(number, RadiusPair{*std::move(plus), *std::move(minus)});
+  }
+  return pairs;
+}
+
+AxisPositions axes_at(const kinematics::ToolPath& path, const PathMoment& moment) {
+  const std::uint32_t first = path.stretches[moment.stretch].first_pose;
+  AxisPositions q = path.axes[first];
+  for (const auto letter : kinematics::kAxisLetters) {
+    q[letter] += moment.t * (path.axes[first + 1][letter] - q[letter]);
+  }
+  return q;
+}
+
+class GainAtPoint {
+ public:
+  GainAtPoint(const kinematics::Machine& machine, const TestPiece& piece, const SweptCutter& swept,
+              const std::map<int, RadiusPair>& radii)
+      : machine_(machine),
+        piece_(piece),
+        swept_(swept),
+        radii_(radii),
+        workpiece_from_table_(piece.placement.table_from_workpiece().inverse().rotation) {}
+
+  // Motion along the outward normal n of the surface point p that was cut at this moment.
+  [[nodiscard]] double operator()(const Parameter& parameter, const PathMoment& moment,
+                                  const Vec3& p, const Vec3& n) const {
+    const kinematics::ToolPath& path = swept_.path();
+    const kinematics::Stretch& stretch = path.stretches[moment.stretch];
+    const int tool = path.blocks[stretch.block].tool;
+    const auto pose = kinematics::between(path.from(stretch), path.to(stretch), moment.t);
+    if (!parameter.unit)
+      return -radii_.at(tool).support_gain(std::clamp(-n.dot(pose.axis), -1.0, 1.0));
+    const cutter::CutterSpec& spec = piece_.tools.at(tool);
+    const auto moved =
+        kinematics::first_order_displacement(machine_, *parameter.unit, axes_at(path, moment),
+                                             spec.length.value + spec.length_error.value);
+    const Vec3 tip = workpiece_from_table_ * moved.tip;
+    const Vec3 turn = workpiece_from_table_ * moved.turn;
+    return n.dot(tip + turn.cross(p - pose.tip));
+  }
+
+ private:
+  const kinematics::Machine& machine_;
+  const TestPiece& piece_;
+  const SweptCutter& swept_;
+  const std::map<int, RadiusPair>& radii_;
+  Mat3 workpiece_from_table_;
+};
+
+Diagnostic lost(const std::string& feature, std::size_t index) {
+  return error(fmt::format("feature '{}', point {}: there is no surface within {} mm of it",
+                           feature, index + 1, kSearch),
+               "the gains need the points of the same trial, measured without noise");
+}
+
+}  // namespace
+
+Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const TestPiece& piece,
+                                   const Trial& trial, std::span<const Parameter> parameters) {
+  const auto radii = radius_pairs(piece);
+  if (!radii) return radii.error();
+  const SweptCutter& swept = trial.workpiece->removed();
+  const GainAtPoint gain(machine, piece, swept, *radii);
+  const Pose& workpiece_from_datum = trial.measurement.workpiece_from_datum;
+
+  Eigen::Index rows = 0;
+  for (const auto& feature : trial.measurement.features) {
+    rows += static_cast<Eigen::Index>(feature.points.size());
+  }
+  const auto columns = static_cast<Eigen::Index>(parameters.size());
+  SurfaceGains gains{Eigen::MatrixXd::Zero(rows, columns), Eigen::MatrixXd::Zero(rows, columns)};
+  Eigen::Index row = -1;
+  for (const auto& feature : trial.measurement.features) {
+    for (std::size_t i = 0; i < feature.points.size(); ++i) {
+      ++row;
+      const Vec3 measured = workpiece_from_datum.point(feature.points[i].point);
+      const Vec3 n = workpiece_from_datum.direction(feature.points[i].normal);
+      const stock::Ray ray{measured + kSearch * n, -n};
+      const auto surface = trial.workpiece->first_surface(ray, {0.0, 2.0 * kSearch});
+      if (!surface) return lost(feature.name, i);
+      if (!surface->stretch) continue;  // the blank's own surface stays
+      const auto contact = swept.contact(ray, surface->s, *surface->stretch);
+      const auto moments = cutter::contact_range(swept, contact, surface->point);
+      for (Eigen::Index k = 0; k < columns; ++k) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const PathMoment& moment : moments) {
+          const double g = gain(parameters[static_cast<std::size_t>(k)], moment, surface->point, n);
+          low = std::min(low, g);
+          high = std::max(high, g);
+        }
+        gains.odd(row, k) = 0.5 * (low + high);
+        gains.even(row, k) = -0.5 * (high - low);
+      }
+    }
+  }
+  return gains;
+}
+
+}  // namespace frustum::trials
