@@ -151,10 +151,10 @@ enum class CharacteristicKind {
   radius,            // against the nominal; cone: in the section through the nominal point
   diameter,
   line_distance,  // features = [first, second], lines: distance of their least-squares lines along
-                  // `direction`, second minus first, minus the planned distance; taken at the planned
-                  // `point` of the first
-  line_angle,     // features = [first, second], lines: angle of the second minus that of the first,
-                  // right-handed about `direction`, minus the planned one
+  // `direction`, second minus first, minus the planned distance; taken at the planned
+  // `point` of the first
+  line_angle,  // features = [first, second], lines: angle of the second minus that of the first,
+               // right-handed about `direction`, minus the planned one
 };
 
 struct PlannedCharacteristic {
@@ -184,6 +184,10 @@ struct InspectionPlan {
 
 [[nodiscard]] std::string_view name_of(FeatureKind kind);
 [[nodiscard]] std::string_view name_of(CharacteristicKind kind);
+// line_distance, line_angle: two lines against each other, along or about a direction.
+[[nodiscard]] bool compares_lines(CharacteristicKind kind);
+// Its value and its tolerance are angles.
+[[nodiscard]] bool is_angle(CharacteristicKind kind);
 
 [[nodiscard]] Result<InspectionPlan> load_plan(const std::filesystem::path& file);
 // `file` names the text in diagnostics.
@@ -197,5 +201,6 @@ struct InspectionPlan {
 [[nodiscard]] Diagnostics check(const InspectionPlan& plan);
 
 [[nodiscard]] const PlannedFeature* find_feature(const InspectionPlan& plan, std::string_view name);
+[[nodiscard]] const PlannedFrame* find_frame(const InspectionPlan& plan, std::string_view name);
 
 }  // namespace frustum::metrology
