@@ -37,9 +37,21 @@ void read_program(const TomlTable& root, programs::TestPiece& piece) {
   }
 }
 
+// sections = [[z, size_x, size_y], ...]; what makes no body is told by stock::Blank::make.
+stock::LoftShape read_loft(const TomlTable& blank) {
+  stock::LoftShape loft;
+  const auto rows = blank.rows("sections", 3);
+  for (const auto& row : rows) loft.sections.push_back({row[0], row[1], row[2]});
+  if (rows.empty()) return loft;
+  if (const auto made = stock::Blank::make(loft, Vec3::Zero()); !made) {
+    blank.fail("sections", made.error().front().message, made.error().front().hint);
+  }
+  return loft;
+}
+
 void read_blank(const TomlTable& root, programs::TestPiece& piece) {
   const TomlTable blank = root.table("blank");
-  const std::size_t shape = blank.choice("shape", {"box", "cylinder", "frustum"});
+  const std::size_t shape = blank.choice("shape", {"box", "cylinder", "frustum", "loft"});
   double height = 0.0;
   if (shape == 0) {
     const Vec3 size = blank.vector("size");
@@ -49,6 +61,10 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
     }
     piece.blank = stock::BoxShape{size.x(), size.y(), size.z()};
     height = size.z();
+  } else if (shape == 3) {
+    stock::LoftShape loft = read_loft(blank);
+    if (!loft.sections.empty()) height = loft.sections.back().z;
+    piece.blank = std::move(loft);
   } else {
     height = blank.length("height", Bound::positive).value;
     const char* bottom = shape == 1 ? "diameter" : "bottom_diameter";

@@ -283,6 +283,33 @@ std::vector<double> TomlTable::numbers(std::string_view key) const {
   return values;
 }
 
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t width) const {
+  const Node* node = find(key, true);
+  if (node == nullptr) return {};
+  const std::string expected = fmt::format("expected a list of rows of {} numbers each", width);
+  const Node::Array* items = node->array();
+  if (items == nullptr) {
+    fail(key, fmt::format("{}, found {}", expected, kind_of(*node)));
+    return {};
+  }
+  std::vector<std::vector<double>> rows;
+  for (const Node& item : *items) {
+    std::vector<double> row;
+    if (const Node::Array* cells = item.array()) {
+      for (const Node& cell : *cells) {
+        if (const auto value = as_number(cell)) row.push_back(*value);
+      }
+      if (row.size() == width && cells->size() == width) {
+        rows.push_back(std::move(row));
+        continue;
+      }
+    }
+    fail(key, fmt::format("{}; row {} is not", expected, rows.size() + 1));
+    return {};
+  }
+  return rows;
+}
+
 Vec3 TomlTable::vector(std::string_view key) const {
   const std::size_t before = state_->diagnostics.size();
   const std::vector<double> values = numbers(key);

@@ -64,6 +64,9 @@ class TomlTable {
   [[nodiscard]] Vec3 vector(std::string_view key) const;
   [[nodiscard]] Vec3 vector_or(std::string_view key, const Vec3& fallback) const;
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
+  // A list of lists of `width` numbers each; empty when one of them is not.
+  [[nodiscard]] std::vector<std::vector<double>> rows(std::string_view key,
+                                                      std::size_t width) const;
   [[nodiscard]] std::vector<std::string> texts_or(std::string_view key,
                                                   std::vector<std::string> fallback) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrology/line_comparison.hpp"
 #include "metrology/strategy.hpp"
 #include "metrology/uncertainty.hpp"
 
@@ -31,15 +32,17 @@ struct Value {
   double uncertainty = 0.0;  // standard
   std::optional<double> nominal{};
   RoundProfile profile{};
+  std::vector<LineProfile> lines{};
 };
 
 class Evaluation {
  public:
   Evaluation(const PlannedCharacteristic& planned, std::vector<const FittedFeature*> features,
-             bool in_datum, const CmmModel& cmm)
+             bool in_datum, const CmmModel& cmm, double line_uncertainty)
       : planned_(planned),
         features_(std::move(features)),
         in_datum_(in_datum),
+        line_uncertainty_(line_uncertainty),
         u_(point_uncertainty(cmm)) {}
 
   [[nodiscard]] Result<Value> operator()() const {
@@ -55,18 +58,22 @@ class Evaluation {
       case CharacteristicKind::cone_form:
         return surface_form();
       case CharacteristicKind::flatness:
-        return Value{feature.form, form_uncertainty(u_, 0.0), {}, {}};
+        return Value{feature.form, form_uncertainty(u_, 0.0), {}, {}, {}};
       case CharacteristicKind::straightness:
         return straightness();
       case CharacteristicKind::half_angle:
         return Value{std::get<Cone>(feature.element).half_angle,
                      half_angle_uncertainty(u_, feature),
                      feature.planned->half_angle,
+                     {},
                      {}};
       case CharacteristicKind::concentricity:
         return concentricity();
       case CharacteristicKind::perpendicularity:
         return perpendicularity();
+      case CharacteristicKind::line_distance:
+      case CharacteristicKind::line_angle:
+        return lines();
       case CharacteristicKind::radius:
         return size(1.0);
       case CharacteristicKind::diameter:
@@ -85,12 +92,12 @@ class Evaluation {
   [[nodiscard]] Result<Value> round(Result<RoundProfile> profile) const {
     if (!profile) return std::move(profile).error();
     const double r = features_.front()->planned->radius;
-    return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile)};
+    return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile), {}};
   }
 
   [[nodiscard]] Value surface_form() const {
     const FittedFeature& feature = *features_.front();
-    Value v{feature.form, form_uncertainty(u_, feature.planned->radius), {}, {}};
+    Value v{feature.form, form_uncertainty(u_, feature.planned->radius), {}, {}, {}};
     for (const MeasuredPoint& p : feature.points) {
       v.profile.angle.push_back(
           angle_of(p.point - point_of(feature.element), angle_frame(feature)));
@@ -105,7 +112,7 @@ class Evaluation {
     for (const MeasuredPoint& p : feature.points) {
       farthest = std::max(farthest, residual(feature.element, p.point));
     }
-    return {2.0 * farthest, straightness_uncertainty(u_), {}, {}};
+    return {2.0 * farthest, straightness_uncertainty(u_), {}, {}, {}};
   }
 
   [[nodiscard]] Result<Value> concentricity() const {
@@ -119,6 +126,7 @@ class Evaluation {
     const Vec3 apart = second->element.point - first->element.point;
     return Value{2.0 * apart.cross(axis).norm(),
                  concentricity_uncertainty(u_, *first, *second, *features_.front()),
+                 {},
                  {},
                  {}};
   }
@@ -155,7 +163,13 @@ class Evaluation {
     // theirs are parallel.
     const double tilt = alike ? std::abs(a.dot(b)) : a.cross(b).norm();
     const double length = extent(unit(datum.planned->axis));
-    return {length * tilt, perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}};
+    return {length * tilt, perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}, {}};
+  }
+
+  [[nodiscard]] Result<Value> lines() const {
+    auto compared = compare_lines(planned_, *features_.front(), *features_.back());
+    if (!compared) return std::move(compared).error();
+    return Value{compared->value, line_uncertainty_, 0.0, {}, std::move(compared->profiles)};
   }
 
   [[nodiscard]] Value size(double factor) const {
@@ -174,12 +188,14 @@ class Evaluation {
     return {factor * radius,
             factor * radius_uncertainty(u_, feature, along),
             factor * feature.planned->radius,
+            {},
             {}};
   }
 
   const PlannedCharacteristic& planned_;
   std::vector<const FittedFeature*> features_;
   bool in_datum_;
+  double line_uncertainty_;
   PointUncertainty u_;
 };
 
@@ -192,6 +208,8 @@ Unit unit_of(CharacteristicKind kind) {
   switch (kind) {
     case CharacteristicKind::half_angle:
       return {"deg", kDegPerRad};
+    case CharacteristicKind::line_angle:
+      return {"urad", kUradPerRad};
     case CharacteristicKind::radius:
     case CharacteristicKind::diameter:
       return {"mm", 1.0};
@@ -258,7 +276,7 @@ std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t sectio
 
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                       std::span<const FittedFeature> features, bool in_datum,
-                                      const CmmModel& cmm) {
+                                      const CmmModel& cmm, double line_uncertainty) {
   std::vector<const FittedFeature*> chosen;
   for (const std::string& name : planned.features) {
     const auto found = std::find_if(features.begin(), features.end(), [&](const FittedFeature& f) {
@@ -271,7 +289,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     }
     chosen.push_back(&*found);
   }
-  auto value = Evaluation(planned, std::move(chosen), in_datum, cmm)();
+  auto value = Evaluation(planned, std::move(chosen), in_datum, cmm, line_uncertainty)();
   if (!value) {
     Diagnostics failure = std::move(value).error();
     for (Diagnostic& d : failure) {
@@ -292,6 +310,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.pass = std::abs(value->value - value->nominal.value_or(0.0)) <= planned.tolerance;
   result.plot_angle = std::move(value->profile.angle);
   result.plot_deviation = std::move(value->profile.deviation);
+  result.profiles = std::move(value->lines);
   return result;
 }
 

@@ -2,7 +2,7 @@
 //
 // Model    : see CharacteristicKind (inspection_plan.hpp) and the functions below
 // Units    : mm, rad inside; a CharacteristicResult is in its own unit: um for forms and zones, deg
-//            for half angles, mm for radii and diameters
+//            for half angles, mm for radii and diameters, um and urad for lines
 // Shape    : one characteristic a call
 // Errors   : a section with too few or degenerate points; each names the characteristic
 // Accuracy : 1e-9 mm (tests/metrology/characteristic_test.cpp)
@@ -57,8 +57,11 @@ struct AngleFrame {
 // `features` are all that were measured, in one frame. `in_datum`: that frame is the datum system,
 // so planned directions hold in it; concentricity within one feature then looks along its planned
 // axis (its own fitted axis runs through any two of its sections and would hide what is asked).
+// `line_uncertainty` is the standard uncertainty, mm or rad, of a characteristic that compares
+// lines: it depends on their frame, which is not known here.
 [[nodiscard]] Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                                     std::span<const FittedFeature> features,
-                                                    bool in_datum, const CmmModel& cmm);
+                                                    bool in_datum, const CmmModel& cmm,
+                                                    double line_uncertainty = 0.0);
 
 }  // namespace frustum::metrology

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "metrology/characteristic.hpp"
 #include "metrology/datum.hpp"
 #include "metrology/nominal.hpp"
+#include "metrology/workpiece_frame.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -33,6 +35,38 @@ Result<Pose> frame_of(const DatumSystem& datum, const Vec3& clocking, const Elem
   if (elements.size() == 3) parts.tertiary = std::get<Plane>(elements[2]);
   parts.clocking = clocking;
   return datum_frame(parts);
+}
+
+// The frames that characteristics ask for, each found once.
+class Frames {
+ public:
+  Frames(const InspectionPlan& plan, std::span<const FittedFeature> in_workpiece)
+      : plan_(plan), features_(in_workpiece) {}
+
+  [[nodiscard]] const Result<Pose>& find(const std::string& name) {
+    const auto known = found_.find(name);
+    if (known != found_.end()) return known->second;
+    return found_.emplace(name, workpiece_from_frame(plan_, *find_frame(plan_, name), features_))
+        .first->second;
+  }
+
+ private:
+  const InspectionPlan& plan_;
+  std::span<const FittedFeature> features_;
+  std::map<std::string, Result<Pose>> found_;
+};
+
+// Those of the features that the characteristic names.
+std::vector<FittedFeature> named(const PlannedCharacteristic& planned, const Pose& to_from,
+                                 std::span<const FittedFeature> features) {
+  std::vector<FittedFeature> chosen;
+  for (const FittedFeature& feature : features) {
+    const auto& names = planned.features;
+    if (std::find(names.begin(), names.end(), feature.planned->name) != names.end()) {
+      chosen.push_back(transformed(to_from, feature));
+    }
+  }
+  return chosen;
 }
 
 }  // namespace
@@ -81,13 +115,21 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
   measurement.title = plan.title;
   measurement.workpiece_from_datum = *workpiece_from_datum;
   const Pose datum_from_workpiece = workpiece_from_datum->inverse();
-  for (FittedFeature& feature : features) {
-    feature = transformed(datum_from_workpiece, std::move(feature));
-    measurement.features.push_back(summary(feature));
+  std::vector<FittedFeature> in_datum;
+  for (const FittedFeature& feature : features) {
+    in_datum.push_back(transformed(datum_from_workpiece, feature));
+    measurement.features.push_back(summary(in_datum.back()));
   }
+  Frames frames(plan, features);
+  const auto result_of = [&](const PlannedCharacteristic& planned) -> Result<CharacteristicResult> {
+    if (planned.frame.empty()) return evaluate(planned, in_datum, uses_datum(plan), cmm);
+    const Result<Pose>& frame = frames.find(planned.frame);
+    if (!frame) return frame.error();
+    return evaluate(planned, named(planned, frame->inverse(), features), false, cmm);
+  };
   Diagnostics failures;
   for (const PlannedCharacteristic& planned : plan.characteristics) {
-    auto result = evaluate(planned, features, uses_datum(plan), cmm);
+    auto result = result_of(planned);
     if (result) {
       measurement.characteristics.push_back(std::move(*result));
     } else {

@@ -11,9 +11,22 @@ std::string_view name_of(CharacteristicKind kind) {
   return kCharacteristicNames.at(static_cast<std::size_t>(kind));
 }
 
+bool compares_lines(CharacteristicKind kind) {
+  return kind == CharacteristicKind::line_distance || kind == CharacteristicKind::line_angle;
+}
+bool is_angle(CharacteristicKind kind) {
+  return kind == CharacteristicKind::half_angle || kind == CharacteristicKind::line_angle;
+}
+
 const PlannedFeature* find_feature(const InspectionPlan& plan, std::string_view name) {
   for (const PlannedFeature& feature : plan.features) {
     if (feature.name == name) return &feature;
+  }
+  return nullptr;
+}
+const PlannedFrame* find_frame(const InspectionPlan& plan, std::string_view name) {
+  for (const PlannedFrame& frame : plan.frames) {
+    if (frame.name == name) return &frame;
   }
   return nullptr;
 }

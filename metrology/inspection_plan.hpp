@@ -184,6 +184,10 @@ struct InspectionPlan {
 
 [[nodiscard]] std::string_view name_of(FeatureKind kind);
 [[nodiscard]] std::string_view name_of(CharacteristicKind kind);
+// line_distance, line_angle: two lines against each other, along or about a direction.
+[[nodiscard]] bool compares_lines(CharacteristicKind kind);
+// Its value and its tolerance are angles.
+[[nodiscard]] bool is_angle(CharacteristicKind kind);
 
 [[nodiscard]] Result<InspectionPlan> load_plan(const std::filesystem::path& file);
 // `file` names the text in diagnostics.
@@ -197,5 +201,6 @@ struct InspectionPlan {
 [[nodiscard]] Diagnostics check(const InspectionPlan& plan);
 
 [[nodiscard]] const PlannedFeature* find_feature(const InspectionPlan& plan, std::string_view name);
+[[nodiscard]] const PlannedFrame* find_frame(const InspectionPlan& plan, std::string_view name);
 
 }  // namespace frustum::metrology

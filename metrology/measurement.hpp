@@ -2,13 +2,15 @@
 //
 // It comes from the virtual CMM or from real CMM points: nothing here tells which. Plain values;
 // JSON is written by report/.
-// Units: mm and rad inside; a characteristic's value, tolerance and uncertainty are in its own
-//        `unit`.
+// Units  : mm and rad inside; a characteristic's value, nominal, tolerance and uncertainty are in
+//          its own `unit`
+// Errors : none
 #pragma once
 
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnostic.hpp"
@@ -35,12 +37,23 @@ struct MeasuredFeature {
   double rms = 0.0;   // mm
 };
 
+// A measured line as compared with another one, for plots: what its surface lacks or has too much.
+struct LineProfile {
+  std::string feature{};
+  std::vector<double> position{};   // mm along the lines, from the planned point of the first line
+  std::vector<double> deviation{};  // mm, from the planned line, in the direction measured
+  double fit_offset = 0.0;          // mm, the least-squares line at position 0
+  double fit_slope = 0.0;           // rad (mm per mm)
+};
+
 struct CharacteristicResult {
   std::string name{};
   std::string kind{};
   double value = 0.0;
-  std::string unit{};                 // "um", "deg", "urad", "mm"
-  std::optional<double> nominal{};    // for characteristics that have one (half angle)
+  std::string unit{};  // "um", "deg", "urad", "mm"
+  // For characteristics that have one (half angle). 0 for those that compare lines: their value is a
+  // deviation of either sign.
+  std::optional<double> nominal{};
   double tolerance = 0.0;             // in `unit`: limit of the value, or of |value - nominal|
   double expanded_uncertainty = 0.0;  // k = 2, in `unit`
   bool pass = false;
@@ -48,7 +61,13 @@ struct CharacteristicResult {
   // (mm).
   std::vector<double> plot_angle{};
   std::vector<double> plot_deviation{};
+  std::vector<LineProfile> profiles{};  // of characteristics that compare lines: first, second
 };
+
+// In mm or rad, from the unit of a characteristic: "um", "mm", "deg", "urad". Any other text means
+// that the value is in mm or rad already.
+[[nodiscard]] double internal_value(double value, std::string_view unit);
+[[nodiscard]] double internal_value(const CharacteristicResult& characteristic);
 
 struct Measurement {
   std::string title{};

@@ -177,38 +177,15 @@ std::vector<std::string> feature_names(const InspectionPlan& plan) {
   return names;
 }
 
-using Kinds = std::vector<FeatureKind>;
-
-std::string listed(const Kinds& kinds) {
+std::string listed(const FeatureKinds& kinds) {
   std::vector<std::string_view> names;
   for (const FeatureKind kind : kinds) names.push_back(name_of(kind));
   return fmt::format("{}", fmt::join(names, " or "));
 }
 
-// The feature of that name when it exists and has one of the kinds; else tells the fault.
-template <typename Fault>
-const PlannedFeature* suitable(const InspectionPlan& plan, const std::string& name,
-                               const Kinds& kinds, std::string_view purpose, const Fault& fault) {
-  const PlannedFeature* feature = find_feature(plan, name);
-  if (feature == nullptr) {
-    fault(fmt::format("the plan has no feature '{}'", name), suggestion(name, feature_names(plan)));
-    return nullptr;
-  }
-  if (std::find(kinds.begin(), kinds.end(), feature->kind) == kinds.end()) {
-    fault(fmt::format("{} needs a {}, '{}' is a {}", purpose, listed(kinds), name,
-                      name_of(feature->kind)),
-          "");
-    return nullptr;
-  }
-  return feature;
-}
-
-// Directions nearer than this (rad) to parallel or perpendicular do not fix a datum frame.
-constexpr double kSlack = 0.1;
-
 void check_datum(const InspectionPlan& plan, const PlanFault& fault) {
   const DatumSystem& datum = *plan.datum;
-  const auto named = [&](std::string_view key, const std::string& name, const Kinds& kinds) {
+  const auto named = [&](std::string_view key, const std::string& name, const FeatureKinds& kinds) {
     return suitable(plan, name, kinds, fmt::format("the {} datum", key),
                     [&](std::string message, std::string hint) {
                       fault(PlanPart::datum, 0, key, std::move(message), std::move(hint));
@@ -231,7 +208,7 @@ void check_datum(const InspectionPlan& plan, const PlanFault& fault) {
   }
 }
 
-Kinds kinds_for(CharacteristicKind kind) {
+FeatureKinds kinds_for(CharacteristicKind kind) {
   using enum FeatureKind;
   switch (kind) {
     case CharacteristicKind::cylindricity:
@@ -243,6 +220,8 @@ Kinds kinds_for(CharacteristicKind kind) {
     case CharacteristicKind::flatness:
       return {plane};
     case CharacteristicKind::straightness:
+    case CharacteristicKind::line_distance:
+    case CharacteristicKind::line_angle:
       return {line};
     case CharacteristicKind::concentricity:
       return {cylinder, cone};
@@ -268,12 +247,14 @@ void check_characteristic(const InspectionPlan& plan, std::size_t index, const P
     }
   }
   if (!(c.tolerance > 0.0)) wrong("tolerance", "must be greater than 0");
-  const bool pair = c.kind == CharacteristicKind::perpendicularity;
+  const bool lines = compares_lines(c.kind);
+  const bool pair = lines || c.kind == CharacteristicKind::perpendicularity;
   const bool maybe_pair = c.kind == CharacteristicKind::concentricity;
   if (c.features.empty() || (pair && c.features.size() != 2) || c.features.size() > 2 ||
       (!pair && !maybe_pair && c.features.size() != 1)) {
     wrong("features", fmt::format("a {} takes {}, named are {}", name_of(c.kind),
-                                  pair         ? "two features: toleranced, datum"
+                                  lines        ? "two lines: first, second"
+                                  : pair       ? "two features: toleranced, datum"
                                   : maybe_pair ? "one feature or two"
                                                : "one feature",
                                   c.features.size()));
@@ -287,6 +268,15 @@ void check_characteristic(const InspectionPlan& plan, std::size_t index, const P
                                         std::move(message), std::move(hint));
                                 }));
     if (features.back() == nullptr) return;
+  }
+  if (lines) {
+    check_line_pair(plan, index, *features[0], *features[1], fault);
+  } else {
+    const std::string only = "only line_distance and line_angle take one";
+    if (!c.frame.empty()) wrong("frame", fmt::format("not for a {}", name_of(c.kind)), only);
+    if (c.direction != Vec3::Zero()) {
+      wrong("direction", fmt::format("not for a {}", name_of(c.kind)), only);
+    }
   }
   const std::size_t most = maybe_pair ? 2 : 1;
   const bool takes_sections = maybe_pair || c.kind == CharacteristicKind::roundness ||
@@ -317,6 +307,8 @@ std::string key_path(PlanPart part, std::size_t index, std::string_view key) {
       return fmt::format("probe.{}", key);
     case PlanPart::datum:
       return fmt::format("datum.{}", key);
+    case PlanPart::frame:
+      return fmt::format("frame[{}].{}", index + 1, key);
     case PlanPart::feature:
       return fmt::format("feature[{}].{}", index + 1, key);
     case PlanPart::characteristic:
@@ -326,6 +318,23 @@ std::string key_path(PlanPart part, std::size_t index, std::string_view key) {
 }
 
 }  // namespace
+
+const PlannedFeature* suitable(const InspectionPlan& plan, const std::string& name,
+                               const FeatureKinds& kinds, std::string_view purpose,
+                               const std::function<void(std::string, std::string)>& fault) {
+  const PlannedFeature* feature = find_feature(plan, name);
+  if (feature == nullptr) {
+    fault(fmt::format("the plan has no feature '{}'", name), suggestion(name, feature_names(plan)));
+    return nullptr;
+  }
+  if (std::find(kinds.begin(), kinds.end(), feature->kind) == kinds.end()) {
+    fault(fmt::format("{} needs a {}, '{}' is a {}", purpose, listed(kinds), name,
+                      name_of(feature->kind)),
+          "");
+    return nullptr;
+  }
+  return feature;
+}
 
 void check(const InspectionPlan& plan, const PlanFault& fault) {
   const auto positive = [&](std::string_view key, double value) {
@@ -349,6 +358,7 @@ void check(const InspectionPlan& plan, const PlanFault& fault) {
     FeatureCheck(plan, i, fault).run();
   }
   if (plan.datum) check_datum(plan, fault);
+  for (std::size_t i = 0; i < plan.frames.size(); ++i) check_frame(plan, i, fault);
   for (std::size_t i = 0; i < plan.characteristics.size(); ++i) {
     check_characteristic(plan, i, fault);
   }

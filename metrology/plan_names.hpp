@@ -13,9 +13,9 @@ inline constexpr std::array<std::string_view, 5> kFeatureNames{"plane", "cylinde
                                                                "circle", "line"};
 inline constexpr std::array<std::string_view, 2> kSideNames{"outside", "inside"};
 inline constexpr std::array<std::string_view, 2> kAlignmentNames{"datum", "plan"};
-inline constexpr std::array<std::string_view, 11> kCharacteristicNames{
-    "roundness",        "cylindricity", "cone_form",  "equivalent_cone_form",
-    "flatness",         "straightness", "half_angle", "concentricity",
-    "perpendicularity", "radius",       "diameter"};
+inline constexpr std::array<std::string_view, 13> kCharacteristicNames{
+    "roundness",    "cylindricity",  "cone_form",     "equivalent_cone_form", "flatness",
+    "straightness", "half_angle",    "concentricity", "perpendicularity",     "radius",
+    "diameter",     "line_distance", "line_angle"};
 
 }  // namespace frustum::metrology

@@ -87,7 +87,7 @@ PlannedFeature read_feature(const TomlTable& table) {
 }
 
 double read_tolerance(const TomlTable& table, CharacteristicKind kind) {
-  const bool angle = kind == CharacteristicKind::half_angle;
+  const bool angle = is_angle(kind);
   const ParsedQuantity tolerance = table.quantity("tolerance");
   if (table.has("tolerance") && tolerance.kind == UnitKind::none) {
     table.fail("tolerance", "a tolerance needs a unit",
@@ -125,7 +125,21 @@ PlannedCharacteristic read_characteristic(const TomlTable& table) {
   }
   c.sections = read_sections(table);
   c.tolerance = read_tolerance(table, c.kind);
+  if (table.has("frame")) {
+    c.frame = table.text("frame");
+    if (c.frame.empty()) table.fail("frame", "must not be empty", "leave it out for none");
+  }
+  if (compares_lines(c.kind) || table.has("direction")) c.direction = table.vector("direction");
   return c;
+}
+
+PlannedFrame read_frame(const TomlTable& table) {
+  PlannedFrame frame;
+  frame.name = table.text("name");
+  if (!table.has("planes")) table.fail("planes", "this key is missing");
+  frame.planes = table.texts_or("planes", {});
+  frame.line = table.text("line");
+  return frame;
 }
 
 Result<InspectionPlan> read_plan(const TomlDocument& document) {
@@ -143,6 +157,8 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
     plan.datum = DatumSystem{datum->text("primary"), datum->text("secondary"),
                              datum->text_or("tertiary", "")};
   }
+  const std::vector<TomlTable> frames = root.tables("frame");
+  for (const TomlTable& table : frames) plan.frames.push_back(read_frame(table));
   const std::vector<TomlTable> features = root.tables("feature");
   for (const TomlTable& table : features) plan.features.push_back(read_feature(table));
   const std::vector<TomlTable> characteristics = root.tables("characteristic");
@@ -154,6 +170,7 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
                   std::string hint) {
     const TomlTable& table = part == PlanPart::probe            ? probe
                              : part == PlanPart::datum          ? *datum
+                             : part == PlanPart::frame          ? frames[index]
                              : part == PlanPart::feature        ? features[index]
                              : part == PlanPart::characteristic ? characteristics[index]
                                                                 : root;

@@ -35,11 +35,13 @@ std::string angle(double rad) {
 }
 
 std::string tolerance(const PlannedCharacteristic& c) {
-  const bool is_angle = c.kind == CharacteristicKind::half_angle;
-  if (const auto micro = written_in(c.tolerance, is_angle ? 1e-6 : 1e-3)) {
-    return fmt::format("\"{} {}\"", *micro, is_angle ? "urad" : "um");
-  }
-  return fmt::format("\"{} {}\"", c.tolerance, is_angle ? "rad" : "mm");
+  const bool angular = is_angle(c.kind);
+  const std::string plain = fmt::format("\"{} {}\"", c.tolerance, angular ? "rad" : "mm");
+  const auto micro = written_in(c.tolerance, angular ? 1e-6 : 1e-3);
+  if (!micro) return plain;
+  // 0.0002 rad would be 200.00000000000003 urad: the shorter one is what was meant.
+  std::string text = fmt::format("\"{} {}\"", *micro, angular ? "urad" : "um");
+  return text.size() <= plain.size() + 2 ? text : plain;
 }
 
 std::string toml_text(std::string_view text) {
@@ -125,9 +127,21 @@ std::string text_of(const PlannedFeature& f) {
   return out;
 }
 
+std::vector<std::string> toml_texts(const std::vector<std::string>& texts) {
+  std::vector<std::string> written;
+  for (const std::string& text : texts) written.push_back(toml_text(text));
+  return written;
+}
+
+std::string text_of(const PlannedFrame& f) {
+  return fmt::format(
+      "\n[[frame]]\nname = {}\nplanes = [{}]  # Z: outward normal through all their points\n"
+      "line = {}  # X: along it; the origin keeps its place across\n",
+      toml_text(f.name), fmt::join(toml_texts(f.planes), ", "), toml_text(f.line));
+}
+
 std::string text_of(const PlannedCharacteristic& c) {
-  std::vector<std::string> names;
-  for (const std::string& name : c.features) names.push_back(toml_text(name));
+  const std::vector<std::string> names = toml_texts(c.features);
   std::string out = fmt::format("\n[[characteristic]]\nname = {}\nkind = {}\n", toml_text(c.name),
                                 toml_text(name_of(c.kind)));
   out += names.size() == 1 ? fmt::format("feature = {}\n", names.front())
@@ -135,6 +149,12 @@ std::string text_of(const PlannedCharacteristic& c) {
   if (c.sections.size() == 1) out += fmt::format("section = {}  # first = 0\n", c.sections.front());
   if (c.sections.size() > 1) {
     out += fmt::format("sections = [{}]  # first = 0\n", fmt::join(c.sections, ", "));
+  }
+  if (!c.frame.empty()) out += fmt::format("frame = {}\n", toml_text(c.frame));
+  if (c.direction != Vec3::Zero()) {
+    out += fmt::format("direction = {}  # {}\n", vector(c.direction),
+                       is_angle(c.kind) ? "right-handed about it, second less first"
+                                        : "measured along it, second less first");
   }
   return out + fmt::format("tolerance = {}\n", tolerance(c));
 }
@@ -162,6 +182,7 @@ std::string to_toml(const InspectionPlan& plan) {
                          toml_text(plan.datum->tertiary));
     }
   }
+  for (const PlannedFrame& frame : plan.frames) out += text_of(frame);
   for (const PlannedFeature& feature : plan.features) out += text_of(feature);
   for (const PlannedCharacteristic& c : plan.characteristics) out += text_of(c);
   return out;

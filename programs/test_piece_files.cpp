@@ -20,6 +20,15 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
     return fmt::format("{{ shape = \"box\", size = [{}, {}, {}], origin = {} }}", box->size_x,
                        box->size_y, box->height, vector_text(origin));
   }
+  if (const auto* loft = std::get_if<stock::LoftShape>(&shape)) {
+    std::string rows;
+    for (const stock::LoftSection& s : loft->sections) {
+      rows += fmt::format("\n    [{}, {}, {}],", s.z, s.size_x, s.size_y);
+    }
+    return fmt::format(
+        "{{ shape = \"loft\", origin = {}, sections = [  # z, size in X, size in Y{}\n]}}",
+        vector_text(origin), rows);
+  }
   const auto& frustum = std::get<stock::FrustumShape>(shape);
   if (frustum.bottom_radius == frustum.top_radius) {
     return fmt::format("{{ shape = \"cylinder\", diameter = {}, height = {}, origin = {} }}",

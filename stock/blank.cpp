@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace frustum::stock {
 namespace {
@@ -70,12 +72,79 @@ void clip_by_mantle(Interval& chord, const FrustumShape& shape, const Vec3& p, c
   }
 }
 
+// Faces of slab k of a loft: 6k + those of a box. How much half a size grows with z:
+double growth(double from, double to, const LoftSlab& slab) {
+  return 0.5 * (to - from) / (slab.top.z - slab.bottom.z);
+}
+
+Interval chord_of(const LoftSlab& slab, EndTag first_face, const Vec3& p, const Vec3& d,
+                  RaySpan span) {
+  Interval chord{span.lo, span.hi, -1, -1};
+  const double up = p.z() - slab.bottom.z;
+  const auto clip_sides = [&](double from, double to, Eigen::Index k, EndTag face) {
+    const double m = growth(from, to, slab);
+    const double half = 0.5 * from + m * up;
+    clip(chord, -p[k] - half, -d[k] - m * d.z(), face);
+    clip(chord, p[k] - half, d[k] - m * d.z(), face + 1);
+  };
+  clip_sides(slab.bottom.size_x, slab.top.size_x, 0, first_face);
+  clip_sides(slab.bottom.size_y, slab.top.size_y, 1, first_face + 2);
+  // A ray that passes a ledge must leave one slab where it enters the other, to the last bit.
+  clip(chord, slab.bottom.z - p.z(), -d.z(), first_face + kBottom);
+  clip(chord, p.z() - slab.top.z, d.z(), first_face + kTop);
+  return chord;
+}
+
+std::optional<Diagnostic> fault_of(const LoftShape& shape) {
+  const auto& all = shape.sections;
+  constexpr const char* kHint = "sections = [[z, size_x, size_y], ...] from bottom to top, in mm";
+  if (all.size() < 2) {
+    return error(fmt::format("a loft needs two sections or more, given are {}", all.size()), kHint);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const LoftSection& s = all[i];
+    const bool sized = std::isfinite(s.z) && std::isfinite(s.size_x) && std::isfinite(s.size_y) &&
+                       s.size_x > 0.0 && s.size_y > 0.0;
+    if (!sized) {
+      return error(fmt::format("section {} of the loft is [{}, {}, {}]: its sizes must be finite "
+                               "numbers above 0",
+                               i + 1, s.z, s.size_x, s.size_y),
+                   kHint);
+    }
+    if (i > 0 && s.z < all[i - 1].z) {
+      return error(fmt::format("section {} of the loft, at z = {} mm, lies below the one before at "
+                               "{} mm",
+                               i + 1, s.z, all[i - 1].z),
+                   kHint);
+    }
+    const bool ledge = i > 0 && s.z == all[i - 1].z;
+    if (ledge && (i == 1 || i + 1 == all.size() || all[i - 2].z == s.z)) {
+      return error(fmt::format("section {} of the loft is not needed: z = {} mm {}", i + 1, s.z,
+                               i == 1                ? "is the bottom"
+                               : i + 1 == all.size() ? "is the top"
+                                                     : "has two sections already"),
+                   "two sections at one z make a ledge between bottom and top");
+    }
+  }
+  return std::nullopt;
+}
+
 Diagnostic empty_blank(const char* what, double value) {
   return error(fmt::format("the blank is empty: {} is {} mm", what, value),
                "every dimension must be a finite number above 0");
 }
 
 }  // namespace
+
+std::vector<LoftSlab> slabs_of(const LoftShape& shape) {
+  std::vector<LoftSlab> slabs;
+  for (std::size_t i = 0; i + 1 < shape.sections.size(); ++i) {
+    if (shape.sections[i].z < shape.sections[i + 1].z) {
+      slabs.push_back({shape.sections[i], shape.sections[i + 1]});
+    }
+  }
+  return slabs;
+}
 
 Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
   const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
@@ -84,6 +153,8 @@ Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
     if (!positive(box->size_x)) return empty_blank("its size in X", box->size_x);
     if (!positive(box->size_y)) return empty_blank("its size in Y", box->size_y);
     if (!positive(box->height)) return empty_blank("its height", box->height);
+  } else if (const auto* loft = std::get_if<LoftShape>(&shape)) {
+    if (const auto fault = fault_of(*loft)) return *fault;
   } else {
     const auto& frustum = std::get<FrustumShape>(shape);
     if (!positive(frustum.height)) return empty_blank("its height", frustum.height);
@@ -97,6 +168,15 @@ Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
 IntervalSet Blank::along(const Ray& ray, RaySpan span) const {
   const Vec3 p = ray.origin - origin_;
   const Vec3& d = ray.direction;
+  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
+    std::vector<Interval> chords;
+    EndTag face = 0;
+    for (const LoftSlab& slab : slabs_of(*loft)) {
+      chords.push_back(chord_of(slab, face, p, d, span));
+      face += 6;
+    }
+    return IntervalSet(std::move(chords));
+  }
   Interval chord{span.lo, span.hi, -1, -1};
   if (const auto* box = std::get_if<BoxShape>(&shape_)) {
     const Vec3 lo(-box->size_x / 2, -box->size_y / 2, 0.0);
@@ -115,6 +195,16 @@ IntervalSet Blank::along(const Ray& ray, RaySpan span) const {
 }
 
 Vec3 Blank::normal(EndTag face, const Vec3& point) const {
+  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
+    const LoftSlab slab = slabs_of(*loft)[static_cast<std::size_t>(face / 6)];
+    const EndTag side = face % 6;
+    const auto k = static_cast<Eigen::Index>(side / 2);
+    const Vec3 outward = side % 2 == 0 ? Vec3(-Vec3::Unit(k)) : Vec3(Vec3::Unit(k));
+    if (k == 2) return outward;
+    const double m = k == 0 ? growth(slab.bottom.size_x, slab.top.size_x, slab)
+                            : growth(slab.bottom.size_y, slab.top.size_y, slab);
+    return (outward - m * Vec3::UnitZ()).normalized();
+  }
   if (face < kMantle) {
     const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(face / 2));
     return face % 2 == 0 ? Vec3(-axis) : axis;
@@ -126,6 +216,14 @@ Vec3 Blank::normal(EndTag face, const Vec3& point) const {
 }
 
 BoundingBox Blank::bounds() const {
+  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
+    Vec3 across = Vec3::Zero();
+    for (const LoftSection& s : loft->sections) {
+      across = across.cwiseMax(Vec3(0.5 * s.size_x, 0.5 * s.size_y, 0.0));
+    }
+    return {origin_ - across + loft->sections.front().z * Vec3::UnitZ(),
+            origin_ + across + loft->sections.back().z * Vec3::UnitZ()};
+  }
   Vec3 half;
   double height = 0.0;
   if (const auto* box = std::get_if<BoxShape>(&shape_)) {
@@ -141,6 +239,16 @@ BoundingBox Blank::bounds() const {
 }
 
 double Blank::volume() const {
+  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
+    double volume = 0.0;
+    for (const auto& [lo, hi] : slabs_of(*loft)) {
+      // The sizes are linear in z, the section a quadratic: Simpson's rule is exact.
+      const double middle = 0.25 * (lo.size_x + hi.size_x) * (lo.size_y + hi.size_y);
+      volume +=
+          (hi.z - lo.z) / 6.0 * (lo.size_x * lo.size_y + 4.0 * middle + hi.size_x * hi.size_y);
+    }
+    return volume;
+  }
   if (const auto* box = std::get_if<BoxShape>(&shape_))
     return box->size_x * box->size_y * box->height;
   const auto& f = std::get<FrustumShape>(shape_);

@@ -1,10 +1,12 @@
-// The body the machine starts from: box, cylinder, or cone frustum.
+// The body the machine starts from: box, cylinder, cone frustum, or a loft of rectangles.
 //
-// Placed in the workpiece frame by `origin`, the centre of its bottom face; its height runs along +Z.
-// Units: mm. Errors: make_blank refuses empty and non-finite bodies.
+// Placed in the workpiece frame by `origin`, the centre of its bottom face (of a loft: of its z = 0); its
+// height runs along +Z.
+// Units: mm. Errors: Blank::make refuses empty and non-finite bodies, and lofts that are no body.
 #pragma once
 
 #include <variant>
+#include <vector>
 
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
@@ -20,7 +22,23 @@ struct BoxShape {
 struct FrustumShape {
   double bottom_radius = 0.0, top_radius = 0.0, height = 0.0;
 };
-using BlankShape = std::variant<BoxShape, FrustumShape>;
+// A rectangle across Z, centred on the axis of the blank.
+struct LoftSection {
+  double z = 0.0;
+  double size_x = 0.0, size_y = 0.0;
+  bool operator==(const LoftSection&) const = default;
+};
+// Sections from bottom to top with flat faces between successive ones; two at one z make a ledge.
+struct LoftShape {
+  std::vector<LoftSection> sections{};
+};
+using BlankShape = std::variant<BoxShape, FrustumShape, LoftShape>;
+
+// The convex body between two sections of a loft.
+struct LoftSlab {
+  LoftSection bottom{}, top{};
+};
+[[nodiscard]] std::vector<LoftSlab> slabs_of(const LoftShape& shape);
 
 struct BoundingBox {
   Vec3 min = Vec3::Zero();
@@ -31,7 +49,7 @@ class Blank {
  public:
   [[nodiscard]] static Result<Blank> make(const BlankShape& shape, const Vec3& origin);
 
-  // At most one interval (all shapes are convex); ends are tagged with the index of the face.
+  // One interval at most, but of a loft several; ends are tagged with the index of the face.
   [[nodiscard]] IntervalSet along(const cutter::Ray& ray, cutter::RaySpan span) const;
   // Outward unit normal of the face with that tag at a point on it.
   [[nodiscard]] Vec3 normal(EndTag face, const Vec3& point) const;

@@ -111,7 +111,20 @@ std::vector<ExactMesh> union_of(const std::vector<ConvexPiece>& pieces, std::siz
   return solids;
 }
 
-ConvexPiece faceted(const Blank& blank, int facets) {
+// Convex bodies whose union is the blank.
+std::vector<ConvexPiece> faceted(const Blank& blank, int facets) {
+  if (const auto* loft = std::get_if<LoftShape>(&blank.shape())) {
+    std::vector<ConvexPiece> pieces;
+    for (const LoftSlab& slab : slabs_of(*loft)) {
+      ConvexPiece& corners = pieces.emplace_back();
+      for (int i = 0; i < 8; ++i) {
+        const LoftSection& s = i & 4 ? slab.top : slab.bottom;
+        corners.push_back(blank.origin() + Vec3((i & 1 ? 0.5 : -0.5) * s.size_x,
+                                                (i & 2 ? 0.5 : -0.5) * s.size_y, s.z));
+      }
+    }
+    return pieces;
+  }
   ConvexPiece corners;
   if (const auto* box = std::get_if<BoxShape>(&blank.shape())) {
     for (int i = 0; i < 8; ++i) {
@@ -119,7 +132,7 @@ ConvexPiece faceted(const Blank& blank, int facets) {
                                               (i & 2 ? 0.5 : -0.5) * box->size_y,
                                               i & 4 ? box->height : 0.0));
     }
-    return corners;
+    return {corners};
   }
   const auto& round = std::get<FrustumShape>(blank.shape());
   for (int j = 0; j < facets; ++j) {
@@ -128,7 +141,7 @@ ConvexPiece faceted(const Blank& blank, int facets) {
     corners.push_back(blank.origin() + round.bottom_radius * across);
     corners.push_back(blank.origin() + round.top_radius * across + round.height * Vec3::UnitZ());
   }
-  return corners;
+  return {corners};
 }
 
 // Where the segment from a to b crosses a triangle.
@@ -239,7 +252,13 @@ Result<PolyhedralWorkpiece> PolyhedralWorkpiece::cut(const Blank& blank,
   }
   auto pieces = faceted_sweep(path, cutters, blank.bounds(), options);
   if (!pieces) return std::move(pieces).error();
-  ExactMesh solid = hull_of(faceted(blank, options.facets));
+  const std::vector<ConvexPiece> blank_pieces = faceted(blank, options.facets);
+  std::vector<ExactMesh> blanks = union_of(blank_pieces, 0, blank_pieces.size());
+  if (blanks.size() != 1) {
+    return error("the faceted blank is not a closed surface without self-contact",
+                 "make successive sections of the loft overlap in an area");
+  }
+  ExactMesh solid = std::move(blanks.front());
   for (const ExactMesh& removed : union_of(*pieces, 0, pieces->size())) {
     std::optional<ExactMesh> left = combined(Boolean::minus, solid, removed);
     if (!left) {

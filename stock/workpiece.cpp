@@ -1,6 +1,7 @@
 #include "stock/workpiece.hpp"
 
 #include <utility>
+#include <vector>
 
 namespace frustum::stock {
 namespace {
@@ -22,13 +23,15 @@ IntervalSet Workpiece::material_along(const Ray& ray, RaySpan span,
                                       std::uint32_t first_excluded_stretch) const {
   const IntervalSet uncut = blank_.along(ray, span);
   if (uncut.empty()) return uncut;
-  Interval chord = uncut.intervals().front();
-  chord.lo_tag = tag_of_face(chord.lo_tag);
-  chord.hi_tag = tag_of_face(chord.hi_tag);
+  std::vector<Interval> chords(uncut.intervals().begin(), uncut.intervals().end());
+  for (Interval& chord : chords) {
+    chord.lo_tag = tag_of_face(chord.lo_tag);
+    chord.hi_tag = tag_of_face(chord.hi_tag);
+  }
   // The sweeps are asked a little beyond the blank, so that a cut flush with its face leaves no skin.
   constexpr double kBeyond = 1e-3;  // mm
-  const RaySpan asked{chord.lo - kBeyond, chord.hi + kBeyond};
-  return IntervalSet({chord}).minus(removed_.along(ray, asked, first_excluded_stretch));
+  const RaySpan asked{chords.front().lo - kBeyond, chords.back().hi + kBeyond};
+  return IntervalSet(std::move(chords)).minus(removed_.along(ray, asked, first_excluded_stretch));
 }
 
 SurfacePoint Workpiece::surface_at(const Ray& ray, double s, EndTag tag) const {
