@@ -10,6 +10,7 @@
 #include "app/sensitivity_view.hpp"
 #include "core/whole_file.hpp"
 #include "trials/sensitivity.hpp"
+#include "trials/trial.hpp"
 
 namespace frustum::app {
 namespace {

@@ -51,8 +51,8 @@ double amount(const TomlTable& table, std::string_view key, const Parameter& par
   return parameter.angular ? table.angle(key).value : table.length(key).value;
 }
 
-std::optional<Parameter> known_parameter(const kinematics::Machine& machine,
-                                         const TomlTable& table, const std::string& name) {
+std::optional<Parameter> known_parameter(const kinematics::Machine& machine, const TomlTable& table,
+                                         const std::string& name) {
   auto parameter = Parameter::named(machine, name);
   if (parameter) return *std::move(parameter);
   for (const Diagnostic& d : parameter.error()) table.fail(name, d.message, d.hint);
@@ -112,8 +112,9 @@ void check_machines(const std::vector<StudyPart>& parts, const TomlTable& root) 
   std::set<std::string> machines;
   for (const StudyPart& part : parts) machines.insert(part.job.machine.name());
   if (machines.size() > 1) {
-    root.fail("part", fmt::format("the parts were cut on different machines: {} and {}",
-                                  *machines.begin(), *machines.rbegin()),
+    root.fail("part",
+              fmt::format("the parts were cut on different machines: {} and {}", *machines.begin(),
+                          *machines.rbegin()),
               "one study identifies one machine");
   }
 }
@@ -141,8 +142,8 @@ Result<Study> load_study(const fs::path& file) {
   const auto others = root.table_if("compare");
   if (unknown) {
     study.unknowns = unknown->texts_or("errors", {});
-    study.tool_radius = static_cast<ToolRadius>(
-        unknown->choice_or("tool_radius", {"common", "each", "exact"}, 0));
+    study.tool_radius =
+        static_cast<ToolRadius>(unknown->choice_or("tool_radius", {"common", "each", "exact"}, 0));
   }
   if (const auto table = root.table_if("uncertainty")) {
     if (const auto cmm = table->table_if("cmm")) study.cmm = metrology::read_cmm_model(*cmm);
@@ -153,8 +154,7 @@ Result<Study> load_study(const fs::path& file) {
   }
   if (const auto table = root.table_if("method")) {
     study.refine = table->boolean_or("refine", true);
-    study.recipe =
-        static_cast<Recipe>(table->choice_or("recipe", {"none", "case-1", "case-2"}, 0));
+    study.recipe = static_cast<Recipe>(table->choice_or("recipe", {"none", "case-1", "case-2"}, 0));
   }
   if (!study.parts.empty()) {
     const kinematics::Machine& machine = study.machine();

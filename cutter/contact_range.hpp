@@ -6,7 +6,8 @@
 // Units    : mm
 // Shape    : one point of one block; walks over the neighbouring stretches of that block
 // Errors   : none
-// Accuracy : a point within 2 nm of the cutter counts as touched; the ends are found to 1e-9 of a stretch
+// Accuracy : touched means as near as at the contact's own moment, at best 1e-10 mm; the ends are found to
+//            1e-9 of a stretch
 // Source   : ours
 #pragma once
 

@@ -1,12 +1,11 @@
 // Bossoni's Tables 3.1, 3.3, 3.4 and 3.6 through the whole loop; writes docs/reproduction.md on request.
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "kinematics/inverse.hpp"
+#include "tests/document_section.hpp"
 #include "tests/trials/cone_trial.hpp"
 
 namespace frustum::trials {
@@ -64,11 +63,7 @@ double limit(double expected, double absolute, double relative) {
 }
 
 std::string table_header() {
-  return "# What of the published numbers the project reproduces\n\n"
-         "Written by the test `trials.ConeReproductionReference.HoldsEveryRowOfTable34`; run it "
-         "with\n"
-         "`FRUSTUM_UPDATE_DOCS=1` to write this page again.\n\n"
-         "## Cone frustum, single machine errors (Bossoni, Table 3.4, proposed set-up on "
+  return "## Cone frustum, single machine errors (Bossoni, Table 3.4, proposed set-up on "
          "`iwf-bc`)\n\n"
          "Equivalent cone form in um. *Expected*: an independent rigid-body computation of the tip "
          "trace;\n"
@@ -85,11 +80,6 @@ std::string table_header() {
          "the error functions do not have yet.\n\n"
          "| error | injected | published | expected | tip | part | published value |\n"
          "| --- | --- | --- | --- | --- | --- | --- |\n";
-}
-
-void write_page(const std::string& text) {
-  if (std::getenv("FRUSTUM_UPDATE_DOCS") == nullptr) return;
-  std::ofstream(std::string(FRUSTUM_SOURCE_DIR) + "/docs/reproduction.md") << text;
 }
 
 TEST(ConeReproductionReference, HoldsEveryRowOfTable34) {
@@ -113,7 +103,7 @@ TEST(ConeReproductionReference, HoldsEveryRowOfTable34) {
     EXPECT_LT(part, 0.15) << error;
     page += fmt::format("| `{}` | {:.4f} |\n", error, part);
   }
-  write_page(page);
+  write_section("reproduction.md", "cone frustum", page);
 }
 
 struct Ranges {

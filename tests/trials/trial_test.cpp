@@ -107,7 +107,7 @@ Result<Trial> plate(const std::string& nc) {
   piece.tools[1] = {.diameter = 10.0_mm, .length = 100.0_mm, .flute_length = 30.0_mm};
   piece.blank = stock::BoxShape{80.0, 60.0, 20.0};
   piece.blank_origin = Vec3(0, 0, -20);
-  return run_trial(*machine, {}, piece, {}, {.measure = false});
+  return run_trial(*machine, kinematics::GeometricErrors{}, piece, {}, {.measure = false});
 }
 
 TEST(Trial, ReportsRapidsThroughMaterialWithTheirLine) {
@@ -154,7 +154,7 @@ TEST(Trial, NamesThePlaceWhenThePlanMissesThePart) {
   for (auto& feature : cone.piece.plan.features) {
     if (feature.name == "cone") feature.point += Vec3(0, 0, 60);
   }
-  const auto trial = run_trial(cone.machine, {}, cone.piece, {});
+  const auto trial = run_trial(cone.machine, kinematics::GeometricErrors{}, cone.piece, {});
   ASSERT_FALSE(trial);
   EXPECT_NE(to_string(trial.error().front()).find("cone"), std::string::npos);
 }
