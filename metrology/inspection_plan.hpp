@@ -151,10 +151,10 @@ enum class CharacteristicKind {
   radius,            // against the nominal; cone: in the section through the nominal point
   diameter,
   line_distance,  // features = [first, second], lines: distance of their least-squares lines along
-                  // `direction`, second minus first, minus the planned distance; taken at the planned
-                  // `point` of the first
-  line_angle,     // features = [first, second], lines: angle of the second minus that of the first,
-                  // right-handed about `direction`, minus the planned one
+  // `direction`, second minus first, minus the planned distance; taken at the planned
+  // `point` of the first
+  line_angle,  // features = [first, second], lines: angle of the second minus that of the first,
+               // right-handed about `direction`, minus the planned one
 };
 
 struct PlannedCharacteristic {

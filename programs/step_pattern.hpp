@@ -36,10 +36,10 @@ enum class StepKind : std::uint8_t {
 
 // One straight pass in one table position, tool axis along machine Z.
 struct StepPass {
-  double tilt = 0.0;           // rad, A
-  double turn = 0.0;           // rad, C
-  Vec3 feed = Vec3::UnitX();   // unit, machine directions
-  Vec3 side = Vec3::UnitY();   // unit, machine: from the side edge's cut surface to the tool axis
+  double tilt = 0.0;          // rad, A
+  double turn = 0.0;          // rad, C
+  Vec3 feed = Vec3::UnitX();  // unit, machine directions
+  Vec3 side = Vec3::UnitY();  // unit, machine: from the side edge's cut surface to the tool axis
 };
 
 // What makes a pattern: the same on every workpiece and machine.
@@ -60,9 +60,9 @@ struct StepPattern {
 // Nominal size of one pattern on a workpiece.
 struct StepSize {
   std::string pattern{};
-  double height = 0.0;      // H: of bottom surface B (S for chamfer and side) above the tilt axis
-  double width = 0.0;       // L: between S_c and S_d
-  double length = 0.0;      // W: of the measured lines
+  double height = 0.0;  // H: of bottom surface B (S for chamfer and side) above the tilt axis
+  double width = 0.0;   // L: between S_c and S_d
+  double length = 0.0;  // W: of the measured lines
   double reference_height = 0.0;  // H0: of the reference steps' bottoms
   double reference_width = 0.0;   // L0: between S_a and S_b
 };
@@ -97,7 +97,7 @@ struct StepTest {
 // One pass as the program cuts it, for setup sheets.
 struct StepCut {
   std::string name{};  // "1-a c"; a reference shared by patterns names the first: "3 a"
-  kinematics::AxisPositions from{}, to{};  // commanded, at the ends of the cut
+  kinematics::AxisPositions from{}, to{};               // commanded, at the ends of the cut
   Vec3 tip_from = Vec3::Zero(), tip_to = Vec3::Zero();  // workpiece frame
   Vec3 tool_axis = Vec3::UnitZ();                       // workpiece frame
   std::uint32_t first_line = 0, last_line = 0;          // of the NC program
