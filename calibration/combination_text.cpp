@@ -103,7 +103,7 @@ NullDirection unseen(std::vector<Term> terms, std::span<const Unknown> unknowns)
   if (terms.empty()) return {};
   if (terms.size() == 1) {
     terms.front().coefficient = 1.0;
-    return {terms, fmt::format("{} cannot be told: no measurement depends on it",
+    return {terms, fmt::format("{} cannot be told: no measurement shows it",
                                of(terms.front(), unknowns).name)};
   }
   const std::string names = listed(terms, unknowns);
@@ -118,7 +118,7 @@ NullDirection unseen(std::vector<Term> terms, std::span<const Unknown> unknowns)
   }
   return {
       terms,
-      fmt::format("{} cannot be told apart: no measurement changes when they change together, {}",
+      fmt::format("{} cannot be told apart: no measurement shows it when they change together, {}",
                   names, change_text(terms, unknowns))};
 }
 

@@ -206,13 +206,13 @@ class Enumeration {
     choice.criterion = criterion(log_det, variances);
 
     choice.standard_deviations.assign(observations_.unknowns.size(), 0.0);
-    const Eigen::VectorXd outside =
-        eigen.eigenvectors().leftCols(free - choice.rank).rowwise().norm();
+    const std::vector<bool> seen =
+        told_by(eigen.eigenvectors().leftCols(free - choice.rank), variances);
     for (Eigen::Index j = 0; j < free; ++j) {
-      auto& sd =
-          choice.standard_deviations[static_cast<std::size_t>(free_[static_cast<std::size_t>(j)])];
+      const auto k = static_cast<std::size_t>(j);
+      auto& sd = choice.standard_deviations[static_cast<std::size_t>(free_[k])];
       sd.reset();
-      if (outside[j] <= kUntouched) sd = size_[j] * std::sqrt(variances[j]);
+      if (seen[k]) sd = size_[j] * std::sqrt(variances[j]);
     }
     choice.meets_limits = choice.identifies_all && within_limits(choice);
     return choice;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -60,21 +61,37 @@ std::vector<Term> terms_of(const Eigen::VectorXd& vector, const WeightedSystem& 
   return terms;
 }
 
-void describe(const Observations& observations, const WeightedSystem& system,
-              const Eigen::MatrixXd& null_space, Observability& result) {
-  std::vector<Eigen::Index> touched;
-  for (Eigen::Index j = 0; j < null_space.rows(); ++j) {
-    if (null_space.row(j).norm() <= kUntouched) continue;
-    touched.push_back(j);
-    result.told[static_cast<std::size_t>(system.free[static_cast<std::size_t>(j)])] = false;
+// The null space on the touched unknowns alone: what leaks into the others is below notice.
+Eigen::MatrixXd restricted(const Eigen::MatrixXd& null_space,
+                           const std::vector<Eigen::Index>& touched) {
+  const Eigen::MatrixXd part = null_space(touched, Eigen::all);
+  const Eigen::MatrixXd orthonormal = Eigen::HouseholderQR<Eigen::MatrixXd>(part).householderQ() *
+                                      Eigen::MatrixXd::Identity(part.rows(), part.cols());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(null_space.rows(), null_space.cols());
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    all.row(touched[i]) = orthonormal.row(static_cast<Eigen::Index>(i));
   }
-  const Eigen::MatrixXd directions = sparse_basis(null_space, kUntouched);
+  return all;
+}
+
+void describe(const Observations& observations, const WeightedSystem& system,
+              const Eigen::MatrixXd& null_space, const Eigen::VectorXd& variances,
+              Observability& result) {
+  const std::vector<bool> told = told_by(null_space, variances);
+  std::vector<Eigen::Index> touched;
+  for (std::size_t j = 0; j < told.size(); ++j) {
+    if (told[j]) continue;
+    touched.push_back(static_cast<Eigen::Index>(j));
+    result.told[static_cast<std::size_t>(system.free[j])] = false;
+  }
+  const Eigen::MatrixXd unseen_part = restricted(null_space, touched);
+  const Eigen::MatrixXd directions = sparse_basis(unseen_part, kUntouched);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     // A change of the scaled unknown is a change of size times it.
     const Eigen::VectorXd change = system.size.cwiseProduct(directions.col(k));
     result.null_space.push_back(unseen(terms_of(change, system), observations.unknowns));
   }
-  const Eigen::MatrixXd quantities = sparse_basis(complement(null_space, touched), kUntouched);
+  const Eigen::MatrixXd quantities = sparse_basis(complement(unseen_part, touched), kUntouched);
   for (Eigen::Index k = 0; k < quantities.cols(); ++k) {
     const Eigen::VectorXd quantity = quantities.col(k).cwiseQuotient(system.size);
     result.estimable.push_back(readable(terms_of(quantity, system), observations.unknowns));
@@ -153,6 +170,16 @@ std::optional<Addition> best_addition(const Eigen::MatrixXd& base,
 
 }  // namespace
 
+std::vector<bool> told_by(const Eigen::MatrixXd& null_space, const Eigen::VectorXd& variances) {
+  std::vector<bool> told;
+  for (Eigen::Index j = 0; j < null_space.rows(); ++j) {
+    const double moved = null_space.row(j).norm();
+    const double unnoticed = kFaintest * std::sqrt(variances[j]);
+    told.push_back(moved <= std::clamp(unnoticed, kUntouched, kHardlyTouched));
+  }
+  return told;
+}
+
 int rank_of(const Eigen::VectorXd& singular_values) {
   if (singular_values.size() == 0) return 0;
   const double faintest = std::max(kFaintest, kGainAccuracy * singular_values[0]);
@@ -177,7 +204,10 @@ Observability observability(const Observations& observations, const WeightedSyst
     result.condition_columns = condition(micro * lengths.cwiseInverse().asDiagonal());
     return result;
   }
-  describe(observations, system, svd.matrixV().rightCols(free - result.rank), result);
+  const Eigen::VectorXd told_values = values.head(result.rank);
+  const Eigen::VectorXd variances =
+      svd.matrixV().leftCols(result.rank).cwiseAbs2() * told_values.cwiseAbs2().cwiseInverse();
+  describe(observations, system, svd.matrixV().rightCols(free - result.rank), variances, result);
   complete_sentences(result);
   return result;
 }

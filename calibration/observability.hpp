@@ -7,7 +7,7 @@
 // Units    : singular values dimensionless; terms of combinations in mm and rad
 // Shape    : one singular value a free unknown, largest first
 // Errors   : those of weighted_system; candidates whose sizes do not fit
-// Accuracy : entries of the null space below kUntouched are zero
+// Accuracy : what is said is said of the directions as a whole; entries below kUntouched are not listed
 // Source   : Golub, Van Loan, Matrix Computations, section 5.5 (rank deficiency)
 #pragma once
 
@@ -28,9 +28,11 @@ namespace frustum::calibration {
 constexpr double kFaintest = 0.1;
 // Central differences give sensitivities to 1e-6: smaller singular values are theirs.
 constexpr double kGainAccuracy = 1e-6;
-// An unknown that the null space moves by less than this part of its expected size (0.03 urad,
-// 0.015 um) counts as told.
+// An unknown that the null space, moved by its expected size, moves by less than this part of its own
+// expected size (0.03 urad, 0.015 um) counts as told; also if by less than kFaintest of its standard
+// uncertainty, up to the second limit.
 constexpr double kUntouched = 1e-3;
+constexpr double kHardlyTouched = 1e-2;
 
 struct Term {
   Eigen::Index unknown = 0;  // index into Observations::unknowns
@@ -68,6 +70,11 @@ struct Observability {
                                           const WeightedSystem& system);
 [[nodiscard]] Result<Observability> observability(const Observations& observations,
                                                   const Floor& floor = {});
+
+// Whether each free unknown is told, by an orthonormal basis of the null space and the variances of the
+// rest (both in expected sizes).
+[[nodiscard]] std::vector<bool> told_by(const Eigen::MatrixXd& null_space,
+                                        const Eigen::VectorXd& variances);
 
 // How many singular values (largest first) count.
 [[nodiscard]] int rank_of(const Eigen::VectorXd& singular_values);

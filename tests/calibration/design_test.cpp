@@ -138,6 +138,14 @@ TEST(StepDesign, AgreesWithEvaluationOfEverySetForAllCriteria) {
   }
 }
 
+TEST(StepDesign, TakesElevenPatternsThatAllShareNoise) {
+  const Observations o = correlated();
+  const auto result = design(o, blocks_of(o));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->best_of_size.size(), 11U);
+  EXPECT_EQ(result->identifying_sets[2], 10U);
+}
+
 TEST(StepDesign, KeepsLimitsExclusionsAndPriors) {
   Observations o = planned(all_patterns());
   const std::vector<DesignBlock> blocks = blocks_of(o);
