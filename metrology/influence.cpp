@@ -7,15 +7,12 @@
 
 #include "metrology/characteristic.hpp"
 #include "metrology/evaluation.hpp"
+#include "metrology/fit_response.hpp"
 #include "metrology/slid_line.hpp"
 #include "metrology/workpiece_frame.hpp"
 
 namespace frustum::metrology {
 namespace {
-
-// Half of the step of central differences: what is differentiated is all but linear over 1 um of
-// 10 mm (1e-8), and rounding of 1e-14 mm over it is 1e-11.
-constexpr double kStep = 1e-3;  // mm
 
 // Weights of a least-squares straight line over the places: offset at `origin` and slope.
 struct LineWeights {
@@ -32,18 +29,19 @@ LineWeights line_weights(const Eigen::RowVectorXd& along, double origin) {
   return weights;
 }
 
-// The feature with its i-th point moved outward.
-Result<FittedFeature> refitted(const FittedFeature& feature, std::size_t moved, double by) {
-  std::vector<Vec3> points = feature.all_points();
-  std::vector<std::size_t> sections;
-  for (const MeasuredPoint& p : feature.points) sections.push_back(p.section);
-  points[moved] += by * feature.points[moved].normal;
-  return fit_feature(*feature.planned, points, sections, 0.0);
+// The small motion from one pose to the other: shift and rotation vector.
+Eigen::Matrix<double, 6, 1> motion_between(const Pose& from, const Pose& to) {
+  const Pose step = to * from.inverse();
+  const Mat3& r = step.rotation;
+  Eigen::Matrix<double, 6, 1> motion;
+  motion << step.translation, 0.5 * Vec3(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
+  return motion;
 }
 
-Vec3 small_rotation(const Mat3& rotation) {
-  return 0.5 * Vec3(rotation(2, 1) - rotation(1, 2), rotation(0, 2) - rotation(2, 0),
-                    rotation(1, 0) - rotation(0, 1));
+// A pose that moves by `by` mm or rad in one of the six ways of a motion.
+Pose moved_by(Eigen::Index way, double by) {
+  if (way < 3) return Pose::translated(by * Vec3::Unit(way));
+  return Pose::rotated(rotation_about(Vec3::Unit(way - 3), by));
 }
 
 }  // namespace
@@ -128,23 +126,51 @@ Result<Eigen::RowVectorXd> Influence::lines(const PlannedCharacteristic& planned
   return gradient;
 }
 
-Result<Eigen::RowVectorXd> Influence::size(const PlannedCharacteristic& planned) const {
+Result<Eigen::RowVectorXd> Influence::size(const PlannedCharacteristic& planned) {
   const Result<Pose> workpiece_from_datum = alignment_of(plan_, features_);
   if (!workpiece_from_datum) return workpiece_from_datum.error();
   const auto index = static_cast<std::size_t>(find(planned.features.front()));
   const FittedFeature feature = transformed(workpiece_from_datum->inverse(), features_[index]);
+  const auto value_of = [&](const FittedFeature& changed) -> Result<double> {
+    const auto result = evaluate(planned, std::span(&changed, 1), uses_datum(plan_), {});
+    if (!result) return result.error();
+    return internal_value(*result);
+  };
+  const auto slope = [&](const FittedFeature& less, const FittedFeature& more,
+                         double step) -> Result<double> {
+    const auto low = value_of(less);
+    if (!low) return low;
+    const auto high = value_of(more);
+    if (!high) return high;
+    return (*high - *low) / (2.0 * step);
+  };
   Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(first_point_.back());
-  for (std::size_t i = 0; i < feature.points.size(); ++i) {
-    double difference = 0.0;
-    for (const double side : {-1.0, 1.0}) {
-      auto moved = refitted(feature, i, side * kStep);
-      if (!moved) return std::move(moved).error();
-      const auto value = evaluate(planned, std::span(&*moved, 1), uses_datum(plan_), {});
-      if (!value) return value.error();
-      difference += side * internal_value(*value);
-    }
-    gradient[first_point_[index] + static_cast<Eigen::Index>(i)] = difference / (2.0 * kStep);
+  const FitResponse response = fit_response(feature);
+  for (std::size_t k = 0; k < response.changes.size(); ++k) {
+    const ElementChange change = response.changes[k];
+    const double step = step_of(change);
+    FittedFeature less = feature;
+    FittedFeature more = feature;
+    less.element = varied(feature.element, change, -step);
+    more.element = varied(feature.element, change, step);
+    const auto by_change = slope(less, more, step);
+    if (!by_change) return by_change.error();
+    gradient.segment(first_point_[index], response.weights.cols()) +=
+        *by_change * response.weights.row(static_cast<Eigen::Index>(k));
   }
+  if (!uses_datum(plan_)) return gradient;
+  // The section of a cone has its place in the datum system, which its own points do not move.
+  Eigen::Matrix<double, 1, 6> by_motion;
+  for (Eigen::Index way = 0; way < 6; ++way) {
+    const double step = way < 3 ? 1e-3 : 1e-5;  // as step_of()
+    const auto moved = slope(transformed(moved_by(way, step), feature),
+                             transformed(moved_by(way, -step), feature), step);
+    if (!moved) return moved.error();
+    by_motion[way] = *moved;
+  }
+  const Result<Place>& here = place("");
+  if (!here) return here.error();
+  gradient += by_motion * here->motion;
   return gradient;
 }
 
@@ -210,22 +236,22 @@ Result<Influence::Motion> Influence::motion_of_datum() const {
   std::vector<FittedFeature> features(features_.begin(), features_.end());
   for (std::size_t f = 0; f < features.size(); ++f) {
     if (!is_datum_feature(plan_, *features_[f].planned)) continue;
-    for (std::size_t i = 0; i < features_[f].points.size(); ++i) {
-      Pose sides[2];
-      for (std::size_t side = 0; side < 2; ++side) {
-        auto moved = refitted(features_[f], i, side == 0 ? -kStep : kStep);
-        if (!moved) return std::move(moved).error();
-        features[f] = std::move(*moved);
-        const auto pose = alignment_of(plan_, features);
-        if (!pose) return pose.error();
-        sides[side] = *pose;
-      }
-      const Pose step = sides[1] * sides[0].inverse();
-      const Eigen::Index column = first_point_[f] + static_cast<Eigen::Index>(i);
-      motion.col(column).head<3>() = step.translation / (2.0 * kStep);
-      motion.col(column).tail<3>() = small_rotation(step.rotation) / (2.0 * kStep);
+    const FitResponse response = fit_response(features_[f]);
+    for (std::size_t k = 0; k < response.changes.size(); ++k) {
+      const double step = step_of(response.changes[k]);
+      const auto changed = [&](double by) {
+        features[f].element = varied(features_[f].element, response.changes[k], by);
+        return alignment_of(plan_, features);
+      };
+      const auto less = changed(-step);
+      if (!less) return less.error();
+      const auto more = changed(step);
+      if (!more) return more.error();
+      motion.middleCols(first_point_[f], response.weights.cols()) +=
+          motion_between(*less, *more) / (2.0 * step) *
+          response.weights.row(static_cast<Eigen::Index>(k));
     }
-    features[f] = features_[f];
+    features[f].element = features_[f].element;
   }
   return motion;
 }

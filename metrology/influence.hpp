@@ -3,12 +3,12 @@
 //
 // Model    : d value / d e_i, where e_i moves point i along its outward normal. Lines and frames in
 //            closed form, from the weights of their regressions and the small motion that floors
-//            and wall give the frame; radii, diameters and half angles by central differences of
-//            1 um, refitting their feature alone; so too the datum system, for lines without frame
+//            and wall give the frame; radii, diameters and half angles, and what a datum system adds
+//            to them, by the responses of the fits (fit_response.hpp)
 // Units    : mm, rad; points in the workpiece frame
 // Shape    : one row a characteristic, one column a point: features in order, points in order
 // Errors   : those of the frame and of the fits
-// Accuracy : first order about the measured part; 1e-3 of the gradient for surfaces 1 mrad off
+// Accuracy : first order about the measured part; 1e-5 of the gradient for a part 1 mrad askew
 //            (tests/metrology/propagation_test.cpp)
 // Source   : JCGM 100:2008, section 5.1.3
 #pragma once
@@ -44,7 +44,7 @@ class Influence {
 
   [[nodiscard]] Eigen::Index find(const std::string& name) const;
   [[nodiscard]] Result<Eigen::RowVectorXd> lines(const PlannedCharacteristic& planned);
-  [[nodiscard]] Result<Eigen::RowVectorXd> size(const PlannedCharacteristic& planned) const;
+  [[nodiscard]] Result<Eigen::RowVectorXd> size(const PlannedCharacteristic& planned);
   [[nodiscard]] Result<Motion> motion_of_frame(const PlannedFrame& frame) const;
   [[nodiscard]] Result<Motion> motion_of_datum() const;
 
