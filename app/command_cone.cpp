@@ -77,11 +77,9 @@ int write_cone(const Options& options) {
 
 }  // namespace
 
-void add_program(CLI::App& program, int& exit_code) {
-  CLI::App* kinds = program.add_subcommand("program", "Write a test piece: NC program, plan, job");
-  kinds->require_subcommand(1);
+void add_cone(CLI::App& kinds, int& exit_code) {
   auto o = std::make_shared<Options>();
-  CLI::App* cone = kinds->add_subcommand(
+  CLI::App* cone = kinds.add_subcommand(
       "cone", "The cone frustum test: NAS 979, or an inclined cone with cylinder and groove");
   cone->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
       ->required();

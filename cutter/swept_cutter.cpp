@@ -131,8 +131,22 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
       t = i.t_hi;
     }
   }
-  const ToolPose pose = motion.at(t);
-  return {stretch, t, pose, profile.normal(pose, ray.at(s))};
+  ToolPose pose = motion.at(t);
+  Vec3 normal = profile.normal(pose, ray.at(s));
+  // Where a flat face slides across the ray every time is as good as any, and rounding may have chosen
+  // one at the rim, with the flank's normal. A little earlier or later the face itself is met.
+  constexpr double kGrazing = 1e-3, kSameEnd = 1e-9;  // of the normal along the ray; mm
+  const double step = 0.1 * profile.max_radius() / std::max(motion.travel(), 1e-9);
+  for (const double beside : {std::max(0.0, t - step), std::min(1.0, t + step)}) {
+    if (std::abs(normal.dot(ray.direction)) > kGrazing) break;
+    const auto chord = profile.chord(motion.at(beside), ray);
+    if (!chord) continue;
+    if (std::min(std::abs(chord->lo - s), std::abs(chord->hi - s)) > kSameEnd) continue;
+    t = beside;
+    pose = motion.at(t);
+    normal = profile.normal(pose, ray.at(s));
+  }
+  return {stretch, t, pose, normal};
 }
 
 }  // namespace frustum::cutter

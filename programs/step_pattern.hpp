@@ -137,13 +137,15 @@ struct StepTest {
 
 // One step as the program cuts it, for setup sheets.
 struct StepCut {
-  std::string name{};  // "1-a c"; of shared reference steps: "ref a"
-  std::string cuts{};  // "side -Y, bottom": what the step leaves, machine directions
+  std::string name{};                      // "1-a c"; of shared reference steps: "ref a"
+  std::string cuts{};                      // which edge leaves S, which B
   kinematics::AxisPositions from{}, to{};  // commanded, where the cut begins and ends
   Vec3 words_from = Vec3::Zero(), words_to = Vec3::Zero();  // X Y Z as the program says them
-  Vec3 tip_from = Vec3::Zero(), tip_to = Vec3::Zero();      // workpiece frame
-  Mat3 machine_from_workpiece = Mat3::Identity();           // directions
-  std::uint32_t first_line = 0, last_line = 0;              // of the NC program
+  Mat3 machine_from_workpiece = Mat3::Identity();           // directions, in this table position
+  // The line S at its nominal length, and the middle of the one opposite; workpiece frame.
+  Vec3 line_from = Vec3::Zero(), line_to = Vec3::Zero(), opposite = Vec3::Zero();
+  double height = 0.0, width = 0.0;             // H and L, or H0 and L0
+  std::uint32_t first_line = 0, last_line = 0;  // of the NC program
 };
 
 struct StepPiece {

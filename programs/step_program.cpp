@@ -78,12 +78,21 @@ class Places {
     cut.name = place.name;
     const bool reference = step == StepName::a || step == StepName::b;
     cut.cuts = what_is_cut(pattern, reference);
-    cut.tip_from = line.tip - run.before * line.feed;
-    cut.tip_to = line.tip + run.after * line.feed;
+    const StepSize& size = *test_.workpiece.size(pattern.name);
+    const StepName partner = step == StepName::a   ? StepName::b
+                             : step == StepName::b ? StepName::a
+                             : step == StepName::c ? StepName::d
+                                                   : StepName::c;
+    const Vec3 half = 0.5 * size.length * line.feed;
+    cut.line_from = line.on_side - half;
+    cut.line_to = line.on_side + half;
+    cut.opposite = step_line(test_.workpiece, pattern, partner, radius).on_side;
+    cut.height = reference ? size.reference_height : size.height;
+    cut.width = reference ? size.reference_width : size.width;
     cut.machine_from_workpiece =
         machine_from_definition * (rotation_z(pass.turn) * rotation_x(pass.tilt)).transpose();
-    cut.from = placed(cut.tip_from, place.rotary);
-    cut.to = placed(cut.tip_to, place.rotary);
+    cut.from = placed(line.tip - run.before * line.feed, place.rotary);
+    cut.to = placed(line.tip + run.after * line.feed, place.rotary);
     cut.words_from = linear_part(cut.from) - linear_part(origin_);
     cut.words_to = linear_part(cut.to) - linear_part(origin_);
     AxisPositions above = cut.from;

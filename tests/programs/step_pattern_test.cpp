@@ -1,7 +1,9 @@
 // Step pattern pieces cut and looked at: which step made which surface, no collisions, 3+2 motion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <string>
@@ -95,6 +97,25 @@ TEST(StepPatternSystem, EveryMeasuredPointIsCutByItsOwnStepAndNothingCollides) {
       }
     }
     EXPECT_GT(points, 60U);
+  }
+}
+
+TEST(StepPatternSystem, MeasuresZeroOnAnErrorFreeMachine) {
+  for (const Setting& s : settings()) {
+    SCOPED_TRACE(std::string(s.machine) + " workpiece " + std::to_string(s.workpiece));
+    const auto on = machine(s.machine);
+    const StepPiece step = made(test_of(s.workpiece, s.patterns), on);
+    const auto trial = trials::run_trial(on, {}, step.piece, {});
+    ASSERT_TRUE(trial) << to_string(trial.error().front());
+    const auto& found = trial->measurement.characteristics;
+    ASSERT_EQ(found.size(), step.piece.plan.characteristics.size());
+    double worst = 0.0;
+    for (const auto& c : found) {
+      EXPECT_NEAR(c.value, 0.0, 0.01) << c.name << " " << c.unit;
+      worst = std::max(worst, std::abs(c.value));
+    }
+    std::printf("%s workpiece %d: %zu characteristics, worst %.2g um or urad\n", s.machine,
+                s.workpiece, found.size(), worst);
   }
 }
 
