@@ -57,7 +57,8 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
                     suggestion(name, names_of(plan)));
       continue;
     }
-    const bool angular = metrology::is_angular(planned->kind);
+    const bool angular = planned->kind == metrology::CharacteristicKind::line_angle ||
+                         planned->kind == metrology::CharacteristicKind::half_angle;
     MeasuredValue value;
     if (measured.is_table(name)) {
       const TomlTable entry = measured.table(name);

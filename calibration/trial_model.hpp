@@ -25,7 +25,7 @@ namespace frustum::calibration {
 struct StudiedPiece {
   std::string name{};
   programs::TestPiece piece{};
-  kinematics::GeometricErrors base{};            // errors that are there whatever the causes
+  kinematics::GeometricErrors base{};          // errors that are there whatever the causes
   std::vector<std::string> characteristics{};  // rows, by name
   double path_bound = 1e-5;                    // mm
 };
