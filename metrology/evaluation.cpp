@@ -8,6 +8,7 @@
 
 #include "metrology/characteristic.hpp"
 #include "metrology/datum.hpp"
+#include "metrology/influence.hpp"
 #include "metrology/nominal.hpp"
 #include "metrology/workpiece_frame.hpp"
 
@@ -121,11 +122,23 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
     measurement.features.push_back(summary(in_datum.back()));
   }
   Frames frames(plan, features);
+  Influence influence(plan, features);
+  const PointUncertainty u = point_uncertainty(cmm);
+  const bool is_ideal = u.probing == 0.0 && u.scale == 0.0;
+  // Standard, mm or rad; a characteristic that cannot be evaluated says why elsewhere.
+  const auto line_uncertainty = [&](const PlannedCharacteristic& planned) {
+    if (is_ideal || !compares_lines(planned.kind)) return 0.0;
+    const auto gradient = influence.of(planned);
+    return gradient && *gradient ? std::sqrt(variance(**gradient, influence.of_field(), u)) : 0.0;
+  };
   const auto result_of = [&](const PlannedCharacteristic& planned) -> Result<CharacteristicResult> {
-    if (planned.frame.empty()) return evaluate(planned, in_datum, uses_datum(plan), cmm);
+    const double uncertainty = line_uncertainty(planned);
+    if (planned.frame.empty()) {
+      return evaluate(planned, in_datum, uses_datum(plan), cmm, uncertainty);
+    }
     const Result<Pose>& frame = frames.find(planned.frame);
     if (!frame) return frame.error();
-    return evaluate(planned, named(planned, frame->inverse(), features), false, cmm);
+    return evaluate(planned, named(planned, frame->inverse(), features), false, cmm, uncertainty);
   };
   Diagnostics failures;
   for (const PlannedCharacteristic& planned : plan.characteristics) {

@@ -6,9 +6,11 @@
 //              form (peak to valley)  u^2 = 2 p^2 + 3 (s r)^2: two points count; an ellipse
 //              straightness           u^2 = 4 p^2: twice one point
 //              half angle a           u^2 = p^2 Q_aa + 1.5 (s sin(2a)/2)^2
-//              radius                 u^2 = p^2 g^T Q g + (s r)^2/2
+//              radius                 u^2 = p^2 g^T Q g + (s r)^2/2; a cone's without what the
+//                                     datum system adds to the place of its section
 //              concentricity          u^2 = 4 (p^2 (Q_1 + Q_2 + h^2 Q_t) + (s h)^2)
 //              perpendicularity       u^2 = L^2 (p^2 (Q_t1 + Q_t2) + s^2)
+//              lines and their frames  influence.hpp
 //            g: gradient to the fit's parameters; h: between the sections; L: extent;
 //            Q_1, Q_2: larger variance of a section's centre; Q_t: larger variance of a tilt
 // Units    : mm, rad

@@ -16,7 +16,8 @@ else()
   find_program(FRUSTUM_NPM npm REQUIRED)
   set(page_packages package.json package-lock.json .npmrc)
   list(TRANSFORM page_packages PREPEND "${page_source}/" OUTPUT_VARIABLE page_package_sources)
-  set(page_scripts axes.js crease_normals.js main.js packed_array.js plotly.js polar.js surface.js theme.js)
+  set(page_scripts axes.js crease_normals.js main.js packed_array.js plotly.js polar.js profile.js surface.js
+      theme.js)
   list(TRANSFORM page_scripts PREPEND "${page_source}/")
   add_custom_command(
     OUTPUT "${page_build}/packages.stamp"

@@ -32,6 +32,24 @@ Json polar_json(const metrology::CharacteristicResult& characteristic) {
           {"deviation_um", rounded(characteristic.plot_deviation, kUmPerMm, 1e5)}};
 }
 
+Json profile_json(const metrology::CharacteristicResult& characteristic) {
+  Json lines = Json::array();
+  for (const metrology::LineProfile& line : characteristic.profiles) {
+    lines.push_back({{"feature", line.feature},
+                     {"position_mm", rounded(line.position, 1.0, 1e4)},
+                     {"deviation_um", rounded(line.deviation, kUmPerMm, 1e5)},
+                     {"fit_offset_um", rounded(line.fit_offset * kUmPerMm, 1e5)},
+                     {"fit_slope_urad", rounded(line.fit_slope * kUradPerRad, 1e5)}});
+  }
+  return {{"name", characteristic.name}, {"lines", std::move(lines)}};
+}
+
+bool same_lines(const metrology::CharacteristicResult& a,
+                const metrology::CharacteristicResult& b) {
+  return std::equal(a.profiles.begin(), a.profiles.end(), b.profiles.begin(), b.profiles.end(),
+                    [](const auto& p, const auto& q) { return p.feature == q.feature; });
+}
+
 Json trace_json(const AxisTrace& trace) {
   Json axes = Json::array();
   for (const AxisSeries& series : trace.axes) {
@@ -115,6 +133,21 @@ bool has_polar_chart(const metrology::CharacteristicResult& characteristic) {
          characteristic.plot_angle.size() == characteristic.plot_deviation.size();
 }
 
+bool has_profile_chart(const RunReport& report,
+                       const metrology::CharacteristicResult& characteristic) {
+  const auto& profiles = characteristic.profiles;
+  if (profiles.empty() || std::any_of(profiles.begin(), profiles.end(), [](const auto& line) {
+        return line.position.empty() || line.position.size() != line.deviation.size();
+      })) {
+    return false;
+  }
+  if (characteristic.kind == "line_distance") return true;
+  const auto& all = report.measurement.characteristics;
+  return std::none_of(all.begin(), all.end(), [&](const auto& other) {
+    return other.kind == "line_distance" && same_lines(other, characteristic);
+  });
+}
+
 bool has_surface(const RunReport& report) {
   return !report.surface.empty() && report.surface.is_valid();
 }
@@ -124,6 +157,10 @@ std::string chart_data(const RunReport& report) {
   json["polar"] = Json::array();
   for (const metrology::CharacteristicResult& c : report.measurement.characteristics) {
     if (has_polar_chart(c)) json["polar"].push_back(polar_json(c));
+  }
+  json["profiles"] = Json::array();
+  for (const metrology::CharacteristicResult& c : report.measurement.characteristics) {
+    if (has_profile_chart(report, c)) json["profiles"].push_back(profile_json(c));
   }
   json["traces"] = Json::array();
   for (const AxisTrace& trace : report.traces) json["traces"].push_back(trace_json(trace));

@@ -118,8 +118,8 @@ std::string characteristics_html(const RunReport& report) {
     const std::string kind =
         c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(c.kind));
     table.row({fmt::format("<b>{}</b>{}", html_text(c.name), kind),
-               with_unit(value_text(c.value, c.unit), c.unit),
-               c.nominal ? with_unit(value_text(*c.nominal, c.unit), c.unit) : "",
+               with_unit(result_text(c), c.unit),
+               nominal_text(c).empty() ? "" : with_unit(nominal_text(c), c.unit),
                (c.nominal ? "± " : "") + with_unit(value_text(c.tolerance, c.unit), c.unit),
                with_unit(uncertainty_text(c.expanded_uncertainty), c.unit), used_cell(c),
                verdict_mark(c.pass)});
@@ -148,6 +148,26 @@ std::string form_html(const RunReport& report) {
           "</div><p class=\"note\">Deviation from the least-squares element over the "
           "angle about its axis, outward where material is left. Dashed: zero deviation; "
           "dotted: largest and smallest.</p>\n");
+}
+
+std::string profiles_html(const RunReport& report) {
+  std::string figures;
+  std::size_t index = 0;
+  for (const Characteristic& c : report.measurement.characteristics) {
+    if (!has_profile_chart(report, c)) continue;
+    figures += fmt::format(
+        "<figure class=\"profile\"><figcaption><b>{}</b> <span class=\"scale\">{}</span>"
+        "</figcaption><div class=\"chart\" data-profile=\"{}\"></div></figure>\n",
+        html_text(c.name), with_unit(result_text(c), c.unit), index++);
+  }
+  if (figures.empty()) return "";
+  return section(
+      "profiles", "Profiles",
+      "<div class=\"profiles\">" + figures +
+          "</div><p class=\"note\">Where two lines are compared: how far their points lie from the "
+          "planned lines, in the direction measured, over the place along the lines from the "
+          "planned point of the first. Dashed: least-squares straight lines. A distance is that of "
+          "the dashed lines at position 0, second less first.</p>\n");
 }
 
 std::string surface_html(const RunReport& report) {
@@ -291,6 +311,7 @@ std::string html_sections(const RunReport& report) {
   html += characteristics_html(report);
   html += collisions_html(report);
   html += form_html(report);
+  html += profiles_html(report);
   html += surface_html(report);
   html += errors_html(report);
   html += axes_html(report);

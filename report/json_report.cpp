@@ -21,6 +21,13 @@ Json vector(const std::vector<double>& values) {
   return array;
 }
 
+template <typename Range, typename Writer>
+Json array_of(const Range& range, Writer write) {
+  Json array = Json::array();
+  for (const auto& item : range) array.push_back(write(item));
+  return array;
+}
+
 Json feature_json(const metrology::MeasuredFeature& feature) {
   Json parameters = Json::object();
   for (const auto& [name, values] : feature.parameters) {
@@ -36,6 +43,16 @@ Json feature_json(const metrology::MeasuredFeature& feature) {
   return json;
 }
 
+Json profile_json(const metrology::LineProfile& profile) {
+  Json deviation = Json::array();
+  for (const double value : profile.deviation) deviation.push_back(number(value * kUmPerMm));
+  return {{"feature", profile.feature},
+          {"position_mm", vector(profile.position)},
+          {"deviation_um", std::move(deviation)},
+          {"fit_offset_um", number(profile.fit_offset * kUmPerMm)},
+          {"fit_slope_urad", number(profile.fit_slope * kUradPerRad)}};
+}
+
 Json characteristic_json(const metrology::CharacteristicResult& characteristic) {
   Json json;
   json["name"] = characteristic.name;
@@ -48,6 +65,10 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   json["nominal"] = number(characteristic.nominal);
   json["deviation"] = number(deviation_of(characteristic));
   json["tolerance_used"] = number(used_share(characteristic));
+  // Only where lines are compared: the first, then the second.
+  if (!characteristic.profiles.empty()) {
+    json["profiles"] = array_of(characteristic.profiles, profile_json);
+  }
   return json;
 }
 
@@ -84,13 +105,6 @@ Json timing_json(const std::vector<Timing>& timings) {
     if (std::isfinite(timing.seconds)) json[timing.name] = before + timing.seconds;
   }
   return json;
-}
-
-template <typename Range, typename Writer>
-Json array_of(const Range& range, Writer write) {
-  Json array = Json::array();
-  for (const auto& item : range) array.push_back(write(item));
-  return array;
 }
 
 }  // namespace

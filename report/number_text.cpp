@@ -23,6 +23,17 @@ std::string value_text(double value, std::string_view unit) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-";
 }
 
+std::string result_text(const metrology::CharacteristicResult& characteristic) {
+  const std::string text = value_text(characteristic.value, characteristic.unit);
+  const bool is_positive = text.find_first_of("123456789") != std::string::npos && text[0] != '-';
+  return characteristic.nominal == 0.0 && is_positive ? "+" + text : text;
+}
+
+std::string nominal_text(const metrology::CharacteristicResult& characteristic) {
+  if (!characteristic.nominal || *characteristic.nominal == 0.0) return "";
+  return value_text(*characteristic.nominal, characteristic.unit);
+}
+
 std::string uncertainty_text(double value) {
   if (!std::isfinite(value)) return "-";
   if (value == 0.0) return "0";

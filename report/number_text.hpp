@@ -18,6 +18,12 @@ namespace frustum::report {
 // The decimals that the unit deserves: 3 for um, 4 for mm, 5 for deg, 2 for urad.
 [[nodiscard]] std::string value_text(double value, std::string_view unit);
 
+// The value of a characteristic; with its sign, also "+", where it is a deviation of either sign (its
+// nominal is 0).
+[[nodiscard]] std::string result_text(const metrology::CharacteristicResult& characteristic);
+// Its nominal; empty when it has none or is a deviation itself.
+[[nodiscard]] std::string nominal_text(const metrology::CharacteristicResult& characteristic);
+
 // Uncertainties get two significant digits.
 [[nodiscard]] std::string uncertainty_text(double value);
 

@@ -132,14 +132,13 @@ void write_characteristics(Page& page, const RunReport& report) {
   const auto& characteristics = report.measurement.characteristics;
   if (characteristics.empty()) return;
   const bool has_nominal = std::any_of(characteristics.begin(), characteristics.end(),
-                                       [](const auto& c) { return c.nominal.has_value(); });
+                                       [](const auto& c) { return !nominal_text(c).empty(); });
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (k=2)", "Used", "Verdict"});
   for (const metrology::CharacteristicResult& c : characteristics) {
     const std::optional<double> used = used_share(c);
     const std::string plus_minus = c.nominal ? "+-" : "";
-    rows.push_back({printable(c.name), value_text(c.value, c.unit) + " " + c.unit,
-                    c.nominal ? value_text(*c.nominal, c.unit) : "",
+    rows.push_back({printable(c.name), result_text(c) + " " + c.unit, nominal_text(c),
                     plus_minus + value_text(c.tolerance, c.unit),
                     uncertainty_text(c.expanded_uncertainty),
                     used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});

@@ -1,12 +1,16 @@
 // Draws the charts of the page from the data that the report embedded.
 import {drawAxes} from './axes.js';
 import {drawPolar} from './polar.js';
+import {drawProfile} from './profile.js';
 import {drawSurface} from './surface.js';
 
 const data = JSON.parse(document.getElementById('chart-data').textContent);
 
 for (const element of document.querySelectorAll('[data-polar]')) {
   drawPolar(element, data.polar[Number(element.dataset.polar)]);
+}
+for (const element of document.querySelectorAll('[data-profile]')) {
+  drawProfile(element, data.profiles[Number(element.dataset.profile)]);
 }
 for (const element of document.querySelectorAll('[data-trace]')) {
   drawAxes(element, data.traces[Number(element.dataset.trace)]);

@@ -63,6 +63,53 @@ TEST(HtmlReport, ShowsEveryPartOfTheRun) {
   EXPECT_EQ(data["surface"]["vertices"], sample_report().surface.vertices.size());
 }
 
+TEST(HtmlReport, DrawsAProfileForEveryDistanceOfLines) {
+  const RunReport report = step_report(11);
+  const std::string page = html_report(report);
+  EXPECT_EQ(count_of(page, "data-profile=\""), 33U);  // dL, dH and dL0; angles share their lines
+  const nlohmann::json profiles = chart_data_of(page)["profiles"];
+  ASSERT_EQ(profiles.size(), 33U);
+  EXPECT_EQ(profiles[1]["name"], "1-a.dH");
+  ASSERT_EQ(profiles[1]["lines"].size(), 2U);
+  const nlohmann::json& line = profiles[1]["lines"][1];
+  EXPECT_EQ(line["feature"], "1-a.B_d");
+  EXPECT_EQ(line["position_mm"].size(), 12U);
+  EXPECT_EQ(line["position_mm"][0], -27.5);
+  const metrology::LineProfile& profile = report.measurement.characteristics[1].profiles[1];
+  EXPECT_NEAR(line["deviation_um"][3].get<double>(), 1e3 * profile.deviation[3], 1e-5);
+  EXPECT_NEAR(line["fit_offset_um"].get<double>(), 1e3 * profile.fit_offset, 1e-5);
+  EXPECT_NEAR(line["fit_slope_urad"].get<double>(), 1e6 * profile.fit_slope, 1e-5);
+  EXPECT_THAT(page, HasSubstr("± 40.000"));
+}
+
+TEST(HtmlReport, DrawsTheLinesOfAnAngleThatNoDistanceShows) {
+  RunReport report = step_report(1);
+  auto& all = report.measurement.characteristics;
+  all = {all[2], all[3], all[0]};  // theta, phi and dL: phi has its lines alone
+  const nlohmann::json profiles = chart_data_of(html_report(report))["profiles"];
+  ASSERT_EQ(profiles.size(), 2U);
+  EXPECT_EQ(profiles[0]["name"], "1-a.phi");
+  EXPECT_EQ(profiles[1]["name"], "1-a.dL");
+  EXPECT_EQ(count_of(html_report(report), "data-profile=\""), 2U);
+}
+
+TEST(HtmlReport, ProfilesThatAreBrokenAreLeftOut) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  RunReport report = step_report(1);
+  auto& all = report.measurement.characteristics;
+  all[0].profiles[0].deviation.pop_back();
+  all[1].profiles[0].deviation[2] = kNan;
+  all[1].profiles[1].fit_slope = kNan;
+  all[1].profiles[1].feature = "</script><b>";
+  const std::string page = html_report(report);
+  const nlohmann::json profiles = chart_data_of(page)["profiles"];
+  ASSERT_EQ(profiles.size(), 3U);  // dH, dL0, and phi, whose lines are called otherwise now
+  EXPECT_EQ(profiles[0]["name"], "1-a.dH");
+  EXPECT_TRUE(profiles[0]["lines"][0]["deviation_um"][2].is_null());
+  EXPECT_TRUE(profiles[0]["lines"][1]["fit_slope_urad"].is_null());
+  EXPECT_EQ(count_of(page, "</script"), 2U);
+}
+
 TEST(HtmlReport, CarriesTheLicencesOfWhatItBundles) {
   const std::string page = html_report(small_report());
   EXPECT_THAT(page, HasSubstr("plotly.js 3."));

@@ -43,6 +43,24 @@ TEST(JsonReport, HasTheStableNames) {
   EXPECT_EQ(json["errors"][1]["name"], "EB0C");
 }
 
+TEST(JsonReport, HasTheProfilesOfComparedLinesAndOnlyThose) {
+  const RunReport report = step_report(1);
+  const Json json = Json::parse(json_report(report));
+  const Json& c = json["characteristics"][0];
+  EXPECT_EQ(c["kind"], "line_distance");
+  ASSERT_EQ(c["profiles"].size(), 2U);
+  const Json& line = c["profiles"][1];
+  const metrology::LineProfile& profile = report.measurement.characteristics[0].profiles[1];
+  EXPECT_EQ(line["feature"], "1-a.S_d");
+  EXPECT_EQ(line["position_mm"].size(), 12U);
+  EXPECT_DOUBLE_EQ(line["position_mm"][2], profile.position[2]);
+  EXPECT_DOUBLE_EQ(line["deviation_um"][2], 1e3 * profile.deviation[2]);
+  EXPECT_DOUBLE_EQ(line["fit_offset_um"], 1e3 * profile.fit_offset);
+  EXPECT_DOUBLE_EQ(line["fit_slope_urad"], 1e6 * profile.fit_slope);
+  EXPECT_FALSE(
+      Json::parse(json_report(sample_report()))["characteristics"][0].contains("profiles"));
+}
+
 TEST(JsonReport, StatusIsPassOnlyWhenNothingFailed) {
   RunReport report = sample_report();
   EXPECT_EQ(Json::parse(json_report(report))["status"], "fail");

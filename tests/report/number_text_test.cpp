@@ -7,6 +7,26 @@
 namespace frustum::report {
 namespace {
 
+TEST(NumberText, GivesDeviationsTheirSignAndNoNominal) {
+  metrology::CharacteristicResult c;
+  c.unit = "um";
+  c.value = 1.5;
+  EXPECT_EQ(result_text(c), "1.500");
+  EXPECT_EQ(nominal_text(c), "");
+  c.nominal = 1.25;
+  EXPECT_EQ(result_text(c), "1.500");
+  EXPECT_EQ(nominal_text(c), "1.250");
+  c.nominal = 0.0;
+  EXPECT_EQ(result_text(c), "+1.500");
+  EXPECT_EQ(nominal_text(c), "");
+  c.value = -1.5;
+  EXPECT_EQ(result_text(c), "-1.500");
+  c.value = -1e-9;
+  EXPECT_EQ(result_text(c), "0.000");
+  c.value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(result_text(c), "-");
+}
+
 TEST(NumberText, GivesEachUnitItsDecimals) {
   EXPECT_EQ(value_text(1.23456, "um"), "1.235");
   EXPECT_EQ(value_text(44.999999, "deg"), "45.00000");

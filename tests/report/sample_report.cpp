@@ -1,8 +1,13 @@
 #include "sample_report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
 
 namespace frustum::report {
 namespace {
@@ -188,6 +193,54 @@ RunReport sample_report(std::size_t steps, std::size_t rings) {
   report.budget = {{"tool path chord", 0.01, 0.0098, "um"}, {"ray and sweep", 1.0, {}, "nm"}};
   report.diagnostics = {warning("the program ends without M30", "add M30 as the last block")};
   report.notes = {"The C axis turns at up to 2.7 degrees per degree of cone angle near phi = 0."};
+  return report;
+}
+
+RunReport step_report(std::size_t patterns) {
+  constexpr std::array<const char*, 11> kPatterns{"1-a", "1-b", "2-a", "2-b", "3", "4",
+                                                  "5-a", "5-b", "6-a", "6-b", "7"};
+  RunReport report;
+  report.title = "Step patterns, workpiece 1";
+  report.machine = "zx-yac";
+  report.program = "steps.nc";
+  report.errors = {{"EC0Y", "30 urad", "tilt of axis Y about Z"}};
+  const RandomKey key{.seed = 3};
+  std::uint64_t drawn = 0;
+  const auto line = [&](std::string feature, double offset, double slope) {
+    metrology::LineProfile profile{std::move(feature), {}, {}, offset, slope};
+    for (int k = 0; k < 12; ++k) {
+      profile.position.push_back(-27.5 + 5.0 * k);
+      profile.deviation.push_back(offset + slope * profile.position.back() +
+                                  0.3e-3 * normal(key, drawn++));
+    }
+    return profile;
+  };
+  for (std::size_t i = 0; i < std::min(patterns, kPatterns.size()); ++i) {
+    const std::string name = kPatterns.at(i);
+    const auto draw = [&](double deviation) { return deviation * normal(key, drawn++); };
+    const auto add = [&](const char* what, const std::vector<metrology::LineProfile>& lines,
+                         bool is_angle) {
+      const double value = is_angle ? kUradPerRad * (lines[1].fit_slope - lines[0].fit_slope)
+                                    : kUmPerMm * (lines[1].fit_offset - lines[0].fit_offset);
+      auto c = characteristic(name + what, is_angle ? "line_angle" : "line_distance", value,
+                              is_angle ? "urad" : "um", is_angle ? 400.0 : 40.0);
+      c.nominal = 0.0;
+      c.pass = std::abs(value) <= c.tolerance;
+      c.profiles = lines;
+      report.measurement.characteristics.push_back(std::move(c));
+    };
+    const std::vector sides{line(name + ".S_c", draw(6e-3), draw(60e-6)),
+                            line(name + ".S_d", draw(6e-3), draw(60e-6))};
+    const std::vector bottoms{line(name + ".B_c", draw(6e-3), draw(60e-6)),
+                              line(name + ".B_d", draw(6e-3), draw(60e-6))};
+    const std::vector references{line(name + ".S_a", draw(3e-3), draw(5e-6)),
+                                 line(name + ".S_b", draw(3e-3), draw(5e-6))};
+    add(".dL", sides, false);
+    add(".dH", bottoms, false);
+    add(".theta", sides, true);
+    add(".phi", bottoms, true);
+    add(".dL0", references, false);
+  }
   return report;
 }
 

@@ -36,6 +36,23 @@ Written  out/report.html
 )");
 }
 
+TEST(TerminalReportGolden, ShowsDeviationsWithSignAndBothLimits) {
+  RunReport report = step_report(1);
+  report.measurement.characteristics.resize(3);
+  auto& all = report.measurement.characteristics;
+  all[0].value = 9.94321;
+  all[1].value = -51.2;
+  all[1].pass = false;
+  all[2].value = 0.0;
+  EXPECT_THAT(terminal_report(report), HasSubstr(R"(
+Characteristic       Value  Tolerance  U (k=2)   Used  Verdict
+--------------------------------------------------------------
+1-a.dL           +9.943 um   +-40.000      1.6   25 %  PASS
+1-a.dH          -51.200 um   +-40.000      1.6  128 %  FAIL
+1-a.theta        0.00 urad   +-400.00       16    0 %  PASS
+)"));
+}
+
 TEST(TerminalReport, StaysWithinItsWidth) {
   RunReport report = sample_report();
   report.errors[0].meaning =
