@@ -254,7 +254,9 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
     }
     drawing.dimension(s, other, away, reach + 10.0, fmt::format("L {:g}", step.width));
   }
-  if (!from_top &&
+  // A height is one only where the workpiece stands upright.
+  const bool upright = turn(2, 2) > 1.0 - kTrue;
+  if (!from_top && upright &&
       (drawing.at(turn * step.line_from) - drawing.at(turn * step.line_to)).norm() < 8.0) {
     drawing.dot(s, "cut-end");
     const bool right = from.x() > s.x();

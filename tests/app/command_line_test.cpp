@@ -164,6 +164,7 @@ TEST_F(CommandLineSystem, WritesAndMeasuresAStepPatternPiece) {
   EXPECT_NEAR(doc["characteristics"][0]["value"].get<double>(), 10.0, 0.01);  // 2 dy_CA
   EXPECT_NEAR(doc["characteristics"][4]["value"].get<double>(), 0.0, 0.01);   // dL0
   // A loft that is no body is refused where it stands.
+  fs::remove_all(folder_ / "result");
   replace_in("piece/job.toml", "[180.4, 57, 61.2]", "[170.4, 57, 61.2]");
   expect_refusal({"job.toml:", "blank.sections", "lies below the one before"});
 }
