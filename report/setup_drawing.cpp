@@ -13,7 +13,7 @@ namespace {
 
 using Point = Eigen::Vector2d;  // pixels, or mm in the plane of a view
 
-constexpr double kWidth = 330.0, kHeight = 250.0, kMargin = 30.0;  // pixels
+constexpr double kWidth = 320.0, kHeight = 240.0, kMargin = 27.0;  // pixels
 
 struct Directions {
   Vec3 right, up, toward;  // toward the viewer
@@ -205,7 +205,6 @@ SheetView engagement_view(const SetupSheet& sheet, const SheetStep& step) {
 std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetView view) {
   Drawing drawing(view);
   const Mat3& turn = step.machine_from_workpiece;
-  // The base tells nothing: a tool's length of the workpiece below the tip does.
   for (const SheetFace& face : sheet.workpiece) {
     for (const Vec3& p : face) drawing.include(turn * p);
   }
@@ -242,7 +241,11 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
   const Point between = 0.5 * (s + other);
   const Point u = other - s;
   Point away(-u.y(), u.x());
-  if (u.norm() > 20.0) {
+  // Dimensioned where it is seen in its true length.
+  constexpr double kTrue = 0.01;
+  const bool in_true_length =
+      std::abs(u.norm() / drawing.scale() - step.width) < kTrue * step.width;
+  if (in_true_length) {
     away.normalize();
     if (away.dot(from_top ? Point(0.0, 1.0) : between - centroid) < 0.0) away = -away;
     double reach = -std::numeric_limits<double>::infinity();
@@ -251,7 +254,9 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
     }
     drawing.dimension(s, other, away, reach + 10.0, fmt::format("L {:g}", step.width));
   }
-  if (!from_top &&
+  // A height is one only where the workpiece stands upright.
+  const bool upright = turn(2, 2) > 1.0 - kTrue;
+  if (!from_top && upright &&
       (drawing.at(turn * step.line_from) - drawing.at(turn * step.line_to)).norm() < 8.0) {
     drawing.dot(s, "cut-end");
     const bool right = from.x() > s.x();

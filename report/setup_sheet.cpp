@@ -50,11 +50,12 @@ text { font-size: 12px; fill: var(--ink); } .note { fill: var(--faint); } .size 
 .axis-name { font-weight: 600; }
 .legend { color: var(--faint); font-size: 12px; margin: 10px 0 0; }
 .legend b.c { color: var(--cut); } .legend b.t { color: var(--accent); }
-@media (max-width: 760px) { .top, .cards { grid-template-columns: 1fr; } main { padding: 20px; }
+@media screen and (max-width: 760px) { .top, .cards { grid-template-columns: 1fr; } main { padding: 20px; }
   .scroll { overflow-x: auto; } }
 @page { size: A4; margin: 11mm; }
 @media print { body { background: #fff; font-size: 8.5pt; }
-  main { border: 0; margin: 0; padding: 0; max-width: none; } .cards { gap: 8px 18px; }
+  main { border: 0; margin: 0; padding: 0; max-width: none; } .cards { gap: 4px 18px; }
+  h2 { margin: 12px 0 5px; break-after: avoid; } th, td { padding: 1.5px 8px 1.5px 0; } h1 { font-size: 17pt; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 )";
 

@@ -147,6 +147,28 @@ TEST_F(CommandLineSystem, RefusesAnUnreachableToolDirection) {
   expect_refusal({"cone.nc:", "has no axis B"});
 }
 
+TEST_F(CommandLineSystem, WritesAndMeasuresAStepPatternPiece) {
+  const Outcome made =
+      run("program step --machine zx-yac --patterns 1-a,2-a --workpiece 1 --out piece");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  for (const char* file : {"job.toml", "step.nc", "step.plan.toml", "setup.html"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "piece" / file)) << file;
+  }
+  EXPECT_NE(read(folder_ / "piece/step.nc").find("(PATTERN 1-A, STEP D: SIDE -Y, A0 C-180)"),
+            std::string::npos);
+  replace_in("piece/job.toml", "report = true", "report = false");
+  const Outcome outcome = run("run piece/job.toml --out result --json --error dy_CA=5um");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto doc = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(doc["characteristics"][0]["name"], "1-a.dL");
+  EXPECT_NEAR(doc["characteristics"][0]["value"].get<double>(), 10.0, 0.01);  // 2 dy_CA
+  EXPECT_NEAR(doc["characteristics"][4]["value"].get<double>(), 0.0, 0.01);   // dL0
+  // A loft that is no body is refused where it stands.
+  fs::remove_all(folder_ / "result");
+  replace_in("piece/job.toml", "[180.4, 57, 61.2]", "[170.4, 57, 61.2]");
+  expect_refusal({"job.toml:", "blank.sections", "lies below the one before"});
+}
+
 TEST_F(CommandLineSystem, RefusesBadArguments) {
   for (const char* arguments :
        {"",
@@ -165,6 +187,13 @@ TEST_F(CommandLineSystem, RefusesBadArguments) {
         "program cone --machine iwf-bc --out p --radius 1e9",
         "program cone --machine iwf-bc --out p --chord-tolerance 1e-12",
         "program cone --machine three-axis --out p",
+        "program step --machine three-axis --out p",
+        "program step --machine zx-yac --workpiece 3 --out p",
+        "program step --machine zx-yac --workpiece 2 --patterns 3,4 --out p",
+        "program step --machine zx-yac --patterns 8 --out p",
+        "program step --machine zx-yac --center 1 --out p",
+        "program step --machine zx-yac --raise nan --out p",
+        "program step --machine zx-yac --raise 900 --out p",
         "pose --machine iwf-bc --axes X=1,X=2",
         "pose --machine iwf-bc --axes X=1 --tool-length nan",
         "program cone --machine iwf-bc --out p --center 1,2",

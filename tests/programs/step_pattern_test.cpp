@@ -61,8 +61,8 @@ struct Setting {
 };
 
 std::vector<Setting> settings() {
-  return {{"zx-yac", 1, {}}, {"zx-yac", 2, {}}, {"zx-yac", 2, {"4", "6-a"}},
-          {"iwf-bc", 1, {}}, {"iwf-bc", 2, {}}, {"zx-yac", 2, {"7"}}};
+  return {{"zx-yac", 1, {}}, {"zx-yac", 2, {}},  {"zx-yac", 2, {"4", "6-a"}}, {"iwf-bc", 1, {}},
+          {"iwf-bc", 2, {}}, {"dvf5000", 1, {}}, {"dvf5000", 2, {}},          {"zx-yac", 2, {"7"}}};
 }
 
 TEST(StepPatternSystem, EveryMeasuredPointIsCutByItsOwnStepAndNothingCollides) {

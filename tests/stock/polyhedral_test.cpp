@@ -272,6 +272,21 @@ TEST(PolyhedralWorkpiece, InscribesRoundBlanks) {
   EXPECT_NEAR(faceted.volume(), share * blank.volume(), 1e-9);
 }
 
+TEST(PolyhedralWorkpiece, TakesALoftAsItIs) {
+  const LoftShape steps{
+      {{0, 30, 24}, {5, 30, 24}, {5, 20, 18}, {9, 12, 10}, {9, 14, 12}, {11, 14, 12}}};
+  const auto blank = Blank::make(steps, Vec3(1, 2, 3)).value();
+  const auto faceted = polyhedral(blank, {}, CutterType::flat, {});
+  EXPECT_NEAR(faceted.volume(), blank.volume(), 1e-9);
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    const Ray ray = random_ray(blank.bounds(), k);
+    const IntervalSet exact = blank.along(ray, kAll);
+    const IntervalSet met = faceted.material_along(ray, kAll);
+    ASSERT_EQ(met.intervals().size(), exact.intervals().size()) << k;
+    EXPECT_NEAR(met.length(), exact.length(), 1e-9) << k;
+  }
+}
+
 TEST(PolyhedralWorkpiece, NothingIsLeftOfABlankThatTheCutterCoversWhole) {
   const ToolPath path =
       path_through({{Vec3(-9, 0, -1), Vec3::UnitZ()}, {Vec3(9, 0, -1), Vec3::UnitZ()}});
