@@ -30,6 +30,8 @@ using Subcommand = void (*)(CLI::App& program, int& exit_code);
 
 void add_run(CLI::App& program, int& exit_code);
 void add_sensitivity(CLI::App& program, int& exit_code);
+void add_identify(CLI::App& program, int& exit_code);
+void add_design(CLI::App& program, int& exit_code);
 void add_program(CLI::App& program, int& exit_code);
 void add_parse(CLI::App& program, int& exit_code);
 void add_pose(CLI::App& program, int& exit_code);

@@ -57,8 +57,7 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
                     suggestion(name, names_of(plan)));
       continue;
     }
-    const bool angular = planned->kind == metrology::CharacteristicKind::line_angle ||
-                         planned->kind == metrology::CharacteristicKind::half_angle;
+    const bool angular = metrology::is_angle(planned->kind);
     MeasuredValue value;
     if (measured.is_table(name)) {
       const TomlTable entry = measured.table(name);

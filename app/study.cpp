@@ -119,59 +119,79 @@ void check_machines(const std::vector<StudyPart>& parts, const TomlTable& root) 
   }
 }
 
+struct Parts {
+  std::vector<StudyPart> parts{};
+  Diagnostics problems{};
+};
+
+Parts read_parts(const TomlDocument& document) {
+  Parts found;
+  const std::vector<TomlTable> tables = document.root().tables("part");
+  if (tables.empty()) {
+    document.root().fail("part", "no part to learn from",
+                         "add [[part]] with name, job and measured");
+  }
+  for (const TomlTable& table : tables) {
+    if (auto part = read_part(table, document.folder(), found.problems)) {
+      found.parts.push_back(*std::move(part));
+    }
+  }
+  return found;
+}
+
+void read_uncertainty(const TomlTable& table, Study& study) {
+  if (const auto cmm = table.table_if("cmm")) study.cmm = metrology::read_cmm_model(*cmm);
+  if (const auto floor = table.table_if("floor")) {
+    study.floor_length = floor->length_or("length", {}, Bound::non_negative).value;
+    study.floor_angle = floor->angle_or("angle", {}, Bound::non_negative).value;
+  }
+}
+
+// Unknown errors are those listed, or all, and whatever is known of any besides.
+void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, Study& study,
+                   Diagnostics& problems) {
+  if (const auto unknown = root.table_if("unknown")) {
+    study.unknowns = unknown->texts_or("errors", {});
+    study.tool_radius =
+        static_cast<ToolRadius>(unknown->choice_or("tool_radius", {"common", "each", "exact"}, 0));
+  }
+  if (study.unknowns.empty()) study.unknowns = default_unknowns(machine);
+  if (const auto known = root.table_if("known")) study.known = read_known(*known, machine);
+  for (const KnownError& k : study.known) {
+    if (std::find(study.unknowns.begin(), study.unknowns.end(), k.name) == study.unknowns.end()) {
+      study.unknowns.push_back(k.name);
+    }
+  }
+  const auto parameters = trials::parameters_named(machine, study.unknowns);
+  if (!parameters) append(problems, parameters.error());
+}
+
 }  // namespace
 
 Result<Study> load_study(const fs::path& file) {
   auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
-  Diagnostics problems;
+  Parts parts = read_parts(*document);
+  // Without a machine nothing else of the file can be judged.
+  if (has_error(parts.problems)) return parts.problems;
+  if (parts.parts.empty()) return document->finish();
+
   Study study;
   study.file = file;
   study.title = root.text_or("title", "");
-  for (const TomlTable& table : root.tables("part")) {
-    if (auto part = read_part(table, document->folder(), problems)) {
-      study.parts.push_back(*std::move(part));
-    }
-  }
-  if (root.tables("part").empty()) {
-    root.fail("part", "no part to learn from", "add [[part]] with name, job and measured");
-  }
-  const auto unknown = root.table_if("unknown");
-  const auto known = root.table_if("known");
-  const auto others = root.table_if("compare");
-  if (unknown) {
-    study.unknowns = unknown->texts_or("errors", {});
-    study.tool_radius =
-        static_cast<ToolRadius>(unknown->choice_or("tool_radius", {"common", "each", "exact"}, 0));
-  }
-  if (const auto table = root.table_if("uncertainty")) {
-    if (const auto cmm = table->table_if("cmm")) study.cmm = metrology::read_cmm_model(*cmm);
-    if (const auto floor = table->table_if("floor")) {
-      study.floor_length = floor->length_or("length", {}, Bound::non_negative).value;
-      study.floor_angle = floor->angle_or("angle", {}, Bound::non_negative).value;
-    }
-  }
+  study.parts = std::move(parts.parts);
+  check_machines(study.parts, root);
+  read_unknowns(root, study.machine(), study, parts.problems);
+  if (const auto table = root.table_if("uncertainty")) read_uncertainty(*table, study);
   if (const auto table = root.table_if("method")) {
     study.refine = table->boolean_or("refine", true);
     study.recipe = static_cast<Recipe>(table->choice_or("recipe", {"none", "case-1", "case-2"}, 0));
   }
-  if (!study.parts.empty()) {
-    const kinematics::Machine& machine = study.machine();
-    check_machines(study.parts, root);
-    if (known) study.known = read_known(*known, machine);
-    if (others) study.others = read_others(*others, machine);
-    if (study.unknowns.empty()) study.unknowns = default_unknowns(machine);
-    for (const KnownError& k : study.known) {
-      if (std::find(study.unknowns.begin(), study.unknowns.end(), k.name) == study.unknowns.end()) {
-        study.unknowns.push_back(k.name);
-      }
-    }
-    const auto parameters = trials::parameters_named(machine, study.unknowns);
-    if (!parameters) append(problems, parameters.error());
-  }
-  Diagnostics all = has_error(problems) && study.parts.empty() ? problems : document->finish();
-  if (!(has_error(problems) && study.parts.empty())) append(all, problems);
+  if (const auto table = root.table_if("compare"))
+    study.others = read_others(*table, study.machine());
+  Diagnostics all = document->finish();
+  append(all, parts.problems);
   if (has_error(all)) return all;
   return study;
 }

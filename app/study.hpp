@@ -13,17 +13,14 @@
 #include <vector>
 
 #include "app/job.hpp"
+#include "calibration/piece_observations.hpp"
 #include "core/result.hpp"
 #include "metrology/cmm.hpp"
 
 namespace frustum::app {
 
-struct MeasuredValue {
-  double value = 0.0;                   // mm or rad
-  std::optional<double> uncertainty{};  // standard; absent: the measuring machine's
-};
-// One measured workpiece, by characteristic.
-using MeasuredPart = std::map<std::string, MeasuredValue>;
+using calibration::MeasuredPart;
+using calibration::MeasuredValue;
 
 // Workpieces of one kind: cut by one job, measured once or several times.
 struct StudyPart {
