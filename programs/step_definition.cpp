@@ -173,7 +173,8 @@ stock::LoftShape near_net_blank(const stock::LoftShape& body, double allowance) 
   stock::LoftShape blank;
   const auto slabs = stock::slabs_of(body);
   for (std::size_t i = 0; i < slabs.size(); ++i) {
-    const auto& [bottom, top] = slabs[i];
+    const stock::LoftSection& bottom = slabs[i].bottom;
+    const stock::LoftSection& top = slabs[i].top;
     const auto offset = [&](const stock::LoftSection& at, bool shifted) {
       const double rise = shifted ? allowance : 0.0;
       // Square to a face that leans inwards by m per mm of height, and on at that slope.

@@ -133,7 +133,7 @@ class Places {
   static std::string what_is_cut(const StepPattern& pattern, bool reference) {
     if (reference) return "S by the side edge, B by the bottom edge";
     const bool by_side = pattern.side_cut_by == SideCutBy::side_edge;
-    const std::string side = by_side ? "S by the side edge" : "S by the bottom edge";
+    std::string side = by_side ? "S by the side edge" : "S by the bottom edge";
     if (pattern.kind != StepKind::step) return side;
     return side + (by_side ? ", B by the bottom edge" : ", B by the side edge");
   }

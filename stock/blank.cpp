@@ -181,7 +181,7 @@ IntervalSet Blank::along(const Ray& ray, RaySpan span) const {
   if (const auto* box = std::get_if<BoxShape>(&shape_)) {
     const Vec3 lo(-box->size_x / 2, -box->size_y / 2, 0.0);
     const Vec3 hi(box->size_x / 2, box->size_y / 2, box->height);
-    for (int k = 0; k < 3; ++k) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
       clip(chord, lo[k] - p[k], -d[k], 2 * k);
       clip(chord, p[k] - hi[k], d[k], 2 * k + 1);
     }
@@ -199,7 +199,7 @@ Vec3 Blank::normal(EndTag face, const Vec3& point) const {
     const LoftSlab slab = slabs_of(*loft)[static_cast<std::size_t>(face / 6)];
     const EndTag side = face % 6;
     const auto k = static_cast<Eigen::Index>(side / 2);
-    const Vec3 outward = side % 2 == 0 ? Vec3(-Vec3::Unit(k)) : Vec3(Vec3::Unit(k));
+    Vec3 outward = side % 2 == 0 ? Vec3(-Vec3::Unit(k)) : Vec3(Vec3::Unit(k));
     if (k == 2) return outward;
     const double m = k == 0 ? growth(slab.bottom.size_x, slab.top.size_x, slab)
                             : growth(slab.bottom.size_y, slab.top.size_y, slab);
