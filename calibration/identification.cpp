@@ -120,10 +120,9 @@ void fill_priors(const Observations& observations, const WeightedSystem& system,
   }
 }
 
-void fill_agreement(const WeightedSystem& system, const Solution& solution,
-                    Identification& result) {
+// `chi_square` is there.
+void fill_agreement(const WeightedSystem& system, Identification& result) {
   Agreement& agreement = result.agreement;
-  agreement.chi_square = (system.right - system.matrix * solution.scaled).squaredNorm();
   agreement.degrees_of_freedom = static_cast<int>(system.matrix.rows()) - result.observability.rank;
   if (agreement.degrees_of_freedom <= 0) return;
   agreement.probability = chi_square_tail(agreement.chi_square, agreement.degrees_of_freedom);
@@ -149,15 +148,17 @@ Result<Identification> identify(const Observations& observations, const Identify
   if (!(options.confidence > 0.0 && options.confidence < 1.0)) {
     return error("the confidence of the intervals lies between 0 and 1", "0.95 is usual");
   }
-  if (options.degrees_of_freedom && !(*options.degrees_of_freedom > 0.0)) {
-    return error("the degrees of freedom of the covariance have to be positive");
+  if (options.degrees_of_freedom &&
+      (!(*options.degrees_of_freedom >= 1.0) || !std::isfinite(*options.degrees_of_freedom))) {
+    return error("the degrees of freedom of the covariance have to be at least 1 and finite");
   }
   const auto system = weighted_system(observations, options.floor);
   if (!system) return system.error();
   Identification result;
   result.observability = observability(observations, *system);
   const Solution solution = solve(*system, result.observability.rank);
-  if (!solution.scaled.allFinite()) {
+  result.agreement.chi_square = (system->right - system->matrix * solution.scaled).squaredNorm();
+  if (!solution.scaled.allFinite() || !std::isfinite(result.agreement.chi_square)) {
     return error("the measurements leave the range of numbers", "check their units");
   }
   const double coverage = coverage_factor(options.confidence, options.degrees_of_freedom);
@@ -165,7 +166,7 @@ Result<Identification> identify(const Observations& observations, const Identify
   fill_combinations(*system, solution, result);
   fill_rows(observations, *system, solution, result);
   fill_priors(observations, *system, solution, result);
-  fill_agreement(*system, solution, result);
+  fill_agreement(*system, result);
   result.suspect = suspect_of(result.residuals);
   result.diagnostics = findings(observations, *system, result);
   return result;

@@ -186,7 +186,14 @@ class Steps {
     step.value += gamma_YX;
   }
 
-  [[nodiscard]] Recipe finish(const RecipeErrors& errors) && { return {std::move(steps_), errors}; }
+  [[nodiscard]] Result<Recipe> finish(const RecipeErrors& errors) && {
+    for (const RecipeStep& step : steps_) {
+      if (std::isfinite(step.value)) continue;
+      return error(fmt::format("{} of step {} is not a finite number", step.quantity, step.step),
+                   "check the units of the measured values and sizes");
+    }
+    return Recipe{std::move(steps_), errors};
+  }
 
  private:
   std::span<const StepMeasurement> measured_;

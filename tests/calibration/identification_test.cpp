@@ -246,6 +246,9 @@ TEST(Identification, RefusesWhatIsNoObservation) {
   o = small();
   o.values.resize(3);
   expect_refused(o, "3 values for 4 characteristics");
+  o = small();
+  o.values *= 1e200;
+  expect_refused(o, "leave the range of numbers");
   expect_refused(small(), "the floor of the uncertainties", {{-1.0, 0.0}, 0.95, {}});
   expect_refused(small(), "confidence", {{}, 1.0, {}});
   expect_refused(small(), "degrees of freedom", {{}, 0.95, 0.0});

@@ -132,6 +132,10 @@ TEST(StepRecipes, NameWhatIsMissing) {
   auto infinite = predicted(kTrue, {"1-a", "2-a", "3", "4"});
   infinite[0].dL = std::nan("");
   EXPECT_FALSE(recipe_case_1(infinite, kKnown));
+  auto vast = predicted(kTrue, {"1-a", "2-a", "3", "4"});
+  vast[3].dL = 1.5e308;
+  vast[3].theta = 1e308;
+  EXPECT_FALSE(recipe_case_1(vast, kKnown));
 }
 
 }  // namespace
