@@ -8,7 +8,7 @@
 // Units    : mm, rad; points in the workpiece frame
 // Shape    : one row a characteristic, one column a point: features in order, points in order
 // Errors   : those of the frame and of the fits
-// Accuracy : first order about the measured part; 1e-5 of the gradient for a part 1 mrad askew
+// Accuracy : first order about the measured part; 1e-3 of the gradient for a part 1 mrad askew
 //            (tests/metrology/propagation_test.cpp)
 // Source   : JCGM 100:2008, section 5.1.3
 #pragma once

@@ -28,9 +28,22 @@ InspectionPlan mixed_plan() {
   p.characteristics.push_back({"lean", K::line_distance, {"E_c", "S_d"}, {}, 0.02, "leaning", y});
   p.characteristics.push_back({"bare", K::line_distance, {"E_c", "S_d"}, {}, 0.02, "", y});
   p.characteristics.push_back({"flat", K::flatness, {"F_a"}, {}, 0.02});
+  // Upright lines on two walls, 40 mm apart along X: they see the frame turn about Z.
+  for (const char* name : {"S_c upright", "S_d upright"}) {
+    PlannedFeature f = *find_feature(p, std::string(name).substr(0, 3));
+    f.name = name;
+    f.axis = z;
+    f.point.x() = name[2] == 'c' ? -20.0 : 20.0;
+    f.strategy = LineStrategy{-1.5, 1.5, 4};
+    p.features.push_back(f);
+  }
+  p.characteristics.push_back(
+      {"yaw", K::line_distance, {"S_c upright", "S_d upright"}, {}, 0.02, "R", y});
+  p.characteristics.push_back(
+      {"lean yaw", K::line_distance, {"S_c upright", "S_d upright"}, {}, 0.02, "leaning", y});
   // Lines that do not run over the middle of the part, read away from the middle of their points.
   for (PlannedFeature& f : p.features) {
-    if (f.kind != FeatureKind::line) continue;
+    if (f.kind != FeatureKind::line || f.name.size() > 3) continue;
     f.point.x() = 8.0;
     std::get<LineStrategy>(f.strategy) = {-30.0, 12.0, 9};
   }
@@ -100,11 +113,11 @@ TEST(Propagation, GradientsAreWhatMovedPointsDo) {
   const auto perfect = evaluate(p, step_part::surface_points(p, step_part::part()));
   ASSERT_TRUE(perfect) << to_string(perfect.error().front());
   EXPECT_LT(gradient_error(p, points_of(*perfect), 1), 1e-7);
-  // Gradients are about 1; what a part 1 mrad askew changes is of second order.
+  // Gradients are about 1; what a part 1 mrad askew changes is of the order of 1e-3 of them.
   const Pose lie{rotation_about(Vec3(2, -1, 2).normalized(), 1e-3), Vec3(0.2, -0.1, 0.3)};
   const auto askew = evaluate(p, step_part::surface_points(p, step_part::part().moved(lie)));
   ASSERT_TRUE(askew);
-  EXPECT_LT(gradient_error(p, points_of(*askew), 1), 1e-5);
+  EXPECT_LT(gradient_error(p, points_of(*askew), 1), 1e-3);
 }
 
 TEST(Propagation, GradientsInADatumSystemToo) {

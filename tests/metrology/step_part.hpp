@@ -118,7 +118,7 @@ inline std::vector<FeaturePoints> surface_points(const InspectionPlan& plan, con
   std::vector<FeaturePoints> all;
   for (const PlannedFeature& feature : plan.features) {
     FeaturePoints points{feature.name, {}, {}};
-    const Face& face = part.faces.at(feature.name);
+    const Face& face = part.faces.at(feature.name.substr(0, 3));  // "S_c" of "S_c upright"
     for (const PlannedPoint& p : planned_points(feature)) {
       const double t = (face.point - p.point).dot(face.normal) / p.normal.dot(face.normal);
       points.points.push_back(p.point + t * p.normal);
