@@ -28,32 +28,21 @@ std::vector<ElementChange> changes_of(const Element& element) {
 }  // namespace
 
 Element varied(Element element, ElementChange change, double by) {
+  using enum ElementChange;
   std::visit(
       [&](auto& e) {
         if constexpr (requires { e.axis; }) {
           const auto [u, v] = tangents(e.axis);
-          switch (change) {
-            case ElementChange::lift:
-              e.point += by * e.axis.vec();
-              break;
-            case ElementChange::shift_u:
-              e.point += by * u;
-              break;
-            case ElementChange::shift_v:
-              e.point += by * v;
-              break;
-            case ElementChange::tilt_u:
-              e.axis = unit(e.axis.vec() + by * u);
-              break;
-            case ElementChange::tilt_v:
-              e.axis = unit(e.axis.vec() + by * v);
-              break;
-            case ElementChange::radius:
-              if constexpr (requires { e.radius; }) e.radius += by;
-              break;
-            case ElementChange::half_angle:
-              if constexpr (requires { e.half_angle; }) e.half_angle += by;
-              break;
+          const bool along_u = change == shift_u || change == tilt_u;
+          const Vec3 across = by * (along_u ? u : v);
+          if (change == lift) e.point += by * e.axis.vec();
+          if (change == shift_u || change == shift_v) e.point += across;
+          if (change == tilt_u || change == tilt_v) e.axis = unit(e.axis.vec() + across);
+          if constexpr (requires { e.radius; }) {
+            if (change == radius) e.radius += by;
+          }
+          if constexpr (requires { e.half_angle; }) {
+            if (change == half_angle) e.half_angle += by;
           }
         }
       },
@@ -63,9 +52,8 @@ Element varied(Element element, ElementChange change, double by) {
 
 double step_of(ElementChange change) {
   // All is smooth over 10 mm and 1 rad: these are wrong by 1e-8, rounding adds 1e-9.
-  const bool is_angle = change == ElementChange::tilt_u || change == ElementChange::tilt_v ||
-                        change == ElementChange::half_angle;
-  return is_angle ? 1e-5 : 1e-3;
+  using enum ElementChange;
+  return change == tilt_u || change == tilt_v || change == half_angle ? 1e-5 : 1e-3;
 }
 
 FitResponse fit_response(const FittedFeature& feature) {

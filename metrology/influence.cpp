@@ -138,9 +138,9 @@ Result<Eigen::RowVectorXd> Influence::size(const PlannedCharacteristic& planned)
   };
   const auto slope = [&](const FittedFeature& less, const FittedFeature& more,
                          double step) -> Result<double> {
-    const auto low = value_of(less);
+    auto low = value_of(less);
     if (!low) return low;
-    const auto high = value_of(more);
+    auto high = value_of(more);
     if (!high) return high;
     return (*high - *low) / (2.0 * step);
   };

@@ -36,7 +36,7 @@ std::string angle(double rad) {
 
 std::string tolerance(const PlannedCharacteristic& c) {
   const bool angular = is_angle(c.kind);
-  const std::string plain = fmt::format("\"{} {}\"", c.tolerance, angular ? "rad" : "mm");
+  std::string plain = fmt::format("\"{} {}\"", c.tolerance, angular ? "rad" : "mm");
   const auto micro = written_in(c.tolerance, angular ? 1e-6 : 1e-3);
   if (!micro) return plain;
   // 0.0002 rad would be 200.00000000000003 urad: the shorter one is what was meant.
@@ -129,6 +129,7 @@ std::string text_of(const PlannedFeature& f) {
 
 std::vector<std::string> toml_texts(const std::vector<std::string>& texts) {
   std::vector<std::string> written;
+  written.reserve(texts.size());
   for (const std::string& text : texts) written.push_back(toml_text(text));
   return written;
 }
