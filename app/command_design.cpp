@@ -78,6 +78,29 @@ std::vector<std::string> default_unknowns(const kinematics::Machine& machine) {
   return names;
 }
 
+// Keeps the unknowns that all patterns together tell one after the other.
+void leave_out_dependent(Design& design) {
+  calibration::Observations& all = design.catalogue.observations;
+  const auto kept = calibration::independent_unknowns(all);
+  if (!kept) return;
+  const auto is_kept = [&](std::size_t k) {
+    return std::find(kept->begin(), kept->end(), static_cast<Eigen::Index>(k)) != kept->end() ||
+           all.unknowns[k].is_fixed();
+  };
+  std::vector<calibration::Unknown> unknowns;
+  std::vector<Eigen::Index> columns;
+  for (std::size_t k = 0; k < all.unknowns.size(); ++k) {
+    if (is_kept(k)) {
+      unknowns.push_back(all.unknowns[k]);
+      columns.push_back(static_cast<Eigen::Index>(k));
+    } else {
+      design.left_out.push_back(all.unknowns[k].name);
+    }
+  }
+  all.gain = Eigen::MatrixXd(all.gain(Eigen::all, columns));
+  all.unknowns = std::move(unknowns);
+}
+
 Result<Design> design_of(const Options& o, const kinematics::Machine& machine) {
   Diagnostics problems;
   const auto keep = [&](const auto& result) {
@@ -114,7 +137,10 @@ Result<Design> design_of(const Options& o, const kinematics::Machine& machine) {
   all->causes.push_back({{std::string(trials::kToolRadius), false, std::nullopt}, std::nullopt});
   auto catalogue = calibration::step_catalogue(machine, all->unknowns, all->causes, cmm, setup);
   if (!catalogue) return std::move(catalogue).error();
-  return Design{std::move(*catalogue), {}, {}};
+  Design design{std::move(*catalogue), {}, {}, {}};
+  // A list that nobody gave may hold what no pattern can tell apart.
+  if (o.unknowns.empty()) leave_out_dependent(design);
+  return design;
 }
 
 std::vector<std::string> names_of(const calibration::StepCatalogue& catalogue) {
@@ -168,6 +194,16 @@ std::optional<Diagnostics> choose_patterns(Design& design, const Options& o,
   return std::nullopt;
 }
 
+// Of all patterns to choose from together.
+std::vector<calibration::NullDirection> null_space_of(const Design& design) {
+  std::vector<Eigen::Index> rows;
+  for (const auto& pattern : design.catalogue.patterns) {
+    rows.insert(rows.end(), pattern.rows.begin(), pattern.rows.end());
+  }
+  const auto told = calibration::observability(design.catalogue.observations.selected(rows));
+  return told ? told->null_space : std::vector<calibration::NullDirection>{};
+}
+
 int show_design(const Options& o) {
   const auto machine = kinematics::Machine::load(find_machine(o.machine, "."));
   if (!machine) return refuse(machine.error());
@@ -195,6 +231,7 @@ int show_design(const Options& o) {
       calibration::design(design->catalogue.observations, design->catalogue.patterns, options);
   if (!result) return refuse(result.error());
   design->result = *std::move(result);
+  design->null_space = null_space_of(*design);
   design->limits = options.limits;
   std::cout << (o.json ? design_json(*machine, *design) : design_text(*machine, *design));
   return design->result.smallest ? kDone : kOutOfTolerance;

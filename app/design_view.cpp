@@ -68,6 +68,11 @@ std::string design_text(const kinematics::Machine& machine, const Design& design
       fmt::format("{}: {} unknowns, {} step patterns within travel\n", machine.title(),
                   design.result.unknowns, design.catalogue.patterns.size());
   for (const auto& u : design.catalogue.unreachable) out += fmt::format("  out: {}\n", u.reason);
+  if (!design.left_out.empty()) {
+    out += "  left out, since no step pattern tells them from the others:";
+    for (const std::string& name : design.left_out) out += ' ' + name;
+    out += '\n';
+  }
   out += "\nBest set of each size\n";
   TextTable sets(
       {"patterns", "number", "workpieces", "told", "log det", "sets of the size that tell all"});
@@ -89,6 +94,7 @@ std::string design_text(const kinematics::Machine& machine, const Design& design
                        names_of(design, design.result.smallest->blocks));
   } else {
     out += "\nNo set of these patterns tells all errors within the limits.\n";
+    for (const auto& direction : design.null_space) out += direction.text + '\n';
   }
   out += "\nExpected standard deviation of each error\n";
   std::vector<std::string> headings{"error", "unit"};
@@ -120,6 +126,7 @@ std::string design_json(const kinematics::Machine& machine, const Design& design
   for (const auto& u : design.catalogue.observations.unknowns) {
     json["unknowns"].push_back({{"name", u.name}, {"unit", u.angular ? "urad" : "um"}});
   }
+  json["left_out"] = design.left_out;
   json["unreachable"] = Json::array();
   for (const auto& u : design.catalogue.unreachable) {
     json["unreachable"].push_back({{"pattern", u.pattern}, {"reason", u.reason}});
@@ -130,6 +137,8 @@ std::string design_json(const kinematics::Machine& machine, const Design& design
   }
   json["smallest"] =
       design.result.smallest ? choice_json(design, *design.result.smallest) : Json(nullptr);
+  json["null_space"] = Json::array();
+  for (const auto& direction : design.null_space) json["null_space"].push_back(direction.text);
   json["smallest_identifying"] = Json::array();
   for (const auto& set : design.result.smallest_identifying) {
     Json names = Json::array();

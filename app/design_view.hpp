@@ -13,6 +13,9 @@ struct Design {
   calibration::StepCatalogue catalogue{};
   calibration::DesignResult result{};
   std::vector<std::optional<double>> limits{};  // of standard deviations, one an unknown
+  std::vector<std::string> left_out{};          // unknowns that no pattern tells from the others
+  // What all patterns together cannot tell, in words.
+  std::vector<calibration::NullDirection> null_space{};
 };
 
 [[nodiscard]] std::string design_text(const kinematics::Machine& machine, const Design& design);

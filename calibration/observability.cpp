@@ -251,4 +251,24 @@ Result<Separation> separating(const Observations& observations,
   return result;
 }
 
+Result<std::vector<Eigen::Index>> independent_unknowns(const Observations& observations,
+                                                       const Floor& floor) {
+  const auto system = weighted_system(observations, floor);
+  if (!system) return system.error();
+  std::vector<Eigen::Index> kept;
+  std::vector<Eigen::VectorXd> directions;  // orthonormal, of what is kept
+  for (Eigen::Index k = 0; k < system->matrix.cols(); ++k) {
+    Eigen::VectorXd rest = system->matrix.col(k);
+    const double all = rest.norm();
+    // Twice, since one pass leaves rounding of the size of what it took away.
+    for (int pass = 0; pass < 2; ++pass) {
+      for (const Eigen::VectorXd& d : directions) rest -= d.dot(rest) * d;
+    }
+    if (rest.norm() < std::max(kFaintest, kGainAccuracy * all)) continue;
+    directions.push_back(rest.normalized());
+    kept.push_back(system->free[static_cast<std::size_t>(k)]);
+  }
+  return kept;
+}
+
 }  // namespace frustum::calibration

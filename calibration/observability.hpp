@@ -76,6 +76,11 @@ struct Observability {
 [[nodiscard]] std::vector<bool> told_by(const Eigen::MatrixXd& null_space,
                                         const Eigen::VectorXd& variances);
 
+// Unknowns that can be told one after the other: in their order, each that the measurements tell from all
+// those kept before it. The others only move what these do.
+[[nodiscard]] Result<std::vector<Eigen::Index>> independent_unknowns(
+    const Observations& observations, const Floor& floor = {});
+
 // How many singular values (largest first) count.
 [[nodiscard]] int rank_of(const Eigen::VectorXd& singular_values);
 

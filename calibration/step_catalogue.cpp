@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calibration/piece_observations.hpp"
+#include "programs/tilting_table.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -58,6 +59,20 @@ std::vector<UnreachablePattern> drop_unreachable(const kinematics::Machine& mach
   return dropped;
 }
 
+// Patterns in the order of their definitions, whatever workpiece they are on.
+void sort_as_defined(StepCatalogue& catalogue) {
+  StepCatalogue sorted;
+  for (const programs::StepPattern& pattern : programs::step_patterns()) {
+    for (std::size_t i = 0; i < catalogue.patterns.size(); ++i) {
+      if (catalogue.patterns[i].name != pattern.name) continue;
+      sorted.patterns.push_back(catalogue.patterns[i]);
+      sorted.workpiece.push_back(catalogue.workpiece[i]);
+    }
+  }
+  catalogue.patterns = std::move(sorted.patterns);
+  catalogue.workpiece = std::move(sorted.workpiece);
+}
+
 // A part that measures exactly nothing, so that rows and covariances follow from the plan.
 MeasuredPart nothing_measured(const metrology::InspectionPlan& plan) {
   MeasuredPart part;
@@ -77,6 +92,7 @@ Result<StepCatalogue> step_catalogue(const kinematics::Machine& machine,
                                      std::vector<Unknown> unknowns,
                                      const std::vector<Cause>& causes,
                                      const metrology::CmmModel& cmm, const CatalogueSetup& setup) {
+  if (const auto table = programs::TiltingTable::of(machine); !table) return table.error();
   StepCatalogue catalogue;
   std::vector<MeasuredPiece> pieces;
   std::vector<int> workpieces;
@@ -120,6 +136,7 @@ Result<StepCatalogue> step_catalogue(const kinematics::Machine& machine,
       block->rows.push_back(row);
     }
   }
+  sort_as_defined(catalogue);
   return catalogue;
 }
 
