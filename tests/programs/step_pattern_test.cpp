@@ -72,7 +72,7 @@ TEST(StepPatternSystem, EveryMeasuredPointIsCutByItsOwnStepAndNothingCollides) {
     const StepPiece step = made(test_of(s.workpiece, s.patterns), on);
     trials::TrialOptions options;
     options.measure = false;
-    const auto trial = trials::run_trial(on, {}, step.piece, {}, options);
+    const auto trial = trials::run_trial(on, kinematics::GeometricErrors{}, step.piece, {}, options);
     ASSERT_TRUE(trial) << to_string(trial.error().front());
     EXPECT_TRUE(trial->collisions.empty()) << "line " << trial->collisions.front().source_line
                                            << ", " << trial->collisions.front().depth << " mm";
@@ -105,7 +105,7 @@ TEST(StepPatternSystem, MeasuresZeroOnAnErrorFreeMachine) {
     SCOPED_TRACE(std::string(s.machine) + " workpiece " + std::to_string(s.workpiece));
     const auto on = machine(s.machine);
     const StepPiece step = made(test_of(s.workpiece, s.patterns), on);
-    const auto trial = trials::run_trial(on, {}, step.piece, {});
+    const auto trial = trials::run_trial(on, kinematics::GeometricErrors{}, step.piece, {});
     ASSERT_TRUE(trial) << to_string(trial.error().front());
     const auto& found = trial->measurement.characteristics;
     ASSERT_EQ(found.size(), step.piece.plan.characteristics.size());
@@ -127,7 +127,7 @@ TEST(StepPatternSystem, TheProbeReachesEveryPoint) {
     trials::TrialOptions options;
     options.measure = false;
     options.find_collisions = false;
-    const auto trial = trials::run_trial(on, {}, step.piece, {}, options);
+    const auto trial = trials::run_trial(on, kinematics::GeometricErrors{}, step.piece, {}, options);
     ASSERT_TRUE(trial);
     const auto& probe = step.piece.plan.probe;
     const double r = 0.5 * probe.ball_diameter;
