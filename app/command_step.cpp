@@ -90,7 +90,7 @@ void add_step(CLI::App& kinds, int& exit_code) {
   step->add_option("--raise", o->raise, "Added to all heights H above the tilt axis, mm (0)");
   step->add_option("--tool-diameter", o->tool_diameter, "mm (20)");
   step->add_option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
-  step->add_option("--allowance", o->allowance, "Left on every face of the blank, mm (0.1)");
+  step->add_option("--allowance", o->allowance, "Left on every face of the blank, mm (0.5)");
   step->add_option("--feed", o->feed, "mm/min (1000)");
   step->add_option("--speed", o->speed, "Spindle, 1/min (5000)");
   step->add_option("--tolerance", o->tolerance, "Of dL, dH and dL0, um (20)");

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/machine_files.hpp"
+#include "core/spelling.hpp"
 #include "core/toml_document.hpp"
 
 namespace frustum::app {
@@ -118,6 +119,7 @@ void read_operations(const TomlTable& root, programs::TestPiece& piece) {
   for (const TomlTable& table : root.tables("operation")) {
     programs::Operation op;
     op.name = table.text("name");
+    op.makes = table.texts_or("makes", {});
     const auto lines = table.numbers("lines");
     const bool valid =
         lines.size() == 2 && lines[0] >= 1.0 && lines[1] >= lines[0] && lines[1] < 4e9;
@@ -149,6 +151,20 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
     piece.plan = *std::move(plan);
   } else {
     problems.insert(problems.end(), plan.error().begin(), plan.error().end());
+  }
+}
+
+// What operations make must be in the plan, when there is one.
+void check_made_features(const TomlTable& root, const programs::TestPiece& piece) {
+  if (piece.plan.features.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& feature : piece.plan.features) names.push_back(feature.name);
+  for (const TomlTable& table : root.tables("operation")) {
+    for (const std::string& name : table.texts_or("makes", {})) {
+      if (metrology::find_feature(piece.plan, name) != nullptr) continue;
+      table.fail("makes", fmt::format("the plan has no feature '{}'", name),
+                 suggestion(name, names));
+    }
   }
 }
 
@@ -210,6 +226,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
 
   metrology::CmmModel cmm;
   read_inspection(root, want_plan, piece, cmm, problems);
+  check_made_features(root, piece);
   const fs::path machine_file = find_machine(machine_name, document->folder());
   auto machine = kinematics::Machine::load(machine_file);
   if (!machine && !machine_name.empty()) {

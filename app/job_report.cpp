@@ -116,6 +116,8 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   report.budget = {{"tool path chord", job.path_bound * kUmPerMm, {}, "um"},
                    {"ray against sweep", 1.0, {}, "nm"}};
   report.diagnostics = trial.warnings;
+  report.diagnostics.insert(report.diagnostics.end(), trial.wrong_cuts.begin(),
+                            trial.wrong_cuts.end());
   const Vec3& at = job.piece.placement.origin;
   const Vec3 tilt = job.piece.placement.tilt * kDegPerRad;
   report.notes.push_back(fmt::format(

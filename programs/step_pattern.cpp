@@ -125,7 +125,8 @@ Result<StepPiece> step_pattern(const StepTest& test, const kinematics::Machine& 
   if (!places) return places.error();
   piece.program = step_program(test, *patterns, machine, *table, *places);
   for (const StepPlace& place : places->steps) {
-    piece.operations.push_back({place.name, place.cut.first_line, place.cut.last_line});
+    piece.operations.push_back(
+        {place.name, place.cut.first_line, place.cut.last_line, place.makes});
     made.cuts.push_back(place.cut);
   }
   return made;

@@ -128,7 +128,8 @@ struct StepTest {
   std::vector<std::string> patterns{};  // empty: all that the workpiece carries together
   Mm tool_diameter{20.0};
   Mm tool_length{150.0};
-  Mm allowance{0.1};  // depth of the semi-finishing pass; finishing runs on the same path
+  Mm allowance{0.5};       // on every face of the blank: more than the errors may move a cut
+  Mm semi_finishing{0.1};  // depth of the semi-finishing pass; finishing runs on the same path
   double feed = 1000.0;
   double spindle_speed = 5000.0;
   Mm tolerance{0.020};            // of dL, dH, dL0

@@ -69,11 +69,12 @@ class Places {
     place.rotary = table_.positions(machine_, pass.tilt, pass.turn);
     place.clear_z = run.clear;
     const Mat3 machine_from_definition = rotation_z(table_.orientation);
-    place.heading =
-        upper(fmt::format("{}, step {}: side {}, {}{:g} {}{:g}", place.owner, to_char(step),
-                          direction_name(machine_from_definition * pass.side), to_char(table_.tilt),
-                          place.rotary[table_.tilt] * kDegPerRad, to_char(table_.turn),
-                          place.rotary[table_.turn] * kDegPerRad));
+    place.side = machine_from_definition * pass.side;
+    place.heading = upper(fmt::format(
+        "{}, step {}: side {}, {}{:g} {}{:g}", place.owner, to_char(step),
+        direction_name(place.side), to_char(table_.tilt), place.rotary[table_.tilt] * kDegPerRad,
+        to_char(table_.turn), place.rotary[table_.turn] * kDegPerRad));
+    place.makes = made_features(pattern, step);
     StepCut& cut = place.cut;
     cut.name = place.name;
     const bool reference = step == StepName::a || step == StepName::b;
@@ -130,6 +131,17 @@ class Places {
   }
 
  private:
+  // The plan's features that this step cuts, as step_plan() names them.
+  static std::vector<std::string> made_features(const StepPattern& pattern, StepName step) {
+    const bool reference = step == StepName::a || step == StepName::b;
+    const std::string_view owner = reference ? pattern.reference() : pattern.name;
+    std::vector<std::string> features{fmt::format("{}.S_{}", owner, to_char(step))};
+    if (reference || pattern.kind == StepKind::step) {
+      features.push_back(fmt::format("{}.B_{}", owner, to_char(step)));
+    }
+    return features;
+  }
+
   static std::string what_is_cut(const StepPattern& pattern, bool reference) {
     if (reference) return "S by the side edge, B by the bottom edge";
     const bool by_side = pattern.side_cut_by == SideCutBy::side_edge;
@@ -177,26 +189,31 @@ std::string changed_words(const Vec3& from, const Vec3& to) {
   return words;
 }
 
+// One pass from above its beginning to its end; the tool is left in the cut.
+void write_pass(NcText& nc, const StepTest& test, const Vec3& from, const Vec3& to,
+                std::string_view what) {
+  nc.line(length_word('X', from.x()) + " " + length_word('Y', from.y()));
+  nc.line(length_word('Z', from.z()));
+  nc.line(fmt::format("G1 {} F{:g} ({})", changed_words(from, to), test.feed, what));
+}
+
 void write_step(NcText& nc, const StepTest& test, const TiltingTable& table, StepPlace& place,
                 double safe_z) {
   StepCut& cut = place.cut;
-  const std::string place_xy =
-      length_word('X', cut.words_from.x()) + " " + length_word('Y', cut.words_from.y());
-  const std::string down = length_word('Z', cut.words_from.z());
-  const std::string feed =
-      "G1 " + changed_words(cut.words_from, cut.words_to) + fmt::format(" F{:g}", test.feed);
+  const std::string up = "G0 " + length_word('Z', place.clear_z);
   nc.comment(place.heading);
   nc.line("G0 " + angle_word(to_char(table.tilt), place.rotary[table.tilt]) + " " +
           angle_word(to_char(table.turn), place.rotary[table.turn]));
-  nc.line(place_xy);
-  nc.line(down);
   cut.first_line = nc.next_line();
-  nc.line(feed + " (SEMI-FINISHING)");
-  nc.line("G0 " + length_word('Z', place.clear_z));
-  nc.line(place_xy);
-  nc.line(down);
-  cut.last_line = nc.next_line();
-  nc.line(feed + " (FINISHING)");
+  if (test.allowance.value > test.semi_finishing.value) {
+    const Vec3 off = test.semi_finishing.value * (place.side + Vec3::UnitZ());
+    write_pass(nc, test, cut.words_from + off, cut.words_to + off, "ROUGHING");
+    nc.line(up);
+  }
+  write_pass(nc, test, cut.words_from, cut.words_to, "SEMI-FINISHING");
+  nc.line(up);
+  write_pass(nc, test, cut.words_from, cut.words_to, "FINISHING");
+  cut.last_line = nc.next_line() - 1;
   nc.line("G0 " + length_word('Z', safe_z));
 }
 

@@ -15,9 +15,11 @@ namespace frustum::programs {
 
 // One step and where it is cut.
 struct StepPlace {
-  std::string name{};     // "1-a c"
-  std::string owner{};    // "pattern 1-a", for messages
-  std::string heading{};  // NC comment
+  std::string name{};                // "1-a c"
+  std::string owner{};               // "pattern 1-a", for messages
+  std::string heading{};             // NC comment
+  std::vector<std::string> makes{};  // features of the plan
+  Vec3 side = Vec3::UnitY();         // machine: from the side edge's surface to the tool axis
   kinematics::AxisPositions rotary{};
   StepCut cut{};
   double clear_z = 0.0;  // word: above the workpiece in this table position

@@ -21,6 +21,9 @@ struct Operation {
   std::string name{};
   std::uint32_t first_line = 0;
   std::uint32_t last_line = 0;
+  // Features of the plan that these lines cut; a measured point of theirs that anything else made, or
+  // nothing, is worth a warning.
+  std::vector<std::string> makes{};
 };
 
 // How the workpiece lies on the table, as people write it.

@@ -1,6 +1,7 @@
 #include "programs/test_piece_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <system_error>
 
@@ -91,6 +92,7 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
     line("[[operation]]");
     line(fmt::format("name  = \"{}\"", op.name));
     line(fmt::format("lines = [{}, {}]", op.first_line, op.last_line));
+    if (!op.makes.empty()) line(fmt::format("makes = [\"{}\"]", fmt::join(op.makes, "\", \"")));
   }
   line("");
   line("[inspection]");

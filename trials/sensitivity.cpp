@@ -26,6 +26,17 @@ TrialOptions quiet(double path_bound) {
   return options;
 }
 
+// A trial whose measured features were all cut by what should cut them: a derivative of anything else would
+// be of no use to anybody.
+Result<Trial> clean_trial(const Machine& machine, const GeometricErrors& errors,
+                          const TestPiece& piece, double path_bound) {
+  auto trial = run_trial(machine, errors, piece, {}, quiet(path_bound));
+  if (!trial || trial->wrong_cuts.empty()) return trial;
+  Diagnostics wrong = std::move(trial->wrong_cuts);
+  for (Diagnostic& d : wrong) d.severity = Severity::error;
+  return wrong;
+}
+
 // Characteristics of the measured part when every point moves along its normal.
 class MovedPoints {
  public:
@@ -74,10 +85,10 @@ void set_column(Sensitivity& s, Eigen::Index column, double step, const Eigen::V
 Result<Trial> varied_trial(const Machine& machine, const GeometricErrors& errors, TestPiece piece,
                            const Parameter& parameter, double amount, double path_bound) {
   if (parameter.unit) {
-    return run_trial(machine, errors.plus(*parameter.unit, amount), piece, {}, quiet(path_bound));
+    return clean_trial(machine, errors.plus(*parameter.unit, amount), piece, path_bound);
   }
   for (auto& [number, tool] : piece.tools) tool.radius_error.value += amount;
-  return run_trial(machine, errors, piece, {}, quiet(path_bound));
+  return clean_trial(machine, errors, piece, path_bound);
 }
 
 }  // namespace
@@ -94,7 +105,7 @@ Eigen::VectorXd values_of(const metrology::Measurement& measurement) {
 Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& errors,
                                 const TestPiece& piece, std::span<const Parameter> parameters,
                                 double path_bound) {
-  const auto trial = run_trial(machine, errors, piece, {}, quiet(path_bound));
+  const auto trial = clean_trial(machine, errors, piece, path_bound);
   if (!trial) return trial.error();
   const auto gains = surface_gains(machine, piece, *trial, parameters);
   if (!gains) return gains.error();
@@ -119,7 +130,7 @@ Result<Sensitivity> sensitivity_by_differences(const Machine& machine,
                                                const TestPiece& piece,
                                                std::span<const Parameter> parameters,
                                                const DifferenceSteps& steps, double path_bound) {
-  const auto trial = run_trial(machine, errors, piece, {}, quiet(path_bound));
+  const auto trial = clean_trial(machine, errors, piece, path_bound);
   if (!trial) return trial.error();
   const Eigen::VectorXd centre = values_of(trial->measurement);
   Sensitivity s = empty_for(trial->measurement, parameters);

@@ -8,6 +8,7 @@
 
 #include "cutter/contact_range.hpp"
 #include "kinematics/error_gain.hpp"
+#include "trials/cut_check.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -17,8 +18,6 @@ using cutter::SweptCutter;
 using kinematics::AxisPositions;
 using programs::TestPiece;
 
-// A measured point has been on the surface but for the accuracy of the ball's contact.
-constexpr double kSearch = 0.05;  // mm, to either side
 // Step of the support function's derivative, which is linear in the radius but for rounding.
 constexpr double kRadiusStep = 1e-3;  // mm
 
@@ -92,7 +91,7 @@ class GainAtPoint {
 
 Diagnostic lost(const std::string& feature, std::size_t index) {
   return error(fmt::format("feature '{}', point {}: there is no surface within {} mm of it",
-                           feature, index + 1, kSearch),
+                           feature, index + 1, kSurfaceSearch),
                "the gains need the points of the same trial, measured without noise");
 }
 
@@ -118,11 +117,11 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       ++row;
       const Vec3 measured = workpiece_from_datum.point(feature.points[i].point);
       const Vec3 n = workpiece_from_datum.direction(feature.points[i].normal);
-      const stock::Ray ray{measured + kSearch * n, -n};
-      const auto surface = trial.workpiece->first_surface(ray, {0.0, 2.0 * kSearch});
+      const auto surface = surface_at_point(*trial.workpiece, measured, n);
       if (!surface) return lost(feature.name, i);
       if (!surface->stretch) continue;  // the blank's own surface stays
-      const auto contact = swept.contact(ray, surface->s, *surface->stretch);
+      const auto contact =
+          swept.contact({surface->point + surface->s * n, -n}, surface->s, *surface->stretch);
       const auto moments = cutter::contact_range(swept, contact, surface->point);
       for (Eigen::Index k = 0; k < columns; ++k) {
         double low = std::numeric_limits<double>::infinity(), high = -low;

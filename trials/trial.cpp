@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parser/interpreter.hpp"
+#include "trials/cut_check.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -165,6 +166,7 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
     auto measurement = metrology::measure(piece.plan, probe, cmm);
     if (!measurement) return measurement.error();
     trial.measurement = *std::move(measurement);
+    trial.wrong_cuts = wrongly_cut_features(piece, *trial.workpiece, trial.measurement);
   }
   return trial;
 }

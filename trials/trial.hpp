@@ -37,6 +37,7 @@ struct Trial {
   std::vector<OperationTrace> operations{};
   std::vector<stock::Collision> collisions{};
   Diagnostics warnings{};
+  Diagnostics wrong_cuts{};  // cut_check.hpp
   std::shared_ptr<const stock::Workpiece> workpiece{};
 };
 
