@@ -1,60 +1,17 @@
 // The program as users and scripts see it: exit codes, messages, files.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
+
+#include "tests/app/command_line.hpp"
 
 namespace frustum {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string out{};
-  std::string err{};
-};
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class CommandLineSystem : public testing::Test {
+class CommandLineSystem : public CommandLine {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(testing::TempDir()) /
-        ("frustum_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Outcome run(const std::string& arguments) const {
-    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string command = "cd '" + folder_.string() + "' && '" FRUSTUM_PROGRAM "' " +
-                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
-  }
-
   // A coarse cone piece in folder_/piece; fast to cut.
   void write_piece(const std::string& more = "--chord-tolerance 1") const {
     const Outcome made = run("program cone --machine iwf-bc --out piece " + more);
     ASSERT_EQ(made.exit_code, 0) << made.err;
-  }
-
-  void replace_in(const std::string& file, const std::string& from, const std::string& to) const {
-    std::string text = read(folder_ / file);
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-    std::ofstream(folder_ / file, std::ios::binary) << text;
   }
 
   // The run must refuse, say why, and leave no output folder behind.
@@ -67,8 +24,6 @@ class CommandLineSystem : public testing::Test {
     }
     EXPECT_FALSE(fs::exists(folder_ / "result"));
   }
-
-  fs::path folder_;
 };
 
 TEST_F(CommandLineSystem, RunsTheLoopAndWritesItsFiles) {
@@ -165,7 +120,7 @@ TEST_F(CommandLineSystem, WritesAndMeasuresAStepPatternPiece) {
   EXPECT_NEAR(doc["characteristics"][4]["value"].get<double>(), 0.0, 0.01);   // dL0
   // A loft that is no body is refused where it stands.
   fs::remove_all(folder_ / "result");
-  replace_in("piece/job.toml", "[180.4, 57, 61.2]", "[170.4, 57, 61.2]");
+  replace_in("piece/job.toml", "[180.4, 57.8, 62]", "[170.4, 57.8, 62]");
   expect_refusal({"job.toml:", "blank.sections", "lies below the one before"});
 }
 
