@@ -10,6 +10,7 @@
 #include "app/console.hpp"
 #include "app/job.hpp"
 #include "app/job_report.hpp"
+#include "app/number_check.hpp"
 #include "app/trial_run.hpp"
 #include "report/picture.hpp"
 #include "stock/mesh_file.hpp"
@@ -121,7 +122,7 @@ void add_cut(CLI::App& program, int& exit_code) {
   command
       ->add_option("--pitch", options->pitch,
                    "Of the sampling grid, mm (default: longest side / 120)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--error", options->overrides.errors,
                       "NAME=VALUE, repeated; overrides the job");
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -10,7 +11,7 @@
 #include "app/design_view.hpp"
 #include "app/identification.hpp"
 #include "app/machine_files.hpp"
-#include "core/spelling.hpp"
+#include "app/number_check.hpp"
 
 namespace frustum::app {
 namespace {
@@ -30,7 +31,7 @@ struct Options {
   bool json = false;
 };
 
-// "beta_CA=5urad": an error's name and an amount that suits it.
+// "beta_CA=5urad": an error's name and an amount that suits it, 0 or more.
 struct NamedAmount {
   std::string name{};
   double amount = 0.0;
@@ -55,186 +56,150 @@ Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::
     if (!length) return length.error();
     value = length->value;
   }
-  if (value < 0.0) {
-    return error(fmt::format("{} {}: must not be negative", option, text),
-                 "it is a standard uncertainty");
+  if (!(value >= 0.0) || !std::isfinite(value)) {
+    return error(fmt::format("{} {}: must be 0 or more", option, text),
+                 "a standard deviation has no sign");
   }
   return NamedAmount{parameter->name, value};
 }
 
-// All machine errors that its file names, without the linear axes' squareness unless it is asked for.
-std::vector<std::string> default_unknowns(const kinematics::Machine& machine) {
+// Location errors of the rotary axes, under the machine's own symbols when it has any.
+std::vector<std::string> rotary_errors(const kinematics::Machine& machine) {
   std::vector<std::string> names;
-  const auto of_rotary_axis = [&](const kinematics::ErrorName& e) {
+  const auto wanted = [](const kinematics::ErrorName& e) {
     return e.location && kinematics::is_rotary(e.axis);
   };
   for (const auto& [alias, meaning] : machine.aliases()) {
-    if (of_rotary_axis(meaning.error)) names.push_back(alias);
+    if (wanted(meaning.error)) names.push_back(alias);
   }
   if (!names.empty()) return names;
   for (const auto& e : machine.error_names()) {
-    if (of_rotary_axis(e)) names.push_back(e.text());
+    if (wanted(e)) names.push_back(e.text());
   }
   return names;
 }
 
-// Keeps the unknowns that all patterns together tell one after the other.
-void leave_out_dependent(Design& design) {
-  calibration::Observations& all = design.catalogue.observations;
-  const auto kept = calibration::independent_unknowns(all);
-  if (!kept) return;
-  const auto is_kept = [&](std::size_t k) {
-    return std::find(kept->begin(), kept->end(), static_cast<Eigen::Index>(k)) != kept->end() ||
-           all.unknowns[k].is_fixed();
-  };
-  std::vector<calibration::Unknown> unknowns;
-  std::vector<Eigen::Index> columns;
-  for (std::size_t k = 0; k < all.unknowns.size(); ++k) {
-    if (is_kept(k)) {
-      unknowns.push_back(all.unknowns[k]);
-      columns.push_back(static_cast<Eigen::Index>(k));
-    } else {
-      design.left_out.push_back(all.unknowns[k].name);
+// Reads what the command line says; every mistake is kept.
+class Request {
+ public:
+  Request(const Options& options, const kinematics::Machine& machine)
+      : options_(options), machine_(machine) {}
+
+  [[nodiscard]] Result<UnknownCauses> unknowns() {
+    std::vector<std::string> names =
+        options_.unknowns.empty() ? rotary_errors(machine_) : options_.unknowns;
+    std::vector<KnownError> known;
+    for (const std::string& text : options_.known) {
+      const auto k = keep(named_amount(machine_, text, "--known"));
+      if (!k) continue;
+      const bool again = std::any_of(known.begin(), known.end(), [&](const KnownError& other) {
+        return other.name == k->name;
+      });
+      if (again) {
+        problems_.push_back(
+            error(fmt::format("--known {}: given twice", k->name), "one value for each error"));
+      }
+      known.push_back({k->name, 0.0, k->amount});
+      if (std::find(names.begin(), names.end(), k->name) == names.end()) names.push_back(k->name);
     }
+    const std::string radius(trials::kToolRadius);
+    if (std::find(names.begin(), names.end(), radius) == names.end()) names.push_back(radius);
+    auto all = unknown_causes(machine_, names, known);
+    if (!all) problems_.insert(problems_.end(), all.error().begin(), all.error().end());
+    if (!problems_.empty()) return problems_;
+    return all;
   }
-  all.gain = Eigen::MatrixXd(all.gain(Eigen::all, columns));
-  all.unknowns = std::move(unknowns);
-}
 
-Result<Design> design_of(const Options& o, const kinematics::Machine& machine) {
-  Diagnostics problems;
-  const auto keep = [&](const auto& result) {
-    if (!result) problems.insert(problems.end(), result.error().begin(), result.error().end());
-    return result.has_value();
-  };
-  std::vector<std::string> names = o.unknowns.empty() ? default_unknowns(machine) : o.unknowns;
-  std::vector<KnownError> known;
-  for (const std::string& text : o.known) {
-    const auto k = named_amount(machine, text, "--known");
-    if (!keep(k)) continue;
-    known.push_back({k->name, 0.0, k->amount});
-    if (std::find(names.begin(), names.end(), k->name) == names.end()) names.push_back(k->name);
-  }
-  auto all = unknown_causes(machine, names, known);
-  keep(all);
-  metrology::CmmModel cmm;
-  const auto e0 = parse_length(o.e0);
-  if (keep(e0)) cmm.e0_mm = e0->value;
-  if (e0 && !(cmm.e0_mm > 0.0)) {
-    problems.push_back(error("--e0 must be above 0", "for example --e0 \"0.5 um\""));
-  }
-  cmm.length_per_error = o.l_per_um;
-  calibration::CatalogueSetup setup;
-  setup.raise = o.raise;
-  if (!o.center.empty()) {
-    const auto center = numbers_of(o.center, 2, "--center");
-    if (keep(center)) setup.centre = {(*center)[0], (*center)[1]};
-  }
-  if (o.tool_diameter) setup.test.tool_diameter = {*o.tool_diameter};
-  if (o.tool_length) setup.test.tool_length = {*o.tool_length};
-  if (!problems.empty()) return problems;
-  all->unknowns.push_back({.name = std::string(trials::kToolRadius)});
-  all->causes.push_back({{std::string(trials::kToolRadius), false, std::nullopt}, std::nullopt});
-  auto catalogue = calibration::step_catalogue(machine, all->unknowns, all->causes, cmm, setup);
-  if (!catalogue) return std::move(catalogue).error();
-  Design design{std::move(*catalogue), {}, {}, {}};
-  // A list that nobody gave may hold what no pattern can tell apart.
-  if (o.unknowns.empty()) leave_out_dependent(design);
-  return design;
-}
-
-std::vector<std::string> names_of(const calibration::StepCatalogue& catalogue) {
-  std::vector<std::string> names;
-  for (const auto& pattern : catalogue.patterns) names.push_back(pattern.name);
-  return names;
-}
-
-// Keeps the patterns asked for; a name that cannot be cut is an error that says why.
-std::optional<Diagnostics> choose_patterns(Design& design, const Options& o,
-                                           calibration::DesignOptions& options) {
-  const auto index_of = [&](const std::string& name) -> std::optional<std::size_t> {
-    for (std::size_t i = 0; i < design.catalogue.patterns.size(); ++i) {
-      if (design.catalogue.patterns[i].name == name) return i;
+  [[nodiscard]] metrology::CmmModel cmm() {
+    metrology::CmmModel cmm;
+    if (const auto e0 = keep(parse_length(options_.e0))) cmm.e0_mm = e0->value;
+    if (!(cmm.e0_mm > 0.0)) {
+      problems_.push_back(error(fmt::format("--e0 {}: must be a length above 0", options_.e0),
+                                "for example --e0 \"0.5 um\""));
     }
-    return std::nullopt;
-  };
-  Diagnostics problems;
-  const auto unknown_name = [&](const std::string& name) {
-    for (const auto& u : design.catalogue.unreachable) {
-      if (u.pattern == name) {
-        problems.push_back(error(u.reason, "leave the pattern out"));
-        return;
+    cmm.length_per_error = options_.l_per_um;
+    return cmm;
+  }
+
+  [[nodiscard]] calibration::CatalogueSetup setup() {
+    calibration::CatalogueSetup setup;
+    setup.raise = options_.raise;
+    if (!options_.center.empty()) {
+      if (const auto center = keep(numbers_of(options_.center, 2, "--center"))) {
+        setup.centre = {(*center)[0], (*center)[1]};
       }
     }
-    problems.push_back(error(fmt::format("there is no pattern '{}' to choose from", name),
-                             suggestion(name, names_of(design.catalogue))));
-  };
-  for (const std::string& name : o.patterns) {
-    if (!index_of(name)) unknown_name(name);
+    if (options_.tool_diameter) setup.test.tool_diameter = {*options_.tool_diameter};
+    if (options_.tool_length) setup.test.tool_length = {*options_.tool_length};
+    return setup;
   }
-  for (const std::string& name : o.required) {
-    const bool left_out = !o.patterns.empty() &&
-                          std::find(o.patterns.begin(), o.patterns.end(), name) == o.patterns.end();
-    if (!index_of(name) || left_out) unknown_name(name);
-  }
-  if (!problems.empty()) return problems;
-  if (!o.patterns.empty()) {
-    std::vector<calibration::DesignBlock> chosen;
-    std::vector<int> workpieces;
-    for (std::size_t i = 0; i < design.catalogue.patterns.size(); ++i) {
-      const std::string& name = design.catalogue.patterns[i].name;
-      if (std::find(o.patterns.begin(), o.patterns.end(), name) == o.patterns.end()) continue;
-      chosen.push_back(design.catalogue.patterns[i]);
-      workpieces.push_back(design.catalogue.workpiece[i]);
-    }
-    design.catalogue.patterns = std::move(chosen);
-    design.catalogue.workpiece = std::move(workpieces);
-  }
-  for (const std::string& name : o.required) options.required.push_back(*index_of(name));
-  return std::nullopt;
-}
 
-// Of all patterns to choose from together.
-std::vector<calibration::NullDirection> null_space_of(const Design& design) {
-  std::vector<Eigen::Index> rows;
-  for (const auto& pattern : design.catalogue.patterns) {
-    rows.insert(rows.end(), pattern.rows.begin(), pattern.rows.end());
+  [[nodiscard]] calibration::StepDesignOptions choice() {
+    calibration::StepDesignOptions choice;
+    choice.criterion = options_.criterion == "d"   ? DesignCriterion::d_optimal
+                       : options_.criterion == "a" ? DesignCriterion::a_optimal
+                                                   : DesignCriterion::worst_unknown;
+    choice.among = options_.patterns;
+    choice.required = options_.required;
+    for (const std::string& text : options_.limits) {
+      if (const auto limit = keep(named_amount(machine_, text, "--limit"))) {
+        choice.limits[limit->name] = limit->amount;
+      }
+    }
+    // A list that nobody gave may hold what no pattern can tell apart.
+    choice.leave_out_dependent = options_.unknowns.empty();
+    return choice;
   }
-  const auto told = calibration::observability(design.catalogue.observations.selected(rows));
-  return told ? told->null_space : std::vector<calibration::NullDirection>{};
+
+  [[nodiscard]] const Diagnostics& problems() const { return problems_; }
+
+ private:
+  template <typename T>
+  std::optional<T> keep(Result<T> result) {
+    if (result) return *std::move(result);
+    problems_.insert(problems_.end(), result.error().begin(), result.error().end());
+    return std::nullopt;
+  }
+
+  const Options& options_;
+  const kinematics::Machine& machine_;
+  Diagnostics problems_;
+};
+
+// Limits of what is not among the unknowns.
+Diagnostics unused_limits(const calibration::StepDesignOptions& choice,
+                          const UnknownCauses& unknowns) {
+  Diagnostics problems;
+  for (const auto& [name, limit] : choice.limits) {
+    const bool is_unknown =
+        std::any_of(unknowns.unknowns.begin(), unknowns.unknowns.end(),
+                    [&, wanted = name](const auto& u) { return u.name == wanted; });
+    if (is_unknown) continue;
+    problems.push_back(
+        error(fmt::format("--limit {}: not one of the unknowns", name), "add it with --unknown"));
+  }
+  return problems;
 }
 
 int show_design(const Options& o) {
   const auto machine = kinematics::Machine::load(find_machine(o.machine, "."));
   if (!machine) return refuse(machine.error());
-  auto design = design_of(o, *machine);
-  if (!design) return refuse(design.error());
-  calibration::DesignOptions options;
-  options.criterion = o.criterion == "d"   ? DesignCriterion::d_optimal
-                      : o.criterion == "a" ? DesignCriterion::a_optimal
-                                           : DesignCriterion::worst_unknown;
-  if (const auto problems = choose_patterns(*design, o, options)) return refuse(*problems);
-  const auto& unknowns = design->catalogue.observations.unknowns;
-  options.limits.resize(unknowns.size());
-  for (const std::string& text : o.limits) {
-    const auto limit = named_amount(*machine, text, "--limit");
-    if (!limit) return refuse(limit.error());
-    const auto at = std::find_if(unknowns.begin(), unknowns.end(),
-                                 [&](const auto& u) { return u.name == limit->name; });
-    if (at == unknowns.end()) {
-      return refuse(fmt::format("--limit {}: not one of the unknowns", text),
-                    "add it with --unknown");
-    }
-    options.limits[static_cast<std::size_t>(at - unknowns.begin())] = limit->amount;
+  Request request(o, *machine);
+  const metrology::CmmModel cmm = request.cmm();
+  const calibration::CatalogueSetup setup = request.setup();
+  const calibration::StepDesignOptions choice = request.choice();
+  const auto all = request.unknowns();
+  if (!all) return refuse(all.error());
+  if (!request.problems().empty()) return refuse(request.problems());
+  if (const Diagnostics unused = unused_limits(choice, *all); !unused.empty()) {
+    return refuse(unused);
   }
-  auto result =
-      calibration::design(design->catalogue.observations, design->catalogue.patterns, options);
-  if (!result) return refuse(result.error());
-  design->result = *std::move(result);
-  design->null_space = null_space_of(*design);
-  design->limits = options.limits;
-  std::cout << (o.json ? design_json(*machine, *design) : design_text(*machine, *design));
-  return design->result.smallest ? kDone : kOutOfTolerance;
+  const auto design =
+      calibration::step_design(*machine, all->unknowns, all->causes, cmm, setup, choice);
+  if (!design) return refuse(design.error());
+  const bool limited = !choice.limits.empty();
+  std::cout << (o.json ? design_json(*machine, *design) : design_text(*machine, *design, limited));
+  return design->smallest ? kDone : kOutOfTolerance;
 }
 
 }  // namespace
@@ -252,7 +217,8 @@ void add_design(CLI::App& program, int& exit_code) {
       ->delimiter(',');
   command
       ->add_option("--unknown", o->unknowns,
-                   "Machine errors to be found (default: location errors of the rotary axes)")
+                   "Machine errors to be found (default: location errors of the rotary axes); "
+                   "the tool radius error always is one")
       ->delimiter(',');
   command->add_option("--known", o->known,
                       "NAME=standard uncertainty of an error known from elsewhere, for example "
@@ -266,7 +232,7 @@ void add_design(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember({"d", "a", "worst"}));
   command->add_option("--e0", o->e0, "CMM: E = e0 + L/k as a length (\"0.5 um\")");
   command->add_option("--l-per-um", o->l_per_um, "CMM: k, mm of length per um of error (600)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--center", o->center, "x,y of both workpieces' centres, mm");
   command->add_option("--raise", o->raise, "Added to all heights above the tilt axis, mm (0)");
   command->add_option("--tool-diameter", o->tool_diameter, "mm (20)");

@@ -7,6 +7,7 @@
 
 #include "app/console.hpp"
 #include "app/job.hpp"
+#include "app/number_check.hpp"
 #include "app/sensitivity_view.hpp"
 #include "core/whole_file.hpp"
 #include "trials/sensitivity.hpp"
@@ -33,11 +34,15 @@ Result<trials::Sensitivity> derivatives(const Options& options, const Job& job) 
   const auto errors = trials::errors_for(job.machine, job.errors, job.piece);
   if (!errors) return errors.error();
   if (options.method == "analytic") {
+    if (options.step_um || options.step_urad) {
+      return error("--step-um and --step-urad are steps of differences",
+                   "add --method differences, or leave them out");
+    }
     return trials::sensitivity(job.machine, *errors, job.piece, *parameters, job.path_bound);
   }
   trials::DifferenceSteps steps;
   if (options.step_um) steps.length = *options.step_um / kUmPerMm;
-  if (options.step_urad) steps.angle = *options.step_urad * 1e-6;
+  if (options.step_urad) steps.angle = *options.step_urad / kUradPerRad;
   return trials::sensitivity_by_differences(job.machine, *errors, job.piece, *parameters, steps,
                                             job.path_bound);
 }
@@ -87,9 +92,9 @@ void add_sensitivity(CLI::App& program, int& exit_code) {
                    "analytic (one trial) or differences (two trials a parameter)")
       ->check(CLI::IsMember({"analytic", "differences"}));
   command->add_option("--step-um", o->step_um, "differences: step of lengths, um (1)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--step-urad", o->step_urad, "differences: step of angles, urad (1)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--error", o->overrides.errors,
                       "NAME=VALUE: about a machine with this error, for example beta_CA=20urad");
   command->add_option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");

@@ -40,7 +40,7 @@ Result<StepTest> test_of(const Options& o) {
   if (o.feed) test.feed = *o.feed;
   if (o.speed) test.spindle_speed = *o.speed;
   if (o.tolerance) test.tolerance = {*o.tolerance / kUmPerMm};
-  if (o.angle_tolerance) test.angle_tolerance = {*o.angle_tolerance * 1e-6};
+  if (o.angle_tolerance) test.angle_tolerance = {*o.angle_tolerance / kUradPerRad};
   if (!o.center.empty()) {
     const auto center = numbers_of(o.center, 2, "--center");
     if (!center) return center.error();

@@ -27,7 +27,9 @@ metrology::CmmModel ordinary_cmm() {
 
 void add_tool_radius(const Study& study, UnknownCauses& all) {
   const trials::Parameter radius{std::string(trials::kToolRadius), false, std::nullopt};
-  if (study.tool_radius == ToolRadius::exact) return;
+  const bool is_listed = std::any_of(all.unknowns.begin(), all.unknowns.end(),
+                                     [&](const Unknown& u) { return u.name == radius.name; });
+  if (study.tool_radius == ToolRadius::exact || is_listed) return;
   if (study.tool_radius == ToolRadius::common) {
     all.unknowns.push_back({.name = radius.name});
     all.causes.push_back({radius, std::nullopt});
@@ -53,11 +55,13 @@ Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
 }
 
 // Which step patterns, not measured yet, would tell the rest; nothing when the machine cuts none.
-std::optional<Remedy> remedy_for(const Study& study, const calibration::Observations& measured,
-                                 const UnknownCauses& all) {
+Result<std::optional<Remedy>> remedy_for(const Study& study,
+                                         const calibration::Observations& measured,
+                                         const UnknownCauses& all) {
   const auto catalogue = calibration::step_catalogue(study.machine(), all.unknowns, all.causes,
                                                      study.cmm.value_or(ordinary_cmm()));
-  if (!catalogue) return std::nullopt;
+  // On a machine that cuts no step patterns there is nothing to suggest.
+  if (!catalogue) return std::optional<Remedy>();
   std::set<std::string> cut;
   for (const calibration::Row& row : measured.rows) cut.insert(row.group);
   std::vector<calibration::Candidate> candidates;
@@ -66,7 +70,7 @@ std::optional<Remedy> remedy_for(const Study& study, const calibration::Observat
   }
   const auto separation =
       calibration::separating(measured, candidates, {study.floor_length, study.floor_angle});
-  if (!separation) return std::nullopt;
+  if (!separation) return separation.error();
   Remedy remedy;
   if (separation->smallest) {
     for (const std::size_t i : *separation->smallest) {
@@ -74,7 +78,7 @@ std::optional<Remedy> remedy_for(const Study& study, const calibration::Observat
     }
   }
   for (const auto& u : catalogue->unreachable) remedy.unreachable.push_back(u.pattern);
-  return remedy;
+  return std::optional(std::move(remedy));
 }
 
 double known_value(const Study& study, const std::string& name) {
@@ -88,14 +92,16 @@ Result<calibration::Recipe> recipe_of(const Study& study,
                                       const calibration::RecipeVariant& variant) {
   std::vector<calibration::StepMeasurement> measured;
   for (const StudyPart& part : study.parts) {
-    const auto steps = calibration::step_measurements(part.job.piece.plan, part.measured.front());
+    const auto steps =
+        calibration::step_measurements(part.job.piece.plan, calibration::mean_of(part.measured));
     measured.insert(measured.end(), steps.begin(), steps.end());
   }
   const calibration::KnownSquareness known{known_value(study, "gamma_YX"),
                                            known_value(study, "alpha_ZY"),
                                            known_value(study, "beta_ZX")};
-  return study.recipe == Recipe::case_1 ? calibration::recipe_case_1(measured, known, variant)
-                                        : calibration::recipe_case_2(measured, known, variant);
+  return study.recipe == RecipeChoice::case_1
+             ? calibration::recipe_case_1(measured, known, variant)
+             : calibration::recipe_case_2(measured, known, variant);
 }
 
 Result<calibration::Refinement> estimate(const Study& study,
@@ -118,6 +124,11 @@ Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
                                      const std::vector<KnownError>& known) {
   const auto parameters = trials::parameters_named(machine, names);
   if (!parameters) return parameters.error();
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(names.begin(), name, *name) != name) {
+      return error(fmt::format("unknown {} is given twice", *name), "once is enough");
+    }
+  }
   UnknownCauses all;
   for (const trials::Parameter& parameter : *parameters) {
     Unknown unknown{.name = parameter.name, .angular = parameter.angular};
@@ -150,10 +161,16 @@ Result<StudyResult> identify_study(const Study& study) {
   StudyResult result;
   result.identification = std::move(refined->identification);
   result.changes = std::move(refined->changes);
+  auto shares = calibration::information_shares(observations->observations,
+                                                {.floor = {study.floor_length, study.floor_angle}});
+  if (!shares) return std::move(shares).error();
+  result.shares = *std::move(shares);
   if (!result.identification.observability.complete()) {
-    result.remedy = remedy_for(study, observations->observations, *all);
+    auto remedy = remedy_for(study, observations->observations, *all);
+    if (!remedy) return std::move(remedy).error();
+    result.remedy = *std::move(remedy);
   }
-  if (study.recipe != Recipe::none) {
+  if (study.recipe != RecipeChoice::none) {
     auto recipe = recipe_of(study, {});
     if (!recipe) return std::move(recipe).error();
     auto corrected = recipe_of(study, {.equation_12_corrected = true, .equation_20_with_2h = true});

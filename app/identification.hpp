@@ -10,6 +10,7 @@
 
 #include "app/study.hpp"
 #include "calibration/identification.hpp"
+#include "calibration/information.hpp"
 #include "calibration/observability.hpp"
 #include "calibration/step_catalogue.hpp"
 #include "calibration/step_recipes.hpp"
@@ -25,6 +26,7 @@ struct Remedy {
 struct StudyResult {
   calibration::Identification identification{};
   std::vector<double> changes{};  // of each round of refinement, in standard uncertainties
+  calibration::InformationShares shares{};
   std::optional<Remedy> remedy{};
   // The published recipe as printed, and with its equations (12) and (20) put right.
   std::optional<calibration::Recipe> recipe{}, corrected_recipe{};

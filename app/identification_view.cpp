@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/shown_unit.hpp"
 #include "app/text_table.hpp"
-#include "core/units.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::app {
@@ -17,10 +18,10 @@ using calibration::Recipe;
 using calibration::RecipeErrors;
 using Json = nlohmann::ordered_json;
 
-constexpr double kUradPerRad = 1e6;
+const char* unit_of(bool angular) { return shown_unit(angular).name; }
 
-double shown(double value, bool angular) { return value * (angular ? kUradPerRad : kUmPerMm); }
-const char* unit_of(bool angular) { return angular ? "urad" : "um"; }
+// Half an interval of 95 % of a normal distribution, in standard deviations.
+constexpr double kNormal95 = 1.96;
 
 std::string number(double value, bool angular) {
   return report::fixed_text(shown(value, angular), 1);
@@ -48,7 +49,7 @@ std::string known_text(const Study& study, const Estimate& estimate) {
   for (const KnownError& k : study.known) {
     if (k.name != estimate.name) continue;
     return k.uncertainty > 0.0 ? fmt::format("{} ± {}", number(k.value, estimate.angular),
-                                             number(2.0 * k.uncertainty, estimate.angular))
+                                             number(kNormal95 * k.uncertainty, estimate.angular))
                                : number(k.value, estimate.angular) + " exact";
   }
   return "";
@@ -81,18 +82,21 @@ std::string estimates_table(const Study& study, const StudyResult& result) {
   return table.text();
 }
 
+// A sum of angles is an angle; with a length in it, it is a length.
+bool is_angle(const calibration::Combination& combination, const StudyResult& result) {
+  return std::all_of(combination.terms.begin(), combination.terms.end(), [&](const auto& term) {
+    return result.identification.estimates[static_cast<std::size_t>(term.unknown)].angular;
+  });
+}
+
 std::string combinations_text(const StudyResult& result) {
   std::string out;
   for (const auto& c : result.identification.combinations) {
-    bool angular = true;
-    for (const auto& term : c.combination.terms) {
-      const auto k = static_cast<std::size_t>(term.unknown);
-      angular = angular && result.identification.estimates[k].angular;
-    }
+    const bool angular = is_angle(c.combination, result);
     out += fmt::format("  {} = {} ± {} {}\n", c.combination.text, number(c.value, angular),
-                       number(2.0 * c.standard_uncertainty, angular), unit_of(angular));
+                       number(0.5 * (c.upper - c.lower), angular), unit_of(angular));
   }
-  return out.empty() ? out : "\nWhat can be told instead:\n" + out;
+  return out.empty() ? out : "\nWhat can be told instead (± 95 %):\n" + out;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -207,12 +211,42 @@ Json covariance_json(const StudyResult& result) {
 Json observability_json(const StudyResult& result) {
   const auto& o = result.identification.observability;
   Json json{{"unknowns", o.unknowns}, {"rank", o.rank}, {"singular_values", o.singular_values}};
+  json["condition"] = o.condition_columns ? Json(*o.condition_columns) : Json(nullptr);
   json["null_space"] = Json::array();
   for (const auto& direction : o.null_space) json["null_space"].push_back(direction.text);
   json["estimable"] = Json::array();
   for (const auto& c : o.estimable) json["estimable"].push_back(c.text);
   if (result.remedy) json["separating_patterns"] = result.remedy->patterns;
   return json;
+}
+
+Json combinations_json(const StudyResult& result) {
+  Json list = Json::array();
+  for (const auto& c : result.identification.combinations) {
+    const bool angular = is_angle(c.combination, result);
+    list.push_back({{"text", c.combination.text},
+                    {"unit", unit_of(angular)},
+                    {"value", shown(c.value, angular)},
+                    {"standard_uncertainty", shown(c.standard_uncertainty, angular)},
+                    {"lower", shown(c.lower, angular)},
+                    {"upper", shown(c.upper, angular)}});
+  }
+  return list;
+}
+
+// What hangs on each pattern, by error.
+Json shares_json(const StudyResult& result) {
+  Json shares = Json::object();
+  const auto& estimates = result.identification.estimates;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    Json own = Json::object();
+    for (std::size_t g = 0; g < result.shares.groups.size(); ++g) {
+      own[result.shares.groups[g]] =
+          result.shares.shares(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(g));
+    }
+    shares[estimates[k].name] = std::move(own);
+  }
+  return shares;
 }
 
 Json residuals_json(const StudyResult& result) {
@@ -225,6 +259,7 @@ Json residuals_json(const StudyResult& result) {
               {"predicted", shown(r.predicted, r.angular)},
               {"residual", shown(r.residual, r.angular)}};
     json["normalised"] = r.normalised ? Json(*r.normalised) : Json(nullptr);
+    json["w"] = r.w ? Json(*r.w) : Json(nullptr);
     json["outlier"] = r.outlier;
     list.push_back(std::move(json));
   }
@@ -277,6 +312,8 @@ std::string identification_json(const Study& study, const StudyResult& result) {
   json["complete"] = result.identification.observability.complete();
   json["estimates"] = estimates_json(study, result);
   json["covariance"] = covariance_json(result);
+  json["combinations"] = combinations_json(result);
+  json["information_shares"] = shares_json(result);
   json["observability"] = observability_json(result);
   json["agreement"] = {{"chi2", agreement.chi_square},
                        {"degrees_of_freedom", agreement.degrees_of_freedom},
@@ -285,6 +322,8 @@ std::string identification_json(const Study& study, const StudyResult& result) {
       agreement.probability ? Json(*agreement.probability) : Json(nullptr);
   json["agreement"]["birge"] = agreement.birge ? Json(*agreement.birge) : Json(nullptr);
   json["residuals"] = residuals_json(result);
+  const auto& suspect = result.identification.suspect;
+  json["suspect"] = suspect ? Json(result.identification.residuals[*suspect].name) : Json(nullptr);
   if (result.recipe) {
     json["recipe"] = recipe_json(*result.recipe);
     json["recipe_corrected"] = recipe_json(*result.corrected_recipe);

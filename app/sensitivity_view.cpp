@@ -1,24 +1,8 @@
 #include "app/sensitivity_view.hpp"
 
+#include "app/shown_unit.hpp"
+
 namespace frustum::app {
-namespace {
-
-constexpr double kUradPerRad = 1e6;
-
-// The unit that an amount shows in, and how many of it one mm or rad is.
-struct ShownUnit {
-  const char* name;
-  double per_internal;
-};
-ShownUnit shown(bool angular) {
-  return angular ? ShownUnit{"urad", kUradPerRad} : ShownUnit{"um", kUmPerMm};
-}
-
-bool is_angle(const metrology::CharacteristicResult& c) {
-  return c.unit == "urad" || c.unit == "deg";
-}
-
-}  // namespace
 
 report::SensitivityTable sensitivity_table(const trials::Sensitivity& derivatives,
                                            const std::string& title, const std::string& machine,
@@ -26,13 +10,13 @@ report::SensitivityTable sensitivity_table(const trials::Sensitivity& derivative
   report::SensitivityTable table{title, machine, method, {}, {}, derivatives.odd, derivatives.even};
   const auto& characteristics = derivatives.measurement.characteristics;
   for (std::size_t i = 0; i < characteristics.size(); ++i) {
-    const ShownUnit unit = shown(is_angle(characteristics[i]));
+    const ShownUnit unit = shown_unit(metrology::is_angle(characteristics[i]));
     table.characteristics.push_back({characteristics[i].name, unit.name});
     table.odd.row(static_cast<Eigen::Index>(i)) *= unit.per_internal;
     table.even.row(static_cast<Eigen::Index>(i)) *= unit.per_internal;
   }
   for (std::size_t k = 0; k < derivatives.parameters.size(); ++k) {
-    const ShownUnit unit = shown(derivatives.parameters[k].angular);
+    const ShownUnit unit = shown_unit(derivatives.parameters[k].angular);
     table.parameters.push_back({derivatives.parameters[k].name, unit.name});
     table.odd.col(static_cast<Eigen::Index>(k)) /= unit.per_internal;
     table.even.col(static_cast<Eigen::Index>(k)) /= unit.per_internal;

@@ -162,6 +162,13 @@ void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, St
       study.unknowns.push_back(k.name);
     }
   }
+  const bool radius_listed = std::find(study.unknowns.begin(), study.unknowns.end(),
+                                       trials::kToolRadius) != study.unknowns.end();
+  if (radius_listed && study.tool_radius != ToolRadius::common) {
+    root.fail("unknown",
+              "tool_radius_error is listed by name, which means one radius error for all parts",
+              "tool_radius = \"common\", or take it out of unknown.errors and [known]");
+  }
   const auto parameters = trials::parameters_named(machine, study.unknowns);
   if (!parameters) append(problems, parameters.error());
 }
@@ -186,7 +193,8 @@ Result<Study> load_study(const fs::path& file) {
   if (const auto table = root.table_if("uncertainty")) read_uncertainty(*table, study);
   if (const auto table = root.table_if("method")) {
     study.refine = table->boolean_or("refine", true);
-    study.recipe = static_cast<Recipe>(table->choice_or("recipe", {"none", "case-1", "case-2"}, 0));
+    study.recipe =
+        static_cast<RecipeChoice>(table->choice_or("recipe", {"none", "case-1", "case-2"}, 0));
   }
   if (const auto table = root.table_if("compare"))
     study.others = read_others(*table, study.machine());

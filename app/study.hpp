@@ -41,8 +41,8 @@ struct OtherEstimate {
   std::map<std::string, double> values{};  // by error name
 };
 
-enum class ToolRadius { common, each, exact };  // one for all parts; one a part; as the jobs say
-enum class Recipe { none, case_1, case_2 };     // of the step patterns' paper
+enum class ToolRadius { common, each, exact };     // one for all parts; one a part; as the jobs say
+enum class RecipeChoice { none, case_1, case_2 };  // of the step patterns' paper
 
 struct Study {
   std::string title{};
@@ -55,7 +55,7 @@ struct Study {
   double floor_length = 0.0;  // mm: added in quadrature to every measured length
   double floor_angle = 0.0;   // rad
   bool refine = true;
-  Recipe recipe = Recipe::none;
+  RecipeChoice recipe = RecipeChoice::none;
   std::vector<OtherEstimate> others{};
 
   [[nodiscard]] const kinematics::Machine& machine() const { return parts.front().job.machine; }

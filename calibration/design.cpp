@@ -52,8 +52,11 @@ Diagnostics wrong_blocks(const Observations& observations, std::span<const Desig
   const bool exclusive =
       std::all_of(options.exclusive.begin(), options.exclusive.end(),
                   [&](const auto& p) { return known(p.first) && known(p.second); });
-  if (!required || !exclusive) {
-    found.push_back(error("a required or exclusive pattern is not among those to choose from"));
+  const bool needs = std::all_of(options.needs.begin(), options.needs.end(),
+                                 [&](const auto& p) { return known(p.first) && known(p.second); });
+  if (!required || !exclusive || !needs) {
+    found.push_back(
+        error("a required, exclusive or needed pattern is not among those to choose from"));
   }
   if (!options.limits.empty() && options.limits.size() != observations.unknowns.size()) {
     found.push_back(error(fmt::format("{} limits for {} unknowns", options.limits.size(),
@@ -164,8 +167,12 @@ class Enumeration {
   [[nodiscard]] bool allowed(Set set) const {
     return std::all_of(options_.required.begin(), options_.required.end(),
                        [&](std::size_t b) { return holds(set, b); }) &&
-           std::none_of(options_.exclusive.begin(), options_.exclusive.end(),
-                        [&](const auto& p) { return holds(set, p.first) && holds(set, p.second); });
+           std::none_of(
+               options_.exclusive.begin(), options_.exclusive.end(),
+               [&](const auto& p) { return holds(set, p.first) && holds(set, p.second); }) &&
+           std::none_of(options_.needs.begin(), options_.needs.end(), [&](const auto& p) {
+             return holds(set, p.first) && !holds(set, p.second);
+           });
   }
 
   void add_size(int size, DesignResult& result) const {
@@ -239,14 +246,6 @@ class Enumeration {
     return true;
   }
 
-  // Rank, then criterion (equal to nine digits counts as equal), then the order of the blocks.
-  static bool better(const DesignChoice& a, const DesignChoice& b) {
-    if (a.rank != b.rank) return a.rank > b.rank;
-    const double tie = 1e-9 * std::max(std::abs(a.criterion), std::abs(b.criterion));
-    if (std::abs(a.criterion - b.criterion) > tie) return a.criterion < b.criterion;
-    return a.blocks < b.blocks;
-  }
-
   const Observations& observations_;
   std::span<const DesignBlock> blocks_;
   const DesignOptions& options_;
@@ -257,6 +256,13 @@ class Enumeration {
 };
 
 }  // namespace
+
+bool better(const DesignChoice& a, const DesignChoice& b) {
+  if (a.rank != b.rank) return a.rank > b.rank;
+  const double tie = 1e-9 * std::max(std::abs(a.criterion), std::abs(b.criterion));
+  if (std::abs(a.criterion - b.criterion) > tie) return a.criterion < b.criterion;
+  return a.blocks < b.blocks;
+}
 
 Result<DesignResult> design(const Observations& observations, std::span<const DesignBlock> blocks,
                             const DesignOptions& options) {

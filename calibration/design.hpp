@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,6 +43,7 @@ struct DesignOptions {
   Floor floor{};
   std::vector<std::size_t> required{};                           // in every set: cut already
   std::vector<std::pair<std::size_t, std::size_t>> exclusive{};  // never together in a set
+  std::vector<std::pair<std::size_t, std::size_t>> needs{};      // the first only with the second
   // Largest standard deviation wanted, one an unknown; empty: none.
   std::vector<std::optional<double>> limits{};
 };
@@ -64,6 +66,9 @@ struct DesignResult {
   // All sets with the fewest blocks that identify all, limits or not, in the order of their blocks.
   std::vector<std::vector<std::size_t>> smallest_identifying{};
 };
+
+// Rank, then criterion (equal to nine digits counts as equal), then the order of the blocks.
+[[nodiscard]] bool better(const DesignChoice& a, const DesignChoice& b);
 
 // The values of the observations are not used.
 [[nodiscard]] Result<DesignResult> design(const Observations& observations,

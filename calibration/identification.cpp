@@ -58,14 +58,16 @@ void fill_estimates(const Observations& observations, const WeightedSystem& syst
       scale.asDiagonal() * solution.covariance * scale.asDiagonal();
 }
 
-void fill_combinations(const WeightedSystem& system, const Solution& solution,
+void fill_combinations(const WeightedSystem& system, const Solution& solution, double coverage,
                        Identification& result) {
   for (const Combination& combination : result.observability.estimable) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(result.working_point.size());
     for (const Term& term : combination.terms) all[term.unknown] = term.coefficient;
     const Eigen::VectorXd scaled = system.size.cwiseProduct(Eigen::VectorXd(all(system.free)));
-    result.combinations.push_back({combination, scaled.dot(solution.scaled),
-                                   std::sqrt(scaled.dot(solution.covariance * scaled))});
+    const double value = scaled.dot(solution.scaled);
+    const double u = std::sqrt(scaled.dot(solution.covariance * scaled));
+    result.combinations.push_back(
+        {combination, value, u, value - coverage * u, value + coverage * u});
   }
 }
 
@@ -163,7 +165,7 @@ Result<Identification> identify(const Observations& observations, const Identify
   }
   const double coverage = coverage_factor(options.confidence, options.degrees_of_freedom);
   fill_estimates(observations, *system, solution, coverage, result);
-  fill_combinations(*system, solution, result);
+  fill_combinations(*system, solution, coverage, result);
   fill_rows(observations, *system, solution, result);
   fill_priors(observations, *system, solution, result);
   fill_agreement(*system, result);

@@ -58,6 +58,8 @@ struct EstimatedCombination {
   Combination combination{};
   double value = 0.0;
   double standard_uncertainty = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
 };
 
 // A measured row, or a prior ("prior beta_ZX").

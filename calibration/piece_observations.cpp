@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "calibration/repeatability.hpp"
-#include "metrology/characteristic.hpp"
 #include "metrology/propagation.hpp"
-#include "trials/trial.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -37,6 +37,27 @@ Result<std::vector<std::string>> rows_of(const MeasuredPiece& piece) {
   return rows;
 }
 
+// Stated standard uncertainty of a row, the quadratic mean of the parts'; nothing when none states one.
+Result<std::optional<double>> stated_uncertainty(const MeasuredPiece& piece,
+                                                 const std::string& row) {
+  double squares = 0.0;
+  std::size_t stated = 0;
+  for (const MeasuredPart& part : piece.parts) {
+    const auto& uncertainty = part.at(row).uncertainty;
+    if (!uncertainty) continue;
+    squares += *uncertainty * *uncertainty;
+    ++stated;
+  }
+  if (stated == 0) return std::optional<double>();
+  if (stated < piece.parts.size()) {
+    return in_piece(
+        piece,
+        fmt::format("'{}' has an uncertainty on {} of {} parts", row, stated, piece.parts.size()),
+        "state it on all parts, or on none");
+  }
+  return std::optional(std::sqrt(squares / static_cast<double>(stated)));
+}
+
 // Covariance of one part's rows.
 Result<Eigen::MatrixXd> covariance_of(const MeasuredPiece& piece,
                                       const std::vector<std::string>& rows,
@@ -45,9 +66,10 @@ Result<Eigen::MatrixXd> covariance_of(const MeasuredPiece& piece,
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   std::vector<Eigen::Index> from_machine;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& stated = piece.parts.front().at(rows[static_cast<std::size_t>(i)]).uncertainty;
-    if (stated) {
-      covariance(i, i) = *stated * *stated;
+    const auto stated = stated_uncertainty(piece, rows[static_cast<std::size_t>(i)]);
+    if (!stated) return stated.error();
+    if (*stated) {
+      covariance(i, i) = **stated * **stated;
     } else {
       from_machine.push_back(i);
     }
@@ -63,11 +85,7 @@ Result<Eigen::MatrixXd> covariance_of(const MeasuredPiece& piece,
   const auto whole = metrology::covariance(piece.piece.plan, nominal, *piece.cmm);
   if (!whole) return whole.error();
   const auto place = [&](Eigen::Index row) {
-    const auto& all = nominal.characteristics;
-    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& c) {
-      return c.name == rows[static_cast<std::size_t>(row)];
-    });
-    return static_cast<Eigen::Index>(at - all.begin());
+    return static_cast<Eigen::Index>(*nominal.find(rows[static_cast<std::size_t>(row)]));
   };
   for (const Eigen::Index i : from_machine) {
     for (const Eigen::Index k : from_machine) covariance(i, k) = (*whole)(place(i), place(k));
@@ -79,23 +97,10 @@ std::vector<Row> described(const std::vector<std::string>& rows,
                            const metrology::Measurement& nominal) {
   std::vector<Row> described;
   for (const std::string& name : rows) {
-    const auto& all = nominal.characteristics;
-    const auto at =
-        std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
-    const bool angular = at->unit == "urad" || at->unit == "deg";
-    described.push_back({name, group_of(name), angular});
+    const auto& characteristic = nominal.characteristics[*nominal.find(name)];
+    described.push_back({name, group_of(name), metrology::is_angle(characteristic)});
   }
   return described;
-}
-
-Result<metrology::Measurement> nominal_measurement(const kinematics::Machine& machine,
-                                                   const MeasuredPiece& piece) {
-  trials::TrialOptions options;
-  options.path_bound = piece.path_bound;
-  options.find_collisions = false;
-  const auto trial = trials::run_trial(machine, piece.base, piece.piece, {}, options);
-  if (!trial) return trial.error();
-  return trial->measurement;
 }
 
 // The rows of one piece, pooled over its parts.
@@ -104,11 +109,9 @@ struct PieceRows {
   PooledParts pooled{};
 };
 
-Result<PieceRows> piece_rows(const kinematics::Machine& machine, const MeasuredPiece& piece,
-                             const std::vector<std::string>& names) {
-  const auto nominal = nominal_measurement(machine, piece);
-  if (!nominal) return nominal.error();
-  const auto covariance = covariance_of(piece, names, *nominal);
+Result<PieceRows> piece_rows(const MeasuredPiece& piece, const std::vector<std::string>& names,
+                             const metrology::Measurement& nominal) {
+  const auto covariance = covariance_of(piece, names, nominal);
   if (!covariance) return covariance.error();
   std::vector<Eigen::VectorXd> parts;
   for (const MeasuredPart& part : piece.parts) {
@@ -118,23 +121,28 @@ Result<PieceRows> piece_rows(const kinematics::Machine& machine, const MeasuredP
     }
     parts.push_back(std::move(values));
   }
-  PieceRows found{described(names, *nominal), {}};
+  PieceRows found{described(names, nominal), {}};
   auto pooled = pool(found.rows, parts, *covariance);
   if (!pooled) return std::move(pooled).error();
   found.pooled = *std::move(pooled);
   return found;
 }
 
-// Appends `piece` as a block of its own.
-void append(Observations& all, const PieceRows& piece) {
-  const Eigen::Index before = all.values.size(), more = piece.pooled.mean.size();
-  all.rows.insert(all.rows.end(), piece.rows.begin(), piece.rows.end());
-  all.values.conservativeResize(before + more);
-  all.values.tail(more) = piece.pooled.mean;
+// Appends rows as a block of their own.
+void append(PieceObservations& all, const PieceRows& piece, const Prediction& at_zero) {
+  Observations& o = all.observations;
+  const Eigen::Index before = o.values.size(), more = piece.pooled.mean.size();
+  o.rows.insert(o.rows.end(), piece.rows.begin(), piece.rows.end());
+  o.values.conservativeResize(before + more);
+  o.values.tail(more) = piece.pooled.mean;
+  all.without_unknowns.conservativeResize(before + more);
+  all.without_unknowns.tail(more) = at_zero.values;
+  o.gain.conservativeResize(before + more, at_zero.gain.cols());
+  o.gain.bottomRows(more) = at_zero.gain;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(before + more, before + more);
-  covariance.topLeftCorner(before, before) = all.covariance;
+  covariance.topLeftCorner(before, before) = o.covariance;
   covariance.bottomRightCorner(more, more) = piece.pooled.covariance;
-  all.covariance = std::move(covariance);
+  o.covariance = std::move(covariance);
 }
 
 }  // namespace
@@ -143,29 +151,44 @@ std::string group_of(const std::string& characteristic) {
   return characteristic.substr(0, characteristic.rfind('.'));
 }
 
+MeasuredPart mean_of(const std::vector<MeasuredPart>& parts) {
+  MeasuredPart mean;
+  for (const auto& [name, first] : parts.front()) {
+    double sum = 0.0;
+    for (const MeasuredPart& part : parts) {
+      const auto at = part.find(name);
+      sum += at == part.end() ? std::numeric_limits<double>::quiet_NaN() : at->second.value;
+    }
+    mean.emplace(name, MeasuredValue{sum / static_cast<double>(parts.size()), first.uncertainty});
+  }
+  return mean;
+}
+
 Result<PieceObservations> observations_of(const kinematics::Machine& machine,
                                           const std::vector<MeasuredPiece>& pieces,
                                           std::vector<Unknown> unknowns,
                                           const std::vector<Cause>& causes) {
   PieceObservations found;
   found.observations.unknowns = std::move(unknowns);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(causes.size()));
   std::vector<StudiedPiece> studied;
   for (const MeasuredPiece& piece : pieces) {
     const auto names = rows_of(piece);
     if (!names) return names.error();
-    const auto rows = piece_rows(machine, piece, *names);
+    const std::size_t index = studied.size();
+    studied.push_back({piece.name, piece.piece, piece.base, *names, piece.path_bound});
+    const auto answer = answer_of(machine, studied.back(), index, causes, zero);
+    if (!answer) return answer.error();
+    const auto at_zero = rows_of(studied.back(), index, causes, *answer);
+    if (!at_zero) return at_zero.error();
+    const auto rows = piece_rows(piece, *names, answer->measurement);
     if (!rows) return rows.error();
-    append(found.observations, *rows);
+    append(found, *rows, *at_zero);
     if (const auto freedom = rows->pooled.degrees_of_freedom) {
       found.degrees_of_freedom = std::min(found.degrees_of_freedom.value_or(*freedom), *freedom);
     }
-    studied.push_back({piece.name, piece.piece, piece.base, *names, piece.path_bound});
   }
   found.model = trial_model(machine, std::move(studied), causes);
-  const auto start = found.model(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(causes.size())));
-  if (!start) return start.error();
-  found.observations.gain = start->gain;
-  found.without_unknowns = start->values;
   return found;
 }
 

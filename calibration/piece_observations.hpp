@@ -53,6 +53,9 @@ struct PieceObservations {
                                                         std::vector<Unknown> unknowns,
                                                         const std::vector<Cause>& causes);
 
+// Values of several parts of one kind in the mean; the uncertainties are those of the first.
+[[nodiscard]] MeasuredPart mean_of(const std::vector<MeasuredPart>& parts);
+
 // The pattern or feature that a characteristic belongs to: "1-a" of "1-a.dL".
 [[nodiscard]] std::string group_of(const std::string& characteristic);
 

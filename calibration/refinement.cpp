@@ -52,6 +52,13 @@ Change largest_change(const Identification& identification, const Eigen::VectorX
                           *estimate.standard_uncertainty;
     if (change >= largest.size) largest = {change, estimate.name};
   }
+  // What only combinations tell has to settle too.
+  for (const EstimatedCombination& told : identification.combinations) {
+    double old = 0.0;
+    for (const Term& term : told.combination.terms) old += term.coefficient * before[term.unknown];
+    const double change = std::abs(told.value - old) / told.standard_uncertainty;
+    if (change >= largest.size) largest = {change, told.combination.text};
+  }
   return largest;
 }
 

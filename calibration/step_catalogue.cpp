@@ -30,32 +30,48 @@ struct Group {
   std::vector<std::string> patterns{};
 };
 
-// What the paper's workpieces carry; the pattern left over by the second one gets another.
-std::vector<Group> groups_of(const CatalogueSetup& setup) {
+// What the paper's workpieces carry. Of patterns that cut the same surfaces the first stands on the
+// workpiece and the other gets one of its own, or the other way round without the first.
+std::vector<Group> groups_of(const CatalogueSetup& setup, Pattern4 pattern_4) {
   std::vector<Group> groups;
   for (const int number : {1, 2}) {
     const StepTest test = test_for(number, setup);
-    const auto together = programs::patterns_together(test.workpiece);
-    groups.push_back({number, test, together});
+    std::vector<std::string> together = programs::patterns_together(test.workpiece);
+    std::vector<std::string> left_over;
     for (const programs::StepSize& size : test.workpiece.sizes) {
       if (std::find(together.begin(), together.end(), size.pattern) == together.end()) {
-        groups.push_back({number + 1, test, {size.pattern}});
+        left_over.push_back(size.pattern);
       }
     }
+    if (pattern_4 == Pattern4::in_the_place_of_3 && !left_over.empty()) {
+      std::replace(together.begin(), together.end(), std::string("3"), left_over.front());
+      left_over.clear();
+    }
+    groups.push_back({number, test, std::move(together)});
+    if (!left_over.empty()) groups.push_back({number + 1, test, std::move(left_over)});
   }
   return groups;
 }
 
-// Drops the patterns that the machine cannot cut and says why.
-std::vector<UnreachablePattern> drop_unreachable(const kinematics::Machine& machine, Group& group) {
+// Drops the patterns that are out of the machine's travel and says why; anything else that is wrong is
+// wrong for all of them.
+Result<std::vector<UnreachablePattern>> drop_unreachable(const kinematics::Machine& machine,
+                                                         Group& group) {
   std::vector<UnreachablePattern> dropped;
-  std::erase_if(group.patterns, [&](const std::string& pattern) {
+  std::vector<std::string> kept;
+  for (const std::string& pattern : group.patterns) {
     StepTest alone = group.test;
     alone.patterns = {pattern};
     const auto piece = programs::step_pattern(alone, machine);
-    if (!piece) dropped.push_back({pattern, piece.error().front().message});
-    return !piece.has_value();
-  });
+    if (piece) {
+      kept.push_back(pattern);
+      continue;
+    }
+    // Sizes and tools are refused by key, positions by axis.
+    if (!piece.error().front().key.empty()) return piece.error();
+    dropped.push_back({pattern, piece.error().front().message});
+  }
+  group.patterns = std::move(kept);
   return dropped;
 }
 
@@ -91,14 +107,16 @@ Candidate StepCatalogue::candidate(std::size_t pattern) const {
 Result<StepCatalogue> step_catalogue(const kinematics::Machine& machine,
                                      std::vector<Unknown> unknowns,
                                      const std::vector<Cause>& causes,
-                                     const metrology::CmmModel& cmm, const CatalogueSetup& setup) {
+                                     const metrology::CmmModel& cmm, const CatalogueSetup& setup,
+                                     Pattern4 pattern_4) {
   if (const auto table = programs::TiltingTable::of(machine); !table) return table.error();
   StepCatalogue catalogue;
   std::vector<MeasuredPiece> pieces;
   std::vector<int> workpieces;
-  for (Group& group : groups_of(setup)) {
+  for (Group& group : groups_of(setup, pattern_4)) {
     const auto dropped = drop_unreachable(machine, group);
-    catalogue.unreachable.insert(catalogue.unreachable.end(), dropped.begin(), dropped.end());
+    if (!dropped) return dropped.error();
+    catalogue.unreachable.insert(catalogue.unreachable.end(), dropped->begin(), dropped->end());
     if (group.patterns.empty()) continue;
     group.test.patterns = group.patterns;
     auto piece = programs::step_pattern(group.test, machine);

@@ -1,16 +1,20 @@
 // Every step pattern that a machine can cut, as something that could be measured.
 //
-// Model    : workpiece 1 with its patterns, workpiece 2 with pattern 3 and those beside it, another
-//            workpiece 2 for pattern 4, which cuts the surfaces of 3. Gains are those of
+// Model    : workpiece 1 with its patterns and workpiece 2 with its own; pattern 4 cuts the surfaces of 3
+//            and takes its place on workpiece 2, or another workpiece 2 to itself. Gains are those of
 //            trials::sensitivity(), covariances those of the measuring machine
 // Units    : mm, rad
 // Shape    : one block a pattern; rows: its characteristics; columns: the unknowns
-// Errors   : a machine on which no pattern can be cut, with the reasons; those of the trials
+// Errors   : a machine on which no pattern can be cut, with the reasons; tools or sizes that no machine
+//            could cut with; those of the trials
 // Accuracy : that of trials::sensitivity() and metrology::covariance()
 // Source   : Ibaraki et al. 2010, sections 3 and 4
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibration/design.hpp"
@@ -26,6 +30,11 @@ struct CatalogueSetup {
   // Of the centres of both workpieces, mm; absent: as published.
   std::optional<std::pair<double, double>> centre{};
   programs::StepTest test{};  // workpiece and patterns are not used
+};
+
+enum class Pattern4 : std::uint8_t {
+  on_its_own,         // a third workpiece, beside pattern 3 on the second
+  in_the_place_of_3,  // no pattern 3
 };
 
 struct UnreachablePattern {
@@ -47,6 +56,7 @@ struct StepCatalogue {
                                                    std::vector<Unknown> unknowns,
                                                    const std::vector<Cause>& causes,
                                                    const metrology::CmmModel& cmm,
-                                                   const CatalogueSetup& setup = {});
+                                                   const CatalogueSetup& setup = {},
+                                                   Pattern4 pattern_4 = Pattern4::on_its_own);
 
 }  // namespace frustum::calibration

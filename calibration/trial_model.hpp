@@ -19,6 +19,7 @@
 #include "kinematics/machine.hpp"
 #include "programs/test_piece.hpp"
 #include "trials/parameter.hpp"
+#include "trials/sensitivity.hpp"
 
 namespace frustum::calibration {
 
@@ -35,6 +36,20 @@ struct Cause {
   trials::Parameter parameter{};
   std::optional<std::size_t> only_piece{};
 };
+
+// One piece cut by a machine with all causes at x: what is measured, and the derivatives to the causes that
+// act on it (columns in the order of causes_on()).
+[[nodiscard]] Result<trials::Sensitivity> answer_of(const kinematics::Machine& machine,
+                                                    const StudiedPiece& piece, std::size_t index,
+                                                    const std::vector<Cause>& causes,
+                                                    const Eigen::VectorXd& x);
+// Which causes act on a piece.
+[[nodiscard]] std::vector<std::size_t> causes_on(std::size_t piece,
+                                                 const std::vector<Cause>& causes);
+// Its rows of a prediction. Error: a characteristic that the measurement lacks.
+[[nodiscard]] Result<Prediction> rows_of(const StudiedPiece& piece, std::size_t index,
+                                         const std::vector<Cause>& causes,
+                                         const trials::Sensitivity& answer);
 
 // The pieces and causes are copied into the model.
 [[nodiscard]] Model trial_model(kinematics::Machine machine, std::vector<StudiedPiece> pieces,

@@ -15,4 +15,15 @@ double internal_value(const CharacteristicResult& characteristic) {
   return internal_value(characteristic.value, characteristic.unit);
 }
 
+bool is_angle(const CharacteristicResult& characteristic) {
+  return characteristic.unit == "urad" || characteristic.unit == "deg";
+}
+
+std::optional<std::size_t> Measurement::find(std::string_view characteristic) const {
+  for (std::size_t i = 0; i < characteristics.size(); ++i) {
+    if (characteristics[i].name == characteristic) return i;
+  }
+  return std::nullopt;
+}
+
 }  // namespace frustum::metrology

@@ -68,6 +68,8 @@ struct CharacteristicResult {
 // that the value is in mm or rad already.
 [[nodiscard]] double internal_value(double value, std::string_view unit);
 [[nodiscard]] double internal_value(const CharacteristicResult& characteristic);
+// Whether that is rad.
+[[nodiscard]] bool is_angle(const CharacteristicResult& characteristic);
 
 struct Measurement {
   std::string title{};
@@ -83,6 +85,8 @@ struct Measurement {
     }
     return true;
   }
+  // Place in `characteristics`.
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view characteristic) const;
 };
 
 }  // namespace frustum::metrology
