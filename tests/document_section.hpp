@@ -1,6 +1,6 @@
-// Pages whose tables a test writes: each section stands between two comment lines.
+// Pages whose tables a test computes: each section stands between two comment lines.
 //
-// With FRUSTUM_UPDATE_DOCS set the section is written; without it the page is left alone.
+// The page must hold what the test computes; with FRUSTUM_UPDATE_DOCS set it is written anew instead.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,9 +12,8 @@
 
 namespace frustum {
 
-inline void write_section(const std::string& page, const std::string& name,
-                          const std::string& text) {
-  if (std::getenv("FRUSTUM_UPDATE_DOCS") == nullptr) return;
+inline void expect_section(const std::string& page, const std::string& name,
+                           const std::string& text) {
   const std::string file = std::string(FRUSTUM_SOURCE_DIR) + "/docs/" + page;
   std::ostringstream content;
   content << std::ifstream(file).rdbuf();
@@ -22,7 +21,14 @@ inline void write_section(const std::string& page, const std::string& name,
   const std::string begin = "<!-- " + name + " -->\n", end = "<!-- end of " + name + " -->";
   const auto from = whole.find(begin), to = whole.find(end);
   ASSERT_TRUE(from != std::string::npos && to != std::string::npos) << page << ": " << name;
-  whole.replace(from + begin.size(), to - from - begin.size(), "\n" + text + "\n");
+  const auto first = from + begin.size();
+  const std::string wanted = "\n" + text + "\n";
+  if (std::getenv("FRUSTUM_UPDATE_DOCS") == nullptr) {
+    EXPECT_EQ(whole.substr(first, to - first), wanted)
+        << "docs/" << page << " is stale: run this test with FRUSTUM_UPDATE_DOCS=1 and review";
+    return;
+  }
+  whole.replace(first, to - first, wanted);
   std::ofstream(file) << whole;
 }
 

@@ -9,7 +9,8 @@
 // Units    : mm and rad: characteristics per parameter
 // Shape    : characteristics of the plan by parameters
 // Errors   : those of the trial and of the evaluation
-// Accuracy : the two agree to 1e-4 relative on the step patterns (tests/trials/sensitivity_test.cpp)
+// Accuracy : the two agree to 2e-4 um or urad per um or urad on the step patterns
+//            (tests/trials/step_sensitivity_test.cpp); 1e-6 against an independent computation
 // Source   : ours; the odd part is what linear models of machining tests call sensitivity, the even part
 //            is the dish that a leaning end face cuts, and what forms answer about a perfect part
 #pragma once

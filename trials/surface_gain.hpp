@@ -10,8 +10,9 @@
 // Units    : mm of motion per mm or rad of the parameter, along the outward normal; frame: workpiece
 // Shape    : all measured points (in the order of features and points) by all parameters
 // Errors   : a measured point where the workpiece has no surface
-// Accuracy : first order about the trial's own errors; agrees with central differences of whole trials
-//            (tests/trials/sensitivity_test.cpp)
+// Accuracy : contacts are those of the trial with its errors, motions those of the nominal chain: off by the
+//            size of the errors, relatively (1e-4 for 100 urad); agrees with central differences of whole
+//            trials (tests/trials/step_sensitivity_test.cpp)
 // Source   : first-order gains of the chain: kinematics/error_gain.hpp; envelope theorem
 #pragma once
 

@@ -19,7 +19,7 @@ using kinematics::GeometricErrors;
 using kinematics::Machine;
 
 constexpr int kMachines = 10;
-constexpr int kRepetitions = 200;          // on each machine
+constexpr int kRepetitions = 100;          // on each machine
 constexpr double kSquarenessKnown = 5e-6;  // rad
 
 constexpr const char* kAngles[] = {"alpha_AY", "beta_AY", "gamma_AY", "beta_CA"};

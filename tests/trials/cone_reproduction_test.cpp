@@ -103,7 +103,7 @@ TEST(ConeReproductionReference, HoldsEveryRowOfTable34) {
     EXPECT_LT(part, 0.15) << error;
     page += fmt::format("| `{}` | {:.4f} |\n", error, part);
   }
-  write_section("reproduction.md", "cone frustum", page);
+  expect_section("reproduction.md", "cone frustum", page);
 }
 
 struct Ranges {
