@@ -47,9 +47,9 @@ std::vector<StepPattern> all_patterns() {
       {"2-b", step, side_edge, fed_along_y(-q, pass(0, -q, -kY, kX), pass(0, -3 * q, -kY, kX)), 0.0,
        kX, kY, kY, ""},
       {"3", step, bottom_edge, fed_along_y(0, pass(-q, -q, -kX, -kY), pass(-q, -3 * q, -kX, -kY)),
-       0.0, kY, -kX, -kX, "ref"},
+       0.0, kY, -kX, -kX, "ref", "3 or 4"},
       {"4", step, bottom_edge, fed_along_y(0, pass(-q, -q, -kX, -kY), pass(q, -q, kX, kY)), 0.0, kY,
-       -kX, -kX, "ref"},
+       -kX, -kX, "ref", "3 or 4"},
       {"5-a", chamfer, side_edge, fed_along_y(0, pass(-e, 0, -kX, -kY), pass(e, 0, kX, kY)), kSlope,
        kX, kY, -kX, "ref"},
       {"5-b", chamfer, side_edge, fed_along_y(0, pass(-e, -q, -kX, -kY), pass(-e, q, -kX, -kY)),
@@ -115,6 +115,22 @@ const StepPattern* find_step_pattern(std::string_view name) {
   return nullptr;
 }
 
+bool cut_the_same_surfaces(const StepPattern& a, const StepPattern& b) {
+  return a.name == b.name || (!a.shared_steps.empty() && a.shared_steps == b.shared_steps);
+}
+
+std::vector<const StepPattern*> reference_patterns(std::span<const std::string> patterns) {
+  std::vector<const StepPattern*> owners;
+  for (const std::string& name : patterns) {
+    const StepPattern* pattern = find_step_pattern(name);
+    const bool known = std::any_of(owners.begin(), owners.end(), [&](const StepPattern* owner) {
+      return owner->reference() == pattern->reference();
+    });
+    if (!known) owners.push_back(pattern);
+  }
+  return owners;
+}
+
 const StepSize* StepWorkpiece::size(std::string_view pattern) const {
   const auto found = std::find_if(sizes.begin(), sizes.end(),
                                   [&](const StepSize& s) { return s.pattern == pattern; });
@@ -139,7 +155,9 @@ StepWorkpiece raised(StepWorkpiece workpiece, double mm) {
 std::vector<std::string> patterns_together(const StepWorkpiece& workpiece) {
   std::vector<std::string> names;
   for (const StepPattern& pattern : step_patterns()) {
-    const bool cut_already = pattern.name == "4" && workpiece.size("3") != nullptr;
+    const bool cut_already = std::any_of(names.begin(), names.end(), [&](const std::string& other) {
+      return cut_the_same_surfaces(pattern, *find_step_pattern(other));
+    });
     if (workpiece.size(pattern.name) != nullptr && !cut_already) names.emplace_back(pattern.name);
   }
   return names;
@@ -167,31 +185,6 @@ StepLine step_line(const StepWorkpiece& workpiece, const StepPattern& pattern, S
   line.tip = line.on_side + (on_line ? 0.0 : tool_radius) * line.side -
              (reference ? 0.0 : depth.value_or(pattern.depth)) * up;
   return line;
-}
-
-stock::LoftShape near_net_blank(const stock::LoftShape& body, double allowance) {
-  stock::LoftShape blank;
-  const auto slabs = stock::slabs_of(body);
-  for (std::size_t i = 0; i < slabs.size(); ++i) {
-    const stock::LoftSection& bottom = slabs[i].bottom;
-    const stock::LoftSection& top = slabs[i].top;
-    const auto offset = [&](const stock::LoftSection& at, bool shifted) {
-      const double rise = shifted ? allowance : 0.0;
-      // Square to a face that leans inwards by m per mm of height, and on at that slope.
-      const auto wider = [&](double from, double to, double size) {
-        const double m = 0.5 * (to - from) / (top.z - bottom.z);
-        return size + 2.0 * (allowance * std::sqrt(1.0 + m * m) + m * rise);
-      };
-      // A nanometre is enough for stock, and reads better than all digits.
-      const auto neat = [](double mm) { return std::round(mm * 1e6) / 1e6; };
-      blank.sections.push_back({neat(at.z + rise),
-                                neat(wider(bottom.size_x, top.size_x, at.size_x)),
-                                neat(wider(bottom.size_y, top.size_y, at.size_y))});
-    };
-    offset(bottom, i > 0);
-    offset(top, i + 1 < slabs.size());
-  }
-  return blank;
 }
 
 }  // namespace frustum::programs

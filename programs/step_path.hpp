@@ -3,8 +3,10 @@
 // Model    : the tool is a cylinder without end above its tip. At both ends of the pass no material lies
 //            within `clearance` of it or above it, so that it may go down and up at rapid there.
 // Units    : mm; frame: workpiece
-// Errors   : none
+// Shape    : `length` centred on the line's middle; a blank of any number of slabs
+// Errors   : none; what is not clear within 2 m ends there
 // Accuracy : whole mm, rounded up
+// Source   : ours
 #pragma once
 
 #include "programs/step_pattern.hpp"

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
+#include "programs/near_net_blank.hpp"
+#include "programs/step_plan.hpp"
 #include "programs/step_program.hpp"
 #include "programs/tilting_table.hpp"
 
 namespace frustum::programs {
 namespace {
-
-constexpr int kTool = 1;
 
 Diagnostic refuse(const char* key, const std::string& what, const std::string& hint) {
   Diagnostic failure = error(what, hint);
@@ -42,7 +42,7 @@ Diagnostics faults_of(const StepTest& test) {
       {"raise", "mm for the lowest level", test.workpiece.body.sections.front().z, -kLongest,
        kLongest},
       {"tolerance", "um", test.tolerance.value * kUmPerMm, 1e-6, 1e6},
-      {"angle-tolerance", "urad", test.angle_tolerance.value * 1e6, 1e-6, 1e6},
+      {"angle-tolerance", "urad", test.angle_tolerance.value * kUradPerRad, 1e-6, 1e6},
   };
   Diagnostics faults;
   for (const auto& n : numbers) {
@@ -80,17 +80,20 @@ Result<std::vector<std::string>> chosen(const StepTest& test) {
   const auto asked = [&](std::string_view name) {
     return std::find(test.patterns.begin(), test.patterns.end(), name) != test.patterns.end();
   };
-  if (asked("3") && asked("4")) {
-    faults.push_back(
-        refuse("patterns",
-               fmt::format("patterns 3 and 4 cut the same surfaces of workpiece {}", piece.number),
-               "cut one of them, or write a test piece for each"));
-  }
-  if (!faults.empty()) return faults;
   std::vector<std::string> names;
   for (const StepPattern& pattern : step_patterns()) {
-    if (asked(pattern.name)) names.emplace_back(pattern.name);
+    if (!asked(pattern.name)) continue;
+    for (const std::string& other : names) {
+      if (!cut_the_same_surfaces(pattern, *find_step_pattern(other))) continue;
+      faults.push_back(
+          refuse("patterns",
+                 fmt::format("patterns {} and {} cut the same surfaces of workpiece {}", other,
+                             pattern.name, piece.number),
+                 "cut one of them, or write a test piece for each"));
+    }
+    names.emplace_back(pattern.name);
   }
+  if (!faults.empty()) return faults;
   return names;
 }
 
@@ -111,10 +114,10 @@ Result<StepPiece> step_pattern(const StepTest& test, const kinematics::Machine& 
   piece.work_offsets = {{1, table->crossing}};
   // The tallest wall that the side edge passes, and some.
   constexpr double kFlutes = 45.0;
-  piece.tools[kTool] = {.type = cutter::CutterType::flat,
-                        .diameter = test.tool_diameter,
-                        .length = test.tool_length,
-                        .flute_length = {std::min(kFlutes, test.tool_length.value)}};
+  piece.tools[kStepTool] = {.type = cutter::CutterType::flat,
+                            .diameter = test.tool_diameter,
+                            .length = test.tool_length,
+                            .flute_length = {std::min(kFlutes, test.tool_length.value)}};
   const stock::LoftShape blank = near_net_blank(test.workpiece.body, test.allowance.value);
   piece.blank = blank;
   piece.blank_origin = test.workpiece.centre();

@@ -9,6 +9,8 @@
 // Frames   : the workpiece frame has the table's directions (X: the tilt axis) at zero and its origin on
 //            the crossing of tilt and turn axis; heights H are its z
 // Units    : mm, rad, mm/min, 1/min
+// Shape    : four passes a pattern; a piece has two cuts for each different pair of reference steps,
+//            then two for each pattern, and as many operations
 // Errors   : step_pattern() refuses machines without a tilting turning table, unknown patterns (with the
 //            nearest name), patterns that the workpiece does not carry or that cut the same surfaces, and
 //            every position out of travel at once (pattern, axis, and how much is short)
@@ -63,7 +65,9 @@ struct StepPattern {
   Vec3 across = Vec3::UnitY();
   Vec3 across_reference = Vec3::UnitY();
   // Patterns with the same word share their reference steps; empty: the pattern has its own.
-  std::string_view shared_reference;
+  std::string_view shared_reference{};
+  // Patterns with the same word cut steps c and d into the same surfaces; empty: into its own.
+  std::string_view shared_steps{};
 
   [[nodiscard]] const StepPass& pass(StepName step) const {
     return passes[static_cast<std::size_t>(step)];
@@ -77,6 +81,11 @@ struct StepPattern {
 // In the order 1-a, 1-b, 2-a, 2-b, 3, 4, 5-a, 5-b, 6-a, 6-b, 7.
 [[nodiscard]] std::span<const StepPattern> step_patterns();
 [[nodiscard]] const StepPattern* find_step_pattern(std::string_view name);
+// Whether one workpiece cannot carry both: each would cut away what the other is measured by.
+[[nodiscard]] bool cut_the_same_surfaces(const StepPattern& a, const StepPattern& b);
+// Of the patterns named, the first for each different pair of reference steps: it cuts them.
+[[nodiscard]] std::vector<const StepPattern*> reference_patterns(
+    std::span<const std::string> patterns);
 
 // Nominal size of one pattern on a workpiece.
 struct StepSize {
@@ -157,11 +166,5 @@ struct StepPiece {
 
 [[nodiscard]] Result<StepPiece> step_pattern(const StepTest& test,
                                              const kinematics::Machine& machine);
-
-// Lines S and B of every step, references, frames and characteristics: "1-a.S_c", "ref.B_a", "1-a.dL".
-[[nodiscard]] metrology::InspectionPlan step_plan(const StepTest& test,
-                                                  std::span<const std::string> patterns);
-// What the machine starts from: the finished body with the allowance on every surface.
-[[nodiscard]] stock::LoftShape near_net_blank(const stock::LoftShape& body, double allowance);
 
 }  // namespace frustum::programs

@@ -1,8 +1,7 @@
-// What to measure on a step pattern piece.
+#include "programs/step_plan.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "programs/step_pattern.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -32,13 +31,8 @@ class StepPlan {
     for (const std::string& name : patterns) plan_.title += " " + name;
     plan_.alignment = metrology::Alignment::plan;
     plan_.probe = {kBallDiameter, kApproach, kApproach};
-    std::vector<std::string> referenced;
-    for (const std::string& name : patterns) {
-      const StepPattern& pattern = *find_step_pattern(name);
-      const std::string reference(pattern.reference());
-      if (std::find(referenced.begin(), referenced.end(), reference) != referenced.end()) continue;
-      referenced.push_back(reference);
-      add_reference(pattern, reference);
+    for (const StepPattern* pattern : reference_patterns(patterns)) {
+      add_reference(*pattern, std::string(pattern->reference()));
     }
     for (const std::string& name : patterns) add_pattern(*find_step_pattern(name));
   }

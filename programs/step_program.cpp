@@ -18,8 +18,6 @@ using kinematics::AxisLetter;
 using kinematics::AxisPositions;
 using kinematics::Machine;
 
-constexpr int kTool = 1;
-
 Vec3 linear_part(const AxisPositions& q) {
   return {q[AxisLetter::X], q[AxisLetter::Y], q[AxisLetter::Z]};
 }
@@ -223,16 +221,11 @@ Result<StepPlaces> StepPlaces::of(const StepTest& test, std::span<const std::str
                                   const Machine& machine, const TiltingTable& table,
                                   const stock::LoftShape& blank, const Placement& placement) {
   Places places(test, machine, table, blank, placement);
-  std::vector<std::string> referenced;
-  for (const std::string& name : patterns) {
-    const StepPattern& pattern = *find_step_pattern(name);
-    const std::string reference(pattern.reference());
-    if (std::find(referenced.begin(), referenced.end(), reference) != referenced.end()) continue;
-    referenced.push_back(reference);
-    const bool shared = !pattern.shared_reference.empty();
+  for (const StepPattern* pattern : reference_patterns(patterns)) {
+    const bool shared = !pattern->shared_reference.empty();
     for (const StepName step : {StepName::a, StepName::b}) {
-      places.add(pattern, step, fmt::format("{} {}", reference, to_char(step)),
-                 shared ? "reference" : "pattern " + name);
+      places.add(*pattern, step, fmt::format("{} {}", pattern->reference(), to_char(step)),
+                 shared ? "reference" : fmt::format("pattern {}", pattern->name));
     }
   }
   for (const std::string& name : patterns) {
@@ -255,14 +248,14 @@ std::string step_program(const StepTest& test, std::span<const std::string> patt
                                test.workpiece.number, machine.name())));
   nc.comment(fmt::format("G54: CROSSING OF {} AND {}, ALL ROTARY AXES AT ZERO", to_char(table.tilt),
                          to_char(table.turn)));
-  nc.comment(fmt::format("T{} = END MILL D{:g}, LENGTH {:g} MM", kTool, test.tool_diameter.value,
-                         test.tool_length.value));
+  nc.comment(fmt::format("T{} = END MILL D{:g}, LENGTH {:g} MM", kStepTool,
+                         test.tool_diameter.value, test.tool_length.value));
   nc.line("G21 G90 G17 G40 G49 G80 G94");
   nc.line(home);
-  nc.line(fmt::format("T{} M6", kTool));
+  nc.line(fmt::format("T{} M6", kStepTool));
   nc.line(fmt::format("S{:g} M3", test.spindle_speed));
   nc.line("M8");
-  nc.line(fmt::format("G54 G43 H{}", kTool));
+  nc.line(fmt::format("G54 G43 H{}", kStepTool));
   nc.line("G0 " + length_word('Z', places.safe_z));
   for (StepPlace& place : places.steps) write_step(nc, test, table, place, places.safe_z);
   nc.line("M9");

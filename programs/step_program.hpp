@@ -13,6 +13,9 @@
 
 namespace frustum::programs {
 
+// The number of the one tool.
+inline constexpr int kStepTool = 1;
+
 // One step and where it is cut.
 struct StepPlace {
   std::string name{};                // "1-a c"

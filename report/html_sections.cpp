@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <string>
+#include <vector>
 
 #include "core/units.hpp"
 #include "report/chart_data.hpp"
@@ -20,9 +21,9 @@ using Characteristic = metrology::CharacteristicResult;
 class Table {
  public:
   // A heading that starts with '>' stands over a column of numbers.
-  explicit Table(std::initializer_list<const char*> headings) {
+  explicit Table(const std::vector<std::string>& headings) {
     html_ = "<div class=\"scroll\"><table><thead><tr>";
-    for (const std::string heading : headings) {
+    for (const std::string& heading : headings) {
       const bool is_number = heading.front() == '>';
       numbers_.push_back(is_number);
       html_ += fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"n\"" : "",
@@ -112,17 +113,28 @@ std::string used_cell(const Characteristic& characteristic) {
 
 std::string characteristics_html(const RunReport& report) {
   if (report.measurement.characteristics.empty()) return "";
-  Table table(
-      {"Characteristic", ">Value", ">Nominal", ">Tolerance", ">U (k = 2)", ">Used", "Verdict"});
-  for (const Characteristic& c : report.measurement.characteristics) {
+  const auto& all = report.measurement.characteristics;
+  const bool nominals = std::any_of(
+      all.begin(), all.end(), [](const Characteristic& c) { return !nominal_text(c).empty(); });
+  std::vector<std::string> headings{"Characteristic", ">Value"};
+  if (nominals) headings.emplace_back(">Nominal");
+  for (const char* heading : {">Tolerance", ">U (k = 2)", ">Used", "Verdict"}) {
+    headings.emplace_back(heading);
+  }
+  Table table(headings);
+  for (const Characteristic& c : all) {
     const std::string kind =
         c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(c.kind));
-    table.row({fmt::format("<b>{}</b>{}", html_text(c.name), kind),
-               with_unit(result_text(c), c.unit),
-               nominal_text(c).empty() ? "" : with_unit(nominal_text(c), c.unit),
-               (c.nominal ? "± " : "") + with_unit(value_text(c.tolerance, c.unit), c.unit),
-               with_unit(uncertainty_text(c.expanded_uncertainty), c.unit), used_cell(c),
-               verdict_mark(c.pass)});
+    std::vector<std::string> cells{fmt::format("<b>{}</b>{}", html_text(c.name), kind),
+                                   with_unit(result_text(c), c.unit)};
+    if (nominals) {
+      cells.push_back(nominal_text(c).empty() ? "" : with_unit(nominal_text(c), c.unit));
+    }
+    cells.push_back((c.nominal ? "± " : "") + with_unit(value_text(c.tolerance, c.unit), c.unit));
+    cells.push_back(with_unit(uncertainty_text(c.expanded_uncertainty), c.unit));
+    cells.push_back(used_cell(c));
+    cells.push_back(verdict_mark(c.pass));
+    table.row(cells);
   }
   return section("characteristics", "Characteristics",
                  table.html() +

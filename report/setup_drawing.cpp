@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "report/html_text.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::report {
@@ -136,7 +137,7 @@ class Drawing {
   void text(const Point& p, const std::string& what, const char* kind,
             const char* anchor = "middle") {
     svg_ += fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>",
-                        kind, p.x(), p.y(), anchor, what);
+                        kind, p.x(), p.y(), anchor, html_text(what));
   }
 
   // Into the page or out of it, where the feed runs along the view.
@@ -164,7 +165,10 @@ class Drawing {
     const Point middle = 0.5 * (a2 + b2);
     arrow(middle, a2, "dimension");
     arrow(middle, b2, "dimension");
-    text(middle + 9.0 * n + Point(0.0, 3.5), what, "size");
+    // Beside an upright line the text begins or ends at it; over a level one it stands in the middle.
+    const bool upright = std::abs(n.x()) > 0.7;
+    const char* anchor = !upright ? "middle" : n.x() > 0.0 ? "start" : "end";
+    text(middle + (upright ? 5.0 : 9.0) * n + Point(0.0, 3.5), what, "size", anchor);
   }
 
   void triad() {
@@ -178,7 +182,7 @@ class Drawing {
   [[nodiscard]] std::string svg(const std::string& label) const {
     return fmt::format(
         "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}</svg>\n", kWidth,
-        kHeight, label, svg_);
+        kHeight, html_text(label), svg_);
   }
 
  private:
@@ -212,6 +216,19 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
   for (const Vec3& tip : {step.from, step.to}) {
     drawing.include_box(tip, sheet.tool_radius, from_top ? 0.0 : sheet.tool_length);
   }
+  // A height is one only where the workpiece stands upright, and is marked where the line is seen as a
+  // point: beyond the line opposite, over the ledge there, away from the tool.
+  constexpr double kTrue = 0.01;
+  const Vec3 along_line = turn * (step.line_to - step.line_from);
+  const bool marks_height =
+      !from_top && turn(2, 2) > 1.0 - kTrue &&
+      std::abs(along_line.normalized().dot(drawing.directions().toward)) > 0.9;
+  const Vec3 outward =
+      (turn * (step.opposite - 0.5 * (step.line_from + step.line_to))).normalized();
+  if (marks_height) {
+    constexpr double kLabel = 30.0;  // mm: room for its text at the scale of most drawings
+    drawing.include(turn * step.opposite + kLabel * outward);
+  }
   drawing.fit();
   drawing.solid(sheet.workpiece, turn);
 
@@ -242,7 +259,6 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
   const Point u = other - s;
   Point away(-u.y(), u.x());
   // Dimensioned where it is seen in its true length.
-  constexpr double kTrue = 0.01;
   const bool in_true_length =
       std::abs(u.norm() / drawing.scale() - step.width) < kTrue * step.width;
   if (in_true_length) {
@@ -254,15 +270,12 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
     }
     drawing.dimension(s, other, away, reach + 10.0, fmt::format("L {:g}", step.width));
   }
-  // A height is one only where the workpiece stands upright.
-  const bool upright = turn(2, 2) > 1.0 - kTrue;
-  if (!from_top && upright &&
-      (drawing.at(turn * step.line_from) - drawing.at(turn * step.line_to)).norm() < 8.0) {
+  if (marks_height) {
     drawing.dot(s, "cut-end");
-    const bool right = from.x() > s.x();
-    const Point mark = s + Point(right ? -34.0 : 34.0, 0.0);
-    drawing.line(s, mark, "extension");
-    drawing.text(mark + Point(0.0, -3.0), fmt::format("H {:g}", step.height), "size",
+    const bool right = other.x() > s.x();
+    const Point mark = other + Point(right ? 52.0 : -52.0, 0.0);
+    drawing.line(other, mark, "extension");
+    drawing.text(mark + Point(right ? -1.0 : 1.0, -4.0), fmt::format("H {:g}", step.height), "size",
                  right ? "end" : "start");
   }
   drawing.triad();

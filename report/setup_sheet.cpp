@@ -46,7 +46,8 @@ svg { width: 100%; height: auto; display: block; }
 .extension, .dimension { stroke: #5d6875; stroke-width: .7; } .dimension-head { fill: #5d6875; }
 .triad { stroke: #1b2129; stroke-width: .9; } .triad-head { fill: #1b2129; }
 .crossing { fill: #1b2129; }
-text { font-size: 12px; fill: var(--ink); } .note { fill: var(--faint); } .size { fill: #3a4450; }
+text { font-size: 12px; fill: var(--ink); paint-order: stroke; stroke: #fff; stroke-width: 3.5px;
+  stroke-linejoin: round; } .note { fill: var(--faint); } .size { fill: #3a4450; }
 .axis-name { font-weight: 600; }
 .legend { color: var(--faint); font-size: 12px; margin: 10px 0 0; }
 .legend b.c { color: var(--cut); } .legend b.t { color: var(--accent); }

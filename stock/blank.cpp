@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace frustum::stock {
@@ -72,7 +73,7 @@ void clip_by_mantle(Interval& chord, const FrustumShape& shape, const Vec3& p, c
   }
 }
 
-// Faces of slab k of a loft: 6k + those of a box. How much half a size grows with z:
+// How much half a size grows with z.
 double growth(double from, double to, const LoftSlab& slab) {
   return 0.5 * (to - from) / (slab.top.z - slab.bottom.z);
 }
@@ -93,6 +94,118 @@ Interval chord_of(const LoftSlab& slab, EndTag first_face, const Vec3& p, const 
   clip(chord, slab.bottom.z - p.z(), -d.z(), first_face + kBottom);
   clip(chord, p.z() - slab.top.z, d.z(), first_face + kTop);
   return chord;
+}
+
+IntervalSet chords_along(const BoxShape& box, const Vec3& p, const Vec3& d, RaySpan span) {
+  Interval chord{span.lo, span.hi, -1, -1};
+  const Vec3 lo(-box.size_x / 2, -box.size_y / 2, 0.0);
+  const Vec3 hi(box.size_x / 2, box.size_y / 2, box.height);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    clip(chord, lo[k] - p[k], -d[k], 2 * k);
+    clip(chord, p[k] - hi[k], d[k], 2 * k + 1);
+  }
+  return IntervalSet({chord});
+}
+
+IntervalSet chords_along(const FrustumShape& frustum, const Vec3& p, const Vec3& d, RaySpan span) {
+  Interval chord{span.lo, span.hi, -1, -1};
+  clip(chord, -p.z(), -d.z(), kBottom);
+  clip(chord, p.z() - frustum.height, d.z(), kTop);
+  if (chord.lo < chord.hi) clip_by_mantle(chord, frustum, p, d);
+  return IntervalSet({chord});
+}
+
+// Faces of slab k: 6k + those of a box.
+IntervalSet chords_along(std::span<const LoftSlab> slabs, const Vec3& p, const Vec3& d,
+                         RaySpan span) {
+  std::vector<Interval> chords;
+  EndTag face = 0;
+  for (const LoftSlab& slab : slabs) {
+    chords.push_back(chord_of(slab, face, p, d, span));
+    face += 6;
+  }
+  return IntervalSet(std::move(chords));
+}
+
+Vec3 box_normal(EndTag face) {
+  const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(face / 2));
+  return face % 2 == 0 ? Vec3(-axis) : axis;
+}
+
+// `across`: from the axis to the point.
+Vec3 mantle_normal(const FrustumShape& frustum, const Vec3& across) {
+  const double slope = (frustum.bottom_radius - frustum.top_radius) / frustum.height;
+  return (across.normalized() + slope * Vec3::UnitZ()).normalized();
+}
+
+Vec3 slab_normal(const LoftSlab& slab, EndTag side) {
+  const Vec3 outward = box_normal(side);
+  if (side >= kBottom) return outward;
+  const double m = side < 2 ? growth(slab.bottom.size_x, slab.top.size_x, slab)
+                            : growth(slab.bottom.size_y, slab.top.size_y, slab);
+  return (outward - m * Vec3::UnitZ()).normalized();
+}
+
+// About the blank's origin.
+BoundingBox bounds_of(const BoxShape& box) {
+  const Vec3 half(box.size_x / 2, box.size_y / 2, 0.0);
+  return {-half, half + box.height * Vec3::UnitZ()};
+}
+
+BoundingBox bounds_of(const FrustumShape& frustum) {
+  const double radius = std::max(frustum.bottom_radius, frustum.top_radius);
+  const Vec3 half(radius, radius, 0.0);
+  return {-half, half + frustum.height * Vec3::UnitZ()};
+}
+
+BoundingBox bounds_of(const LoftShape& loft) {
+  Vec3 across = Vec3::Zero();
+  for (const LoftSection& s : loft.sections) {
+    across = across.cwiseMax(Vec3(0.5 * s.size_x, 0.5 * s.size_y, 0.0));
+  }
+  return {loft.sections.front().z * Vec3::UnitZ() - across,
+          across + loft.sections.back().z * Vec3::UnitZ()};
+}
+
+double volume_of(const BoxShape& box) { return box.size_x * box.size_y * box.height; }
+
+double volume_of(const FrustumShape& f) {
+  return std::numbers::pi / 3.0 * f.height *
+         (f.bottom_radius * f.bottom_radius + f.bottom_radius * f.top_radius +
+          f.top_radius * f.top_radius);
+}
+
+double volume_of(const LoftShape& loft) {
+  double volume = 0.0;
+  for (const auto& [lo, hi] : slabs_of(loft)) {
+    // The sizes are linear in z, the section a quadratic: Simpson's rule is exact.
+    const double middle = 0.25 * (lo.size_x + hi.size_x) * (lo.size_y + hi.size_y);
+    volume += (hi.z - lo.z) / 6.0 * (lo.size_x * lo.size_y + 4.0 * middle + hi.size_x * hi.size_y);
+  }
+  return volume;
+}
+
+Diagnostic empty_blank(const char* what, double value) {
+  return error(fmt::format("the blank is empty: {} is {} mm", what, value),
+               "every dimension must be a finite number above 0");
+}
+
+bool positive(double v) { return std::isfinite(v) && v > 0.0; }
+
+std::optional<Diagnostic> fault_of(const BoxShape& box) {
+  if (!positive(box.size_x)) return empty_blank("its size in X", box.size_x);
+  if (!positive(box.size_y)) return empty_blank("its size in Y", box.size_y);
+  if (!positive(box.height)) return empty_blank("its height", box.height);
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> fault_of(const FrustumShape& frustum) {
+  if (!positive(frustum.height)) return empty_blank("its height", frustum.height);
+  if (!positive(frustum.bottom_radius)) {
+    return empty_blank("its bottom radius", frustum.bottom_radius);
+  }
+  if (!positive(frustum.top_radius)) return empty_blank("its top radius", frustum.top_radius);
+  return std::nullopt;
 }
 
 std::optional<Diagnostic> fault_of(const LoftShape& shape) {
@@ -129,10 +242,13 @@ std::optional<Diagnostic> fault_of(const LoftShape& shape) {
   return std::nullopt;
 }
 
-Diagnostic empty_blank(const char* what, double value) {
-  return error(fmt::format("the blank is empty: {} is {} mm", what, value),
-               "every dimension must be a finite number above 0");
-}
+// Calls the one of its functions that takes the shape.
+template <typename... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
 
 }  // namespace
 
@@ -146,21 +262,14 @@ std::vector<LoftSlab> slabs_of(const LoftShape& shape) {
   return slabs;
 }
 
+Blank::Blank(const BlankShape& shape, const Vec3& origin) : shape_(shape), origin_(origin) {
+  if (const auto* loft = std::get_if<LoftShape>(&shape_)) slabs_ = slabs_of(*loft);
+}
+
 Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
-  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
   if (!origin.allFinite()) return error("the blank's origin is not finite");
-  if (const auto* box = std::get_if<BoxShape>(&shape)) {
-    if (!positive(box->size_x)) return empty_blank("its size in X", box->size_x);
-    if (!positive(box->size_y)) return empty_blank("its size in Y", box->size_y);
-    if (!positive(box->height)) return empty_blank("its height", box->height);
-  } else if (const auto* loft = std::get_if<LoftShape>(&shape)) {
-    if (const auto fault = fault_of(*loft)) return *fault;
-  } else {
-    const auto& frustum = std::get<FrustumShape>(shape);
-    if (!positive(frustum.height)) return empty_blank("its height", frustum.height);
-    if (!positive(frustum.bottom_radius))
-      return empty_blank("its bottom radius", frustum.bottom_radius);
-    if (!positive(frustum.top_radius)) return empty_blank("its top radius", frustum.top_radius);
+  if (const auto fault = std::visit([](const auto& s) { return fault_of(s); }, shape)) {
+    return *fault;
   }
   return Blank(shape, origin);
 }
@@ -168,93 +277,32 @@ Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
 IntervalSet Blank::along(const Ray& ray, RaySpan span) const {
   const Vec3 p = ray.origin - origin_;
   const Vec3& d = ray.direction;
-  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
-    std::vector<Interval> chords;
-    EndTag face = 0;
-    for (const LoftSlab& slab : slabs_of(*loft)) {
-      chords.push_back(chord_of(slab, face, p, d, span));
-      face += 6;
-    }
-    return IntervalSet(std::move(chords));
-  }
-  Interval chord{span.lo, span.hi, -1, -1};
-  if (const auto* box = std::get_if<BoxShape>(&shape_)) {
-    const Vec3 lo(-box->size_x / 2, -box->size_y / 2, 0.0);
-    const Vec3 hi(box->size_x / 2, box->size_y / 2, box->height);
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      clip(chord, lo[k] - p[k], -d[k], 2 * k);
-      clip(chord, p[k] - hi[k], d[k], 2 * k + 1);
-    }
-  } else {
-    const auto& frustum = std::get<FrustumShape>(shape_);
-    clip(chord, -p.z(), -d.z(), kBottom);
-    clip(chord, p.z() - frustum.height, d.z(), kTop);
-    if (chord.lo < chord.hi) clip_by_mantle(chord, frustum, p, d);
-  }
-  return IntervalSet({chord});
+  return std::visit(Overloaded{[&](const LoftShape&) { return chords_along(slabs_, p, d, span); },
+                               [&](const auto& shape) { return chords_along(shape, p, d, span); }},
+                    shape_);
 }
 
 Vec3 Blank::normal(EndTag face, const Vec3& point) const {
-  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
-    const LoftSlab slab = slabs_of(*loft)[static_cast<std::size_t>(face / 6)];
-    const EndTag side = face % 6;
-    const auto k = static_cast<Eigen::Index>(side / 2);
-    Vec3 outward = side % 2 == 0 ? Vec3(-Vec3::Unit(k)) : Vec3(Vec3::Unit(k));
-    if (k == 2) return outward;
-    const double m = k == 0 ? growth(slab.bottom.size_x, slab.top.size_x, slab)
-                            : growth(slab.bottom.size_y, slab.top.size_y, slab);
-    return (outward - m * Vec3::UnitZ()).normalized();
-  }
-  if (face < kMantle) {
-    const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(face / 2));
-    return face % 2 == 0 ? Vec3(-axis) : axis;
-  }
-  const auto& frustum = std::get<FrustumShape>(shape_);
-  const Vec3 across(point.x() - origin_.x(), point.y() - origin_.y(), 0.0);
-  const double slope = (frustum.bottom_radius - frustum.top_radius) / frustum.height;
-  return (across.normalized() + slope * Vec3::UnitZ()).normalized();
+  return std::visit(
+      Overloaded{[&](const BoxShape&) { return box_normal(face); },
+                 [&](const FrustumShape& frustum) {
+                   if (face < kMantle) return box_normal(face);
+                   return mantle_normal(
+                       frustum, Vec3(point.x() - origin_.x(), point.y() - origin_.y(), 0.0));
+                 },
+                 [&](const LoftShape&) {
+                   return slab_normal(slabs_[static_cast<std::size_t>(face / 6)], face % 6);
+                 }},
+      shape_);
 }
 
 BoundingBox Blank::bounds() const {
-  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
-    Vec3 across = Vec3::Zero();
-    for (const LoftSection& s : loft->sections) {
-      across = across.cwiseMax(Vec3(0.5 * s.size_x, 0.5 * s.size_y, 0.0));
-    }
-    return {origin_ - across + loft->sections.front().z * Vec3::UnitZ(),
-            origin_ + across + loft->sections.back().z * Vec3::UnitZ()};
-  }
-  Vec3 half;
-  double height = 0.0;
-  if (const auto* box = std::get_if<BoxShape>(&shape_)) {
-    half = Vec3(box->size_x / 2, box->size_y / 2, 0.0);
-    height = box->height;
-  } else {
-    const auto& frustum = std::get<FrustumShape>(shape_);
-    const double radius = std::max(frustum.bottom_radius, frustum.top_radius);
-    half = Vec3(radius, radius, 0.0);
-    height = frustum.height;
-  }
-  return {origin_ - half, origin_ + half + height * Vec3::UnitZ()};
+  const BoundingBox box = std::visit([](const auto& shape) { return bounds_of(shape); }, shape_);
+  return {origin_ + box.min, origin_ + box.max};
 }
 
 double Blank::volume() const {
-  if (const auto* loft = std::get_if<LoftShape>(&shape_)) {
-    double volume = 0.0;
-    for (const auto& [lo, hi] : slabs_of(*loft)) {
-      // The sizes are linear in z, the section a quadratic: Simpson's rule is exact.
-      const double middle = 0.25 * (lo.size_x + hi.size_x) * (lo.size_y + hi.size_y);
-      volume +=
-          (hi.z - lo.z) / 6.0 * (lo.size_x * lo.size_y + 4.0 * middle + hi.size_x * hi.size_y);
-    }
-    return volume;
-  }
-  if (const auto* box = std::get_if<BoxShape>(&shape_))
-    return box->size_x * box->size_y * box->height;
-  const auto& f = std::get<FrustumShape>(shape_);
-  return std::numbers::pi / 3.0 * f.height *
-         (f.bottom_radius * f.bottom_radius + f.bottom_radius * f.top_radius +
-          f.top_radius * f.top_radius);
+  return std::visit([](const auto& shape) { return volume_of(shape); }, shape_);
 }
 
 }  // namespace frustum::stock

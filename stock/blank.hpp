@@ -59,9 +59,11 @@ class Blank {
   [[nodiscard]] const Vec3& origin() const { return origin_; }
 
  private:
-  Blank(const BlankShape& shape, const Vec3& origin) : shape_(shape), origin_(origin) {}
+  Blank(const BlankShape& shape, const Vec3& origin);
+
   BlankShape shape_;
   Vec3 origin_;
+  std::vector<LoftSlab> slabs_{};  // of a loft; asked for every ray
 };
 
 }  // namespace frustum::stock

@@ -9,6 +9,7 @@
 
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
+#include "programs/near_net_blank.hpp"
 #include "programs/step_pattern.hpp"
 #include "programs/tilting_table.hpp"
 

@@ -110,6 +110,20 @@ TEST(HtmlReport, ProfilesThatAreBrokenAreLeftOut) {
   EXPECT_EQ(count_of(page, "</script"), 2U);
 }
 
+TEST(HtmlReport, KeepsAColumnOfNominalsOnlyWhereThereAreSome) {
+  EXPECT_THAT(html_report(sample_report()), HasSubstr(">Nominal</th>"));
+  RunReport report = step_report(2);  // lines: every nominal is 0
+  EXPECT_THAT(html_report(report), Not(HasSubstr(">Nominal</th>")));
+  const auto cells_of = [](const std::string& page) {
+    const std::string table = between(page, "id=\"characteristics\"", "</section>");
+    return std::pair{count_of(table, "<th "), count_of(table, "<td")};
+  };
+  const std::size_t rows = report.measurement.characteristics.size();
+  EXPECT_EQ(cells_of(html_report(report)), (std::pair<std::size_t, std::size_t>(6, 6 * rows)));
+  report.measurement.characteristics.back().nominal = 12.0;
+  EXPECT_EQ(cells_of(html_report(report)), (std::pair<std::size_t, std::size_t>(7, 7 * rows)));
+}
+
 TEST(HtmlReport, CarriesTheLicencesOfWhatItBundles) {
   const std::string page = html_report(small_report());
   EXPECT_THAT(page, HasSubstr("plotly.js 3."));
