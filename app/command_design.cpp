@@ -47,6 +47,7 @@ Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::
   if (!parameter) return parameter.error();
   const std::string amount = text.substr(equals + 1);
   double value = 0.0;
+  if (amount == "0") return NamedAmount{parameter->name, value};  // of either kind
   if (parameter->angular) {
     const auto angle = parse_angle(amount);
     if (!angle) return angle.error();
@@ -181,6 +182,29 @@ Diagnostics unused_limits(const calibration::StepDesignOptions& choice,
   return problems;
 }
 
+// Constant errors of the machine that the design takes for known exactly: under the machine's own symbols
+// when it has any.
+std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
+                                       const calibration::StepDesign& design) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    const bool is_unknown =
+        std::any_of(design.unknowns.begin(), design.unknowns.end(),
+                    [&](const auto& u) { return u.name == name && !u.is_fixed(); });
+    const bool is_left_out =
+        std::find(design.left_out.begin(), design.left_out.end(), name) != design.left_out.end();
+    if (!is_unknown && !is_left_out) names.push_back(name);
+  };
+  for (const auto& [alias, meaning] : machine.aliases()) {
+    if (meaning.error.location) add(alias);
+  }
+  if (!machine.aliases().empty()) return names;
+  for (const auto& e : machine.error_names()) {
+    if (e.location) add(e.text());
+  }
+  return names;
+}
+
 int show_design(const Options& o) {
   const auto machine = kinematics::Machine::load(find_machine(o.machine, "."));
   if (!machine) return refuse(machine.error());
@@ -198,7 +222,8 @@ int show_design(const Options& o) {
       calibration::step_design(*machine, all->unknowns, all->causes, cmm, setup, choice);
   if (!design) return refuse(design.error());
   const bool limited = !choice.limits.empty();
-  std::cout << (o.json ? design_json(*machine, *design) : design_text(*machine, *design, limited));
+  std::cout << (o.json ? design_json(*machine, *design, taken_as_zero(*machine, *design))
+                       : design_text(*machine, *design, taken_as_zero(*machine, *design), limited));
   return design->smallest ? kDone : kOutOfTolerance;
 }
 

@@ -18,7 +18,13 @@ int show_identification(const Options& options) {
   const auto study = load_study(options.study);
   if (!study) return refuse(study.error());
   const auto result = identify_study(*study);
-  if (!result) return refuse(result.error());
+  if (!result) {
+    Diagnostics problems = result.error();
+    for (Diagnostic& d : problems) {
+      if (d.file.empty()) d.file = options.study;
+    }
+    return refuse(problems);
+  }
   std::cout << (options.json ? identification_json(*study, *result)
                              : identification_text(*study, *result));
   const auto& identification = result->identification;

@@ -92,9 +92,9 @@ void add_sensitivity(CLI::App& program, int& exit_code) {
                    "analytic (one trial) or differences (two trials a parameter)")
       ->check(CLI::IsMember({"analytic", "differences"}));
   command->add_option("--step-um", o->step_um, "differences: step of lengths, um (1)")
-      ->check(positive_number());
+      ->check(positive_number(1000.0));
   command->add_option("--step-urad", o->step_urad, "differences: step of angles, urad (1)")
-      ->check(positive_number());
+      ->check(positive_number(10000.0));
   command->add_option("--error", o->overrides.errors,
                       "NAME=VALUE: about a machine with this error, for example beta_CA=20urad");
   command->add_option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");

@@ -79,13 +79,17 @@ Json choice_json(const StepDesign& design, const StepChoice& choice) {
 }  // namespace
 
 std::string design_text(const kinematics::Machine& machine, const StepDesign& design,
-                        bool limited) {
+                        const std::vector<std::string>& exact, bool limited) {
   std::string out = fmt::format("{}: {} unknowns, {} step patterns to choose from\n",
                                 machine.title(), design.free_unknowns, design.patterns.size());
   for (const auto& u : design.unreachable) out += fmt::format("  out: {}\n", u.reason);
   if (!design.left_out.empty()) {
     out += fmt::format("  left out, since no step pattern tells them from the others: {}\n",
                        fmt::join(design.left_out, " "));
+  }
+  if (!exact.empty()) {
+    out += fmt::format("  taken as exactly known (--known gives them an uncertainty): {}\n",
+                       fmt::join(exact, " "));
   }
   out += "\nBest set of each size\n" + sets_table(design);
   const char* limits = limited ? " within the limits" : "";
@@ -99,7 +103,8 @@ std::string design_text(const kinematics::Machine& machine, const StepDesign& de
   return out + "\nExpected standard deviation of each error\n" + deviations_table(design);
 }
 
-std::string design_json(const kinematics::Machine& machine, const StepDesign& design) {
+std::string design_json(const kinematics::Machine& machine, const StepDesign& design,
+                        const std::vector<std::string>& exact) {
   Json json;
   json["machine"] = machine.name();
   json["unknowns"] = Json::array();
@@ -107,6 +112,7 @@ std::string design_json(const kinematics::Machine& machine, const StepDesign& de
     json["unknowns"].push_back({{"name", u.name}, {"unit", shown_unit(u.angular).name}});
   }
   json["left_out"] = design.left_out;
+  json["taken_as_exact"] = exact;
   json["patterns"] = design.patterns;
   json["unreachable"] = Json::array();
   for (const auto& u : design.unreachable) {

@@ -3,16 +3,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calibration/step_design.hpp"
 #include "kinematics/machine.hpp"
 
 namespace frustum::app {
 
-// `limited`: standard deviations were asked for.
+// `exact`: errors taken as exactly known; `limited`: standard deviations were asked for.
 [[nodiscard]] std::string design_text(const kinematics::Machine& machine,
-                                      const calibration::StepDesign& design, bool limited);
+                                      const calibration::StepDesign& design,
+                                      const std::vector<std::string>& exact, bool limited);
 [[nodiscard]] std::string design_json(const kinematics::Machine& machine,
-                                      const calibration::StepDesign& design);
+                                      const calibration::StepDesign& design,
+                                      const std::vector<std::string>& exact);
 
 }  // namespace frustum::app

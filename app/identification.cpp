@@ -124,11 +124,6 @@ Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
                                      const std::vector<KnownError>& known) {
   const auto parameters = trials::parameters_named(machine, names);
   if (!parameters) return parameters.error();
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    if (std::find(names.begin(), name, *name) != name) {
-      return error(fmt::format("unknown {} is given twice", *name), "once is enough");
-    }
-  }
   UnknownCauses all;
   for (const trials::Parameter& parameter : *parameters) {
     Unknown unknown{.name = parameter.name, .angular = parameter.angular};

@@ -199,6 +199,10 @@ Json covariance_json(const StudyResult& result) {
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     Json row = Json::array();
     for (std::size_t k = 0; k < estimates.size(); ++k) {
+      if (!estimates[i].value || !estimates[k].value) {
+        row.push_back(nullptr);
+        continue;
+      }
       const double value = result.identification.covariance(static_cast<Eigen::Index>(i),
                                                             static_cast<Eigen::Index>(k));
       row.push_back(shown(shown(value, estimates[i].angular), estimates[k].angular));

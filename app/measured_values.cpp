@@ -76,10 +76,16 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
   return part;
 }
 
-Diagnostic not_a_result(const fs::path& file, const std::string& why) {
-  Diagnostic d = error(why, "give the result.json of `frustum run`, or its --json output");
+Diagnostic not_a_result(
+    const fs::path& file, const std::string& why,
+    const std::string& hint = "give the result.json of `frustum run`, or its --json output") {
+  Diagnostic d = error(why, hint);
   d.file = file.string();
   return d;
+}
+
+bool suits(const std::string& unit, bool angular) {
+  return angular ? unit == "urad" || unit == "deg" : unit == "um" || unit == "mm";
 }
 
 Result<MeasuredPart> from_json(const fs::path& file, const InspectionPlan& plan) {
@@ -97,13 +103,22 @@ Result<MeasuredPart> from_json(const fs::path& file, const InspectionPlan& plan)
         !c["value"].is_number() || !c.contains("unit") || !c["unit"].is_string()) {
       return not_a_result(file, "a characteristic lacks name, value or unit");
     }
-    const std::string name = c["name"];
-    if (find(plan, name) == nullptr) continue;  // of another plan of the same part
-    part.emplace(name, MeasuredValue{metrology::internal_value(c["value"].get<double>(),
-                                                               c["unit"].get<std::string>()),
-                                     {}});
+    const std::string name = c["name"], unit = c["unit"];
+    const PlannedCharacteristic* planned = find(plan, name);
+    if (planned == nullptr) {
+      return not_a_result(file, fmt::format("the plan has no characteristic '{}'", name),
+                          suggestion(name, names_of(plan)));
+    }
+    if (!suits(unit, metrology::is_angle(planned->kind))) {
+      return not_a_result(file, fmt::format("'{}' is in '{}'", name, unit),
+                          "expected um or mm for lengths, urad or deg for angles");
+    }
+    const double value = metrology::internal_value(c["value"].get<double>(), unit);
+    if (!part.emplace(name, MeasuredValue{value, {}}).second) {
+      return not_a_result(file, fmt::format("'{}' is there twice", name));
+    }
   }
-  if (part.empty()) return not_a_result(file, "none of its characteristics is in the job's plan");
+  if (part.empty()) return not_a_result(file, "it has no characteristics");
   return part;
 }
 

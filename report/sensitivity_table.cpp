@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr double kTypicalLength = 15.0;  // um
 constexpr double kTypicalAngle = 30.0;   // urad
 
-// Below this a derivative is rounding: 1e-9 um per urad is a picometre for a milliradian.
-constexpr double kNothing = 1e-7;
+// Below this a derivative is rounding, or nothing: a nanometre for a millimetre or a milliradian.
+constexpr double kNothing = 1e-6;
 
 double typical(const NamedUnit& parameter) {
   return parameter.unit == "urad" ? kTypicalAngle : kTypicalLength;

@@ -1,5 +1,9 @@
 #include "trials/parameter.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace frustum::trials {
 namespace {
 
@@ -33,8 +37,12 @@ Result<std::vector<Parameter>> parameters_named(const Machine& machine,
                                                 std::span<const std::string> names) {
   std::vector<Parameter> parameters;
   Diagnostics problems;
-  for (const std::string& name : names) {
-    if (auto parameter = Parameter::named(machine, name)) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    const auto before = names.first(i);
+    if (std::find(before.begin(), before.end(), name) != before.end()) {
+      problems.push_back(error(fmt::format("{} is given twice", name), "once is enough"));
+    } else if (auto parameter = Parameter::named(machine, name)) {
       parameters.push_back(*std::move(parameter));
     } else {
       problems.insert(problems.end(), parameter.error().begin(), parameter.error().end());

@@ -1,7 +1,7 @@
 // What a study may vary: one machine error, or the radius of the tools.
 //
 // Units: an angular parameter in rad, the others in mm.
-// Errors: a name that the machine does not accept.
+// Errors: a name that the machine does not accept, or that is given twice.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 #include "calibration/step_recipes.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "core/units.hpp"
 #include "tests/calibration/step_patterns.hpp"
+#include "tests/document_section.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -53,6 +55,51 @@ TEST(StepRecipesReference, AgreesWithThePublishedDigitsOfFourErrors) {
     EXPECT_NEAR(values.at(name), published[name].get<double>(), 0.5e-3) << name;
   }
   EXPECT_NEAR(values.at("dy_AY") + values.at("dy_CA"), 0.018, 0.5e-3);
+}
+
+// What can be said of the published digits, by error.
+constexpr std::pair<const char*, const char*> kTable8Verdicts[] = {
+    {"a_AY", "reproduced"},
+    {"b_AY", "reproduced"},
+    {"g_AY", "within 0.0001 deg by B and C, not to the last digit"},
+    {"b_CA", "not reproduced; 0.0010 would fit, probably a misprint"},
+    {"dx_AY", "reproduced with dH of 1-b = -9.9 um (text of section 5), not +9.9 (Table 5)"},
+    {"dy_AY", "not reproduced; dy_AY + dy_CA = 0.018 is"},
+    {"dz_AY", "reproduced"},
+    {"dy_CA", "not reproduced: the two ways give -0.0133 and -0.0076"}};
+
+TEST(StepRecipesReference, WritesTable8) {
+  const struct {
+    const char* sizes;
+    bool flip;
+    RecipeVariant variant;
+  } readings[] = {{"printed", false, {}},
+                  {"printed", true, {}},
+                  {"consistent", true, {}},
+                  {"consistent", true, {false, true, true}}};
+  std::vector<std::map<std::string, double>> columns;
+  for (const auto& r : readings) {
+    const auto recipe =
+        recipe_case_2(published_steps(r.sizes, r.flip), published_squareness(), r.variant);
+    ASSERT_TRUE(recipe);
+    columns.push_back(table_8(recipe->errors));
+  }
+  std::string page =
+      "## Step patterns, identified errors (Table 8, Case 2)\n\n"
+      "By the paper's recipe from its Tables 5 to 7. A: equations and sizes as printed. B: dH of "
+      "1-b with "
+      "the sign of the\ntext. C: B with sizes that can be machined together. D: C with 2H in "
+      "equation (20) "
+      "and gamma_YX in phi of pattern\n3. Angles in deg, lengths in mm.\n\n"
+      "| error | published | A | B | C | D | verdict |\n| --- | --- | --- | --- | --- | --- | --- "
+      "|\n";
+  for (const auto& [name, verdict] : kTable8Verdicts) {
+    page += fmt::format("| {} | {:+.4g} |", name,
+                        step_data()["table8"]["published"][name].get<double>());
+    for (const auto& column : columns) page += fmt::format(" {:+.5f} |", column.at(name));
+    page += fmt::format(" {} |\n", verdict);
+  }
+  expect_section("reproduction.md", "identified errors", page);
 }
 
 // Measurements that the closed forms predict for these errors.
