@@ -30,6 +30,7 @@ struct Cut {
     Cut cut{.piece = made->piece};
     if (change) change(cut.piece);
     std::vector<kinematics::ErrorEntry> entries;
+    entries.reserve(errors.size());
     for (const std::string& text : errors) entries.push_back(*kinematics::parse_error(text));
     auto trial = run_trial(step_machine(), entries, cut.piece, {}, {.find_collisions = false});
     EXPECT_TRUE(trial) << (trial ? "" : to_string(trial.error().front()));
