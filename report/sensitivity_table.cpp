@@ -245,7 +245,7 @@ std::string sensitivity_text(const SensitivityTable& table, int width) {
       names += padded(p.name, cell_width, p.name.size());
       units += padded("/" + p.unit, cell_width, p.unit.size() + 1);
     }
-    out += '\n' + names + '\n' + units + '\n';
+    out += fmt::format("\n{}\n{}\n", names, units);
     for (Eigen::Index i = 0; i < table.odd.rows(); ++i) {
       const NamedUnit& c = table.characteristics[static_cast<std::size_t>(i)];
       std::string line = fmt::format("{:<{}}", fmt::format("{} [{}]", c.name, c.unit), name_width);

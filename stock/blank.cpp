@@ -139,7 +139,7 @@ Vec3 mantle_normal(const FrustumShape& frustum, const Vec3& across) {
 }
 
 Vec3 slab_normal(const LoftSlab& slab, EndTag side) {
-  const Vec3 outward = box_normal(side);
+  Vec3 outward = box_normal(side);
   if (side >= kBottom) return outward;
   const double m = side < 2 ? growth(slab.bottom.size_x, slab.top.size_x, slab)
                             : growth(slab.bottom.size_y, slab.top.size_y, slab);

@@ -116,21 +116,6 @@ TEST(StepGeometry, TheNominalTableTurnsAsTheDefinitionSaysOnEveryTiltingTable) {
   }
 }
 
-TEST(StepGeometry, MachinesOfAnotherKindAreRefusedWithTheReason) {
-  const struct {
-    const char* machine;
-    const char* words;
-  } cases[] = {{"swivel-head-table", "turns the tool"},
-               {"double-pivot-head", "turns the tool"},
-               {"three-axis", "0 rotary axes on the workpiece side"}};
-  for (const auto& c : cases) {
-    const auto table = TiltingTable::of(machine(c.machine));
-    ASSERT_FALSE(table) << c.machine;
-    EXPECT_NE(to_string(table.error().front()).find(c.words), std::string::npos)
-        << to_string(table.error().front());
-  }
-}
-
 TEST(StepGeometry, TheNearNetBlankStandsOffEveryFaceByTheAllowance) {
   for (const int number : {1, 2}) {
     const stock::LoftShape body = step_workpiece(number)->body;
