@@ -148,8 +148,7 @@ void read_uncertainty(const TomlTable& table, Study& study) {
 }
 
 // Unknown errors are those listed, or all, and whatever is known of any besides.
-void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, Study& study,
-                   Diagnostics& problems) {
+void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, Study& study) {
   if (const auto unknown = root.table_if("unknown")) {
     study.unknowns = unknown->texts_or("errors", {});
     study.tool_radius =
@@ -170,7 +169,8 @@ void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, St
               "tool_radius = \"common\", or take it out of unknown.errors and [known]");
   }
   const auto parameters = trials::parameters_named(machine, study.unknowns);
-  if (!parameters) append(problems, parameters.error());
+  if (parameters) return;
+  for (const Diagnostic& d : parameters.error()) root.fail("unknown", d.message, d.hint);
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ Result<Study> load_study(const fs::path& file) {
   study.title = root.text_or("title", "");
   study.parts = std::move(parts.parts);
   check_machines(study.parts, root);
-  read_unknowns(root, study.machine(), study, parts.problems);
+  read_unknowns(root, study.machine(), study);
   if (const auto table = root.table_if("uncertainty")) read_uncertainty(*table, study);
   if (const auto table = root.table_if("method")) {
     study.refine = table->boolean_or("refine", true);

@@ -55,10 +55,10 @@ Result<std::vector<Parameter>> parameters_named(const Machine& machine,
 std::vector<std::string> constant_errors(const Machine& machine) {
   std::vector<std::string> names;
   for (const auto& [alias, meaning] : machine.aliases()) names.push_back(alias);
+  names.emplace_back(kToolRadius);
   for (const ErrorName& error : machine.error_names()) {
     if (error.location) names.push_back(error.text());
   }
-  names.emplace_back(kToolRadius);
   return names;
 }
 

@@ -33,7 +33,7 @@ struct Parameter {
 [[nodiscard]] Result<std::vector<Parameter>> parameters_named(const kinematics::Machine& machine,
                                                               std::span<const std::string> names);
 
-// The machine's aliases, its location errors under their ISO names, and the tool radius.
+// The machine's aliases, the tool radius, and the machine's location errors under their ISO names.
 [[nodiscard]] std::vector<std::string> constant_errors(const kinematics::Machine& machine);
 
 }  // namespace frustum::trials

@@ -90,6 +90,18 @@ TEST_F(StudyCommandsSystem, IdentifiesThePublishedMachine) {
   EXPECT_FALSE(doc["recipe"].empty());
 }
 
+TEST_F(StudyCommandsSystem, ShipsTheWorkpiecesThatTheProgramWrites) {
+  for (const std::string number : {"1", "2"}) {
+    const Outcome made =
+        run("program step --machine zx-yac --workpiece " + number + " --out piece");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    for (const char* file : {"step.nc", "step.plan.toml"}) {
+      const std::string shipped = FRUSTUM_SOURCE_DIR "/examples/ibaraki-2010/workpiece-" + number;
+      EXPECT_EQ(read(folder_ / "piece" / file), read(fs::path(shipped) / file)) << number << file;
+    }
+  }
+}
+
 TEST_F(StudyCommandsSystem, FindsInjectedErrorsAgainFromTheResultsOfRuns) {
   write_steps("one", "--workpiece 1");
   write_steps("two", "--workpiece 2 --patterns 4,7");
@@ -114,6 +126,23 @@ TEST_F(StudyCommandsSystem, FindsInjectedErrorsAgainFromTheResultsOfRuns) {
                                     {"dx_AY", 0.0}}) {
     EXPECT_NEAR((*find(doc["estimates"], name))["value"].get<double>(), value, 0.01) << name;
   }
+}
+
+TEST_F(StudyCommandsSystem, PoolsPartsOfOneKind) {
+  write_steps("piece", "--patterns 1-a");
+  write("a.toml", "[measured]\n\"1-a.dL0\" = \"-10 um\"\n");
+  write("b.toml", "[measured]\n\"1-a.dL0\" = \"-14 um\"\n");
+  write("study.toml", std::string("[[part]]\nname = \"one\"\njob = \"piece/job.toml\"\nmeasured = "
+                                  "[\"a.toml\", \"b.toml\"]\n[unknown]\nerrors = "
+                                  "[\"tool_radius_error\"]\n") +
+                          kCmm);
+  const Outcome outcome = run("identify study.toml --json");
+  ASSERT_LE(outcome.exit_code, 1) << outcome.err;
+  const json doc = json::parse(outcome.out);
+  const json* radius = find(doc["estimates"], "tool_radius_error");
+  EXPECT_NEAR((*radius)["value"].get<double>(), 6.0, 1e-6);  // half the mean width missing
+  // The parts scatter more than the CMM: 2.83 um between them, 2 um of their mean, half of it a radius.
+  EXPECT_NEAR((*radius)["standard_uncertainty"].get<double>(), 1.0, 0.01);
 }
 
 TEST_F(StudyCommandsSystem, SaysInWordsWhatCannotBeTold) {
@@ -172,6 +201,15 @@ TEST_F(StudyCommandsSystem, RefusesBadStudiesWithPlaceAndRemedy) {
   write("bare.toml", "[measured]\n\"1-a.dL\" = 3\n");
   write("zero.toml", "[measured]\n\"1-a.dL\" = { value = \"3 um\", uncertainty = \"0 um\" }\n");
   write("nothing.json", "{}");
+  const auto result = [](const std::string& name, const std::string& unit) {
+    return "{\"name\":\"" + name + "\",\"value\":3,\"unit\":\"" + unit + "\"}";
+  };
+  const auto results = [](const std::string& list) {
+    return "{\"characteristics\":[" + list + "]}";
+  };
+  write("foo.json", results(result("1-a.dL", "foo")));
+  write("twice.json", results(result("1-a.dL", "um") + "," + result("1-a.dL", "um")));
+  write("stranger.json", results(result("1-a.DL", "um")));
   const auto with = [&](const std::string& file) {
     return "[[part]]\nname = \"one\"\njob = \"piece/job.toml\"\nmeasured = [\"" + file + "\"]\n";
   };
@@ -191,6 +229,12 @@ TEST_F(StudyCommandsSystem, RefusesBadStudiesWithPlaceAndRemedy) {
       {with("bare.toml") + kCmm, {"bare.toml", "unit"}},
       {with("zero.toml") + kCmm, {"zero.toml", "uncertainty"}},
       {with("nothing.json") + kCmm, {"nothing.json", "characteristics"}},
+      {with("foo.json") + kCmm, {"foo.json", "1-a.dL", "foo"}},
+      {with("twice.json") + kCmm, {"twice.json", "1-a.dL", "twice"}},
+      {with("stranger.json") + kCmm, {"stranger.json", "1-a.DL", "1-a.dL"}},
+      {part + kCmm + "[unknown]\nerrors = [\"tool_radius_error\"]\ntool_radius = \"each\"\n",
+       {"study.toml", "tool_radius_error"}},
+      {part + kCmm + "[unknown]\nerrors = [\"dy_CA\", \"dy_CA\"]\n", {"study.toml", "twice"}},
       {with("piece/step.nc") + kCmm, {"step.nc", ".toml"}},
       {"[[part]]\nname = \"one\"\njob = \"nowhere.toml\"\nmeasured = [\"measured.json\"]\n",
        {"nowhere.toml"}},
