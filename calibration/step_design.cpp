@@ -11,7 +11,8 @@
 namespace frustum::calibration {
 namespace {
 
-constexpr const char* kFirst = "3";  // cut the same surfaces
+// The two that cut the same surfaces (programs::cut_the_same_surfaces).
+constexpr const char* kFirst = "3";
 constexpr const char* kAlternative = "4";
 
 bool contains(const std::vector<std::string>& list, std::string_view name) {
@@ -178,6 +179,7 @@ void merge(StepDesign& design, const Placing& placing, DesignResult result) {
   }
   for (const auto& set : result.smallest_identifying) {
     std::vector<std::string> names;
+    names.reserve(set.size());
     for (const std::size_t block : set) names.push_back(placing.selectable()[block].name);
     auto& known = design.smallest_identifying;
     if (!known.empty() && names.size() < known.front().size()) known.clear();

@@ -81,14 +81,16 @@ void set_column(Sensitivity& s, Eigen::Index column, double step, const Eigen::V
   s.even.col(column) = (plus + minus - 2.0 * centre) / (2.0 * step);
 }
 
-// The machine and the piece with one parameter raised by `amount`.
-Result<Trial> varied_trial(const Machine& machine, const GeometricErrors& errors, TestPiece piece,
-                           const Parameter& parameter, double amount, double path_bound) {
+// The machine or the tools with one parameter raised by `amount`.
+Result<Trial> varied_trial(const Machine& machine, const GeometricErrors& errors,
+                           const TestPiece& piece, const Parameter& parameter, double amount,
+                           double path_bound) {
   if (parameter.unit) {
     return clean_trial(machine, errors.plus(*parameter.unit, amount), piece, path_bound);
   }
-  for (auto& [number, tool] : piece.tools) tool.radius_error.value += amount;
-  return clean_trial(machine, errors, piece, path_bound);
+  TestPiece varied = piece;
+  for (auto& [number, tool] : varied.tools) tool.radius_error.value += amount;
+  return clean_trial(machine, errors, varied, path_bound);
 }
 
 }  // namespace
