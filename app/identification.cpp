@@ -156,6 +156,7 @@ Result<StudyResult> identify_study(const Study& study) {
   StudyResult result;
   result.identification = std::move(refined->identification);
   result.changes = std::move(refined->changes);
+  result.left_out = observations->left_out;
   auto shares = calibration::information_shares(observations->observations,
                                                 {.floor = {study.floor_length, study.floor_angle}});
   if (!shares) return std::move(shares).error();

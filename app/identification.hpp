@@ -27,6 +27,7 @@ struct StudyResult {
   calibration::Identification identification{};
   std::vector<double> changes{};  // of each round of refinement, in standard uncertainties
   calibration::InformationShares shares{};
+  std::vector<std::string> left_out{};  // measured, but without a derivative
   std::optional<Remedy> remedy{};
   // The published recipe as printed, and with its equations (12) and (20) put right.
   std::optional<calibration::Recipe> recipe{}, corrected_recipe{};

@@ -296,7 +296,11 @@ std::string identification_text(const Study& study, const StudyResult& result) {
                   identification.observability.unknowns);
   out += estimates_table(study, result);
   out += combinations_text(result);
-  if (!identification.diagnostics.empty()) out += '\n';
+  if (!identification.diagnostics.empty() || !result.left_out.empty()) out += '\n';
+  if (!result.left_out.empty()) {
+    out += fmt::format("note: forms and zones do not enter, since they have no derivative: {}\n",
+                       joined(result.left_out));
+  }
   for (const Diagnostic& d : identification.diagnostics) {
     out += fmt::format("note: {}\n", d.message);
     if (!d.hint.empty()) out += fmt::format("      {}\n", d.hint);
@@ -325,6 +329,7 @@ std::string identification_json(const Study& study, const StudyResult& result) {
   json["agreement"]["probability"] =
       agreement.probability ? Json(*agreement.probability) : Json(nullptr);
   json["agreement"]["birge"] = agreement.birge ? Json(*agreement.birge) : Json(nullptr);
+  json["left_out"] = result.left_out;
   json["residuals"] = residuals_json(result);
   const auto& suspect = result.identification.suspect;
   json["suspect"] = suspect ? Json(result.identification.residuals[*suspect].name) : Json(nullptr);

@@ -17,8 +17,9 @@ Diagnostic in_piece(const MeasuredPiece& piece, const std::string& what, const s
   return error(fmt::format("part '{}': {}", piece.name, what), hint);
 }
 
-// The measured characteristics in the order of the plan.
-Result<std::vector<std::string>> rows_of(const MeasuredPiece& piece) {
+// The measured characteristics in the order of the plan; forms and zones go to `left_out`.
+Result<std::vector<std::string>> rows_of(const MeasuredPiece& piece,
+                                         std::vector<std::string>& left_out) {
   std::vector<std::string> rows;
   for (const auto& planned : piece.piece.plan.characteristics) {
     const auto count =
@@ -31,9 +32,14 @@ Result<std::vector<std::string>> rows_of(const MeasuredPiece& piece) {
                                   piece.parts.size()),
                       "parts of one kind are measured alike");
     }
-    rows.push_back(planned.name);
+    (metrology::has_derivative(planned.kind) ? rows : left_out).push_back(planned.name);
   }
-  if (rows.empty()) return in_piece(piece, "nothing was measured that its plan has", "");
+  if (rows.empty()) {
+    return in_piece(
+        piece, "nothing was measured that changes in proportion to the errors",
+        "distances, angles, radii and diameters do; forms and zones of a nearly perfect "
+        "part only grow");
+  }
   return rows;
 }
 
@@ -173,7 +179,7 @@ Result<PieceObservations> observations_of(const kinematics::Machine& machine,
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(causes.size()));
   std::vector<StudiedPiece> studied;
   for (const MeasuredPiece& piece : pieces) {
-    const auto names = rows_of(piece);
+    const auto names = rows_of(piece, found.left_out);
     if (!names) return names.error();
     const std::size_t index = studied.size();
     studied.push_back({piece.name, piece.piece, piece.base, *names, piece.path_bound});

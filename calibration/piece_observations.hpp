@@ -6,7 +6,7 @@
 //            rows without a stated one
 // Units    : mm, rad
 // Shape    : rows: the measured characteristics of each piece; columns: the unknowns
-// Errors   : those of the trials; a characteristic that the plan lacks or that is measured on some parts
+// Errors   : those of the trials; nothing but forms and zones measured; a characteristic that the plan lacks or that is measured on some parts
 //            only; a row with neither a stated uncertainty nor a measuring machine
 // Accuracy : that of trials::sensitivity() and metrology::covariance()
 // Source   : ours
@@ -45,6 +45,7 @@ struct PieceObservations {
   Eigen::VectorXd without_unknowns{};
   Model model{};                               // for refine()
   std::optional<double> degrees_of_freedom{};  // where repeated parts gave the covariance
+  std::vector<std::string> left_out{};         // measured forms and zones, which have no derivative
 };
 
 // `unknowns` and `causes` belong together, one by one.

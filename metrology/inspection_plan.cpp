@@ -14,6 +14,19 @@ std::string_view name_of(CharacteristicKind kind) {
 bool compares_lines(CharacteristicKind kind) {
   return kind == CharacteristicKind::line_distance || kind == CharacteristicKind::line_angle;
 }
+bool has_derivative(CharacteristicKind kind) {
+  switch (kind) {
+    case CharacteristicKind::half_angle:
+    case CharacteristicKind::radius:
+    case CharacteristicKind::diameter:
+    case CharacteristicKind::line_distance:
+    case CharacteristicKind::line_angle:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool is_angle(CharacteristicKind kind) {
   return kind == CharacteristicKind::half_angle || kind == CharacteristicKind::line_angle;
 }

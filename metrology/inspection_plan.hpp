@@ -188,6 +188,9 @@ struct InspectionPlan {
 [[nodiscard]] bool compares_lines(CharacteristicKind kind);
 // Its value and its tolerance are angles.
 [[nodiscard]] bool is_angle(CharacteristicKind kind);
+// Whether a small change of the part changes the value in proportion. Forms and zones are magnitudes: about
+// a perfect part every change makes them larger.
+[[nodiscard]] bool has_derivative(CharacteristicKind kind);
 
 [[nodiscard]] Result<InspectionPlan> load_plan(const std::filesystem::path& file);
 // `file` names the text in diagnostics.
