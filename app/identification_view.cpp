@@ -8,6 +8,7 @@
 
 #include "app/shown_unit.hpp"
 #include "app/text_table.hpp"
+#include "calibration/distributions.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::app {
@@ -19,9 +20,6 @@ using calibration::RecipeErrors;
 using Json = nlohmann::ordered_json;
 
 const char* unit_of(bool angular) { return shown_unit(angular).name; }
-
-// Half an interval of 95 % of a normal distribution, in standard deviations.
-constexpr double kNormal95 = 1.96;
 
 std::string number(double value, bool angular) {
   return report::fixed_text(shown(value, angular), 1);
@@ -48,9 +46,11 @@ std::optional<double> recipe_value(const std::optional<Recipe>& recipe, const st
 std::string known_text(const Study& study, const Estimate& estimate) {
   for (const KnownError& k : study.known) {
     if (k.name != estimate.name) continue;
-    return k.uncertainty > 0.0 ? fmt::format("{} ± {}", number(k.value, estimate.angular),
-                                             number(kNormal95 * k.uncertainty, estimate.angular))
-                               : number(k.value, estimate.angular) + " exact";
+    return k.uncertainty > 0.0
+               ? fmt::format("{} ± {}", number(k.value, estimate.angular),
+                             number(calibration::coverage_factor(0.95, {}) * k.uncertainty,
+                                    estimate.angular))
+               : number(k.value, estimate.angular) + " exact";
   }
   return "";
 }

@@ -76,9 +76,9 @@ class GainAtPoint {
     const auto moved =
         kinematics::first_order_displacement(machine_, *parameter.unit, axes_at(path, moment),
                                              spec.length.value + spec.length_error.value);
-    const Vec3 tip = workpiece_from_table_ * moved.tip;
-    const Vec3 turn = workpiece_from_table_ * moved.turn;
-    return n.dot(tip + turn.cross(p - pose.tip));
+    const kinematics::PoseDisplacement in_workpiece{workpiece_from_table_ * moved.tip,
+                                                    workpiece_from_table_ * moved.turn};
+    return n.dot(in_workpiece.at(p - pose.tip));
   }
 
  private:
