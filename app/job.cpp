@@ -29,12 +29,18 @@ Result<std::string> read_text(const fs::path& file, const TomlTable& table, std:
 void read_program(const TomlTable& root, programs::TestPiece& piece) {
   const TomlTable program = root.table("program");
   piece.program_file = program.text("file");
-  (void)program.choice_or("dialect", {"fanuc", "iso"}, 0);
+  constexpr std::size_t kAbsent = parser::kDialects.size() + 1;
+  const std::size_t dialect = program.choice_or(
+      "dialect", {"fanuc", "linuxcnc", "sinumerik", "heidenhain", "cldata", "iso"}, kAbsent);
   if (piece.program_file.empty()) return;
   const fs::path file = program.file_path("file");
   if (auto text = read_text(file, program, "file")) {
     piece.program = *std::move(text);
     piece.program_file = file.string();
+    piece.dialect = dialect < parser::kDialects.size() ? parser::kDialects.at(dialect)
+                    : dialect < kAbsent
+                        ? parser::Dialect::fanuc
+                        : parser::recognise_dialect(piece.program, piece.program_file).dialect;
   }
 }
 

@@ -24,6 +24,20 @@ class AxisPositions {
   std::array<double, 6> values_{};
 };
 
+// Where the axes are, and from which side each came there: what direction-dependent errors look at.
+struct AxisState {
+  AxisPositions q{};
+  // -1 .. +1: +1 after motion in +, -1 after motion in -, between while its play is being taken up, 0 before
+  // it has ever moved.
+  AxisPositions heading{};
+
+  AxisState() = default;
+  AxisState(const AxisPositions& positions)
+      : q(positions) {}  // NOLINT: positions alone are a state
+  AxisState(const AxisPositions& positions, const AxisPositions& headings)
+      : q(positions), heading(headings) {}
+};
+
 // A closed range of positions of one axis.
 struct AxisRange {
   double lo = 0.0;

@@ -21,8 +21,8 @@ Pose about_point(const Mat3& rotation, const Vec3& point) {
 // One chain of the machine, walked from the bed outwards.
 class ChainWalk {
  public:
-  ChainWalk(const Machine& machine, const GeometricErrors* errors, const AxisPositions& q)
-      : machine_(machine), errors_(errors), q_(q) {}
+  ChainWalk(const Machine& machine, const GeometricErrors* errors, const AxisState& at)
+      : machine_(machine), errors_(errors), at_(at), q_(at.q) {}
 
   // `end` is what follows the last joint: where the tip or the table is in its frame.
   [[nodiscard]] Pose pose(std::span<const Joint> joints, const Pose& end) const {
@@ -40,7 +40,7 @@ class ChainWalk {
                                   const Pose& end) const {
     const Joint& joint = joints[i];
     const double q = q_[joint.letter];
-    const JointErrors e = errors_at((*errors_)[joint.letter], q);
+    const JointErrors e = errors_at((*errors_)[joint.letter], joint.letter, at_);
     const RotationOrder order = machine_.rotation_order();
     const Vec3 pivot = functional_point(machine_, joints, i, q_, end);
     const Pose turn = about_point(small_rotation(e.turn, order), pivot);
@@ -61,12 +61,13 @@ class ChainWalk {
 
   const Machine& machine_;
   const GeometricErrors* errors_;
+  const AxisState& at_;
   const AxisPositions& q_;
 };
 
-Pose table_from_tool(const Machine& machine, const GeometricErrors* errors, const AxisPositions& q,
+Pose table_from_tool(const Machine& machine, const GeometricErrors* errors, const AxisState& at,
                      double tool_length) {
-  const ChainWalk walk(machine, errors, q);
+  const ChainWalk walk(machine, errors, at);
   const Pose last_from_tip =
       Pose::translated(machine.spindle_offset() - tool_length * Vec3::UnitZ());
   const Pose bed_from_tip = walk.pose(machine.tool_chain(), last_from_tip);
@@ -81,9 +82,9 @@ Pose nominal_pose(const Machine& machine, const AxisPositions& q, double tool_le
   return table_from_tool(machine, nullptr, q, tool_length);
 }
 
-Pose actual_pose(const Machine& machine, const GeometricErrors& errors, const AxisPositions& q,
+Pose actual_pose(const Machine& machine, const GeometricErrors& errors, const AxisState& at,
                  double tool_length) {
-  return table_from_tool(machine, &errors, q, tool_length);
+  return table_from_tool(machine, &errors, at, tool_length);
 }
 
 Mat3 linear_axis_directions(const Machine& machine, const AxisPositions& q) {

@@ -23,7 +23,7 @@ namespace frustum::kinematics {
 // Pose of the tool (origin: tip, +Z: to the spindle) in the table frame.
 [[nodiscard]] Pose nominal_pose(const Machine& machine, const AxisPositions& q, double tool_length);
 [[nodiscard]] Pose actual_pose(const Machine& machine, const GeometricErrors& errors,
-                               const AxisPositions& q, double tool_length);
+                               const AxisState& at, double tool_length);
 
 [[nodiscard]] inline ToolPose tool_pose(const Pose& table_from_tool) {
   return {table_from_tool.translation, table_from_tool.rotation.col(2)};

@@ -163,6 +163,10 @@ class Controller::State {
   void execute(const parser::SpindleChange& change) {
     spindle_on_ = change.direction != parser::SpindleDirection::off && change.speed > 0.0;
   }
+  void execute(const parser::OrientationPathChange& /*change*/) {}
+  void execute(const parser::RotaryPathChange& /*change*/) {}
+  void execute(const parser::TiltedPlaneChange& /*change*/) {}
+  void execute(const parser::AlignToPlane& /*align*/) {}
   void execute(const parser::Dwell& /*dwell*/) {}
   void execute(const parser::CoolantChange& /*change*/) {}
   void execute(const parser::Stop& stop) {
@@ -334,7 +338,11 @@ class Controller::State {
       append(sample.u, sample.pose);
     }
     const auto block = static_cast<std::uint32_t>(path.blocks.size());
-    path.blocks.push_back({place_.line, kind, spindle_on_, tool_, feed});
+    path.blocks.push_back({.source_line = place_.line,
+                           .kind = kind,
+                           .spindle_on = spindle_on_,
+                           .tool = tool_,
+                           .feed = feed});
     for (auto i = first; i + 1 < path.poses.size(); ++i) path.stretches.push_back({i, block});
   }
 

@@ -49,7 +49,8 @@ ErrorFunction ErrorFunction::plus(const ErrorFunction& other, double factor) con
   return ErrorFunction(std::move(terms));
 }
 
-double ErrorFunction::operator()(double q) const {
+double ErrorFunction::operator()(AxisLetter axis, const AxisState& at) const {
+  const double q = at.q[axis];
   double sum = 0.0;
   for (const ErrorTerm& term : terms_) {
     sum += std::visit([q](const auto& t) { return value(t, q); }, term);

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "kinematics/axes.hpp"
+
 namespace frustum::kinematics {
 
 struct ConstantTerm {
@@ -37,7 +39,8 @@ class ErrorFunction {
   explicit ErrorFunction(std::vector<ErrorTerm> terms) : terms_(std::move(terms)) {}
 
   [[nodiscard]] bool is_zero() const { return terms_.empty(); }
-  [[nodiscard]] double operator()(double q) const;
+  // Of `axis`, where the axes are.
+  [[nodiscard]] double operator()(AxisLetter axis, const AxisState& at) const;
   // This function plus `factor` times the other.
   [[nodiscard]] ErrorFunction plus(const ErrorFunction& other, double factor) const;
 

@@ -8,8 +8,8 @@ namespace {
 // Sums the twists of one chain's errors as they act on a point at the chain's end.
 class TwistSum {
  public:
-  TwistSum(const Machine& machine, const GeometricErrors& errors, const AxisPositions& q)
-      : machine_(machine), errors_(errors), q_(q) {}
+  TwistSum(const Machine& machine, const GeometricErrors& errors, const AxisState& at)
+      : machine_(machine), errors_(errors), at_(at), q_(at.q) {}
 
   // Displacement, in the bed frame, of `point` (bed frame) carried by the end of the chain.
   [[nodiscard]] PoseDisplacement of(std::span<const Joint> joints, const Pose& end,
@@ -19,7 +19,7 @@ class TwistSum {
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const Joint& joint = joints[i];
       const double q = q_[joint.letter];
-      const JointErrors e = errors_at(errors_[joint.letter], q);
+      const JointErrors e = errors_at(errors_[joint.letter], joint.letter, at_);
       const Vec3 pivot = functional_point(machine_, joints, i, q_, end);
       const Pose bed_from_place = bed_from_previous * Pose::translated(joint.offset);
       const Pose bed_from_joint = bed_from_previous * nominal_joint(joint, q);
@@ -50,6 +50,7 @@ class TwistSum {
 
   const Machine& machine_;
   const GeometricErrors& errors_;
+  const AxisState& at_;
   const AxisPositions& q_;
 };
 
@@ -62,12 +63,13 @@ Pose bed_from_end(std::span<const Joint> joints, const AxisPositions& q, const P
 }  // namespace
 
 PoseDisplacement first_order_displacement(const Machine& machine, const GeometricErrors& errors,
-                                          const AxisPositions& q, double tool_length) {
+                                          const AxisState& at, double tool_length) {
   const Pose tip_end = Pose::translated(machine.spindle_offset() - tool_length * Vec3::UnitZ());
   const Pose table_end = Pose::translated(machine.table_offset());
-  const Vec3 tip = bed_from_end(machine.tool_chain(), q, tip_end).translation;
-  const Mat3 table_from_bed = bed_from_end(machine.work_chain(), q, table_end).rotation.transpose();
-  const TwistSum twists(machine, errors, q);
+  const Vec3 tip = bed_from_end(machine.tool_chain(), at.q, tip_end).translation;
+  const Mat3 table_from_bed =
+      bed_from_end(machine.work_chain(), at.q, table_end).rotation.transpose();
+  const TwistSum twists(machine, errors, at);
   const PoseDisplacement of_tool = twists.of(machine.tool_chain(), tip_end, tip);
   const PoseDisplacement of_table = twists.of(machine.work_chain(), table_end, tip);
   return {table_from_bed * (of_tool.tip - of_table.tip),

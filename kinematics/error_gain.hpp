@@ -30,6 +30,6 @@ struct PoseDisplacement {
 
 [[nodiscard]] PoseDisplacement first_order_displacement(const Machine& machine,
                                                         const GeometricErrors& errors,
-                                                        const AxisPositions& q, double tool_length);
+                                                        const AxisState& at, double tool_length);
 
 }  // namespace frustum::kinematics

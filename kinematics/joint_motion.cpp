@@ -9,16 +9,16 @@ Pose nominal_joint(const Joint& joint, double q) {
   return Pose::translated(joint.offset + joint.side * q * joint.direction);
 }
 
-JointErrors errors_at(const AxisErrors& axis, double q) {
+JointErrors errors_at(const AxisErrors& errors, AxisLetter axis, const AxisState& at) {
   JointErrors e;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    if (!axis.component[k].is_zero()) e.shift[i] = axis.component[k](q);
-    if (!axis.component[k + 3].is_zero()) e.turn[i] = axis.component[k + 3](q);
-    e.location[i] = axis.location[k];
-    e.orientation[i] = axis.location[k + 3];
+    if (!errors.component[k].is_zero()) e.shift[i] = errors.component[k](axis, at);
+    if (!errors.component[k + 3].is_zero()) e.turn[i] = errors.component[k + 3](axis, at);
+    e.location[i] = errors.location[k];
+    e.orientation[i] = errors.location[k + 3];
   }
-  e.carried_tilt = axis.carried_tilt;
+  e.carried_tilt = errors.carried_tilt;
   return e;
 }
 

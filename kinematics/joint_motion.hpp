@@ -16,7 +16,7 @@ namespace frustum::kinematics {
 // previous_from_joint at position q, without errors.
 [[nodiscard]] Pose nominal_joint(const Joint& joint, double q);
 
-// The errors of one axis at one position.
+// The errors of one axis where the axes are.
 struct JointErrors {
   Vec3 shift = Vec3::Zero();        // component translations
   Vec3 turn = Vec3::Zero();         // component rotations
@@ -24,7 +24,7 @@ struct JointErrors {
   Vec3 orientation = Vec3::Zero();  // location rotations
   Vec3 carried_tilt = Vec3::Zero();
 };
-[[nodiscard]] JointErrors errors_at(const AxisErrors& axis, double q);
+[[nodiscard]] JointErrors errors_at(const AxisErrors& errors, AxisLetter axis, const AxisState& at);
 
 // The point about which the component rotations of joints[i] turn, in the frame where they act.
 // `end` is what follows the last joint: where the tip or the table is in its frame.

@@ -33,6 +33,14 @@ struct FunctionalPoint {
   Vec3 point = Vec3::Zero();  // else: in the joint's moving frame
 };
 
+// What an axis's drive can do. Zero: no limit stated, an axis that follows at once.
+struct AxisDynamics {
+  double velocity = 0.0;      // mm/s or rad/s
+  double acceleration = 0.0;  // mm/s^2 or rad/s^2
+  double jerk = 0.0;          // mm/s^3 or rad/s^3
+  double servo_gain = 0.0;    // 1/s: position loop gain Kv of a first-order lag
+};
+
 struct Joint {
   AxisLetter letter = AxisLetter::X;
   int side = +1;                   // +1 tool side, -1 workpiece side
@@ -42,6 +50,7 @@ struct Joint {
   bool endless = false;  // rotary axis without limits (travel spans one turn)
   double home = 0.0;
   FunctionalPoint functional_point{};
+  AxisDynamics dynamics{};
 
   [[nodiscard]] bool rotary() const { return is_rotary(letter); }
 };

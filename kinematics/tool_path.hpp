@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,10 @@ struct PathBlock {
   std::uint32_t source_line = 0;
   PathKind kind = PathKind::feed;
   bool spindle_on = true;
-  int tool = 0;       // tool number in the spindle
-  double feed = 0.0;  // mm/min as programmed; 0 for rapids
+  int tool = 0;                            // tool number in the spindle
+  double feed = 0.0;                       // mm/min as programmed; 0 for rapids
+  double duration = 0.0;                   // s, by the time law
+  std::optional<AxisLetter> limited_by{};  // the axis whose limit slowed the block below its feed
 };
 
 // From poses[first_pose] to poses[first_pose + 1].
@@ -42,8 +45,9 @@ struct Stretch {
 
 struct ToolPath {
   std::vector<ToolPose> poses{};
-  std::vector<AxisPositions>
-      axes{};  // commanded at each pose; empty when the path comes from elsewhere
+  std::vector<AxisState>
+      axes{};                   // commanded at each pose; empty when the path comes from elsewhere
+  std::vector<double> times{};  // s since the start of the program at each pose, by the time law
   std::vector<Stretch> stretches{};  // in program order
   std::vector<PathBlock> blocks{};
   double bound = 1e-5;  // mm: the chord bound that the sampling kept

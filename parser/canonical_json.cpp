@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 constexpr std::array kPlanes{"XY", "ZX", "YZ"};
 constexpr std::array kDirections{"off", "clockwise", "counterclockwise"};
 constexpr std::array kLengthModes{"off", "length", "tool_centre_point"};
+constexpr std::array kFeedModes{"per_minute", "inverse_time", "per_revolution"};
+constexpr std::array kOrientationPaths{"rotary_axes", "great_circle"};
+constexpr std::array kRotaryPaths{"as_programmed", "shortest"};
 constexpr std::array kStopKinds{"program_stop", "optional_stop", "program_end"};
 
 template <typename Names, typename Enum>
@@ -51,7 +54,7 @@ void add_coordinates(Json& json, Coordinates coordinates) {
 }
 void add_feed(Json& json, const Feed& feed) {
   json["feed"] = feed.value;
-  if (feed.mode == FeedMode::inverse_time) json["feed_mode"] = "inverse_time";
+  if (feed.mode != FeedMode::per_minute) json["feed_mode"] = name_in(kFeedModes, feed.mode);
 }
 
 // One overload a command: writes the type and what belongs to it.
@@ -103,6 +106,23 @@ void add(Json& json, const WorkOffsetChange& change) {
   json["type"] = "work_offset";
   json["number"] = change.number;
 }
+void add(Json& json, const OrientationPathChange& change) {
+  json["type"] = "orientation_path";
+  json["path"] = name_in(kOrientationPaths, change.path);
+}
+void add(Json& json, const RotaryPathChange& change) {
+  json["type"] = "rotary_path";
+  json["path"] = name_in(kRotaryPaths, change.path);
+}
+void add(Json& json, const TiltedPlaneChange& change) {
+  json["type"] = "tilted_plane";
+  if (!change.program_from_plane) return;
+  const Pose& plane = *change.program_from_plane;
+  json["origin"] = json_of(plane.translation);
+  json["x"] = json_of(plane.rotation.col(0));
+  json["z"] = json_of(plane.rotation.col(2));
+}
+void add(Json& json, const AlignToPlane& /*align*/) { json["type"] = "align_to_plane"; }
 void add(Json& json, const SpindleChange& change) {
   json["type"] = "spindle";
   json["direction"] = name_in(kDirections, change.direction);

@@ -48,12 +48,13 @@ class AxisTarget {
 };
 
 enum class Coordinates : std::uint8_t { program, machine };  // machine: G53, G28
-enum class FeedMode : std::uint8_t { per_minute, inverse_time };
+enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_revolution };
 enum class Plane : std::uint8_t { xy, zx, yz };
 enum class SpindleDirection : std::uint8_t { off, clockwise, counterclockwise };
 
 struct Feed {
-  double value = 0.0;  // mm/min (deg/min for purely rotary moves), or 1/min with inverse_time
+  // mm/min (deg/min for purely rotary moves); 1/min with inverse_time; mm with per_revolution.
+  double value = 0.0;
   FeedMode mode = FeedMode::per_minute;
 };
 
@@ -103,6 +104,25 @@ struct CompensationChange {
 struct WorkOffsetChange {
   int number = 1;
 };
+// How the tool axis goes from one programmed orientation to the next under tool-centre-point control:
+// the rotary axes linear (G43.4, ORIAXES, PATHCTRL AXIS), or the vector on the great circle (ORIVECT,
+// PATHCTRL VECTOR).
+enum class OrientationPath : std::uint8_t { rotary_axes, great_circle };
+struct OrientationPathChange {
+  OrientationPath path = OrientationPath::rotary_axes;
+};
+// How a rotary axis turns to a programmed position: to that very value, or the shortest way to that
+// angle (M126, DC()).
+enum class RotaryPath : std::uint8_t { as_programmed, shortest };
+struct RotaryPathChange {
+  RotaryPath path = RotaryPath::as_programmed;
+};
+// G68.2, CYCLE800, PLANE SPATIAL: words are from now on coordinates of this frame; absent: G69.
+struct TiltedPlaneChange {
+  std::optional<Pose> program_from_plane{};
+};
+// G53.1, PLANE .. TURN: the rotary axes bring the tool axis to the normal of the tilted plane.
+struct AlignToPlane {};
 struct SpindleChange {
   SpindleDirection direction = SpindleDirection::off;
   double speed = 0.0;  // 1/min
@@ -122,7 +142,8 @@ struct Event {
 
 using Command =
     std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
-                 WorkOffsetChange, SpindleChange, CoolantChange, Stop, Event>;
+                 WorkOffsetChange, OrientationPathChange, RotaryPathChange, TiltedPlaneChange,
+                 AlignToPlane, SpindleChange, CoolantChange, Stop, Event>;
 
 struct Motion {
   SourcePlace place{};

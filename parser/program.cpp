@@ -47,8 +47,9 @@ std::string setting_text(const Block& block, const Assignment& setting) {
 
 }  // namespace
 
-Result<Program> parse_program(std::string_view text, std::string file) {
+Result<Program> parse_program(std::string_view text, std::string file, Dialect dialect) {
   Program program;
+  program.dialect = dialect;
   program.file = std::move(file);
   Diagnostics failures;
   const auto fail = [&](Diagnostic diagnostic) {

@@ -21,18 +21,21 @@
 
 #include "core/result.hpp"
 #include "parser/block.hpp"
+#include "parser/dialect.hpp"
 
 namespace frustum::parser {
 
 constexpr std::size_t kMaxSyntaxErrors = 100;
 
 struct Program {
-  std::string file{};                              // names the program in diagnostics
+  std::string file{};  // names the program in diagnostics
+  Dialect dialect = Dialect::fanuc;
   std::vector<Block> blocks{};                     // blank lines left out
   std::map<std::uint32_t, std::size_t> entries{};  // O number -> index of its first block
 };
 
-[[nodiscard]] Result<Program> parse_program(std::string_view text, std::string file);
+[[nodiscard]] Result<Program> parse_program(std::string_view text, std::string file,
+                                            Dialect dialect = Dialect::fanuc);
 
 // The block and the program as NC text: reading it again gives the same blocks (places aside).
 [[nodiscard]] std::string to_text(const Block& block);

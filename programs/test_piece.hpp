@@ -11,6 +11,7 @@
 #include "cutter/cutter.hpp"
 #include "kinematics/controller.hpp"
 #include "metrology/inspection_plan.hpp"
+#include "parser/dialect.hpp"
 #include "stock/blank.hpp"
 
 namespace frustum::programs {
@@ -40,6 +41,7 @@ struct TestPiece {
   std::string title{};
   std::string program{};       // NC text
   std::string program_file{};  // names it in diagnostics
+  parser::Dialect dialect = parser::Dialect::fanuc;
   Placement placement{};
   std::map<int, Vec3> work_offsets{};  // 1 = G54 ...: program origin in the table frame
   std::map<int, cutter::CutterSpec> tools{};

@@ -15,7 +15,6 @@ namespace {
 
 using cutter::PathMoment;
 using cutter::SweptCutter;
-using kinematics::AxisPositions;
 using programs::TestPiece;
 
 // Step of the support function's derivative, which is linear in the radius but for rounding.
@@ -44,13 +43,15 @@ Result<std::map<int, RadiusPair>> radius_pairs(const TestPiece& piece) {
   return pairs;
 }
 
-AxisPositions axes_at(const kinematics::ToolPath& path, const PathMoment& moment) {
+kinematics::AxisState axes_at(const kinematics::ToolPath& path, const PathMoment& moment) {
   const std::uint32_t first = path.stretches[moment.stretch].first_pose;
-  AxisPositions q = path.axes[first];
+  kinematics::AxisState at = path.axes[first];
+  const kinematics::AxisState& next = path.axes[first + 1];
   for (const auto letter : kinematics::kAxisLetters) {
-    q[letter] += moment.t * (path.axes[first + 1][letter] - q[letter]);
+    at.q[letter] += moment.t * (next.q[letter] - at.q[letter]);
+    at.heading[letter] += moment.t * (next.heading[letter] - at.heading[letter]);
   }
-  return q;
+  return at;
 }
 
 class GainAtPoint {

@@ -116,7 +116,7 @@ void tell(const TrialOptions& options, Stage stage) {
 Result<CommandedRun> commanded_run(const Machine& machine, const TestPiece& piece,
                                    const TrialOptions& options) {
   tell(options, Stage::parse);
-  const auto program = parser::parse_program(piece.program, piece.program_file);
+  const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
   if (!program) return program.error();
   auto motions = parser::motions_of(*program);
   if (!motions) return motions.error();

@@ -23,7 +23,9 @@ double value_at(const std::string& text, double q, const AxisSpans& spans = {}) 
   const ErrorName name = *ErrorName::parse(entry->name);
   const auto errors = resolve(shipped("iwf-bc"), std::vector{*entry}, spans);
   EXPECT_TRUE(errors) << text;
-  return (*errors)[name.axis].component[static_cast<std::size_t>(name.direction)](q);
+  AxisPositions at;
+  at[name.axis] = q;
+  return (*errors)[name.axis].component[static_cast<std::size_t>(name.direction)](name.axis, at);
 }
 
 TEST(ErrorName, ReadsIsoNamesTheirShortFormsAndTheLetterO) {
@@ -75,10 +77,15 @@ TEST(GeometricErrors, NameWhatIsWrong) {
 
 TEST(ErrorFunction, InterpolatesATableAndHoldsItsEnds) {
   const ErrorFunction f({TableTerm{{{0.0, 1.0}, {10.0, 3.0}, {20.0, -1.0}}}});
-  EXPECT_DOUBLE_EQ(f(-5.0), 1.0);
-  EXPECT_DOUBLE_EQ(f(5.0), 2.0);
-  EXPECT_DOUBLE_EQ(f(15.0), 1.0);
-  EXPECT_DOUBLE_EQ(f(99.0), -1.0);
+  const auto at = [&](double x) {
+    AxisPositions q;
+    q[AxisLetter::X] = x;
+    return f(AxisLetter::X, q);
+  };
+  EXPECT_DOUBLE_EQ(at(-5.0), 1.0);
+  EXPECT_DOUBLE_EQ(at(5.0), 2.0);
+  EXPECT_DOUBLE_EQ(at(15.0), 1.0);
+  EXPECT_DOUBLE_EQ(at(99.0), -1.0);
 }
 
 }  // namespace
