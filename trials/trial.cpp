@@ -25,18 +25,6 @@ Diagnostics in_file(Diagnostics diagnostics, const std::string& file) {
   return diagnostics;
 }
 
-kinematics::Setup setup_of(const TestPiece& piece) {
-  kinematics::Setup setup;
-  setup.table_from_workpiece = piece.placement.table_from_workpiece();
-  setup.work_offsets = piece.work_offsets;
-  for (const auto& [number, tool] : piece.tools) {
-    const double flutes =
-        tool.flute_length.value > 0.0 ? tool.flute_length.value : tool.length.value;
-    setup.tools[number] = {tool.length.value, tool.length_error.value, flutes};
-  }
-  return setup;
-}
-
 AxisSpans ranges_of(const Machine& machine, std::span<const AxisSample> samples) {
   AxisSpans ranges;
   for (const kinematics::Joint& joint : machine.joints()) {
@@ -176,6 +164,18 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
 std::string_view name_of(Stage stage) {
   constexpr std::string_view kNames[] = {"parse", "execute", "cut", "find collisions", "measure"};
   return kNames[static_cast<std::size_t>(stage)];
+}
+
+kinematics::Setup setup_of(const TestPiece& piece) {
+  kinematics::Setup setup;
+  setup.table_from_workpiece = piece.placement.table_from_workpiece();
+  setup.work_offsets = piece.work_offsets;
+  for (const auto& [number, tool] : piece.tools) {
+    const double flutes =
+        tool.flute_length.value > 0.0 ? tool.flute_length.value : tool.length.value;
+    setup.tools[number] = {tool.length.value, tool.length_error.value, flutes};
+  }
+  return setup;
 }
 
 Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::ErrorEntry> errors,

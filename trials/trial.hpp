@@ -52,6 +52,9 @@ struct TrialOptions {
   std::function<void(Stage)> on_stage{};
 };
 
+// What the controller knows of the piece: placement, offsets and tools.
+[[nodiscard]] kinematics::Setup setup_of(const programs::TestPiece& piece);
+
 [[nodiscard]] Result<Trial> run_trial(const kinematics::Machine& machine,
                                       std::span<const kinematics::ErrorEntry> errors,
                                       const programs::TestPiece& piece,
