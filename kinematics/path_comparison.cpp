@@ -117,12 +117,18 @@ PathMatches match_paths(const ToolPath& reference, const ToolPath& other,
   if (places.empty() || others.empty()) return result;
   Follower follower(others, options.reach);
   Point6 before = weighed(places.front().pose, options.reach);
+  double apart = 0.0;
   for (const PathPlace& place : places) {
     const Point6 now = weighed(place.pose, options.reach);
-    // Half as much again: the other path may round a corner that the reference's chord cuts.
-    const double allowance = 1.5 * (now - before).norm() + options.slack;
+    // Half as much again: the other path may round a corner that the reference's chord cuts. Where it
+    // lies apart it may need that distance there and back to come alongside again.
+    const double allowance =
+        1.5 * (now - before).norm() + 2.0 * std::min(apart, options.most_apart) + options.slack;
     before = now;
-    result.matches.push_back({place, follower.nearest(place.pose, allowance)});
+    const PathPlace other_place = follower.nearest(place.pose, allowance);
+    apart = (weighed(other_place.pose, options.reach) - now).norm();
+    result.matches.push_back({place, other_place});
+    if (apart > options.stop_beyond) break;
   }
   result.left_over = follower.left();
   return result;

@@ -1,0 +1,25 @@
+// Where two executed programs part: the comparison behind program_difference.hpp.
+//
+// Units  : mm, rad, s
+// Errors : none
+#pragma once
+
+#include "kinematics/path_comparison.hpp"
+#include "post/program_difference.hpp"
+
+namespace frustum::post {
+
+struct PathDifference {
+  Difference first{};
+  double largest_tip = 0.0;
+  double largest_axis = 0.0;
+  double largest_time_ratio = 1.0;
+
+  [[nodiscard]] bool none() const { return first.kind == DifferenceKind::none; }
+};
+
+[[nodiscard]] PathDifference path_difference(const kinematics::ToolPath& first,
+                                             const kinematics::ToolPath& second,
+                                             const DifferenceLimits& limits);
+
+}  // namespace frustum::post
