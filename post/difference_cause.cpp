@@ -355,17 +355,25 @@ std::string feed_cause(double time_ratio) {
 
 // --- faults that are undone ---------------------------------------------------------------------
 
+std::span<const parser::Motion> until_shortly_after(const std::vector<parser::Motion>& motions,
+                                                    std::uint32_t line) {
+  constexpr std::ptrdiff_t kFurther = 200;  // motions
+  const auto there = std::find_if(motions.begin(), motions.end(),
+                                  [&](const parser::Motion& m) { return m.place.line >= line; });
+  const auto further = std::min(kFurther, motions.end() - there);
+  return {motions.begin(), there + further};
+}
+
 std::string undone_fault(const Machine& machine, const ToolPath& first,
-                         const ComparedProgram& program, std::span<const Fault> faults,
-                         const DifferenceLimits& limits) {
+                         const ComparedProgram& program, std::uint32_t parting_line,
+                         std::span<const Fault> faults, const DifferenceLimits& limits) {
   for (const Fault& fault : faults) {
     const auto motions = fault.undo(program.motions);
-    const auto run = [&](Sampling sampling) {
-      return executed(machine, {}, program.setup, motions, sampling, limits);
-    };
-    const auto screened = run(Sampling::coarse);
+    // Most faults show where the programs part that they are not it.
+    const auto beginning = until_shortly_after(motions, parting_line);
+    const auto screened = executed(machine, {}, program.setup, beginning, Sampling::coarse, limits);
     if (!screened || !lies_on(*screened, first, limits)) continue;
-    const auto path = run(Sampling::fine);
+    const auto path = executed(machine, {}, program.setup, motions, Sampling::fine, limits);
     if (path && same_way(first, *path, limits)) return fault.words;
   }
   return {};
@@ -409,13 +417,14 @@ std::string likely_cause(const Machine& machine, const ToolPath& first, const To
     case DifferenceKind::axis:
       break;
   }
+  const std::uint32_t line = difference.first.second_line;
   if (std::string cause = local_cause(machine, first, second, limits); !cause.empty()) return cause;
   if (std::string cause =
-          undone_fault(machine, first, second_program, known_faults(machine), limits);
+          undone_fault(machine, first, second_program, line, known_faults(machine), limits);
       !cause.empty()) {
     return cause;
   }
-  if (std::string cause = undone_fault(machine, first, second_program,
+  if (std::string cause = undone_fault(machine, first, second_program, line,
                                        rotary_shifts(machine, first, second), limits);
       !cause.empty()) {
     return cause;
