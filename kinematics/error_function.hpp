@@ -1,10 +1,19 @@
-// One component error as a function of the commanded axis position: a sum of simple terms.
+// One component error as a function of where the machine's axes are: a sum of simple terms.
 //
-// Model    : constant a; linear a (q - q0)/D; harmonic a cos(w (q - q0) + psi); table, linear between
-//            its points and held at its ends
+// Model    : of the own axis's position q:
+//              constant   a
+//              linear     s (q - q0)
+//              polynomial c0 + c1 t + c2 t^2 + ..., t = (q - m)/r
+//              harmonic   a cos(w (q - q0) + psi); a cyclic error is one, too
+//              table      straight or monotone cubic between its points, held at its ends or periodic
+//            of its direction of motion:
+//              reversal   a times the heading, -1 .. +1
+//            of two axes:
+//              surface    bilinear between the points of a grid, held at its ends
 // Units    : q and value in mm or rad, whichever the axis and the error are
 // Errors   : none; shapes are checked where they are read
-// Source   : shapes of the ETH thesis, sections 3.8 and 3.9 (cone-test definitions of lin and k-th)
+// Source   : linear and harmonic of the ETH thesis, sections 3.8 and 3.9; monotone cubic of Fritsch and
+//            Butland 1984, SIAM J. Sci. Stat. Comput. 5(2)
 #pragma once
 
 #include <utility>
@@ -22,16 +31,45 @@ struct LinearTerm {
   double slope = 0.0;
   double zero = 0.0;  // position where the term vanishes
 };
+struct PolynomialTerm {
+  std::vector<double> coefficients{};  // of 1, t, t^2, ...
+  double middle = 0.0;
+  double reach = 1.0;  // t = (q - middle) / reach
+};
 struct HarmonicTerm {
   double amplitude = 0.0;
   double angular_frequency = 0.0;  // rad per unit of q
   double origin = 0.0;
   double phase = 0.0;  // rad
 };
-struct TableTerm {
-  std::vector<std::pair<double, double>> points;  // position, value; positions increase
+struct ReversalTerm {
+  double at_plus = 0.0;  // value after motion in +; after motion in - it is the opposite
 };
-using ErrorTerm = std::variant<ConstantTerm, LinearTerm, HarmonicTerm, TableTerm>;
+
+struct TablePoint {
+  double position = 0.0;
+  double value = 0.0;
+  double slope = 0.0;  // cubic tables
+};
+enum class TableKind : std::uint8_t { linear, cubic };
+struct TableTerm {
+  std::vector<TablePoint> points{};  // positions increase
+  TableKind kind = TableKind::linear;
+  bool periodic = false;  // the first point continues the last
+
+  // Slopes of a cubic table are found here: no overshoot, level at the extremes.
+  [[nodiscard]] static TableTerm of(std::vector<std::pair<double, double>> points, TableKind kind,
+                                    bool periodic);
+};
+struct SurfaceTerm {
+  AxisLetter first = AxisLetter::A;
+  AxisLetter second = AxisLetter::C;
+  std::vector<double> first_positions{};  // increasing
+  std::vector<double> second_positions{};
+  std::vector<double> values{};  // a row for each first position
+};
+using ErrorTerm = std::variant<ConstantTerm, LinearTerm, PolynomialTerm, HarmonicTerm, ReversalTerm,
+                               TableTerm, SurfaceTerm>;
 
 class ErrorFunction {
  public:
@@ -39,6 +77,7 @@ class ErrorFunction {
   explicit ErrorFunction(std::vector<ErrorTerm> terms) : terms_(std::move(terms)) {}
 
   [[nodiscard]] bool is_zero() const { return terms_.empty(); }
+  [[nodiscard]] bool depends_on_direction() const;
   // Of `axis`, where the axes are.
   [[nodiscard]] double operator()(AxisLetter axis, const AxisState& at) const;
   // This function plus `factor` times the other.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/spelling.hpp"
@@ -41,7 +42,7 @@ ErrorTerm term_of(const ErrorShape& shape, const Joint& joint, const AxisSpans& 
       return HarmonicTerm{amount, std::numbers::pi * shape.order / span.width(), span.middle(),
                           shape.phase};
     case ErrorShape::Kind::table:
-      return TableTerm{shape.points};
+      return TableTerm::of(shape.points, TableKind::linear, false);
     case ErrorShape::Kind::constant:
       break;
   }
@@ -144,6 +145,16 @@ std::string ErrorName::meaning() const {
   return fmt::format("{} motion of {} in {}", axial ? "axial" : "radial", axis_text, d);
 }
 
+bool AxisErrors::depends_on_direction() const {
+  return std::any_of(component.begin(), component.end(),
+                     [](const ErrorFunction& f) { return f.depends_on_direction(); });
+}
+
+bool GeometricErrors::depends_on_direction() const {
+  return std::any_of(axes_.begin(), axes_.end(),
+                     [](const AxisErrors& axis) { return axis.depends_on_direction(); });
+}
+
 GeometricErrors GeometricErrors::plus(const GeometricErrors& others, double factor) const {
   GeometricErrors sum = *this;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -154,6 +165,7 @@ GeometricErrors GeometricErrors::plus(const GeometricErrors& others, double fact
       axis.location[k] += factor * other.location[k];
     }
     axis.carried_tilt += factor * other.carried_tilt;
+    axis.settling = std::max(axis.settling, other.settling);
   }
   return sum;
 }

@@ -47,6 +47,10 @@ struct AxisErrors {
   std::array<double, 6> location{};
   Vec3 carried_tilt =
       Vec3::Zero();  // rad: linear axes, a tilt that also turns what the axis carries
+  // mm or rad: travel after a reversal over which the axis's play is taken up (kinematics/heading.hpp).
+  double settling = 0.0;
+
+  [[nodiscard]] bool depends_on_direction() const;
 };
 
 class GeometricErrors {
@@ -55,7 +59,9 @@ class GeometricErrors {
   const AxisErrors& operator[](AxisLetter axis) const {
     return axes_[static_cast<std::size_t>(axis)];
   }
-  // These errors plus `factor` times the others.
+  // Whether any error needs the headings of AxisState.
+  [[nodiscard]] bool depends_on_direction() const;
+  // These errors plus `factor` times the others; of two settling distances of an axis the longer.
   [[nodiscard]] GeometricErrors plus(const GeometricErrors& others, double factor) const;
 
  private:

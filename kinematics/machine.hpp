@@ -15,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -66,6 +67,9 @@ struct ErrorAlias {
 class Machine {
  public:
   [[nodiscard]] static Result<Machine> load(const std::filesystem::path& file);
+  // From the text of such a file; `file` names it in diagnostics.
+  [[nodiscard]] static Result<Machine> read(std::string_view text,
+                                            const std::filesystem::path& file);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& title() const { return title_; }

@@ -97,6 +97,7 @@ class MachineReader {
                    is_rotary(letter) ? "in degrees, or endless = true" : "in mm");
       }
     }
+    joint.dynamics = dynamics(table, scale);
     joint.home = table.number_or("home", 0.0) * scale;
     if (!joint.endless && !joint.travel.contains(joint.home)) {
       table.fail("home", fmt::format("{} lies outside the travel", joint.home / scale));
@@ -108,6 +109,17 @@ class MachineReader {
       joint.functional_point.at_tip = true;
     }
     return joint;
+  }
+
+  // The file writes mm/s or deg/s and so on; a limit of zero would be an axis that cannot move.
+  static AxisDynamics dynamics(const TomlTable& axis, double scale) {
+    const auto limit = [&](std::string_view key, double unit) {
+      return axis.has(key) ? axis.number(key, Bound::positive) * unit : 0.0;
+    };
+    return {.velocity = limit("velocity", scale),
+            .acceleration = limit("acceleration", scale),
+            .jerk = limit("jerk", scale),
+            .servo_gain = limit("servo_gain", 1.0)};
   }
 
   static void check_space(const TomlTable& root, const Machine& machine) {
@@ -175,6 +187,12 @@ class MachineReader {
 Result<Machine> Machine::load(const std::filesystem::path& file) {
   return TomlDocument::load(file).and_then(
       [](const TomlDocument& document) { return MachineReader::read(document); });
+}
+
+Result<Machine> Machine::read(std::string_view text, const std::filesystem::path& file) {
+  return TomlDocument::parse(text, file).and_then([](const TomlDocument& document) {
+    return MachineReader::read(document);
+  });
 }
 
 }  // namespace frustum::kinematics

@@ -1,8 +1,10 @@
-// Reading a block's intent, and all that does not move an axis. The moves are in block_moves.cpp.
+// Reading a block's intent, and what neither moves an axis nor changes a frame. The frames are in
+// block_frames.cpp, the moves in block_moves.cpp.
 #include "parser/block_executor.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <optional>
@@ -10,28 +12,21 @@
 #include <utility>
 #include <vector>
 
+#include "core/units.hpp"
+
 namespace frustum::parser {
 namespace {
 
-constexpr LetterSet kAlwaysClaimed{"FST"};
-constexpr LetterSet kMoveWords{"XYZABCIJKR"};
-constexpr LetterSet kDwellTimes{"PXU"};
+constexpr LetterSet kMoveWords{"XYZABCIJKRabc"};
 constexpr int kMaxTool = 99'999'999;
-constexpr int kMaxOffsetNumber = 9999;
 constexpr int kMaxProgramNumber = 99'999'999;
 constexpr int kMaxRepeats = 99'999;
 constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kSecondsPerMinute = 60.0;
 
 LetterSet centre_letters(Plane plane) {
   constexpr std::array kLetters{LetterSet("IJ"), LetterSet("IK"), LetterSet("JK")};
   return kLetters.at(static_cast<std::size_t>(plane));
-}
-
-Compensation compensation_of(LengthWord word) {
-  constexpr std::array kModes{LengthCompensation::off, LengthCompensation::length,
-                              LengthCompensation::tool_centre_point,
-                              LengthCompensation::tool_centre_point};
-  return {kModes.at(static_cast<std::size_t>(word)), word == LengthWord::tool_vectors, 0};
 }
 
 // The text behind "MSG," when the comment is meant for the operator.
@@ -49,8 +44,8 @@ std::optional<std::string> message_in(std::string_view comment) {
 }  // namespace
 
 Result<Flow> BlockExecutor::execute(const Block& block) {
-  line_ = block.line;
-  auto words = read_words(block, parameters_);
+  block_ = &block;
+  auto words = read_words(block, parameters_, rules_.dialect);
   if (!words) return std::move(words).error();
   const auto movement = movement_of(*words);
   if (!movement) return movement.error();
@@ -59,10 +54,25 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   report_comments(block);
   if (auto done = set_parameters(block); !done) return std::move(done).error();
   state_.unit = words->value_or(CodeGroup::unit, state_.unit);
-  if (auto done = set_feed(*words); !done) return std::move(done).error();
-  if (auto done = set_tool_and_spindle(*words); !done) return std::move(done).error();
+  const bool dwells = movement->non_modal == NonModal::dwell;
+  // F and S of a dwell are its time where the dialect says so.
+  const auto of_dwell = [&](char letter) {
+    return dwells && std::any_of(rules_.dwell.begin(), rules_.dwell.end(),
+                                 [letter](const DwellWord& word) { return word.letter == letter; });
+  };
+  if (!of_dwell('F')) {
+    if (auto done = set_feed(*words); !done) return std::move(done).error();
+  }
+  const bool speed = words->has('S') && !of_dwell('S');
+  if (speed && (*words)['S'].value < 0.0) {
+    return fail((*words)['S'].column, fmt::format("{} is negative", words->text_of('S')),
+                "give the direction by M3 or M4 and a speed that is not negative");
+  }
+  if (speed) state_.spindle_speed = (*words)['S'].value;
+  if (auto done = set_tool(*words); !done) return std::move(done).error();
+  set_spindle_and_coolant(*words, speed);
   report_events(*words);
-  if (movement->non_modal == NonModal::dwell) {
+  if (dwells) {
     if (auto done = dwell(*words); !done) return std::move(done).error();
   }
   if (auto done = set_frames(*words); !done) return std::move(done).error();
@@ -85,31 +95,36 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   if (non_modal == NonModal::home) {
     if (motion_code.code != nullptr && mode != MotionMode::traverse) {
       return fail(motion_code.column,
-                  fmt::format("G28 and {} both use the axis words", motion_code.code->name()),
+                  fmt::format("{} and {} both use the axis words", non_modal_code.code->name(),
+                              motion_code.code->name()),
                   "write two blocks");
     }
-    if ((words.given() & kAxisWords).empty()) {
+    if ((words.given() & kAxisWords).empty() && !rules_.home_without_axes_is_all) {
       return fail(non_modal_code.column, "G28 names no axis",
                   "give the axes to send home, for example G91 G28 Z0");
     }
     return Movement{non_modal, MotionMode::none, non_modal_code.column};
   }
-  if (non_modal == NonModal::dwell && motion_code.code == nullptr) {
+  if (non_modal != NonModal::none && non_modal != NonModal::machine_coordinates &&
+      motion_code.code == nullptr) {
     return Movement{non_modal, MotionMode::none, non_modal_code.column};
   }
   if (non_modal == NonModal::machine_coordinates) {
+    const std::string name = non_modal_code.code->name();
     if (mode != MotionMode::traverse && mode != MotionMode::linear) {
-      return fail(non_modal_code.column, "G53 without G0 or G1", "write G53 G0 or G53 G1");
+      return fail(non_modal_code.column, name + " without a straight move",
+                  "machine coordinates belong to a straight move, for example G53 G0 Z0");
     }
     if ((words.given() & kAxisWords).empty()) {
-      return fail(non_modal_code.column, "G53 names no axis",
-                  "give the axes to move, for example G53 G0 Z0");
+      return fail(non_modal_code.column, name + " names no axis",
+                  "give the axes to move, for example Z0");
     }
     if (words.value_or(CodeGroup::distance, state_.distance) == DistanceMode::incremental) {
-      return fail(non_modal_code.column, "G53 in G91", "machine coordinates need G90");
+      return fail(non_modal_code.column, name + " in G91", "machine coordinates need G90");
     }
     return Movement{non_modal, mode, non_modal_code.column};
   }
+  if (words.has(CodeGroup::tilted_plane)) return Movement{non_modal, MotionMode::none, 0};
   if (move_words.empty()) return Movement{non_modal, MotionMode::none, 0};
   const std::uint32_t column =
       motion_code.code != nullptr ? motion_code.column : words[words.first_of(move_words)].column;
@@ -122,25 +137,27 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
       return {};
     case MotionMode::traverse:
     case MotionMode::linear: {
-      const GivenCode& length = words[CodeGroup::length_compensation];
-      const auto mode = length.code == nullptr
-                            ? state_.compensation.mode
-                            : compensation_of(static_cast<LengthWord>(length.code->value)).mode;
-      const bool vectors = mode == LengthCompensation::tool_centre_point &&
-                           movement.non_modal != NonModal::machine_coordinates;
-      return vectors ? kAxisWords | kVectorWords : kAxisWords;
+      const bool vectors = guides_tip(words) && movement.non_modal != NonModal::machine_coordinates;
+      LetterSet letters = kAxisWords;
+      if (vectors) letters = letters | LetterSet(rules_.vector_letters);
+      if (movement.motion == MotionMode::linear) letters.add('t');
+      return letters;
     }
     case MotionMode::arc_clockwise:
-    case MotionMode::arc_counterclockwise:
-      return kAxisWords | LetterSet("RP") |
-             centre_letters(words.value_or(CodeGroup::plane, state_.plane));
+    case MotionMode::arc_counterclockwise: {
+      const LetterSet letters = kAxisWords | LetterSet("RPet") |
+                                centre_letters(words.value_or(CodeGroup::plane, state_.plane));
+      // Where I J K are the tool vector, an arc has them for its centre.
+      const bool vectors = guides_tip(words) && rules_.vector_letters != "IJK";
+      return vectors ? letters | LetterSet(rules_.vector_letters) : letters;
+    }
   }
   return {};
 }
 
 BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
                                                    const Movement& movement) const {
-  LetterSet claimed = kAlwaysClaimed;
+  LetterSet claimed = rules_.always_claimed;
   LetterSet twice;
   const auto claim = [&](LetterSet letters) {
     twice = twice | (claimed & letters);
@@ -160,10 +177,10 @@ BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
   }
   const char letter = words.first_of(words.given().without(claimed));
   if (letter == 0) return Done{};
-  const std::string_view use = letter_use(letter);
+  const std::string_view use = letter_use(rules_, letter);
   if (use.empty()) {
     return fail(words[letter].column, "unknown word " + words.text_of(letter),
-                "known are the letters A B C F G H I J K L M N O P Q R S T U X Y Z");
+                fmt::format("known are the letters {}", rules_.known_letters));
   }
   return fail(words[letter].column,
               fmt::format("{} has no meaning in this block", words.text_of(letter)),
@@ -176,11 +193,11 @@ Result<int> BlockExecutor::whole(const BlockWords& words, char letter, int least
   // RS-274 forgives 1e-4 in numbers that have to be whole.
   if (std::abs(word.value - nearest) > 1e-4) {
     return fail(word.column, fmt::format("{} is not a whole number", words.text_of(letter)),
-                fmt::format("give {} without decimals", letter));
+                fmt::format("give {} without decimals", words.spelling_of(letter)));
   }
   if (nearest < least || nearest > most) {
     return fail(word.column, fmt::format("{} is out of range", words.text_of(letter)),
-                fmt::format("{} goes from {} to {}", letter, least, most));
+                fmt::format("{} goes from {} to {}", words.spelling_of(letter), least, most));
   }
   return static_cast<int>(nearest);
 }
@@ -192,11 +209,11 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
   std::vector<std::pair<int, double>> values;
   for (const Assignment& setting : block.assignments) {
     const auto value = evaluate(context, setting.value);
-    if (!value) return on_this_line(value.error().front());
+    if (!value) return in_this_block(value.error().front());
     int index = 0;
     if (!setting.name) {
       const auto number = evaluate(context, setting.index);
-      if (!number) return on_this_line(number.error().front());
+      if (!number) return in_this_block(number.error().front());
       const auto checked = Parameters::index_of(*number);
       if (!checked) {
         return fail(setting.column, checked.error().front().message, checked.error().front().hint);
@@ -218,6 +235,10 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
 
 void BlockExecutor::report_comments(const Block& block) {
   for (const Comment& comment : block.comments) {
+    if (comment.event != nullptr) {
+      emit(comment.column, Event{comment.event, comment.text});
+      continue;
+    }
     auto message = message_in(comment.text);
     const char* name = message ? "message" : "comment";
     emit(comment.column, Event{name, message ? *std::move(message) : comment.text});
@@ -240,26 +261,29 @@ BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
   const auto mode = words.value_or(CodeGroup::feed_mode, state_.feed_mode);
   if (mode != state_.feed_mode) state_.feed.reset();
   state_.feed_mode = mode;
+  if (const GivenCode& source = words[CodeGroup::feed_source]; source.code != nullptr) {
+    if (!state_.tool_feed) {
+      return fail(source.column, source.code->name() + " without a feed in the tool call",
+                  "give F in TOOL CALL, or a number here");
+    }
+    state_.feed = state_.tool_feed;
+  }
   if (!words.has('F')) return Done{};
   const double feed = words['F'].value;
   if (feed < 0.0) {
     return fail(words['F'].column, fmt::format("{} is negative", words.text_of('F')),
                 "give a feed above zero");
   }
-  const double scale = mode == FeedMode::inverse_time ? 1.0 : unit_scale();
-  state_.feed.reset();
-  if (feed > 0.0) state_.feed = FeedWord{feed, feed * scale};
+  const bool in_inches = state_.unit == LengthUnit::inch && mode != FeedMode::inverse_time;
+  const double scale = in_inches ? kMmPerInch : 1.0;
+  const auto given = feed > 0.0 ? std::optional(FeedWord{feed, feed * scale}) : std::nullopt;
+  // The feed of a tool call waits for F AUTO.
+  const bool of_tool = rules_.dialect == Dialect::heidenhain && words.has(CodeGroup::tool_change);
+  (of_tool ? state_.tool_feed : state_.feed) = given;
   return Done{};
 }
 
-BlockExecutor::Outcome BlockExecutor::set_tool_and_spindle(const BlockWords& words) {
-  if (words.has('S')) {
-    if (words['S'].value < 0.0) {
-      return fail(words['S'].column, fmt::format("{} is negative", words.text_of('S')),
-                  "give the direction by M3 or M4 and a speed that is not negative");
-    }
-    state_.spindle_speed = words['S'].value;
-  }
+BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
   if (words.has('T')) {
     const auto tool = whole(words, 'T', 0, kMaxTool);
     if (!tool) return tool.error();
@@ -268,16 +292,22 @@ BlockExecutor::Outcome BlockExecutor::set_tool_and_spindle(const BlockWords& wor
   const GivenCode& change = words[CodeGroup::tool_change];
   if (change.code != nullptr) {
     if (!state_.selected_tool) {
-      return fail(change.column, "M6 without a tool", "give T on this block or before");
+      return fail(change.column, change.code->name() + " without a tool",
+                  "give T on this block or before");
     }
     if (state_.spindle != SpindleDirection::off) {
       state_.spindle = SpindleDirection::off;
       emit(change.column, SpindleChange{state_.spindle, state_.spindle_speed});
     }
-    emit(change.column, ToolChange{*state_.selected_tool});
+    state_.tool = *state_.selected_tool;
+    emit(change.column, ToolChange{state_.tool});
   }
+  return Done{};
+}
+
+void BlockExecutor::set_spindle_and_coolant(const BlockWords& words, bool speed) {
   const GivenCode& spindle = words[CodeGroup::spindle];
-  if (spindle.code != nullptr || (words.has('S') && state_.spindle != SpindleDirection::off)) {
+  if (spindle.code != nullptr || (speed && state_.spindle != SpindleDirection::off)) {
     state_.spindle = words.value_or(CodeGroup::spindle, state_.spindle);
     emit(spindle.code != nullptr ? spindle.column : words['S'].column,
          SpindleChange{state_.spindle, state_.spindle_speed});
@@ -287,65 +317,39 @@ BlockExecutor::Outcome BlockExecutor::set_tool_and_spindle(const BlockWords& wor
     state_.flood = static_cast<CoolantWord>(coolant.code->value) == CoolantWord::flood;
     emit(coolant.column, CoolantChange{state_.flood});
   }
-  return Done{};
 }
 
 BlockExecutor::Outcome BlockExecutor::dwell(const BlockWords& words) {
-  const std::uint32_t column = words[CodeGroup::non_modal].column;
-  const LetterSet times = words.given() & kDwellTimes;
-  const char letter = words.first_of(times);
-  if (letter == 0) {
-    return fail(column, "G4 without a time", "give P in milliseconds, or X in seconds");
+  const GivenCode& code = words[CodeGroup::non_modal];
+  const DwellWord* given = nullptr;
+  for (const DwellWord& word : rules_.dwell) {
+    if (!words.has(word.letter)) continue;
+    if (given != nullptr) {
+      return fail(
+          words[word.letter].column,
+          fmt::format("{} has both {} and {}", code.code->name(), given->letter, word.letter),
+          "give one time");
+    }
+    given = &word;
   }
-  LetterSet first;
-  first.add(letter);
-  if (const char second = words.first_of(times.without(first)); second != 0) {
-    return fail(words[second].column, fmt::format("G4 has both {} and {}", letter, second),
-                "give one time");
+  if (given == nullptr) {
+    return fail(code.column, code.code->name() + " without a time", std::string(rules_.dwell_hint));
   }
-  const GivenWord& time = words[letter];
+  const GivenWord& time = words[given->letter];
   if (time.value < 0.0) {
-    return fail(time.column, fmt::format("{} is negative", words.text_of(letter)),
+    return fail(time.column, fmt::format("{} is negative", words.text_of(given->letter)),
                 "a dwell takes a time that is not negative");
   }
-  const bool milliseconds = letter == 'P' && !time.decimal_point;
-  emit(column, Dwell{milliseconds ? time.value / kMillisecondsPerSecond : time.value});
-  return Done{};
-}
-
-BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
-  state_.plane = words.value_or(CodeGroup::plane, state_.plane);
-  state_.distance = words.value_or(CodeGroup::distance, state_.distance);
-  state_.arc_distance = words.value_or(CodeGroup::arc_distance, state_.arc_distance);
-
-  const GivenCode& length = words[CodeGroup::length_compensation];
-  if (length.code != nullptr) {
-    Compensation next = compensation_of(static_cast<LengthWord>(length.code->value));
-    if (words.has('H')) {
-      const auto number = whole(words, 'H', 1, kMaxOffsetNumber);
-      if (!number) return number.error();
-      next.offset_number = *number;
-    }
-    const bool tip_before = state_.tool_centre_point();
-    const bool tip_after = next.mode == LengthCompensation::tool_centre_point;
-    const bool same_tool = next.offset_number == state_.compensation.offset_number;
-    if (tip_before != tip_after || (tip_after && !same_tool)) {
-      forget(kLinearWords, PositionLoss::length_compensation);
-    } else if (next.mode != state_.compensation.mode || !same_tool) {
-      forget(LetterSet("Z"), PositionLoss::length_compensation);
-    }
-    if (!tip_after) state_.tool_axis.reset();
-    state_.compensation = next;
-    emit(length.column, CompensationChange{next.mode, next.tool_vectors, next.offset_number});
+  if (given->unit == DwellUnit::revolutions && state_.spindle_speed <= 0.0) {
+    return fail(time.column, "a dwell in revolutions with no spindle speed",
+                "give a spindle speed before");
   }
-
-  const GivenCode& offset = words[CodeGroup::work_offset];
-  if (offset.code != nullptr) {
-    const int number = offset.code->value;
-    if (number != state_.work_offset) forget(kAxisWords, PositionLoss::work_offset);
-    state_.work_offset = number;
-    emit(offset.column, WorkOffsetChange{number});
-  }
+  const bool milliseconds =
+      given->unit == DwellUnit::milliseconds_without_point && !time.decimal_point;
+  emit(code.column, Dwell{milliseconds ? time.value / kMillisecondsPerSecond
+                          : given->unit == DwellUnit::revolutions
+                              ? time.value * kSecondsPerMinute / state_.spindle_speed
+                              : time.value});
   return Done{};
 }
 
@@ -381,16 +385,18 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
 Diagnostic BlockExecutor::fail(std::uint32_t column, std::string message, std::string hint) const {
   Diagnostic diagnostic = error(std::move(message), std::move(hint));
   diagnostic.column = static_cast<int>(column);
-  return on_this_line(std::move(diagnostic));
+  return in_this_block(std::move(diagnostic));
 }
 
-Diagnostic BlockExecutor::on_this_line(Diagnostic diagnostic) const {
-  diagnostic.line = static_cast<int>(line_);
+Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
+  const SourcePlace place = block_->place_of(static_cast<std::uint32_t>(diagnostic.column));
+  diagnostic.line = static_cast<int>(place.line);
+  diagnostic.column = static_cast<int>(place.column);
   return diagnostic;
 }
 
 void BlockExecutor::emit(std::uint32_t column, Command command) {
-  sink_(Motion{{line_, column}, std::move(command)});
+  sink_(Motion{block_->place_of(column), std::move(command)});
 }
 
 }  // namespace frustum::parser

@@ -17,6 +17,7 @@
 #include "core/result.hpp"
 #include "parser/block.hpp"
 #include "parser/block_words.hpp"
+#include "parser/dialect_rules.hpp"
 #include "parser/modal_state.hpp"
 #include "parser/motion.hpp"
 #include "parser/parameters.hpp"
@@ -42,7 +43,7 @@ using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram
 
 class BlockExecutor {
  public:
-  explicit BlockExecutor(const MotionSink& sink) : sink_(sink) {}
+  BlockExecutor(Dialect dialect, const MotionSink& sink) : rules_(rules_of(dialect)), sink_(sink) {}
 
   [[nodiscard]] Result<Flow> execute(const Block& block);
   [[nodiscard]] const ModalState& state() const { return state_; }
@@ -60,6 +61,8 @@ class BlockExecutor {
   // Looking: what the block asks for, given the modes.
   [[nodiscard]] MotionMode motion_of(const BlockWords& words) const;
   [[nodiscard]] Result<Movement> movement_of(const BlockWords& words) const;
+  [[nodiscard]] bool guides_tip(const BlockWords& words) const;
+  [[nodiscard]] Result<Compensation> compensation_after(const BlockWords& words) const;
   [[nodiscard]] LetterSet motion_words(const BlockWords& words, const Movement& movement) const;
   [[nodiscard]] Outcome check_claims(const BlockWords& words, const Movement& movement) const;
   [[nodiscard]] Result<int> whole(const BlockWords& words, char letter, int least, int most) const;
@@ -69,9 +72,17 @@ class BlockExecutor {
   void report_comments(const Block& block);
   void report_events(const BlockWords& words);
   [[nodiscard]] Outcome set_feed(const BlockWords& words);
-  [[nodiscard]] Outcome set_tool_and_spindle(const BlockWords& words);
+  [[nodiscard]] Outcome set_tool(const BlockWords& words);
+  void set_spindle_and_coolant(const BlockWords& words, bool speed);
   [[nodiscard]] Outcome dwell(const BlockWords& words);
   [[nodiscard]] Outcome set_frames(const BlockWords& words);
+  [[nodiscard]] Outcome set_compensation(const BlockWords& words);
+  [[nodiscard]] Outcome set_work_offset(const BlockWords& words);
+  [[nodiscard]] Outcome set_tilted_plane(const BlockWords& words);
+  void set_paths(const BlockWords& words);
+  [[nodiscard]] Outcome align(std::uint32_t column);
+  [[nodiscard]] Outcome set_pole(const BlockWords& words);
+  [[nodiscard]] Outcome set_start(const BlockWords& words);
   [[nodiscard]] Outcome go_home(const BlockWords& words);
   [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_in_machine_coordinates(const BlockWords& words,
@@ -81,23 +92,27 @@ class BlockExecutor {
   [[nodiscard]] Result<Flow> finish(const BlockWords& words);
 
   [[nodiscard]] double unit_scale() const;
+  [[nodiscard]] Vec3 vector_of(const BlockWords& words, std::string_view letters) const;
   [[nodiscard]] double scaled(AxisLetter axis, double value) const;
   [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
   [[nodiscard]] Outcome set_targets(const BlockWords& words);
+  void announce_rotary_path(const BlockWords& words, std::uint32_t column);
+  [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;
   [[nodiscard]] Outcome set_tool_axis(const BlockWords& words);
   [[nodiscard]] Result<Feed> feed_for(const BlockWords& words, const Movement& movement,
                                       bool linear) const;
   void leave_program_coordinates(LetterSet axes, PositionLoss loss);
   void forget(LetterSet axes, PositionLoss loss);
   [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
-  [[nodiscard]] Diagnostic on_this_line(Diagnostic diagnostic) const;
+  [[nodiscard]] Diagnostic in_this_block(Diagnostic diagnostic) const;
   void emit(std::uint32_t column, Command command);
 
+  const DialectRules& rules_;
   const MotionSink& sink_;
   ModalState state_;
   ProgramPosition position_;
   Parameters parameters_;
-  std::uint32_t line_ = 0;  // of the block at work
+  const Block* block_ = nullptr;  // at work
 };
 
 }  // namespace frustum::parser

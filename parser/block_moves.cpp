@@ -11,11 +11,14 @@ namespace frustum::parser {
 namespace {
 
 constexpr int kMaxTurns = 10'000;
+constexpr double kSecondsPerMinute = 60.0;
 constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 
-const char* motion_name(MotionMode motion) {
+const char* motion_name(MotionMode motion, Dialect dialect) {
   constexpr std::array kNames{"", "G0", "G1", "G2", "G3"};
-  return kNames.at(static_cast<std::size_t>(motion));
+  constexpr std::array kPlain{"", "a rapid move", "a cutting move", "an arc", "an arc"};
+  const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
+  return (letters ? kNames : kPlain).at(static_cast<std::size_t>(motion));
 }
 
 // Whether X, Y or Z moves between two targets; an axis first placed now counts as moving.
@@ -41,6 +44,10 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   // Axis words or not, the motion word stays in force for the blocks after.
   state_.motion = motion_of(words);
   if (movement.non_modal == NonModal::home) return go_home(words);
+  if (movement.non_modal == NonModal::align) return align(movement.column);
+  if (movement.non_modal == NonModal::pole) return set_pole(words);
+  if (movement.non_modal == NonModal::start) return set_start(words);
+  if (movement.motion != MotionMode::none) announce_rotary_path(words, movement.column);
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);
   }
@@ -62,6 +69,10 @@ BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words) {
   const AxisTarget before = position_.target();
   HomeReturn home;
   LetterSet named;
+  if ((words.given() & kAxisWords).empty()) {
+    home.axes.fill(true);
+    named = kAxisWords;
+  }
   for (const AxisLetter axis : kAxisLetters) {
     const char letter = to_char(axis);
     if (!words.has(letter)) continue;
@@ -90,6 +101,14 @@ BlockExecutor::Outcome BlockExecutor::move_in_machine_coordinates(const BlockWor
     named.add(letter);
     end[axis] = scaled(axis, words[letter].value);
   }
+  const Compensation& kept = state_.compensation;
+  const bool tip_moves = kept.tip || (kept.length && !(named & kLinearWords).empty());
+  if (rules_.machine_coordinates_keep_length && tip_moves) {
+    return fail(words[CodeGroup::non_modal].column,
+                fmt::format("{} with a tool length or TRAORI would place the tool's tip",
+                            words[CodeGroup::non_modal].code->name()),
+                "switch them off before: TRAFOOF, and D0 on this block");
+  }
   if (movement.motion == MotionMode::traverse) {
     emit(movement.column, Traverse{end, std::nullopt, Coordinates::machine});
   } else {
@@ -104,6 +123,7 @@ BlockExecutor::Outcome BlockExecutor::move_in_machine_coordinates(const BlockWor
 BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
                                                     const Movement& movement) {
   const AxisTarget before = position_.target();
+  if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
   const AxisTarget& end = position_.target();
@@ -129,18 +149,32 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
           "move to the start with G0 or G1 in G90 first");
     }
   }
+  if (auto done = check_tool_length(movement); !done) return done;
   ArcWords arc_words;
   arc_words.plane = state_.plane;
   arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;
   arc_words.centre_is_absolute = state_.arc_distance == DistanceMode::absolute;
   const AxisTarget before = position_.target();
   if (auto done = set_targets(words); !done) return done;
+  if (rules_.vector_letters != "IJK") {
+    if (auto done = set_tool_axis(words); !done) return done;
+  }
   // Where the height of the start is not known, that of the end stands for it.
   arc_words.end = spatial(position_.target(), Vec3::Zero());
   arc_words.start = spatial(before, arc_words.end);
   for (std::size_t i = 0; i < arc_words.centre.size(); ++i) {
     const char letter = "IJK"[i];
-    if (words.has(letter)) arc_words.centre.at(i) = words[letter].value * unit_scale();
+    if (!words.has(letter)) continue;
+    const bool absolute = words[letter].measure == Measure::absolute;
+    arc_words.centre.at(i) = words[letter].value * unit_scale() -
+                             (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);
+  }
+  if (rules_.arcs_turn_about_pole && !words.has('R')) {
+    if (!state_.pole) {
+      return fail(movement.column, "the arc has no centre", "give the centre by CC before");
+    }
+    arc_words.centre_is_absolute = true;
+    arc_words.centre = {(*state_.pole)[0], (*state_.pole)[1], std::nullopt};
   }
   if (words.has('R')) arc_words.radius = words['R'].value * unit_scale();
 
@@ -160,6 +194,11 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     if (!given) return given.error();
     turns = *given;
   }
+  if (words.has('e')) {
+    const auto more = whole(words, 'e', 0, kMaxTurns);
+    if (!more) return more.error();
+    turns += *more;
+  }
   const auto feed = feed_for(words, movement, true);
   if (!feed) return feed.error();
   emit(movement.column, ArcFeed{position_.target(), arc->centre, state_.plane,
@@ -167,8 +206,61 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
   return Done{};
 }
 
+BlockExecutor::Outcome BlockExecutor::set_pole(const BlockWords& words) {
+  Vec3 pole = state_.pole.value_or(spatial(position_.target(), Vec3::Zero()));
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
+    const char letter = to_char(axis);
+    const bool relative = words.has(letter) && words[letter].measure == Measure::incremental;
+    const bool as_before = !words.has(letter) && !state_.pole;
+    if ((relative || as_before) && !position_[axis]) {
+      return fail(words[CodeGroup::non_modal].column,
+                  fmt::format("the pole needs a position, but {}", position_.why_unknown(axis)),
+                  fmt::format("give {} of the pole without I", letter));
+    }
+    if (!words.has(letter)) continue;
+    pole[static_cast<Eigen::Index>(axis)] =
+        words[letter].value * unit_scale() + (relative ? *position_[axis] : 0.0);
+  }
+  // CC alone is where the tool stands.
+  if ((words.given() & LetterSet("XY")).empty()) pole = spatial(position_.target(), pole);
+  state_.pole = pole;
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_start(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  std::string text;
+  for (const AxisLetter axis : kSpatialAxes) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    position_.set(axis, scaled(axis, words[letter].value));
+    text += (text.empty() ? "" : " ") + words.text_of(letter);
+  }
+  emit(code.column, Event{code.code->name(), std::move(text)});
+  return Done{};
+}
+
+void BlockExecutor::announce_rotary_path(const BlockWords& words, std::uint32_t column) {
+  if ((words.given() & kRotaryWords).empty()) return;
+  RotaryPath path = state_.rotary_path;
+  for (const char letter : {'A', 'B', 'C'}) {
+    if (words.has(letter) && words[letter].measure == Measure::shortest)
+      path = RotaryPath::shortest;
+  }
+  if (path == state_.announced_rotary_path) return;
+  state_.announced_rotary_path = path;
+  emit(column, RotaryPathChange{path});
+}
+
+BlockExecutor::Outcome BlockExecutor::check_tool_length(const Movement& movement) const {
+  if (!state_.compensation.tip || state_.compensation.length) return Done{};
+  return fail(
+      movement.column, "the tool-tip control is on, but no tool length is in force",
+      rules_.tool_brings_length ? "call a tool before the move" : "give G43 H before the move");
+}
+
 double BlockExecutor::unit_scale() const {
-  return state_.unit == LengthUnit::inch ? kMmPerInch : 1.0;
+  return state_.unit == LengthUnit::millimetre ? 1.0 : kMmPerInch;
 }
 
 double BlockExecutor::scaled(AxisLetter axis, double value) const {
@@ -178,7 +270,10 @@ double BlockExecutor::scaled(AxisLetter axis, double value) const {
 BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLetter axis) {
   const char letter = to_char(axis);
   const double value = scaled(axis, words[letter].value);
-  if (state_.distance == DistanceMode::absolute) {
+  const Measure measure = words[letter].measure;
+  const bool absolute = measure == Measure::modal ? state_.distance == DistanceMode::absolute
+                                                  : measure != Measure::incremental;
+  if (absolute) {
     position_.set(axis, value);
     return Done{};
   }
@@ -186,7 +281,7 @@ BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLe
     return fail(words[letter].column,
                 fmt::format("{} is incremental, but {}", words.text_of(letter),
                             position_.why_unknown(axis)),
-                fmt::format("program {} once in G90 first", letter));
+                fmt::format("program {} once in absolute coordinates (G90) first", letter));
   }
   position_.set(axis, *position_[axis] + value);
   return Done{};
@@ -210,17 +305,19 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
 }
 
 BlockExecutor::Outcome BlockExecutor::set_tool_axis(const BlockWords& words) {
-  const char first = words.first_of(kVectorWords);
+  const char first = words.first_of(LetterSet(rules_.vector_letters));
   if (first == 0) return Done{};
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
     return fail(words[rotary].column,
                 fmt::format("{} and a tool vector in one block", words.text_of(rotary)),
-                "give the direction by I J K or by rotary words, not both");
+                fmt::format("give the direction by {} or by rotary words, not both",
+                            rules_.vector_spelling));
   }
-  state_.tool_axis = UnitVec3::of(Vec3(words['I'].value, words['J'].value, words['K'].value));
+  state_.tool_axis = UnitVec3::of(vector_of(words, rules_.vector_letters));
   if (!state_.tool_axis) {
     return fail(words[first].column, "the tool vector has no direction",
-                "give I J K a length above zero; it points from the tip to the spindle");
+                fmt::format("give {} a length above zero; it points from the tip to the spindle",
+                            rules_.vector_spelling));
   }
   forget(kRotaryWords, PositionLoss::tool_vector);
   return Done{};
@@ -228,13 +325,21 @@ BlockExecutor::Outcome BlockExecutor::set_tool_axis(const BlockWords& words) {
 
 Result<Feed> BlockExecutor::feed_for(const BlockWords& words, const Movement& movement,
                                      bool linear) const {
+  if (words.has('t')) {
+    if (words['t'].value <= 0.0) {
+      return fail(words['t'].column, fmt::format("{} is not above zero", words.text_of('t')),
+                  "give the time of the block in seconds");
+    }
+    return Feed{kSecondsPerMinute / words['t'].value, FeedMode::inverse_time};
+  }
   if (state_.feed_mode == FeedMode::inverse_time && !words.has('F')) {
-    return fail(movement.column, fmt::format("{} without F in G93", motion_name(movement.motion)),
+    return fail(movement.column,
+                fmt::format("{} without F in G93", motion_name(movement.motion, rules_.dialect)),
                 "in G93 each cutting block needs its own F, the inverse of its minutes");
   }
   if (!state_.feed) {
     return fail(movement.column,
-                fmt::format("{} without a feed rate", motion_name(movement.motion)),
+                fmt::format("{} without a feed rate", motion_name(movement.motion, rules_.dialect)),
                 "give F on this block or before, above zero");
   }
   return Feed{linear ? state_.feed->scaled : state_.feed->as_written, state_.feed_mode};
@@ -248,8 +353,9 @@ void BlockExecutor::leave_program_coordinates(LetterSet axes, PositionLoss loss)
 
 void BlockExecutor::forget(LetterSet axes, PositionLoss loss) {
   for (const AxisLetter axis : kAxisLetters) {
-    if (axes.has(to_char(axis))) position_.forget(axis, loss, line_);
+    if (axes.has(to_char(axis))) position_.forget(axis, loss, block_->line);
   }
+  if (axes.has('X')) state_.pole.reset();
 }
 
 }  // namespace frustum::parser

@@ -12,6 +12,7 @@
 #include "core/result.hpp"
 #include "parser/block.hpp"
 #include "parser/code_table.hpp"
+#include "parser/dialect_rules.hpp"
 #include "parser/parameters.hpp"
 
 namespace frustum::parser {
@@ -20,6 +21,7 @@ struct GivenWord {
   double value = 0.0;
   std::uint32_t column = 0;
   bool decimal_point = false;
+  Measure measure = Measure::modal;
 };
 
 struct GivenCode {
@@ -47,19 +49,24 @@ class BlockWords {
   [[nodiscard]] const std::vector<GivenCode>& events() const { return events_; }
   // The first word of the block among `letters`, by column.
   [[nodiscard]] char first_of(LetterSet letters) const;
-  // "X1.5", as a message names it.
+  // "X1.5", "A3=0.5": as the program spells the word and a message names it.
   [[nodiscard]] std::string text_of(char letter) const;
+  [[nodiscard]] std::string spelling_of(char letter) const;
 
  private:
-  friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters);
+  friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
+                                       Dialect dialect);
   static constexpr std::size_t slot(char letter) { return static_cast<std::size_t>(letter - 'A'); }
 
-  std::array<GivenWord, 26> values_{};
+  const Block* block_ = nullptr;
+  std::array<GivenWord, 'z' - 'A' + 1> values_{};
   LetterSet given_{};
   std::array<GivenCode, kCodeGroups> codes_{};
   std::vector<GivenCode> events_{};
 };
 
-[[nodiscard]] Result<BlockWords> read_words(const Block& block, const Parameters& parameters);
+// The words refer to the block.
+[[nodiscard]] Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
+                                            Dialect dialect);
 
 }  // namespace frustum::parser

@@ -1,10 +1,11 @@
-// The G and M words a program may use: a table, so that a dialect is data.
+// The words a program may use, of every dialect: one table, so that a dialect is data.
 //
-// A code belongs to a modal group, of which a block may hold one word. Codes that are known but
-// change nothing that is simulated are events; codes that would change the part and are not
-// simulated are refused with a remedy. Everything else is unknown.
+// A code is a G or M number, or a word without one (TRAORI, TOOL CALL). It belongs to a modal group,
+// of which a block may hold one word. Codes that are known but change nothing that is simulated are
+// events; codes that would change the part and are not simulated are refused with a remedy.
+// Everything else is unknown.
 // Units: none.
-// Errors: none; find_code returns null for what is not in the table.
+// Errors: none; find_code returns null for what the dialect does not have.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,11 @@
 #include <string>
 #include <string_view>
 
+#include "parser/dialect.hpp"
+
 namespace frustum::parser {
 
-// A set of the letters A to Z.
+// A set of the letters A to Z and a to z.
 class LetterSet {
  public:
   constexpr LetterSet() = default;
@@ -35,21 +38,20 @@ class LetterSet {
   constexpr void add(char letter) { bits_ |= bit(letter); }
 
  private:
-  static constexpr std::uint32_t bit(char letter) {
-    return 1U << static_cast<std::uint32_t>(letter - 'A');
+  static constexpr std::uint64_t bit(char letter) {
+    return std::uint64_t{1} << static_cast<std::uint32_t>(letter - 'A');
   }
-  static constexpr LetterSet of(std::uint32_t bits) {
+  static constexpr LetterSet of(std::uint64_t bits) {
     LetterSet set;
     set.bits_ = bits;
     return set;
   }
-  std::uint32_t bits_ = 0;
+  std::uint64_t bits_ = 0;
 };
 
 constexpr LetterSet kAxisWords{"XYZABC"};
 constexpr LetterSet kLinearWords{"XYZ"};
 constexpr LetterSet kRotaryWords{"ABC"};
-constexpr LetterSet kVectorWords{"IJK"};
 
 enum class CodeGroup : std::uint8_t {
   motion,
@@ -59,10 +61,15 @@ enum class CodeGroup : std::uint8_t {
   distance,
   arc_distance,
   feed_mode,
+  feed_source,
   unit,
   radius_compensation,
   length_compensation,
+  tool_tip,
   work_offset,
+  tilted_plane,
+  orientation_path,
+  rotary_path,
   path_control,
   tool_change,
   spindle,
@@ -74,36 +81,58 @@ enum class CodeGroup : std::uint8_t {
 constexpr std::size_t kCodeGroups = static_cast<std::size_t>(CodeGroup::event);
 
 // The values of the groups that have no enum of their own.
-enum class NonModal : std::uint8_t { none, dwell, home, machine_coordinates };
+enum class NonModal : std::uint8_t {
+  none,
+  dwell,
+  home,
+  machine_coordinates,
+  align,  // the rotary axes to the normal of the tilted plane
+  pole,   // the centre of the arcs that follow
+  start   // where the tool is before the program moves it
+};
 enum class SubprogramWord : std::uint8_t { none, call, leave };
-enum class LengthWord : std::uint8_t { off, length, tool_centre_point, tool_vectors };
+// The last two leave the tool-tip switch as it is.
+enum class LengthWord : std::uint8_t {
+  off,
+  length,
+  tool_centre_point,
+  tool_vectors,
+  length_only,
+  length_only_off
+};
+enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
+// Where the frame of a tilted plane comes from.
+enum class TiltWord : std::uint8_t {
+  off,
+  euler,    // shift X Y Z; turns I J K about Z, the new X, the new Z
+  swivel,   // shift X Y Z; turns A B C in the order that Q names; shift u v w
+  spatial,  // turns A B C about the axes of the untilted X, Y, Z in this order
+};
 
 struct Code {
-  char letter;
-  int tenths;  // ten times the number: G43.4 has 434
+  std::uint8_t dialects;  // bits by Dialect
+  char letter;            // G or M; '@' for a word without number
+  int tenths;             // ten times the number: G43.4 has 434
   CodeGroup group;
-  std::uint8_t value;   // enumerator of what the group sets
-  LetterSet arguments;  // words that belong to this code
-  bool event;           // known, not simulated
+  std::uint8_t value;     // enumerator of what the group sets
+  LetterSet arguments;    // words that belong to this code
+  bool event;             // known, not simulated
+  std::string_view word;  // for '@'
 
   [[nodiscard]] std::string name() const;
 };
 
-// A code that would change the part and that is not simulated.
-struct RefusedCode {
-  char letter;
-  int first_tenths;  // of the range of codes
-  int last_tenths;
-  std::string_view remedy;
-};
-
-[[nodiscard]] const Code* find_code(char letter, double number);
-[[nodiscard]] const RefusedCode* find_refused(char letter, double number);
+[[nodiscard]] const Code* find_code(Dialect dialect, char letter, double number);
+[[nodiscard]] const Code* find_code(Dialect dialect, std::string_view word);
+// The row of a code in the table and back, by which a kNamedWord refers to it.
+[[nodiscard]] double row_of(const Code& code);
+[[nodiscard]] const Code& code_at(double row);
+// What to do instead of a code that would change the part and that is not simulated; empty when
+// there is no such code.
+[[nodiscard]] std::string_view remedy_for(Dialect dialect, char letter, double number);
+[[nodiscard]] std::string_view remedy_for(Dialect dialect, std::string_view word);
 // "G0 G1 G2 ...": all known codes of the letter.
-[[nodiscard]] std::string known_codes(char letter);
-// What a letter belongs to, for the hint when nothing in the block uses it; empty for unknown
-// letters.
-[[nodiscard]] std::string_view letter_use(char letter);
+[[nodiscard]] std::string known_codes(Dialect dialect, char letter);
 
 }  // namespace frustum::parser

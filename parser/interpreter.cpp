@@ -21,7 +21,7 @@ struct Frame {
 class Run {
  public:
   Run(const Program& program, const MotionSink& sink, const InterpreterOptions& options)
-      : program_(program), sink_(sink), options_(options), executor_(sink) {}
+      : program_(program), sink_(sink), options_(options), executor_(program.dialect, sink) {}
 
   Result<RunSummary> operator()() {
     frames_.push_back({0, main_entry(), 0, 1});

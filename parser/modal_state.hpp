@@ -20,14 +20,21 @@ enum class MotionMode : std::uint8_t {
   arc_counterclockwise
 };
 enum class DistanceMode : std::uint8_t { absolute, incremental };
-enum class LengthUnit : std::uint8_t { millimetre, inch };
+// G70 of Sinumerik leaves feeds in mm.
+enum class LengthUnit : std::uint8_t { millimetre, inch, inch_but_feeds };
 
-// G43, G43.4, G43.5, G49 and their H.
+// Whether the tool's length counts, and whether the control guides the tool's tip: two switches, in
+// Fanuc's G43.4 thrown together.
 struct Compensation {
-  LengthCompensation mode = LengthCompensation::off;
+  bool length = false;
+  bool tip = false;
   bool tool_vectors = false;
   int offset_number = 0;
 
+  [[nodiscard]] LengthCompensation mode() const {
+    if (tip) return LengthCompensation::tool_centre_point;
+    return length ? LengthCompensation::length : LengthCompensation::off;
+  }
   bool operator==(const Compensation&) const = default;
 };
 
@@ -48,14 +55,18 @@ struct ModalState {
   Compensation compensation{};
   int work_offset = 1;
   std::optional<int> selected_tool{};
+  int tool = 0;                                                  // in the spindle
+  std::optional<FeedWord> tool_feed{};                           // of TOOL CALL, for F AUTO
+  RotaryPath rotary_path = RotaryPath::as_programmed;            // M126
+  RotaryPath announced_rotary_path = RotaryPath::as_programmed;  // the last one in the motions
+  bool tilted = false;
+  std::optional<Vec3> pole{};  // CC
   SpindleDirection spindle = SpindleDirection::off;
   double spindle_speed = 0.0;
   bool flood = false;
   std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
 
-  [[nodiscard]] bool tool_centre_point() const {
-    return compensation.mode == LengthCompensation::tool_centre_point;
-  }
+  [[nodiscard]] bool tool_centre_point() const { return compensation.tip; }
 };
 
 }  // namespace frustum::parser

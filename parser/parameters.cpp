@@ -7,6 +7,15 @@
 #include "parser/expression.hpp"
 
 namespace frustum::parser {
+namespace {
+
+// The names of RS-274 are kept in lower case; those of other dialects are spelled as they are.
+std::string spelling_of(std::string_view name) {
+  const bool plain = !name.empty() && name.front() >= 'A' && name.front() <= 'Z';
+  return fmt::format(fmt::runtime(plain ? "{}" : "#<{}>"), name);
+}
+
+}  // namespace
 
 Result<int> Parameters::index_of(double number) {
   // A computed index may be off by rounding; RS-274 forgives 1e-4.
@@ -36,8 +45,9 @@ Result<double> Parameters::read(double number) const {
 Result<double> Parameters::read(std::string_view name) const {
   const auto found = named_.find(name);
   if (found == named_.end()) {
-    return error(fmt::format("parameter #<{}> has no value", name),
-                 fmt::format("set it on an earlier block: #<{}>=...", name));
+    const std::string spelled = spelling_of(name);
+    return error(fmt::format("parameter {} has no value", spelled),
+                 fmt::format("set it on an earlier block: {}=...", spelled));
   }
   return found->second;
 }

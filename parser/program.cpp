@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "parser/grammar.hpp"
+#include "parser/block_reader.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -14,6 +14,55 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 char line_end_of(std::string_view text) {
   return text.find('\n') == std::string_view::npos ? '\r' : '\n';
 }
+
+// Cuts the text into the lines of one block at a time.
+class LineSource {
+ public:
+  struct Lines {
+    std::string_view text;  // of one line, or of several joined by line feeds
+    std::uint32_t first_line = 0;
+    std::vector<std::uint32_t> line_starts{};
+  };
+
+  LineSource(std::string_view text, Dialect dialect)
+      : rest_(text), dialect_(dialect), line_end_(line_end_of(text)) {}
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+  Lines next() {
+    Lines lines{next_line(), line_, {}};
+    std::size_t mark = continuation_mark(lines.text, dialect_);
+    if (mark == std::string_view::npos) return lines;
+    joined_ = lines.text;
+    while (mark != std::string_view::npos && !at_end()) {
+      const std::size_t start = joined_.size() - lines.text.size();
+      joined_[start + mark] = ' ';
+      joined_ += '\n';
+      lines.line_starts.push_back(static_cast<std::uint32_t>(joined_.size()));
+      lines.text = next_line();
+      joined_ += lines.text;
+      mark = continuation_mark(lines.text, dialect_);
+    }
+    lines.text = joined_;
+    return lines;
+  }
+
+ private:
+  std::string_view next_line() {
+    const std::size_t end = std::min(rest_.find(line_end_), rest_.size());
+    std::string_view line = rest_.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++line_;
+    return line;
+  }
+
+  std::string_view rest_;
+  Dialect dialect_;
+  char line_end_;
+  std::uint32_t line_ = 0;
+  std::string joined_{};
+};
 
 // Notes where the program numbers of `block` begin; the diagnostic when it began before.
 Diagnostics add_entry(Program& program, const Block& block, std::size_t index) {
@@ -57,23 +106,22 @@ Result<Program> parse_program(std::string_view text, std::string file, Dialect d
     failures.push_back(std::move(diagnostic));
   };
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  const char line_end = line_end_of(text);
-  for (std::uint32_t line = 1; !text.empty() && failures.size() < kMaxSyntaxErrors; ++line) {
-    const std::size_t end = std::min(text.find(line_end), text.size());
-    std::string_view line_text = text.substr(0, end);
-    if (line_text.ends_with('\r')) line_text.remove_suffix(1);
-    auto block = parse_block(line_text, line);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  const BlockReader read = reader_of(dialect);
+  LineSource source(text, dialect);
+  while (!source.at_end() && failures.size() < kMaxSyntaxErrors) {
+    const auto lines = source.next();
+    auto block = read(lines.text, lines.first_line);
     if (!block) {
       fail(std::move(block).error().front());
       continue;
     }
     if (block->empty()) continue;
+    block->line_starts = lines.line_starts;
     for (Diagnostic& twice : add_entry(program, *block, program.blocks.size()))
       fail(std::move(twice));
     program.blocks.push_back(*std::move(block));
   }
-  if (failures.size() == kMaxSyntaxErrors && !text.empty()) {
+  if (failures.size() == kMaxSyntaxErrors && !source.at_end()) {
     fail(error(fmt::format("more than {} syntax errors; the rest of the file was not read",
                            kMaxSyntaxErrors - 1),
                "is this an NC program?"));

@@ -10,7 +10,8 @@ constexpr std::array kLossTexts{"",
                                 "the move in machine coordinates (G53)",
                                 "the change of work offset",
                                 "the change of tool length compensation",
-                                "the tool vector"};
+                                "the tool vector",
+                                "the change of the tilted plane"};
 
 }  // namespace
 

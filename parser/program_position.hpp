@@ -26,6 +26,7 @@ enum class PositionLoss : std::uint8_t {
   work_offset,
   length_compensation,
   tool_vector,  // I J K moved the rotary axes
+  tilted_plane,
 };
 
 class ProgramPosition {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "kinematics/inverse.hpp"
-#include "kinematics/post_processor.hpp"
+#include "post/linearisation.hpp"
 #include "programs/cone_path.hpp"
 #include "programs/nc_text.hpp"
 
@@ -179,8 +179,8 @@ class ConeProgram {
     } else if (cone_.form == ProgramForm::angles) {
       write_line(move, tip_words(move.pose.tip) + rotary_words(next));
     } else {
-      for (const AxisPositions& q : kinematics::linearised(
-               machine_, axes_, next, cone_.tool_length.value, kLineariseTolerance)) {
+      for (const AxisPositions& q :
+           post::linearised(machine_, axes_, next, cone_.tool_length.value, kLineariseTolerance)) {
         write_line(move, axis_words(q) + rotary_words(q));
       }
     }

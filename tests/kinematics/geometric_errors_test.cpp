@@ -76,7 +76,8 @@ TEST(GeometricErrors, NameWhatIsWrong) {
 }
 
 TEST(ErrorFunction, InterpolatesATableAndHoldsItsEnds) {
-  const ErrorFunction f({TableTerm{{{0.0, 1.0}, {10.0, 3.0}, {20.0, -1.0}}}});
+  const ErrorFunction f(
+      {TableTerm::of({{0.0, 1.0}, {10.0, 3.0}, {20.0, -1.0}}, TableKind::linear, false)});
   const auto at = [&](double x) {
     AxisPositions q;
     q[AxisLetter::X] = x;

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "tests/kinematics/machines.hpp"
 
@@ -21,9 +21,7 @@ std::string first_problem(const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  const auto file = std::filesystem::path(testing::TempDir()) / "machine_test.toml";
-  std::ofstream(file) << text;
-  const auto machine = Machine::load(file);
+  const auto machine = Machine::read(text, "machine_test.toml");
   if (machine) return "accepted";
   return machine.error().front().key + ": " + machine.error().front().message;
 }
@@ -60,6 +58,20 @@ TEST(Machine, RefusesBadFilesWithKeyAndReason) {
   EXPECT_EQ(first_problem("home   = 500", "home   = 900"),
             "axis.Z.home: 900 lies outside the travel");
   EXPECT_EQ(first_problem("\"zyx\"", "\"zxy\""), "rotation_order: 'zxy' is not one of the choices");
+}
+
+TEST(Machine, ReadsWhatTheDrivesCanDoInMillimetresAndRadians) {
+  const AxisDynamics x = shipped("iwf-bc").joint(AxisLetter::X)->dynamics;
+  EXPECT_EQ(x.velocity, 500.0);
+  EXPECT_EQ(x.acceleration, 4000.0);
+  EXPECT_EQ(x.jerk, 40000.0);
+  EXPECT_EQ(x.servo_gain, 50.0);
+  const AxisDynamics b = shipped("iwf-bc").joint(AxisLetter::B)->dynamics;
+  EXPECT_NEAR(b.velocity, std::numbers::pi, 1e-15);  // 180 deg/s
+  EXPECT_NEAR(b.jerk, 9000.0 * std::numbers::pi / 180.0, 1e-12);
+  EXPECT_EQ(b.servo_gain, 40.0);
+  EXPECT_EQ(first_problem("jerk         = 40000", "jerk         = -40000"),
+            "axis.X.jerk: must be greater than 0, is -40000");
 }
 
 TEST(Machine, RefusesErrorsThatTheReferenceAxesMakeZero) {

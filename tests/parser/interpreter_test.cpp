@@ -40,7 +40,7 @@ TEST(Complaint11, StartsWithNoPositionNoMotionAndNoTool) {
   EXPECT_FALSE(start.selected_tool.has_value());
   EXPECT_EQ(start.spindle, SpindleDirection::off);
   EXPECT_EQ(start.work_offset, 1);
-  EXPECT_EQ(start.compensation.mode, LengthCompensation::off);
+  EXPECT_EQ(start.compensation.mode(), LengthCompensation::off);
 }
 
 TEST(Complaint11, TheFirstMoveNamesOnlyTheAxesTheProgramGave) {

@@ -1,2 +1,2 @@
-; 2:1: error: G53 without G0 or G1 (hint: write G53 G0 or G53 G1)
+; 2:1: error: G53 without a straight move (hint: machine coordinates belong to a straight move, for example G53 G0 Z0)
 G53 X0

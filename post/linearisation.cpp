@@ -1,10 +1,17 @@
-#include "kinematics/post_processor.hpp"
+#include "post/linearisation.hpp"
 
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 
-namespace frustum::kinematics {
+namespace frustum::post {
 namespace {
+
+using kinematics::AxisLetter;
+using kinematics::AxisPositions;
+using kinematics::kAxisLetters;
+using kinematics::Machine;
+using kinematics::nominal_pose;
+using kinematics::place_tip;
 
 AxisPositions halfway(const AxisPositions& a, const AxisPositions& b) {
   AxisPositions q;
@@ -38,4 +45,4 @@ std::vector<AxisPositions> linearised(const Machine& machine, const AxisPosition
   return positions;
 }
 
-}  // namespace frustum::kinematics
+}  // namespace frustum::post

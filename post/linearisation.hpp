@@ -10,13 +10,12 @@
 
 #include "kinematics/machine.hpp"
 
-namespace frustum::kinematics {
+namespace frustum::post {
 
 // Axis positions after `from`, up to and including `to`, such that linear axis motion between them keeps
 // the tip within `tolerance` of the straight line and the rotary axes as they were going anyway.
-[[nodiscard]] std::vector<AxisPositions> linearised(const Machine& machine,
-                                                    const AxisPositions& from,
-                                                    const AxisPositions& to, double tool_length,
-                                                    double tolerance);
+[[nodiscard]] std::vector<kinematics::AxisPositions> linearised(
+    const kinematics::Machine& machine, const kinematics::AxisPositions& from,
+    const kinematics::AxisPositions& to, double tool_length, double tolerance);
 
-}  // namespace frustum::kinematics
+}  // namespace frustum::post

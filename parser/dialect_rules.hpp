@@ -1,0 +1,55 @@
+// The few rules by which dialects differ beyond their words.
+//
+// Units: none.
+// Errors: none.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "parser/code_table.hpp"
+#include "parser/dialect.hpp"
+
+namespace frustum::parser {
+
+enum class DwellUnit : std::uint8_t {
+  seconds,
+  milliseconds_without_point,  // seconds when written with a decimal point
+  revolutions
+};
+struct DwellWord {
+  char letter;
+  DwellUnit unit;
+};
+
+// What a letter belongs to, for the hint when nothing in the block uses it.
+struct LetterUse {
+  char letter;
+  std::string_view use;
+};
+
+struct DialectRules {
+  Dialect dialect = Dialect::fanuc;
+  // The three letters of the tool vector, and how the dialect spells them.
+  std::string_view vector_letters;
+  std::string_view vector_spelling;
+  std::string_view vector_hint;  // how the tool-tip control is switched on
+  std::span<const DwellWord> dwell;
+  std::string_view dwell_hint;
+  // A tool change brings the length of its tool: TOOL CALL, T D M6, LOADTL.
+  bool tool_brings_length = false;
+  // Machine coordinates still carry the tool length and the tool-tip control.
+  bool machine_coordinates_keep_length = false;
+  bool home_without_axes_is_all = false;
+  // Arcs without centre words or radius turn about the last pole (CC).
+  bool arcs_turn_about_pole = false;
+  LetterSet always_claimed;  // words that have a meaning in every block
+  std::span<const LetterUse> letters;
+  std::string_view known_letters;
+};
+
+[[nodiscard]] const DialectRules& rules_of(Dialect dialect);
+// Empty for unknown letters.
+[[nodiscard]] std::string_view letter_use(const DialectRules& rules, char letter);
+
+}  // namespace frustum::parser

@@ -1,0 +1,24 @@
+#include "post/nc_number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustum::post {
+
+std::string fixed(double value, int decimals, WholeNumbers ending) {
+  std::string text = fmt::format("{:#.{}f}", value, decimals);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text == "-0.") text = "0.";
+  if (ending == WholeNumbers::without_point && text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string significant(double value, int digits) {
+  const int before =
+      value == 0.0 ? 1 : 1 + static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return fixed(value, std::max(0, digits - before), WholeNumbers::without_point);
+}
+
+}  // namespace frustum::post

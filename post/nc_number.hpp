@@ -1,0 +1,23 @@
+// Numbers as NC programs write them.
+//
+// Units    : the caller's
+// Errors   : none
+// Accuracy : half a unit of the last decimal
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace frustum::post {
+
+// How a number ends: "12." keeps its point (controllers read "12" in their least increment), "12" does
+// not.
+enum class WholeNumbers : std::uint8_t { with_point, without_point };
+
+// Fixed decimals without trailing zeros, never an exponent, never "-0".
+[[nodiscard]] std::string fixed(double value, int decimals,
+                                WholeNumbers ending = WholeNumbers::with_point);
+// As many decimals as that many significant digits need; for feeds.
+[[nodiscard]] std::string significant(double value, int digits);
+
+}  // namespace frustum::post

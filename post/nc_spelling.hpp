@@ -1,0 +1,69 @@
+// How a controller spells what a canonical motion says: the data in which dialects differ.
+//
+// Units    : none
+// Errors   : none; a word that a dialect lacks is empty, and the writer says so when it is needed
+// Source   : programming manuals of the controllers; what parser/ reads
+//
+// In a pattern `#` stands for the number and a line feed begins another line of the program.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "parser/dialect.hpp"
+#include "post/nc_number.hpp"
+
+namespace frustum::post {
+
+struct NcSpelling {
+  std::string_view title;      // of the controller
+  std::string_view extension;  // of program files
+
+  // Around the program. `$` stands for its name.
+  std::string_view header;
+  std::string_view footer;
+  bool numbered_blocks;  // every block begins with its number
+
+  std::string_view comment_open, comment_close;
+  std::string_view message;  // `$` stands for the text; empty: as a comment
+  bool upper_comments;
+
+  WholeNumbers whole_numbers;
+  bool plus_signs;  // of coordinates
+
+  // Motions. `modal`: motion words and the words of axes that do not move are left out.
+  std::string_view traverse, linear, clockwise, counterclockwise;
+  std::string_view linear_with_vector;  // Heidenhain: another word
+  std::string_view traverse_feed;       // stands where F would
+  bool modal;
+  std::array<std::string_view, 3> planes;       // XY ZX YZ
+  std::array<std::string_view, 3> tool_vector;  // components; empty: none
+  std::string_view before_machine_coordinates, after_machine_coordinates;
+  bool circle_centre_block;     // CC X.. Y.. before C, else I J K from the start
+  std::string_view full_turns;  // of arcs of more than one turn; empty: none
+  int turns_beyond;             // the number written is the turns less this
+
+  // Feeds: words that switch the mode, and how the value is written in it.
+  std::array<std::string_view, 3> feed_modes;  // per minute, inverse time, per revolution
+  std::array<std::string_view, 3> feed_words;  // `F`; `FT`: seconds instead of their inverse
+
+  // States.
+  std::string_view no_compensation, length, tool_centre_point, tool_vectors;
+  std::string_view leave_tool_centre_point;
+  bool compensation_by_tool;  // the length is that of the tool in the spindle
+  std::array<std::string_view, 2> orientation_paths;  // rotary axes linear, great circle
+  std::array<std::string_view, 2> rotary_paths;       // as programmed, shortest
+  std::string_view tool_change, tool_change_with_speed;
+  std::string_view speed;  // of the spindle, beside the word that starts it
+  std::array<std::string_view, 3> spindle;
+  std::array<std::string_view, 2> coolant;
+  std::string_view work_offset;
+  int first_work_offset;  // number of canonical work offset 1
+  std::string_view dwell;
+  std::array<std::string_view, 3> stops;  // program, optional, end
+};
+
+// Nothing for dialects that machines do not read.
+[[nodiscard]] const NcSpelling* spelling_of(parser::Dialect dialect);
+
+}  // namespace frustum::post

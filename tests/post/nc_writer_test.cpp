@@ -1,0 +1,341 @@
+// Written and read again, canonical motions stay what they were.
+#include "post/nc_writer.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "parser/arc.hpp"
+#include "tests/post/read_back.hpp"
+
+namespace frustum::post {
+namespace {
+
+using parser::AxisLetter;
+using parser::Dialect;
+using parser::Motion;
+
+// A motion or stop with the state that it finds: what two programs must agree on.
+struct Seen {
+  parser::Command command{};
+  parser::CompensationChange compensation{};
+  int offset = 1;
+  int tool = 0;
+  parser::SpindleChange spindle{};
+  bool flood = false;
+};
+
+std::vector<Seen> seen_by_a_machine(const std::vector<Motion>& motions) {
+  std::vector<Seen> seen;
+  Seen now;
+  for (const Motion& motion : motions) {
+    const parser::Command& command = motion.command;
+    if (const auto* c = std::get_if<parser::CompensationChange>(&command)) {
+      now.compensation =
+          c->mode == parser::LengthCompensation::off ? parser::CompensationChange{} : *c;
+    } else if (const auto* o = std::get_if<parser::WorkOffsetChange>(&command)) {
+      now.offset = o->number;
+    } else if (const auto* t = std::get_if<parser::ToolChange>(&command)) {
+      now.tool = t->tool;
+    } else if (const auto* s = std::get_if<parser::SpindleChange>(&command)) {
+      now.spindle = *s;
+    } else if (const auto* f = std::get_if<parser::CoolantChange>(&command)) {
+      now.flood = f->flood;
+    } else if (!std::holds_alternative<parser::Event>(command) &&
+               !std::holds_alternative<parser::OrientationPathChange>(command) &&
+               !std::holds_alternative<parser::RotaryPathChange>(command)) {
+      now.command = command;
+      seen.push_back(now);
+    }
+  }
+  return seen;
+}
+
+// Random programs of a five-axis machine with axes B and C.
+class RandomProgram {
+ public:
+  RandomProgram(std::uint64_t seed, bool vectors) : seed_(seed), vectors_(vectors) {}
+
+  std::vector<Motion> make() {
+    add(parser::ToolChange{3});
+    add(parser::SpindleChange{parser::SpindleDirection::clockwise, 8333.0});
+    add(parser::WorkOffsetChange{1 + pick(6)});
+    set_compensation();
+    place();
+    for (int i = 0; i < 60; ++i) step();
+    add(parser::Stop{parser::StopKind::program_end});
+    return motions_;
+  }
+
+ private:
+  double random() { return uniform({.seed = seed_}, draw_++); }
+  double random(double size) { return size * (2.0 * random() - 1.0); }
+  int pick(int choices) { return static_cast<int>(random() * choices); }
+  void add(parser::Command command) { motions_.push_back({{++line_, 1}, std::move(command)}); }
+
+  void set_compensation() {
+    using enum parser::LengthCompensation;
+    compensation_ = {pick(2) == 0 && !vectors_ ? length : tool_centre_point, vectors_, 3};
+    add(compensation_);
+    at_ = {};
+  }
+  // Positions are known again.
+  void place() {
+    at_ = {};
+    for (const AxisLetter letter : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) move(letter);
+    if (!vectors_) {
+      move(AxisLetter::B);
+      move(AxisLetter::C);
+    }
+    add(parser::Traverse{at_, axis(), parser::Coordinates::program});
+  }
+  void move(AxisLetter letter) {
+    at_[letter] = parser::is_rotary(letter) ? random(7.0) : random(300.0);
+  }
+  std::optional<UnitVec3> axis() {
+    if (!vectors_) return {};
+    return UnitVec3::of(Vec3(random(1.0), random(1.0), 0.2 + random()));
+  }
+  parser::Feed feed() {
+    if (pick(2) == 0) feed_ = {std::pow(10.0, random(3.0)), static_cast<parser::FeedMode>(pick(2))};
+    return feed_;
+  }
+
+  void step() {
+    switch (pick(12)) {
+      case 0:
+        add(parser::CoolantChange{pick(2) == 0});
+        break;
+      case 1:
+        add(parser::SpindleChange{static_cast<parser::SpindleDirection>(1 + pick(2)),
+                                  1000.0 * (1 + pick(9))});
+        break;
+      case 2: {
+        parser::AxisTarget up;
+        up[AxisLetter::Z] = random(400.0);
+        add(parser::Traverse{up, std::nullopt, parser::Coordinates::machine});
+        place();
+        break;
+      }
+      case 3:
+        add(parser::WorkOffsetChange{1 + pick(6)});
+        place();
+        break;
+      case 4:
+        set_compensation();
+        place();
+        break;
+      case 5:
+        add(parser::Dwell{random() * 10.0});
+        break;
+      case 6:
+      case 7:
+        arc();
+        break;
+      case 8:
+        add(parser::Event{"comment", "ABOUT TO TURN"});
+        break;
+      default:
+        some_axes();
+        if (pick(3) == 0) {
+          add(parser::Traverse{at_, axis(), parser::Coordinates::program});
+        } else {
+          add(parser::LinearFeed{at_, axis(), parser::Coordinates::program, feed()});
+        }
+    }
+  }
+  void some_axes() {
+    for (const AxisLetter letter :
+         {AxisLetter::X, AxisLetter::Y, AxisLetter::Z, AxisLetter::B, AxisLetter::C}) {
+      if (pick(2) == 0 && !(vectors_ && parser::is_rotary(letter))) move(letter);
+    }
+  }
+  void arc() {
+    const auto plane = static_cast<parser::Plane>(pick(3));
+    const parser::PlaneAxes axes = parser::axes_of(plane);
+    const auto u = static_cast<AxisLetter>(axes.u), v = static_cast<AxisLetter>(axes.v);
+    const auto w = static_cast<AxisLetter>(axes.w);
+    parser::ArcFeed arc;
+    arc.plane = plane;
+    const double radius = 1.0 + 100.0 * random(), from = random(3.0), to = random(3.0);
+    arc.center[axes.u] = *at_[u] - radius * std::cos(from);
+    arc.center[axes.v] = *at_[v] - radius * std::sin(from);
+    const bool full = pick(4) == 0;
+    if (!full) {
+      at_[u] = arc.center[axes.u] + radius * std::cos(to);
+      at_[v] = arc.center[axes.v] + radius * std::sin(to);
+    }
+    if (pick(2) == 0) *at_[w] += random(5.0);
+    arc.center[axes.w] = 0.0;
+    arc.end = at_;
+    arc.turns = (pick(2) == 0 ? 1 : -1) * (1 + pick(3));
+    arc.tool_axis = axis();
+    arc.feed = feed();
+    add(arc);
+  }
+
+  std::uint64_t seed_;
+  bool vectors_;
+  std::uint64_t draw_ = 0;
+  std::uint32_t line_ = 0;
+  parser::AxisTarget at_{};
+  parser::CompensationChange compensation_{};
+  parser::Feed feed_{500.0, parser::FeedMode::per_minute};
+  std::vector<Motion> motions_{};
+};
+
+void expect_same_end(const parser::AxisTarget& written, const parser::AxisTarget& read) {
+  for (const AxisLetter letter : parser::kAxisLetters) {
+    if (!written[letter]) continue;
+    ASSERT_TRUE(read[letter]) << parser::to_char(letter);
+    const double bound = parser::is_rotary(letter) ? 0.51e-7 * kRadPerDeg : 0.51e-6;
+    EXPECT_NEAR(*written[letter], *read[letter], bound) << parser::to_char(letter);
+  }
+}
+void expect_same_axis(const std::optional<UnitVec3>& written, const std::optional<UnitVec3>& read) {
+  ASSERT_EQ(written.has_value(), read.has_value());
+  if (written) {
+    EXPECT_LT(angle_between(*written, *read), 1e-10);
+  }
+}
+void expect_same_feed(const parser::Feed& written, const parser::Feed& read) {
+  EXPECT_EQ(written.mode, read.mode);
+  EXPECT_NEAR(read.value / written.value, 1.0, 1e-8);
+}
+
+void expect_same(const parser::Traverse& a, const parser::Traverse& b) {
+  expect_same_end(a.end, b.end);
+  expect_same_axis(a.tool_axis, b.tool_axis);
+  EXPECT_EQ(a.coordinates, b.coordinates);
+}
+void expect_same(const parser::LinearFeed& a, const parser::LinearFeed& b) {
+  expect_same_end(a.end, b.end);
+  expect_same_axis(a.tool_axis, b.tool_axis);
+  EXPECT_EQ(a.coordinates, b.coordinates);
+  expect_same_feed(a.feed, b.feed);
+}
+void expect_same(const parser::ArcFeed& a, const parser::ArcFeed& b) {
+  expect_same_end(a.end, b.end);
+  expect_same_axis(a.tool_axis, b.tool_axis);
+  expect_same_feed(a.feed, b.feed);
+  EXPECT_EQ(a.plane, b.plane);
+  EXPECT_EQ(a.turns, b.turns);
+  for (const int axis : {parser::axes_of(a.plane).u, parser::axes_of(a.plane).v}) {
+    EXPECT_NEAR(a.center[axis], b.center[axis], 1.1e-6);
+  }
+}
+void expect_same(const parser::Dwell& a, const parser::Dwell& b) {
+  EXPECT_NEAR(a.seconds, b.seconds, 1e-3);
+}
+template <typename Command>
+void expect_same(const Command& /*a*/, const Command& /*b*/) {}
+
+void expect_same(const Seen& written, const Seen& read) {
+  ASSERT_EQ(written.command.index(), read.command.index());
+  std::visit(
+      [&](const auto& command) {
+        expect_same(command, std::get<std::decay_t<decltype(command)>>(read.command));
+      },
+      written.command);
+  EXPECT_EQ(written.offset, read.offset);
+  EXPECT_EQ(written.tool, read.tool);
+  EXPECT_EQ(written.flood, read.flood);
+  EXPECT_EQ(written.spindle.direction, read.spindle.direction);
+  if (written.spindle.direction != parser::SpindleDirection::off) {
+    EXPECT_EQ(written.spindle.speed, read.spindle.speed);
+  }
+  const auto* move = std::get_if<parser::Traverse>(&written.command);
+  const bool machine = move != nullptr && move->coordinates == parser::Coordinates::machine;
+  if (machine) return;
+  EXPECT_EQ(written.compensation.mode, read.compensation.mode);
+  EXPECT_EQ(written.compensation.offset_number, read.compensation.offset_number);
+}
+
+TEST(NcWriterLaws, RandomMotionsReadBackAsTheyWere) {
+  for (const Dialect dialect : written_dialects()) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const bool vectors = seed % 3 == 0 && dialect != Dialect::linuxcnc;
+      const auto motions = RandomProgram(seed, vectors).make();
+      const auto written = write_nc(motions, dialect);
+      ASSERT_TRUE(written) << first_of(written.error());
+      const auto before = seen_by_a_machine(motions);
+      const auto after = seen_by_a_machine(motions_in(written->text, dialect));
+      ASSERT_EQ(before.size(), after.size()) << written->text;
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        expect_same(before[i], after[i]);
+        if (testing::Test::HasFailure()) {
+          FAIL() << name_of(dialect) << " seed " << seed << " motion " << i << "\n"
+                 << written->text;
+        }
+      }
+    }
+  }
+}
+
+TEST(NcWriterLaws, NothingIsSaidTwiceAndEveryLineKnowsItsSource) {
+  const auto motions = RandomProgram(7, false).make();
+  const auto written = write_nc(motions, Dialect::fanuc, {.source_lines = true});
+  ASSERT_TRUE(written);
+  std::istringstream lines(written->text);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const std::uint32_t source = written->source_lines.at(count);
+    const std::string mark = fmt::format("({})", source);
+    const bool block = source != 0 && line.front() != '(';
+    EXPECT_EQ(block, line.ends_with(mark)) << line;
+  }
+  EXPECT_EQ(count, written->source_lines.size());
+  const LineRange range = lines_from(*written, {10, 20});
+  EXPECT_GE(written->source_lines.at(range.first - 1), 10U);
+  EXPECT_LE(written->source_lines.at(range.last - 1), 20U);
+  EXPECT_EQ(lines_from(*written, {5000, 6000}).first, 0U);
+}
+
+std::string fanuc_of(std::vector<parser::Command> commands) {
+  std::vector<Motion> motions;
+  for (auto& command : commands) motions.push_back({{1, 1}, std::move(command)});
+  const auto written = write_nc(motions, Dialect::fanuc);
+  return written ? written->text : first_of(written.error());
+}
+
+TEST(NcWriter, LeavesOutWordsThatAreInForce) {
+  parser::AxisTarget a, b;
+  a[AxisLetter::X] = 1.0;
+  a[AxisLetter::Y] = -2.5;
+  b = a;
+  b[AxisLetter::Y] = 1e-9;
+  const parser::Feed feed{500.0, parser::FeedMode::per_minute};
+  const auto program = parser::Coordinates::program;
+  EXPECT_EQ(fanuc_of({parser::Traverse{a, {}, program}, parser::LinearFeed{b, {}, program, feed},
+                      parser::LinearFeed{a, {}, program, feed},
+                      parser::LinearFeed{b, {}, program, {2.0, parser::FeedMode::inverse_time}},
+                      parser::LinearFeed{a, {}, program, {2.0, parser::FeedMode::inverse_time}}}),
+            "%\nO1001 (FRUSTUM)\nG21 G90 G17 G40 G49 G80 G94\n"
+            "G0 X1. Y-2.5\nG1 Y0. F500\nY-2.5\nY0. G93 F2\nY-2.5 F2\n%\n");
+}
+
+TEST(NcWriter, SaysWhatADialectHasNoWordsFor) {
+  const std::vector<Motion> vectors{
+      {{12, 3},
+       parser::CompensationChange{parser::LengthCompensation::tool_centre_point, true, 1}}};
+  const auto linuxcnc = write_nc(vectors, Dialect::linuxcnc);
+  ASSERT_FALSE(linuxcnc);
+  EXPECT_EQ(linuxcnc.error().front().message, "LinuxCNC has no words for tool vectors");
+  EXPECT_EQ(linuxcnc.error().front().line, 12);
+  EXPECT_FALSE(write_nc(vectors, Dialect::cldata));
+}
+
+TEST(NcWriter, KeepsCommentsReadable) {
+  EXPECT_EQ(fanuc_of({parser::Event{"comment", "a (b) \xC3\xA4 c  "}}),
+            "%\nO1001 (FRUSTUM)\nG21 G90 G17 G40 G49 G80 G94\n(A [B] ? C)\n%\n");
+}
+
+}  // namespace
+}  // namespace frustum::post
