@@ -263,6 +263,7 @@ class SinumerikReader {
         read_swivel_parameter(i, words, data);
       }
       if (in_.take(')')) break;
+      if (in_.at_end()) continue;
       if (!in_.take(',')) in_.fail_unexpected("separate the parameters of CYCLE800 by ,");
     }
     const bool cancels = !any || data == "0";
