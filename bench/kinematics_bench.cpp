@@ -20,7 +20,7 @@ Machine machine_named(const std::string& name) {
   return *std::move(machine);
 }
 
-// All 30 component errors of the five axes, a constant and a line each, and 11 location errors.
+// All 30 component errors of the five axes, constants and lines in turn, and 11 location errors.
 GeometricErrors forty_one_errors(const Machine& machine) {
   GeometricErrors errors;
   int locations = 11;
@@ -29,7 +29,8 @@ GeometricErrors forty_one_errors(const Machine& machine) {
     AxisErrors& axis = errors[name.axis];
     const auto d = static_cast<std::size_t>(name.direction);
     if (!name.location) {
-      axis.component[d] = ErrorFunction({ConstantTerm{size}, LinearTerm{size / 200.0, 0.0}});
+      axis.component[d] = d % 2 == 0 ? ErrorFunction({ConstantTerm{size}})
+                                     : ErrorFunction({LinearTerm{size / 200.0, 0.0}});
     } else if ((is_rotation(name.direction) || is_rotary(name.axis)) && locations-- > 0) {
       axis.location[d] = size;
     }

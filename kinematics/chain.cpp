@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinematics/joint_motion.hpp"
-#include "kinematics/small_rotation.hpp"
+#include "kinematics/pose_rows.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -17,17 +17,14 @@ bool has_component_errors(const AxisErrors& errors) {
 }
 
 // Rodrigues' formula.
-Mat3 rotation_by(const Vec3& axis, double angle) {
-  const auto [s, c] = sine_cosine(angle);
-  const Vec3 v = (1.0 - c) * axis;
-  Mat3 r = v * axis.transpose();
-  r.diagonal().array() += c;
-  r(0, 1) -= s * axis.z();
-  r(1, 0) += s * axis.z();
-  r(0, 2) += s * axis.y();
-  r(2, 0) -= s * axis.y();
-  r(1, 2) -= s * axis.x();
-  r(2, 1) += s * axis.x();
+Mat3 rotation_by(const Vec3& axis, const SineCosine& angle) {
+  const auto [s, c] = angle;
+  const double x = axis.x(), y = axis.y(), z = axis.z();
+  const double vx = (1.0 - c) * x, vy = (1.0 - c) * y, vz = (1.0 - c) * z;
+  Mat3 r;
+  r << vx * x + c, vx * y - s * z, vx * z + s * y,  //
+      vy * x + s * z, vy * y + c, vy * z - s * x,   //
+      vz * x - s * y, vz * y + s * x, vz * z + c;
   return r;
 }
 
@@ -40,115 +37,134 @@ ForwardChain::ForwardChain(const Machine& machine, const GeometricErrors& errors
       order_(machine.rotation_order()),
       frame_(machine.rotary_error_frame()) {
   for (const auto* chain : {&machine.tool_chain(), &machine.work_chain()}) {
+    bool end_is_needed = false;
     for (const Joint& joint : *chain) {
       assert(count_ < kMostJoints);
-      links_[count_++] = link(joint, errors[joint.letter], order_);
+      end_is_needed = end_is_needed || joint.functional_point.at_tip;
+      links_[count_].needs_end = end_is_needed;
+      prepare(links_[count_++], joint, errors[joint.letter]);
     }
     if (chain == &machine.tool_chain()) tool_count_ = count_;
   }
 }
 
-ForwardChain::Link ForwardChain::link(const Joint& joint, const AxisErrors& errors,
-                                      RotationOrder order) {
-  Link link{.letter = joint.letter, .rotary = joint.rotary()};
+void ForwardChain::prepare(Link& link, const Joint& joint, const AxisErrors& errors) {
+  link.letter = joint.letter;
   link.direction = joint.side * joint.direction;
   link.offset = joint.offset;
+  link.place = joint.offset + location_shift(errors);
   const Vec3 orientation = location_turn(errors);
-  const Vec3& placed = link.rotary ? orientation : errors.carried_tilt;
-  link.place = {small_rotation(placed, order), joint.offset + location_shift(errors)};
-  link.turned = !placed.isZero(0.0);
-  link.tilted = !link.rotary && !orientation.isZero(0.0);
-  if (link.tilted) link.line = small_rotation(orientation, order);
+  const Vec3& carried = joint.rotary() ? orientation : errors.carried_tilt;
+  link.carries = !carried.isZero(0.0);
+  if (link.carries) link.carried = small_rotation(carried, order_);
+  link.tilted = !joint.rotary() && !orientation.isZero(0.0);
+  if (link.tilted) link.line = small_rotation(orientation, order_);
   if (has_component_errors(errors)) link.component = &errors;
   link.point = joint.functional_point.point;
   link.pivot = joint.functional_point.at_tip ? Pivot::end
                : link.point.isZero(0.0)      ? Pivot::origin
                                              : Pivot::point;
-  return link;
+  const auto along = [&](int i) { return std::abs(joint.direction[i]) == 1.0; };
+  link.motion = !joint.rotary() ? Motion::linear
+                : along(0)      ? Motion::about_x
+                : along(1)      ? Motion::about_y
+                : along(2)      ? Motion::about_z
+                                : Motion::about_any;
 }
 
-void ForwardChain::prepend_linear(const Link& link, const AxisState& at, const Vec3& nominal_end,
-                                  Pose& pose) const {
-  const Vec3& pivot = link.pivot == Pivot::end ? nominal_end : link.point;
-  Vec3 motion = at.q[link.letter] * link.direction;
-  if (link.tilted) motion = link.line * (motion + pivot) - pivot;
+void ForwardChain::rotate(const Link& link, const SineCosine& q, PoseRows& pose) {
+  switch (link.motion) {
+    case Motion::about_x:
+      return pose.turn_x({q.sine * link.direction.x(), q.cosine});
+    case Motion::about_y:
+      return pose.turn_y({q.sine * link.direction.y(), q.cosine});
+    case Motion::about_z:
+      return pose.turn_z({q.sine * link.direction.z(), q.cosine});
+    default:
+      return pose.turn(rotation_by(link.direction, q));
+  }
+}
+
+void ForwardChain::turn_about_pivot(const Link& link, const Vec3& turn, const Vec3& end,
+                                    PoseRows& pose) const {
+  if (link.pivot == Pivot::origin) return pose.turn(turn, order_);
+  const Vec3& pivot = link.pivot == Pivot::end ? end : link.point;
+  pose.shift(-pivot);
+  pose.turn(turn, order_);
+  pose.shift(pivot);
+}
+
+void ForwardChain::place(const Link& link, const Vec3& shift, PoseRows& pose) {
+  if (!link.carries) return pose.shift(shift + link.place);
+  pose.shift(shift);
+  pose.turn(link.carried);
+  pose.shift(link.place);
+}
+
+void ForwardChain::prepend_linear(const Link& link, const AxisState& at, Vec3& end,
+                                  PoseRows& pose) const {
+  const Vec3 motion = at.q[link.letter] * link.direction;
+  Vec3 shift = motion;
+  if (link.tilted) {
+    const Vec3 pivot = link.pivot == Pivot::end ? end : link.point;
+    shift = link.line * (motion + pivot) - pivot;
+  }
   if (link.component != nullptr) {
     const ComponentErrors e = component_errors(*link.component, link.letter, at);
-    motion += e.shift;
-    const Mat3 turn = small_rotation(e.turn, order_);
-    if (link.pivot != Pivot::origin) motion += pivot - turn * pivot;
-    pose.rotation = (turn * pose.rotation).eval();
-    pose.translation = (turn * pose.translation).eval();
+    turn_about_pivot(link, e.turn, end, pose);
+    shift += e.shift;
   }
-  pose.translation += motion;
+  place(link, shift, pose);
+  end += motion + link.offset;
 }
 
-void ForwardChain::prepend_rotary(const Link& link, const Mat3& rotate, const AxisState& at,
-                                  const Vec3& nominal_end, Pose& pose) const {
-  if (link.component == nullptr) {
-    pose.rotation = (rotate * pose.rotation).eval();
-    pose.translation = (rotate * pose.translation).eval();
-    return;
-  }
-  const Vec3& pivot = link.pivot == Pivot::end ? nominal_end : link.point;
-  const ComponentErrors e = component_errors(*link.component, link.letter, at);
-  const Mat3 turn = small_rotation(e.turn, order_);
+void ForwardChain::prepend_rotary(const Link& link, const AxisState& at, Vec3& end,
+                                  PoseRows& pose) const {
+  const double q = at.q[link.letter];
+  const SineCosine angle{std::sin(q), std::cos(q)};
+  ComponentErrors e;
+  if (link.component != nullptr) e = component_errors(*link.component, link.letter, at);
   const bool rotor = frame_ == RotaryErrorFrame::rotor;
-  Mat3 moved;
-  if (rotor) {
-    moved.noalias() = rotate * turn;
-    Vec3 shift = turn * e.shift;
-    if (link.pivot != Pivot::origin) shift += pivot - turn * pivot;
-    pose.translation = (moved * pose.translation + rotate * shift).eval();
-  } else {
-    moved.noalias() = turn * rotate;
-    Vec3 shift = e.shift;
-    if (link.pivot != Pivot::origin) shift += pivot - turn * pivot;
-    pose.translation = (moved * pose.translation + shift).eval();
+  if (rotor && link.component != nullptr) {
+    pose.shift(e.shift);
+    turn_about_pivot(link, e.turn, end, pose);
   }
-  pose.rotation = (moved * pose.rotation).eval();
+  rotate(link, angle, pose);
+  if (link.needs_end) end = rotation_by(link.direction, angle) * end;
+  if (!rotor && link.component != nullptr) turn_about_pivot(link, e.turn, end, pose);
+  place(link, rotor ? Vec3(Vec3::Zero()) : e.shift, pose);
+  end += link.offset;
 }
 
-// From the end of the chain back to the bed, so that the nominal place of the end, about which some
-// errors turn, comes along the way.
-Pose ForwardChain::walk(std::span<const Link> links, const Vec3& end, const AxisState& at) const {
-  Pose pose = Pose::translated(end);
+PoseRows ForwardChain::walk(std::span<const Link> links, const Vec3& end,
+                            const AxisState& at) const {
+  PoseRows pose(end);
   Vec3 nominal_end = end;
   for (std::size_t i = links.size(); i-- > 0;) {
-    const Link& link = links[i];
-    if (link.rotary) {
-      const Mat3 rotate = rotation_by(link.direction, at.q[link.letter]);
-      const Vec3 turned_end = rotate * nominal_end;
-      prepend_rotary(link, rotate, at,
-                     frame_ == RotaryErrorFrame::stator ? turned_end : nominal_end, pose);
-      nominal_end = turned_end;
+    if (links[i].motion == Motion::linear) {
+      prepend_linear(links[i], at, nominal_end, pose);
     } else {
-      prepend_linear(link, at, nominal_end, pose);
-      nominal_end += at.q[link.letter] * link.direction;
+      prepend_rotary(links[i], at, nominal_end, pose);
     }
-    if (link.turned) {
-      pose.rotation = (link.place.rotation * pose.rotation).eval();
-      pose.translation = (link.place.rotation * pose.translation).eval();
-    }
-    pose.translation += link.place.translation;
-    nominal_end += link.offset;
   }
   return pose;
 }
 
-Pose ForwardChain::bed_from_tool(const AxisState& at) const {
+PoseRows ForwardChain::tool_rows(const AxisState& at) const {
   return walk({links_.data(), tool_count_}, tip_, at);
 }
-
-Pose ForwardChain::bed_from_table(const AxisState& at) const {
+PoseRows ForwardChain::table_rows(const AxisState& at) const {
   return walk({links_.data() + tool_count_, count_ - tool_count_}, table_, at);
 }
 
+Pose ForwardChain::bed_from_tool(const AxisState& at) const { return tool_rows(at).pose(); }
+Pose ForwardChain::bed_from_table(const AxisState& at) const { return table_rows(at).pose(); }
 Pose ForwardChain::table_from_tool(const AxisState& at) const {
-  const Pose tool = bed_from_tool(at);
+  PoseRows tool = tool_rows(at);
   const Pose table = bed_from_table(at);
-  return {table.rotation.transpose() * tool.rotation,
-          table.rotation.transpose() * (tool.translation - table.translation)};
+  tool.shift(-table.translation);
+  tool.turn(Mat3(table.rotation.transpose()));
+  return tool.pose();
 }
 
 Pose nominal_pose(const Machine& machine, const AxisPositions& q, double tool_length) {

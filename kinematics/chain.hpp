@@ -25,6 +25,9 @@
 
 namespace frustum::kinematics {
 
+struct SineCosine;
+class PoseRows;
+
 // The chain of one machine with its errors and one tool, prepared once for many poses: what does not
 // depend on the axis positions is multiplied out beforehand. Refers to `errors`, which must outlive it.
 class ForwardChain {
@@ -38,31 +41,39 @@ class ForwardChain {
   [[nodiscard]] Pose bed_from_table(const AxisState& at) const;
 
  private:
+  enum class Motion : std::uint8_t { linear, about_x, about_y, about_z, about_any };
   // Where the component rotations of a joint turn: at the origin of its frame, at a point of it, or at
-  // the end of the chain.
+  // the nominal end of the chain.
   enum class Pivot : std::uint8_t { origin, point, end };
 
   struct Link {
     AxisLetter letter = AxisLetter::X;
-    bool rotary = false;
-    bool turned = false;  // place has a rotation
-    bool tilted = false;  // line is not the nominal one
+    Motion motion = Motion::linear;
     Pivot pivot = Pivot::origin;
+    bool carries = false;                   // the location errors turn what it carries
+    bool tilted = false;                    // linear: line is not the nominal one
+    bool needs_end = false;                 // it, or a joint nearer to the bed, turns about the end
     const AxisErrors* component = nullptr;  // null: no component errors
-    Pose place{};                           // offset and location errors: constant
     Vec3 direction = Vec3::UnitX();         // of the moving part for +q
-    Mat3 line = Mat3::Identity();           // linear: turns the line of motion
+    Vec3 offset = Vec3::Zero();
+    Vec3 place = Vec3::Zero();  // offset with the location errors
     Vec3 point = Vec3::Zero();
-    Vec3 offset = Vec3::Zero();  // nominal
+    Mat3 carried = Mat3::Identity();
+    Mat3 line = Mat3::Identity();
   };
 
-  [[nodiscard]] static Link link(const Joint& joint, const AxisErrors& errors, RotationOrder order);
-  [[nodiscard]] Pose walk(std::span<const Link> links, const Vec3& end, const AxisState& at) const;
-  // Puts one link before `pose`, whose nominal end lies at `nominal_end`.
-  void prepend_linear(const Link& link, const AxisState& at, const Vec3& nominal_end,
-                      Pose& pose) const;
-  void prepend_rotary(const Link& link, const Mat3& rotate, const AxisState& at,
-                      const Vec3& nominal_end, Pose& pose) const;
+  void prepare(Link& link, const Joint& joint, const AxisErrors& errors);
+  // From the end of the chain back to the bed, so that the nominal place of the end, about which some
+  // errors turn, comes along the way.
+  [[nodiscard]] PoseRows walk(std::span<const Link> links, const Vec3& end,
+                              const AxisState& at) const;
+  void prepend_linear(const Link& link, const AxisState& at, Vec3& end, PoseRows& pose) const;
+  void prepend_rotary(const Link& link, const AxisState& at, Vec3& end, PoseRows& pose) const;
+  void turn_about_pivot(const Link& link, const Vec3& turn, const Vec3& end, PoseRows& pose) const;
+  static void rotate(const Link& link, const SineCosine& q, PoseRows& pose);
+  static void place(const Link& link, const Vec3& shift, PoseRows& pose);
+  [[nodiscard]] PoseRows tool_rows(const AxisState& at) const;
+  [[nodiscard]] PoseRows table_rows(const AxisState& at) const;
 
   static constexpr std::size_t kMostJoints = 5;
   std::array<Link, kMostJoints> links_{};  // tool chain, then work chain
