@@ -2,16 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "app/axis_words.hpp"
 #include "app/console.hpp"
 #include "app/machine_files.hpp"
-#include "core/spelling.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 
@@ -45,35 +43,13 @@ ordered_json axes_json(const Machine& machine, const AxisPositions& q) {
   return axes;
 }
 
-// "X=10,Y=0,A=-30": mm and degrees; axes not named stay 0.
+// Axes not named stay 0.
 Result<AxisPositions> read_axes(const Machine& machine, const std::string& text) {
-  std::vector<std::string> known;
-  for (const Joint& joint : machine.joints()) known.emplace_back(1, to_char(joint.letter));
-  AxisPositions q;
-  std::vector<std::string> given;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) {
-    const auto equals = part.find('=');
-    std::string name = part.substr(0, equals);
-    std::erase(name, ' ');
-    if (equals == std::string::npos || std::find(known.begin(), known.end(), name) == known.end()) {
-      return error(fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
-                               machine.structure()),
-                   fmt::format("write {}", fmt::join(known, "=..,")) + "=..");
-    }
-    if (std::find(given.begin(), given.end(), name) != given.end()) {
-      return error(fmt::format("axis {} is given twice", name));
-    }
-    given.push_back(name);
-    const auto value = numbers_of(part.substr(equals + 1), 1, "axis " + name);
-    if (!value) return value.error();
-    for (const Joint& joint : machine.joints()) {
-      if (name[0] == to_char(joint.letter)) {
-        q[joint.letter] = value->front() * (joint.rotary() ? kRadPerDeg : 1.0);
-      }
-    }
-  }
-  return q;
+  return read_axis_words(machine, text).transform([](const auto& words) {
+    AxisPositions q;
+    for (const auto& [letter, value] : words) q[letter] = value;
+    return q;
+  });
 }
 
 int forward(const Options& options, const Machine& machine,

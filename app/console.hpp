@@ -40,6 +40,7 @@ void add_measure(CLI::App& program, int& exit_code);
 void add_fit(CLI::App& program, int& exit_code);
 void add_machines(CLI::App& program, int& exit_code);
 void add_errors(CLI::App& program, int& exit_code);
+void add_volumetric(CLI::App& program, int& exit_code);
 // Kinds of test pieces: subcommands of `program`.
 void add_cone(CLI::App& kinds, int& exit_code);
 void add_step(CLI::App& kinds, int& exit_code);

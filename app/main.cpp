@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   int exit_code = kDone;
   for (const Subcommand add :
        {add_run, add_sensitivity, add_identify, add_design, add_program, add_parse, add_pose,
-        add_cut, add_measure, add_fit, add_machines, add_errors}) {
+        add_cut, add_measure, add_fit, add_machines, add_errors, add_volumetric}) {
     add(program, exit_code);
   }
   try {  // exceptions are internal faults: user input is answered with diagnostics

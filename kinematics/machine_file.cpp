@@ -45,7 +45,12 @@ class MachineReader {
         static_cast<RotaryErrorFrame>(root.choice_or("rotary_error_frame", {"stator", "rotor"}, 0));
     const auto structure = parse_structure(machine.structure_);
     if (!structure) {
-      root.fail("structure", structure.error().front().message, structure.error().front().hint);
+      // Without a structure the rest has no meaning, but its keys are known.
+      for (const char* key : {"datum", "spindle", "table", "axis", "alias"}) (void)root.has(key);
+      // One that is missing or no text has been told.
+      if (!machine.structure_.empty() || !has_error(document.finish())) {
+        root.fail("structure", structure.error().front().message, structure.error().front().hint);
+      }
       return document.finish();
     }
     if (const auto spindle = root.table_if("spindle")) {
@@ -62,7 +67,13 @@ class MachineReader {
       machine.work_chain_.push_back(joint(axes, letter, -1));
     }
     for (const std::string& key : axes.keys()) {
-      if (key.size() == 1 && !axis_letter(key)) axes.fail(key, "unknown axis", "X Y Z A B C");
+      const auto letter = axis_letter(key);
+      if (letter && machine.joint(*letter) != nullptr) continue;
+      (void)axes.has(key);  // told here, not once more as an unknown key
+      axes.fail(key,
+                letter ? fmt::format("axis {} is not in the structure {}", key, machine.structure_)
+                       : fmt::format("'{}' is not an axis", key),
+                letter ? "add it to the structure code or take its table away" : "X Y Z A B C");
     }
     check_space(root, machine);
     read_datum(root, machine);
@@ -85,7 +96,10 @@ class MachineReader {
     const double scale = is_rotary(letter) ? kRadPerDeg : 1.0;
     joint.direction = unit_direction(table, "direction", default_direction(letter));
     joint.offset = table.vector_or("offset", Vec3::Zero());
-    joint.endless = is_rotary(letter) && table.boolean_or("endless", false);
+    joint.endless = table.boolean_or("endless", false);
+    if (joint.endless && !joint.rotary()) {
+      table.fail("endless", "a linear axis has a travel", "write travel = [lowest, highest] in mm");
+    }
     if (joint.endless) {
       joint.travel = {-std::numbers::pi, std::numbers::pi};
     } else {
@@ -166,9 +180,16 @@ class MachineReader {
       const TomlTable table = aliases->table(symbol);
       ErrorAlias alias;
       const std::string name = table.text("error");
+      if (name.empty() && !table.has("error")) continue;
       const auto error = ErrorName::parse(name);
-      if (!error || machine.joint(error->axis) == nullptr) {
-        table.fail("error", fmt::format("'{}' is not an error of this machine", name));
+      if (!error) {
+        table.fail("error", fmt::format("unknown error name '{}'", name),
+                   "E, the direction X Y Z A B C, 0 for a location error, the axis: EXX, EB0C");
+        continue;
+      }
+      if (machine.joint(error->axis) == nullptr) {
+        table.fail("error", fmt::format("error {}: the structure {} has no axis {}", name,
+                                        machine.structure_, to_char(error->axis)));
         continue;
       }
       alias.error = *error;

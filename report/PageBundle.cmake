@@ -17,7 +17,7 @@ else()
   set(page_packages package.json package-lock.json .npmrc)
   list(TRANSFORM page_packages PREPEND "${page_source}/" OUTPUT_VARIABLE page_package_sources)
   set(page_scripts axes.js crease_normals.js main.js packed_array.js plotly.js polar.js profile.js surface.js
-      theme.js)
+      theme.js volumetric.js)
   list(TRANSFORM page_scripts PREPEND "${page_source}/")
   add_custom_command(
     OUTPUT "${page_build}/packages.stamp"

@@ -1,8 +1,9 @@
-// The parts of the HTML page that do not depend on the run, embedded into the library.
+// The parts of the HTML page that do not depend on what it shows, embedded into the library.
 //
 // Units: none. Errors: none.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace frustum::report {
@@ -13,5 +14,9 @@ namespace frustum::report {
 [[nodiscard]] std::string_view page_style();
 // One script with plotly.js and three.js in it; free of "</script".
 [[nodiscard]] std::string_view page_script();
+
+// The template filled: title and body are HTML, data is JSON that may stand in a script element.
+[[nodiscard]] std::string filled_page(std::string_view title, std::string_view body,
+                                      std::string_view data);
 
 }  // namespace frustum::report

@@ -3,6 +3,7 @@ import {drawAxes} from './axes.js';
 import {drawPolar} from './polar.js';
 import {drawProfile} from './profile.js';
 import {drawSurface} from './surface.js';
+import {drawVolume} from './volumetric.js';
 
 const data = JSON.parse(document.getElementById('chart-data').textContent);
 
@@ -22,3 +23,5 @@ if (view && data.surface) {
     view.classList.add('missing');
   });
 }
+const volume = document.querySelector('[data-volume]');
+if (volume && data.volume) drawVolume(volume, data.volume);
