@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,38 +22,39 @@ struct Placed {
 // thousand metres off.
 constexpr double kFlat = 1e-6;
 
-// The bed sees the end of a chain here when X, Y and Z are at zero; `linear` collects their directions.
-Pose end_of(const std::vector<Joint>& chain, const Vec3& end, const AxisPositions& q,
-            Mat3& linear) {
-  Pose pose;
-  bool turned = false;  // the first joints mostly are not, and products with one cost time
-  for (const Joint& joint : chain) {
-    if (turned) {
-      pose.translation += pose.rotation * joint.offset;
+// A point carried by the last joint, seen from the bed with X, Y and Z at zero; `linear` collects the
+// directions of those that the chain holds. Walked inwards, so that only vectors are turned.
+Vec3 in_bed(const std::vector<Joint>& chain, Vec3 point, const AxisPositions& q, Mat3& linear) {
+  std::array<Eigen::Index, 3> carried{};
+  std::size_t count = 0;
+  for (auto joint = chain.rbegin(); joint != chain.rend(); ++joint) {
+    if (joint->rotary()) {
+      const double angle = joint->side * q[joint->letter];
+      const double s = std::sin(angle), c = std::cos(angle);
+      const Vec3& w = joint->direction;
+      const auto turned = [&](const Vec3& v) -> Vec3 {
+        return c * v + s * w.cross(v) + ((1.0 - c) * w.dot(v)) * w;
+      };
+      point = turned(point);
+      for (std::size_t i = 0; i < count; ++i) {
+        linear.col(carried[i]) = turned(linear.col(carried[i]));
+      }
     } else {
-      pose.translation += joint.offset;
-    }
-    if (!joint.rotary()) {
       // Moving the work by -q shows the same displacement of the tip as moving the tool by +q.
-      linear.col(static_cast<Eigen::Index>(joint.letter)) =
-          turned ? Vec3(pose.rotation * joint.direction) : joint.direction;
-      continue;
+      carried[count] = static_cast<Eigen::Index>(joint->letter);
+      linear.col(carried[count++]) = joint->direction;
     }
-    const Mat3 turn = rotation_about(joint.direction, joint.side * q[joint.letter]);
-    pose.rotation = turned ? Mat3(pose.rotation * turn) : turn;
-    turned = true;
+    point += joint->offset;
   }
-  pose.translation += pose.rotation * end;
-  return pose;
+  return point;
 }
 
 // The rotary positions are given; the tip moves, relative to the table, by `linear` times (X, Y, Z).
 Placed placed(const Machine& machine, const Vec3& tip, double tool_length, AxisPositions q) {
   Mat3 linear;
-  const Vec3 tip_in_spindle = machine.spindle_offset() - Vec3(0.0, 0.0, tool_length);
-  const Pose tool = end_of(machine.tool_chain(), tip_in_spindle, q, linear);
-  const Pose table = end_of(machine.work_chain(), machine.table_offset(), q, linear);
-  const Vec3 missing = table.rotation * tip + table.translation - tool.translation;
+  const Vec3 in_spindle = machine.spindle_offset() - Vec3(0.0, 0.0, tool_length);
+  const Vec3 missing = in_bed(machine.work_chain(), machine.table_offset() + tip, q, linear) -
+                       in_bed(machine.tool_chain(), in_spindle, q, linear);
   const Vec3 x = linear.col(0), y = linear.col(1), z = linear.col(2);
   const Vec3 yz = y.cross(z), zx = z.cross(x), xy = x.cross(y);
   const double volume = x.dot(yz);
