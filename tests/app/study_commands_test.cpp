@@ -260,5 +260,46 @@ TEST_F(StudyCommandsSystem, RefusesBadStudiesWithPlaceAndRemedy) {
   }
 }
 
+TEST_F(StudyCommandsSystem, ShowsTheErrorsOverTheWorkingVolume) {
+  const Outcome outcome = run(
+      "volumetric dvf5000 --tool-length 150 --axes 'X=0,Y=-225,Z=-480;X=0,Y=-225,Z=-480,B=90' "
+      "--error bXZ=10urad --tolerance displacements=10um --tolerance rotations=20urad "
+      "--tolerance gXY=25urad --tolerance aYZ=25urad --tolerance bXZ=25urad --json --out volume");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json doc = json::parse(outcome.out);
+  // 1.44 um per urad at the corner (Table 4-3), on the tool side alone.
+  EXPECT_NEAR(doc["statistics_um"]["tool"]["max"], 14.4, 1e-3);
+  EXPECT_EQ(doc["statistics_um"]["workpiece"]["max"], 0.0);
+  EXPECT_EQ(doc["counts"], json({1, 1, 1}));
+  ASSERT_EQ(doc["positions"].size(), 2U);
+  EXPECT_EQ(doc["positions"][1]["rotary"]["B"], 90.0);
+  EXPECT_EQ(doc["ranking"][0]["name"], "aYZ");
+  const json* exY = find(doc["ranking"], "EAY");
+  ASSERT_NE(exY, nullptr);
+  EXPECT_NEAR((*exY)["gain"], 1.2595395984, 1e-9);
+  EXPECT_EQ(read(folder_ / "volume" / "volumetric.json"), outcome.out);
+  EXPECT_NE(read(folder_ / "volume" / "volumetric.html").find("data-volume"), std::string::npos);
+
+  const Outcome three = run("volumetric three-axis --error EXX=10um --grid 3");
+  EXPECT_EQ(three.exit_code, 0) << three.err;
+  EXPECT_NE(three.out.find("10.000"), std::string::npos);
+}
+
+TEST_F(StudyCommandsSystem, SaysWhatOfAVolumetricStudyIsWrong) {
+  const auto told = [&](const std::string& arguments, const std::string& message) {
+    const Outcome outcome = run("volumetric iwf-bc " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+  };
+  told("--grid 1", "a grid of 1 points an axis");
+  told("--grid 1000", "at most 41 points an axis");
+  told("--axes A=1", "'A=1' is not an axis of machine iwf-bc");
+  told("--axes B=200", "B = 200 lies outside its travel -110 .. 110 deg");
+  told("--tolerance rotations=10um", "tolerance rotations = 10um: expected an angle");
+  told("--tolerance EXQ=10um", "unknown error name 'EXQ'");
+  told("--error EXA=10um", "has no axis A");
+  told("--tool-length -1", "expected a length in mm");
+}
+
 }  // namespace
 }  // namespace frustum
