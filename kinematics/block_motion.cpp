@@ -46,16 +46,16 @@ BlockMotion finished(BlockMotion motion, const AxisPositions& from, double linea
 
 }  // namespace
 
-Vec3 linear_part(const AxisPositions& q) {
+Vec3 linear_positions(const AxisPositions& q) {
   return {q[AxisLetter::X], q[AxisLetter::Y], q[AxisLetter::Z]};
 }
 
-AxisPositions with_linear_part(AxisPositions q, const Vec3& xyz) {
+AxisPositions with_linear_positions(AxisPositions q, const Vec3& xyz) {
   for (const AxisLetter letter : kLinearAxes) q[letter] = xyz[static_cast<Eigen::Index>(letter)];
   return q;
 }
 
-AxisPositions between(const AxisPositions& from, const AxisPositions& to, double u) {
+AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, double u) {
   AxisPositions q;
   for (const AxisLetter letter : kAxisLetters) {
     q[letter] = from[letter] + u * (to[letter] - from[letter]);
@@ -68,40 +68,45 @@ int BlockMotion::least_parts() const {
   for (const AxisLetter letter : kRotaryAxes) {
     rotary_travel = std::max(rotary_travel, std::abs(end[letter] - start[letter]));
   }
-  const double linear_travel = (linear_part(end) - linear_part(start)).norm();
+  const double linear_travel = (linear_positions(end) - linear_positions(start)).norm();
   return 1 + static_cast<int>(rotary_travel / kRotaryPart + linear_travel / kLinearPart);
 }
 
 BlockMotion axes_motion(const AxisPositions& from, const AxisPositions& to) {
-  BlockMotion motion{.at = [from, to](double u) { return between(from, to, u); }};
-  return finished(std::move(motion), from, (linear_part(to) - linear_part(from)).norm());
+  BlockMotion motion{.at = [from, to](double u) { return part_way(from, to, u); }, .straight = true};
+  return finished(std::move(motion), from, (linear_positions(to) - linear_positions(from)).norm());
 }
 
 BlockMotion words_motion(const AxisPositions& from, const AxisPositions& rotary_to,
                          const TipCurve& words, const Vec3& shift) {
   BlockMotion motion{.at =
                          [from, rotary_to, words, shift](double u) {
-                           return with_linear_part(rotary_between(from, rotary_to, u),
+                           return with_linear_positions(rotary_between(from, rotary_to, u),
                                                    words.at(u) + shift);
                          },
-                     .arc_turn = words.turn};
+                     .arc_turn = words.turn,
+                     .straight = words.turn == 0.0};
   return finished(std::move(motion), from, words.length());
 }
 
-BlockMotion tip_motion(const Machine& machine, const AxisPositions& from,
-                       const AxisPositions& rotary_to, const TipCurve& tip, const TipFrame& frame,
-                       parser::OrientationPath orientation) {
-  std::function<AxisPositions(double)> rotary = [from, rotary_to](double u) {
-    return rotary_between(from, rotary_to, u);
+Result<BlockMotion> tip_motion(const Machine& machine, const AxisPositions& from,
+                               const AxisPositions& rotary_to, const TipCurve& tip,
+                               const TipFrame& frame, parser::OrientationPath orientation) {
+  const auto with_rotary = [&](std::function<AxisPositions(double)> rotary) {
+    return BlockMotion{.at =
+                           [&machine, rotary = std::move(rotary), tip, frame](double u) {
+                             return place_tip(machine, frame.table_from_words.point(tip.at(u)),
+                                              frame.tool_length, rotary(u));
+                           },
+                       .arc_turn = tip.turn};
   };
-  (void)orientation;
-  BlockMotion motion{.at =
-                         [&machine, rotary = std::move(rotary), tip, frame](double u) {
-                           return place_tip(machine, frame.table_from_words.point(tip.at(u)),
-                                            frame.tool_length, rotary(u));
-                         },
-                     .arc_turn = tip.turn};
-  return finished(std::move(motion), from, tip.length());
+  if (orientation == parser::OrientationPath::rotary_axes) {
+    return finished(with_rotary([from, rotary_to](double u) {
+                      return rotary_between(from, rotary_to, u);
+                    }),
+                    from, tip.length());
+  }
+  return error("great circle: not yet", "");
 }
 
 }  // namespace frustum::kinematics

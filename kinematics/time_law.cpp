@@ -112,7 +112,9 @@ void TimeLaw::bend(Piece& before, Piece& after, bool corner) const {
     if (jumps[i] == 0.0 || acceleration_[i] == kNoLimit) continue;
     const double share = kBendShare * acceleration_[i];
     after.entry.lower(std::sqrt(share * beside / jumps[i]), letter);
-    if (corner) after.entry.lower(share * options_.corner_time / jumps[i], letter);
+    // Two corners may lie side by side.
+    const double jump = 0.5 * acceleration_[i] * options_.corner_time;
+    if (corner) after.entry.lower(jump / jumps[i], letter);
   }
   const double speed = after.entry.value;
   for (std::size_t i = 0; i < jumps.size(); ++i) {

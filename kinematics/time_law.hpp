@@ -4,10 +4,12 @@
 //            rapid velocity, so that one speed v = dh/dt is continuous over all blocks. Each segment has
 //            a top speed (feed; velocity of its axes), each corner between segments a speed at which no
 //            axis velocity jumps by more than 0.7 of its acceleration times the time that the bend takes
-//            (that of the half segments beside it; between blocks corner_time at most); the rest of the
-//            acceleration may change v. A backward and a forward pass then give the fastest trapezoidal
-//            profile. With `jerk` accelerations are held down to jerk x jerk_time / 2, v(t) is
-//            averaged over jerk_time, and each limit is kept over all that the average looks at
+//            (that of the half segments beside it), nor between blocks by more than half of what
+//            it gives in corner_time; the rest of the acceleration may change v. So an axis changes its
+//            velocity within any time dt by at most acceleration x (dt + corner_time). A backward and a
+//            forward pass then give the fastest trapezoidal profile. With `jerk` accelerations are held
+//            down to jerk x jerk_time / 2, v(t) is averaged over jerk_time, and each limit is kept
+//            over all that the average looks at
 // Units    : mm, rad, s
 // Shape    : streamed through a window of 8192 segments, the end of which is taken as standstill
 // Errors   : none
@@ -31,7 +33,7 @@ namespace frustum::kinematics {
 struct TimeLawOptions {
   bool limits = true;          // false: times follow from the feed alone
   bool jerk = false;           // limit the jerk of axes that state one
-  double corner_time = 0.004;  // s, in which an axis takes up its velocity jump at a corner
+  double corner_time = 0.005;  // s, in which an axis takes up its velocity jump at a corner
   double jerk_time = 0.04;     // s, over which the speed is averaged
   double rapid = 500.0;        // mm/s: of linear axes that state no velocity
   double rotary_rapid = 3.0;   // rad/s: of rotary axes that state no velocity
