@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
+#include "kinematics/orientation_path.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -89,24 +89,31 @@ BlockMotion words_motion(const AxisPositions& from, const AxisPositions& rotary_
   return finished(std::move(motion), from, words.length());
 }
 
-Result<BlockMotion> tip_motion(const Machine& machine, const AxisPositions& from,
-                               const AxisPositions& rotary_to, const TipCurve& tip,
-                               const TipFrame& frame, parser::OrientationPath orientation) {
-  const auto with_rotary = [&](std::function<AxisPositions(double)> rotary) {
-    return BlockMotion{.at =
-                           [&machine, rotary = std::move(rotary), tip, frame](double u) {
-                             return place_tip(machine, frame.table_from_words.point(tip.at(u)),
-                                              frame.tool_length, rotary(u));
-                           },
-                       .arc_turn = tip.turn};
-  };
-  if (orientation == parser::OrientationPath::rotary_axes) {
-    return finished(with_rotary([from, rotary_to](double u) {
-                      return rotary_between(from, rotary_to, u);
-                    }),
-                    from, tip.length());
-  }
-  return error("great circle: not yet", "");
+BlockMotion tip_motion(const Machine& machine, const AxisPositions& from,
+                       const AxisPositions& rotary_to, const TipCurve& tip, const TipFrame& frame) {
+  BlockMotion motion{.at =
+                         [&machine, from, rotary_to, tip, frame](double u) {
+                           return place_tip(machine, frame.table_from_words.point(tip.at(u)),
+                                            frame.tool_length, rotary_between(from, rotary_to, u));
+                         },
+                     .arc_turn = tip.turn};
+  return finished(std::move(motion), from, tip.length());
+}
+
+Result<BlockMotion> vector_motion(const Machine& machine, const AxisPositions& from,
+                                  const Vec3& to_tool_axis, const TipCurve& tip,
+                                  const TipFrame& frame) {
+  auto path = orientation_path(machine, from, to_tool_axis);
+  if (!path) return path.error();
+  std::vector<double> breaks = path->breaks();
+  BlockMotion motion{.at =
+                         [&machine, path = *std::move(path), tip, frame](double u) {
+                           return place_tip(machine, frame.table_from_words.point(tip.at(u)),
+                                            frame.tool_length, path.at(u));
+                         },
+                     .arc_turn = tip.turn,
+                     .breaks = std::move(breaks)};
+  return finished(std::move(motion), from, tip.length());
 }
 
 }  // namespace frustum::kinematics

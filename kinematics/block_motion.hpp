@@ -5,7 +5,7 @@
 //            of the words, rotary axes linear or the tool axis on the great circle, linear axes by the
 //            inverse of the nominal machine (tool-centre-point control on, tilted plane)
 // Units    : mm, rad
-// Errors   : a great circle that the machine cannot follow to the rotary positions wanted
+// Errors   : a great circle that the machine cannot follow
 #pragma once
 
 #include <array>
@@ -52,9 +52,13 @@ struct TipFrame {
   Pose table_from_words{};
   double tool_length = 0.0;  // mm, as the controller knows it
 };
-// The machine must outlive the motion.
-[[nodiscard]] Result<BlockMotion> tip_motion(const Machine& machine, const AxisPositions& from,
+// The machine must outlive these motions.
+[[nodiscard]] BlockMotion tip_motion(const Machine& machine, const AxisPositions& from,
                                      const AxisPositions& rotary_to, const TipCurve& tip,
-                                     const TipFrame& frame, parser::OrientationPath orientation);
+                                     const TipFrame& frame);
+// The tool axis, in the table frame, runs on the great circle.
+[[nodiscard]] Result<BlockMotion> vector_motion(const Machine& machine, const AxisPositions& from,
+                                                const Vec3& to_tool_axis, const TipCurve& tip,
+                                                const TipFrame& frame);
 
 }  // namespace frustum::kinematics

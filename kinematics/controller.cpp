@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -13,6 +11,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/path_recorder.hpp"
+#include "kinematics/rotary_axes.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -23,23 +22,6 @@ using parser::LengthCompensation;
 using parser::Motion;
 
 constexpr double kSecondsPerMinute = 60.0;
-
-// The full turn of `angle` that is nearest to `from` within travel; the nearest of all if none is.
-double nearest_turn(const Joint& joint, double angle, double from) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const double nearest = angle + kTurn * std::round((from - angle) / kTurn);
-  if (joint.endless || joint.travel.contains(nearest)) return nearest;
-  const double first = angle + kTurn * std::ceil((joint.travel.lo - angle) / kTurn);
-  double best = nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (double q = first; joint.travel.contains(q); q += kTurn) {
-    if (std::abs(q - from) < least) {
-      least = std::abs(q - from);
-      best = q;
-    }
-  }
-  return best;
-}
 
 }  // namespace
 
@@ -156,8 +138,7 @@ class Controller::State {
     if (!orient_to(normal, tip, end)) return;
     if (compensation_ == LengthCompensation::tool_centre_point) {
       const Vec3 words = table_from_words_.inverse().point(tip);
-      travel(tip_motion(machine_, q_, end, TipCurve::line(words, words), tip_frame(),
-                        orientation_path_),
+      travel(tip_motion(machine_, q_, end, TipCurve::line(words, words), tip_frame()),
              {PathKind::rapid});
     } else {
       travel(axes_motion(q_, with_linear_positions(end, linear_positions(q_))), {PathKind::rapid});
@@ -215,15 +196,50 @@ class Controller::State {
                 const Manner& manner, const parser::ArcFeed* arc) {
     const Vec3 start = tip_in_words();
     const Vec3 end = linear_words(target, start);
-    AxisPositions q_end = q_;
-    if (tool_axis) {
-      if (!orient_to(table_from_words_.direction(*tool_axis), table_from_words_.point(end), q_end))
+    const TipCurve tip = curve(arc, start, end);
+    AxisPositions q_end = rotary_end(target);
+    if (orientation_path_ == parser::OrientationPath::great_circle) {
+      const Vec3 axis = tool_axis ? table_from_words_.direction(*tool_axis)
+                                  : Vec3(nominal_pose(machine_, q_end, 0.0).rotation.col(2));
+      if (turns_tool(axis)) {
+        move_on_great_circle(tip, axis, tool_axis ? nullptr : &q_end, manner);
         return;
-    } else {
-      q_end = rotary_end(target);
+      }
     }
-    travel(tip_motion(machine_, q_, q_end, curve(arc, start, end), tip_frame(), orientation_path_),
-           manner);
+    if (tool_axis && !orient_to(table_from_words_.direction(*tool_axis),
+                                table_from_words_.point(end), q_end)) {
+      return;
+    }
+    travel(tip_motion(machine_, q_, q_end, tip, tip_frame()), manner);
+  }
+
+  [[nodiscard]] bool turns_tool(const Vec3& to_axis) const {
+    // Below what nine written digits of a direction can tell.
+    constexpr double kSameDirection = 1e-9;
+    const Vec3 axis = nominal_pose(machine_, q_, 0.0).rotation.col(2);
+    return angle_between(axis, to_axis.normalized()) > kSameDirection;
+  }
+
+  // `wanted`: rotary positions that the block names; the great circle must lead there.
+  void move_on_great_circle(const TipCurve& tip, const Vec3& to_axis, const AxisPositions* wanted,
+                            const Manner& manner) {
+    auto motion = vector_motion(machine_, q_, to_axis, tip, tip_frame());
+    if (!motion) {
+      fail(motion.error().front());
+      return;
+    }
+    for (const AxisLetter letter : kRotaryAxes) {
+      constexpr double kSameAngle = 1e-7;  // rad: angles are written to 1e-6 deg at best
+      if (wanted == nullptr || std::abs((*wanted)[letter] - motion->end[letter]) < kSameAngle)
+        continue;
+      fail(fmt::format("the great circle brings {} to {:.4f} deg, the block wants {:.4f}",
+                       to_char(letter), motion->end[letter] * kDegPerRad,
+                       (*wanted)[letter] * kDegPerRad),
+           "give tool vectors instead of rotary positions, or move the rotary axes linearly "
+           "(ORIAXES, PATHCTRL AXIS)");
+      return;
+    }
+    travel(*std::move(motion), manner);
   }
 
   // Rotary positions for a tool axis in the table frame: the solution nearest to where the axes are.
@@ -275,7 +291,7 @@ class Controller::State {
     for (const AxisLetter letter : kRotaryAxes) {
       if (!target[letter]) continue;
       end[letter] = rotary_path_ == parser::RotaryPath::shortest
-                        ? nearest_turn(*machine_.joint(letter), *target[letter], q_[letter])
+                        ? best_turn(*machine_.joint(letter), *target[letter], q_[letter])
                         : *target[letter];
     }
     return end;
@@ -305,14 +321,6 @@ class Controller::State {
 
   void rest(double seconds) {
     if (options_.sample_path) recorder_.rest(seconds);
-  }
-
-  void travel(Result<BlockMotion> motion, const Manner& manner) {
-    if (motion) {
-      travel(*std::move(motion), manner);
-    } else {
-      fail(motion.error().front());
-    }
   }
 
   void travel(BlockMotion motion, const Manner& manner) {
@@ -375,8 +383,8 @@ class Controller::State {
   }
 
   bool within_travel(const AxisPositions& q) {
+    if (kinematics::within_travel(machine_, q)) return true;
     const auto violations = travel_violations(machine_, q);
-    if (violations.empty()) return true;
     fail(fmt::format("over-travel: {}", fmt::join(violations, "; ")),
          "move the workpiece on the table, or choose a larger machine");
     return false;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "kinematics/axis_polyline.hpp"
-#include "kinematics/chain.hpp"
 #include "kinematics/path_sampling.hpp"
 
 namespace frustum::kinematics {
@@ -92,8 +91,12 @@ void PathRecorder::travel(BlockOrder order) {
 
 void PathRecorder::break_chain() { chain_broken_ = true; }
 
-ToolPose PathRecorder::pose_at(const AxisState& axes, double tool_length) const {
-  return tool_pose(workpiece_from_table_ * actual_pose(machine_, errors_, axes, tool_length));
+ToolPose PathRecorder::pose_at(const AxisState& axes, double tool_length) {
+  if (!chain_ || tool_length != chain_length_) {
+    chain_.emplace(machine_, errors_, tool_length);
+    chain_length_ = tool_length;
+  }
+  return tool_pose(workpiece_from_table_ * chain_->table_from_tool(axes));
 }
 
 void PathRecorder::sample(Pending& pending, const AxisMotion& motion, int parts) {

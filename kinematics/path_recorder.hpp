@@ -10,9 +10,11 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "kinematics/block_motion.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/geometric_errors.hpp"
 #include "kinematics/heading.hpp"
 #include "kinematics/servo_lag.hpp"
@@ -78,7 +80,7 @@ class PathRecorder {
     AxisPositions velocity{};
   };
 
-  [[nodiscard]] ToolPose pose_at(const AxisState& axes, double tool_length) const;
+  [[nodiscard]] ToolPose pose_at(const AxisState& axes, double tool_length);
   void sample(Pending& pending, const AxisMotion& motion, int parts);
   void give_to_time_law(Pending& pending, const AxisMotion& motion, int parts);
   void collect_times();
@@ -95,6 +97,8 @@ class PathRecorder {
   const GeometricErrors& errors_;
   Pose workpiece_from_table_;
   RecorderOptions options_;
+  std::optional<ForwardChain> chain_{};  // with the tool of chain_length_
+  double chain_length_ = 0.0;
   HeadingTracker tracker_;
   TimeLaw law_;
   std::deque<Pending> pending_{};
