@@ -58,7 +58,8 @@ Totals interpolate(const Machine& machine, std::int64_t blocks, bool limits) {
   Controller controller(machine, none, setup, options);
   controller.execute({{1, 1}, parser::ToolChange{1}});
   controller.execute(
-      {{1, 1}, parser::CompensationChange{parser::LengthCompensation::tool_centre_point, false, 1}});
+      {{1, 1},
+       parser::CompensationChange{parser::LengthCompensation::tool_centre_point, false, 1}});
   for (std::int64_t i = 0; i < blocks; ++i) {
     if (!controller.execute(block_of(i))) break;
   }

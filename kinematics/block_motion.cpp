@@ -73,7 +73,8 @@ int BlockMotion::least_parts() const {
 }
 
 BlockMotion axes_motion(const AxisPositions& from, const AxisPositions& to) {
-  BlockMotion motion{.at = [from, to](double u) { return part_way(from, to, u); }, .straight = true};
+  BlockMotion motion{.at = [from, to](double u) { return part_way(from, to, u); },
+                     .straight = true};
   return finished(std::move(motion), from, (linear_positions(to) - linear_positions(from)).norm());
 }
 
@@ -82,7 +83,7 @@ BlockMotion words_motion(const AxisPositions& from, const AxisPositions& rotary_
   BlockMotion motion{.at =
                          [from, rotary_to, words, shift](double u) {
                            return with_linear_positions(rotary_between(from, rotary_to, u),
-                                                   words.at(u) + shift);
+                                                        words.at(u) + shift);
                          },
                      .arc_turn = words.turn,
                      .straight = words.turn == 0.0};

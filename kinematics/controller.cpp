@@ -206,8 +206,8 @@ class Controller::State {
         return;
       }
     }
-    if (tool_axis && !orient_to(table_from_words_.direction(*tool_axis),
-                                table_from_words_.point(end), q_end)) {
+    if (tool_axis &&
+        !orient_to(table_from_words_.direction(*tool_axis), table_from_words_.point(end), q_end)) {
       return;
     }
     travel(tip_motion(machine_, q_, q_end, tip, tip_frame()), manner);
@@ -309,9 +309,7 @@ class Controller::State {
     return problems_.empty();
   }
 
-  void place_words() {
-    table_from_words_ = Pose::translated(offset_) * plane_.value_or(Pose{});
-  }
+  void place_words() { table_from_words_ = Pose::translated(offset_) * plane_.value_or(Pose{}); }
 
   // What to add to X Y Z words to get axis positions: at rotary zero the tip is where the words say.
   [[nodiscard]] Vec3 axis_shift() const {

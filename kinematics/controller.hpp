@@ -50,7 +50,7 @@ struct AxisSample {
 struct Execution {
   ToolPath path{};                 // empty when only axes were asked for
   std::vector<AxisSample> axes{};  // the first entry is the start position
-  double cycle_time = 0.0;  // s
+  double cycle_time = 0.0;         // s
   Diagnostics warnings{};
 };
 

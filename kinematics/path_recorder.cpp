@@ -116,7 +116,9 @@ void PathRecorder::sample(Pending& pending, const AxisMotion& motion, int parts)
     add(u, axes, pose_at(axes, order.tool_length));
   };
   const auto turns = headings.turning_points();
-  const auto turns_at = [&](double u) { return std::find(turns.begin(), turns.end(), u) != turns.end(); };
+  const auto turns_at = [&](double u) {
+    return std::find(turns.begin(), turns.end(), u) != turns.end();
+  };
   std::vector<double> ends(turns.begin(), turns.end());
   ends.insert(ends.end(), order.motion.breaks.begin(), order.motion.breaks.end());
   ends.push_back(1.0);
@@ -146,18 +148,18 @@ void PathRecorder::give_to_time_law(Pending& pending, const AxisMotion& motion, 
   const BlockMotion& block = pending.order.motion;
   const double feed_time = pending.order.block.feed_duration;
   if (block.straight || (feed_time > 0.0 && !law_.limits_any() && !options_.servo_lag)) {
-    if (law_.add(minus(block.end, block.start), feed_time, true)) pending.ends.push_back(1.0);
+    if (law_.add(minus(block.end, block.start), {}, feed_time, true)) pending.ends.push_back(1.0);
     return;
   }
   double u0 = 0.0;
   AxisPositions from = block.start;
-  for (const double u1 : even_parts(motion, parts, block.breaks)) {
-    const AxisPositions to = motion(u1);
-    // A block that only turns axes whose positions cancel out still takes its feed's time.
-    if (law_.add(minus(to, from), feed_time * (u1 - u0), pending.ends.empty())) {
-      pending.ends.push_back(u1);
-      from = to;
-      u0 = u1;
+  for (const EvenPart& part : even_parts(motion, parts, block.breaks)) {
+    // What does not move the axes adds its share of the feed's time to what does.
+    if (law_.add(minus(part.to, from), part.unevenness, feed_time * (part.end - u0),
+                 pending.ends.empty())) {
+      pending.ends.push_back(part.end);
+      from = part.to;
+      u0 = part.end;
     }
   }
 }
@@ -237,7 +239,8 @@ std::vector<PathRecorder::TimedPose> PathRecorder::lagged_samples(const Pending&
   const BlockOrder& order = pending.order;
   std::vector<TimedPose> poses;
   if (pending.starts_chain) {
-    poses.push_back(lagged(order.motion.start, 0.0, clock_ - order.block.duration, order.tool_length));
+    poses.push_back(
+        lagged(order.motion.start, 0.0, clock_ - order.block.duration, order.tool_length));
   }
   double begin = 0.0;
   for (std::size_t k = 0; k < pending.segments.size(); ++k) {

@@ -102,13 +102,13 @@ class PathRecorder {
   HeadingTracker tracker_;
   TimeLaw law_;
   std::deque<Pending> pending_{};
-  bool chain_broken_ = true;   // of the motions that come in
-  ToolPose last_pose_{};       // of them
+  bool chain_broken_ = true;  // of the motions that come in
+  ToolPose last_pose_{};      // of them
   ToolPath path_{};
   double clock_ = 0.0;
   ServoLag lag_;
-  double lag_step_ = 0.0;      // s
-  double lag_tool_ = 0.0;      // mm: length of the tool whose path is on
+  double lag_step_ = 0.0;  // s
+  double lag_tool_ = 0.0;  // mm: length of the tool whose path is on
   bool lag_has_path_ = false;
 };
 

@@ -63,9 +63,11 @@ class TimeLaw {
   // False: no axis states a limit that could slow a feed.
   [[nodiscard]] bool limits_any() const { return limits_any_; }
 
-  // The axes go on by `step`, in no less than `least_time` (0: a rapid). `corner`: a new block begins.
+  // The axes go on by `step`, in no less than `least_time` (0: a rapid); `unevenness`: what every axis
+  // would go further at its fastest pace within the step. `corner`: a new block begins.
   // Returns false for a step without length, which takes no time and gives no segment.
-  bool add(const AxisPositions& step, double least_time, bool corner);
+  bool add(const AxisPositions& step, const AxisPositions& unevenness, double least_time,
+           bool corner);
   // The axes come to rest and wait.
   void rest(double seconds);
 
@@ -89,8 +91,8 @@ class TimeLaw {
     double length = 0.0;
     double step_length = 0.0;
     double feed_speed = kNoLimit;
-    Cap top{};                      // speed all along, with what its neighbourhood asks for
-    Cap entry{};                    // speed at its beginning
+    Cap top{};    // speed all along, with what its neighbourhood asks for
+    Cap entry{};  // speed at its beginning
     Cap acceleration{};
     std::array<double, 6> bends{};  // acceleration that the bends at its ends take, by axis
     double own_top = 0.0;           // without its neighbourhood
@@ -107,7 +109,8 @@ class TimeLaw {
     double covered = 0.0;
   };
 
-  [[nodiscard]] Piece piece_of(const AxisPositions& step, double length, double least_time) const;
+  [[nodiscard]] Piece piece_of(const AxisPositions& step, const AxisPositions& unevenness,
+                               double length, double least_time) const;
   void bend(Piece& before, Piece& after, bool corner) const;
   [[nodiscard]] std::vector<double> parts_of(double length) const;
   void bound_accelerations();

@@ -20,8 +20,8 @@ Machine machine(const std::string& more_x = "", const std::string& more_y = "") 
   const auto made = Machine::read(
       "name = \"m\"\ntitle = \"m\"\nstructure = \"t-(C)-Z-b-Y-X-w\"\ndatum = [\"X\", \"Y\"]\n"
       "[axis.X]\ntravel = [-4000, 4000]\nvelocity = 200\nacceleration = 1000\n" +
-          more_x + "[axis.Y]\ntravel = [-4000, 4000]\nvelocity = 400\nacceleration = 2000\n" + more_y +
-          "[axis.Z]\ntravel = [-4000, 4000]\n",
+          more_x + "[axis.Y]\ntravel = [-4000, 4000]\nvelocity = 400\nacceleration = 2000\n" +
+          more_y + "[axis.Z]\ntravel = [-4000, 4000]\n",
       "m.toml");
   EXPECT_TRUE(made) << to_string(made.error().front());
   return *made;
@@ -41,9 +41,11 @@ struct Motion {
   double end = 0.0;
 
   [[nodiscard]] AxisPositions at(double time) const {
-    const auto after = std::upper_bound(segments.begin(), segments.end(), time,
-                                        [](double t, const TimedSegment& s) { return t < s.start; });
-    const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - segments.begin() - 1, 0));
+    const auto after =
+        std::upper_bound(segments.begin(), segments.end(), time,
+                         [](double t, const TimedSegment& s) { return t < s.start; });
+    const auto k =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - segments.begin() - 1, 0));
     AxisPositions q = starts[k];
     const double way = segments[k].share_at(time) * segments[k].length;
     for (const AxisLetter letter : kAxisLetters) q[letter] += way * segments[k].per_length[letter];
@@ -62,7 +64,7 @@ Motion timed(const Machine& on, const TimeLawOptions& options,
   };
   for (const AxisPositions& s : steps) {
     const double length = std::hypot(s[X], s[Y], s[Z]);
-    EXPECT_TRUE(law.add(s, feed > 0.0 ? length / feed : 0.0, corners));
+    EXPECT_TRUE(law.add(s, {}, feed > 0.0 ? length / feed : 0.0, corners));
     motion.starts.push_back(q);
     for (const AxisLetter letter : kAxisLetters) q[letter] += s[letter];
     take();
@@ -242,7 +244,8 @@ TEST(ServoLag, LagsByVelocityOverGainAndShrinksACircle) {
     const AxisPositions& q =
         lag.follow(step(radius * std::cos(w * t), radius * std::sin(w * t)), h);
     if (t > 1.0) {
-      error = std::max(error, std::abs(std::hypot(q[X], q[Y]) - radius / std::hypot(1.0, w / 50.0)));
+      error =
+          std::max(error, std::abs(std::hypot(q[X], q[Y]) - radius / std::hypot(1.0, w / 50.0)));
     }
   }
   EXPECT_LT(error, 1e-6);
