@@ -61,6 +61,19 @@ TEST(JsonReport, HasTheProfilesOfComparedLinesAndOnlyThose) {
       Json::parse(json_report(sample_report()))["characteristics"][0].contains("profiles"));
 }
 
+TEST(JsonReport, TellsTheCycleTimeAndTheSlowedBlocks) {
+  RunReport report;
+  EXPECT_FALSE(nlohmann::json::parse(json_report(report)).contains("cycle_time_s"));
+  report.cycle_time = 12.5;
+  report.slowed = {{7, "C", 1000.0, 640.0}};
+  const auto json = nlohmann::json::parse(json_report(report));
+  EXPECT_EQ(json["cycle_time_s"], 12.5);
+  EXPECT_EQ(json["limited_blocks"][0]["line"], 7);
+  EXPECT_EQ(json["limited_blocks"][0]["axis"], "C");
+  EXPECT_EQ(json["limited_blocks"][0]["programmed_feed"], 1000.0);
+  EXPECT_EQ(json["limited_blocks"][0]["reached_feed"], 640.0);
+}
+
 TEST(JsonReport, StatusIsPassOnlyWhenNothingFailed) {
   RunReport report = sample_report();
   EXPECT_EQ(Json::parse(json_report(report))["status"], "fail");

@@ -35,6 +35,15 @@ TEST(NumberText, GivesEachUnitItsDecimals) {
   EXPECT_EQ(value_text(std::numeric_limits<double>::quiet_NaN(), "um"), "-");
 }
 
+TEST(NumberText, SaysTimesAsPeopleDo) {
+  EXPECT_EQ(duration_text(4.2), "4.20 s");
+  EXPECT_EQ(duration_text(59.999), "1 min 00.0 s");
+  EXPECT_EQ(duration_text(723.44), "12 min 03.4 s");
+  EXPECT_EQ(duration_text(3599.97), "1 h 00 min");
+  EXPECT_EQ(duration_text(7500.0), "2 h 05 min");
+  EXPECT_EQ(duration_text(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
 TEST(NumberText, GivesUncertaintiesTwoDigits) {
   EXPECT_EQ(uncertainty_text(0.4), "0.40");
   EXPECT_EQ(uncertainty_text(0.0123), "0.012");
