@@ -447,11 +447,12 @@ std::optional<Diagnostic> mismatch(const ErrorFileHead& file, const Machine& mac
     for (const AxisLetter axis : axes) {
       const Joint* joint = machine.joint(axis);
       if (joint != nullptr && joint->side == side) continue;
+      const std::string lacks =
+          joint == nullptr ? fmt::format("has no axis {}", to_char(axis))
+                           : fmt::format("carries {} on the other side", to_char(axis));
       Diagnostic problem = error(
-          fmt::format("the errors are written for {} ({}); machine {} ({}) {} {}", file.machine,
-                      file.structure, machine.name(), machine.structure(),
-                      joint == nullptr ? "has no axis" : "carries the other side with",
-                      to_char(axis)),
+          fmt::format("the errors are written for {} ({}); machine {} ({}) {}", file.machine,
+                      file.structure, machine.name(), machine.structure(), lacks),
           "errors belong to the machine they were found on");
       problem.file = file.file.string();
       problem.key = "structure";

@@ -155,7 +155,9 @@ class WordReader {
 
   // "10um", "-a1", "0.5*M", "b1*cos(zeta-90deg)"
   Amount product(std::string_view text) {
+    const bool several = text.find('*') != std::string_view::npos;
     Amount amount{.value = 1.0};
+    sum_ = false;
     while (!text.empty() && problem_.empty()) {
       std::size_t end = 0, depth = 0;
       for (; end < text.size() && (text[end] != '*' || depth > 0); ++end) {
@@ -165,6 +167,7 @@ class WordReader {
       factor(text.substr(0, end), amount);
       text.remove_prefix(std::min(end + 1, text.size()));
     }
+    if (sum_ && several) fail("a sum such as zeta+90deg is no factor of a product");
     return amount;
   }
 
@@ -176,7 +179,8 @@ class WordReader {
   }
 
   void factor(std::string_view text, Amount& amount) {
-    if (text.size() > 1 && text[0] == '-' && is_letter(text[1])) {
+    const bool negated = text.size() > 1 && text[0] == '-' && is_letter(text[1]);
+    if (negated) {
       amount.value = -amount.value;
       text.remove_prefix(1);
     }
@@ -207,7 +211,9 @@ class WordReader {
       const auto shift = parse_quantity(text.substr(sign));
       if (!shift || shift->kind != drawn.distribution.unit)
         return fail(fmt::format("'{}': what is added has not the unit of {}", text, drawn.name));
-      drawn.shift = shift->value;
+      // "-zeta+90deg" is -(zeta - 90deg).
+      drawn.shift = negated ? -shift->value : shift->value;
+      sum_ = sum_ || drawn.function == DrawnFactor::Function::itself;
     }
     if (drawn.function == DrawnFactor::Function::itself) {
       has_unit(drawn.distribution.unit, amount);
@@ -220,6 +226,7 @@ class WordReader {
   std::vector<std::string> words_;
   const DrawnQuantities& names_;
   std::size_t next_ = 0;
+  bool sum_ = false;  // the product read last holds a drawn quantity and something added
   std::string problem_;
 };
 

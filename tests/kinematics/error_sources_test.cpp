@@ -273,5 +273,153 @@ TEST(VolumetricGrid, AddsUpInSumsOfErrors) {
   EXPECT_LT((sum.grid_at({}).turn - 0.75 * Vec3(4, 5, 6)).norm(), 1e-15);
 }
 
+std::string shipped_errors(const std::string& name) {
+  return std::string(FRUSTUM_SOURCE_DIR) + "/machines/errors/" + name + ".toml";
+}
+
+GeometricErrors drawn_errors(const std::string& name, const Machine& machine, std::uint64_t seed) {
+  const auto list = load_error_file(shipped_errors(name));
+  if (!list) {
+    ADD_FAILURE() << to_string(list.error().front());
+    return {};
+  }
+  const auto errors = resolve(machine, draw(list->entries, seed));
+  if (!errors) {
+    ADD_FAILURE() << to_string(errors.error().front());
+    return {};
+  }
+  return *errors;
+}
+
+TEST(ErrorFile, EveryShippedFileLoadsFitsItsMachineAndResolves) {
+  int files = 0;
+  for (const auto& item : fs::directory_iterator(std::string(FRUSTUM_SOURCE_DIR) + "/machines/errors")) {
+    if (item.path().extension() != ".toml") continue;
+    ++files;
+    const auto list = load_error_file(item.path());
+    ASSERT_TRUE(list) << to_string(list.error().front());
+    ASSERT_EQ(list->files.size(), 1u);
+    EXPECT_FALSE(list->files.front().source.empty()) << item.path();
+    const Machine machine = shipped(list->files.front().machine);
+    EXPECT_EQ(list->files.front().structure, machine.structure());
+    EXPECT_FALSE(mismatch(list->files.front(), machine));
+    const auto errors = resolve(machine, draw(list->entries, 1));
+    EXPECT_TRUE(errors) << to_string(errors.error().front());
+  }
+  EXPECT_EQ(files, 5);
+}
+
+TEST(ErrorFile, HoldsTheNumberOfErrorsOfItsSource) {
+  const auto terms_of = [](const std::string& name) {
+    std::size_t terms = 0;
+    for (const ErrorEntry& entry : load_error_file(shipped_errors(name))->entries) {
+      terms += entry.terms.size();
+    }
+    return terms;
+  };
+  EXPECT_EQ(terms_of("bossoni-cone-limits"), 91u);
+  EXPECT_EQ(load_error_file(shipped_errors("jang-general-tolerances"))->entries.size(), 37u);
+  EXPECT_EQ(load_error_file(shipped_errors("jang-key-tolerances"))->entries.size(), 37u);
+  EXPECT_EQ(load_error_file(shipped_errors("ibaraki-position-dependent"))->entries.size(), 12u);
+}
+
+TEST(ErrorFile, ToleranceDrawsHaveTheirMeansAndSpread) {
+  const auto list = *load_error_file(shipped_errors("jang-key-tolerances"));
+  const auto exx = std::find_if(list.entries.begin(), list.entries.end(),
+                                [](const ErrorEntry& e) { return e.name == "exX"; });
+  double sum = 0.0, squares = 0.0;
+  const int n = 4000;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double x = draw(std::vector{*exx}, 5, k).front().terms.front().amount.value * kUradPerRad;
+    sum += x;
+    squares += x * x;
+  }
+  EXPECT_NEAR(sum / n, -8.0, 4 * 2 / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(squares / n - sum / n * sum / n), 2.0, 0.1);
+}
+
+// Equations (1)-(7) written out beside the file.
+TEST(ErrorFileReference, HongEquations1To7) {
+  const auto list = *load_error_file(shipped_errors("hong-component-errors"));
+  const Machine machine = shipped("iwf-bc");
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const auto drawn = draw(list.entries, seed);
+    const GeometricErrors errors = *resolve(machine, drawn);
+    const auto terms = [&](const std::string& name) {
+      return std::find_if(drawn.begin(), drawn.end(), [&](const auto& e) { return e.name == name; })
+          ->terms;
+    };
+    const auto clamped = [](double q, double lo, double hi) { return std::clamp(q, lo, hi) * pi / 180; };
+    const auto value = [&](AxisLetter axis, std::size_t d, double b, double c) {
+      AxisState at;
+      at.q[AxisLetter::B] = b * pi / 180;
+      at.q[AxisLetter::C] = c * pi / 180;
+      return errors[axis].component[d](axis, at);
+    };
+    const double m = terms("EZC")[0].amount.value, n = terms("EZC")[1].amount.value;
+    const double at = terms("EZC")[1].peak.value;
+    const auto exc = terms("EXC"), eyc = terms("EYC");
+    const double a1 = exc[0].amount.value, zeta = -exc[0].phase.value;
+    const double along_x = exc[1].amount.value, along_y = eyc[1].amount.value;
+    const double break_c = exc[1].peak.value;
+    const double a7 = exc[2].amount.value, zeta7 = -exc[2].phase.value;
+    for (const double c_deg : {-360.0, -300.0, -123.0, -20.0, 0.0}) {
+      const double c = clamped(c_deg, -360, 0), turn = 2 * pi;
+      const double eq1 = c <= at ? m + (n - m) * (c + turn) / (at + turn) : m + (n - m) * c / at;
+      EXPECT_NEAR(value(AxisLetter::C, 2, -30, c_deg), eq1, 1e-15);
+      const double b_deg = -30;
+      const double growth = 0.5 + std::abs(b_deg / 45.0);
+      const double ramp = c <= break_c ? (c + turn) / (break_c + turn) : c / break_c;
+      // Co-rotating with the table: by -C in its stator.
+      const double x = a1 * std::cos(zeta - c) + along_x * ramp + a7 * growth * std::cos(zeta7 - c);
+      const double y = a1 * std::sin(zeta - c) + along_y * ramp + a7 * growth * std::sin(zeta7 - c);
+      EXPECT_NEAR(value(AxisLetter::C, 0, b_deg, c_deg), x, 1e-14);
+      EXPECT_NEAR(value(AxisLetter::C, 1, b_deg, c_deg), y, 1e-14);
+    }
+    // (2) alone, with what (3) and (5), (6) add to EZB taken off.
+    const auto ezb = terms("EZB");
+    const double gm = ezb[0].amount.value, gn = ezb[1].amount.value;
+    EXPECT_DOUBLE_EQ(ezb[2].amount.value, -gm);
+    std::vector<ErrorEntry> gravity{{.name = "EZB", .terms = {ezb[0], ezb[1], ezb[2]}}};
+    const GeometricErrors of_gravity = *resolve(machine, gravity);
+    for (const double b : {-90.0, -36.0, 0.0, 45.0, 90.0}) {
+      AxisState state;
+      state.q[AxisLetter::B] = b * pi / 180;
+      EXPECT_NEAR(of_gravity[AxisLetter::B].component[2](AxisLetter::B, state),
+                  gn + (gm - gn) * std::abs(b) / 90.0, 1e-15);
+    }
+  }
+}
+
+TEST(ErrorFile, OfAnotherMachineIsRefusedWithTheAxis) {
+  const auto list = *load_error_file(shipped_errors("ibaraki-position-dependent"));
+  const auto problem = mismatch(list.files.front(), shipped("iwf-bc"));
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->message,
+            "the errors are written for ac-probe (t-(C)-Z-X-b-Y-A-C-w); machine iwf-bc "
+            "(t-(C)-Z-Y-b-X-B-C-w) carries X on the other side");
+  EXPECT_FALSE(mismatch(list.files.front(), shipped("zx-yac")));
+}
+
+TEST(ErrorFile, AMisspeltKeyIsNamedWithItsLine) {
+  const FileOf file("errors.toml", "title = \"t\"\nmachine = \"iwf-bc\"\n[errors]\nEXX = \"1 um\"\n"
+                    "EYX = { linear = \"1 um\", spam = 3 }\n");
+  const auto list = load_error_file(file.path());
+  ASSERT_FALSE(list);
+  EXPECT_EQ(list.error().front().line, 5);
+  EXPECT_NE(list.error().front().message.find("spam"), std::string::npos);
+}
+
+TEST(ErrorFile, ProblemsOfItsErrorsNameTheFile) {
+  const FileOf file("errors.toml",
+                    "title = \"t\"\nmachine = \"iwf-bc\"\n[errors]\nEXA = \"1 um\"\n");
+  const auto list = load_error_file(file.path());
+  ASSERT_TRUE(list);
+  const auto errors = resolve(shipped("iwf-bc"), list->entries);
+  ASSERT_FALSE(errors);
+  EXPECT_EQ(errors.error().front().file, file.path().string());
+  EXPECT_EQ(errors.error().front().key, "errors.EXA");
+}
+
 }  // namespace
 }  // namespace frustum::kinematics
