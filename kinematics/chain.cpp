@@ -70,7 +70,13 @@ Pose table_from_tool(const Machine& machine, const GeometricErrors* errors, cons
   const ChainWalk walk(machine, errors, at);
   const Pose last_from_tip =
       Pose::translated(machine.spindle_offset() - tool_length * Vec3::UnitZ());
-  const Pose bed_from_tip = walk.pose(machine.tool_chain(), last_from_tip);
+  Pose bed_from_tip = walk.pose(machine.tool_chain(), last_from_tip);
+  if (errors != nullptr && errors->has_grid()) {
+    const GridErrors grid = errors->grid_at(at.q);
+    const Pose turn = about_point(small_rotation(grid.turn, machine.rotation_order()),
+                                  grid_pivot(machine, at.q, last_from_tip));
+    bed_from_tip = Pose::translated(grid.shift) * turn * bed_from_tip;
+  }
   const Pose bed_from_table =
       walk.pose(machine.work_chain(), Pose::translated(machine.table_offset()));
   return bed_from_table.inverse() * bed_from_tip;

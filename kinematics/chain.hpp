@@ -8,6 +8,8 @@
 //            Loc: a rotary axis's location errors move all that it carries; a linear axis's orientation
 //            errors only tilt the line along which its functional point p runs, about the joint's origin:
 //            line(q) = side q e + (Rot - 1)(side q e + p), unless declared to carry.
+//            A volumetric grid moves the whole tool chain: bed_from_tool = Trans(d) Rot(r) (the product above),
+//            turning about joint_motion.hpp's grid_pivot.
 //            Full rotations throughout; no small-angle shortcut.
 // Units    : mm, rad; frame: table (the last joint of the work chain)
 // Source   : ISO 230-1, ISO 230-7; exact transforms after machine-tool practice (docs/errors.md)

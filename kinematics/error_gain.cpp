@@ -70,7 +70,12 @@ PoseDisplacement first_order_displacement(const Machine& machine, const Geometri
   const Mat3 table_from_bed =
       bed_from_end(machine.work_chain(), at.q, table_end).rotation.transpose();
   const TwistSum twists(machine, errors, at);
-  const PoseDisplacement of_tool = twists.of(machine.tool_chain(), tip_end, tip);
+  PoseDisplacement of_tool = twists.of(machine.tool_chain(), tip_end, tip);
+  if (errors.has_grid()) {
+    const GridErrors grid = errors.grid_at(at.q);
+    of_tool.tip += grid.shift + grid.turn.cross(tip - grid_pivot(machine, at.q, tip_end));
+    of_tool.turn += grid.turn;
+  }
   const PoseDisplacement of_table = twists.of(machine.work_chain(), table_end, tip);
   return {table_from_bed * (of_tool.tip - of_table.tip),
           table_from_bed * (of_tool.turn - of_table.turn)};

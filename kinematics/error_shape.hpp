@@ -77,7 +77,8 @@ struct ErrorShape {
   std::optional<double> zero{};    // where a linear term vanishes (default 0)
   std::optional<double> settle{};  // reversal: travel that takes up the play
   double period = 0.0;             // cyclic
-  UnitKind position_kind = UnitKind::none;  // of span, zero, settle, period, peak, table; none: not given
+  UnitKind position_kind =
+      UnitKind::none;  // of span, zero, settle, period, peak, table; none: not given
   std::vector<std::pair<double, double>> points{};  // table
   TableKind interpolation = TableKind::linear;
   bool periodic = false;

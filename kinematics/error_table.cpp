@@ -175,7 +175,8 @@ class ShapeReader {
         static_cast<TableKind>(table_.choice_or("interpolation", {"linear", "cubic"}, 0));
     shape_.periodic = table_.boolean_or("periodic", false);
     if (positions.size() != values.size() || positions.size() < 2) {
-      table_.fail("values", fmt::format("{} positions and {} values", positions.size(), values.size()),
+      table_.fail("values",
+                  fmt::format("{} positions and {} values", positions.size(), values.size()),
                   "give as many values as positions, at least two");
       return;
     }
@@ -203,7 +204,8 @@ class ShapeReader {
     surface.first_positions = table_.numbers("first");
     surface.second_positions = table_.numbers("second");
     const double scale = value_scale();
-    const auto rows = table_.rows("values", std::max<std::size_t>(1, surface.second_positions.size()));
+    const auto rows =
+        table_.rows("values", std::max<std::size_t>(1, surface.second_positions.size()));
     if (surface.first == surface.second) {
       table_.fail("surface", "expected two axes", "surface = [\"A\", \"C\"]");
       return;
@@ -239,7 +241,8 @@ class ShapeReader {
       return;
     }
     if (positions.size() != values.size() || positions.size() < 2) {
-      table.fail("values", fmt::format("{} positions and {} values", positions.size(), values.size()),
+      table.fail("values",
+                 fmt::format("{} positions and {} values", positions.size(), values.size()),
                  "give as many values as positions, at least two");
       return;
     }
@@ -447,13 +450,13 @@ std::optional<Diagnostic> mismatch(const ErrorFileHead& file, const Machine& mac
     for (const AxisLetter axis : axes) {
       const Joint* joint = machine.joint(axis);
       if (joint != nullptr && joint->side == side) continue;
-      const std::string lacks =
-          joint == nullptr ? fmt::format("has no axis {}", to_char(axis))
-                           : fmt::format("carries {} on the other side", to_char(axis));
-      Diagnostic problem = error(
-          fmt::format("the errors are written for {} ({}); machine {} ({}) {}", file.machine,
-                      file.structure, machine.name(), machine.structure(), lacks),
-          "errors belong to the machine they were found on");
+      const std::string lacks = joint == nullptr
+                                    ? fmt::format("has no axis {}", to_char(axis))
+                                    : fmt::format("carries {} on the other side", to_char(axis));
+      Diagnostic problem =
+          error(fmt::format("the errors are written for {} ({}); machine {} ({}) {}", file.machine,
+                            file.structure, machine.name(), machine.structure(), lacks),
+                "errors belong to the machine they were found on");
       problem.file = file.file.string();
       problem.key = "structure";
       return problem;

@@ -31,9 +31,9 @@ constexpr std::array kKinds{Keyword{"constant", ErrorShape::Kind::constant},
                             Keyword{"tent", ErrorShape::Kind::tent},
                             Keyword{"table", ErrorShape::Kind::table},
                             Keyword{"surface", ErrorShape::Kind::surface}};
-constexpr std::array<std::string_view, 12> kOptions{
-    "over", "zero", "phase", "period", "settle", "at",
-    "times", "uniform", "normal", "sd", "limit", ".."};
+constexpr std::array<std::string_view, 12> kOptions{"over",   "zero", "phase", "period",
+                                                    "settle", "at",   "times", "uniform",
+                                                    "normal", "sd",   "limit", ".."};
 
 bool is_keyword(std::string_view word) {
   return std::find(kOptions.begin(), kOptions.end(), word) != kOptions.end() ||
@@ -46,7 +46,8 @@ bool is_letter(char c) {
 }
 
 bool is_bare_number(std::string_view word) {
-  if (const auto dots = word.rfind(".."); dots != std::string_view::npos) word.remove_prefix(dots + 2);
+  if (const auto dots = word.rfind(".."); dots != std::string_view::npos)
+    word.remove_prefix(dots + 2);
   const auto parsed = parse_quantity(word);
   return parsed && parsed->kind == UnitKind::none;
 }
@@ -284,8 +285,8 @@ class TermReader {
   void option() {
     const Kind k = shape_.kind;
     const bool waves = k == Kind::harmonic || k == Kind::cyclic;
-    const bool spans = k == Kind::linear || k == Kind::polynomial || k == Kind::harmonic ||
-                       k == Kind::tent;
+    const bool spans =
+        k == Kind::linear || k == Kind::polynomial || k == Kind::harmonic || k == Kind::tent;
     if (spans && in_.take("over")) {
       span();
     } else if (waves && in_.take("phase")) {

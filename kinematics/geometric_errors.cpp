@@ -126,7 +126,8 @@ bool is_drawn(const ErrorShape& shape) {
 std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& entry,
                                       const ErrorShape& shape, const ErrorName& name) {
   const auto problem = [&](const std::string& what, std::string hint) {
-    return error(fmt::format("error {} = {}: {}", entry.name, entry.written, what), std::move(hint));
+    return error(fmt::format("error {} = {}: {}", entry.name, entry.written, what),
+                 std::move(hint));
   };
   const UnitKind wanted = is_rotation(name.direction) ? UnitKind::angle : UnitKind::length;
   if (shape.amount.kind != wanted) {
@@ -135,9 +136,9 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
   }
   const UnitKind along = is_rotary(name.axis) ? UnitKind::angle : UnitKind::length;
   if (shape.position_kind != UnitKind::none && shape.position_kind != along) {
-    return problem(fmt::format("a position of {} is {}", to_char(name.axis),
-                               a_length_or_an_angle(along)),
-                   along == UnitKind::angle ? "for example 90 deg" : "for example 100 mm");
+    return problem(
+        fmt::format("a position of {} is {}", to_char(name.axis), a_length_or_an_angle(along)),
+        along == UnitKind::angle ? "for example 90 deg" : "for example 100 mm");
   }
   if (name.location && shape.kind != ErrorShape::Kind::constant) {
     return problem("a location error is a constant", "component errors such as EXX take shapes");

@@ -39,4 +39,16 @@ Vec3 functional_point(const Machine& machine, std::span<const Joint> joints, std
   return from_end.translation;
 }
 
+Vec3 grid_pivot(const Machine& machine, const AxisPositions& q, const Pose& end) {
+  const std::span<const Joint> joints = machine.tool_chain();
+  Vec3 pivot = Vec3::Zero();
+  Pose bed_from_joint;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    bed_from_joint = bed_from_joint * nominal_joint(joints[i], q[joints[i].letter]);
+    if (joints[i].rotary()) continue;
+    pivot = bed_from_joint.point(functional_point(machine, joints, i, q, end));
+  }
+  return pivot;
+}
+
 }  // namespace frustum::kinematics

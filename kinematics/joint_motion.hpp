@@ -31,4 +31,8 @@ struct JointErrors {
 [[nodiscard]] Vec3 functional_point(const Machine& machine, std::span<const Joint> joints,
                                     std::size_t i, const AxisPositions& q, const Pose& end);
 
+// The point of the bed about which a volumetric grid turns the tool chain: the functional point of the chain's
+// last linear axis, where it nominally is; the bed's origin where there is none.
+[[nodiscard]] Vec3 grid_pivot(const Machine& machine, const AxisPositions& q, const Pose& end);
+
 }  // namespace frustum::kinematics

@@ -102,11 +102,13 @@ class CalibrationReader {
   std::optional<Diagnostic> point(std::string_view rest, int place) {
     if (rest == "}") {
       in_points_ = false;
-      if (shape_.points.size() < 2) return problem(line_, place, "a table needs at least two points");
+      if (shape_.points.size() < 2)
+        return problem(line_, place, "a table needs at least two points");
       return std::nullopt;
     }
     const std::size_t gap = rest.find_first_of(" \t");
-    const std::size_t second = gap == std::string_view::npos ? gap : rest.find_first_not_of(" \t", gap);
+    const std::size_t second =
+        gap == std::string_view::npos ? gap : rest.find_first_not_of(" \t", gap);
     if (second == std::string_view::npos)
       return problem(line_, place, "expected a position and a value");
     const auto position = number_at(rest.substr(0, gap), place);
@@ -161,8 +163,7 @@ Result<std::vector<ErrorEntry>> read_error_csv(const std::filesystem::path& file
   const NumberTable::Column& positions = table->columns.front();
   const auto axis = axis_named(positions.name);
   if (!axis) {
-    return table->problem(head, positions.place,
-                          fmt::format("'{}' is not an axis", positions.name),
+    return table->problem(head, positions.place, fmt::format("'{}' is not an axis", positions.name),
                           "the first column holds the positions of one axis: X_mm or B_deg");
   }
   const UnitKind wanted = is_rotary(*axis) ? UnitKind::angle : UnitKind::length;
@@ -191,9 +192,8 @@ Result<std::vector<ErrorEntry>> read_error_csv(const std::filesystem::path& file
                             "a file holds component errors of the axis in its first column");
     }
     if (column->unit != unit_of(*name)) {
-      return table->problem(
-          head, column->place,
-          fmt::format("{} must be {}", column->name, article_of(unit_of(*name))));
+      return table->problem(head, column->place,
+                            fmt::format("{} must be {}", column->name, article_of(unit_of(*name))));
     }
     ErrorShape shape{.kind = ErrorShape::Kind::table};
     shape.amount.kind = column->unit;

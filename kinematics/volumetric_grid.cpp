@@ -85,8 +85,8 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
     const auto* known = std::find_if(kColumns.begin(), kColumns.end(),
                                      [&](const GridColumn& c) { return column.name == c.name; });
     if (known == kColumns.end()) {
-      return table->problem(table->header_line, column.place, fmt::format("unknown column '{}'", column.name),
-                            kColumnsHint);
+      return table->problem(table->header_line, column.place,
+                            fmt::format("unknown column '{}'", column.name), kColumnsHint);
     }
     if ((column.unit == UnitKind::angle) != known->angle) {
       return table->problem(table->header_line, column.place,
@@ -99,8 +99,8 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     columns[c] = table->column(kColumns[c].name);
     if (columns[c] == nullptr && kColumns[c].required) {
-      return table->problem(table->header_line, 0, fmt::format("column '{}' is missing", kColumns[c].name),
-                            kColumnsHint);
+      return table->problem(table->header_line, 0,
+                            fmt::format("column '{}' is missing", kColumns[c].name), kColumnsHint);
     }
   }
   std::array<std::vector<double>, 3> positions;
@@ -117,8 +117,8 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
   if (total > 8 * table->lines.size() + 64) {
     return table->problem(0, 0,
                           fmt::format("{} points do not fill the {} x {} x {} positions they name",
-                                      table->lines.size(), positions[0].size(),
-                                      positions[1].size(), positions[2].size()),
+                                      table->lines.size(), positions[0].size(), positions[1].size(),
+                                      positions[2].size()),
                           "give every combination of the positions once");
   }
   std::vector<GridErrors> errors(total);
@@ -143,12 +143,12 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
   if (missing != line_of.end()) {
     const auto index = static_cast<std::size_t>(missing - line_of.begin());
     const std::size_t nz = positions[2].size(), ny = positions[1].size();
-    return table->problem(0, 0,
-                          fmt::format("the grid has no point at x {:g}, y {:g}, z {:g} mm",
-                                      positions[0][index / (ny * nz)],
-                                      positions[1][index / nz % ny], positions[2][index % nz]),
-                          fmt::format("{} x {} x {} positions need {} points",
-                                      positions[0].size(), ny, nz, total));
+    return table->problem(
+        0, 0,
+        fmt::format("the grid has no point at x {:g}, y {:g}, z {:g} mm",
+                    positions[0][index / (ny * nz)], positions[1][index / nz % ny],
+                    positions[2][index % nz]),
+        fmt::format("{} x {} x {} positions need {} points", positions[0].size(), ny, nz, total));
   }
   return VolumetricGrid(std::move(positions), std::move(errors));
 }

@@ -103,8 +103,7 @@ TEST(ErrorShape, AnAxisHasOneSettlingDistance) {
   EXPECT_TRUE(one->depends_on_direction());
   const auto two = resolved({"EXX=reversal 4um settle 0.01mm", "EYX=reversal 1um settle 0.02mm"});
   ASSERT_FALSE(two);
-  EXPECT_EQ(two.error().front().message,
-            "error EYX: X settles over another distance than in EXX");
+  EXPECT_EQ(two.error().front().message, "error EYX: X settles over another distance than in EXX");
   EXPECT_EQ(problem_of("EXX=reversal 4um settle 0.01mm + reversal 1um settle 0.02mm"),
             "error EXX: two settling distances of X");
   // A replaced entry leaves nothing behind.
@@ -261,8 +260,7 @@ TEST(ErrorShape, TablesNameWhatIsWrong) {
     (void)read("[errors]\n" + entry + "\n", &problems);
     return problems.empty() ? "accepted" : problems.front().key + ": " + problems.front().message;
   };
-  EXPECT_EQ(first_problem("EXX = { linaer = \"10 um\" }"),
-            "errors.EXX: an error needs a shape");
+  EXPECT_EQ(first_problem("EXX = { linaer = \"10 um\" }"), "errors.EXX: an error needs a shape");
   EXPECT_EQ(first_problem("EXX = { table = [0, 5, 5], values = [1, 2, 3], position_unit = \"mm\", "
                           "value_unit = \"um\" }"),
             "errors.EXX.table: position 5 follows 5");

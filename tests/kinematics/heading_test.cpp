@@ -163,9 +163,9 @@ class ConeDeviation {
       const double u = (k + 0.5) / kSamples, phi = 2 * pi * u;
       const AxisPositions q = axes_at(phi);
       const Vec3 nominal = nominal_pose(machine_, q, 0.0).translation;
-      EXPECT_LT((nominal - (tilted(40 * std::cos(phi), 40 * std::sin(phi), 0) + centre())).norm(), 1e-9);
-      const Vec3 actual =
-          actual_pose(machine_, errors_, {q, profile.at(u, q)}, 0.0).translation;
+      EXPECT_LT((nominal - (tilted(40 * std::cos(phi), 40 * std::sin(phi), 0) + centre())).norm(),
+                1e-9);
+      const Vec3 actual = actual_pose(machine_, errors_, {q, profile.at(u, q)}, 0.0).translation;
       const double a = kAlpha;
       const Vec3 normal =
           tilted(std::cos(a) * std::cos(phi), std::cos(a) * std::sin(phi), std::sin(a));
@@ -190,7 +190,9 @@ class ConeDeviation {
     double c = std::atan2(sa * std::sin(phi), sa * cb * std::cos(phi) - sb * ca);
     if (c < 0.0) c += 2 * pi;
     if (phi > 6.0 && c < 1.0) c += 2 * pi;
-    const Vec3 xyz = rotation_y(-b) * (rotation_z(-c) * (tilted(40 * std::cos(phi), 40 * std::sin(phi), 0) + centre()));
+    const Vec3 xyz =
+        rotation_y(-b) *
+        (rotation_z(-c) * (tilted(40 * std::cos(phi), 40 * std::sin(phi), 0) + centre()));
     q[AxisLetter::X] = xyz.x();
     q[AxisLetter::Y] = xyz.y();
     q[AxisLetter::Z] = xyz.z();
