@@ -7,6 +7,7 @@
 
 #include "core/spelling.hpp"
 #include "kinematics/machine.hpp"
+#include "kinematics/reference_axes.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -86,7 +87,8 @@ struct NamedError {
   bool carries = false;
 };
 
-Result<NamedError> find_error(const Machine& machine, const std::string& name) {
+Result<NamedError> find_error(const Machine& machine, const std::string& name,
+                              std::span<const AxisLetter> datum) {
   if (const auto alias = machine.aliases().find(name); alias != machine.aliases().end()) {
     return NamedError{alias->second.error, alias->second.scale, alias->second.carries};
   }
@@ -105,9 +107,11 @@ Result<NamedError> find_error(const Machine& machine, const std::string& name) {
                              machine.structure(), to_char(error_name->axis)),
                  fmt::format("'frustum errors {}' lists the names", machine.name()));
   }
-  if (const auto reason = machine.refused(*error_name)) {
-    return error(fmt::format("error {}: {}", name, *reason),
-                 "choose other reference axes with the machine file's key datum");
+  if (const auto reason = machine.refused(*error_name, datum)) {
+    return error(
+        fmt::format("error {}: {}", name, *reason),
+        "choose other reference axes with the machine file's key datum, or say which ones the "
+        "errors are written for: [errors] datum");
   }
   return NamedError{*error_name};
 }
@@ -259,14 +263,16 @@ namespace {
 // Lays entries over the axes of one machine.
 class Resolver {
  public:
-  Resolver(const Machine& machine, const AxisSpans& spans) : machine_(machine), spans_(spans) {}
+  Resolver(const Machine& machine, std::span<const AxisLetter> datum, const AxisSpans& spans)
+      : machine_(machine), datum_(datum), spans_(spans) {}
 
   void add(const ErrorEntry& entry) {
+    if (!entry.datum.empty()) return;
     if (entry.grid != nullptr) {
       errors_.add_grid(entry.grid, 1.0);
       return;
     }
-    const auto named = find_error(machine_, entry.name);
+    const auto named = find_error(machine_, entry.name, datum_);
     if (!named) {
       for (const Diagnostic& problem : named.error()) refuse(entry, problem);
       return;
@@ -325,6 +331,7 @@ class Resolver {
   }
 
   const Machine& machine_;
+  std::span<const AxisLetter> datum_;
   const AxisSpans& spans_;
   GeometricErrors errors_;
   std::map<std::string, Settling> settling_;
@@ -336,9 +343,20 @@ class Resolver {
 
 Result<GeometricErrors> resolve(const Machine& machine, std::span<const ErrorEntry> entries,
                                 const AxisSpans& spans) {
-  Resolver resolver(machine, spans);
+  const auto stated = std::find_if(entries.begin(), entries.end(),
+                                   [](const ErrorEntry& entry) { return !entry.datum.empty(); });
+  const bool restate = stated != entries.end() && stated->datum != machine.datum();
+  if (restate) {
+    for (const AxisLetter axis : stated->datum) {
+      if (machine.joint(axis) != nullptr) continue;
+      return error(fmt::format("datum: machine {} has no axis {}", machine.name(), to_char(axis)));
+    }
+  }
+  Resolver resolver(machine, restate ? stated->datum : machine.datum(), spans);
   for (const ErrorEntry& entry : entries) resolver.add(entry);
-  return resolver.result();
+  auto errors = resolver.result();
+  if (!errors || !restate) return errors;
+  return restated(machine, *errors);
 }
 
 }  // namespace frustum::kinematics
