@@ -123,8 +123,7 @@ void add_cut(CLI::App& program, int& exit_code) {
       ->add_option("--pitch", options->pitch,
                    "Of the sampling grid, mm (default: longest side / 120)")
       ->check(positive_number());
-  command->add_option("--error", options->overrides.errors,
-                      "NAME=VALUE, repeated; overrides the job");
+  add_error_options(*command, options->overrides.errors);
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
   command->add_flag("--quiet", options->quiet, "No progress, no summary");

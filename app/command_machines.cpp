@@ -45,6 +45,36 @@ int list_machines(const Options& options) {
   return kDone;
 }
 
+// Where the angular component errors of an axis turn, and in whose directions its errors point.
+std::string place_of(const Machine& machine, const Joint& joint) {
+  std::string point = "the origin of its frame";
+  if (joint.functional_point.at_tip) {
+    point = "the tool tip";
+  } else if (!joint.functional_point.point.isZero(0.0)) {
+    const Vec3& p = joint.functional_point.point;
+    point = fmt::format("({:g}, {:g}, {:g}) mm of its frame", p.x(), p.y(), p.z());
+  }
+  const bool rotor =
+      joint.rotary() && machine.rotary_error_frame() == kinematics::RotaryErrorFrame::rotor;
+  return fmt::format("errors turn about {}, directions of the {}", point,
+                     rotor ? "rotor" : "stator");
+}
+
+// Errors that the machine has by name but not by choice.
+ordered_json zero_by_choice(const Machine& machine) {
+  ordered_json list = ordered_json::array();
+  for (const Joint& joint : machine.joints()) {
+    for (const auto d : {kinematics::ErrorDirection::A, kinematics::ErrorDirection::B,
+                         kinematics::ErrorDirection::C}) {
+      const ErrorName name{d, joint.letter, true};
+      if (const auto reason = machine.refused(name)) {
+        list.push_back({{"name", name.text()}, {"reason", *reason}});
+      }
+    }
+  }
+  return list;
+}
+
 int list_errors(const Options& options) {
   const auto machine = Machine::load(find_machine(options.machine, "."));
   if (!machine) return refuse(machine.error());
@@ -55,7 +85,8 @@ int list_errors(const Options& options) {
   for (const Joint& joint : machine->joints()) {
     ordered_json axis{{"axis", std::string(1, to_char(joint.letter))},
                       {"side", joint.side > 0 ? "tool" : "workpiece"},
-                      {"unit", unit(joint)}};
+                      {"unit", unit(joint)},
+                      {"errors", place_of(*machine, joint)}};
     axis["travel"] =
         joint.endless
             ? ordered_json(nullptr)
@@ -75,7 +106,8 @@ int list_errors(const Options& options) {
     std::cout << ordered_json{{"machine", machine->name()},
                               {"structure", machine->structure()},
                               {"axes", axes},
-                              {"errors", names}}
+                              {"errors", names},
+                              {"zero_by_choice", zero_by_choice(*machine)}}
                      .dump(2)
               << '\n';
     return kDone;
@@ -88,8 +120,9 @@ int list_errors(const Options& options) {
             ? "endless"
             : fmt::format("{} .. {} {}", axis["travel"][0].dump(), axis["travel"][1].dump(),
                           axis["unit"].get<std::string>());
-    std::cout << fmt::format("  {}  {:<10} {}\n", axis["axis"].get<std::string>(),
-                             axis["side"].get<std::string>(), travel);
+    std::cout << fmt::format("  {}  {:<10} {:<20} {}\n", axis["axis"].get<std::string>(),
+                             axis["side"].get<std::string>(), travel,
+                             axis["errors"].get<std::string>());
   }
   std::cout << "\nerrors (--error NAME=VALUE)\n";
   for (const auto& e : names) {
@@ -97,6 +130,11 @@ int list_errors(const Options& options) {
         "  {:<10} {:<5} {}{}\n", e["name"].get<std::string>(), e["unit"].get<std::string>(),
         e["meaning"].get<std::string>(),
         e.contains("alias_of") ? fmt::format(" [{}]", e["alias_of"].get<std::string>()) : "");
+  }
+  std::cout << "\nzero by the choice of reference axes\n";
+  for (const auto& e : zero_by_choice(*machine)) {
+    std::cout << fmt::format("  {:<10} {}\n", e["name"].get<std::string>(),
+                             e["reason"].get<std::string>());
   }
   return kDone;
 }
@@ -112,8 +150,9 @@ void add_machines(CLI::App& program, int& exit_code) {
 
 void add_errors(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "errors", "A machine's axes, travels and every error name it accepts, with the meaning");
+  CLI::App* command = program.add_subcommand("errors",
+                                             "A machine's axes, travels and every error name it "
+                                             "accepts: meaning, place, and what is zero");
   command->add_option("machine", options->machine, "Machine file, or the name of a shipped machine")
       ->required();
   command->add_flag("--json", options->json, "One JSON document on stdout");

@@ -80,8 +80,7 @@ void add_measure(CLI::App& program, int& exit_code) {
   command->add_option("--points", options->points, "CSV with feature,section,x,y,z (mm)");
   command->add_flag("--ball-centres", options->ball_centres,
                     "The points are centres of the probe ball, not surface points");
-  command->add_option("--error", options->overrides.errors,
-                      "NAME=VALUE, repeated; overrides the job");
+  add_error_options(*command, options->overrides.errors);
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
   command->add_flag("--quiet", options->quiet, "No progress, no summary");

@@ -9,6 +9,7 @@
 
 #include "app/axis_words.hpp"
 #include "app/console.hpp"
+#include "app/error_sources.hpp"
 #include "app/machine_files.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
@@ -26,7 +27,8 @@ struct Options {
   std::string machine{};
   std::string axes{};
   std::string inverse{};
-  std::vector<std::string> errors{};
+  std::string heading{};
+  ErrorWords errors{};
   double tool_length = 0.0;
   bool json = false;
 };
@@ -43,21 +45,66 @@ ordered_json axes_json(const Machine& machine, const AxisPositions& q) {
   return axes;
 }
 
-// Axes not named stay 0.
+// "X=10,Y=0,A=-30": axes not named stay 0.
+Result<AxisPositions> read_axis_values(const Machine& machine, const std::string& text) {
+  std::vector<std::string> known;
+  for (const Joint& joint : machine.joints()) known.emplace_back(1, to_char(joint.letter));
+  AxisPositions q;
+  std::vector<std::string> given;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) {
+    const auto equals = part.find('=');
+    std::string name = part.substr(0, equals);
+    std::erase(name, ' ');
+    if (equals == std::string::npos || std::find(known.begin(), known.end(), name) == known.end()) {
+      return error(fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
+                               machine.structure()),
+                   fmt::format("write {}", fmt::join(known, "=..,")) + "=..");
+    }
+    if (std::find(given.begin(), given.end(), name) != given.end()) {
+      return error(fmt::format("axis {} is given twice", name));
+    }
+    given.push_back(name);
+    const auto value = numbers_of(part.substr(equals + 1), 1, "axis " + name);
+    if (!value) return value.error();
+    for (const Joint& joint : machine.joints()) {
+      if (name[0] == to_char(joint.letter)) q[joint.letter] = value->front();
+    }
+  }
+  return q;
+}
+
+// mm and degrees.
 Result<AxisPositions> read_axes(const Machine& machine, const std::string& text) {
-  return read_axis_words(machine, text).transform([](const auto& words) {
-    AxisPositions q;
-    for (const auto& [letter, value] : words) q[letter] = value;
-    return q;
-  });
+  auto q = read_axis_values(machine, text);
+  if (!q) return q;
+  for (const Joint& joint : machine.joints()) {
+    if (joint.rotary()) (*q)[joint.letter] *= kRadPerDeg;
+  }
+  return q;
+}
+
+// From -1, after motion in -, to +1.
+Result<AxisPositions> read_headings(const Machine& machine, const std::string& text) {
+  auto heading = read_axis_values(machine, text);
+  if (!heading) return heading;
+  for (const Joint& joint : machine.joints()) {
+    const double h = (*heading)[joint.letter];
+    if (std::abs(h) <= 1.0) continue;
+    return error(fmt::format("--heading {}={}: expected -1 .. +1", to_char(joint.letter), h),
+                 "+1 after motion in +, -1 after motion in -");
+  }
+  return heading;
 }
 
 int forward(const Options& options, const Machine& machine,
             const kinematics::GeometricErrors& errors) {
   const auto q = read_axes(machine, options.axes);
   if (!q) return refuse(q.error());
+  const auto heading = read_headings(machine, options.heading);
+  if (!heading) return refuse(heading.error());
   const Pose nominal = nominal_pose(machine, *q, options.tool_length);
-  const Pose actual = actual_pose(machine, errors, *q, options.tool_length);
+  const Pose actual = actual_pose(machine, errors, {*q, *heading}, options.tool_length);
   const ToolPose n = kinematics::tool_pose(nominal), a = kinematics::tool_pose(actual);
   // The rotation that carries the nominal tool frame to the actual one, as a vector in the table frame.
   const Eigen::AngleAxisd turn(actual.rotation * nominal.rotation.transpose());
@@ -120,13 +167,9 @@ int run_pose(const Options& options) {
   }
   const auto machine = Machine::load(find_machine(options.machine, "."));
   if (!machine) return refuse(machine.error());
-  std::vector<kinematics::ErrorEntry> entries;
-  for (const std::string& text : options.errors) {
-    const auto entry = kinematics::parse_error(text);
-    if (!entry) return refuse(entry.error());
-    entries.push_back(*entry);
-  }
-  const auto errors = kinematics::resolve(*machine, entries);
+  const auto entries = gather_errors({}, options.errors, std::nullopt, *machine);
+  if (!entries) return refuse(entries.error());
+  const auto errors = kinematics::resolve(*machine, *entries);
   if (!errors) return refuse(errors.error());
   if (options.axes.empty() == options.inverse.empty()) {
     return refuse("give either --axes or --inverse", "for example --axes \"X=10,A=-30\"");
@@ -150,7 +193,9 @@ void add_pose(CLI::App& program, int& exit_code) {
       "--inverse", options->inverse,
       "\"x,y,z,i,j,k\": tip (mm) and tool axis; all axis solutions, those within travel and "
       "nearest to zero first");
-  command->add_option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
+  command->add_option("--heading", options->heading,
+                      "\"X=1,B=-1\": from which side axes came (default 0: not moved yet)");
+  add_error_options(*command, options->errors);
   command->add_option("--tool-length", options->tool_length,
                       "mm, default 0: the tip is the gauge point");
   command->add_flag("--json", options->json, "One JSON document on stdout");

@@ -86,8 +86,7 @@ void add_run(CLI::App& program, int& exit_code) {
   command->add_option("--out", options->out,
                       "Folder for report.html, result.json and points.csv "
                       "(default: out/ beside the job)");
-  command->add_option("--error", options->overrides.errors,
-                      "NAME=VALUE, repeated; overrides the job, for example --error EB0C=30urad");
+  add_error_options(*command, options->overrides.errors);
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error,
                       "Of every tool, with unit, for example 2um");
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");

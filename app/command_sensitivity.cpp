@@ -95,8 +95,7 @@ void add_sensitivity(CLI::App& program, int& exit_code) {
       ->check(positive_number(1000.0));
   command->add_option("--step-urad", o->step_urad, "differences: step of angles, urad (1)")
       ->check(positive_number(10000.0));
-  command->add_option("--error", o->overrides.errors,
-                      "NAME=VALUE: about a machine with this error, for example beta_CA=20urad");
+  add_error_options(*command, o->overrides.errors);
   command->add_option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");
   command->add_option("--out", o->out, "Folder for sensitivity.html, .csv and .json");
   command->add_flag("--json", o->json, "One JSON document on stdout");

@@ -41,6 +41,9 @@ void add_fit(CLI::App& program, int& exit_code);
 void add_machines(CLI::App& program, int& exit_code);
 void add_errors(CLI::App& program, int& exit_code);
 void add_volumetric(CLI::App& program, int& exit_code);
+struct ErrorWords;
+// The options by which a command takes errors: --error, --errors, --draw.
+void add_error_options(CLI::App& command, ErrorWords& words);
 // Kinds of test pieces: subcommands of `program`.
 void add_cone(CLI::App& kinds, int& exit_code);
 void add_step(CLI::App& kinds, int& exit_code);

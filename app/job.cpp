@@ -174,18 +174,13 @@ void check_made_features(const TomlTable& root, const programs::TestPiece& piece
   }
 }
 
-// Later words win: the command line over the file.
-void override_errors(std::vector<kinematics::ErrorEntry>& errors, const JobOverrides& overrides,
-                     Diagnostics& problems) {
-  for (const std::string& text : overrides.errors) {
-    auto entry = kinematics::parse_error(text);
-    if (!entry) {
-      problems.insert(problems.end(), entry.error().begin(), entry.error().end());
-      continue;
-    }
-    std::erase_if(errors, [&](const kinematics::ErrorEntry& e) { return e.name == entry->name; });
-    errors.push_back(*std::move(entry));
-  }
+// error_draw = { seed = 1, index = 0 }
+std::optional<ErrorDraw> read_draw(const TomlTable& root) {
+  const auto table = root.table_if("error_draw");
+  if (!table) return std::nullopt;
+  const auto seed = table->integer("seed", Bound::non_negative);
+  const auto index = table->integer_or("index", 0, Bound::non_negative);
+  return ErrorDraw{static_cast<std::uint64_t>(seed), static_cast<std::uint32_t>(index)};
 }
 
 void override_tool_radius(programs::TestPiece& piece, const JobOverrides& overrides,
@@ -215,8 +210,11 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   read_blank(root, piece);
   read_tools(root, piece);
   read_operations(root, piece);
-  std::vector<kinematics::ErrorEntry> errors;
-  if (const auto table = root.table_if("errors")) errors = kinematics::read_errors(*table);
+  kinematics::ErrorList written_errors;
+  if (const auto table = root.table_if("errors")) {
+    written_errors = kinematics::read_errors(*table, find_error_file);
+  }
+  const std::optional<ErrorDraw> draw = read_draw(root);
   double mesh_pitch = 0.0;
   bool report = true;
   if (const auto output = root.table_if("output")) {
@@ -228,7 +226,6 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
     path_bound = accuracy->length_or("path_bound", Mm{1e-5}, Bound::positive).value;
   }
   const ControllerSettings controller = read_controller(root);
-  override_errors(errors, overrides, problems);
   override_tool_radius(piece, overrides, problems);
 
   metrology::CmmModel cmm;
@@ -238,6 +235,15 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   auto machine = kinematics::Machine::load(machine_file);
   if (!machine && !machine_name.empty()) {
     problems.insert(problems.end(), machine.error().begin(), machine.error().end());
+  }
+  std::vector<kinematics::ErrorEntry> errors;
+  if (machine) {
+    auto gathered = gather_errors(std::move(written_errors), overrides.errors, draw, *machine);
+    if (gathered) {
+      errors = *std::move(gathered);
+    } else {
+      problems.insert(problems.end(), gathered.error().begin(), gathered.error().end());
+    }
   }
 
   Diagnostics all = document->finish();

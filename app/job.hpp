@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/controller_settings.hpp"
+#include "app/error_sources.hpp"
 #include "core/result.hpp"
 #include "kinematics/geometric_errors.hpp"
 #include "kinematics/machine.hpp"
@@ -33,7 +34,7 @@ struct Job {
 
 // What the command line may change in a job.
 struct JobOverrides {
-  std::vector<std::string> errors{};  // "EB0C=30urad"
+  ErrorWords errors{};
   std::optional<std::string> tool_radius_error{};
 };
 

@@ -4,8 +4,6 @@
 #include <system_error>
 
 namespace frustum::app {
-namespace {
-
 namespace fs = std::filesystem;
 
 // Beside the source while developing, beside the installed program afterwards.
@@ -18,8 +16,6 @@ std::vector<fs::path> machine_folders() {
   }
   return folders;
 }
-
-}  // namespace
 
 fs::path find_machine(const std::string& name, const fs::path& folder) {
   std::error_code ignored;

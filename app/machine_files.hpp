@@ -11,6 +11,8 @@ namespace frustum::app {
 // A path (relative to `folder`, else to the working folder), or the name of a shipped machine.
 [[nodiscard]] std::filesystem::path find_machine(const std::string& name,
                                                  const std::filesystem::path& folder);
+// Where shipped machines may lie, best first; error files lie in errors/ under it.
+[[nodiscard]] std::vector<std::filesystem::path> machine_folders();
 // The shipped machine files, by name.
 [[nodiscard]] std::vector<std::filesystem::path> shipped_machines();
 

@@ -12,7 +12,12 @@
 namespace frustum {
 
 // Separates the streams of one draw. Add at the end; never renumber: old seeds keep their meaning.
-enum class RandomPurpose : std::uint32_t { cmm_point = 1, cmm_scale = 2, test_data = 3 };
+enum class RandomPurpose : std::uint32_t {
+  cmm_point = 1,
+  cmm_scale = 2,
+  test_data = 3,
+  error_amount = 4
+};
 
 struct RandomKey {
   std::uint64_t seed = 0;

@@ -394,6 +394,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   return found;
 }
 
+std::filesystem::path TomlTable::folder() const { return state_->file.parent_path(); }
+
 std::filesystem::path TomlTable::file_path(std::string_view key) const {
   const std::filesystem::path written = text(key);
   return written.is_absolute() ? written : state_->file.parent_path() / written;

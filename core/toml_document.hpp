@@ -79,6 +79,8 @@ class TomlTable {
   [[nodiscard]] bool is_array(std::string_view key) const;
   [[nodiscard]] bool is_number(std::string_view key) const;
 
+  // Where the document stands: what its relative paths start from.
+  [[nodiscard]] std::filesystem::path folder() const;
   // A path in the file, resolved against the folder of the document.
   [[nodiscard]] std::filesystem::path file_path(std::string_view key) const;
 

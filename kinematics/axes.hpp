@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 #include "parser/motion.hpp"
 
@@ -13,6 +15,14 @@ using parser::AxisLetter;
 using parser::is_rotary;
 using parser::kAxisLetters;
 using parser::to_char;
+
+[[nodiscard]] inline std::optional<AxisLetter> axis_named(std::string_view text) {
+  std::optional<AxisLetter> named;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (text.size() == 1 && text.front() == to_char(axis)) named = axis;
+  }
+  return named;
+}
 
 class AxisPositions {
  public:

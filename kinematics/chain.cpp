@@ -32,7 +32,9 @@ Mat3 rotation_by(const Vec3& axis, const SineCosine& angle) {
 
 ForwardChain::ForwardChain(const Machine& machine, const GeometricErrors& errors,
                            double tool_length)
-    : tip_(machine.spindle_offset() - tool_length * Vec3::UnitZ()),
+    : machine_(&machine),
+      grids_(errors.has_grid() ? &errors : nullptr),
+      tip_(machine.spindle_offset() - tool_length * Vec3::UnitZ()),
       table_(machine.table_offset()),
       order_(machine.rotation_order()),
       frame_(machine.rotary_error_frame()) {
@@ -136,6 +138,14 @@ void ForwardChain::prepend_rotary(const Link& link, const AxisState& at, Vec3& e
   end += link.offset;
 }
 
+void ForwardChain::move_by_grid(const AxisState& at, PoseRows& pose) const {
+  const GridErrors grid = grids_->grid_at(at.q);
+  const Vec3 pivot = grid_pivot(error_frames(machine_->tool_chain(), frame_, at.q, tip_));
+  pose.shift(-pivot);
+  pose.turn(grid.turn, order_);
+  pose.shift(pivot + grid.shift);
+}
+
 PoseRows ForwardChain::walk(std::span<const Link> links, const Vec3& end,
                             const AxisState& at) const {
   PoseRows pose(end);
@@ -151,7 +161,9 @@ PoseRows ForwardChain::walk(std::span<const Link> links, const Vec3& end,
 }
 
 PoseRows ForwardChain::tool_rows(const AxisState& at) const {
-  return walk({links_.data(), tool_count_}, tip_, at);
+  PoseRows pose = walk({links_.data(), tool_count_}, tip_, at);
+  if (grids_ != nullptr) move_by_grid(at, pose);
+  return pose;
 }
 PoseRows ForwardChain::table_rows(const AxisState& at) const {
   return walk({links_.data() + tool_count_, count_ - tool_count_}, table_, at);

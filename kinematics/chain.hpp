@@ -8,6 +8,8 @@
 //            Loc: a rotary axis's location errors move all that it carries; a linear axis's orientation
 //            errors only tilt the line along which its functional point p runs, about the joint's origin:
 //            line(q) = side q e + (Rot - 1)(side q e + p), unless declared to carry.
+//            A volumetric grid moves the whole tool chain: bed_from_tool = Trans(d) Rot(r) (the product above),
+//            turning about joint_motion.hpp's grid_pivot.
 //            Full rotations throughout; no small-angle shortcut.
 // Units    : mm, rad; frame: table (the last joint of the work chain)
 // Errors   : none: every position has a pose, within travel or not
@@ -75,7 +77,12 @@ class ForwardChain {
   [[nodiscard]] PoseRows tool_rows(const AxisState& at) const;
   [[nodiscard]] PoseRows table_rows(const AxisState& at) const;
 
+  // A volumetric grid moves the whole tool chain.
+  void move_by_grid(const AxisState& at, PoseRows& pose) const;
+
   static constexpr std::size_t kMostJoints = 5;
+  const Machine* machine_;
+  const GeometricErrors* grids_;  // null: no volumetric grid
   std::array<Link, kMostJoints> links_{};  // tool chain, then work chain
   std::size_t tool_count_ = 0;
   std::size_t count_ = 0;

@@ -27,6 +27,13 @@ double value(const ReversalTerm& term, AxisLetter axis, const AxisState& at) {
   return term.at_plus * at.heading[axis];
 }
 
+double value(const TentTerm& term, AxisLetter axis, const AxisState& at) {
+  const double q = std::clamp(at.q[axis], term.lo, term.hi);
+  if (q == term.peak) return term.amplitude;
+  const double foot = q < term.peak ? term.lo : term.hi;
+  return term.amplitude * (q - foot) / (term.peak - foot);
+}
+
 double wrapped(double q, double lo, double hi) {
   const double turns = std::floor((q - lo) / (hi - lo));
   return q - turns * (hi - lo);
@@ -74,6 +81,11 @@ double value(const SurfaceTerm& term, AxisLetter /*axis*/, const AxisState& at) 
   return here + i.share * (there - here);
 }
 
+double value(const ModulatedTerm& term, AxisLetter axis, const AxisState& at) {
+  return value(term.factor, term.axis, at) *
+         std::visit([&](const auto& t) { return value(t, axis, at); }, term.term);
+}
+
 ErrorTerm scaled(ConstantTerm term, double factor) {
   term.value *= factor;
   return term;
@@ -94,6 +106,10 @@ ErrorTerm scaled(ReversalTerm term, double factor) {
   term.at_plus *= factor;
   return term;
 }
+ErrorTerm scaled(TentTerm term, double factor) {
+  term.amplitude *= factor;
+  return term;
+}
 ErrorTerm scaled(TableTerm term, double factor) {
   for (TablePoint& point : term.points) {
     point.value *= factor;
@@ -103,6 +119,11 @@ ErrorTerm scaled(TableTerm term, double factor) {
 }
 ErrorTerm scaled(SurfaceTerm term, double factor) {
   for (double& v : term.values) v *= factor;
+  return term;
+}
+
+ErrorTerm scaled(ModulatedTerm term, double factor) {
+  for (TablePoint& point : term.factor.points) point.value *= factor;
   return term;
 }
 
@@ -144,7 +165,9 @@ TableTerm TableTerm::of(std::vector<std::pair<double, double>> points, TableKind
 
 bool ErrorFunction::depends_on_direction() const {
   return std::any_of(terms_.begin(), terms_.end(), [](const ErrorTerm& term) {
-    return std::holds_alternative<ReversalTerm>(term);
+    const auto* modulated = std::get_if<ModulatedTerm>(&term);
+    return std::holds_alternative<ReversalTerm>(term) ||
+           (modulated != nullptr && std::holds_alternative<ReversalTerm>(modulated->term));
   });
 }
 

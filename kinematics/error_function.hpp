@@ -5,11 +5,13 @@
 //              linear     s (q - q0)
 //              polynomial c0 + c1 t + c2 t^2 + ..., t = (q - m)/r
 //              harmonic   a cos(w (q - q0) + psi); a cyclic error is one, too
+//              tent       a rise and a fall, straight
 //              table      straight or monotone cubic between its points, held at its ends or periodic
 //            of its direction of motion:
 //              reversal   a times the heading, -1 .. +1
 //            of two axes:
 //              surface    bilinear between the points of a grid, held at its ends
+//              modulated  any of these times a table of another axis
 // Units    : q and value in mm or rad, whichever the axis and the error are
 // Errors   : none; shapes are checked where they are read
 // Source   : linear and harmonic of the ETH thesis, sections 3.8 and 3.9; monotone cubic of Fritsch and
@@ -68,8 +70,22 @@ struct SurfaceTerm {
   std::vector<double> second_positions{};
   std::vector<double> values{};  // a row for each first position
 };
+// Rises from nothing at `lo` to its amplitude at `peak` and falls to nothing at `hi`; held outside. A peak
+// outside leaves one of the two slopes.
+struct TentTerm {
+  double amplitude = 0.0;
+  double lo = 0.0, peak = 0.0, hi = 0.0;
+};
+using PlainTerm = std::variant<ConstantTerm, LinearTerm, PolynomialTerm, HarmonicTerm, ReversalTerm,
+                               TentTerm, TableTerm, SurfaceTerm>;
+// A term times a factor that changes with the position of some axis.
+struct ModulatedTerm {
+  PlainTerm term{};
+  AxisLetter axis = AxisLetter::B;
+  TableTerm factor{};
+};
 using ErrorTerm = std::variant<ConstantTerm, LinearTerm, PolynomialTerm, HarmonicTerm, ReversalTerm,
-                               TableTerm, SurfaceTerm>;
+                               TentTerm, TableTerm, SurfaceTerm, ModulatedTerm>;
 
 class ErrorFunction {
  public:

@@ -71,7 +71,12 @@ PoseDisplacement first_order_displacement(const Machine& machine, const Geometri
   const ChainFrames tool = tool_side_frames(machine, at.q, tool_length);
   const ChainFrames work = work_side_frames(machine, at.q);
   const Vec3 tip = tool.bed_from_end.translation;
-  const PoseDisplacement of_tool = displacement(tool, errors, at, tip);
+  PoseDisplacement of_tool = displacement(tool, errors, at, tip);
+  if (errors.has_grid()) {
+    const GridErrors grid = errors.grid_at(at.q);
+    of_tool.tip += grid.shift;
+    of_tool += turned(grid.turn, grid_pivot(tool), tip);
+  }
   const PoseDisplacement of_table = displacement(work, errors, at, tip);
   const Mat3 table_from_bed = work.bed_from_end.rotation.transpose();
   return {table_from_bed * (of_tool.tip - of_table.tip),

@@ -4,13 +4,14 @@
 //            and six location errors, constants (EX0C, EB0C, ...). They are physical displacements of the
 //            moving part in its stator frame.
 // Units    : mm, rad
-// Errors   : read_error and resolve name the error, what is wrong with it and what the machine accepts
+// Errors   : resolve names the error, what is wrong with it and what the machine accepts
 // Source   : ISO 230-1 names; where each acts: chain.hpp. The older short names (X0C for EX0C) and the
 //            letter O for the digit 0 are read too.
 #pragma once
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,9 +19,9 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "core/toml_document.hpp"
 #include "kinematics/axes.hpp"
 #include "kinematics/error_function.hpp"
+#include "kinematics/error_shape.hpp"
 
 namespace frustum::kinematics {
 
@@ -64,40 +65,28 @@ class GeometricErrors {
   // These errors plus `factor` times the others; of two settling distances of an axis the longer.
   [[nodiscard]] GeometricErrors plus(const GeometricErrors& others, double factor) const;
 
+  // Volumetric grids: a displacement of the whole tool chain in the directions of the bed; it turns about the
+  // functional point of the chain's last linear axis, or about the bed's origin where there is none.
+  [[nodiscard]] bool has_grid() const { return !grids_.empty(); }
+  [[nodiscard]] GridErrors grid_at(const AxisPositions& q) const;
+  void add_grid(std::shared_ptr<const VolumetricGrid> grid, double factor) {
+    grids_.push_back({std::move(grid), factor});
+  }
+
  private:
+  struct WeightedGrid {
+    std::shared_ptr<const VolumetricGrid> grid{};
+    double factor = 1.0;
+  };
   std::array<AxisErrors, 6> axes_{};
+  std::vector<WeightedGrid> grids_{};
 };
-
-// A shape as people write it; spans are absent when the axis's default span is meant.
-struct ErrorShape {
-  enum class Kind : std::uint8_t { constant, linear, harmonic, table };
-  Kind kind = Kind::constant;
-  ParsedQuantity amount{};
-  int order = 1;
-  double phase = 0.0;               // rad
-  std::optional<AxisRange> span{};  // mm or rad
-  std::optional<double> zero{};     // mm or rad: where a linear term vanishes (default 0)
-  std::vector<std::pair<double, double>> points{};  // table, internal units
-};
-
-// One error of a job or a command line: name and terms, with the text for the report.
-struct ErrorEntry {
-  std::string name{};
-  std::string written{};
-  std::vector<ErrorShape> terms{};
-};
-
-// "EB0C=30urad", "EXX=linear 10um", "EYX=harmonic 1 10um over 4.3mm..190mm phase 90deg"; terms are
-// added with " + ": "EXY=harmonic 1 10um + -10um".
-[[nodiscard]] Result<ErrorEntry> parse_error(std::string_view text);
-// The [errors] table of a job: text as above, { value = .. }, { linear = .., span = [..] },
-// { harmonic = k, amplitude = .. }, { table = [[q, v], ..], unit = ".." }, or an array of tables.
-[[nodiscard]] std::vector<ErrorEntry> read_errors(const TomlTable& table);
 
 // Default spans of shapes, by axis; axes not named use their travel.
 using AxisSpans = std::map<AxisLetter, AxisRange>;
 
-// Later entries replace earlier ones of the same error.
+// Later entries replace earlier ones of the same error. Amounts that are drawn from distributions must have
+// been drawn before (kinematics/error_draw.hpp).
 [[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine,
                                               std::span<const ErrorEntry> entries,
                                               const AxisSpans& spans = {});

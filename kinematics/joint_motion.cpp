@@ -54,4 +54,12 @@ ChainFrames work_side_frames(const Machine& machine, const AxisPositions& q) {
                       machine.table_offset());
 }
 
+Vec3 grid_pivot(const ChainFrames& tool_side) {
+  Vec3 pivot = Vec3::Zero();
+  for (const ErrorFrames& f : tool_side.joints()) {
+    if (!f.joint->rotary()) pivot = f.pivot;
+  }
+  return pivot;
+}
+
 }  // namespace frustum::kinematics

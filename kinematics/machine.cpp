@@ -28,7 +28,8 @@ AxisPositions Machine::home() const {
   return home;
 }
 
-std::optional<std::string> Machine::refused(const ErrorName& error) const {
+std::optional<std::string> Machine::refused(const ErrorName& error,
+                                            std::span<const AxisLetter> datum) const {
   if (!error.location || !is_rotation(error.direction) || is_rotary(error.axis))
     return std::nullopt;
   const std::string axis(1, to_char(error.axis));
@@ -39,17 +40,17 @@ std::optional<std::string> Machine::refused(const ErrorName& error) const {
       angle_between(about, -joint.direction) < 1e-12) {
     return fmt::format("a linear axis cannot be out of square about its own direction {}", axis);
   }
-  if (!datum_.empty() && datum_[0] == error.axis) {
+  if (!datum.empty() && datum[0] == error.axis) {
     return fmt::format(
         "{} is the primary reference axis; its orientation errors are zero by choice", axis);
   }
-  if (datum_.size() > 1 && datum_[1] == error.axis) {
-    const Vec3 square = this->joint(datum_[0])->direction.cross(joint.direction).normalized();
+  if (datum.size() > 1 && datum[1] == error.axis) {
+    const Vec3 square = this->joint(datum[0])->direction.cross(joint.direction).normalized();
     if (std::abs(about.dot(square)) < 0.5) {
       return fmt::format(
           "{} is the secondary reference axis; of its orientation errors only the squareness to {} "
           "remains",
-          axis, to_char(datum_[0]));
+          axis, to_char(datum[0]));
     }
   }
   return std::nullopt;

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,8 +88,15 @@ class Machine {
   [[nodiscard]] std::vector<Joint> joints() const;
   [[nodiscard]] const Joint* joint(AxisLetter letter) const;
   [[nodiscard]] AxisPositions home() const;
+  // The primary and the secondary reference axis of ISO 230-1, as far as the file names them.
+  [[nodiscard]] const std::vector<AxisLetter>& datum() const { return datum_; }
   // Why the choice of reference axes makes this error zero; nothing when it is accepted.
-  [[nodiscard]] std::optional<std::string> refused(const ErrorName& error) const;
+  [[nodiscard]] std::optional<std::string> refused(const ErrorName& error) const {
+    return refused(error, datum_);
+  }
+  // The same for another choice.
+  [[nodiscard]] std::optional<std::string> refused(const ErrorName& error,
+                                                   std::span<const AxisLetter> datum) const;
   // Every ISO error name that the machine accepts, axis by axis.
   [[nodiscard]] std::vector<ErrorName> error_names() const;
 

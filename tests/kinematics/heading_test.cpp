@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/units.hpp"
+#include "kinematics/chain.hpp"
+#include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -132,6 +138,79 @@ TEST(HeadingTrackerLaws, AgreeWithAMarchedPlayOperator) {
     ASSERT_EQ(profile.at(u, known)[kX], profile.at(u)[kX]);
   }
   EXPECT_NEAR(tracker.heading()[kX], heading, 1e-6);
+}
+
+// The inclined cone of the ETH thesis on its table machine (alpha 45, beta 30 deg, r 40 mm, cone centre at
+// (-65, 0, 150) mm), evaluated as section 3.9 does: peak to valley of the deviation along the normal after its
+// mean, cosine and sine are taken off.
+class ConeDeviation {
+ public:
+  explicit ConeDeviation(const std::vector<std::string>& texts) : machine_(shipped("iwf-bc")) {
+    std::vector<ErrorEntry> entries;
+    for (const std::string& text : texts) entries.push_back(*parse_error(text));
+    errors_ = *resolve(machine_, entries);
+  }
+
+  [[nodiscard]] double circularity_um() const {
+    constexpr int kSamples = 3600;
+    HeadingTracker tracker(errors_);
+    const AxisMotion lap = [](double u) { return axes_at(2 * pi * u); };
+    (void)tracker.follow(lap, 72);  // the first lap settles the headings
+    const HeadingProfile profile = tracker.follow(lap, 72);
+    Eigen::Matrix<double, kSamples, 3> shape;
+    Eigen::Matrix<double, kSamples, 1> deviation;
+    for (int k = 0; k < kSamples; ++k) {
+      const double u = (k + 0.5) / kSamples, phi = 2 * pi * u;
+      const AxisPositions q = axes_at(phi);
+      const Vec3 nominal = nominal_pose(machine_, q, 0.0).translation;
+      EXPECT_LT((nominal - (tilted(40 * std::cos(phi), 40 * std::sin(phi), 0) + centre())).norm(),
+                1e-9);
+      const Vec3 actual = actual_pose(machine_, errors_, {q, profile.at(u, q)}, 0.0).translation;
+      const double a = kAlpha;
+      const Vec3 normal =
+          tilted(std::cos(a) * std::cos(phi), std::cos(a) * std::sin(phi), std::sin(a));
+      deviation[k] = (actual - nominal).dot(normal) * kUmPerMm;
+      shape.row(k) << 1.0, std::cos(phi), std::sin(phi);
+    }
+    const Eigen::Vector3d fit =
+        (shape.transpose() * shape).inverse() * (shape.transpose() * deviation);
+    const auto rest = (deviation - shape * fit).eval();
+    return rest.maxCoeff() - rest.minCoeff();
+  }
+
+ private:
+  static constexpr double kAlpha = pi / 4, kBeta = pi / 6;
+  static Vec3 centre() { return {-65.0, 0.0, 150.0}; }
+  static Vec3 tilted(double x, double y, double z) { return rotation_y(kBeta) * Vec3(x, y, z); }
+  static AxisPositions axes_at(double phi) {
+    const double ca = std::cos(kAlpha), sa = std::sin(kAlpha), cb = std::cos(kBeta),
+                 sb = std::sin(kBeta);
+    AxisPositions q;
+    const double b = -std::acos(ca * cb + sa * sb * std::cos(phi));
+    double c = std::atan2(sa * std::sin(phi), sa * cb * std::cos(phi) - sb * ca);
+    if (c < 0.0) c += 2 * pi;
+    if (phi > 6.0 && c < 1.0) c += 2 * pi;
+    const Vec3 xyz =
+        rotation_y(-b) *
+        (rotation_z(-c) * (tilted(40 * std::cos(phi), 40 * std::sin(phi), 0) + centre()));
+    q[AxisLetter::X] = xyz.x();
+    q[AxisLetter::Y] = xyz.y();
+    q[AxisLetter::Z] = xyz.z();
+    q[AxisLetter::B] = b;
+    q[AxisLetter::C] = c;
+    return q;
+  }
+
+  Machine machine_;
+  GeometricErrors errors_;
+};
+
+// Table 3.4: 9.9 and 10.0 printed for X and Y; the values of an independent computation with full jumps.
+TEST(HeadingReference, HysteresisRowsOfThesisTable3_4) {
+  EXPECT_NEAR(ConeDeviation({"EXX=reversal 10um"}).circularity_um(), 9.991, 0.01);
+  EXPECT_NEAR(ConeDeviation({"EYY=reversal 10um"}).circularity_um(), 10.060, 0.01);
+  EXPECT_NEAR(ConeDeviation({"EBB=reversal 50urad"}).circularity_um(), 6.670, 0.01);
+  EXPECT_NEAR(ConeDeviation({"ECC=reversal 50urad"}).circularity_um(), 0.0, 0.002);
 }
 
 }  // namespace
