@@ -1,14 +1,16 @@
 // The controller: canonical motions in, axis commands and the actual tool path out.
 //
-// Model    : with tool-centre-point control the tip moves as programmed in the program frame (straight,
-//            or on an arc) while the rotary axes move linearly; without it all axes move linearly. Both
-//            see the nominal machine; where the tool really goes is the chain with errors.
-// Frames   : program coordinates = table frame shifted by the active work offset (no rotation). Without
-//            tool-centre-point control a word is an axis position: at rotary zero the tip is where the
-//            words say. Machine coordinates (G53) are axis positions.
-// Units    : mm, rad
+// Model    : with tool-centre-point control the tip moves as programmed in the frame of the words (straight,
+//            or on an arc) while the rotary axes move linearly or the tool axis runs on the great circle;
+//            without it all axes move linearly. Both see the nominal machine; where the tool really goes,
+//            and when, is for path_recorder.hpp. Modes and feeds in words: docs/controller.md
+// Frames   : frame of the words = table frame shifted by the active work offset, then the tilted plane.
+//            Without either control or plane a word is an axis position: at rotary zero the tip is where
+//            the words say. Machine coordinates (G53) are axis positions.
+// Units    : mm, rad, s
 // Errors   : over-travel (axis, value, limits), axes the machine lacks, unreachable directions, tools and
-//            work offsets that the setup lacks, feed without a tool; each with the NC line
+//            work offsets that the setup lacks, feed without a tool, feed per revolution without a turning
+//            spindle, alignment without a plane, rotary positions off the great circle; each with the NC line
 #pragma once
 
 #include <functional>
