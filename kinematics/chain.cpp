@@ -96,28 +96,27 @@ void ForwardChain::turn_about_pivot(const Link& link, const Vec3& turn, const Ve
   pose.shift(pivot);
 }
 
-void ForwardChain::place(const Link& link, const Vec3& shift, PoseRows& pose) {
-  if (!link.carries) return pose.shift(shift + link.place);
-  pose.shift(shift);
-  pose.turn(link.carried);
+void ForwardChain::place(const Link& link, PoseRows& pose) {
+  if (link.carries) pose.turn(link.carried);
   pose.shift(link.place);
 }
 
 void ForwardChain::prepend_linear(const Link& link, const AxisState& at, Vec3& end,
                                   PoseRows& pose) const {
-  const Vec3 motion = at.q[link.letter] * link.direction;
-  Vec3 shift = motion;
-  if (link.tilted) {
-    const Vec3 pivot = link.pivot == Pivot::end ? end : link.point;
-    shift = link.line * (motion + pivot) - pivot;
-  }
   if (link.component != nullptr) {
     const ComponentErrors e = component_errors(*link.component, link.letter, at);
     turn_about_pivot(link, e.turn, end, pose);
-    shift += e.shift;
+    pose.shift(e.shift);
   }
-  place(link, shift, pose);
-  end += motion + link.offset;
+  const Vec3 motion = at.q[link.letter] * link.direction;
+  if (link.tilted) {
+    const Vec3 pivot = link.pivot == Pivot::end ? end : link.point;
+    pose.shift(link.line * (motion + pivot) - pivot);
+  } else {
+    pose.shift(motion);
+  }
+  place(link, pose);
+  if (link.needs_end) end += motion + link.offset;
 }
 
 void ForwardChain::prepend_rotary(const Link& link, const AxisState& at, Vec3& end,
@@ -133,9 +132,12 @@ void ForwardChain::prepend_rotary(const Link& link, const AxisState& at, Vec3& e
   }
   rotate(link, angle, pose);
   if (link.needs_end) end = rotation_by(link.direction, angle) * end;
-  if (!rotor && link.component != nullptr) turn_about_pivot(link, e.turn, end, pose);
-  place(link, rotor ? Vec3(Vec3::Zero()) : e.shift, pose);
-  end += link.offset;
+  if (!rotor && link.component != nullptr) {
+    turn_about_pivot(link, e.turn, end, pose);
+    pose.shift(e.shift);
+  }
+  place(link, pose);
+  if (link.needs_end) end += link.offset;
 }
 
 void ForwardChain::move_by_grid(const AxisState& at, PoseRows& pose) const {

@@ -73,7 +73,7 @@ class ForwardChain {
   void prepend_rotary(const Link& link, const AxisState& at, Vec3& end, PoseRows& pose) const;
   void turn_about_pivot(const Link& link, const Vec3& turn, const Vec3& end, PoseRows& pose) const;
   static void rotate(const Link& link, const SineCosine& q, PoseRows& pose);
-  static void place(const Link& link, const Vec3& shift, PoseRows& pose);
+  static void place(const Link& link, PoseRows& pose);
   [[nodiscard]] PoseRows tool_rows(const AxisState& at) const;
   [[nodiscard]] PoseRows table_rows(const AxisState& at) const;
 

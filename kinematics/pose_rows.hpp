@@ -1,7 +1,8 @@
-// A pose that is being moved from the left, joint by joint: its rotation by rows, its translation apart.
+// A pose that is being moved from the left, joint by joint: two columns of its rotation by rows, and its
+// translation. The third column is the cross product of the others, taken at the end.
 //
 // Model    : a rotation of the pose is a sum of multiples of rows; rotations about X, Y and Z touch two
-//            of them. Rows have a fourth number, always 0, so that they are whole vector registers.
+//            of them. A row of two numbers is one vector register.
 // Units    : mm, rad
 // Errors   : none
 #pragma once
@@ -57,13 +58,15 @@ class PoseRows {
 
   [[nodiscard]] Pose pose() const {
     Pose p;
-    p.rotation << x_[0], x_[1], x_[2], y_[0], y_[1], y_[2], z_[0], z_[1], z_[2];
+    p.rotation << x_[0], x_[1], y_[0] * z_[1] - z_[0] * y_[1],  //
+        y_[0], y_[1], z_[0] * x_[1] - x_[0] * z_[1],            //
+        z_[0], z_[1], x_[0] * y_[1] - y_[0] * x_[1];
     p.translation << tx_, ty_, tz_;
     return p;
   }
 
  private:
-  using Row = Eigen::Array4d;
+  using Row = Eigen::Array2d;
 
   template <typename Numbers>
   static void turn(Numbers& first, Numbers& second, const SineCosine& a) {
@@ -72,7 +75,7 @@ class PoseRows {
     first = turned;
   }
 
-  Row x_{1.0, 0.0, 0.0, 0.0}, y_{0.0, 1.0, 0.0, 0.0}, z_{0.0, 0.0, 1.0, 0.0};
+  Row x_{1.0, 0.0}, y_{0.0, 1.0}, z_{0.0, 0.0};
   double tx_, ty_, tz_;
 };
 
