@@ -158,10 +158,6 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
     return problem(fmt::format("machine {} has no axis {}", machine.name(), to_char(axis)),
                    "the error depends on its position");
   }
-  if (is_drawn(shape)) {
-    return problem("the amount is a distribution and has not been drawn",
-                   "draw it: --draw SEED, or error_draw = { seed = 1 } in the job");
-  }
   return std::nullopt;
 }
 
@@ -278,6 +274,7 @@ class Resolver {
       return;
     }
     const Joint& joint = *machine_.joint(named->error.axis);
+    if (std::any_of(entry.terms.begin(), entry.terms.end(), is_drawn)) undrawn_.push_back(&entry);
     ErrorFunction function;
     double constant = 0.0;
     std::optional<double> settle;
@@ -299,6 +296,7 @@ class Resolver {
   }
 
   Result<GeometricErrors> result() {
+    if (!undrawn_.empty()) refuse_undrawn();
     for (const auto& [key, own] : settling_) {
       double& of_axis = errors_[own.axis].settling;
       const auto before = first_.emplace(own.axis, &own).first->second;
@@ -324,6 +322,16 @@ class Resolver {
   void refuse(const ErrorEntry& entry, const Diagnostic& problem) {
     problems_.push_back(in_file_of(entry, problem));
   }
+  // Once for all of them: one word makes them right.
+  void refuse_undrawn() {
+    const ErrorEntry& first = *undrawn_.front();
+    const std::string others =
+        undrawn_.size() > 1 ? fmt::format(", nor {} others", undrawn_.size() - 1) : "";
+    refuse(first,
+           error(fmt::format("error {} = {}: the amount is a distribution and has not been drawn{}",
+                             first.name, first.written, others),
+                 "draw it: --draw SEED, or error_draw = { seed = 1 } in the job"));
+  }
   void refuse_settle(const ErrorEntry& entry, const NamedError& named) {
     refuse(entry, error(fmt::format("error {}: two settling distances of {}", entry.name,
                                     to_char(named.error.axis)),
@@ -336,6 +344,7 @@ class Resolver {
   GeometricErrors errors_;
   std::map<std::string, Settling> settling_;
   std::map<AxisLetter, const Settling*> first_;
+  std::vector<const ErrorEntry*> undrawn_;
   Diagnostics problems_;
 };
 

@@ -164,6 +164,51 @@ TEST_F(CommandLineSystem, RefusesBadArguments) {
   }
 }
 
+TEST_F(CommandLineSystem, TakesErrorsFromFilesAndDrawsThem) {
+  const std::string pose = "pose --machine iwf-bc --axes X=40,B=20,C=30 --json ";
+  const Outcome drawn = run(pose + "--errors bossoni-cone-limits --draw 1");
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(run(pose + "--errors bossoni-cone-limits --draw 1").out, drawn.out);
+  EXPECT_NE(run(pose + "--errors bossoni-cone-limits --draw 2").out, drawn.out);
+  const Outcome forgotten = run(pose + "--errors bossoni-cone-limits");
+  EXPECT_EQ(forgotten.exit_code, 2);
+  EXPECT_NE(forgotten.err.find("--draw SEED"), std::string::npos) << forgotten.err;
+  const Outcome foreign = run(pose + "--errors jang-key-tolerances --draw 1");
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_NE(foreign.err.find("machine iwf-bc"), std::string::npos) << foreign.err;
+  // A workpiece-side X after motion in +: its table lags towards +X, the tip is 5 um nearer in the work.
+  const Outcome lag =
+      run("pose --machine iwf-bc --axes X=1 --error \"EXX=reversal 10um\" --heading X=1");
+  EXPECT_NE(lag.out.find("error of tip       -5.0"), std::string::npos) << lag.out;
+}
+
+TEST_F(CommandLineSystem, ReadsTheErrorFileOfAJob) {
+  ASSERT_EQ(run("program cone --machine iwf-bc --out p").exit_code, 0);
+  std::ofstream(folder_ / "p" / "mine.toml")
+      << "title = \"t\"\nmachine = \"iwf-bc\"\n[errors]\nEXX = \"linear uniform 1um..2um\"\n"
+         "EB0C = \"9 urad\"\n";
+  std::string job;
+  for (const auto& item : fs::directory_iterator(folder_ / "p")) {
+    const std::string name = item.path().filename().string();
+    if (name.ends_with(".toml") && read(item.path()).find("[inspection]") != std::string::npos)
+      job = "p/" + name;
+  }
+  ASSERT_FALSE(job.empty());
+  std::string text = read(folder_ / job);
+  const auto errors = text.find("[errors]");
+  if (errors == std::string::npos) {
+    text += "\n[errors]\nfile = \"mine.toml\"\n[error_draw]\nseed = 3\n";
+  } else {
+    text.insert(errors, "error_draw.seed = 3\n");
+    text.replace(text.find("[errors]"), 8, "[errors]\nfile = \"mine.toml\"\n");
+  }
+  std::ofstream(folder_ / job) << text;
+  const Outcome outcome = run("run " + job + " --json --quiet --out out");
+  EXPECT_NE(outcome.exit_code, 2) << outcome.err;
+  EXPECT_NE(outcome.out.find("EXX"), std::string::npos) << outcome.out.substr(0, 2000);
+  EXPECT_NE(outcome.out.find("EB0C"), std::string::npos);
+}
+
 TEST_F(CommandLineSystem, ReadsRotaryWordsInDegreesAlsoInInchPrograms_Complaint18) {
   std::ofstream(folder_ / "inch.nc") << "G20 G90\nG0 X1 B45\n";
   const Outcome outcome = run("parse inch.nc --canon");
