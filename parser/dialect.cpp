@@ -1,10 +1,152 @@
 #include "parser/dialect.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
 namespace frustum::parser {
 namespace {
 
 constexpr std::array<std::string_view, kDialects.size()> kNames{"fanuc", "linuxcnc", "sinumerik",
                                                                 "heidenhain", "cldata"};
+
+// Where a sign of a dialect stands in a line.
+enum class Where : std::uint8_t {
+  start,  // after block numbers and blanks
+  word    // anywhere, not within a longer word
+};
+struct Sign {
+  Dialect dialect;
+  std::string_view text;
+  Where where;
+};
+// What no other dialect writes; the first line that has one decides.
+constexpr std::array kSigns{
+    Sign{Dialect::heidenhain, "BEGIN PGM", Where::start},
+    Sign{Dialect::heidenhain, "TOOL CALL", Where::start},
+    Sign{Dialect::heidenhain, "BLK FORM", Where::start},
+    Sign{Dialect::heidenhain, "CYCL DEF", Where::start},
+    Sign{Dialect::heidenhain, "FUNCTION ", Where::start},
+    Sign{Dialect::heidenhain, "PLANE ", Where::start},
+    Sign{Dialect::heidenhain, "L X", Where::start},
+    Sign{Dialect::heidenhain, "L Z", Where::start},
+    Sign{Dialect::heidenhain, "LN X", Where::start},
+    Sign{Dialect::cldata, "PARTNO", Where::start},
+    Sign{Dialect::cldata, "$$", Where::start},
+    Sign{Dialect::cldata, "GOTO/", Where::start},
+    Sign{Dialect::cldata, "GOTO /", Where::start},
+    Sign{Dialect::cldata, "FROM/", Where::start},
+    Sign{Dialect::cldata, "UNITS/", Where::start},
+    Sign{Dialect::cldata, "MULTAX", Where::start},
+    Sign{Dialect::cldata, "LOADTL", Where::start},
+    Sign{Dialect::cldata, "FEDRAT", Where::start},
+    Sign{Dialect::cldata, "SPINDL", Where::start},
+    Sign{Dialect::cldata, "CUTTER", Where::start},
+    Sign{Dialect::cldata, "TOOL PATH/", Where::start},
+    Sign{Dialect::sinumerik, "%_N_", Where::start},
+    Sign{Dialect::sinumerik, ";$PATH", Where::start},
+    Sign{Dialect::sinumerik, "TRAORI", Where::word},
+    Sign{Dialect::sinumerik, "TRAFOOF", Where::word},
+    Sign{Dialect::sinumerik, "CYCLE800", Where::word},
+    Sign{Dialect::sinumerik, "CYCLE832", Where::word},
+    Sign{Dialect::sinumerik, "SUPA", Where::word},
+    Sign{Dialect::sinumerik, "MSG(", Where::word},
+    Sign{Dialect::sinumerik, "A3=", Where::word},
+    Sign{Dialect::sinumerik, "DC(", Where::word},
+    Sign{Dialect::sinumerik, "STOPRE", Where::word},
+    Sign{Dialect::sinumerik, "ORIWKS", Where::word},
+    Sign{Dialect::sinumerik, "G500", Where::word},
+    Sign{Dialect::sinumerik, "G710", Where::word},
+    Sign{Dialect::sinumerik, "G641", Where::word},
+    Sign{Dialect::sinumerik, "G642", Where::word},
+    Sign{Dialect::linuxcnc, "M428", Where::word},
+    Sign{Dialect::linuxcnc, "M429", Where::word},
+    Sign{Dialect::linuxcnc, "O<", Where::start},
+    Sign{Dialect::fanuc, "G43.4", Where::word},
+    Sign{Dialect::fanuc, "G43.5", Where::word},
+    Sign{Dialect::fanuc, "G68.2", Where::word},
+    Sign{Dialect::fanuc, "G53.1", Where::word},
+};
+
+struct Extension {
+  std::string_view ending;
+  Dialect dialect;
+};
+constexpr std::array kExtensions{
+    Extension{".mpf", Dialect::sinumerik},   Extension{".spf", Dialect::sinumerik},
+    Extension{".h", Dialect::heidenhain},    Extension{".ngc", Dialect::linuxcnc},
+    Extension{".apt", Dialect::cldata},      Extension{".cl", Dialect::cldata},
+    Extension{".cls", Dialect::cldata},      Extension{".cldata", Dialect::cldata},
+    Extension{".aptsource", Dialect::cldata}};
+
+// Lines looked at; programs say early what they are.
+constexpr int kLines = 400;
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+// The line in upper case without comments of ISO programs.
+std::string code_of(std::string_view line) {
+  std::string code;
+  int depth = 0;
+  for (const char c : upper(line)) {
+    if (c == ';' && !code.empty() && code.find_first_not_of(" \t") != std::string::npos) break;
+    // MSG( is no comment.
+    if (c == '(' && (depth > 0 || code.empty() || !is_letter(code.back()))) ++depth;
+    if (depth == 0) code += c;
+    if (c == ')' && depth > 0) --depth;
+  }
+  return code;
+}
+
+// Behind blanks, N and digits.
+std::string_view behind_number(std::string_view code) {
+  const auto skip = [&code](auto test) {
+    while (!code.empty() && test(code.front())) code.remove_prefix(1);
+  };
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  skip(blank);
+  const bool numbered = code.size() > 1 && (code[0] == 'N' || code[0] == ':') && is_digit(code[1]);
+  if (numbered) code.remove_prefix(1);
+  skip(is_digit);
+  skip(blank);
+  return code;
+}
+
+bool stands_in(std::string_view code, const Sign& sign) {
+  if (sign.where == Where::start) return behind_number(code).starts_with(sign.text);
+  for (std::size_t at = code.find(sign.text); at != std::string_view::npos;
+       at = code.find(sign.text, at + 1)) {
+    const std::size_t end = at + sign.text.size();
+    const bool begins = at == 0 || !is_letter(code[at - 1]);
+    const bool ends = end >= code.size() || !(is_digit(code[end]) && is_digit(sign.text.back()));
+    if (begins && ends) return true;
+  }
+  return false;
+}
+
+std::optional<RecognisedDialect> by_content(std::string_view text) {
+  const char line_end = text.find('\n') == std::string_view::npos ? '\r' : '\n';
+  for (int line = 1; line <= kLines && !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find(line_end), text.size());
+    const std::string code = code_of(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    for (const Sign& sign : kSigns) {
+      if (!stands_in(code, sign)) continue;
+      std::string_view shown = sign.text;
+      if (shown.ends_with(' ')) shown.remove_suffix(1);
+      return RecognisedDialect{sign.dialect, fmt::format("line {}: {}", line, shown)};
+    }
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -18,7 +160,15 @@ std::optional<Dialect> dialect_named(std::string_view name) {
   return std::nullopt;
 }
 
-RecognisedDialect recognise_dialect(std::string_view /*text*/, std::string_view /*file*/) {
+RecognisedDialect recognise_dialect(std::string_view text, std::string_view file) {
+  if (auto found = by_content(text)) return *std::move(found);
+  std::string name(file);
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const Extension& extension : kExtensions) {
+    if (name.ends_with(extension.ending)) {
+      return {extension.dialect, fmt::format("the name ends in {}", extension.ending)};
+    }
+  }
   return {Dialect::fanuc, "nothing says otherwise"};
 }
 

@@ -1,0 +1,466 @@
+// Sinumerik part programs: address words, X=value, named words, calls with arguments.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "parser/block_reader.hpp"
+#include "parser/code_table.hpp"
+#include "parser/line_scanner.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxBlockNumber = 99'999'999;
+
+struct Address {
+  std::string_view name;
+  char letter;
+  const char* spelled;
+};
+// Words that are written with = and longer than their letter.
+constexpr std::array kAddresses{Address{"A3", 'a', "A3="}, Address{"B3", 'b', "B3="},
+                                Address{"C3", 'c', "C3="}, Address{"CR", 'R', "CR="},
+                                Address{"TURN", 'e', "TURN="}};
+
+struct Function {
+  std::string_view name;
+  Operation operation;
+  int arguments;
+};
+constexpr std::array kFunctions{
+    Function{"SIN", Operation::sine, 1},         Function{"COS", Operation::cosine, 1},
+    Function{"TAN", Operation::tangent, 1},      Function{"ASIN", Operation::arc_sine, 1},
+    Function{"ACOS", Operation::arc_cosine, 1},  Function{"ATAN2", Operation::arc_tangent, 2},
+    Function{"SQRT", Operation::square_root, 1}, Function{"ABS", Operation::absolute, 1},
+    Function{"ROUND", Operation::round, 1},      Function{"LN", Operation::logarithm, 1},
+    Function{"EXP", Operation::exponential, 1},
+};
+
+// Statements that take anything in brackets and change nothing that is simulated.
+constexpr std::array<const char*, 7> kEvents{"CYCLE832",    "WORKPIECE", "FGROUP", "FGREF",
+                                             "GROUP_BEGIN", "GROUP_END", "EXTERN"};
+
+// The parameters of CYCLE800 in their order; those without a letter are looked at by the reader.
+constexpr std::array kSwivelParameters{
+    Address{"_FR", 0, ""},           Address{"_TC", 0, ""},         Address{"_ST", 0, ""},
+    Address{"_MODE", 'Q', "_MODE="}, Address{"_X0", 'X', "_X0="},   Address{"_Y0", 'Y', "_Y0="},
+    Address{"_Z0", 'Z', "_Z0="},     Address{"_A", 'A', "_A="},     Address{"_B", 'B', "_B="},
+    Address{"_C", 'C', "_C="},       Address{"_X1", 'u', "_X1="},   Address{"_Y1", 'v', "_Y1="},
+    Address{"_Z1", 'w', "_Z1="},     Address{"_DIR", 'd', "_DIR="}, Address{"_FR_I", 0, ""},
+    Address{"_DMODE", 0, ""}};
+constexpr std::size_t kSwivelData = 1;
+constexpr std::size_t kSwivelStatus = 2;
+
+class SinumerikReader {
+ public:
+  SinumerikReader(std::string_view text, std::uint32_t line) : in_(text, line) {
+    block_.line = line;
+  }
+
+  Result<Block> operator()() {
+    read_start();
+    while (!in_.at_end()) read_element();
+    return in_.finish(std::move(block_));
+  }
+
+ private:
+  void read_start() {
+    if (in_.take('%')) {
+      block_.tape_mark = true;
+      const std::uint32_t column = in_.column();
+      std::string name = in_.text_to();
+      if (!name.empty()) block_.comments.push_back({column, false, std::move(name), nullptr});
+      return;
+    }
+    if (in_.take('/')) {
+      block_.deletable = true;
+      if (const auto level = in_.digits(); level.size() > 1) {
+        in_.fail(in_.column(), "/ has a level from 0 to 9", "write /1");
+      }
+    }
+    const std::uint32_t column = in_.column();
+    if (in_.take(':') || (in_.peek() == 'N' && in_.letters() == "N")) {
+      const auto digits = in_.digits();
+      std::uint32_t number = 0;
+      std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      if (!digits.empty() && digits.size() <= 8 && number <= kMaxBlockNumber) {
+        block_.number = number;
+        return;
+      }
+      if (digits.empty() && in_.peek() != '=') in_.go_back_to(column);
+      if (!digits.empty())
+        in_.fail(column, "the block number is too large", "N has up to 8 digits");
+    }
+  }
+
+  void read_element() {
+    const std::uint32_t column = in_.column();
+    const char first = in_.peek();
+    if (first == ';') {
+      in_.take(';');
+      block_.comments.push_back({column, true, in_.text_to(), nullptr});
+      return;
+    }
+    if (first == '$') {
+      in_.fail(column, "system variables are not read", "give a number or an R parameter");
+      return;
+    }
+    if ((first < 'A' || first > 'Z') && first != '_') {
+      in_.fail_unexpected("a block consists of words such as G1 X10 and X=R1+2; comments follow ;");
+      return;
+    }
+    const std::string letters = in_.letters();
+    const char next = in_.peek_byte();
+    if (letters.size() == 1 && letters != "_") {
+      if (next >= '0' && next <= '9') {
+        const auto digits = in_.digits();
+        const bool extended = in_.peek() == '=';
+        if (extended) return read_extended(letters + std::string(digits), column);
+        in_.go_back_to(column);
+        (void)in_.letters();
+      }
+      return read_word(letters.front(), column);
+    }
+    in_.go_back_to(column);
+    read_named(in_.name(), column);
+  }
+
+  // A letter with a number or with =.
+  void read_word(char letter, std::uint32_t column) {
+    if (letter == 'N') {
+      in_.fail(column, "N is not the first word", "put the block number at the start of the block");
+      return;
+    }
+    if (letter == 'R' && in_.peek() != '=') {
+      in_.fail(column, "R has no =", "write R1=value to set a parameter, X=R1 to use one");
+      return;
+    }
+    Word word;
+    word.letter = letter;
+    word.column = column;
+    if (in_.take('=')) {
+      read_value(word, std::string(1, letter));
+    } else {
+      const bool negative = in_.take('-');
+      if (!negative) in_.take('+');
+      const auto number = in_.number();
+      if (!number) {
+        in_.fail(column, fmt::format("{} has no number", letter),
+                 fmt::format("write {0}10 or {0}=R1+10", letter));
+        return;
+      }
+      word.number = (negative ? -number->value : number->value) + 0.0;
+      word.decimal_point = number->decimal_point;
+    }
+    block_.words.push_back(word);
+  }
+
+  // A3=, R1=: a letter, digits and =.
+  void read_extended(const std::string& name, std::uint32_t column) {
+    if (name.front() == 'R') {
+      in_.take('=');
+      Assignment setting;
+      setting.column = column;
+      setting.name = add_name(name);
+      setting.value.first = first_step();
+      read_sum(0);
+      setting.value.count = first_step() - setting.value.first;
+      block_.assignments.push_back(setting);
+      return;
+    }
+    if (read_address(name, column)) return;
+    const bool direction = name.size() == 2 && name.front() >= 'A' && name.front() <= 'C';
+    in_.fail(column, fmt::format("{}= is not simulated", name),
+             direction ? "give the tool vector by A3= B3= C3="
+                       : "give the words of the one spindle and of X Y Z A B C without numbers");
+  }
+
+  bool read_address(const std::string& name, std::uint32_t column) {
+    const auto* address = std::find_if(kAddresses.begin(), kAddresses.end(),
+                                       [&](const Address& a) { return a.name == name; });
+    if (address == kAddresses.end() || !in_.take('=')) return false;
+    Word word;
+    word.letter = address->letter;
+    word.spelled = address->spelled;
+    word.column = column;
+    read_value(word, name);
+    block_.words.push_back(word);
+    return true;
+  }
+
+  void read_named(const std::string& name, std::uint32_t column) {
+    if (read_address(name, column)) return;
+    if (name == "MSG") return read_event("message", column, true);
+    if (name == "SPOS" || name == "SPOSA") {
+      if (!in_.take('=')) return in_.fail(column, name + " has no =", "write SPOS=0");
+      block_.comments.push_back({column, false, in_.text_to(";"), "SPOS"});
+      return;
+    }
+    if (name == "CYCLE800") return read_swivel(column);
+    for (const char* event : kEvents) {
+      if (name == event) return read_event(event, column, false);
+    }
+    if (const Code* code = find_code(Dialect::sinumerik, name); code != nullptr) {
+      add_code(block_, *code, column);
+      if (name == "TRAORI" && in_.take('(')) {
+        if (const auto number = in_.digits(); number != "1" && !number.empty()) {
+          in_.fail(column, "TRAORI(" + std::string(number) + ") is not simulated",
+                   "there is one transformation: TRAORI or TRAORI(1)");
+        }
+        close("TRAORI");
+      }
+      return;
+    }
+    if (const auto remedy = remedy_for(Dialect::sinumerik, name); !remedy.empty()) {
+      in_.fail(column, name + " is not simulated", std::string(remedy));
+      return;
+    }
+    if (in_.peek() == ':') {
+      in_.fail(column, fmt::format("the label {} is not read", name),
+               "leave labels out; blocks run in their order");
+      return;
+    }
+    in_.fail(column, "unknown word " + name,
+             "known are " + known_codes(Dialect::sinumerik, kNamedWord));
+  }
+
+  // NAME(...), kept as text.
+  void read_event(const char* name, std::uint32_t column, bool message) {
+    if (!in_.take('(')) {
+      in_.fail(in_.column(), "the opening bracket is missing", "write the text in ( )");
+      return;
+    }
+    std::string text;
+    if (in_.take('"')) {
+      text = in_.text_to("\"");
+      if (!in_.take('"')) in_.fail(column, "the text is not closed", "close it with \"");
+    }
+    if (!message || text.empty()) text += in_.text_to(")");
+    close(name);
+    block_.comments.push_back({column, false, std::move(text), name});
+  }
+
+  void read_swivel(std::uint32_t column) {
+    const bool bare = !in_.take('(');
+    std::string data = "0";
+    std::string written;
+    bool any = false;
+    std::vector<Word> words;
+    for (std::size_t i = 0; !bare && !in_.failed(); ++i) {
+      if (in_.at_end()) {
+        in_.fail(column, "the bracket of CYCLE800 is not closed", "close it with )");
+        return;
+      }
+      if (i >= kSwivelParameters.size()) {
+        in_.fail(in_.column(), "CYCLE800 has too many parameters",
+                 fmt::format("it takes {}", kSwivelParameters.size()));
+        return;
+      }
+      if (in_.peek() != ',' && in_.peek() != ')') {
+        any = true;
+        read_swivel_parameter(i, words, data);
+      }
+      if (in_.take(')')) break;
+      if (!in_.take(',')) in_.fail_unexpected("separate the parameters of CYCLE800 by ,");
+    }
+    const bool cancels = !any || data == "0";
+    add_code(block_, *find_code(Dialect::sinumerik, cancels ? "CYCLE800()" : "CYCLE800"), column);
+    if (cancels) return;
+    block_.words.insert(block_.words.end(), words.begin(), words.end());
+    if (std::none_of(words.begin(), words.end(), [](const Word& w) { return w.letter == 'Q'; })) {
+      in_.fail(column, "CYCLE800 without a swivel mode", "give 57 as the fourth parameter");
+    }
+  }
+
+  void read_swivel_parameter(std::size_t i, std::vector<Word>& words, std::string& data) {
+    const Address& parameter = kSwivelParameters.at(i);
+    const std::uint32_t column = in_.column();
+    if (i == kSwivelData) {
+      if (!in_.take('"')) {
+        in_.fail(column, "the swivel data record is a text", "write its name in \"\"");
+        return;
+      }
+      data = in_.text_to("\"");
+      // No name is the first record, which is in use.
+      if (!in_.take('"')) in_.fail(column, "the text is not closed", "close it with \"");
+      return;
+    }
+    Word word;
+    word.letter = parameter.letter;
+    word.spelled = parameter.spelled;
+    word.column = column;
+    read_value(word, std::string(parameter.name));
+    if (parameter.letter != 0) {
+      words.push_back(word);
+    } else if (i == kSwivelStatus && (!word.expression.empty() ||
+                                      static_cast<long>(std::min(word.number, 1e6)) % 10 == 1)) {
+      in_.fail(column, "CYCLE800 on top of another swivel is not simulated",
+               "give the whole turn in one call: 0 as the third parameter");
+    }
+  }
+
+  // After =: a sum, or AC() IC() DC() around one.
+  void read_value(Word& word, const std::string& name) {
+    const bool rotary = name == "A" || name == "B" || name == "C";
+    const std::string measure = in_.next_name();
+    const std::uint32_t column = in_.column();
+    if (measure == "ACP" || measure == "ACN") {
+      in_.fail(column, measure + " is not simulated", "use DC(), the shorter way, or AC()");
+      return;
+    }
+    if (in_.peek() == '"') {
+      in_.fail(column, fmt::format("{} has a name instead of a number", name),
+               "tools go by their numbers here: T1");
+      return;
+    }
+    const bool measured = measure == "AC" || measure == "IC" || measure == "DC";
+    if (measured) {
+      (void)in_.name();
+      word.measure = measure == "AC"   ? Measure::absolute
+                     : measure == "IC" ? Measure::incremental
+                                       : Measure::shortest;
+      if (measure == "DC" && !rotary) {
+        in_.fail(column, "DC() is for rotary axes", "write AC() or the plain value");
+        return;
+      }
+      if (!in_.take('(')) {
+        in_.fail(in_.column(), measure + " needs its value in ( )", "write X=" + measure + "(1)");
+        return;
+      }
+    }
+    word.expression.first = first_step();
+    read_sum(0);
+    if (measured) close(measure);
+    word.expression.count = first_step() - word.expression.first;
+    // A plain number needs no expression.
+    if (word.expression.count == 1 && !in_.failed() &&
+        block_.steps.back().operation == Operation::number) {
+      word.number = block_.steps.back().number;
+      word.expression = {};
+      block_.steps.pop_back();
+    }
+  }
+
+  void close(std::string_view whose) {
+    if (in_.take(')')) return;
+    if (in_.at_end()) {
+      in_.fail(in_.column(), fmt::format("the bracket of {} is not closed", whose),
+               "close it with )");
+    } else {
+      in_.fail_unexpected("close the bracket with )");
+    }
+  }
+
+  void read_sum(int depth) {
+    read_product(depth);
+    while (!in_.failed()) {
+      const std::uint32_t column = in_.column();
+      const Operation operation = in_.peek() == '+' ? Operation::add : Operation::subtract;
+      if (!in_.take('+') && !in_.take('-')) return;
+      read_product(depth);
+      push(operation, column);
+    }
+  }
+
+  void read_product(int depth) {
+    read_factor(depth);
+    while (!in_.failed()) {
+      const std::uint32_t column = in_.column();
+      Operation operation = Operation::multiply;
+      if (in_.take('/')) {
+        operation = Operation::divide;
+      } else if (in_.take_name("MOD")) {
+        operation = Operation::modulo;
+      } else if (!in_.take('*')) {
+        return;
+      }
+      read_factor(depth);
+      push(operation, column);
+    }
+  }
+
+  void read_factor(int depth) {
+    const std::uint32_t column = in_.column();
+    if (depth >= kMaxExpressionDepth) {
+      in_.fail(column, "too many brackets within each other", "compute a part into an R parameter");
+      return;
+    }
+    if (in_.take('-')) {
+      read_factor(depth + 1);
+      if (in_.failed()) return;
+      // A negative number is a number.
+      if (block_.steps.back().operation == Operation::number) {
+        block_.steps.back().number = -block_.steps.back().number + 0.0;
+      } else {
+        push(Operation::negate, column);
+      }
+      return;
+    }
+    if (in_.take('+')) return read_factor(depth + 1);
+    if (in_.take('(')) {
+      read_sum(depth + 1);
+      return close("the expression");
+    }
+    if (const auto number = in_.number()) {
+      block_.steps.push_back({Operation::number, column, number->value});
+      return;
+    }
+    read_operand(in_.name(), column, depth);
+  }
+
+  void read_operand(const std::string& name, std::uint32_t column, int depth) {
+    if (name.size() > 1 && name.front() == 'R' &&
+        name.find_first_not_of("0123456789", 1) == std::string::npos) {
+      block_.steps.push_back(
+          {Operation::named_parameter, column, static_cast<double>(add_name(name))});
+      return;
+    }
+    const auto* function = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                        [&](const Function& f) { return f.name == name; });
+    if (function == kFunctions.end()) {
+      if (name.empty()) {
+        in_.fail(column, "a number is missing",
+                 "write a number, an R parameter, a function or an expression in ( )");
+      } else {
+        in_.fail(column, "unknown operand " + name,
+                 "known are R parameters and SIN COS TAN ASIN ACOS ATAN2 SQRT ABS ROUND LN EXP");
+      }
+      return;
+    }
+    if (!in_.take('(')) {
+      in_.fail(in_.column(), name + " needs its argument in ( )", "write for example SIN(30)");
+      return;
+    }
+    read_sum(depth + 1);
+    if (function->arguments == 2) {
+      if (!in_.take(',')) in_.fail(column, name + " needs two values", "write ATAN2(y,x)");
+      read_sum(depth + 1);
+    }
+    close(name);
+    push(function->operation, column);
+  }
+
+  void push(Operation operation, std::uint32_t column) {
+    if (!in_.failed()) block_.steps.push_back({operation, column, 0.0});
+  }
+  [[nodiscard]] std::uint32_t first_step() const {
+    return static_cast<std::uint32_t>(block_.steps.size());
+  }
+  std::uint32_t add_name(const std::string& name) {
+    block_.names.push_back(name);
+    return static_cast<std::uint32_t>(block_.names.size() - 1);
+  }
+
+  LineScanner in_;
+  Block block_;
+};
+
+}  // namespace
+
+Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line) {
+  return SinumerikReader(text, line)();
+}
+
+}  // namespace frustum::parser
