@@ -258,9 +258,9 @@ void TimeLaw::emit(const Piece& piece, double exit_speed) {
   TimedSegment& segment = open_.back().segment;
   const bool top_binds = piece.top.axis.has_value();
   if (!segment.limited_by || top_binds) {
-    segment.limited_by = top_binds                                 ? piece.top.axis
+    segment.limited_by = top_binds                                ? piece.top.axis
                          : piece.entry_speed >= piece.entry.value ? piece.entry.axis
-                                                                   : piece.acceleration.axis;
+                                                                  : piece.acceleration.axis;
     if (!segment.limited_by) segment.limited_by = piece.acceleration.axis;
   }
   for (const SpeedPhase& phase : trapezoid(piece.length, piece.entry_speed, exit_speed,

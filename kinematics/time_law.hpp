@@ -87,8 +87,8 @@ class TimeLaw {
     double length = 0.0;
     double step_length = 0.0;
     double feed_speed = kNoLimit;
-    Cap top{};                      // speed all along, with what its neighbourhood asks for
-    Cap entry{};                    // speed at its beginning
+    Cap top{};    // speed all along, with what its neighbourhood asks for
+    Cap entry{};  // speed at its beginning
     Cap acceleration{};
     std::array<double, 6> bends{};  // acceleration that the bends at its ends take, by axis
     double own_top = 0.0;           // without its neighbourhood

@@ -23,8 +23,8 @@ struct TipCurve {
   }
   [[nodiscard]] static TipCurve arc(const parser::ArcFeed& arc, const Vec3& start, const Vec3& end);
 
-  [[nodiscard]] Vec3 at(double u) const;   // u in [0, 1]; uniform in length
-  [[nodiscard]] double length() const;  // mm
+  [[nodiscard]] Vec3 at(double u) const;  // u in [0, 1]; uniform in length
+  [[nodiscard]] double length() const;    // mm
 };
 
 }  // namespace frustum::kinematics

