@@ -14,8 +14,9 @@ namespace {
 
 struct Options {
   std::string file{};
-  std::string dialect = "fanuc";
+  std::string dialect{};  // recognised when not given
   bool canon = false;
+  bool quiet = false;
   bool block_delete = false;
 };
 
@@ -28,7 +29,15 @@ int parse_file(const Options& options) {
     failure.file = options.file;
     return refuse(Diagnostics{failure});
   }
-  const auto program = parser::parse_program(text.str(), options.file);
+  auto dialect = parser::dialect_named(options.dialect);
+  if (!dialect) {
+    const auto found = parser::recognise_dialect(text.view(), options.file);
+    dialect = found.dialect;
+    if (!options.quiet) {
+      std::cerr << "note: read as " << name_of(found.dialect) << " (" << found.reason << ")\n";
+    }
+  }
+  const auto program = parser::parse_program(text.view(), options.file, *dialect);
   if (!program) return refuse(program.error());
   const auto print = [&](parser::Motion&& motion) {
     if (options.canon) std::cout << parser::to_json_line(motion) << '\n';
@@ -45,8 +54,12 @@ void add_parse(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("parse", "Check an NC program and print its canonical motions");
   command->add_option("file", options->file, "NC program")->required();
-  command->add_option("--dialect", options->dialect, "fanuc (default) or iso")
-      ->check(CLI::IsMember({"fanuc", "iso"}));
+  command
+      ->add_option("--dialect", options->dialect,
+                   "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised "
+                   "from the file, with the reason on stderr)")
+      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
+  command->add_flag("--quiet", options->quiet, "Do not say which dialect was recognised");
   command->add_flag("--canon", options->canon,
                     "Print one JSON line a motion (mm, degrees, mm/min)");
   command->add_flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");

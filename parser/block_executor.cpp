@@ -193,11 +193,11 @@ Result<int> BlockExecutor::whole(const BlockWords& words, char letter, int least
   // RS-274 forgives 1e-4 in numbers that have to be whole.
   if (std::abs(word.value - nearest) > 1e-4) {
     return fail(word.column, fmt::format("{} is not a whole number", words.text_of(letter)),
-                fmt::format("give {} without decimals", words.spelling_of(letter)));
+                fmt::format("give {} without decimals", words.name_of(letter)));
   }
   if (nearest < least || nearest > most) {
     return fail(word.column, fmt::format("{} is out of range", words.text_of(letter)),
-                fmt::format("{} goes from {} to {}", words.spelling_of(letter), least, most));
+                fmt::format("{} goes from {} to {}", words.name_of(letter), least, most));
   }
   return static_cast<int>(nearest);
 }

@@ -96,6 +96,7 @@ class BlockExecutor {
   [[nodiscard]] double scaled(AxisLetter axis, double value) const;
   [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
   [[nodiscard]] Outcome set_targets(const BlockWords& words);
+  [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
   void announce_rotary_path(const BlockWords& words, std::uint32_t column);
   [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;
   [[nodiscard]] Outcome set_tool_axis(const BlockWords& words);

@@ -126,7 +126,7 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
-  const AxisTarget& end = position_.target();
+  const AxisTarget end = end_of(words);
   if (movement.motion == MotionMode::traverse) {
     emit(movement.column, Traverse{end, state_.tool_axis, Coordinates::program});
     return Done{};
@@ -201,7 +201,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
   }
   const auto feed = feed_for(words, movement, true);
   if (!feed) return feed.error();
-  emit(movement.column, ArcFeed{position_.target(), arc->centre, state_.plane,
+  emit(movement.column, ArcFeed{end_of(words), arc->centre, state_.plane,
                                 arc_words.clockwise ? -turns : turns, state_.tool_axis, *feed});
   return Done{};
 }
@@ -243,9 +243,16 @@ BlockExecutor::Outcome BlockExecutor::set_start(const BlockWords& words) {
 void BlockExecutor::announce_rotary_path(const BlockWords& words, std::uint32_t column) {
   if ((words.given() & kRotaryWords).empty()) return;
   RotaryPath path = state_.rotary_path;
-  for (const char letter : {'A', 'B', 'C'}) {
-    if (words.has(letter) && words[letter].measure == Measure::shortest)
-      path = RotaryPath::shortest;
+  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
+    const char letter = "ABC"[i];
+    if (!words.has(letter)) continue;
+    const Measure measure = words[letter].measure;
+    // A step from a place known but for full turns goes on from there.
+    const bool steps = measure == Measure::incremental && state_.loose.at(i);
+    if (measure == Measure::shortest || steps) path = RotaryPath::shortest;
+  }
+  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
+    if (words.has("ABC"[i])) state_.loose.at(i) = path == RotaryPath::shortest;
   }
   if (path == state_.announced_rotary_path) return;
   state_.announced_rotary_path = path;
@@ -257,6 +264,16 @@ BlockExecutor::Outcome BlockExecutor::check_tool_length(const Movement& movement
   return fail(
       movement.column, "the tool-tip control is on, but no tool length is in force",
       rules_.tool_brings_length ? "call a tool before the move" : "give G43 H before the move");
+}
+
+// Axes that went the shorter way are left where they are until they are named again.
+AxisTarget BlockExecutor::end_of(const BlockWords& words) const {
+  AxisTarget end = position_.target();
+  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
+    const char letter = "ABC"[i];
+    if (state_.loose.at(i) && !words.has(letter)) end[static_cast<AxisLetter>(3 + i)].reset();
+  }
+  return end;
 }
 
 double BlockExecutor::unit_scale() const {

@@ -40,15 +40,27 @@ char BlockWords::first_of(LetterSet letters) const {
   return first;
 }
 
-std::string BlockWords::spelling_of(char letter) const {
-  for (const Word& word : block_->words) {
+namespace {
+
+std::string spelling_in(const Block& block, char letter) {
+  for (const Word& word : block.words) {
     if (word.letter == letter && word.spelled != nullptr) return word.spelled;
   }
   return std::string(1, letter);
 }
 
+}  // namespace
+
+std::string BlockWords::name_of(char letter) const {
+  std::string name = spelling_in(*block_, letter);
+  while (name.size() > 1 && std::string_view(" =/").find(name.back()) != std::string_view::npos) {
+    name.pop_back();
+  }
+  return name;
+}
+
 std::string BlockWords::text_of(char letter) const {
-  return spelling_of(letter) + decimal_text((*this)[letter].value);
+  return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
 }
 
 Result<BlockWords> read_words(const Block& block, const Parameters& parameters, Dialect dialect) {
@@ -69,7 +81,7 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
     if (word.letter != 'G' && word.letter != 'M' && !named) {
       if (words.has(word.letter)) {
         return at(block, word.column,
-                  fmt::format("{} is given twice in a block", words.spelling_of(word.letter)),
+                  fmt::format("{} is given twice in a block", words.name_of(word.letter)),
                   "leave one of them out, or write two blocks");
       }
       words.given_.add(word.letter);

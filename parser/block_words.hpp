@@ -51,7 +51,8 @@ class BlockWords {
   [[nodiscard]] char first_of(LetterSet letters) const;
   // "X1.5", "A3=0.5": as the program spells the word and a message names it.
   [[nodiscard]] std::string text_of(char letter) const;
-  [[nodiscard]] std::string spelling_of(char letter) const;
+  // "X", "A3", "tool"
+  [[nodiscard]] std::string name_of(char letter) const;
 
  private:
   friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters,

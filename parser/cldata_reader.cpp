@@ -133,6 +133,13 @@ class CldataReader {
   }
 
   void read_known() {
+    const bool needs_end = name_ == "CIRCLE" || name_ == "GODLTA" || name_ == "FROM" ||
+                           name_ == "END" || name_ == "FINI";
+    if (pending_.circle && needs_end) {
+      return in_.fail(column_,
+                      fmt::format("the CIRCLE on line {} has no GOTO", pending_.circle->line),
+                      "give the end of the arc by GOTO");
+    }
     if (name_ == "GOTO") return read_goto();
     if (name_ == "GODLTA") return read_increment();
     if (name_ == "CIRCLE") return read_circle();

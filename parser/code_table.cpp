@@ -47,7 +47,6 @@ constexpr Code passed(std::uint8_t dialects, std::string_view word,
 constexpr LetterSet kOffsetWord{"H"};
 constexpr LetterSet kCallWords{"PL"};
 constexpr LetterSet kSmoothingWords{"PQR"};
-constexpr LetterSet kVectorOfTool{"abc"};
 
 using enum CodeGroup;
 constexpr std::array kCodes{
@@ -179,8 +178,8 @@ constexpr std::array kCodes{
     named(kHeidenhain, "STOP", stop, StopKind::program_stop),
     named(kHeidenhain, "L", motion, MotionMode::linear),
     named(kHeidenhain, "L FMAX", motion, MotionMode::traverse),
-    named(kHeidenhain, "LN", motion, MotionMode::linear, kVectorOfTool),
-    named(kHeidenhain, "LN FMAX", motion, MotionMode::traverse, kVectorOfTool),
+    named(kHeidenhain, "LN", motion, MotionMode::linear),
+    named(kHeidenhain, "LN FMAX", motion, MotionMode::traverse),
     named(kHeidenhain, "CC", non_modal, NonModal::pole, LetterSet("XY")),
     named(kHeidenhain, "C DR-", motion, MotionMode::arc_clockwise),
     named(kHeidenhain, "C DR+", motion, MotionMode::arc_counterclockwise),
@@ -220,12 +219,12 @@ constexpr std::array kCodes{
     named(kCldata, "COOLNT/OFF", coolant, CoolantWord::off),
     named(kCldata, "FEDRAT/MMPM", feed_mode, FeedMode::per_minute),
     named(kCldata, "FEDRAT/MMPR", feed_mode, FeedMode::per_revolution),
-    named(kCldata, "GOTO", motion, MotionMode::linear, kVectorOfTool),
+    named(kCldata, "GOTO", motion, MotionMode::linear),
     named(kCldata, "GODLTA", motion, MotionMode::linear),
-    named(kCldata, "RAPID GOTO", motion, MotionMode::traverse, kVectorOfTool),
+    named(kCldata, "RAPID GOTO", motion, MotionMode::traverse),
     named(kCldata, "RAPID GODLTA", motion, MotionMode::traverse),
-    named(kCldata, "CIRCLE-", motion, MotionMode::arc_clockwise, kVectorOfTool),
-    named(kCldata, "CIRCLE+", motion, MotionMode::arc_counterclockwise, kVectorOfTool),
+    named(kCldata, "CIRCLE-", motion, MotionMode::arc_clockwise),
+    named(kCldata, "CIRCLE+", motion, MotionMode::arc_counterclockwise),
     named(kCldata, "plane XY", plane, Plane::xy),
     named(kCldata, "plane ZX", plane, Plane::zx),
     named(kCldata, "plane YZ", plane, Plane::yz),

@@ -70,7 +70,7 @@ class HeidenhainReader {
     if (name == "FUNCTION") return read_function(column);
     if (name == "CYCL") return read_cycle(column);
     if (name == "BEGIN" || name == "END") return read_frame_of_program(name, column);
-    if (name == "BLK") return note("BLK FORM", column, in_.text_to(";"));
+    if (name == "BLK" && in_.take_name("FORM")) return note("BLK FORM", column, in_.text_to(";"));
     if (name == "STOP") {
       add_code(block_, *find_code(Dialect::heidenhain, "STOP"), column);
       return read_elements("STOP", {});
@@ -230,6 +230,9 @@ class HeidenhainReader {
 
   void read_m(std::uint32_t column) {
     const double code = number("M", column);
+    if (code == 140.0) {
+      return in_.fail(column, "M140 is not simulated", "retract by L Z... R0 FMAX M91");
+    }
     const auto add = [&](double m) { add_number(block_, 'M', m, column); };
     if (code == 13.0 || code == 14.0) {  // spindle and coolant
       add(code - 10.0);
@@ -381,7 +384,7 @@ class HeidenhainReader {
       if (!in_.take('+') && !in_.take('-')) {
         return in_.fail(place, name + " has no sign", "write SEQ+ or SEQ-");
       }
-      return pass("PLANE SEQ", {1, sign});
+      return pass("PLANE SEQ", std::string(1, sign));
     }
     if ((name == "TABLE" || name == "COORD") && in_.take_name("ROT")) {
       return pass("PLANE ROT", name);

@@ -5,6 +5,7 @@
 // Units: mm, rad, mm/min, 1/min.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -59,6 +60,8 @@ struct ModalState {
   std::optional<FeedWord> tool_feed{};                           // of TOOL CALL, for F AUTO
   RotaryPath rotary_path = RotaryPath::as_programmed;            // M126
   RotaryPath announced_rotary_path = RotaryPath::as_programmed;  // the last one in the motions
+  // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
+  std::array<bool, 3> loose{};
   bool tilted = false;
   std::optional<Vec3> pole{};  // CC
   SpindleDirection spindle = SpindleDirection::off;

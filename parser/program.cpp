@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 
 #include "parser/block_reader.hpp"
@@ -36,7 +37,8 @@ class LineSource {
     joined_ = lines.text;
     while (mark != std::string_view::npos && !at_end()) {
       const std::size_t start = joined_.size() - lines.text.size();
-      joined_[start + mark] = ' ';
+      // What follows the mark on its line is a remark.
+      std::fill(joined_.begin() + static_cast<std::ptrdiff_t>(start + mark), joined_.end(), ' ');
       joined_ += '\n';
       lines.line_starts.push_back(static_cast<std::uint32_t>(joined_.size()));
       lines.text = next_line();

@@ -263,6 +263,7 @@ class SinumerikReader {
         read_swivel_parameter(i, words, data);
       }
       if (in_.take(')')) break;
+      if (in_.at_end()) continue;
       if (!in_.take(',')) in_.fail_unexpected("separate the parameters of CYCLE800 by ,");
     }
     const bool cancels = !any || data == "0";
@@ -294,6 +295,8 @@ class SinumerikReader {
     read_value(word, std::string(parameter.name));
     if (parameter.letter != 0) {
       words.push_back(word);
+    } else if (i == 0 && (word.number != 0.0 || !word.expression.empty())) {
+      block_.comments.push_back({column, false, "the retract before the swivel", "CYCLE800"});
     } else if (i == kSwivelStatus && (!word.expression.empty() ||
                                       static_cast<long>(std::min(word.number, 1e6)) % 10 == 1)) {
       in_.fail(column, "CYCLE800 on top of another swivel is not simulated",

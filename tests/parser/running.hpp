@@ -15,10 +15,12 @@ namespace frustum::parser {
 
 // Not to be confused with a pass: a program that fails gives no motions and a test failure.
 [[nodiscard]] inline std::vector<Motion> motions(std::string_view text,
-                                                 const InterpreterOptions& options = {}) {
-  auto motions = parse_program(text, "part.nc").and_then([&options](const Program& program) {
-    return motions_of(program, options);
-  });
+                                                 const InterpreterOptions& options = {},
+                                                 Dialect dialect = Dialect::fanuc) {
+  auto motions =
+      parse_program(text, "part.nc", dialect).and_then([&options](const Program& program) {
+        return motions_of(program, options);
+      });
   if (motions) return *std::move(motions);
   for (const Diagnostic& diagnostic : motions.error()) ADD_FAILURE() << to_string(diagnostic);
   return {};
@@ -26,11 +28,13 @@ namespace frustum::parser {
 
 // "3:5: error: ... (hint: ...)" for each diagnostic; empty when the program runs.
 [[nodiscard]] inline std::vector<std::string> complaints(std::string_view text,
-                                                         const InterpreterOptions& options = {}) {
+                                                         const InterpreterOptions& options = {},
+                                                         Dialect dialect = Dialect::fanuc) {
   const std::string file = "part.nc";
-  const auto motions = parse_program(text, file).and_then([&options](const Program& program) {
-    return motions_of(program, options);
-  });
+  const auto motions =
+      parse_program(text, file, dialect).and_then([&options](const Program& program) {
+        return motions_of(program, options);
+      });
   std::vector<std::string> lines;
   if (motions) return lines;
   for (const Diagnostic& diagnostic : motions.error()) {
