@@ -116,7 +116,7 @@ int inverse(const Options& options, const Machine& machine) {
   const auto axis = UnitVec3::of(Vec3(v[3], v[4], v[5]));
   if (!axis) return refuse("the tool direction i,j,k has no length", "give x,y,z,i,j,k");
   const auto solutions =
-      kinematics::inverse(machine, {Vec3(v[0], v[1], v[2]), *axis}, options.tool_length, {});
+      kinematics::all_solutions(machine, {Vec3(v[0], v[1], v[2]), *axis}, options.tool_length);
   if (!solutions) return refuse(solutions.error());
   ordered_json list = ordered_json::array();
   for (const kinematics::InverseSolution& s : *solutions) {
@@ -170,7 +170,10 @@ void add_pose(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("--axes", options->axes,
                       "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
-  command->add_option("--inverse", options->inverse, "\"x,y,z,i,j,k\": tip (mm) and tool axis");
+  command->add_option(
+      "--inverse", options->inverse,
+      "\"x,y,z,i,j,k\": tip (mm) and tool axis; all axis solutions, those within travel and "
+      "nearest to zero first");
   command->add_option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
   command->add_option("--tool-length", options->tool_length,
                       "mm, default 0: the tip is the gauge point");

@@ -47,14 +47,15 @@ class OrientationPath {
   friend class OrientationPathMaker;
   // A part of the way: on one of the two solutions, or inside the pole's cone.
   struct Piece {
-    double start = 0.0, end = 1.0;  // t
+    double start = 0.0, end = 0.0;  // rad along the great circle
     bool in_cone = false;
     double sign = 1.0;  // of the solution
     RotaryAngles at_start{}, at_end{};
+    RotaryTriangle triangle{};  // at the start
   };
   explicit OrientationPath(const Machine& machine) : axes_(machine) {}
-  [[nodiscard]] RotaryAngles angles(const Piece& piece, double t) const;
-  [[nodiscard]] double azimuth_change(double from_t, double to_t) const;
+  [[nodiscard]] Vec3 axis_at(double arc) const;
+  [[nodiscard]] RotaryAngles angles(const Piece& piece, double arc) const;
 
   RotaryAxes axes_;
   AxisPositions from_{};

@@ -8,7 +8,8 @@
 //            that nothing cancels there
 // Units    : rad; frame: table
 // Errors   : unreachable directions, by how much
-// Accuracy : the direction within 1e-15, also beside the pole and at the edge of the reach
+// Accuracy : the direction within 1e-14, also beside the pole and at the edge of the reach; Gauss-Newton
+//            steps restore what rotary axes nearly parallel to each other or to the spindle lose
 // Source   : Paden-Kahan subproblem 2 (Murray, Li, Sastry, section 3.2)
 #pragma once
 
@@ -77,7 +78,8 @@ class RotaryAxes {
   double cos_between_ = 0.0, sin_between_ = 1.0;          // of w1 and w2
   double rise_[2] = {0.0, 0.0};                           // w2 . (v -+ w1)
   double azimuth_of_v_ = 0.0;                             // about w2 (one axis: about w1)
-  double v_off_axis_ = 1.0;                               // sine of the angle between v and w2
+  bool needs_polish_ = false;
+  double v_off_axis_ = 1.0;  // sine of the angle between v and w2
 };
 
 // The angle shifted by full turns to be nearest to `near`.
