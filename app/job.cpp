@@ -227,6 +227,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   if (const auto accuracy = root.table_if("accuracy")) {
     path_bound = accuracy->length_or("path_bound", Mm{1e-5}, Bound::positive).value;
   }
+  const ControllerSettings controller = read_controller(root);
   override_errors(errors, overrides, problems);
   override_tool_radius(piece, overrides, problems);
 
@@ -248,6 +249,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
              .piece = std::move(piece),
              .errors = std::move(errors),
              .cmm = cmm,
+             .controller = controller,
              .path_bound = path_bound,
              .mesh_pitch = mesh_pitch,
              .report = report};

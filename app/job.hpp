@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/controller_settings.hpp"
 #include "core/result.hpp"
 #include "kinematics/geometric_errors.hpp"
 #include "kinematics/machine.hpp"
@@ -24,6 +25,7 @@ struct Job {
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
   metrology::CmmModel cmm{};
+  ControllerSettings controller{};
   double path_bound = 1e-5;  // mm
   double mesh_pitch = 0.0;   // mm; 0: chosen by the size of the blank
   bool report = true;

@@ -113,6 +113,11 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   for (const stock::Collision& c : trial.collisions) {
     report.collisions.push_back({c.source_line, collision_text(c)});
   }
+  report.cycle_time = trial.cycle_time;
+  for (const kinematics::SlowedBlock& block : trial.slowed) {
+    report.slowed.push_back({block.source_line, std::string(1, kinematics::to_char(block.axis)),
+                             block.programmed_feed, block.reached_feed});
+  }
   report.budget = {{"tool path chord", job.path_bound * kUmPerMm, {}, "um"},
                    {"ray against sweep", 1.0, {}, "nm"}};
   report.diagnostics = trial.warnings;

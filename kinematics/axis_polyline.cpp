@@ -7,6 +7,7 @@ namespace frustum::kinematics {
 namespace {
 
 constexpr int kDeepest = 16;
+constexpr double kPacePerOff = 5.0;
 
 class Cutter {
  public:
@@ -16,34 +17,34 @@ class Cutter {
   void cut(double u0, const AxisPositions& from, double u1, const AxisPositions& to, int depth) {
     const double u = 0.5 * (u0 + u1);
     const AxisPositions middle = motion_(u);
-    if (depth >= kDeepest || even(from, middle, to)) {
-      ends_.push_back(u1);
+    AxisPositions off;
+    bool even = true;
+    for (const AxisLetter letter : kAxisLetters) {
+      off[letter] = std::abs(middle[letter] - 0.5 * (from[letter] + to[letter]));
+      even = even && off[letter] <= (is_rotary(letter) ? tolerance_.rotary : tolerance_.linear);
+    }
+    if (depth >= kDeepest || even) {
+      for (const AxisLetter letter : kAxisLetters) off[letter] *= kPacePerOff;
+      parts_.push_back({u1, to, off});
       return;
     }
     cut(u0, from, u, middle, depth + 1);
     cut(u, middle, u1, to, depth + 1);
   }
 
-  [[nodiscard]] std::vector<double> ends() && { return std::move(ends_); }
+  [[nodiscard]] std::vector<EvenPart> parts() && { return std::move(parts_); }
 
  private:
-  [[nodiscard]] bool even(const AxisPositions& from, const AxisPositions& middle,
-                          const AxisPositions& to) const {
-    return std::all_of(kAxisLetters.begin(), kAxisLetters.end(), [&](AxisLetter letter) {
-      const double off = std::abs(middle[letter] - 0.5 * (from[letter] + to[letter]));
-      return off <= (is_rotary(letter) ? tolerance_.rotary : tolerance_.linear);
-    });
-  }
-
   const std::function<AxisPositions(double)>& motion_;
   const PolylineTolerance& tolerance_;
-  std::vector<double> ends_;
+  std::vector<EvenPart> parts_;
 };
 
 }  // namespace
 
-std::vector<double> even_parts(const std::function<AxisPositions(double)>& motion, int least_parts,
-                               std::span<const double> cuts, const PolylineTolerance& tolerance) {
+std::vector<EvenPart> even_parts(const std::function<AxisPositions(double)>& motion,
+                                 int least_parts, std::span<const double> cuts,
+                                 const PolylineTolerance& tolerance) {
   std::vector<double> ends(cuts.begin(), cuts.end());
   for (int part = 1; part <= least_parts; ++part) {
     ends.push_back(static_cast<double>(part) / least_parts);
@@ -59,7 +60,7 @@ std::vector<double> even_parts(const std::function<AxisPositions(double)>& motio
     u0 = u1;
     from = to;
   }
-  return std::move(cutter).ends();
+  return std::move(cutter).parts();
 }
 
 }  // namespace frustum::kinematics

@@ -17,9 +17,17 @@ struct PolylineTolerance {
   double rotary = 1e-4;   // rad
 };
 
-// Ends of the parts, increasing, the last is 1. `cuts` in (0, 1) are always among them.
-[[nodiscard]] std::vector<double> even_parts(const std::function<AxisPositions(double)>& motion,
-                                             int least_parts, std::span<const double> cuts,
-                                             const PolylineTolerance& tolerance = {});
+struct EvenPart {
+  double end = 1.0;  // u
+  AxisPositions to{};
+  // By how much more than its change every axis would go if it kept the fastest pace that it has within
+  // the part: five times what it is off in the middle, where a parabola has four.
+  AxisPositions unevenness{};
+};
+
+// Parts in increasing order, the last ends at 1. `cuts` in (0, 1) are always ends.
+[[nodiscard]] std::vector<EvenPart> even_parts(const std::function<AxisPositions(double)>& motion,
+                                               int least_parts, std::span<const double> cuts,
+                                               const PolylineTolerance& tolerance = {});
 
 }  // namespace frustum::kinematics

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
+#include "kinematics/orientation_path.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -46,16 +46,16 @@ BlockMotion finished(BlockMotion motion, const AxisPositions& from, double linea
 
 }  // namespace
 
-Vec3 linear_part(const AxisPositions& q) {
+Vec3 linear_positions(const AxisPositions& q) {
   return {q[AxisLetter::X], q[AxisLetter::Y], q[AxisLetter::Z]};
 }
 
-AxisPositions with_linear_part(AxisPositions q, const Vec3& xyz) {
+AxisPositions with_linear_positions(AxisPositions q, const Vec3& xyz) {
   for (const AxisLetter letter : kLinearAxes) q[letter] = xyz[static_cast<Eigen::Index>(letter)];
   return q;
 }
 
-AxisPositions between(const AxisPositions& from, const AxisPositions& to, double u) {
+AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, double u) {
   AxisPositions q;
   for (const AxisLetter letter : kAxisLetters) {
     q[letter] = from[letter] + u * (to[letter] - from[letter]);
@@ -68,39 +68,52 @@ int BlockMotion::least_parts() const {
   for (const AxisLetter letter : kRotaryAxes) {
     rotary_travel = std::max(rotary_travel, std::abs(end[letter] - start[letter]));
   }
-  const double linear_travel = (linear_part(end) - linear_part(start)).norm();
+  const double linear_travel = (linear_positions(end) - linear_positions(start)).norm();
   return 1 + static_cast<int>(rotary_travel / kRotaryPart + linear_travel / kLinearPart);
 }
 
 BlockMotion axes_motion(const AxisPositions& from, const AxisPositions& to) {
-  BlockMotion motion{.at = [from, to](double u) { return between(from, to, u); }};
-  return finished(std::move(motion), from, (linear_part(to) - linear_part(from)).norm());
+  BlockMotion motion{.at = [from, to](double u) { return part_way(from, to, u); },
+                     .straight = true};
+  return finished(std::move(motion), from, (linear_positions(to) - linear_positions(from)).norm());
 }
 
 BlockMotion words_motion(const AxisPositions& from, const AxisPositions& rotary_to,
                          const TipCurve& words, const Vec3& shift) {
   BlockMotion motion{.at =
                          [from, rotary_to, words, shift](double u) {
-                           return with_linear_part(rotary_between(from, rotary_to, u),
-                                                   words.at(u) + shift);
+                           return with_linear_positions(rotary_between(from, rotary_to, u),
+                                                        words.at(u) + shift);
                          },
-                     .arc_turn = words.turn};
+                     .arc_turn = words.turn,
+                     .straight = words.turn == 0.0};
   return finished(std::move(motion), from, words.length());
 }
 
 BlockMotion tip_motion(const Machine& machine, const AxisPositions& from,
-                       const AxisPositions& rotary_to, const TipCurve& tip, const TipFrame& frame,
-                       parser::OrientationPath orientation) {
-  std::function<AxisPositions(double)> rotary = [from, rotary_to](double u) {
-    return rotary_between(from, rotary_to, u);
-  };
-  (void)orientation;
+                       const AxisPositions& rotary_to, const TipCurve& tip, const TipFrame& frame) {
   BlockMotion motion{.at =
-                         [&machine, rotary = std::move(rotary), tip, frame](double u) {
+                         [&machine, from, rotary_to, tip, frame](double u) {
                            return place_tip(machine, frame.table_from_words.point(tip.at(u)),
-                                            frame.tool_length, rotary(u));
+                                            frame.tool_length, rotary_between(from, rotary_to, u));
                          },
                      .arc_turn = tip.turn};
+  return finished(std::move(motion), from, tip.length());
+}
+
+Result<BlockMotion> vector_motion(const Machine& machine, const AxisPositions& from,
+                                  const Vec3& to_tool_axis, const TipCurve& tip,
+                                  const TipFrame& frame) {
+  auto path = orientation_path(machine, from, to_tool_axis);
+  if (!path) return path.error();
+  std::vector<double> breaks = path->breaks();
+  BlockMotion motion{.at =
+                         [&machine, path = *std::move(path), tip, frame](double u) {
+                           return place_tip(machine, frame.table_from_words.point(tip.at(u)),
+                                            frame.tool_length, path.at(u));
+                         },
+                     .arc_turn = tip.turn,
+                     .breaks = std::move(breaks)};
   return finished(std::move(motion), from, tip.length());
 }
 

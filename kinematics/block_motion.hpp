@@ -5,12 +5,14 @@
 //            of the words, rotary axes linear or the tool axis on the great circle, linear axes by the
 //            inverse of the nominal machine (tool-centre-point control on, tilted plane)
 // Units    : mm, rad
-// Errors   : none; the ends are reachable, and what lies between is checked against the travels
+// Errors   : a great circle that the machine cannot follow
 #pragma once
 
 #include <array>
 #include <functional>
+#include <vector>
 
+#include "core/result.hpp"
 #include "kinematics/axes.hpp"
 #include "kinematics/machine.hpp"
 #include "kinematics/tip_curve.hpp"
@@ -20,10 +22,10 @@ namespace frustum::kinematics {
 inline constexpr std::array kLinearAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 inline constexpr std::array kRotaryAxes{AxisLetter::A, AxisLetter::B, AxisLetter::C};
 
-[[nodiscard]] Vec3 linear_part(const AxisPositions& q);
-[[nodiscard]] AxisPositions with_linear_part(AxisPositions q, const Vec3& xyz);
+[[nodiscard]] Vec3 linear_positions(const AxisPositions& q);
+[[nodiscard]] AxisPositions with_linear_positions(AxisPositions q, const Vec3& xyz);
 // A fraction u of the way, every axis on its own.
-[[nodiscard]] AxisPositions between(const AxisPositions& from, const AxisPositions& to, double u);
+[[nodiscard]] AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, double u);
 
 struct BlockMotion {
   std::function<AxisPositions(double)> at{};
@@ -33,6 +35,8 @@ struct BlockMotion {
   // What the feed counts, uniform in u: mm of the tip or of the linear axes; degrees of the rotary axes
   // where those stand.
   double feed_length = 0.0;
+  bool straight = false;         // every axis moves evenly
+  std::vector<double> breaks{};  // u in (0, 1), increasing: where the axes change their law
 
   // Equal parts so fine that what bends or repeats within the block cannot hide between them.
   [[nodiscard]] int least_parts() const;
@@ -48,9 +52,13 @@ struct TipFrame {
   Pose table_from_words{};
   double tool_length = 0.0;  // mm, as the controller knows it
 };
-// The machine must outlive the motion.
+// The machine must outlive these motions.
 [[nodiscard]] BlockMotion tip_motion(const Machine& machine, const AxisPositions& from,
                                      const AxisPositions& rotary_to, const TipCurve& tip,
-                                     const TipFrame& frame, parser::OrientationPath orientation);
+                                     const TipFrame& frame);
+// The tool axis, in the table frame, runs on the great circle.
+[[nodiscard]] Result<BlockMotion> vector_motion(const Machine& machine, const AxisPositions& from,
+                                                const Vec3& to_tool_axis, const TipCurve& tip,
+                                                const TipFrame& frame);
 
 }  // namespace frustum::kinematics

@@ -10,8 +10,13 @@
 //            line(q) = side q e + (Rot - 1)(side q e + p), unless declared to carry.
 //            Full rotations throughout; no small-angle shortcut.
 // Units    : mm, rad; frame: table (the last joint of the work chain)
+// Errors   : none: every position has a pose, within travel or not
+// Speed    : bench/kinematics_bench.cpp
 // Source   : ISO 230-1, ISO 230-7; exact transforms after machine-tool practice (docs/errors.md)
 #pragma once
+
+#include <array>
+#include <span>
 
 #include "core/pose.hpp"
 #include "kinematics/geometric_errors.hpp"
@@ -20,8 +25,68 @@
 
 namespace frustum::kinematics {
 
-// Pose of the tool (origin: tip, +Z: to the spindle) in the table frame.
+struct SineCosine;
+class PoseRows;
+
+// The chain of one machine with its errors and one tool, prepared once for many poses: what does not
+// depend on the axis positions is multiplied out beforehand. Refers to `errors`, which must outlive it.
+class ForwardChain {
+ public:
+  ForwardChain(const Machine& machine, const GeometricErrors& errors, double tool_length);
+
+  // Pose of the tool (origin: tip, +Z: to the spindle) in the table frame.
+  [[nodiscard]] Pose table_from_tool(const AxisState& at) const;
+  // Each side's own chain, in the frame of the bed.
+  [[nodiscard]] Pose bed_from_tool(const AxisState& at) const;
+  [[nodiscard]] Pose bed_from_table(const AxisState& at) const;
+
+ private:
+  enum class Motion : std::uint8_t { linear, about_x, about_y, about_z, about_any };
+  // Where the component rotations of a joint turn: at the origin of its frame, at a point of it, or at
+  // the nominal end of the chain.
+  enum class Pivot : std::uint8_t { origin, point, end };
+
+  struct Link {
+    AxisLetter letter = AxisLetter::X;
+    Motion motion = Motion::linear;
+    Pivot pivot = Pivot::origin;
+    bool carries = false;                   // the location errors turn what it carries
+    bool tilted = false;                    // linear: line is not the nominal one
+    bool needs_end = false;                 // it, or a joint nearer to the bed, turns about the end
+    const AxisErrors* component = nullptr;  // null: no component errors
+    Vec3 direction = Vec3::UnitX();         // of the moving part for +q
+    Vec3 offset = Vec3::Zero();
+    Vec3 place = Vec3::Zero();  // offset with the location errors
+    Vec3 point = Vec3::Zero();
+    Mat3 carried = Mat3::Identity();
+    Mat3 line = Mat3::Identity();
+  };
+
+  void prepare(Link& link, const Joint& joint, const AxisErrors& errors);
+  // From the end of the chain back to the bed, so that the nominal place of the end, about which some
+  // errors turn, comes along the way.
+  [[nodiscard]] PoseRows walk(std::span<const Link> links, const Vec3& end,
+                              const AxisState& at) const;
+  void prepend_linear(const Link& link, const AxisState& at, Vec3& end, PoseRows& pose) const;
+  void prepend_rotary(const Link& link, const AxisState& at, Vec3& end, PoseRows& pose) const;
+  void turn_about_pivot(const Link& link, const Vec3& turn, const Vec3& end, PoseRows& pose) const;
+  static void rotate(const Link& link, const SineCosine& q, PoseRows& pose);
+  static void place(const Link& link, const Vec3& shift, PoseRows& pose);
+  [[nodiscard]] PoseRows tool_rows(const AxisState& at) const;
+  [[nodiscard]] PoseRows table_rows(const AxisState& at) const;
+
+  static constexpr std::size_t kMostJoints = 5;
+  std::array<Link, kMostJoints> links_{};  // tool chain, then work chain
+  std::size_t tool_count_ = 0;
+  std::size_t count_ = 0;
+  Vec3 tip_ = Vec3::Zero();    // in the frame of the tool chain's last joint
+  Vec3 table_ = Vec3::Zero();  // in the frame of the work chain's last joint
+  RotationOrder order_ = RotationOrder::zyx;
+  RotaryErrorFrame frame_ = RotaryErrorFrame::stator;
+};
+
 [[nodiscard]] Pose nominal_pose(const Machine& machine, const AxisPositions& q, double tool_length);
+// For a single pose; many poses are cheaper with a ForwardChain.
 [[nodiscard]] Pose actual_pose(const Machine& machine, const GeometricErrors& errors,
                                const AxisState& at, double tool_length);
 

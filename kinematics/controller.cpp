@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <utility>
 
+#include "kinematics/block_motion.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
-#include "kinematics/path_sampling.hpp"
+#include "kinematics/path_recorder.hpp"
+#include "kinematics/rotary_axes.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -20,56 +21,7 @@ using parser::Coordinates;
 using parser::LengthCompensation;
 using parser::Motion;
 
-// Rotary motion is cut at least this fine before the bound decides, so that symmetric error shapes
-// cannot hide between the check points.
-constexpr double kRotaryPart = 5.0 * kRadPerDeg;
-constexpr double kLinearPart = 25.0;  // mm, for the same reason
-
-constexpr std::array kLinear{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
-constexpr std::array kRotary{AxisLetter::A, AxisLetter::B, AxisLetter::C};
-
-Vec3 linear_part(const AxisPositions& q) {
-  return {q[AxisLetter::X], q[AxisLetter::Y], q[AxisLetter::Z]};
-}
-
-// An arc or helix in program coordinates, u in [0, 1]; straight when `turn` is zero.
-struct TipCurve {
-  Vec3 start = Vec3::Zero();
-  Vec3 end = Vec3::Zero();
-  Vec3 center = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();
-  double turn = 0.0;  // rad, signed
-
-  [[nodiscard]] Vec3 at(double u) const {
-    if (turn == 0.0) return start + u * (end - start);
-    const Vec3 along_start = normal * normal.dot(start);
-    const Vec3 along_end = normal * normal.dot(end);
-    const Vec3 in_plane_center = center - normal * normal.dot(center);
-    const Vec3 spoke = start - along_start - in_plane_center;
-    const Vec3 end_spoke = end - along_end - in_plane_center;
-    // A radius that differs within the parser's tolerance is spread evenly over the arc.
-    const double stretch = 1.0 + u * (end_spoke.norm() / spoke.norm() - 1.0);
-    return in_plane_center + stretch * (rotation_about(normal, u * turn) * spoke) +
-           (1.0 - u) * along_start + u * along_end;
-  }
-};
-
-TipCurve arc_curve(const parser::ArcFeed& arc, const Vec3& start, const Vec3& end) {
-  TipCurve curve{start, end, arc.center, Vec3::UnitZ(), 0.0};
-  if (arc.plane == parser::Plane::zx) curve.normal = Vec3::UnitY();
-  if (arc.plane == parser::Plane::yz) curve.normal = Vec3::UnitX();
-  const auto spoke = [&](const Vec3& p) -> Vec3 {
-    const Vec3 r = p - arc.center;
-    return r - curve.normal * curve.normal.dot(r);
-  };
-  const Vec3 a = spoke(start), b = spoke(end);
-  const double sign = arc.turns > 0 ? 1.0 : -1.0;
-  double angle = sign * std::atan2(curve.normal.dot(a.cross(b)), a.dot(b));
-  // Start and end on the same spoke mean a full turn; 1e-9 rad is below any written coordinate.
-  if (angle < 1e-9) angle += 2.0 * std::numbers::pi;
-  curve.turn = sign * (angle + 2.0 * std::numbers::pi * (std::abs(arc.turns) - 1));
-  return curve;
-}
+constexpr double kSecondsPerMinute = 60.0;
 
 }  // namespace
 
@@ -78,12 +30,11 @@ class Controller::State {
   State(const Machine& machine, const GeometricErrors& errors, const Setup& setup,
         const ControllerOptions& options)
       : machine_(machine),
-        errors_(errors),
         setup_(setup),
         options_(options),
-        workpiece_from_table_(setup.table_from_workpiece.inverse()),
-        q_(machine.home()) {
-    execution_.path.bound = options.path_bound;
+        q_(machine.home()),
+        recorder_(machine, errors, setup.table_from_workpiece.inverse(), q_,
+                  {options.path_bound, options.time_law, options.servo_lag, options.sink}) {
     execution_.axes.push_back({0, PathKind::rapid, q_});
   }
 
@@ -96,6 +47,8 @@ class Controller::State {
 
   Result<Execution> finish() {
     if (!problems_.empty()) return problems_;
+    execution_.path = recorder_.finish();
+    execution_.cycle_time = recorder_.clock();
     return std::move(execution_);
   }
 
@@ -103,13 +56,13 @@ class Controller::State {
   // --- commands -------------------------------------------------------------------------------
 
   void execute(const parser::Traverse& move) {
-    go(move.end, move.tool_axis, move.coordinates, PathKind::rapid, 0.0, nullptr);
+    go(move.end, move.tool_axis, move.coordinates, {PathKind::rapid}, nullptr);
   }
   void execute(const parser::LinearFeed& move) {
-    go(move.end, move.tool_axis, move.coordinates, PathKind::feed, move.feed.value, nullptr);
+    go(move.end, move.tool_axis, move.coordinates, {PathKind::feed, move.feed}, nullptr);
   }
   void execute(const parser::ArcFeed& move) {
-    go(move.end, move.tool_axis, Coordinates::program, PathKind::feed, move.feed.value, &move);
+    go(move.end, move.tool_axis, Coordinates::program, {PathKind::feed, move.feed}, &move);
   }
   void execute(const parser::HomeReturn& move) {
     AxisPositions end = q_;
@@ -118,7 +71,7 @@ class Controller::State {
       if (move.axes[static_cast<std::size_t>(letter)] && present(letter))
         end[letter] = home[letter];
     }
-    if (problems_.empty()) move_axes(end, PathKind::rapid, 0.0);
+    if (problems_.empty()) travel(axes_motion(q_, end), {PathKind::rapid});
   }
   void execute(const parser::ToolChange& change) {
     if (change.tool != 0 && !setup_.tools.contains(change.tool)) {
@@ -127,7 +80,8 @@ class Controller::State {
       return;
     }
     tool_ = change.tool;
-    chain_broken_ = true;
+    rest(0.0);
+    recorder_.break_chain();
   }
   void execute(const parser::CompensationChange& change) {
     if (change.mode == LengthCompensation::off) {
@@ -159,191 +113,261 @@ class Controller::State {
     }
     offset_ = offset->second;
     offset_known_ = true;
+    place_words();
   }
   void execute(const parser::SpindleChange& change) {
     spindle_on_ = change.direction != parser::SpindleDirection::off && change.speed > 0.0;
+    spindle_speed_ = spindle_on_ ? change.speed : 0.0;
   }
-  void execute(const parser::OrientationPathChange& /*change*/) {}
-  void execute(const parser::RotaryPathChange& /*change*/) {}
-  void execute(const parser::TiltedPlaneChange& /*change*/) {}
-  void execute(const parser::AlignToPlane& /*align*/) {}
-  void execute(const parser::Dwell& /*dwell*/) {}
+  void execute(const parser::OrientationPathChange& change) { orientation_path_ = change.path; }
+  void execute(const parser::RotaryPathChange& change) { rotary_path_ = change.path; }
+  void execute(const parser::TiltedPlaneChange& change) {
+    plane_ = change.program_from_plane;
+    place_words();
+  }
+  void execute(const parser::AlignToPlane& /*align*/) {
+    if (!plane_) {
+      fail("the tool is to be set square to a tilted plane, but none is active",
+           "define the plane first, for example with G68.2");
+      return;
+    }
+    if (!know_offset()) return;
+    const Vec3 normal = table_from_words_.direction(Vec3::UnitZ());
+    const Vec3 tip = nominal_pose(machine_, q_, compensated_length_).translation;
+    AxisPositions end = q_;
+    if (!orient_to(normal, tip, end)) return;
+    if (compensation_ == LengthCompensation::tool_centre_point) {
+      const Vec3 words = table_from_words_.inverse().point(tip);
+      travel(tip_motion(machine_, q_, end, TipCurve::line(words, words), tip_frame()),
+             {PathKind::rapid});
+    } else {
+      travel(axes_motion(q_, with_linear_positions(end, linear_positions(q_))), {PathKind::rapid});
+    }
+  }
+  void execute(const parser::Dwell& dwell) { rest(dwell.seconds); }
   void execute(const parser::CoolantChange& /*change*/) {}
   void execute(const parser::Stop& stop) {
-    if (stop.kind != parser::StopKind::optional_stop) spindle_on_ = false;
+    if (stop.kind == parser::StopKind::optional_stop) return;
+    spindle_on_ = false;
+    rest(0.0);
   }
   void execute(const parser::Event& /*event*/) {}
 
   // --- motion ---------------------------------------------------------------------------------
 
+  struct Manner {
+    PathKind kind = PathKind::rapid;
+    parser::Feed feed{};
+  };
+
   void go(const AxisTarget& target, const std::optional<UnitVec3>& tool_axis,
-          Coordinates coordinates, PathKind kind, double feed, const parser::ArcFeed* arc) {
+          Coordinates coordinates, const Manner& manner, const parser::ArcFeed* arc) {
     for (const AxisLetter letter : kAxisLetters) {
       if (target[letter] && !present(letter)) return;
     }
-    if (kind == PathKind::feed && tool_ == 0) {
+    if (manner.kind == PathKind::feed && tool_ == 0) {
       fail("feed move without a tool in the spindle", "call a tool first, for example T1 M6");
       return;
     }
     if (coordinates == Coordinates::machine) {
-      AxisPositions end = q_;
-      for (const AxisLetter letter : kAxisLetters) {
+      AxisPositions end = rotary_end(target);
+      for (const AxisLetter letter : kLinearAxes) {
         if (target[letter]) end[letter] = *target[letter];
       }
-      move_axes(end, kind, feed);
+      travel(axes_motion(q_, end), manner);
       return;
     }
-    if (!offset_known_) execute(parser::WorkOffsetChange{1});
-    if (!problems_.empty()) return;
-    if (compensation_ == LengthCompensation::tool_centre_point) {
-      move_tip(target, tool_axis, kind, feed, arc);
-    } else if (tool_axis) {
+    if (!know_offset()) return;
+    const bool centre_point = compensation_ == LengthCompensation::tool_centre_point;
+    if (tool_axis && !centre_point) {
       fail("tool vector words I J K without tool-centre-point control",
            "switch it on with G43.5 H or G43.4 H");
+    } else if (centre_point || (plane_ && arc != nullptr)) {
+      move_tip(target, tool_axis, manner, arc);
+    } else if (plane_) {
+      move_in_plane(target, manner);
     } else {
-      move_words(target, kind, feed, arc);
+      move_words(target, manner, arc);
     }
   }
 
-  // Tool-centre-point control: tip as programmed, rotary axes linear.
-  void move_tip(const AxisTarget& target, const std::optional<UnitVec3>& tool_axis, PathKind kind,
-                double feed, const parser::ArcFeed* arc) {
-    const Vec3 start = nominal_pose(machine_, q_, compensated_length_).translation - offset_;
-    Vec3 end = start;
-    for (const AxisLetter letter : kLinear) {
-      if (target[letter]) end[static_cast<Eigen::Index>(letter)] = *target[letter];
-    }
-    AxisPositions rotary_end = q_;
-    if (tool_axis) {
-      if (!orient_to(*tool_axis, end, rotary_end)) return;
-    } else {
-      for (const AxisLetter letter : kRotary) {
-        if (target[letter]) rotary_end[letter] = *target[letter];
+  // Tool-centre-point control: tip as programmed, the rotary axes or the tool axis on their own path.
+  void move_tip(const AxisTarget& target, const std::optional<UnitVec3>& tool_axis,
+                const Manner& manner, const parser::ArcFeed* arc) {
+    const Vec3 start = tip_in_words();
+    const Vec3 end = linear_words(target, start);
+    const TipCurve tip = curve(arc, start, end);
+    AxisPositions q_end = rotary_end(target);
+    if (orientation_path_ == parser::OrientationPath::great_circle) {
+      const Vec3 axis = tool_axis ? table_from_words_.direction(*tool_axis)
+                                  : Vec3(nominal_pose(machine_, q_end, 0.0).rotation.col(2));
+      if (turns_tool(axis)) {
+        move_on_great_circle(tip, axis, tool_axis ? nullptr : &q_end, manner);
+        return;
       }
     }
-    const TipCurve curve =
-        arc == nullptr ? TipCurve{start, end, {}, {}, 0.0} : arc_curve(*arc, start, end);
-    const AxisPositions from = q_;
-    travel(
-        [this, from, rotary_end, curve](double u) {
-          AxisPositions q = from;
-          for (const AxisLetter letter : kRotary) {
-            q[letter] = from[letter] + u * (rotary_end[letter] - from[letter]);
-          }
-          return place_tip(machine_, curve.at(u) + offset_, compensated_length_, q);
-        },
-        kind, feed, curve.turn);
+    if (tool_axis &&
+        !orient_to(table_from_words_.direction(*tool_axis), table_from_words_.point(end), q_end)) {
+      return;
+    }
+    travel(tip_motion(machine_, q_, q_end, tip, tip_frame()), manner);
   }
 
-  // Rotary positions for a programmed tool vector: the solution nearest to where the axes are.
-  bool orient_to(const UnitVec3& tool_axis, const Vec3& tip, AxisPositions& rotary_end) {
-    const auto solutions = inverse(machine_, {tip + offset_, tool_axis}, compensated_length_, q_);
+  [[nodiscard]] bool turns_tool(const Vec3& to_axis) const {
+    // Below what nine written digits of a direction can tell.
+    constexpr double kSameDirection = 1e-9;
+    const Vec3 axis = nominal_pose(machine_, q_, 0.0).rotation.col(2);
+    return angle_between(axis, to_axis.normalized()) > kSameDirection;
+  }
+
+  // `wanted`: rotary positions that the block names; the great circle must lead there.
+  void move_on_great_circle(const TipCurve& tip, const Vec3& to_axis, const AxisPositions* wanted,
+                            const Manner& manner) {
+    auto motion = vector_motion(machine_, q_, to_axis, tip, tip_frame());
+    if (!motion) {
+      fail(motion.error().front());
+      return;
+    }
+    for (const AxisLetter letter : kRotaryAxes) {
+      constexpr double kSameAngle = 1e-7;  // rad: angles are written to 1e-6 deg at best
+      if (wanted == nullptr || std::abs((*wanted)[letter] - motion->end[letter]) < kSameAngle)
+        continue;
+      fail(fmt::format("the great circle brings {} to {:.4f} deg, the block wants {:.4f}",
+                       to_char(letter), motion->end[letter] * kDegPerRad,
+                       (*wanted)[letter] * kDegPerRad),
+           "give tool vectors instead of rotary positions, or move the rotary axes linearly "
+           "(ORIAXES, PATHCTRL AXIS)");
+      return;
+    }
+    travel(*std::move(motion), manner);
+  }
+
+  // Rotary positions for a tool axis in the table frame: the solution nearest to where the axes are.
+  bool orient_to(const Vec3& tool_axis, const Vec3& tip, AxisPositions& rotary_end) {
+    const auto solutions = inverse(machine_, {tip, tool_axis}, compensated_length_, q_);
     if (!solutions) {
-      fail(solutions.error().front().message, solutions.error().front().hint);
+      fail(solutions.error().front());
       return false;
     }
     rotary_end = solutions->front().axes;
     return true;
   }
 
-  // Without tool-centre-point control a word is an axis position; all axes move linearly.
-  void move_words(const AxisTarget& target, PathKind kind, double feed,
-                  const parser::ArcFeed* arc) {
-    const Vec3 shift = axis_shift();
-    const Vec3 start = linear_part(q_) - shift;
-    Vec3 end = start;
-    AxisPositions q_end = q_;
-    for (const AxisLetter letter : kAxisLetters) {
-      if (!target[letter]) continue;
-      if (is_rotary(letter)) {
-        q_end[letter] = *target[letter];
-      } else {
-        end[static_cast<Eigen::Index>(letter)] = *target[letter];
-      }
+  // A tilted plane without tool-centre-point control: where the block ends, the tip is where its words
+  // say; all axes move linearly. A block of rotary words alone turns these and nothing else.
+  void move_in_plane(const AxisTarget& target, const Manner& manner) {
+    AxisPositions end = rotary_end(target);
+    const bool has_linear_words = std::any_of(kLinearAxes.begin(), kLinearAxes.end(),
+                                              [&](AxisLetter l) { return target[l].has_value(); });
+    if (has_linear_words) {
+      const Vec3 tip = table_from_words_.point(linear_words(target, tip_in_words()));
+      end = place_tip(machine_, tip, compensated_length_, end);
     }
-    const TipCurve curve =
-        arc == nullptr ? TipCurve{start, end, {}, {}, 0.0} : arc_curve(*arc, start, end);
-    const AxisPositions from = q_;
-    travel(
-        [from, q_end, curve, shift](double u) {
-          AxisPositions q = from;
-          const Vec3 linear = curve.at(u) + shift;
-          for (const AxisLetter letter : kLinear)
-            q[letter] = linear[static_cast<Eigen::Index>(letter)];
-          for (const AxisLetter letter : kRotary) {
-            q[letter] = from[letter] + u * (q_end[letter] - from[letter]);
-          }
-          return q;
-        },
-        kind, feed, curve.turn);
+    travel(axes_motion(q_, end), manner);
   }
 
-  void move_axes(const AxisPositions& end, PathKind kind, double feed) {
-    const AxisPositions from = q_;
-    travel(
-        [from, end](double u) {
-          AxisPositions q;
-          for (const AxisLetter letter : kAxisLetters) {
-            q[letter] = from[letter] + u * (end[letter] - from[letter]);
-          }
-          return q;
-        },
-        kind, feed, 0.0);
+  // Without tool-centre-point control a word is an axis position; all axes move linearly.
+  void move_words(const AxisTarget& target, const Manner& manner, const parser::ArcFeed* arc) {
+    const Vec3 shift = axis_shift();
+    const Vec3 start = linear_positions(q_) - shift;
+    const Vec3 end = linear_words(target, start);
+    travel(words_motion(q_, rotary_end(target), curve(arc, start, end), shift), manner);
   }
+
+  static TipCurve curve(const parser::ArcFeed* arc, const Vec3& start, const Vec3& end) {
+    return arc == nullptr ? TipCurve::line(start, end) : TipCurve::arc(*arc, start, end);
+  }
+
+  static Vec3 linear_words(const AxisTarget& target, const Vec3& otherwise) {
+    Vec3 words = otherwise;
+    for (const AxisLetter letter : kLinearAxes) {
+      if (target[letter]) words[static_cast<Eigen::Index>(letter)] = *target[letter];
+    }
+    return words;
+  }
+
+  [[nodiscard]] AxisPositions rotary_end(const AxisTarget& target) const {
+    AxisPositions end = q_;
+    for (const AxisLetter letter : kRotaryAxes) {
+      if (!target[letter]) continue;
+      end[letter] = rotary_path_ == parser::RotaryPath::shortest
+                        ? best_turn(*machine_.joint(letter), *target[letter], q_[letter])
+                        : *target[letter];
+    }
+    return end;
+  }
+
+  [[nodiscard]] Vec3 tip_in_words() const {
+    return table_from_words_.inverse().point(
+        nominal_pose(machine_, q_, compensated_length_).translation);
+  }
+
+  [[nodiscard]] TipFrame tip_frame() const { return {table_from_words_, compensated_length_}; }
+
+  bool know_offset() {
+    if (!offset_known_) execute(parser::WorkOffsetChange{1});
+    return problems_.empty();
+  }
+
+  void place_words() { table_from_words_ = Pose::translated(offset_) * plane_.value_or(Pose{}); }
 
   // What to add to X Y Z words to get axis positions: at rotary zero the tip is where the words say.
   [[nodiscard]] Vec3 axis_shift() const {
     const AxisPositions zero;
-    return linear_part(place_tip(machine_, offset_, compensated_length_, zero));
+    return linear_positions(place_tip(machine_, offset_, compensated_length_, zero));
   }
 
-  // Follows commanded(u), u in [0, 1], checks the travels, and samples where the tool really goes.
-  void travel(const std::function<AxisPositions(double)>& commanded, PathKind kind, double feed,
-              double arc_turn) {
-    const AxisPositions start = q_;
-    const AxisPositions end = commanded(1.0);
-    double rotary_travel = std::abs(arc_turn);
-    for (const AxisLetter letter : kRotary) {
-      rotary_travel = std::max(rotary_travel, std::abs(end[letter] - start[letter]));
-    }
-    const double linear_travel = (linear_part(end) - linear_part(start)).norm();
-    const int parts =
-        1 + static_cast<int>(rotary_travel / kRotaryPart + linear_travel / kLinearPart);
-    // The end first: it is what the block says.
-    if (!within_travel(end)) return;
-    for (int i = 1; i < parts; ++i) {
-      if (!within_travel(commanded(static_cast<double>(i) / parts))) return;
-    }
-    q_ = end;
-    execution_.axes.push_back({place_.line, kind, end});
-    if (!options_.sample_path || tool_ == 0) return;
+  void rest(double seconds) {
+    if (options_.sample_path) recorder_.rest(seconds);
+  }
 
-    const ToolGeometry& tool = setup_.tools.at(tool_);
-    const auto actual = [&](double u) {
-      const Pose table_from_tool =
-          actual_pose(machine_, errors_, commanded(u), tool.length + tool.length_error);
-      const Pose pose = workpiece_from_table_ * table_from_tool;
-      return ToolPose{pose.translation, pose.rotation.col(2)};
-    };
-    ToolPath& path = execution_.path;
-    const auto append = [&](double u, const ToolPose& pose) {
-      path.poses.push_back(pose);
-      path.axes.push_back(commanded(u));
-    };
-    if (chain_broken_ || path.poses.empty()) append(0.0, actual(0.0));
-    chain_broken_ = false;
-    const auto first = static_cast<std::uint32_t>(path.poses.size() - 1);
-    const SamplingOptions sampling{options_.path_bound, tool.flute_length, parts};
-    for (const PathSample& sample : sample_motion(actual, path.poses.back(), sampling)) {
-      append(sample.u, sample.pose);
+  void travel(BlockMotion motion, const Manner& manner) {
+    // The end first: it is what the block says.
+    if (!within_travel(motion.end)) return;
+    const int parts = motion.least_parts();
+    for (int i = 1; i < parts; ++i) {
+      if (!within_travel(motion.at(static_cast<double>(i) / parts))) return;
     }
-    const auto block = static_cast<std::uint32_t>(path.blocks.size());
-    path.blocks.push_back({.source_line = place_.line,
-                           .kind = kind,
-                           .spindle_on = spindle_on_,
-                           .tool = tool_,
-                           .feed = feed});
-    for (auto i = first; i + 1 < path.poses.size(); ++i) path.stretches.push_back({i, block});
+    BlockOrder order;
+    if (!set_feed(motion, manner, order.block)) return;
+    q_ = motion.end;
+    if (!options_.sample_path) {
+      execution_.axes.push_back({place_.line, manner.kind, q_});
+      return;
+    }
+    if (!options_.sink) execution_.axes.push_back({place_.line, manner.kind, q_});
+    order.motion = std::move(motion);
+    order.block.source_line = place_.line;
+    order.block.kind = manner.kind;
+    order.block.spindle_on = spindle_on_;
+    order.block.tool = tool_;
+    order.has_tool = tool_ != 0;
+    if (order.has_tool) {
+      const ToolGeometry& tool = setup_.tools.at(tool_);
+      order.tool_length = tool.length + tool.length_error;
+      order.reach = tool.flute_length;
+    }
+    recorder_.travel(std::move(order));
+  }
+
+  bool set_feed(const BlockMotion& motion, const Manner& manner, PathBlock& block) {
+    if (manner.kind == PathKind::rapid) return true;
+    const parser::Feed& feed = manner.feed;
+    if (feed.mode == parser::FeedMode::per_revolution && spindle_speed_ <= 0.0) {
+      fail("feed per revolution while the spindle stands",
+           "start the spindle with S and M3 or M4 before the move");
+      return false;
+    }
+    block.feed = feed.mode == parser::FeedMode::per_revolution ? feed.value * spindle_speed_
+                 : feed.mode == parser::FeedMode::inverse_time ? feed.value * motion.feed_length
+                                                               : feed.value;
+    if (motion.feed_length > 0.0 && !(block.feed > 0.0)) {
+      fail(fmt::format("a feed move with feed {:g}", feed.value), "give a feed above zero");
+      return false;
+    }
+    block.feed_duration =
+        motion.feed_length > 0.0 ? motion.feed_length / block.feed * kSecondsPerMinute : 0.0;
+    return true;
   }
 
   // --- checks ---------------------------------------------------------------------------------
@@ -357,13 +381,14 @@ class Controller::State {
   }
 
   bool within_travel(const AxisPositions& q) {
+    if (kinematics::within_travel(machine_, q)) return true;
     const auto violations = travel_violations(machine_, q);
-    if (violations.empty()) return true;
     fail(fmt::format("over-travel: {}", fmt::join(violations, "; ")),
          "move the workpiece on the table, or choose a larger machine");
     return false;
   }
 
+  void fail(const Diagnostic& diagnostic) { fail(diagnostic.message, diagnostic.hint); }
   void fail(std::string message, std::string hint) {
     note(problems_, error(std::move(message), std::move(hint)));
   }
@@ -375,21 +400,24 @@ class Controller::State {
   }
 
   const Machine& machine_;
-  const GeometricErrors& errors_;
   const Setup& setup_;
   ControllerOptions options_;
-  Pose workpiece_from_table_;
 
   AxisPositions q_;  // where the axes are
   Vec3 offset_ = Vec3::Zero();
   bool offset_known_ = false;
+  std::optional<Pose> plane_{};  // program_from_plane
+  Pose table_from_words_{};
   LengthCompensation compensation_ = LengthCompensation::off;
   double compensated_length_ = 0.0;
+  parser::OrientationPath orientation_path_ = parser::OrientationPath::rotary_axes;
+  parser::RotaryPath rotary_path_ = parser::RotaryPath::as_programmed;
   int tool_ = 0;
   bool spindle_on_ = false;
-  bool chain_broken_ = true;  // the next pose does not continue the last one
+  double spindle_speed_ = 0.0;  // 1/min
   parser::SourcePlace place_{};
 
+  PathRecorder recorder_;
   Execution execution_;
   Diagnostics problems_;
 };

@@ -20,6 +20,7 @@
 #include "core/result.hpp"
 #include "kinematics/geometric_errors.hpp"
 #include "kinematics/machine.hpp"
+#include "kinematics/path_recorder.hpp"
 #include "kinematics/tool_path.hpp"
 #include "parser/motion.hpp"
 
@@ -49,12 +50,16 @@ struct AxisSample {
 struct Execution {
   ToolPath path{};                 // empty when only axes were asked for
   std::vector<AxisSample> axes{};  // the first entry is the start position
+  double cycle_time = 0.0;         // s
   Diagnostics warnings{};
 };
 
 struct ControllerOptions {
   double path_bound = 1e-5;  // mm
-  bool sample_path = true;   // false: axis positions only (errors play no part)
+  bool sample_path = true;   // false: axis positions only (errors and times play no part)
+  TimeLawOptions time_law{};
+  bool servo_lag = false;  // the path is where the axes are behind their commands
+  PathSink sink{};         // takes the path in parts as it grows; nothing of it is then kept
 };
 
 class Controller {

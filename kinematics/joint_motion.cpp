@@ -1,5 +1,7 @@
 #include "kinematics/joint_motion.hpp"
 
+#include <cassert>
+
 namespace frustum::kinematics {
 
 Pose nominal_joint(const Joint& joint, double q) {
@@ -9,34 +11,47 @@ Pose nominal_joint(const Joint& joint, double q) {
   return Pose::translated(joint.offset + joint.side * q * joint.direction);
 }
 
-JointErrors errors_at(const AxisErrors& errors, AxisLetter axis, const AxisState& at) {
-  JointErrors e;
+ComponentErrors component_errors(const AxisErrors& errors, AxisLetter axis, const AxisState& at) {
+  ComponentErrors e;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     if (!errors.component[k].is_zero()) e.shift[i] = errors.component[k](axis, at);
     if (!errors.component[k + 3].is_zero()) e.turn[i] = errors.component[k + 3](axis, at);
-    e.location[i] = errors.location[k];
-    e.orientation[i] = errors.location[k + 3];
   }
-  e.carried_tilt = errors.carried_tilt;
   return e;
 }
 
-Vec3 functional_point(const Machine& machine, std::span<const Joint> joints, std::size_t i,
-                      const AxisPositions& q, const Pose& end) {
-  const Joint& joint = joints[i];
-  if (!joint.functional_point.at_tip) return joint.functional_point.point;
-  Pose from_end = end;
-  for (std::size_t k = joints.size(); k-- > i + 1;) {
-    from_end = nominal_joint(joints[k], q[joints[k].letter]) * from_end;
+ChainFrames error_frames(std::span<const Joint> joints, RotaryErrorFrame frame,
+                         const AxisPositions& q, const Vec3& end) {
+  assert(joints.size() <= ChainFrames::kMostJoints);
+  ChainFrames chain;
+  Pose bed_from_previous;
+  for (const Joint& joint : joints) {
+    ErrorFrames& f = chain.frames[chain.count++];
+    f.joint = &joint;
+    f.place = bed_from_previous * Pose::translated(joint.offset);
+    bed_from_previous = bed_from_previous * nominal_joint(joint, q[joint.letter]);
+    const bool moved = !joint.rotary() || frame == RotaryErrorFrame::rotor;
+    f.act = moved ? bed_from_previous.rotation : f.place.rotation;
+    const Vec3& origin = moved ? bed_from_previous.translation : f.place.translation;
+    f.pivot = origin + f.act * joint.functional_point.point;
   }
-  const bool before_rotation =
-      joint.rotary() && machine.rotary_error_frame() == RotaryErrorFrame::stator;
-  if (before_rotation) {
-    from_end =
-        Pose::rotated(rotation_about(joint.direction, joint.side * q[joint.letter])) * from_end;
+  chain.bed_from_end = bed_from_previous * Pose::translated(end);
+  for (ErrorFrames& f : chain.frames) {
+    if (f.joint != nullptr && f.joint->functional_point.at_tip)
+      f.pivot = chain.bed_from_end.translation;
   }
-  return from_end.translation;
+  return chain;
+}
+
+ChainFrames tool_side_frames(const Machine& machine, const AxisPositions& q, double tool_length) {
+  return error_frames(machine.tool_chain(), machine.rotary_error_frame(), q,
+                      machine.spindle_offset() - tool_length * Vec3::UnitZ());
+}
+
+ChainFrames work_side_frames(const Machine& machine, const AxisPositions& q) {
+  return error_frames(machine.work_chain(), machine.rotary_error_frame(), q,
+                      machine.table_offset());
 }
 
 }  // namespace frustum::kinematics

@@ -25,6 +25,7 @@ class ServoLag {
   // After which nothing is left of a lag but e^-12 of it, s.
   [[nodiscard]] double settling_time() const;
   [[nodiscard]] const AxisPositions& actual() const { return actual_; }
+  [[nodiscard]] const AxisPositions& commanded() const { return commanded_; }
 
  private:
   std::array<double, kAxisLetters.size()> gain_{};  // 1/s; 0: no lag

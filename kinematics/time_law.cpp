@@ -83,19 +83,19 @@ TimeLaw::TimeLaw(const Machine& machine, const TimeLawOptions& options)
   if (averages_) least_part_ = slowest * options.jerk_time * options.jerk_time / 24.0;
 }
 
-TimeLaw::Piece TimeLaw::piece_of(const AxisPositions& step, double length,
-                                 double least_time) const {
+TimeLaw::Piece TimeLaw::piece_of(const AxisPositions& step, const AxisPositions& unevenness,
+                                 double length, double least_time) const {
   Piece piece{.length = length, .step_length = length};
   if (least_time > 0.0) piece.feed_speed = length / least_time;
   piece.top.value = piece.feed_speed;
   for (const AxisLetter letter : kAxisLetters) {
-    if (step[letter] == 0.0) continue;
+    const double pace = (std::abs(step[letter]) + unevenness[letter]) / length;
+    if (pace == 0.0) continue;
     const std::size_t i = index_of(letter);
-    const double slope = step[letter] / length;
-    piece.per_length[letter] = slope;
+    piece.per_length[letter] = step[letter] / length;
     // A rapid runs at what the axis can do; a feed is slowed by stated limits only.
     const double velocity = least_time > 0.0 ? velocity_[i] : weight_[i];
-    piece.top.lower(velocity / std::abs(slope), letter);
+    piece.top.lower(velocity / pace, letter);
   }
   piece.own_top = piece.top.value;
   return piece;
@@ -112,7 +112,9 @@ void TimeLaw::bend(Piece& before, Piece& after, bool corner) const {
     if (jumps[i] == 0.0 || acceleration_[i] == kNoLimit) continue;
     const double share = kBendShare * acceleration_[i];
     after.entry.lower(std::sqrt(share * beside / jumps[i]), letter);
-    if (corner) after.entry.lower(share * options_.corner_time / jumps[i], letter);
+    // Two corners may lie side by side.
+    const double jump = 0.5 * acceleration_[i] * options_.corner_time;
+    if (corner) after.entry.lower(jump / jumps[i], letter);
   }
   const double speed = after.entry.value;
   for (std::size_t i = 0; i < jumps.size(); ++i) {
@@ -137,7 +139,8 @@ std::vector<double> TimeLaw::parts_of(double length) const {
   return parts;
 }
 
-bool TimeLaw::add(const AxisPositions& step, double least_time, bool corner) {
+bool TimeLaw::add(const AxisPositions& step, const AxisPositions& unevenness, double least_time,
+                  bool corner) {
   double sum = 0.0;
   for (const AxisLetter letter : kAxisLetters) {
     const double part = step[letter] / weight_[index_of(letter)];
@@ -145,7 +148,7 @@ bool TimeLaw::add(const AxisPositions& step, double least_time, bool corner) {
   }
   const double length = std::sqrt(sum);
   if (length < kNoLength) return false;
-  Piece piece = piece_of(step, length, least_time);
+  Piece piece = piece_of(step, unevenness, length, least_time);
   if (window_.empty()) {
     piece.entry.value = 0.0;
   } else {

@@ -4,10 +4,12 @@
 //            rapid velocity, so that one speed v = dh/dt is continuous over all blocks. Each segment has
 //            a top speed (feed; velocity of its axes), each corner between segments a speed at which no
 //            axis velocity jumps by more than 0.7 of its acceleration times the time that the bend takes
-//            (that of the half segments beside it; between blocks corner_time at most); the rest of the
-//            acceleration may change v. A backward and a forward pass then give the fastest trapezoidal
-//            profile. With `jerk` accelerations are held down to jerk x jerk_time / 2, v(t) is
-//            averaged over jerk_time, and each limit is kept over all that the average looks at
+//            (that of the half segments beside it), nor between blocks by more than half of what
+//            it gives in corner_time; the rest of the acceleration may change v. So an axis changes its
+//            velocity within any time dt by at most acceleration x (dt + corner_time). A backward and a
+//            forward pass then give the fastest trapezoidal profile. With `jerk` accelerations are held
+//            down to jerk x jerk_time / 2, v(t) is averaged over jerk_time, and each limit is kept
+//            over all that the average looks at
 // Units    : mm, rad, s
 // Shape    : streamed through a window of 8192 segments, the end of which is taken as standstill
 // Errors   : none
@@ -31,7 +33,7 @@ namespace frustum::kinematics {
 struct TimeLawOptions {
   bool limits = true;          // false: times follow from the feed alone
   bool jerk = false;           // limit the jerk of axes that state one
-  double corner_time = 0.004;  // s, in which an axis takes up its velocity jump at a corner
+  double corner_time = 0.005;  // s, in which an axis takes up its velocity jump at a corner
   double jerk_time = 0.04;     // s, over which the speed is averaged
   double rapid = 500.0;        // mm/s: of linear axes that state no velocity
   double rotary_rapid = 3.0;   // rad/s: of rotary axes that state no velocity
@@ -61,9 +63,11 @@ class TimeLaw {
   // False: no axis states a limit that could slow a feed.
   [[nodiscard]] bool limits_any() const { return limits_any_; }
 
-  // The axes go on by `step`, in no less than `least_time` (0: a rapid). `corner`: a new block begins.
+  // The axes go on by `step`, in no less than `least_time` (0: a rapid); `unevenness`: what every axis
+  // would go further at its fastest pace within the step. `corner`: a new block begins.
   // Returns false for a step without length, which takes no time and gives no segment.
-  bool add(const AxisPositions& step, double least_time, bool corner);
+  bool add(const AxisPositions& step, const AxisPositions& unevenness, double least_time,
+           bool corner);
   // The axes come to rest and wait.
   void rest(double seconds);
 
@@ -105,7 +109,8 @@ class TimeLaw {
     double covered = 0.0;
   };
 
-  [[nodiscard]] Piece piece_of(const AxisPositions& step, double length, double least_time) const;
+  [[nodiscard]] Piece piece_of(const AxisPositions& step, const AxisPositions& unevenness,
+                               double length, double least_time) const;
   void bend(Piece& before, Piece& after, bool corner) const;
   [[nodiscard]] std::vector<double> parts_of(double length) const;
   void bound_accelerations();

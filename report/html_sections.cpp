@@ -96,6 +96,7 @@ std::string head_html(const RunReport& report) {
   html += fact("Program", html_text(report.program));
   html += fact("Tool", tools);
   html += fact("Points probed", points > 0 ? std::to_string(points) : "");
+  html += fact("Cycle time", report.cycle_time ? duration_text(*report.cycle_time) : "");
   html += fact("Date", html_text(report.date));
   return html + "</dl></header>\n";
 }
@@ -253,6 +254,22 @@ std::string features_html(const RunReport& report) {
   return section("features", "Features", table.html());
 }
 
+std::string cycle_html(const RunReport& report) {
+  if (!report.cycle_time || report.slowed.empty()) return "";
+  Table table({">Line", "Axis", ">Programmed feed, mm/min", ">Reached feed, mm/min"});
+  // The worst tell the story; the JSON document has them all.
+  const std::size_t shown = std::min<std::size_t>(report.slowed.size(), 20);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const SlowedBlock& block = report.slowed[k];
+    table.row({std::to_string(block.line), html_text(block.axis),
+               fixed_text(block.programmed_feed, 0), fixed_text(block.reached_feed, 0)});
+  }
+  return section("cycle",
+                 fmt::format("Slowed by axis limits: {} block{}", report.slowed.size(),
+                             report.slowed.size() == 1 ? "" : "s"),
+                 table.html());
+}
+
 std::string collisions_html(const RunReport& report) {
   if (report.collisions.empty()) return "";
   Table table({">Line", "Collision"});
@@ -321,6 +338,7 @@ std::string process_html(const RunReport& report) {
 std::string html_sections(const RunReport& report) {
   std::string html = head_html(report) + "<main>\n";
   html += characteristics_html(report);
+  html += cycle_html(report);
   html += collisions_html(report);
   html += form_html(report);
   html += profiles_html(report);

@@ -119,6 +119,15 @@ std::string json_report(const RunReport& report) {
   json["features"] = array_of(report.measurement.features, feature_json);
   json["characteristics"] = array_of(report.measurement.characteristics, characteristic_json);
   json["timing"] = timing_json(report.timings);
+  if (report.cycle_time) {
+    json["cycle_time_s"] = number(*report.cycle_time);
+    json["limited_blocks"] = array_of(report.slowed, [](const SlowedBlock& block) {
+      return Json{{"line", block.line},
+                  {"axis", block.axis},
+                  {"programmed_feed", number(block.programmed_feed)},
+                  {"reached_feed", number(block.reached_feed)}};
+    });
+  }
   json["diagnostics"] = array_of(report.diagnostics, diagnostic_json);
   for (const Diagnostic& diagnostic : report.measurement.diagnostics) {
     json["diagnostics"].push_back(diagnostic_json(diagnostic));

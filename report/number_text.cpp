@@ -15,6 +15,18 @@ std::string fixed_text(double value, int decimals) {
   return text;
 }
 
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0.0) return "-";
+  // Tenths of a second decide, so that nothing reads "60.0 s".
+  if (seconds < 59.995) return fixed_text(seconds, 2) + " s";
+  const auto tenths = std::llround(seconds * 10.0);
+  if (tenths < 36000) {
+    return fmt::format("{} min {:04.1f} s", tenths / 600, static_cast<double>(tenths % 600) / 10.0);
+  }
+  const auto minutes = std::llround(seconds / 60.0);
+  return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+}
+
 std::string value_text(double value, std::string_view unit) {
   if (unit == "um") return fixed_text(value, 3);
   if (unit == "mm") return fixed_text(value, 4);

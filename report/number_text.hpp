@@ -15,6 +15,9 @@ namespace frustum::report {
 // A fixed number of decimals, without a negative zero.
 [[nodiscard]] std::string fixed_text(double value, int decimals);
 
+// Seconds as people say them: "4.20 s", "12 min 03.4 s", "2 h 05 min".
+[[nodiscard]] std::string duration_text(double seconds);
+
 // The decimals that the unit deserves: 3 for um, 4 for mm, 5 for deg, 2 for urad.
 [[nodiscard]] std::string value_text(double value, std::string_view unit);
 

@@ -81,6 +81,14 @@ struct Collision {
   std::string text{};
 };
 
+// A block that an axis limit kept below its feed.
+struct SlowedBlock {
+  std::uint32_t line = 0;
+  std::string axis{};            // the letter
+  double programmed_feed = 0.0;  // mm/min
+  double reached_feed = 0.0;     // mm/min, mean over the block
+};
+
 struct Timing {
   std::string name{};
   double seconds = 0.0;
@@ -108,7 +116,9 @@ struct RunReport {
   SurfacePicture surface{};
   Volumes volumes{};
   std::vector<Collision> collisions{};
-  std::vector<Timing> timings{};  // in the order in which the work was done
+  std::optional<double> cycle_time{};  // s, of the program on the machine
+  std::vector<SlowedBlock> slowed{};   // those that lose most time first
+  std::vector<Timing> timings{};       // in the order in which the work was done
   std::vector<BudgetEntry> budget{};
   Diagnostics diagnostics{};  // of the run; the measurement has its own
   std::vector<std::string> notes{};

@@ -165,6 +165,22 @@ void write_characteristics(Page& page, const RunReport& report) {
   }
 }
 
+void write_cycle(Page& page, const RunReport& report) {
+  if (!report.cycle_time) return;
+  page.line();
+  page.labelled("Cycle time ", duration_text(*report.cycle_time));
+  if (report.slowed.empty()) return;
+  page.line(fmt::format("  {} block{} slowed by axis limits", report.slowed.size(),
+                        report.slowed.size() == 1 ? "" : "s"));
+  // The worst tell the story.
+  const std::size_t shown = std::min<std::size_t>(report.slowed.size(), 5);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const SlowedBlock& block = report.slowed[k];
+    page.line(fmt::format("  line {}: axis {}, {} instead of {} mm/min", block.line, block.axis,
+                          fixed_text(block.reached_feed, 0), fixed_text(block.programmed_feed, 0)));
+  }
+}
+
 void write_collisions(Page& page, const RunReport& report) {
   if (report.collisions.empty()) return;
   page.heading(fmt::format("Collisions ({})", report.collisions.size()));
@@ -218,6 +234,7 @@ std::string terminal_report(const RunReport& report, const TerminalOptions& opti
   write_head(page, report);
   write_errors(page, report);
   write_characteristics(page, report);
+  write_cycle(page, report);
   write_collisions(page, report);
   write_diagnostics(page, report);
   write_foot(page, report);

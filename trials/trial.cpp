@@ -145,11 +145,15 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
                        const TestPiece& piece, CommandedRun run, const metrology::CmmModel& cmm,
                        const TrialOptions& options) {
   auto execution = kinematics::execute(machine, errors, run.setup, run.motions,
-                                       {.path_bound = options.path_bound});
+                                       {.path_bound = options.path_bound,
+                                        .time_law = options.time_law,
+                                        .servo_lag = options.servo_lag});
   if (!execution) return in_file(execution.error(), piece.program_file);
   Trial trial;
   trial.operations = std::move(run.operations);
   trial.warnings = std::move(run.warnings);
+  trial.cycle_time = execution->cycle_time;
+  trial.slowed = kinematics::slowed_blocks(execution->path);
 
   tell(options, Stage::cut);
   auto workpiece = cut(piece, std::move(execution->path));

@@ -16,6 +16,7 @@
 #include "kinematics/controller.hpp"
 #include "kinematics/geometric_errors.hpp"
 #include "kinematics/machine.hpp"
+#include "kinematics/slowed_blocks.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
@@ -35,6 +36,8 @@ struct OperationTrace {
 struct Trial {
   metrology::Measurement measurement{};
   std::vector<OperationTrace> operations{};
+  double cycle_time = 0.0;                        // s
+  std::vector<kinematics::SlowedBlock> slowed{};  // those that lose most time first
   std::vector<stock::Collision> collisions{};
   Diagnostics warnings{};
   Diagnostics wrong_cuts{};  // cut_check.hpp
@@ -46,6 +49,9 @@ enum class Stage { parse, execute, cut, collide, measure };
 
 struct TrialOptions {
   double path_bound = 1e-5;  // mm
+  // Where the tool goes does not depend on when, so that studies leave the limits out.
+  kinematics::TimeLawOptions time_law{.limits = false};
+  bool servo_lag = false;
   bool find_collisions = true;
   bool measure = true;  // false: stop with the finished workpiece
   // Told when a stage begins; for progress bars and clocks, which live above this room.

@@ -25,7 +25,7 @@ AxisPositions random_position(std::uint64_t k) {
 }
 
 // Every error name the machine accepts, aliases too, as text with a small amount.
-std::vector<std::string> every_error(const Machine& machine) {
+std::vector<std::string> every_error_text(const Machine& machine) {
   std::vector<std::string> texts;
   const auto add = [&](const std::string& name, ErrorDirection direction) {
     texts.push_back(name + (is_rotation(direction) ? "=10 urad" : "=1 um"));
@@ -56,7 +56,7 @@ class ErrorGainOfMachine : public ::testing::TestWithParam<const char*> {};
 TEST_P(ErrorGainOfMachine, AgreesWithCentralDifferencesOfTheExactChainForEveryError) {
   const Machine machine = shipped(GetParam());
   constexpr double kToolLength = 150.0;
-  for (const std::string& text : every_error(machine)) {
+  for (const std::string& text : every_error_text(machine)) {
     const GeometricErrors plus = errors_of(machine, text, false);
     const GeometricErrors minus = errors_of(machine, text, true);
     for (std::uint64_t k = 0; k < 20; ++k) {
