@@ -8,6 +8,7 @@
 #include "app/console.hpp"
 #include "app/machine_files.hpp"
 #include "programs/cone_frustum.hpp"
+#include "programs/in_dialect.hpp"
 #include "programs/test_piece_files.hpp"
 
 namespace frustum::app {
@@ -20,7 +21,8 @@ struct Options {
   std::string machine{};
   std::string out{};
   std::string preset = "inclined";
-  std::string form = "vector";
+  std::string dialect = "fanuc";
+  std::string form{};  // vector, where the dialect has vectors
   std::string limits = "nas979";
   std::string center{};
   std::optional<double> cone_angle{}, inclination{}, orientation{}, radius{}, height{},
@@ -54,9 +56,10 @@ Result<ConeFrustum> cone_of(const Options& o) {
     if (!center) return center.error();
     cone.center = Vec3((*center)[0], (*center)[1], (*center)[2]);
   }
-  cone.form = o.form == "vector"   ? programs::ProgramForm::vector
-              : o.form == "angles" ? programs::ProgramForm::angles
-                                   : programs::ProgramForm::axes;
+  const bool no_vectors = o.form.empty() && o.dialect == "linuxcnc";
+  cone.form = o.form == "axes"                   ? programs::ProgramForm::axes
+              : o.form == "angles" || no_vectors ? programs::ProgramForm::angles
+                                                 : programs::ProgramForm::vector;
   cone.limits = o.limits == "tenth" ? programs::ConeLimits::tenth : programs::ConeLimits::nas979;
   return cone;
 }
@@ -69,7 +72,9 @@ int write_cone(const Options& options) {
   if (!cone) return refuse(cone.error());
   const auto piece = programs::cone_frustum(*cone, *machine);
   if (!piece) return refuse(piece.error());
-  const auto files = programs::write_test_piece(*piece, machine_file, options.out);
+  const auto written = programs::in_dialect(*piece, *parser::dialect_named(options.dialect));
+  if (!written) return refuse(written.error());
+  const auto files = programs::write_test_piece(written->piece, machine_file, options.out);
   if (!files) return refuse(files.error());
   for (const auto& file : *files) std::cout << file.string() << '\n';
   return kDone;
@@ -83,7 +88,9 @@ void add_cone(CLI::App& kinds, int& exit_code) {
       "cone", "The cone frustum test: NAS 979, or an inclined cone with cylinder and groove");
   cone->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
       ->required();
-  cone->add_option("--out", o->out, "Folder for job.toml, cone.nc and cone.plan.toml")->required();
+  cone->add_option("--out", o->out,
+                   "Folder for job.toml, cone.nc (.ngc, .mpf, .h) and cone.plan.toml")
+      ->required();
   cone->add_option("--preset", o->preset,
                    "inclined (default) or nas979: what the options start from")
       ->check(CLI::IsMember({"inclined", "nas979"}));
@@ -102,8 +109,13 @@ void add_cone(CLI::App& kinds, int& exit_code) {
   cone->add_option("--chord-tolerance", o->chord_tolerance, "Of finished circles, um (0.005)");
   cone->add_option("--feed", o->feed, "mm/min (500)");
   cone->add_option("--speed", o->speed, "Spindle, 1/min (8333)");
-  cone->add_option("--form", o->form, "vector (G43.5), angles (G43.4) or axes (axis positions)")
+  cone->add_option("--form", o->form,
+                   "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
+                   "positions)")
       ->check(CLI::IsMember({"vector", "angles", "axes"}));
+  cone->add_option("--dialect", o->dialect,
+                   "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
+      ->check(CLI::IsMember({"fanuc", "linuxcnc", "sinumerik", "heidenhain"}));
   cone->add_option("--limits", o->limits, "nas979, or tenth: a tenth of its limits")
       ->check(CLI::IsMember({"nas979", "tenth"}));
   cone->footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");

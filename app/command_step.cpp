@@ -8,6 +8,7 @@
 #include "app/console.hpp"
 #include "app/machine_files.hpp"
 #include "app/step_sheet.hpp"
+#include "programs/in_dialect.hpp"
 #include "programs/step_pattern.hpp"
 #include "programs/test_piece_files.hpp"
 
@@ -20,6 +21,7 @@ using programs::StepTest;
 struct Options {
   std::string machine{};
   std::string out{};
+  std::string dialect = "fanuc";
   int workpiece = 1;
   std::vector<std::string> patterns{};
   std::string center{};
@@ -50,14 +52,29 @@ Result<StepTest> test_of(const Options& o) {
   return test;
 }
 
+// The setup sheet and the job name lines of the program as it is written.
+void take_lines(programs::StepPiece& made, const programs::TranslatedPiece& written) {
+  made.piece = written.piece;
+  if (written.program.source_lines.empty()) return;
+  for (programs::StepCut& cut : made.cuts) {
+    const post::LineRange lines =
+        post::lines_from(written.program, {cut.first_line, cut.last_line});
+    cut.first_line = lines.first;
+    cut.last_line = lines.last;
+  }
+}
+
 int write_step(const Options& options) {
   const auto machine_file = find_machine(options.machine, ".");
   const auto machine = kinematics::Machine::load(machine_file);
   if (!machine) return refuse(machine.error());
   const auto test = test_of(options);
   if (!test) return refuse(test.error());
-  const auto made = programs::step_pattern(*test, *machine);
+  auto made = programs::step_pattern(*test, *machine);
   if (!made) return refuse(made.error());
+  auto written = programs::in_dialect(made->piece, *parser::dialect_named(options.dialect));
+  if (!written) return refuse(written.error());
+  take_lines(*made, *written);
   auto files = programs::write_test_piece(made->piece, machine_file, options.out);
   if (!files) return refuse(files.error());
   const auto sheet = report::write_setup_sheet(std::filesystem::path(options.out) / "setup.html",
@@ -76,8 +93,12 @@ void add_step(CLI::App& kinds, int& exit_code) {
       "step", "Step machining patterns of Ibaraki et al. for a tilting rotary table");
   step->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
       ->required();
-  step->add_option("--out", o->out, "Folder for job.toml, step.nc, step.plan.toml and setup.html")
+  step->add_option("--out", o->out,
+                   "Folder for job.toml, step.nc (.ngc, .mpf, .h), step.plan.toml and setup.html")
       ->required();
+  step->add_option("--dialect", o->dialect,
+                   "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
+      ->check(CLI::IsMember({"fanuc", "linuxcnc", "sinumerik", "heidenhain"}));
   step->add_option("--workpiece", o->workpiece,
                    "1: patterns 1-a 1-b 2-a 2-b (default); 2: 3 or 4, 5-a 5-b 6-a 6-b 7");
   step->add_option("--patterns", o->patterns,

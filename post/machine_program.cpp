@@ -14,6 +14,7 @@
 #include "kinematics/block_motion.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
+#include "kinematics/orientation_path.hpp"
 #include "post/nearest_plan.hpp"
 #include "post/output_arc.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 using kinematics::AxisPositions;
 using kinematics::BlockMotion;
 using kinematics::kRotaryAxes;
-using kinematics::linear_part;
+using kinematics::linear_positions;
 using kinematics::Machine;
 using kinematics::PlannedPose;
 using kinematics::TipCurve;
@@ -40,6 +41,8 @@ using parser::Motion;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 // rad and mm: below any written word; an axis that moves by less stands.
 constexpr double kStanding = 1e-12;
+// rad: what rounding of a plan leaves is far below, another solution far above.
+constexpr double kOtherPositions = 1e-3;
 constexpr int kDeepest = 18;  // 262,144 points a block
 
 double rotary_travel(const AxisPositions& from, const AxisPositions& to) {
@@ -137,21 +140,18 @@ class Planner {
       fail("alignment to a tilted plane, but there is none", "define the plane before");
       return;
     }
-    const auto solutions = kinematics::orient(machine_, plane_->rotation.col(2), q_);
-    if (!solutions) {
-      fail(solutions.error().front());
+    if (tip_control(compensation_)) {  // the tip stays on the work
+      go({.tool_axis = UnitVec3::z()});
       return;
     }
-    AxisPositions to = solutions->front().axes;
-    for (const auto& solution : *solutions) {
-      const bool better = rotary_travel(q_, solution.axes) < rotary_travel(q_, to) - 1e-9;
-      if (rotary_within_travel(solution.axes) && (better || !rotary_within_travel(to))) {
-        to = solution.axes;
-      }
+    const auto aligned = kinematics::nearest_orientation(machine_, q_, plane_->rotation.col(2));
+    if (!aligned) {
+      fail(aligned.error().front());
+      return;
     }
     AxisTarget end;
     for (const AxisLetter letter : kRotaryAxes) {
-      if (machine_.joint(letter) != nullptr) end[letter] = to[letter];
+      if (machine_.joint(letter) != nullptr) end[letter] = (*aligned)[letter];
     }
     move_axes(end, nullptr);
   }
@@ -228,33 +228,59 @@ class Planner {
     const Vec3 start = table_from_words.inverse().point(tip_at(q_));
     const Vec3 end = with_words(start, block.end);
     const ToolPose wanted_pose{table_from_words.point(end), Vec3::UnitZ()};
+    if (orientation_ == parser::OrientationPath::great_circle) {
+      move_on_great_circle(block, wanted, table_from_words, start, end);
+      return;
+    }
     const auto rotary = rotary_end(block, wanted_pose, table_from_words);
     if (!rotary) return;
-    if (rotary->unwind) rewind(rotary->axes, wanted, block.feed != nullptr);
+    if (rotary->unwind) rewind(rotary->resume, wanted, block.feed != nullptr);
     if (!problems_.empty()) return;
-    const TipCurve curve =
-        block.arc == nullptr ? TipCurve::line(start, end) : TipCurve::arc(*block.arc, start, end);
-    const BlockMotion motion = kinematics::tip_motion(machine_, q_, rotary->axes, curve,
-                                                      {table_from_words, length()}, orientation_);
-    const bool followed =
-        orientation_ == parser::OrientationPath::rotary_axes || options_.great_circle;
-    hand_on(block, motion, wanted, tip_control(wanted) && followed,
+    const BlockMotion motion = kinematics::tip_motion(
+        machine_, q_, rotary->axes, curve_of(block, start, end), {table_from_words, length()});
+    hand_on(block, motion, wanted, tip_control(wanted),
             [&] { return arc_image(block, wanted, table_from_words.rotation, start); });
+  }
+
+  // The way decides where the rotary axes end: on the solution that they are on, but for the pole.
+  void move_on_great_circle(const Block& block, const CompensationChange& wanted,
+                            const Pose& table_from_words, const Vec3& start, const Vec3& end) {
+    AxisPositions written = q_;
+    for (const AxisLetter letter : kRotaryAxes) {
+      if (block.end[letter]) written[letter] = *block.end[letter];
+    }
+    const Vec3 axis = block.tool_axis
+                          ? table_from_words.direction(*block.tool_axis)
+                          : Vec3(kinematics::nominal_pose(machine_, written, 0.0).rotation.col(2));
+    const auto motion = kinematics::vector_motion(machine_, q_, axis, curve_of(block, start, end),
+                                                  {table_from_words, length()});
+    if (!motion) {
+      fail(motion.error().front());
+      return;
+    }
+    vector_block_ = true;
+    end_of_rotary_ = motion->end;
+    hand_on(block, *motion, wanted, tip_control(wanted) && options_.great_circle,
+            [&] { return arc_image(block, wanted, table_from_words.rotation, start); });
+  }
+
+  [[nodiscard]] static TipCurve curve_of(const Block& block, const Vec3& start, const Vec3& end) {
+    return block.arc == nullptr ? TipCurve::line(start, end)
+                                : TipCurve::arc(*block.arc, start, end);
   }
 
   void move_words(const Block& block, const CompensationChange& wanted) {
     const Vec3 shift = axis_shift();
-    const Vec3 start = linear_part(q_) - shift;
+    const Vec3 start = linear_positions(q_) - shift;
     const Vec3 end = with_words(start, block.end);
     vector_block_ = false;
     AxisPositions rotary = q_;
     for (const AxisLetter letter : kRotaryAxes) {
       if (block.end[letter]) rotary[letter] = turned(letter, *block.end[letter]);
     }
-    const TipCurve curve =
-        block.arc == nullptr ? TipCurve::line(start, end) : TipCurve::arc(*block.arc, start, end);
     end_of_rotary_ = rotary;
-    const BlockMotion motion = kinematics::words_motion(q_, rotary, curve, shift);
+    const BlockMotion motion =
+        kinematics::words_motion(q_, rotary, curve_of(block, start, end), shift);
     hand_on(block, motion, wanted, !tip_control(wanted), [&] {
       return arc_image(block, wanted, kinematics::linear_axis_directions(machine_, q_), start);
     });
@@ -313,7 +339,7 @@ class Planner {
       const Pose programmed = kinematics::nominal_pose(
           machine_, piece.motion.at(piece.from + s * (piece.to - piece.from)), length());
       const Pose reached =
-          kinematics::nominal_pose(machine_, kinematics::between(q_, end, s), length());
+          kinematics::nominal_pose(machine_, kinematics::part_way(q_, end, s), length());
       const Vec3 tip = tip_output ? Vec3(tip_from + s * (tip_to - tip_from)) : reached.translation;
       if ((tip - programmed.translation).norm() > options_.tolerance.value) return false;
       const double turn = angle_between(programmed.rotation.col(2), reached.rotation.col(2));
@@ -355,8 +381,8 @@ class Planner {
 
   // Words of the output that bring the axes to q.
   [[nodiscard]] AxisTarget words_at(const AxisPositions& q, const AxisTarget& letters) const {
-    const Vec3 linear =
-        tip_control(applied_) ? Vec3(tip_at(q) - offset()) : Vec3(linear_part(q) - axis_shift());
+    const Vec3 linear = tip_control(applied_) ? Vec3(tip_at(q) - offset())
+                                              : Vec3(linear_positions(q) - axis_shift());
     AxisTarget words;
     for (const AxisLetter letter : kinematics::kLinearAxes) {
       if (letters[letter]) words[letter] = linear[static_cast<Eigen::Index>(letter)];
@@ -385,13 +411,14 @@ class Planner {
       if (axis.cross(normal).norm() > kUpright) return {};
     } else {
       out_from_in = kinematics::linear_axis_directions(machine_, q_).inverse() * table_from_in;
-      start_out = linear_part(q_) - axis_shift();
+      start_out = linear_positions(q_) - axis_shift();
     }
     auto image = image_of(*block.arc, out_from_in, start, start_out);
     if (image && options_.arcs == ArcForm::flat) {
       const Vec3 rise = with_words(start, block.end) - start;
       const bool flat = std::abs(rise.dot(normal_of(block.arc->plane))) <= kStanding;
-      if (!flat || std::abs(image->turns) > 1) return {};
+      const bool in_xy = image->plane == parser::Plane::xy;
+      if (!flat || !in_xy || std::abs(image->turns) > 1) return {};
     }
     return image;
   }
@@ -427,35 +454,44 @@ class Planner {
 
   // The words are out of travel: the same direction by other positions.
   std::optional<PlannedPose> turned_back(const PlannedPose& written, const Vec3& tip) {
-    const ToolPose pose{tip, kinematics::nominal_pose(machine_, written.axes, 0.0).rotation.col(2)};
-    const auto planned = plan_poses(std::vector<ToolPose>{pose});
-    if (!planned) return {};
+    const Vec3 axis = kinematics::nominal_pose(machine_, written.axes, 0.0).rotation.col(2);
+    const auto planned = plan_poses({.poses = {{tip, axis}}, .from_here = true});
+    if (planned.empty()) return {};
+    const PlannedPose next = planned.front();
     for (const AxisLetter letter : kRotaryAxes) {
-      turns_[letter] +=
-          kTurn * std::round((planned->front().axes[letter] - written.axes[letter]) / kTurn);
+      turns_[letter] += kTurn * std::round((next.axes[letter] - written.axes[letter]) / kTurn);
     }
-    return planned->front();
+    return next;
   }
 
   // Vectors are planned together, from here to where something else moves the axes.
   std::optional<PlannedPose> next_planned(const Pose& table_from_words) {
     if (planned_.empty()) {
-      auto planned = plan_poses(vector_run(table_from_words));
-      if (!planned) return {};
-      planned_.assign(planned->begin(), planned->end());
+      const auto planned = plan_poses(vector_run(table_from_words));
+      planned_.assign(planned.begin(), planned.end());
+      if (planned_.empty()) return {};
     }
     const PlannedPose next = planned_.front();
     planned_.pop_front();
     return next;
   }
 
-  [[nodiscard]] std::vector<ToolPose> vector_run(const Pose& table_from_words) const {
-    std::vector<ToolPose> run;
+  // Poses whose axis positions are chosen together.
+  struct Run {
+    std::vector<ToolPose> poses{};
+    std::vector<std::size_t> through_air{};
+    bool from_here = false;  // the first is cut to, not moved to through the air
+  };
+
+  [[nodiscard]] Run vector_run(const Pose& table_from_words) const {
+    Run run;
     Vec3 words = table_from_words.inverse().point(tip_at(q_));
-    const auto add = [&](const AxisTarget& end, const std::optional<UnitVec3>& axis) {
+    const auto add = [&](const AxisTarget& end, const std::optional<UnitVec3>& axis, bool rapid) {
       if (!axis) return false;
       words = with_words(words, end);
-      run.push_back({table_from_words.point(words), table_from_words.direction(*axis)});
+      if (rapid) run.through_air.push_back(run.poses.size());
+      if (run.poses.empty()) run.from_here = !rapid;
+      run.poses.push_back({table_from_words.point(words), table_from_words.direction(*axis)});
       return true;
     };
     for (std::size_t i = at_; i < program_.size(); ++i) {
@@ -466,37 +502,51 @@ class Planner {
                      std::holds_alternative<parser::Dwell>(command);
       if (const auto* traverse = std::get_if<parser::Traverse>(&command)) {
         goes_on = traverse->coordinates == Coordinates::program &&
-                  add(traverse->end, traverse->tool_axis);
+                  add(traverse->end, traverse->tool_axis, true);
       } else if (const auto* linear = std::get_if<parser::LinearFeed>(&command)) {
-        goes_on =
-            linear->coordinates == Coordinates::program && add(linear->end, linear->tool_axis);
+        goes_on = linear->coordinates == Coordinates::program &&
+                  add(linear->end, linear->tool_axis, false);
       } else if (const auto* arc = std::get_if<parser::ArcFeed>(&command)) {
-        goes_on = add(arc->end, arc->tool_axis);
+        goes_on = add(arc->end, arc->tool_axis, false);
       }
       if (!goes_on) break;
     }
     return run;
   }
 
-  std::optional<std::vector<PlannedPose>> plan_poses(const std::vector<ToolPose>& run) {
-    auto planned = nearest_plan(machine_, run, length(), {.start = q_});
+  // Empty: there is no way, and the problem is told.
+  std::vector<PlannedPose> plan_poses(Run run) {
+    kinematics::PlanOptions how{.start = q_};
+    how.through_air = std::move(run.through_air);
+    if (run.from_here) {
+      run.poses.insert(run.poses.begin(),
+                       kinematics::tool_pose(kinematics::nominal_pose(machine_, q_, length())));
+      for (std::size_t& index : how.through_air) ++index;
+    }
+    // What reads vectors takes the nearest solution; without lengths travels cannot be looked at.
+    const bool nearest = options_.output == OutputForm::vectors || lengths_missing_;
+    auto planned = nearest ? nearest_plan(machine_, run.poses, length(), how)
+                           : kinematics::plan_axes(machine_, run.poses, length(), how);
     if (!planned) {
       fail(planned.error().front());
       return {};
+    }
+    if (run.from_here) {
+      // The way may begin on other positions of the pose where the tool is.
+      const AxisPositions here = planned->front().axes;
+      planned->erase(planned->begin());
+      PlannedPose& next = planned->front();
+      if (!next.unwind && rotary_travel(q_, here) > kOtherPositions) {
+        next.unwind = true;
+        next.resume = here;
+      }
     }
     return *std::move(planned);
   }
 
   // Lifts off, turns the rotary axes to where the next block can be cut, and comes back.
-  void rewind(const AxisPositions& next, const CompensationChange& wanted, bool cutting) {
+  void rewind(const AxisPositions& back, const CompensationChange& wanted, bool cutting) {
     const ToolPose here = kinematics::tool_pose(kinematics::nominal_pose(machine_, q_, length()));
-    const auto solutions = kinematics::inverse(machine_, here, length(), next);
-    if (!solutions || !rotary_within_travel(solutions->front().axes)) {
-      fail("a rotary axis runs out of travel within this block",
-           "cut the block into shorter ones, so that the axes can be turned back between them");
-      return;
-    }
-    const AxisPositions back = solutions->front().axes;
     const Vec3 lifted = here.tip + options_.lift.value * here.axis;
     AxisPositions up = kinematics::place_tip(machine_, lifted, length(), q_);
     if (!kinematics::travel_violations(machine_, up).empty()) up = q_;
@@ -562,7 +612,7 @@ class Planner {
     }
     if (arc || written.mode == FeedMode::per_revolution) return written;
     const Vec3 way = tip_control(applied_) ? Vec3(tip_at(end) - tip_at(q_))
-                                           : Vec3(linear_part(end) - linear_part(q_));
+                                           : Vec3(linear_positions(end) - linear_positions(q_));
     // A tip that stands: the feed is that of the rotary axes, in deg/min.
     constexpr double kTipStands = 1e-9;  // mm
     const double length = way.norm() > kTipStands ? way.norm() : turn * kDegPerRad;
@@ -623,7 +673,7 @@ class Planner {
   }
   // What to add to X Y Z words to get axis positions: at rotary zero the tip is where the words say.
   [[nodiscard]] Vec3 axis_shift() const {
-    return linear_part(kinematics::place_tip(machine_, offset(), length(), {}));
+    return linear_positions(kinematics::place_tip(machine_, offset(), length(), {}));
   }
   static Vec3 with_words(Vec3 point, const AxisTarget& words) {
     for (const AxisLetter letter : kinematics::kLinearAxes) {

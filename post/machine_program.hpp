@@ -28,7 +28,7 @@
 namespace frustum::post {
 
 enum class OutputForm : std::uint8_t { axes, tip, vectors };
-// Which arcs stay arcs: none; flat ones of at most a turn; helices and many turns too.
+// Which arcs stay arcs: none; flat ones in X and Y of at most a turn; all.
 enum class ArcForm : std::uint8_t { none, flat, all };
 
 struct PlanOptions {

@@ -19,13 +19,16 @@ constexpr NcSpelling kFanuc{
     .linear = "G1",
     .clockwise = "G2",
     .counterclockwise = "G3",
-    .linear_with_vector = "G1",
+    .with_vector = "",
     .traverse_feed = "",
     .modal = true,
     .planes = {"G17", "G18", "G19"},
     .tool_vector = {"I", "J", "K"},
+    .vectors_on_arcs = false,
+    .home_return = "G91 G28",
     .before_machine_coordinates = "G53 ",
     .after_machine_coordinates = "",
+    .machine_coordinates_compensated = false,
     .circle_centre_block = false,
     .full_turns = "P#",
     .turns_beyond = 0,
@@ -44,8 +47,8 @@ constexpr NcSpelling kFanuc{
     .speed = "S# ",
     .spindle = {"M5", "M3", "M4"},
     .coolant = {"M9", "M8"},
-    .work_offset = "G#",
-    .first_work_offset = 54,
+    .work_offsets = {"G54", "G55", "G56", "G57", "G58", "G59", "", "", ""},
+    .any_work_offset = "",
     .dwell = "G4 X#",
     .stops = {"M0", "M1", "M30"},
 };
@@ -60,11 +63,98 @@ constexpr NcSpelling linuxcnc() {
   s.tool_vectors = "";
   s.tool_centre_point = "G43 H#\nM428";
   s.leave_tool_centre_point = "M429";
+  s.work_offsets[6] = "G59.1";
+  s.work_offsets[7] = "G59.2";
+  s.work_offsets[8] = "G59.3";
   s.dwell = "G4 P#";
   return s;
 }
 
+constexpr NcSpelling sinumerik() {
+  NcSpelling s = kFanuc;
+  s.title = "Sinumerik";
+  s.extension = ".mpf";
+  s.header = "; $\nG710 G90 G17 G40 G94\nTRAFOOF";
+  s.footer = "";
+  s.comment_open = "; ";
+  s.comment_close = "";
+  s.message = "MSG(\"$\")";
+  s.upper_comments = false;
+  s.whole_numbers = WholeNumbers::without_point;
+  s.tool_vector = {"A3=", "B3=", "C3="};
+  s.vectors_on_arcs = true;
+  s.home_return = "";
+  s.before_machine_coordinates = "SUPA ";
+  s.machine_coordinates_compensated = true;
+  s.full_turns = "TURN=#";
+  s.turns_beyond = 1;
+  s.no_compensation = "D0";
+  s.length = "D1";
+  s.tool_centre_point = "D1\nTRAORI";
+  s.tool_vectors = "D1\nTRAORI";
+  s.leave_tool_centre_point = "TRAFOOF";
+  s.compensation_by_tool = true;
+  s.orientation_paths = {"ORIAXES", "ORIVECT"};
+  // A tool change switches the length on; here that is said by D1.
+  s.tool_change = "T#\nM6\nD0";
+  s.work_offsets = {"G54", "G55", "G56", "G57", "G505", "G506", "", "", ""};
+  s.dwell = "G4 F#";
+  return s;
+}
+
+constexpr NcSpelling kHeidenhain{
+    .title = "Heidenhain",
+    .extension = ".h",
+    .header = "BEGIN PGM $ MM",
+    .footer = "END PGM $ MM",
+    .numbered_blocks = true,
+    .comment_open = "; ",
+    .comment_close = "",
+    .message = "",
+    .upper_comments = false,
+    .whole_numbers = WholeNumbers::without_point,
+    .plus_signs = true,
+    .traverse = "L",
+    .linear = "L",
+    .clockwise = "C",
+    .counterclockwise = "C",
+    .with_vector = "LN",
+    .traverse_feed = " R0 FMAX",
+    .modal = false,
+    .planes = {},
+    .tool_vector = {"TX", "TY", "TZ"},
+    .vectors_on_arcs = false,
+    .home_return = "",
+    .before_machine_coordinates = "",
+    .after_machine_coordinates = " M91",
+    .machine_coordinates_compensated = false,
+    .circle_centre_block = true,
+    .full_turns = "",
+    .turns_beyond = 0,
+    .feed_modes = {"M137", "", "M136"},
+    .feed_words = {"F", "FT", "F"},
+    .no_compensation = "",
+    .length = "",
+    .tool_centre_point = "",  // the orientation path says it
+    .tool_vectors = "",
+    .leave_tool_centre_point = "FUNCTION RESET TCPM",
+    .compensation_by_tool = true,
+    .orientation_paths = {"FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
+                          "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR"},
+    .rotary_paths = {"M127", "M126"},
+    .tool_change = "TOOL CALL # Z",
+    .tool_change_with_speed = "TOOL CALL # Z S$",
+    .speed = "TOOL CALL Z S#\n",
+    .spindle = {"M5", "M3", "M4"},
+    .coolant = {"M9", "M8"},
+    .work_offsets = {},
+    .any_work_offset = "CYCL DEF 247 DATUM SETTING Q339=+#",
+    .dwell = "CYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL #",
+    .stops = {"M0", "M1", "M30"},
+};
+
 constexpr NcSpelling kLinuxCnc = linuxcnc();
+constexpr NcSpelling kSinumerik = sinumerik();
 
 }  // namespace
 
@@ -74,9 +164,14 @@ const NcSpelling* spelling_of(parser::Dialect dialect) {
       return &kFanuc;
     case parser::Dialect::linuxcnc:
       return &kLinuxCnc;
-    default:
-      return nullptr;
+    case parser::Dialect::sinumerik:
+      return &kSinumerik;
+    case parser::Dialect::heidenhain:
+      return &kHeidenhain;
+    case parser::Dialect::cldata:
+      break;
   }
+  return nullptr;
 }
 
 }  // namespace frustum::post

@@ -33,19 +33,23 @@ struct NcSpelling {
 
   // Motions. `modal`: motion words and the words of axes that do not move are left out.
   std::string_view traverse, linear, clockwise, counterclockwise;
-  std::string_view linear_with_vector;  // Heidenhain: another word
-  std::string_view traverse_feed;       // stands where F would
+  std::string_view with_vector;    // of straight motions with a tool vector; empty: the same
+  std::string_view traverse_feed;  // stands where F would
   bool modal;
   std::array<std::string_view, 3> planes;       // XY ZX YZ
   std::array<std::string_view, 3> tool_vector;  // components; empty: none
+  bool vectors_on_arcs;
+  std::string_view home_return;
   std::string_view before_machine_coordinates, after_machine_coordinates;
-  bool circle_centre_block;     // CC X.. Y.. before C, else I J K from the start
+  bool machine_coordinates_compensated;  // the tool length must be off for them
+  // CC X.. Y.. before C, else I J K from the start; such arcs are flat, in X and Y, of one turn.
+  bool circle_centre_block;
   std::string_view full_turns;  // of arcs of more than one turn; empty: none
   int turns_beyond;             // the number written is the turns less this
 
   // Feeds: words that switch the mode, and how the value is written in it.
   std::array<std::string_view, 3> feed_modes;  // per minute, inverse time, per revolution
-  std::array<std::string_view, 3> feed_words;  // `F`; `FT`: seconds instead of their inverse
+  std::array<std::string_view, 3> feed_words;  // `FT`: seconds
 
   // States.
   std::string_view no_compensation, length, tool_centre_point, tool_vectors;
@@ -57,8 +61,8 @@ struct NcSpelling {
   std::string_view speed;  // of the spindle, beside the word that starts it
   std::array<std::string_view, 3> spindle;
   std::array<std::string_view, 2> coolant;
-  std::string_view work_offset;
-  int first_work_offset;  // number of canonical work offset 1
+  std::array<std::string_view, 9> work_offsets;
+  std::string_view any_work_offset;  // by its number
   std::string_view dwell;
   std::array<std::string_view, 3> stops;  // program, optional, end
 };

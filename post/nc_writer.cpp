@@ -69,16 +69,16 @@ class NcWriter {
   }
 
   void write(const parser::HomeReturn& home) {
-    if (spelling_.before_machine_coordinates != "G53 ") {
+    if (spelling_.home_return.empty()) {
       refuse("the return to home (G28)", "give the position in machine coordinates");
       return;
     }
-    std::string block = "G91 G28";
+    std::string block(spelling_.home_return);
     for (const AxisLetter letter : parser::kAxisLetters) {
       if (home.axes.at(index_of(letter))) block += fmt::format(" {}0", parser::to_char(letter));
     }
     line(block);
-    line("G90");
+    line("G90");  // home is written incrementally: straight there
     forget_positions();
   }
 
@@ -92,6 +92,10 @@ class NcWriter {
     const int turns = std::abs(arc.turns);
     if (turns > 1 && spelling_.full_turns.empty()) {
       refuse("an arc of more than one turn", "linearise arcs, or write the turns one by one");
+      return;
+    }
+    if (spelling_.circle_centre_block && !flat_in_xy(arc)) {
+      refuse("an arc that is not flat in X and Y", "linearise arcs");
       return;
     }
     if (!plane_ || *plane_ != arc.plane) {
@@ -109,7 +113,13 @@ class NcWriter {
       const bool in_plane = letter == u || letter == v;
       block += axis_word(letter, *arc.end[letter], in_plane);
     }
-    block += vector_words(arc.tool_axis);
+    const std::string vector_before = vector_text_;
+    const std::string vector = vector_words(arc.tool_axis);
+    if (spelling_.vectors_on_arcs) {
+      block += vector;
+    } else if (vector != vector_before) {
+      refuse("a tool vector on an arc", "turn the tool before the arc");
+    }
     if (!spelling_.circle_centre_block) block += centre;
     if (turns > 1) {
       block += " " +
@@ -121,9 +131,24 @@ class NcWriter {
     line(block);
   }
 
+  [[nodiscard]] bool flat_in_xy(const parser::ArcFeed& arc) const {
+    if (arc.plane != parser::Plane::xy) return false;
+    for (const AxisLetter letter : parser::kAxisLetters) {
+      if (letter == AxisLetter::X || letter == AxisLetter::Y || !arc.end[letter]) continue;
+      if (arc.tool_axis && parser::is_rotary(letter)) continue;
+      const auto& known = known_.at(index_of(letter));
+      if (!known || known->text != text_of(letter, *arc.end[letter])) return false;
+    }
+    return true;
+  }
+
   void straight(const AxisTarget& end, const std::optional<UnitVec3>& tool_axis,
                 parser::Coordinates coordinates, const Feed* feed) {
     const bool machine = coordinates == parser::Coordinates::machine;
+    const bool switched = machine && spelling_.machine_coordinates_compensated &&
+                          compensation_.mode != LengthCompensation::off;
+    if (switched) spell({});
+    if (!machine && length_cannot_be_off()) return;
     if (machine || (tool_axis.has_value() != vectors_)) forget_positions();
     vectors_ = tool_axis.has_value();
     std::string words;
@@ -140,7 +165,7 @@ class NcWriter {
     if (words.empty()) return;
 
     std::string_view motion = feed == nullptr ? spelling_.traverse : spelling_.linear;
-    if (tool_axis && feed != nullptr) motion = spelling_.linear_with_vector;
+    if (tool_axis && !spelling_.with_vector.empty()) motion = spelling_.with_vector;
     std::string block;
     if (machine) block += spelling_.before_machine_coordinates;
     if (!spelling_.modal || machine || motion != motion_word_) block += motion;
@@ -152,14 +177,27 @@ class NcWriter {
       forget_positions();
     }
     line(block.front() == ' ' ? block.substr(1) : block);
+    if (switched) spell(compensation_);
+  }
+
+  // Where the length is that of the tool in the spindle, whatever the program says.
+  bool length_cannot_be_off() {
+    const bool stuck = spelling_.compensation_by_tool && spelling_.no_compensation.empty();
+    if (!stuck || tool_ == 0 || compensation_.mode != LengthCompensation::off) return false;
+    refuse("motions without the tool's length",
+           "switch the length on (G43 H), or use machine "
+           "coordinates");
+    return true;
+  }
+
+  [[nodiscard]] std::string text_of(AxisLetter letter, double value) const {
+    return parser::is_rotary(letter) ? coordinate(value * kDegPerRad, options_.angle_decimals)
+                                     : coordinate(value, options_.length_decimals);
   }
 
   // " X12.5", or nothing when the axis is there already.
   std::string axis_word(AxisLetter letter, double value, bool always) {
-    const bool rotary = parser::is_rotary(letter);
-    const std::string number =
-        coordinate(rotary ? value * kDegPerRad : value,
-                   rotary ? options_.angle_decimals : options_.length_decimals);
+    const std::string number = text_of(letter, value);
     std::optional<Known>& known = known_.at(index_of(letter));
     const bool there = known && known->text == number;
     known = Known{number, value};
@@ -179,6 +217,7 @@ class NcWriter {
           " {}{}", spelling_.tool_vector.at(i),
           coordinate(tool_axis->vec()[static_cast<Eigen::Index>(i)], options_.vector_decimals));
     }
+    vector_text_ = words;
     return words;
   }
 
@@ -202,17 +241,19 @@ class NcWriter {
       return {};
     }
     std::string words;
+    if (word == "FT") {  // of this block alone
+      feed_text_.clear();
+      return fmt::format(" FT{}",
+                         significant(kSecondsPerMinute / feed.value, options_.feed_digits));
+    }
     if (feed.mode != feed_mode_) {
       feed_text_.clear();
-      const std::string_view mode = spelling_.feed_modes.at(index_of(feed.mode));
-      if (!mode.empty()) words += fmt::format(" {}", mode);
+      words += fmt::format(" {}", spelling_.feed_modes.at(index_of(feed.mode)));
     }
     feed_mode_ = feed.mode;
-    const bool seconds = word == "FT";
-    std::string text =
-        significant(seconds ? kSecondsPerMinute / feed.value : feed.value, options_.feed_digits);
+    std::string text = significant(feed.value, options_.feed_digits);
     const bool there = text == feed_text_ && feed.mode != FeedMode::inverse_time;
-    if (!there) words += fmt::format(" {}{}{}", word, seconds ? " " : "", text);
+    if (!there) words += fmt::format(" {}{}", word, text);
     feed_text_ = std::move(text);
     return words;
   }
@@ -227,22 +268,28 @@ class NcWriter {
              "take the length offset of the tool in the spindle");
       return;
     }
-    const bool tip = change.mode == LengthCompensation::tool_centre_point;
-    if (compensation_ == LengthCompensation::tool_centre_point && !tip) {
-      lines(spelling_.leave_tool_centre_point);
-    }
-    if (change.tool_vectors && spelling_.tool_vectors.empty()) {
+    if (change.tool_vectors && spelling_.tool_vector[0].empty()) {
       refuse("tool vectors", "write rotary axes: --output tcp or --output axes");
       return;
     }
-    const std::string_view pattern = !tip && change.mode == LengthCompensation::off
-                                         ? spelling_.no_compensation
-                                     : !tip                ? spelling_.length
-                                     : change.tool_vectors ? spelling_.tool_vectors
-                                                           : spelling_.tool_centre_point;
-    lines(filled(pattern, '#', fmt::format("{}", change.offset_number)));
-    compensation_ = change.mode;
-    if (tip) lines(spelling_.orientation_paths.at(index_of(orientation_)));
+    spell(change);
+    compensation_ = change;
+  }
+
+  static bool guides_tip(const parser::CompensationChange& compensation) {
+    return compensation.mode == LengthCompensation::tool_centre_point;
+  }
+
+  // The words from what is in force to this.
+  void spell(const parser::CompensationChange& to) {
+    if (guides_tip(in_force_) && !guides_tip(to)) lines(spelling_.leave_tool_centre_point);
+    const std::string_view pattern = to.mode == LengthCompensation::off ? spelling_.no_compensation
+                                     : !guides_tip(to)                  ? spelling_.length
+                                     : to.tool_vectors                  ? spelling_.tool_vectors
+                                                       : spelling_.tool_centre_point;
+    lines(filled(pattern, '#', fmt::format("{}", to.offset_number)));
+    in_force_ = to;
+    if (guides_tip(to)) lines(spelling_.orientation_paths.at(index_of(orientation_)));
     forget_positions();
   }
 
@@ -253,7 +300,7 @@ class NcWriter {
       refuse("tool axes that follow great circles", "write rotary axes: --output tcp or axes");
       return;
     }
-    if (compensation_ == LengthCompensation::tool_centre_point) lines(word);
+    if (guides_tip(in_force_)) lines(word);
   }
   void write(const parser::RotaryPathChange& change) {
     const std::string_view word = spelling_.rotary_paths.at(index_of(change.path));
@@ -311,8 +358,16 @@ class NcWriter {
     line(spelling_.coolant.at(change.flood ? 1 : 0));
   }
   void write(const parser::WorkOffsetChange& change) {
-    lines(filled(spelling_.work_offset, '#',
-                 fmt::format("{}", change.number - 1 + spelling_.first_work_offset)));
+    const auto index = static_cast<std::size_t>(change.number - 1);
+    const std::string_view word = index < spelling_.work_offsets.size()
+                                      ? spelling_.work_offsets.at(index)
+                                      : std::string_view();
+    if (word.empty() && spelling_.any_work_offset.empty()) {
+      refuse(fmt::format("work offset {}", change.number), "use one of the first six");
+      return;
+    }
+    lines(word.empty() ? filled(spelling_.any_work_offset, '#', fmt::format("{}", change.number))
+                       : std::string(word));
     forget_positions();
   }
   void write(const parser::Dwell& dwell) {
@@ -386,7 +441,10 @@ class NcWriter {
     return text;
   }
 
-  void forget_positions() { known_ = {}; }
+  void forget_positions() {
+    known_ = {};
+    vector_text_.clear();
+  }
 
   void refuse(std::string_view what, std::string hint) {
     Diagnostic problem = error(fmt::format("{} has no words for {}", spelling_.title, what), hint);
@@ -411,11 +469,13 @@ class NcWriter {
 
   std::string_view motion_word_{};
   std::array<std::optional<Known>, 6> known_{};
+  std::string vector_text_{};  // of the vector in force
   bool vectors_ = false;
   std::optional<parser::Plane> plane_{};
   FeedMode feed_mode_ = FeedMode::per_minute;
   std::string feed_text_{};
-  LengthCompensation compensation_ = LengthCompensation::off;
+  parser::CompensationChange compensation_{};  // as the motions say
+  parser::CompensationChange in_force_{};
   parser::OrientationPath orientation_ = parser::OrientationPath::rotary_axes;
   int tool_ = 0;
   double speed_ = -1.0;

@@ -21,9 +21,17 @@ Result<std::vector<PlannedPose>> nearest_plan(const kinematics::Machine& machine
     const auto solutions = kinematics::inverse(machine, pose, tool_length, previous);
     if (!solutions) return solutions.error();
     PlannedPose next{.axes = solutions->front().axes, .singular = solutions->front().singular};
+    double step = 0.0;
     for (const kinematics::AxisLetter letter : kinematics::kRotaryAxes) {
-      const double step = std::abs(next.axes[letter] - previous[letter]);
-      next.unwind = next.unwind || step > options.largest_step;
+      step = std::max(step, std::abs(next.axes[letter] - previous[letter]));
+    }
+    const bool air =
+        std::binary_search(options.through_air.begin(), options.through_air.end(), plan.size());
+    if (step > options.largest_step && !plan.empty() && !air) {
+      const auto back = kinematics::inverse(machine, path[plan.size() - 1], tool_length, next.axes);
+      if (!back) return back.error();
+      next.unwind = true;
+      next.resume = back->front().axes;
     }
     plan.push_back(next);
     previous = next.axes;

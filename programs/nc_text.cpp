@@ -3,18 +3,11 @@
 #include <fmt/format.h>
 
 #include "core/units.hpp"
+#include "post/nc_number.hpp"
 
 namespace frustum::programs {
-namespace {
 
-// "12." keeps its point: controllers read "12" in their least increment.
-std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  text.erase(text.find_last_not_of('0') + 1);
-  return text == "-0." ? "0." : text;
-}
-
-}  // namespace
+using post::fixed;
 
 void NcText::line(std::string_view text) {
   text_ += text;

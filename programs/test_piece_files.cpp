@@ -57,7 +57,8 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
   const auto line = [&text](const std::string& s) { text += s + "\n"; };
   line(fmt::format("title   = \"{}\"", piece.title));
   line(fmt::format("machine = \"{}\"", machine));
-  line(fmt::format("program = {{ file = \"{}\", dialect = \"fanuc\" }}", piece.program_file));
+  line(fmt::format("program = {{ file = \"{}\", dialect = \"{}\" }}", piece.program_file,
+                   parser::name_of(piece.dialect)));
   line("");
   line("# Workpiece frame (blank and plan) on the table: mm, degrees (Rz Ry Rx)");
   line(fmt::format("setup   = {{ origin = {}, tilt = {} }}", vector_text(piece.placement.origin),

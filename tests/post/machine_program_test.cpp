@@ -40,7 +40,7 @@ struct Case {
 Case cone_on(const std::string& name, programs::ProgramForm form = programs::ProgramForm::vector) {
   programs::ConeFrustum cone;
   cone.form = form;
-  cone.chord_tolerance = Mm{1e-2};
+  cone.chord_tolerance = Mm{3e-2};
   const Machine machine = shipped(name);
   const auto piece = programs::cone_frustum(cone, machine);
   EXPECT_TRUE(piece);
@@ -85,7 +85,7 @@ Case freeform_on(const std::string& name) {
   return made;
 }
 
-Execution executed(const Case& c, const std::vector<Motion>& motions, double bound = 1e-6) {
+Execution executed(const Case& c, const std::vector<Motion>& motions, double bound = 1e-5) {
   kinematics::ControllerOptions options;
   options.path_bound = bound;
   auto done = kinematics::execute(c.machine, {}, c.setup, motions, options);
@@ -110,10 +110,12 @@ struct Deviation {
   double tip = 0.0, axis = 0.0;
 };
 
-// Of a pose from a polyline of poses.
-Deviation deviation(const ToolPose& pose, const std::vector<ToolPose>& line) {
+// Of a pose from a polyline, looked for near `around`, which then says where it was found.
+Deviation deviation(const ToolPose& pose, const std::vector<ToolPose>& line, std::size_t window,
+                    std::size_t& around) {
   Deviation least{1e9, 1e9};
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+  const std::size_t first = around > window ? around - window : 0;
+  for (std::size_t i = first; i + 1 < std::min(line.size(), around + window + 2); ++i) {
     const Vec3 way = line[i + 1].tip - line[i].tip;
     const double t =
         way.squaredNorm() > 0.0
@@ -121,7 +123,10 @@ Deviation deviation(const ToolPose& pose, const std::vector<ToolPose>& line) {
             : 0.0;
     const ToolPose there = kinematics::between(line[i], line[i + 1], t);
     const double tip = (there.tip - pose.tip).norm();
-    if (tip < least.tip) least = {tip, angle_between(there.axis, pose.axis)};
+    if (tip < least.tip) {
+      least = {tip, angle_between(there.axis, pose.axis)};
+      around = i;
+    }
   }
   return least;
 }
@@ -136,14 +141,16 @@ Deviation largest_deviation(const Execution& a, const Execution& b) {
       ADD_FAILURE() << "line " << line << " is missing";
       continue;
     }
+    const std::size_t window = 8 + 4 * other->second.size() / poses.size();
+    std::size_t around = 0;
     for (const ToolPose& pose : poses) {
-      const Deviation here = deviation(pose, other->second);
+      const Deviation here = deviation(pose, other->second, window, around);
       largest.tip = std::max(largest.tip, here.tip);
       largest.axis = std::max(largest.axis, here.axis);
       ++compared;
     }
   }
-  EXPECT_GT(compared, 100U);
+  EXPECT_GT(compared, 50U);
   return largest;
 }
 
@@ -169,7 +176,8 @@ TEST_P(PostLaws, EveryFormOfOutputKeepsToTheProgrammedPath) {
       for (const Deviation& largest :
            {largest_deviation(made, programmed), largest_deviation(programmed, made)}) {
         EXPECT_LT(largest.tip, kTolerance + 1e-5);
-        EXPECT_LT(largest.axis, 1e-5);  // rad
+        // A tip that is off along its path finds the axis that belongs a tolerance further on.
+        EXPECT_LT(largest.axis, 1e-4);  // rad
       }
     }
   }
@@ -221,11 +229,24 @@ TEST_P(PostLaws, ABlockTakesTheTimeThatTheProgramGaveIt) {
   }
 }
 
+std::vector<parser::Feed> feeds_of(const std::vector<Motion>& motions) {
+  std::vector<parser::Feed> feeds;
+  for (const Motion& motion : motions) {
+    if (const auto* linear = std::get_if<parser::LinearFeed>(&motion.command)) {
+      feeds.push_back(linear->feed);
+    } else if (const auto* arc = std::get_if<parser::ArcFeed>(&motion.command)) {
+      feeds.push_back(arc->feed);
+    }
+  }
+  return feeds;
+}
+
 void expect_read_back(const Case& c, const std::vector<Motion>& motions, Dialect dialect) {
   const auto written = write_nc(motions, dialect);
   ASSERT_TRUE(written) << first_of(written.error());
   const Execution before = executed(c, motions, 1e-4);
-  const Execution after = executed(c, motions_in(written->text, dialect), 1e-4);
+  const auto read = motions_in(written->text, dialect);
+  const Execution after = executed(c, read, 1e-4);
   ASSERT_EQ(before.axes.size(), after.axes.size());
   double tip = 0.0, axis = 0.0, feed = 0.0;
   for (std::size_t i = 0; i < before.axes.size(); ++i) {
@@ -235,11 +256,13 @@ void expect_read_back(const Case& c, const std::vector<Motion>& motions, Dialect
     axis = std::max(axis, angle_between(a.rotation.col(2), b.rotation.col(2)));
     EXPECT_EQ(before.axes[i].kind, after.axes[i].kind);
   }
-  ASSERT_EQ(before.path.blocks.size(), after.path.blocks.size());
-  for (std::size_t i = 0; i < before.path.blocks.size(); ++i) {
-    const double f = before.path.blocks[i].feed;
-    if (f > 0.0) feed = std::max(feed, std::abs(after.path.blocks[i].feed / f - 1.0));
+  const auto feeds = feeds_of(motions), feeds_read = feeds_of(read);
+  ASSERT_EQ(feeds.size(), feeds_read.size());
+  for (std::size_t i = 0; i < feeds.size(); ++i) {
+    EXPECT_EQ(feeds[i].mode, feeds_read[i].mode);
+    feed = std::max(feed, std::abs(feeds_read[i].value / feeds[i].value - 1.0));
   }
+  EXPECT_NEAR(after.cycle_time / before.cycle_time, 1.0, 1e-6);
   EXPECT_LT(tip, 1e-5) << name_of(dialect);
   EXPECT_LT(axis, 1e-8) << name_of(dialect);
   EXPECT_LT(feed, 1e-6) << name_of(dialect);
@@ -255,6 +278,152 @@ TEST_P(PostLaws, WrittenTextReadBackAndExecutedGivesTheSameToolPath) {
       }
     }
   }
+}
+
+// --- single cases ------------------------------------------------------------------------------
+
+Case fanuc_on(const std::string& name, const std::string& text) {
+  Case made{shipped(name), {}, motions_in(text, Dialect::fanuc)};
+  made.setup.work_offsets[1] = Vec3(-30.0, 10.0, 100.0);
+  made.setup.tools[1] = {kLength, 0.0, 20.0};
+  return made;
+}
+
+template <typename Command>
+std::size_t count(const std::vector<Motion>& motions) {
+  return static_cast<std::size_t>(
+      std::count_if(motions.begin(), motions.end(),
+                    [](const Motion& m) { return std::holds_alternative<Command>(m.command); }));
+}
+
+void expect_same_path(const Case& c, const PlanOptions& options, double axis = 1e-4) {
+  const Execution programmed = executed(c, c.motions);
+  const Execution made = executed(c, planned(c, options));
+  for (const Deviation& largest :
+       {largest_deviation(made, programmed), largest_deviation(programmed, made)}) {
+    EXPECT_LT(largest.tip, options.tolerance.value + 1e-5);
+    EXPECT_LT(largest.axis, axis);
+  }
+}
+
+TEST(MachineProgram, RewindsWhereARotaryAxisRunsOutOfTravel) {
+  // The head's C reaches 400 deg; the words go on to 1080.
+  std::string text = "T1 M6\nS5000 M3\nG43.4 H1\nG0 X40. Y0. Z20. B30. C0.\nG1 Z0. F500\n";
+  for (int turn = 20; turn <= 1080; turn += 20) {
+    const double a = turn * kRadPerDeg;
+    text += "X" + std::to_string(40.0 * std::cos(a)) + " Y" + std::to_string(40.0 * std::sin(a)) +
+            " C" + std::to_string(turn) + ".\n";
+  }
+  const Case c = fanuc_on("double-pivot-head", text + "M30\n");
+  for (const OutputForm form : {OutputForm::axes, OutputForm::tip}) {
+    const auto plan = plan_for_machine(c.machine, c.setup, c.motions, {.output = form});
+    ASSERT_TRUE(plan) << first_of(plan.error());
+    EXPECT_GE(plan->rewinds, 1U);
+    EXPECT_LE(plan->rewinds, 2U);
+    // Every line ends where its words say, whatever the positions of the head.
+    std::map<std::uint32_t, AxisPositions> ends;
+    for (const auto& sample : executed(c, plan->motions).axes)
+      ends[sample.source_line] = sample.axes;
+    for (int turn = 20; turn <= 1080; turn += 20) {
+      const auto line = static_cast<std::uint32_t>(5 + turn / 20);
+      ASSERT_TRUE(ends.contains(line)) << line;
+      const Pose pose = kinematics::nominal_pose(c.machine, ends[line], kLength);
+      const double a = turn * kRadPerDeg;
+      const Vec3 tip = Vec3(40.0 * std::cos(a), 40.0 * std::sin(a), 0.0);
+      const Vec3 axis(0.5 * std::cos(a), 0.5 * std::sin(a), std::sqrt(0.75));
+      EXPECT_LT((pose.translation - c.setup.work_offsets.at(1) - tip).norm(), 2e-6) << line;
+      EXPECT_LT(angle_between(pose.rotation.col(2), axis), 1e-6) << line;
+    }
+  }
+}
+
+TEST(MachineProgram, KeepsArcsWhereTheMachineMayCutThem) {
+  const std::string head = "T1 M6\nS5000 M3\nG43.4 H1\nG0 X40. Y0. Z20. ";
+  const std::string arc = "\nG1 Z0. F500\nG2 X0. Y-40. I-40. J0.\nG3 X40. Y0. I0. J40. Z-3.\nM30\n";
+  const Case upright = fanuc_on("iwf-bc", head + "B0. C30." + arc);
+  const Case leaning = fanuc_on("iwf-bc", head + "B20. C30." + arc);
+  for (const OutputForm form : {OutputForm::axes, OutputForm::tip}) {
+    const PlanOptions keep{.output = form}, flat{.output = form, .arcs = ArcForm::flat},
+        none{.output = form, .arcs = ArcForm::none};
+    EXPECT_EQ(count<parser::ArcFeed>(planned(upright, keep)), 2U);
+    EXPECT_EQ(count<parser::ArcFeed>(planned(upright, flat)), 1U);
+    EXPECT_EQ(count<parser::ArcFeed>(planned(upright, none)), 0U);
+    EXPECT_EQ(count<parser::ArcFeed>(planned(leaning, keep)), 0U);
+    for (const PlanOptions& options : {keep, flat, none}) expect_same_path(upright, options);
+    expect_same_path(leaning, keep);
+  }
+}
+
+TEST(MachineProgram, ResolvesTiltedPlanes) {
+  const Case c =
+      fanuc_on("iwf-bc",
+               "T1 M6\nS5000 M3\nG54\nG68.2 X5. Y3. Z2. I0. J0. K0.\nG53.1\nG43 H1\n"
+               "G0 X0. Y0. Z30.\nG1 Z0. F400\nX20.\nY15.\nG0 Z30.\nG69\n"
+               "G68.2 X5. Y3. Z2. I90. J25. K-90.\nG53.1\nG43 H1\nG0 X0. Y0. Z30.\n"
+               "G1 Z0. F400\nX20.\nG2 X30. Y-10. I0. J-10.\nG1 Y15.\nG0 Z30.\nG69\nM30\n");
+  for (const OutputForm form : {OutputForm::axes, OutputForm::tip}) {
+    const PlanOptions options{.output = form};
+    EXPECT_EQ(count<parser::TiltedPlaneChange>(planned(c, options)), 0U);
+    expect_same_path(c, options);
+  }
+}
+
+TEST(MachineProgram, FollowsGreatCirclesByShortBlocksOrLeavesThemToTheReader) {
+  Case c = freeform_on("iwf-bc");
+  c.motions.insert(c.motions.begin(),
+                   {{1, 1}, parser::OrientationPathChange{parser::OrientationPath::great_circle}});
+  expect_same_path(c, {.output = OutputForm::axes, .tolerance = Mm{kTolerance}});
+  const PlanOptions blocks{.tolerance = Mm{kTolerance}};
+  const PlanOptions reader{.great_circle = true, .tolerance = Mm{kTolerance}};
+  expect_same_path(c, blocks);
+  expect_same_path(c, reader);
+  EXPECT_GT(planned(c, blocks).size(), 2 * planned(c, reader).size());
+}
+
+TEST(MachineProgram, StartsAndEndsWithTheToolRetracted) {
+  const Case c =
+      fanuc_on("iwf-bc", "T1 M6\nS5000 M3\nM8\nG43.4 H1\nG0 X0. Y0. Z20. B10. C0.\nG1 Z0. F500\n");
+  const auto motions = planned(c, {});
+  const auto* first = std::get_if<parser::Traverse>(&motions.front().command);
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->coordinates, parser::Coordinates::machine);
+  EXPECT_EQ(first->end[AxisLetter::Z], c.machine.home()[AxisLetter::Z]);
+  ASSERT_GE(motions.size(), 5U);
+  const std::size_t n = motions.size();
+  EXPECT_TRUE(std::holds_alternative<parser::Stop>(motions[n - 1].command));
+  EXPECT_TRUE(std::holds_alternative<parser::CoolantChange>(motions[n - 2].command));
+  EXPECT_TRUE(std::holds_alternative<parser::SpindleChange>(motions[n - 3].command));
+  EXPECT_TRUE(std::holds_alternative<parser::Traverse>(motions[n - 4].command));
+  EXPECT_TRUE(std::holds_alternative<parser::CompensationChange>(motions[n - 5].command));
+}
+
+TEST(MachineProgram, NeedsTheToolLengthForAxisPositionsOnly) {
+  Case c = fanuc_on("iwf-bc", "T1 M6\nG43.4 H1\nG0 X0. Y0. Z20. B10. C0.\nG1 Z0. F500\nM30\n");
+  c.setup.tools.clear();
+  const auto axes = plan_for_machine(c.machine, c.setup, c.motions, {.output = OutputForm::axes});
+  ASSERT_FALSE(axes);
+  EXPECT_EQ(axes.error().front().message, "axis positions need the length of tool 1");
+  EXPECT_EQ(axes.error().front().line, 3);
+  EXPECT_NE(axes.error().front().hint.find("--tool-length 1=LENGTH"), std::string::npos);
+  const auto tip = plan_for_machine(c.machine, c.setup, c.motions, {});
+  ASSERT_TRUE(tip) << first_of(tip.error());
+  EXPECT_EQ(tip->warnings.size(), 1U);
+}
+
+TEST(MachineProgram, RefusesWhatTheMachineCannotDo) {
+  const auto message = [](const std::string& machine, const std::string& text) {
+    const Case c = fanuc_on(machine, text);
+    const auto plan = plan_for_machine(c.machine, c.setup, c.motions, {});
+    return plan ? std::string("none") : first_of(plan.error());
+  };
+  EXPECT_NE(message("iwf-bc", "T1 M6\nG43.4 H1\nG0 X0. Y0. Z0. A10.\n").find("has no axis A"),
+            std::string::npos);
+  EXPECT_NE(message("three-axis", "T1 M6\nG43.5 H1\nG0 X0. Y0. Z0. I1. J0. K1.\n").find(":3:"),
+            std::string::npos);
+  EXPECT_NE(message("iwf-bc", "T1 M6\nG43.4 H1\nG0 X0. Y0. Z900. B0.\n").find("over-travel: Z"),
+            std::string::npos);
+  EXPECT_NE(message("iwf-bc", "T1 M6\nG55 G43.4 H1\nG0 X0. Y0. Z0. B0.\n").find("G55"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ std::vector<Seen> seen_by_a_machine(const std::vector<Motion>& motions) {
 // Random programs of a five-axis machine with axes B and C.
 class RandomProgram {
  public:
-  RandomProgram(std::uint64_t seed, bool vectors) : seed_(seed), vectors_(vectors) {}
+  RandomProgram(std::uint64_t seed, bool vectors, Dialect dialect = Dialect::fanuc)
+      : seed_(seed), vectors_(vectors), dialect_(dialect) {}
 
   std::vector<Motion> make() {
     add(parser::ToolChange{3});
@@ -101,7 +102,8 @@ class RandomProgram {
   }
   std::optional<UnitVec3> axis() {
     if (!vectors_) return {};
-    return UnitVec3::of(Vec3(random(1.0), random(1.0), 0.2 + random()));
+    last_axis_ = UnitVec3::of(Vec3(random(1.0), random(1.0), 0.2 + random()));
+    return last_axis_;
   }
   parser::Feed feed() {
     if (pick(2) == 0) feed_ = {std::pow(10.0, random(3.0)), static_cast<parser::FeedMode>(pick(2))};
@@ -158,7 +160,9 @@ class RandomProgram {
     }
   }
   void arc() {
-    const auto plane = static_cast<parser::Plane>(pick(3));
+    // Klartext has flat circles in X and Y.
+    const bool klartext = dialect_ == Dialect::heidenhain;
+    const auto plane = klartext ? parser::Plane::xy : static_cast<parser::Plane>(pick(3));
     const parser::PlaneAxes axes = parser::axes_of(plane);
     const auto u = static_cast<AxisLetter>(axes.u), v = static_cast<AxisLetter>(axes.v);
     const auto w = static_cast<AxisLetter>(axes.w);
@@ -172,17 +176,19 @@ class RandomProgram {
       at_[u] = arc.center[axes.u] + radius * std::cos(to);
       at_[v] = arc.center[axes.v] + radius * std::sin(to);
     }
-    if (pick(2) == 0) *at_[w] += random(5.0);
+    if (pick(2) == 0 && !klartext) *at_[w] += random(5.0);
     arc.center[axes.w] = 0.0;
     arc.end = at_;
-    arc.turns = (pick(2) == 0 ? 1 : -1) * (1 + pick(3));
-    arc.tool_axis = axis();
+    arc.turns = (pick(2) == 0 ? 1 : -1) * (klartext ? 1 : 1 + pick(3));
+    arc.tool_axis = last_axis_;
     arc.feed = feed();
     add(arc);
   }
 
   std::uint64_t seed_;
   bool vectors_;
+  Dialect dialect_;
+  std::optional<UnitVec3> last_axis_{};
   std::uint64_t draw_ = 0;
   std::uint32_t line_ = 0;
   parser::AxisTarget at_{};
@@ -262,7 +268,7 @@ TEST(NcWriterLaws, RandomMotionsReadBackAsTheyWere) {
   for (const Dialect dialect : written_dialects()) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const bool vectors = seed % 3 == 0 && dialect != Dialect::linuxcnc;
-      const auto motions = RandomProgram(seed, vectors).make();
+      const auto motions = RandomProgram(seed, vectors, dialect).make();
       const auto written = write_nc(motions, dialect);
       ASSERT_TRUE(written) << first_of(written.error());
       const auto before = seen_by_a_machine(motions);

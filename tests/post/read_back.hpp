@@ -28,6 +28,9 @@ inline std::vector<parser::Motion> motions_in(const std::string& text, parser::D
 }
 
 // Languages that are both written and read.
-inline std::vector<parser::Dialect> written_dialects() { return {parser::Dialect::fanuc}; }
+inline std::vector<parser::Dialect> written_dialects() {
+  return {parser::Dialect::fanuc, parser::Dialect::linuxcnc, parser::Dialect::sinumerik,
+          parser::Dialect::heidenhain};
+}
 
 }  // namespace frustum::post
