@@ -82,7 +82,7 @@ class ForwardChain {
 
   static constexpr std::size_t kMostJoints = 5;
   const Machine* machine_;
-  const GeometricErrors* grids_;  // null: no volumetric grid
+  const GeometricErrors* grids_;           // null: no volumetric grid
   std::array<Link, kMostJoints> links_{};  // tool chain, then work chain
   std::size_t tool_count_ = 0;
   std::size_t count_ = 0;

@@ -142,8 +142,10 @@ TEST(CompensationLoopSystem, StepPatternsShrinkToWhatTheCmmCannotTell) {
       const double nominal = perfect.characteristics[k].value;
       // Two uncertainties: that of the errors identified and that of the second measurement.
       const double tilt_left = left.characteristics[k].value - nominal;
-      if (std::abs(tilt_left) > 0.05) std::printf("%s: %.3f %s left\n", c.name.c_str(), tilt_left, c.unit.c_str());
-      EXPECT_LT(std::abs(c.value - nominal - tilt_left), 2.0 * c.expanded_uncertainty) << c.name << " U " << c.expanded_uncertainty;
+      if (std::abs(tilt_left) > 0.05)
+        std::printf("%s: %.3f %s left\n", c.name.c_str(), tilt_left, c.unit.c_str());
+      EXPECT_LT(std::abs(c.value - nominal - tilt_left), 2.0 * c.expanded_uncertainty)
+          << c.name << " U " << c.expanded_uncertainty;
       larger_before +=
           std::abs(before.characteristics[k].value - nominal) > 2.0 * c.expanded_uncertainty;
       ++count;
