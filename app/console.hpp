@@ -38,6 +38,8 @@ void add_post(CLI::App& program, int& exit_code);
 void add_pose(CLI::App& program, int& exit_code);
 void add_cut(CLI::App& program, int& exit_code);
 void add_measure(CLI::App& program, int& exit_code);
+void add_diff(CLI::App& program, int& exit_code);
+void add_compensate(CLI::App& program, int& exit_code);
 void add_fit(CLI::App& program, int& exit_code);
 void add_machines(CLI::App& program, int& exit_code);
 void add_errors(CLI::App& program, int& exit_code);
@@ -45,6 +47,9 @@ void add_volumetric(CLI::App& program, int& exit_code);
 struct ErrorWords;
 // The options by which a command takes errors: --error, --errors, --draw.
 void add_error_options(CLI::App& command, ErrorWords& words);
+struct WorkshopWords;
+// The options by which a command takes a machine and its setup: --machine, --job, --tool-length, --offset.
+void add_workshop_options(CLI::App& command, WorkshopWords& words);
 // Kinds of test pieces: subcommands of `program`.
 void add_cone(CLI::App& kinds, int& exit_code);
 void add_step(CLI::App& kinds, int& exit_code);

@@ -1,0 +1,18 @@
+// The options by which a command takes a machine and its setup.
+#include <CLI/CLI.hpp>
+
+#include "app/console.hpp"
+#include "app/workshop.hpp"
+
+namespace frustum::app {
+
+void add_workshop_options(CLI::App& command, WorkshopWords& words) {
+  command.add_option("--machine", words.machine,
+                     "Machine file, or the name of a shipped machine (default: the job's)");
+  command.add_option("--job", words.job, "Takes machine, tool lengths and work offsets from a job");
+  command.add_option("--tool-length", words.tool_lengths, "NUMBER=LENGTH in mm, repeated");
+  command.add_option("--offset", words.offsets,
+                     "G54=X,Y,Z: program origin in the table frame, mm, repeated (G54=0,0,0)");
+}
+
+}  // namespace frustum::app
