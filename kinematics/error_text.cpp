@@ -381,9 +381,18 @@ std::string amount_text(const Amount& amount) {
     const DrawnFactor& factor = amount.drawn[i];
     std::string drawn = factor.name.empty() ? distribution_text(factor.distribution) : factor.name;
     if (factor.shift != 0.0) drawn += " + " + quantity_text(factor.shift, factor.distribution.unit);
-    if (factor.function == DrawnFactor::Function::cosine) drawn = "cos(" + drawn + ")";
-    if (factor.function == DrawnFactor::Function::sine) drawn = "sin(" + drawn + ")";
-    text += (i > 0 ? " * " : "") + drawn;
+    if (i > 0) text += " * ";
+    switch (factor.function) {
+      case DrawnFactor::Function::itself:
+        text += drawn;
+        break;
+      case DrawnFactor::Function::cosine:
+        text += fmt::format("cos({})", drawn);
+        break;
+      case DrawnFactor::Function::sine:
+        text += fmt::format("sin({})", drawn);
+        break;
+    }
   }
   return text;
 }

@@ -38,6 +38,7 @@ double sense_of_motion(const Joint& joint) {
 
 std::vector<double> values_of(const std::vector<Amount>& amounts) {
   std::vector<double> values;
+  values.reserve(amounts.size());
   for (const Amount& amount : amounts) values.push_back(amount.value);
   return values;
 }

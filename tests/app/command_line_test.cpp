@@ -183,26 +183,15 @@ TEST_F(CommandLineSystem, TakesErrorsFromFilesAndDrawsThem) {
 }
 
 TEST_F(CommandLineSystem, ReadsTheErrorFileOfAJob) {
-  ASSERT_EQ(run("program cone --machine iwf-bc --out p").exit_code, 0);
+  const std::string make = "program step --machine zx-yac --patterns 1-a,2-a --workpiece 1 --out p";
+  ASSERT_EQ(run(make).exit_code, 0);
+  replace_in("p/job.toml", "report = true", "report = false");
   std::ofstream(folder_ / "p" / "mine.toml")
-      << "title = \"t\"\nmachine = \"iwf-bc\"\n[errors]\nEXX = \"linear uniform 1um..2um\"\n"
+      << "title = \"t\"\nmachine = \"zx-yac\"\n[errors]\nEXX = \"linear uniform 1um..2um\"\n"
          "EB0C = \"9 urad\"\n";
-  std::string job;
-  for (const auto& item : fs::directory_iterator(folder_ / "p")) {
-    const std::string name = item.path().filename().string();
-    if (name.ends_with(".toml") && read(item.path()).find("[inspection]") != std::string::npos)
-      job = "p/" + name;
-  }
-  ASSERT_FALSE(job.empty());
-  std::string text = read(folder_ / job);
-  const auto errors = text.find("[errors]");
-  if (errors == std::string::npos) {
-    text += "\n[errors]\nfile = \"mine.toml\"\n[error_draw]\nseed = 3\n";
-  } else {
-    text.insert(errors, "error_draw.seed = 3\n");
-    text.replace(text.find("[errors]"), 8, "[errors]\nfile = \"mine.toml\"\n");
-  }
-  std::ofstream(folder_ / job) << text;
+  const std::string job = "p/job.toml";
+  replace_in(job, "[errors]\n", "[errors]\nfile = \"mine.toml\"\n");
+  std::ofstream(folder_ / job, std::ios::app) << "\n[error_draw]\nseed = 3\n";
   const Outcome outcome = run("run " + job + " --json --quiet --out out");
   EXPECT_NE(outcome.exit_code, 2) << outcome.err;
   EXPECT_NE(outcome.out.find("EXX"), std::string::npos) << outcome.out.substr(0, 2000);
