@@ -15,8 +15,9 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/orientation_path.hpp"
-#include "post/nearest_plan.hpp"
+#include "post/block_feed.hpp"
 #include "post/output_arc.hpp"
+#include "post/pose_run.hpp"
 
 namespace frustum::post {
 namespace {
@@ -41,17 +42,7 @@ using parser::Motion;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 // rad and mm: below any written word; an axis that moves by less stands.
 constexpr double kStanding = 1e-12;
-// rad: what rounding of a plan leaves is far below, another solution far above.
-constexpr double kOtherPositions = 1e-3;
 constexpr int kDeepest = 18;  // 262,144 points a block
-
-double rotary_travel(const AxisPositions& from, const AxisPositions& to) {
-  double sum = 0.0;
-  for (const AxisLetter letter : kRotaryAxes) {
-    sum += (to[letter] - from[letter]) * (to[letter] - from[letter]);
-  }
-  return std::sqrt(sum);
-}
 
 AxisPositions with_rotary_of(AxisPositions q, const AxisPositions& rotary) {
   for (const AxisLetter letter : kRotaryAxes) q[letter] = rotary[letter];
@@ -467,7 +458,8 @@ class Planner {
   // Vectors are planned together, from here to where something else moves the axes.
   std::optional<PlannedPose> next_planned(const Pose& table_from_words) {
     if (planned_.empty()) {
-      const auto planned = plan_poses(vector_run(table_from_words));
+      const auto planned = plan_poses(vector_run(
+          program_.subspan(at_), table_from_words.inverse().point(tip_at(q_)), table_from_words));
       planned_.assign(planned.begin(), planned.end());
       if (planned_.empty()) return {};
     }
@@ -476,72 +468,15 @@ class Planner {
     return next;
   }
 
-  // Poses whose axis positions are chosen together.
-  struct Run {
-    std::vector<ToolPose> poses{};
-    std::vector<std::size_t> through_air{};
-    bool from_here = false;  // the first is cut to, not moved to through the air
-  };
-
-  [[nodiscard]] Run vector_run(const Pose& table_from_words) const {
-    Run run;
-    Vec3 words = table_from_words.inverse().point(tip_at(q_));
-    const auto add = [&](const AxisTarget& end, const std::optional<UnitVec3>& axis, bool rapid) {
-      if (!axis) return false;
-      words = with_words(words, end);
-      if (rapid) run.through_air.push_back(run.poses.size());
-      if (run.poses.empty()) run.from_here = !rapid;
-      run.poses.push_back({table_from_words.point(words), table_from_words.direction(*axis)});
-      return true;
-    };
-    for (std::size_t i = at_; i < program_.size(); ++i) {
-      const parser::Command& command = program_[i].command;
-      bool goes_on = std::holds_alternative<parser::Event>(command) ||
-                     std::holds_alternative<parser::SpindleChange>(command) ||
-                     std::holds_alternative<parser::CoolantChange>(command) ||
-                     std::holds_alternative<parser::Dwell>(command);
-      if (const auto* traverse = std::get_if<parser::Traverse>(&command)) {
-        goes_on = traverse->coordinates == Coordinates::program &&
-                  add(traverse->end, traverse->tool_axis, true);
-      } else if (const auto* linear = std::get_if<parser::LinearFeed>(&command)) {
-        goes_on = linear->coordinates == Coordinates::program &&
-                  add(linear->end, linear->tool_axis, false);
-      } else if (const auto* arc = std::get_if<parser::ArcFeed>(&command)) {
-        goes_on = add(arc->end, arc->tool_axis, false);
-      }
-      if (!goes_on) break;
-    }
-    return run;
-  }
-
   // Empty: there is no way, and the problem is told.
-  std::vector<PlannedPose> plan_poses(Run run) {
-    kinematics::PlanOptions how{.start = q_};
-    how.through_air = std::move(run.through_air);
-    if (run.from_here) {
-      run.poses.insert(run.poses.begin(),
-                       kinematics::tool_pose(kinematics::nominal_pose(machine_, q_, length())));
-      for (std::size_t& index : how.through_air) ++index;
-    }
+  std::vector<PlannedPose> plan_poses(const PoseRun& run) {
     // What reads vectors takes the nearest solution; without lengths travels cannot be looked at.
     const bool nearest = options_.output == OutputForm::vectors || lengths_missing_;
-    auto planned = nearest ? nearest_plan(machine_, run.poses, length(), how)
-                           : kinematics::plan_axes(machine_, run.poses, length(), how);
-    if (!planned) {
-      fail(planned.error().front());
-      return {};
-    }
-    if (run.from_here) {
-      // The way may begin on other positions of the pose where the tool is.
-      const AxisPositions here = planned->front().axes;
-      planned->erase(planned->begin());
-      PlannedPose& next = planned->front();
-      if (!next.unwind && rotary_travel(q_, here) > kOtherPositions) {
-        next.unwind = true;
-        next.resume = here;
-      }
-    }
-    return *std::move(planned);
+    auto planned = choose_axes(machine_, run, q_, length(),
+                               nearest ? AxisChoice::nearest : AxisChoice::along_the_path);
+    if (planned) return *std::move(planned);
+    fail(planned.error().front());
+    return {};
   }
 
   // Lifts off, turns the rotary axes to where the next block can be cut, and comes back.
@@ -586,41 +521,21 @@ class Planner {
 
   double minutes_of(const Block& block, const BlockMotion& motion) {
     if (block.feed == nullptr) return 0.0;
-    const Feed& feed = *block.feed;
-    switch (feed.mode) {
-      case FeedMode::per_minute:
-        return motion.feed_length / feed.value;
-      case FeedMode::inverse_time:
-        return 1.0 / feed.value;
-      case FeedMode::per_revolution:
-        break;
-    }
-    if (spindle_.speed > 0.0) return motion.feed_length / (feed.value * spindle_.speed);
-    fail("feed per revolution with the spindle at rest", "start the spindle before");
+    const auto minutes = post::minutes_of(*block.feed, motion.feed_length, spindle_.speed);
+    if (minutes) return *minutes;
+    fail(minutes.error().front());
     return 0.0;
   }
 
-  // The feed that gives the piece its share of the block's time.
   [[nodiscard]] Feed feed_of(const Piece& piece, const AxisPositions& end, bool arc) const {
-    const Feed& written = *piece.block.feed;
-    const double minutes = piece.minutes * (piece.to - piece.from);
-    const double turn = rotary_travel(q_, end);
-    const bool axes_turn = !tip_control(applied_) && turn > kStanding;
-    if (!(minutes > 0.0)) return written;
-    if (axes_turn || written.mode == FeedMode::inverse_time) {
-      return {1.0 / minutes, FeedMode::inverse_time};
-    }
-    if (arc || written.mode == FeedMode::per_revolution) return written;
-    const Vec3 way = tip_control(applied_) ? Vec3(tip_at(end) - tip_at(q_))
-                                           : Vec3(linear_positions(end) - linear_positions(q_));
-    // A tip that stands: the feed is that of the rotary axes, in deg/min.
-    constexpr double kTipStands = 1e-9;  // mm
-    const double length = way.norm() > kTipStands ? way.norm() : turn * kDegPerRad;
-    const double feed = length / minutes;
-    // A chord is shorter than its arc; a feed that changes by less than a millionth is the same feed.
-    constexpr double kSameFeed = 1e-6;
-    if (std::abs(feed - written.value) <= kSameFeed * written.value) return written;
-    return {feed, FeedMode::per_minute};
+    const bool tip_words = tip_control(applied_);
+    const Vec3 way = tip_words ? Vec3(tip_at(end) - tip_at(q_))
+                               : Vec3(linear_positions(end) - linear_positions(q_));
+    return feed_for(*piece.block.feed, {.minutes = piece.minutes * (piece.to - piece.from),
+                                        .length = way.norm(),
+                                        .turn = rotary_travel(q_, end),
+                                        .tip_words = tip_words,
+                                        .arc = arc});
   }
 
   // --- states -------------------------------------------------------------------------------------
@@ -674,12 +589,6 @@ class Planner {
   // What to add to X Y Z words to get axis positions: at rotary zero the tip is where the words say.
   [[nodiscard]] Vec3 axis_shift() const {
     return linear_positions(kinematics::place_tip(machine_, offset(), length(), {}));
-  }
-  static Vec3 with_words(Vec3 point, const AxisTarget& words) {
-    for (const AxisLetter letter : kinematics::kLinearAxes) {
-      if (words[letter]) point[static_cast<Eigen::Index>(letter)] = *words[letter];
-    }
-    return point;
   }
 
   // --- checks ---------------------------------------------------------------------------------------

@@ -40,7 +40,7 @@ struct Case {
 Case cone_on(const std::string& name, programs::ProgramForm form = programs::ProgramForm::vector) {
   programs::ConeFrustum cone;
   cone.form = form;
-  cone.chord_tolerance = Mm{3e-2};
+  cone.chord_tolerance = Mm{1e-1};
   const Machine machine = shipped(name);
   const auto piece = programs::cone_frustum(cone, machine);
   EXPECT_TRUE(piece);

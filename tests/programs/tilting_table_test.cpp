@@ -99,7 +99,11 @@ TEST(TiltingTable, NamesTheAxisThatDoesNotFit) {
                {{{"b-Y-A-C-w", "b-A-Y-C-w"}}, "the table carries a linear axis"},
                {{{"[axis.Y]", "[axis.Y]\ndirection = [0, 0.8, 0.6]"}},
                 "its linear axes do not lie along X, Y and Z"},
-               {{{"Y-A-C-w", "Y-C-w"}, {"[axis.A]\ntravel = [-120, 120]", ""}},
+               {{{"Y-A-C-w", "Y-C-w"},
+                 {"[axis.A]\ntravel = [-120, 120]   # deg\nvelocity     = 180   # deg/s\n"
+                  "acceleration = 900   # deg/s^2\njerk         = 9000   # deg/s^3\n"
+                  "servo_gain   = 40\n",
+                  ""}},
                 "1 rotary axes on the workpiece side, not two"}};
   for (const auto& c : cases) {
     const std::string text = refusal(changed(c.words));
