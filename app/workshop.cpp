@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "app/console.hpp"
 #include "app/job.hpp"
 #include "app/machine_files.hpp"
-#include "app/number_check.hpp"
 #include "core/spelling.hpp"
 #include "trials/trial.hpp"
 

@@ -9,6 +9,7 @@
 #include "parser/program.hpp"
 #include "post/fault.hpp"
 #include "programs/cone_frustum.hpp"
+#include "programs/in_dialect.hpp"
 #include "tests/trials/cone_trial.hpp"
 
 namespace frustum::trials {
@@ -67,6 +68,29 @@ TEST_P(SameConeInThreeForms, Agrees) {
 
 INSTANTIATE_TEST_SUITE_P(Families, SameConeInThreeForms,
                          ::testing::Values("iwf-bc", "double-pivot-head", "swivel-head-table"));
+
+class SameConeInFourDialects : public ::testing::TestWithParam<parser::Dialect> {};
+
+TEST_P(SameConeInFourDialects, Agrees) {
+  const ConeTrial trial = ConeTrial::on("iwf-bc", coarse_cone(ProgramForm::angles));
+  const auto written = programs::in_dialect(trial.piece, GetParam());
+  ASSERT_TRUE(written) << to_string(written.error().front());
+  const auto program = parser::parse_program(written->piece.program, "cone", GetParam());
+  ASSERT_TRUE(program) << to_string(program.error().front());
+  const auto motions = parser::motions_of(*program);
+  ASSERT_TRUE(motions) << to_string(motions.error().front());
+  const ComparedProgram second{"cone", *motions, setup_of(written->piece)};
+  const auto found =
+      compare_programs(trial.machine, cone_program("iwf-bc", ProgramForm::vector), second);
+  ASSERT_TRUE(found) << to_string(found.error().front());
+  EXPECT_TRUE(found->same()) << found->first.likely_cause << " at line " << found->first.first_line
+                             << ", tip " << found->first.tip;
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, SameConeInFourDialects,
+                         ::testing::Values(parser::Dialect::fanuc, parser::Dialect::linuxcnc,
+                                           parser::Dialect::sinumerik,
+                                           parser::Dialect::heidenhain));
 
 struct SeededFault {
   const char* name;
@@ -195,6 +219,12 @@ INSTANTIATE_TEST_SUITE_P(
                       });
                     },
                     "rotary axis C is off by 0.5000 deg"},
+        SeededFault{"feed_per_second", "iwf-bc", ProgramForm::angles,
+                    [](ComparedProgram& p) {
+                      each<parser::LinearFeed>(
+                          p, [](parser::LinearFeed& move) { move.feed.value /= 60.0; });
+                    },
+                    "per second"},
         SeededFault{"missing_block", "iwf-bc", ProgramForm::vector,
                     [](ComparedProgram& p) { p.motions.erase(corner_of(p)); },
                     "is missing in the second"},
