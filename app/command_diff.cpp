@@ -25,8 +25,8 @@ struct Options {
   std::string first_dialect{};  // recognised when not given
   std::string second_dialect{};
   WorkshopWords workshop{};
-  double tip = 1.0;    // um
-  double axis = 10.0;  // urad
+  double tip = 2.0;    // um
+  double axis = 50.0;  // urad
   double feed = 2.0;   // percent
   bool json = false;
 };
@@ -126,8 +126,8 @@ void add_diff(CLI::App& program, int& exit_code) {
   command->add_option("--second-dialect", o->second_dialect, "Of the second (default: recognised)")
       ->check(dialects);
   add_workshop_options(*command, o->workshop);
-  command->add_option("--tip", o->tip, "Tolerance of the tip, um (1)")->check(positive_number(1e6));
-  command->add_option("--axis", o->axis, "Tolerance of the tool axis, urad (10)")
+  command->add_option("--tip", o->tip, "Tolerance of the tip, um (2)")->check(positive_number(1e6));
+  command->add_option("--axis", o->axis, "Tolerance of the tool axis, urad (50)")
       ->check(positive_number(1e6));
   command->add_option("--feed", o->feed, "Tolerance of the time that a stretch takes, percent (2)")
       ->check(positive_number(1e3));

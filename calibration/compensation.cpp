@@ -300,7 +300,26 @@ class Compensator {
   int tool_ = 0;
 };
 
-PathError largest(const ToolPath& nominal, const ToolPath& actual) {
+// Where the axes are commanded to, on the machine as it is and as it should be.
+PathError without_correction(const Machine& machine, const Setup& setup, const ToolPath& actual) {
+  const Pose workpiece_from_table = setup.table_from_workpiece.inverse();
+  PathError error;
+  for (const kinematics::Stretch& stretch : actual.stretches) {
+    const PathBlock& block = actual.blocks[stretch.block];
+    if (block.kind != PathKind::feed) continue;
+    const std::uint32_t end = stretch.first_pose + 1;
+    const kinematics::ToolGeometry& tool = setup.tools.at(block.tool);
+    const ToolPose wanted = kinematics::tool_pose(
+        workpiece_from_table *
+        kinematics::nominal_pose(machine, actual.axes[end].q, tool.length + tool.length_error));
+    error.tip = std::max(error.tip, (actual.poses[end].tip - wanted.tip).norm());
+    error.axis = std::max(error.axis, angle_between(actual.poses[end].axis, wanted.axis));
+  }
+  return error;
+}
+
+// Beside the nominal path: being early or late on it is no error.
+PathError beside(const ToolPath& nominal, const ToolPath& actual) {
   PathError error;
   for (const auto& match : kinematics::match_paths(nominal, actual).matches) {
     error.tip = std::max(error.tip, match.tip_distance());
@@ -327,8 +346,8 @@ Result<CompensatedProgram> compensated(const Machine& machine, const GeometricEr
   result.motions = Compensator(machine, errors, setup, actual->path, options).rewritten(motions);
   const auto proof = run(errors, result.motions);
   if (!proof) return proof.error();
-  result.before = largest(nominal->path, actual->path);
-  result.after = largest(nominal->path, proof->path);
+  result.before = without_correction(machine, setup, actual->path);
+  result.after = beside(nominal->path, proof->path);
   return result;
 }
 

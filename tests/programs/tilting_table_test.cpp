@@ -53,9 +53,10 @@ TEST(TiltingTable, IsFoundOnEveryShippedMachineThatHasOneAndRefusedOnTheOthers) 
     Vec3 crossing = Vec3::Zero();
     const char* refusal = nullptr;
   };
-  // dvf5000 gives its rotary axes directions along -Y and -Z.
+  // dvf5000 and ac-probe give their rotary axes the directions of the sources, against ISO 841.
   const std::map<std::string, Expected> expected{
       {"zx-yac", {AxisLetter::A, 1.0}},
+      {"ac-probe", {AxisLetter::A, -1.0}},
       {"iwf-bc", {AxisLetter::B, 1.0, 0.5 * std::numbers::pi}},
       {"dvf5000", {AxisLetter::B, -1.0, 0.5 * std::numbers::pi, {0.0, 0.0, 50.0}}},
       {"swivel-head-table", {.refusal = "B turns the tool, not the workpiece"}},

@@ -60,8 +60,11 @@ TEST_P(SameConeInThreeForms, Agrees) {
   for (const ProgramForm form : {ProgramForm::angles, ProgramForm::axes}) {
     const auto found = compare_programs(machine, vectors, cone_program(GetParam(), form));
     ASSERT_TRUE(found) << to_string(found.error().front());
-    EXPECT_TRUE(found->same()) << found->first.likely_cause << " at line "
-                               << found->first.first_line << ", tip " << found->first.tip;
+    // The cone's axis positions carry the feed of the linear axes, which is not that of the tip.
+    const bool feed_only = form == ProgramForm::axes && found->first.kind == DifferenceKind::feed;
+    EXPECT_TRUE(found->same() || feed_only)
+        << found->first.likely_cause << " at line " << found->first.first_line << ", tip "
+        << found->first.tip;
     EXPECT_LT(found->largest_tip, 5e-4);
   }
 }
@@ -99,6 +102,8 @@ struct SeededFault {
   std::function<void(ComparedProgram&)> seed;
   const char* cause;  // part of the words
 };
+
+void PrintTo(const SeededFault& fault, std::ostream* out) { *out << fault.name; }
 
 class SeededFaults : public ::testing::TestWithParam<SeededFault> {};
 
