@@ -34,7 +34,9 @@ class PoseRows;
 // depend on the axis positions is multiplied out beforehand. Refers to `errors`, which must outlive it.
 class ForwardChain {
  public:
+  // Both must outlive the chain.
   ForwardChain(const Machine& machine, const GeometricErrors& errors, double tool_length);
+  ForwardChain(const Machine& machine, GeometricErrors&& errors, double tool_length) = delete;
 
   // Pose of the tool (origin: tip, +Z: to the spindle) in the table frame.
   [[nodiscard]] Pose table_from_tool(const AxisState& at) const;

@@ -380,8 +380,13 @@ class Controller::State {
     return false;
   }
 
+  static bool within_turns(const AxisPositions& q) {
+    return std::all_of(kRotaryAxes.begin(), kRotaryAxes.end(),
+                       [&](AxisLetter letter) { return std::abs(q[letter]) <= kMostTurned; });
+  }
   bool within_travel(const AxisPositions& q) {
-    if (kinematics::within_travel(machine_, q)) return true;
+    if (options_.check_travel ? kinematics::within_travel(machine_, q) : within_turns(q))
+      return true;
     const auto violations = travel_violations(machine_, q);
     fail(fmt::format("over-travel: {}", fmt::join(violations, "; ")),
          "move the workpiece on the table, or choose a larger machine");

@@ -59,6 +59,7 @@ struct Execution {
 struct ControllerOptions {
   double path_bound = 1e-5;  // mm
   bool sample_path = true;   // false: axis positions only (errors and times play no part)
+  bool check_travel = true;  // false: positions beyond the travels are executed all the same
   TimeLawOptions time_law{};
   bool servo_lag = false;  // the path is where the axes are behind their commands
   PathSink sink{};         // takes the path in parts as it grows; nothing of it is then kept

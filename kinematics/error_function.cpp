@@ -179,10 +179,28 @@ ErrorFunction ErrorFunction::plus(const ErrorFunction& other, double factor) con
   return ErrorFunction(std::move(terms));
 }
 
-double ErrorFunction::operator()(AxisLetter axis, const AxisState& at) const {
+ErrorFunction::ErrorFunction(std::vector<ErrorTerm> terms) {
+  std::vector<ErrorTerm> bent;
+  for (ErrorTerm& term : terms) {
+    if (const auto* constant = std::get_if<ConstantTerm>(&term)) {
+      at_zero_ += constant->value;
+    } else if (const auto* linear = std::get_if<LinearTerm>(&term)) {
+      at_zero_ -= linear->slope * linear->zero;
+      slope_ += linear->slope;
+    } else {
+      bent.push_back(std::move(term));
+      continue;
+    }
+    terms_.push_back(std::move(term));
+  }
+  straight_ = terms_.size();
+  for (ErrorTerm& term : bent) terms_.push_back(std::move(term));
+}
+
+double ErrorFunction::bent(AxisLetter axis, const AxisState& at) const {
   double sum = 0.0;
-  for (const ErrorTerm& term : terms_) {
-    sum += std::visit([&](const auto& t) { return value(t, axis, at); }, term);
+  for (std::size_t i = straight_; i < terms_.size(); ++i) {
+    sum += std::visit([&](const auto& t) { return value(t, axis, at); }, terms_[i]);
   }
   return sum;
 }

@@ -90,17 +90,25 @@ using ErrorTerm = std::variant<ConstantTerm, LinearTerm, PolynomialTerm, Harmoni
 class ErrorFunction {
  public:
   ErrorFunction() = default;
-  explicit ErrorFunction(std::vector<ErrorTerm> terms) : terms_(std::move(terms)) {}
+  explicit ErrorFunction(std::vector<ErrorTerm> terms);
 
   [[nodiscard]] bool is_zero() const { return terms_.empty(); }
   [[nodiscard]] bool depends_on_direction() const;
   // Of `axis`, where the axes are.
-  [[nodiscard]] double operator()(AxisLetter axis, const AxisState& at) const;
+  [[nodiscard]] double operator()(AxisLetter axis, const AxisState& at) const {
+    const double line = at_zero_ + slope_ * at.q[axis];
+    return straight_ == terms_.size() ? line : line + bent(axis, at);
+  }
   // This function plus `factor` times the other.
   [[nodiscard]] ErrorFunction plus(const ErrorFunction& other, double factor) const;
 
  private:
-  std::vector<ErrorTerm> terms_;
+  [[nodiscard]] double bent(AxisLetter axis, const AxisState& at) const;
+
+  std::vector<ErrorTerm> terms_;  // constants and lines first
+  std::size_t straight_ = 0;      // how many those are, and their sum
+  double at_zero_ = 0.0;
+  double slope_ = 0.0;
 };
 
 }  // namespace frustum::kinematics

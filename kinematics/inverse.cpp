@@ -201,6 +201,11 @@ std::vector<std::string> travel_violations(const Machine& machine, const AxisPos
     const double position = q[joint.letter];
     if (within_travel(joint, position)) continue;
     const double scale = joint.rotary() ? kDegPerRad : 1.0;
+    if (joint.endless) {
+      violations.push_back(fmt::format("{} = {:g} deg, more than 1000 turns", to_char(joint.letter),
+                                       position * scale));
+      continue;
+    }
     violations.push_back(fmt::format("{} = {:.4f} {}, travel {:g} .. {:g}", to_char(joint.letter),
                                      position * scale, joint.rotary() ? "deg" : "mm",
                                      joint.travel.lo * scale, joint.travel.hi * scale));

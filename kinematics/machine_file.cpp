@@ -106,6 +106,11 @@ class MachineReader {
       const auto travel = table.numbers("travel");
       if (travel.size() == 2 && travel[0] < travel[1]) {
         joint.travel = {travel[0] * scale, travel[1] * scale};
+        constexpr double kMostDegrees = 360'000.0;  // 1000 turns
+        if (is_rotary(letter) && std::max(-travel[0], travel[1]) > kMostDegrees) {
+          table.fail("travel", "more than 1000 turns", "write endless = true");
+          joint.travel = {-std::numbers::pi, std::numbers::pi};
+        }
       } else if (!travel.empty()) {
         table.fail("travel", "expected [lowest, highest]",
                    is_rotary(letter) ? "in degrees, or endless = true" : "in mm");

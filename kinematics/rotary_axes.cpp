@@ -52,8 +52,8 @@ double nearest_turn(double angle, double near) {
 bool within_travel(const Joint& joint, double position) {
   // Half a nanometre or nanoradian: a position on the limit, reached with rounding, counts as within.
   constexpr double kLimitSlack = 5e-10;
-  return joint.endless ||
-         (position >= joint.travel.lo - kLimitSlack && position <= joint.travel.hi + kLimitSlack);
+  if (joint.endless) return std::abs(position) <= kMostTurned;
+  return position >= joint.travel.lo - kLimitSlack && position <= joint.travel.hi + kLimitSlack;
 }
 
 double best_turn(const Joint& joint, double angle, double near) {

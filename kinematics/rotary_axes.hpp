@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 
 #include "core/pose.hpp"
@@ -81,6 +82,9 @@ class RotaryAxes {
   bool needs_polish_ = false;
   double v_off_axis_ = 1.0;  // sine of the angle between v and w2
 };
+
+// An axis without limits turns no farther than this from its zero: 1000 turns.
+inline constexpr double kMostTurned = 2000.0 * std::numbers::pi;
 
 // The angle shifted by full turns to be nearest to `near`.
 [[nodiscard]] double nearest_turn(double angle, double near);

@@ -35,7 +35,8 @@ std::optional<ToolPath> executed(const Machine& machine, const GeometricErrors& 
                                  Sampling sampling, const DifferenceLimits& limits) {
   constexpr double kNoBound = 1e9;  // mm
   const double bound = sampling == Sampling::coarse ? kNoBound : 0.2 * limits.tip;
-  auto run = kinematics::execute(machine, errors, setup, motions, {.path_bound = bound});
+  auto run = kinematics::execute(machine, errors, setup, motions,
+                                 {.path_bound = bound, .check_travel = false});
   if (!run) return std::nullopt;
   return std::move(run->path);
 }
@@ -284,13 +285,6 @@ class AmountFit {
 
 constexpr std::uint32_t kFewBlocks = 3;
 
-AxisState axes_at_end(const ToolPath& path, std::uint32_t block) {
-  for (std::size_t k = path.stretches.size(); k-- > 0;) {
-    if (path.stretches[k].block == block) return path.axes[path.stretches[k].first_pose + 1];
-  }
-  return {};
-}
-
 std::string unequal_word(const Machine& machine, const AxisState& first, const AxisState& second) {
   const Joint* most = nullptr;
   double largest = 0.0;
@@ -312,7 +306,8 @@ std::string unequal_word(const Machine& machine, const AxisState& first, const A
 // The programs differ in a few blocks only: which word, or a block left out.
 std::string local_cause(const Machine& machine, const ToolPath& first, const ToolPath& second,
                         const DifferenceLimits& limits) {
-  const auto matches = kinematics::match_paths(first, second).matches;
+  const auto found = kinematics::match_paths(first, second);
+  const auto& matches = found.matches;
   const auto apart = [&](const PathMatch& m) {
     return m.tip_distance() > limits.tip || m.axis_angle() > limits.axis;
   };
@@ -320,17 +315,22 @@ std::string local_cause(const Machine& machine, const ToolPath& first, const Too
   if (begin == matches.end()) return {};
   const auto end = std::find_if(matches.rbegin(), matches.rend(), apart).base();
   const std::uint32_t blocks = std::prev(end)->reference.block - begin->reference.block + 1;
-  if (blocks > kFewBlocks || end == matches.end()) {
-    const bool ends_early = end == matches.end() && begin != matches.begin() &&
+  if (end == matches.end()) {
+    // Nothing of the second program is left, and it does not move while the first one goes on.
+    const bool ends_early = begin != matches.begin() && found.left_over <= limits.tip &&
                             std::prev(end)->other.block == begin->other.block;
     return ends_early ? "the second program ends here" : std::string();
   }
+  if (blocks > kFewBlocks) return {};
   const auto before = begin == matches.begin() ? begin : std::prev(begin);
   const std::uint32_t own = end->reference.block - before->reference.block;
   const std::uint32_t others = end->other.block - before->other.block;
   if (others < own) return "a block of the first program is missing in the second";
-  return unequal_word(machine, axes_at_end(first, begin->reference.block),
-                      axes_at_end(second, begin->other.block));
+  if (others > own) return "only this block differs";
+  const auto farthest = std::max_element(begin, end, [](const PathMatch& a, const PathMatch& b) {
+    return a.tip_distance() < b.tip_distance();
+  });
+  return unequal_word(machine, farthest->reference.axes, farthest->other.axes);
 }
 
 // --- feeds --------------------------------------------------------------------------------------
@@ -408,7 +408,9 @@ std::string likely_cause(const Machine& machine, const ToolPath& first, const To
     case DifferenceKind::tool:
       return "another tool is in the spindle";
     case DifferenceKind::feed:
-      return feed_cause(difference.first.time_ratio);
+      return difference.same_ratio_throughout
+                 ? feed_cause(difference.first.time_ratio)
+                 : std::string("the feed of this stretch, or a block left out of it");
     case DifferenceKind::missing:
       return "the second program has no feed moves";
     case DifferenceKind::extra:

@@ -15,6 +15,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/orientation_path.hpp"
+#include "kinematics/rotary_axes.hpp"
 #include "post/block_feed.hpp"
 #include "post/output_arc.hpp"
 #include "post/pose_run.hpp"
@@ -178,7 +179,11 @@ class Planner {
       if (!end[letter]) continue;
       if (!present(letter)) return;
       to[letter] = *end[letter];
-      if (parser::is_rotary(letter)) turns_[letter] = 0.0;
+      if (parser::is_rotary(letter)) {
+        turns_[letter] = 0.0;
+        written_[letter] = to[letter];
+        flipped_ = false;
+      }
     }
     if (!within_travel(to)) return;
     if (compensation_.mode == LengthCompensation::off || tip_control(applied_)) compensate({});
@@ -307,9 +312,14 @@ class Planner {
   };
 
   void split(const Piece& piece, const AxisPositions& end, int depth) {
-    if (depth >= kDeepest || keeps_to(piece, end, depth)) {
+    if (keeps_to(piece, end, depth)) {
       if (piece.to < 1.0) ++out_.inserted;
       emit_piece(piece, end, {});
+      return;
+    }
+    if (depth >= kDeepest) {
+      fail("the block cannot be followed within the tolerance however many points are inserted",
+           "allow more with --tolerance and --angle-tolerance, or divide the block");
       return;
     }
     const double middle = 0.5 * (piece.from + piece.to);
@@ -321,8 +331,9 @@ class Planner {
 
   // Whether the controller, going straight in the output's words, keeps to the programmed path.
   [[nodiscard]] bool keeps_to(const Piece& piece, const AxisPositions& end, int depth) const {
-    // Eighths of a whole block, so that nothing periodic hides between; quarters of its parts.
-    const int parts = depth == 0 ? 8 : 4;
+    // Eighths of a whole block, quarters of its parts, and never so few that turns hide between.
+    const double least = piece.motion.least_parts() * (piece.to - piece.from);
+    const int parts = std::max(depth == 0 ? 8 : 4, static_cast<int>(std::ceil(least)));
     const bool tip_output = tip_control(applied_);
     const Vec3 tip_from = tip_at(q_), tip_to = tip_at(end);
     for (int i = 1; i < parts; ++i) {
@@ -424,12 +435,7 @@ class Planner {
     if (block.tool_axis) {
       planned = next_planned(table_from_words);
     } else {
-      PlannedPose as_written{.axes = q_};
-      for (const AxisLetter letter : kRotaryAxes) {
-        if (block.end[letter]) as_written.axes[letter] = turned(letter, *block.end[letter]);
-      }
-      planned =
-          rotary_within_travel(as_written.axes) ? as_written : turned_back(as_written, pose.tip);
+      planned = written_end(block, pose.tip);
     }
     if (planned) end_of_rotary_ = with_rotary_of(q_, planned->axes);
     return planned;
@@ -438,9 +444,28 @@ class Planner {
   // A rotary word, with the full turns that a rewind took off, or the shortest way.
   [[nodiscard]] double turned(AxisLetter letter, double word) const {
     if (rotary_path_ == parser::RotaryPath::shortest) {
-      return word + kTurn * std::round((q_[letter] - word) / kTurn);
+      return kinematics::best_turn(*machine_.joint(letter), word, q_[letter]);
     }
     return word + turns_[letter];
+  }
+
+  // Rotary words as they are while the axes are on the solution that the program means; else the positions
+  // nearest to where they are that point the tool the same way.
+  std::optional<PlannedPose> written_end(const Block& block, const Vec3& tip) {
+    PlannedPose as_written{.axes = q_};
+    for (const AxisLetter letter : kRotaryAxes) {
+      if (block.end[letter]) written_[letter] = *block.end[letter];
+      if (block.end[letter]) as_written.axes[letter] = turned(letter, *block.end[letter]);
+    }
+    if (!flipped_) {
+      return rotary_within_travel(as_written.axes) ? as_written : turned_back(as_written, tip);
+    }
+    const Vec3 axis =
+        kinematics::nominal_pose(machine_, with_rotary_of(q_, written_), 0.0).rotation.col(2);
+    const auto nearest = kinematics::nearest_orientation(machine_, q_, axis);
+    if (nearest) return PlannedPose{.axes = *nearest};
+    as_written.axes = with_rotary_of(q_, written_);
+    return turned_back(as_written, tip);
   }
 
   // The words are out of travel: the same direction by other positions.
@@ -450,7 +475,11 @@ class Planner {
     if (planned.empty()) return {};
     const PlannedPose next = planned.front();
     for (const AxisLetter letter : kRotaryAxes) {
-      turns_[letter] += kTurn * std::round((next.axes[letter] - written.axes[letter]) / kTurn);
+      const double off = next.axes[letter] - written.axes[letter];
+      const double turns = kTurn * std::round(off / kTurn);
+      turns_[letter] += turns;
+      constexpr double kSameAngle = 1e-6;  // rad
+      if (std::abs(off - turns) > kSameAngle) flipped_ = true;
     }
     return next;
   }
@@ -685,6 +714,8 @@ class Planner {
   // Of the machine.
   AxisPositions q_;
   AxisPositions turns_{};          // full turns added to the program's rotary words
+  AxisPositions written_{};        // the program's rotary words
+  bool flipped_ = false;           // a rewind went to the other solution for the tool axis
   AxisPositions end_of_rotary_{};  // of the block at work
   std::deque<PlannedPose> planned_{};
   bool vector_block_ = false;  // the block at work names its direction by a vector

@@ -18,6 +18,7 @@ struct Found {
   DifferenceKind kind = DifferenceKind::none;
   std::size_t match = 0;
   double time_ratio = 1.0;
+  bool throughout = false;
 };
 
 bool apart(const PathMatch& match, const DifferenceLimits& limits) {
@@ -43,7 +44,7 @@ bool farther_from_one(double a, double b) { return std::abs(std::log(a)) > std::
 Found compare_times(const std::vector<PathMatch>& matches, const DifferenceLimits& limits,
                     double& worst) {
   Found found;
-  std::size_t start = 0;
+  std::size_t start = 0, windows = 0, alike = 0;
   for (std::size_t i = 1; i < matches.size(); ++i) {
     const double reference = matches[i].reference.time - matches[start].reference.time;
     const double other = matches[i].other.time - matches[start].other.time;
@@ -54,8 +55,12 @@ Found compare_times(const std::vector<PathMatch>& matches, const DifferenceLimit
     if (farther_from_one(ratio, worst)) worst = ratio;
     const bool off = std::abs(std::log(ratio)) > std::log1p(limits.time_ratio);
     if (off && found.kind == DifferenceKind::none) found = {DifferenceKind::feed, start + 1, ratio};
+    ++windows;
+    if (off && std::abs(std::log(ratio / found.time_ratio)) < std::log1p(limits.time_ratio))
+      ++alike;
     start = i;
   }
+  found.throughout = alike == windows;
   return found;
 }
 
@@ -74,12 +79,12 @@ Difference described(const ToolPath& first, const ToolPath& second, const PathMa
           .likely_cause = {}};
 }
 
+}  // namespace
+
 bool has_feed(const ToolPath& path) {
   return std::any_of(path.blocks.begin(), path.blocks.end(),
                      [](const PathBlock& b) { return b.kind == PathKind::feed; });
 }
-
-}  // namespace
 
 PathDifference path_difference(const ToolPath& first, const ToolPath& second,
                                const DifferenceLimits& limits) {
@@ -118,6 +123,7 @@ PathDifference path_difference(const ToolPath& first, const ToolPath& second,
   const Found slow = compare_times(forward.matches, limits, result.largest_time_ratio);
   if (slow.kind != DifferenceKind::none) {
     result.first = described(first, second, forward.matches[slow.match], slow);
+    result.same_ratio_throughout = slow.throughout;
   }
   return result;
 }

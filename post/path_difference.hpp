@@ -14,9 +14,12 @@ struct PathDifference {
   double largest_tip = 0.0;
   double largest_axis = 0.0;
   double largest_time_ratio = 1.0;
+  bool same_ratio_throughout = false;  // of a feed difference
 
   [[nodiscard]] bool none() const { return first.kind == DifferenceKind::none; }
 };
+
+[[nodiscard]] bool has_feed(const kinematics::ToolPath& path);
 
 [[nodiscard]] PathDifference path_difference(const kinematics::ToolPath& first,
                                              const kinematics::ToolPath& second,

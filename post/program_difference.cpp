@@ -13,7 +13,7 @@ Result<kinematics::ToolPath> path_of(const kinematics::Machine& machine,
                                      const DifferenceLimits& limits) {
   // The sampling must not show in the comparison.
   auto run = kinematics::execute(machine, {}, program.setup, program.motions,
-                                 {.path_bound = 0.05 * limits.tip});
+                                 {.path_bound = 0.05 * limits.tip, .check_travel = false});
   if (run) return std::move(run->path);
   Diagnostics problems = run.error();
   for (Diagnostic& d : problems) {
@@ -32,6 +32,10 @@ Result<ProgramComparison> compare_programs(const kinematics::Machine& machine,
   if (!first_path) return first_path.error();
   const auto second_path = path_of(machine, second, limits);
   if (!second_path) return second_path.error();
+  if (!has_feed(*first_path) && !has_feed(*second_path)) {
+    return error("neither program has a feed move: there is nothing to compare",
+                 "the tool is fed by G1, G2, G3 and their like");
+  }
   const PathDifference found = path_difference(*first_path, *second_path, limits);
   ProgramComparison comparison{.first = found.first,
                                .largest_tip = found.largest_tip,

@@ -2,9 +2,11 @@
 //
 // Model    : both programs are executed on the machine without errors; tip, tool axis and the time that
 //            each stretch takes are compared along the path (kinematics/path_comparison.hpp), so that
-//            block division, dialect and the way a pose is written play no part. Only feed moves count
+//            block division, dialect and the way a pose is written play no part. Only feed moves count;
+//            travels are not looked at
 // Units    : mm, rad, s; frame: table
-// Errors   : what the controller refuses in either program, with file and NC line
+// Errors   : what the controller refuses in either program, with file and NC line; programs that both
+//            have no feed moves
 #pragma once
 
 #include <optional>

@@ -109,7 +109,8 @@ Eigen::VectorXd identified(const Machine& machine, const GeometricErrors& errors
   }
   // What a laboratory knows beforehand of the squareness, which shifts with the workpiece's own faces.
   for (std::size_t k = 8; k < unknowns.size(); ++k) {
-    unknowns[k].prior = Prior{kTruth[k].value + 2e-6, 5e-6};
+    constexpr double kKnown = 5e-6;  // rad
+    unknowns[k].prior = Prior{kTruth[k].value + kKnown * normal({.seed = 4712}, k), kKnown};
   }
   const auto observations = observations_of(machine, measured, unknowns, causes);
   EXPECT_TRUE(observations);
