@@ -35,8 +35,9 @@ std::optional<ToolPath> executed(const Machine& machine, const GeometricErrors& 
                                  Sampling sampling, const DifferenceLimits& limits) {
   constexpr double kNoBound = 1e9;  // mm
   const double bound = sampling == Sampling::coarse ? kNoBound : 0.2 * limits.tip;
-  auto run = kinematics::execute(machine, errors, setup, motions,
-                                 {.path_bound = bound, .check_travel = false});
+  auto run = kinematics::execute(
+      machine, errors, setup, motions,
+      {.path_bound = bound, .check_travel = false, .time_law = {.limits = false}});
   if (!run) return std::nullopt;
   return std::move(run->path);
 }

@@ -12,8 +12,9 @@ Result<kinematics::ToolPath> path_of(const kinematics::Machine& machine,
                                      const ComparedProgram& program,
                                      const DifferenceLimits& limits) {
   // The sampling must not show in the comparison.
-  auto run = kinematics::execute(machine, {}, program.setup, program.motions,
-                                 {.path_bound = 0.05 * limits.tip, .check_travel = false});
+  auto run = kinematics::execute(
+      machine, {}, program.setup, program.motions,
+      {.path_bound = 0.05 * limits.tip, .check_travel = false, .time_law = {.limits = false}});
   if (run) return std::move(run->path);
   Diagnostics problems = run.error();
   for (Diagnostic& d : problems) {
