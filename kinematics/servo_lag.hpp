@@ -4,7 +4,7 @@
 //            without a stated gain follow at once
 // Units    : mm, rad, s
 // Errors   : none
-// Accuracy : steady lag v / Kv and the shrunken circle to 1e-9 (tests/kinematics/servo_lag_test.cpp)
+// Accuracy : steady lag v / Kv and the shrunken circle to 1e-9 (tests/kinematics/time_law_test.cpp)
 #pragma once
 
 #include <array>
