@@ -36,6 +36,10 @@ std::optional<Diagnostic> add_tool_length(const std::string& text, kinematics::S
     return error(fmt::format("--tool-length {}: a tool is named by its number", text),
                  "1 to 99999");
   }
+  if (!(length->front() >= 0.0)) {
+    return error(fmt::format("--tool-length {}: a length is not negative", text),
+                 "mm from the spindle's gauge point to the tip");
+  }
   setup.tools[static_cast<int>(n)].length = length->front();
   return std::nullopt;
 }
