@@ -29,7 +29,7 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
                  "the flutes end below the gauge point");
   }
   if (spec.type == CutterType::flat) {
-    return Cutter(spec, Profile({Zone{CylinderZone{radius}, 0.0, height}}));
+    return Cutter(spec, Profile({cylinder_zone(radius, 0.0, height)}));
   }
   if (height < radius) {
     return error(
@@ -37,10 +37,10 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
         "the flutes must reach past the ball: at least the radius");
   }
   if (height == radius) {
-    return Cutter(spec, Profile({Zone{SphereZone{radius, radius}, 0.0, radius}}));
+    return Cutter(spec, Profile({sphere_zone(radius, radius, 0.0, radius)}));
   }
-  return Cutter(spec, Profile({Zone{SphereZone{radius, radius}, 0.0, radius},
-                               Zone{CylinderZone{radius}, radius, height}}));
+  return Cutter(spec, Profile({sphere_zone(radius, radius, 0.0, radius),
+                               cylinder_zone(radius, radius, height)}));
 }
 
 }  // namespace frustum::cutter

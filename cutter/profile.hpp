@@ -1,14 +1,15 @@
 // The outline of a cutter: zones stacked along the tool axis, together one convex body of revolution.
 //
-// Model    : radius r(z) over height z above the tip, z in [0, height]; a zone is the part of a cylinder
-//            or a sphere about the tool axis between two heights; r(z) is concave over all zones, so
+// Model    : radius r(z) over height z above the tip, z in [bottom, height]; a zone is the part of a cylinder,
+//            cone, sphere or torus about the tool axis between two heights; r(z) is concave over all zones, so
 //            that a ray meets the body in one interval
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
 // Accuracy : chords within 1e-12 mm for bodies within 1 m of the ray's origin
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <variant>
+#include <span>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -19,23 +20,36 @@ namespace frustum::cutter {
 
 using kinematics::ToolPose;
 
-struct CylinderZone {
-  double radius = 0.0;
-};
-struct SphereZone {
-  double radius = 0.0;
-  double centre = 0.0;  // height of the centre above the tip
+enum class ZoneKind : std::uint8_t {
+  cone,    // r = radius + slope (z - z_lo); a cylinder has slope 0
+  sphere,  // about the axis point at height `centre`
+  torus,   // outer side of a tube of `radius` about the circle of radius `major` at height `centre`
 };
 struct Zone {
-  std::variant<CylinderZone, SphereZone> shape;
+  ZoneKind kind = ZoneKind::cone;
   double z_lo = 0.0;
   double z_hi = 0.0;
+  double radius = 0.0;
+  double slope = 0.0;
+  double centre = 0.0;
+  double major = 0.0;
 };
+[[nodiscard]] Zone cylinder_zone(double radius, double z_lo, double z_hi);
+[[nodiscard]] Zone cone_zone(double radius_lo, double radius_hi, double z_lo, double z_hi);
+[[nodiscard]] Zone sphere_zone(double radius, double centre, double z_lo, double z_hi);
+[[nodiscard]] Zone torus_zone(double major, double minor, double centre, double z_lo, double z_hi);
+
+// What of a profile an end of a chord lies on: a zone by its index, or one of the flat ends.
+using ProfileFace = std::int32_t;
+inline constexpr ProfileFace kBottomFace = -1;
+inline constexpr ProfileFace kTopFace = -2;
 
 // Where a ray runs inside the body at one instant.
 struct Chord {
   double lo = 0.0;
   double hi = 0.0;
+  ProfileFace lo_face = kTopFace;
+  ProfileFace hi_face = kTopFace;
 };
 
 class Profile {
@@ -49,12 +63,18 @@ class Profile {
                                            double grown_by = 0.0) const;
   // Largest value of x.n over the body (tip at the origin), for a unit direction n with n.axis = u.
   [[nodiscard]] double support(double u) const;
+  // The same for a direction of any length: `across` of it normal to the axis, u along.
+  [[nodiscard]] double support(double across, double u) const;
+  // Outward unit normal of a face at a point on it (on the axis of a pointed end: along the axis).
+  [[nodiscard]] Vec3 normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
   // Outward unit normal of the body's surface nearest to `point`.
   [[nodiscard]] Vec3 normal(const ToolPose& pose, const Vec3& point) const;
   // True when `point` lies on the body's surface, within `tolerance` of it.
   [[nodiscard]] bool touches(const ToolPose& pose, const Vec3& point, double tolerance) const;
 
+  [[nodiscard]] double bottom() const { return bottom_; }
   [[nodiscard]] double height() const { return height_; }
+  [[nodiscard]] std::span<const Zone> zones() const { return zones_; }
   [[nodiscard]] double max_radius() const { return max_radius_; }
   // No point of the body is farther than this from the tip.
   [[nodiscard]] double reach() const { return reach_; }
@@ -62,11 +82,12 @@ class Profile {
  private:
   struct Nearest {
     double distance = 0.0;
-    Vec3 normal = Vec3::UnitZ();
+    ProfileFace face = kTopFace;
   };
   [[nodiscard]] Nearest nearest_surface(const ToolPose& pose, const Vec3& point) const;
 
   std::vector<Zone> zones_;
+  double bottom_ = 0.0;
   double height_ = 0.0;
   double max_radius_ = 0.0;
   double reach_ = 0.0;

@@ -1,0 +1,41 @@
+// A body of revolution, cut across its axis into convex parts.
+//
+// Model    : the outline is the truth. parts() are convex and lie inside the body; what of the body is in
+//            none of them (around a hollow end, beside an inside radius) lies in carved(), convex hulls of
+//            slabs that are not convex themselves
+// Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
+// Errors   : make() refuses what Outline::make() refuses
+// Accuracy : faces of parts() lie on the outline within 1e-12 mm
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cutter/outline.hpp"
+#include "cutter/profile.hpp"
+
+namespace frustum::cutter {
+
+class Body {
+ public:
+  explicit Body(Outline outline);
+
+  [[nodiscard]] const Outline& outline() const { return outline_; }
+  [[nodiscard]] std::span<const Profile> parts() const { return parts_; }
+  [[nodiscard]] std::span<const Profile> carved() const { return carved_; }
+  [[nodiscard]] bool is_convex() const { return parts_.size() == 1 && carved_.empty(); }
+
+  // Largest value of x.n over the body (tip at the origin), for a unit direction n with n.axis = u.
+  [[nodiscard]] double support(double u) const;
+  [[nodiscard]] double height() const { return outline_.height(); }
+  [[nodiscard]] double max_radius() const { return outline_.max_radius(); }
+  // No point of the body is farther than this from the tip.
+  [[nodiscard]] double reach() const { return outline_.reach(); }
+
+ private:
+  Outline outline_;
+  std::vector<Profile> parts_;
+  std::vector<Profile> carved_;
+};
+
+}  // namespace frustum::cutter
