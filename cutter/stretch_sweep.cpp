@@ -8,16 +8,21 @@
 namespace frustum::cutter {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 // A chord may be missed only where the ray enters the sweep by less than this normal to its surface.
 constexpr double kMissedDepth = 0.5e-6;  // mm
-// Times where chords begin or end are found to this much motion; a tenth of the promise of 1 nm.
-constexpr double kTangentMotion = 1e-8;  // mm
-// The body turns by at most this between two samples, so that A(t) and B(t) have one valley each.
+// Times where chords begin or end are found to this much motion.
+constexpr double kTangentMotion = 1e-9;  // mm
+// Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
+constexpr double kSameMoment = 1e-10;
+// The body turns by at most this between two samples of its chord.
 constexpr double kTurnPerSample = 0.05;  // rad
 
 struct Sample {
-  double t;
-  std::optional<Chord> chord;
+  double t = 0.0;
+  ToolPose pose{};
+  std::optional<Chord> chord{};
 };
 
 // A plane that contains the ray's direction, with unit normal n pointing from the body to the ray.
@@ -26,98 +31,131 @@ struct SeparatingPlane {
   double gap;
 };
 
-class Search {
- public:
-  Search(const Profile& body, const StretchMotion& motion, const Ray& ray)
-      : body_(body), motion_(motion), ray_(ray) {}
+// Distance from the body's supporting plane with that normal to the ray; negative: overlapping.
+double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, const Ray& ray) {
+  const double u = std::clamp(normal.dot(pose.axis), -1.0, 1.0);
+  return normal.dot(ray.origin - pose.tip) - body.support(u);
+}
 
-  std::vector<SweptInterval> run() {
-    const int steps = std::max(2, 2 * static_cast<int>(std::ceil(motion_.turn() / kTurnPerSample)));
+// The times at which the ray meets the body, as runs of samples that all have a chord.
+class ChordTimes {
+ public:
+  ChordTimes(const Profile& body, const StretchMotion& motion, const Ray& ray)
+      : body_(body), motion_(motion), ray_(ray) {
+    const int steps = static_cast<int>(std::ceil(motion_.turn() / kTurnPerSample));
     samples_.push_back(sample(0.0));
-    for (int i = 1; i <= steps; ++i) {
-      const Sample next = sample(static_cast<double>(i) / steps);
-      const Sample previous = samples_.back();
-      refine_between(previous, next, 0);
+    for (int i = 1; i <= std::max(1, steps); ++i) {
+      const Sample next = sample(static_cast<double>(i) / std::max(1, steps));
+      refine_between(Sample(samples_.back()), next, 0);
       samples_.push_back(next);
     }
-    return intervals_of_components();
   }
 
- private:
-  [[nodiscard]] Sample sample(double t) const { return {t, body_.chord(motion_.at(t), ray_)}; }
+  // Sorted by time; a sample without a chord parts two runs.
+  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
 
-  // Appends the samples needed between two neighbours: proofs of emptiness, or ends of components.
+ private:
+  [[nodiscard]] Sample sample(double t) const {
+    Sample s{.t = t, .pose = motion_.at(t)};
+    s.chord = body_.chord(s.pose, ray_);
+    return s;
+  }
+
+  // Appends the samples needed between two neighbours: proofs of emptiness, or ends of runs.
   void refine_between(const Sample& a, const Sample& b, int depth) {
     if (a.chord && b.chord) {
-      if (motion_.turn() == 0.0 || depth > 0) return;
-      const Sample middle = sample(0.5 * (a.t + b.t));
-      if (middle.chord) {
-        samples_.push_back(middle);
-        return;
-      }
-      push_component_end(a, middle);
-      samples_.push_back(middle);
-      push_component_end(b, middle);
+      split_if_it_may_part(a, b, depth);
     } else if (a.chord) {
-      push_component_end(a, b);
+      const Sample end = end_of_run(a, b);
+      split_if_it_may_part(a, end, depth);
+      samples_.push_back(end);
+      search_beside_run(end, b);
     } else if (b.chord) {
-      push_component_end(b, a);
+      const Sample begin = end_of_run(b, a);
+      search_beside_run(begin, a);
+      samples_.push_back(begin);
+      split_if_it_may_part(begin, b, depth);
     } else {
       search_empty(a, b);
     }
   }
 
+  // A body that turns may leave the ray and come back by what its points depart from straight motion. Where
+  // a body shrunk by that still meets the ray at both ends, it does not.
+  void split_if_it_may_part(const Sample& a, const Sample& b, int depth) {
+    const double dt = b.t - a.t;
+    const double departure = motion_.bend() * dt * dt / 8.0;
+    if (departure < kMissedDepth || depth > 40) return;
+    if (body_.chord(a.pose, ray_, -departure) && body_.chord(b.pose, ray_, -departure)) return;
+    const Sample middle = sample(0.5 * (a.t + b.t));
+    refine_between(a, middle, depth + 1);
+    samples_.push_back(middle);
+    refine_between(middle, b, depth + 1);
+  }
+
+  // Between the last moment of a run and a sample without a chord: none but what turning brings back.
+  void search_beside_run(const Sample& run_end, const Sample& outside) {
+    const double dt = outside.t - run_end.t;
+    if (motion_.bend() * dt * dt / 8.0 < kMissedDepth) return;  // as good as straight: no way back
+    const double beyond = run_end.t + std::copysign(2.0 * resolution(), dt);
+    if (std::abs(beyond - run_end.t) >= std::abs(dt)) return;
+    const Sample gone = sample(beyond);
+    if (gone.chord) return;
+    if (dt > 0.0) {
+      samples_.push_back(gone);
+      search_empty(gone, outside);
+    } else {
+      search_empty(outside, gone);
+      samples_.push_back(gone);
+    }
+  }
+
+  [[nodiscard]] double resolution() const {
+    return kTangentMotion / std::max(motion_.travel(), kTangentMotion);
+  }
+
   // The last time with a chord between `inside` (has one) and `outside` (has none).
-  void push_component_end(Sample inside, Sample outside) {
-    const double tolerance = kTangentMotion / std::max(motion_.travel(), kTangentMotion);
+  [[nodiscard]] Sample end_of_run(Sample inside, Sample outside) const {
+    const double tolerance = resolution();
     while (std::abs(outside.t - inside.t) > tolerance) {
       const double middle_t = 0.5 * (inside.t + outside.t);
       if (middle_t == inside.t || middle_t == outside.t) break;
       const Sample middle = sample(middle_t);
       (middle.chord ? inside : outside) = middle;
     }
-    samples_.push_back(inside);
+    return inside;
   }
 
   // Both ends have no chord: proves that there is none between, or finds one.
   void search_empty(const Sample& a, const Sample& b) {
     const double span = b.t - a.t;
     if (0.5 * motion_.travel() * span < kMissedDepth) return;
+    const double slack = motion_.bend() * span * span / 8.0;
+    if (surely_apart(body_, a.pose, b.pose, slack, ray_)) return;
     const ToolPose middle_pose = motion_.at(0.5 * (a.t + b.t));
     if (!body_.chord(middle_pose, ray_, 0.5 * motion_.travel() * span)) return;
 
     // Each separating plane holds until its gap, a nearly linear function of time, runs out.
-    const double slack = 0.5 * motion_.bend() * span * span;
-    const double holds_after_a = reach_of_plane(a.t, b.t, slack);
-    const double holds_before_b = reach_of_plane(b.t, a.t, slack);
+    const double holds_after_a = reach_of_plane(a, b, slack);
+    const double holds_before_b = reach_of_plane(b, a, slack);
     if (holds_after_a >= holds_before_b) return;
     const Sample middle = sample(0.5 * (holds_after_a + holds_before_b));
     if (!(middle.t > a.t && middle.t < b.t)) return;
-    if (middle.chord) {
-      push_component_end(middle, a);
-      samples_.push_back(middle);
-      push_component_end(middle, b);
-      return;
-    }
-    search_empty(a, middle);
+    refine_between(a, middle, 0);
     samples_.push_back(middle);
-    search_empty(middle, b);
+    refine_between(middle, b, 0);
   }
 
   // How far from `start` towards `end` the separating plane found at `start` surely separates.
-  [[nodiscard]] double reach_of_plane(double start, double end, double slack) const {
-    const SeparatingPlane plane = separate(motion_.at(start));
-    if (!(plane.gap > -kMissedDepth)) return start;
-    const double gap_at_end = gap(plane.normal, motion_.at(end));
-    const double fall = plane.gap + kMissedDepth;
-    const double loss = plane.gap - gap_at_end + slack;
-    if (loss <= fall) return end;
-    return start + (end - start) * fall / loss;
-  }
-
-  // Distance from the body's supporting plane with that normal to the ray; negative: overlapping.
-  [[nodiscard]] double gap(const Vec3& normal, const ToolPose& pose) const {
-    return normal.dot(ray_.origin - pose.tip) - body_.support(normal.dot(pose.axis));
+  [[nodiscard]] double reach_of_plane(const Sample& start, const Sample& end, double slack) const {
+    const SeparatingPlane plane = separate(start.pose);
+    if (!(plane.gap > -kMissedDepth)) return start.t;
+    const double gap_at_end = gap_of(plane.normal, body_, end.pose, ray_);
+    const double fall = plane.gap + kMissedDepth - slack;
+    const double loss = plane.gap - gap_at_end;
+    if (fall <= 0.0) return start.t;
+    if (loss <= fall) return end.t;
+    return start.t + (end.t - start.t) * fall / loss;
   }
 
   // The best of the planes along the ray: maximises the gap over the angle of its normal.
@@ -127,12 +165,13 @@ class Search {
     const auto normal_at = [&](double psi) -> Vec3 {
       return std::cos(psi) * e1 + std::sin(psi) * e2;
     };
+    const auto gap_at = [&](double psi) { return gap_of(normal_at(psi), body_, pose, ray_); };
     constexpr int kCoarse = 12;
     constexpr double kStep = 2.0 * std::numbers::pi / kCoarse;
     double best_psi = 0.0;
-    double best_gap = -1e300;
+    double best_gap = -kInfinity;
     for (int i = 0; i < kCoarse; ++i) {
-      const double g = gap(normal_at(i * kStep), pose);
+      const double g = gap_at(i * kStep);
       if (g > best_gap) {
         best_gap = g;
         best_psi = i * kStep;
@@ -144,162 +183,177 @@ class Search {
     constexpr double kGolden = 0.6180339887498949;
     double x1 = hi - kGolden * (hi - lo);
     double x2 = lo + kGolden * (hi - lo);
-    double g1 = gap(normal_at(x1), pose);
-    double g2 = gap(normal_at(x2), pose);
+    double g1 = gap_at(x1);
+    double g2 = gap_at(x2);
     for (int i = 0; i < 40; ++i) {
       if (g1 > g2) {
         hi = x2;
         x2 = x1;
         g2 = g1;
         x1 = hi - kGolden * (hi - lo);
-        g1 = gap(normal_at(x1), pose);
+        g1 = gap_at(x1);
       } else {
         lo = x1;
         x1 = x2;
         g1 = g2;
         x2 = lo + kGolden * (hi - lo);
-        g2 = gap(normal_at(x2), pose);
+        g2 = gap_at(x2);
       }
     }
     const Vec3 normal = normal_at(0.5 * (lo + hi));
-    return {normal, gap(normal, pose)};
-  }
-
-  [[nodiscard]] std::vector<SweptInterval> intervals_of_components() {
-    std::stable_sort(samples_.begin(), samples_.end(),
-                     [](const Sample& a, const Sample& b) { return a.t < b.t; });
-    std::vector<SweptInterval> found;
-    std::size_t i = 0;
-    while (i < samples_.size()) {
-      if (!samples_[i].chord) {
-        ++i;
-        continue;
-      }
-      std::size_t end = i;
-      while (end < samples_.size() && samples_[end].chord) ++end;
-      const auto [t_lo, lo] = lowest(i, end, +1.0);
-      const auto [t_hi, hi] = lowest(i, end, -1.0);
-      found.push_back({lo, -hi, t_lo, t_hi});
-      i = end;
-    }
-    return found;
-  }
-
-  struct Extremum {
-    double t;
-    double value;
-  };
-
-  // A(t) for sign +1, -B(t) for sign -1: the ends of the union are the minima of both.
-  [[nodiscard]] static double end_of(const Chord& chord, double sign) {
-    return sign > 0.0 ? chord.lo : -chord.hi;
-  }
-
-  // Minimum over the component whose samples are [first, last).
-  [[nodiscard]] Extremum lowest(std::size_t first, std::size_t last, double sign) const {
-    const auto value = [&](std::size_t k) { return end_of(*samples_[k].chord, sign); };
-    Extremum best{samples_[first].t, value(first)};
-    for (std::size_t k = first; k < last; ++k) {
-      if (value(k) < best.value) best = {samples_[k].t, value(k)};
-      const bool valley =
-          (k == first || value(k) <= value(k - 1)) && (k + 1 == last || value(k) <= value(k + 1));
-      if (!valley || first + 1 == last) continue;
-      const double left = k == first ? samples_[k].t : samples_[k - 1].t;
-      const double right = k + 1 == last ? samples_[k].t : samples_[k + 1].t;
-      const Extremum refined = descend(left, samples_[k].t, right, value(k), sign);
-      if (refined.value < best.value) best = refined;
-    }
-    return best;
-  }
-
-  // Brent's minimisation inside [left, right] from the sample (t, value); a time without a chord counts
-  // as infinitely high.
-  [[nodiscard]] Extremum descend(double left, double t, double right, double value,
-                                 double sign) const {
-    const auto f = [&](double time) {
-      const auto chord = body_.chord(motion_.at(time), ray_);
-      return chord ? end_of(*chord, sign) : 1e300;
-    };
-    // Smooth valleys need little; at a kink the value is only as good as the time.
-    const double tolerance =
-        std::clamp(0.1 * kTangentMotion / std::max(motion_.travel(), 1e-9), 1e-12, 1e-9);
-    constexpr double kGolden = 0.3819660112501051;
-    double a = left, b = right, x = t, fx = value;
-    double w = x, v = x, fw = fx, fv = fx, step = 0.0, previous = 0.0;
-    for (int i = 0; i < 100; ++i) {
-      const double middle = 0.5 * (a + b);
-      if (std::abs(x - middle) <= 2.0 * tolerance - 0.5 * (b - a)) break;
-      bool golden = true;
-      if (std::abs(previous) > tolerance) {
-        const double r = (x - w) * (fx - fv);
-        double q = (x - v) * (fx - fw);
-        double p = (x - v) * q - (x - w) * r;
-        q = 2.0 * (q - r);
-        if (q > 0.0) p = -p;
-        q = std::abs(q);
-        if (std::abs(p) < std::abs(0.5 * q * previous) && p > q * (a - x) && p < q * (b - x)) {
-          previous = step;
-          step = p / q;
-          if ((x + step) - a < 2.0 * tolerance || b - (x + step) < 2.0 * tolerance) {
-            step = std::copysign(tolerance, middle - x);
-          }
-          golden = false;
-        }
-      }
-      if (golden) {
-        previous = x < middle ? b - x : a - x;
-        step = kGolden * previous;
-      }
-      const double u = x + (std::abs(step) >= tolerance ? step : std::copysign(tolerance, step));
-      const double fu = f(u);
-      if (fu <= fx) {
-        (u < x ? b : a) = x;
-        v = w, fv = fw, w = x, fw = fx, x = u, fx = fu;
-      } else {
-        (u < x ? a : b) = u;
-        if (fu <= fw || w == x) {
-          v = w, fv = fw, w = u, fw = fu;
-        } else if (fu <= fv || v == x || v == w) {
-          v = u, fv = fu;
-        }
-      }
-    }
-    return {x, fx};
+    return {normal, gap_of(normal, body_, pose, ray_)};
   }
 
   const Profile& body_;
   const StretchMotion& motion_;
   const Ray& ray_;
-  std::vector<Sample> samples_;
+  std::vector<Sample> samples_{};
+};
+
+// The highest value that one end of the chord takes: B(t) for `leaving`, -A(t) else.
+class HighestEnd {
+ public:
+  HighestEnd(const Profile& body, const StretchMotion& motion, const Ray& ray, bool leaving,
+             double floor)
+      : body_(body), motion_(motion), ray_(ray), leaving_(leaving), floor_(floor) {}
+
+  void offer(const Sample& sample) { note(touched(sample)); }
+
+  // Looks between two samples with chords.
+  void search(const Sample& from, const Sample& to) { search(touched(from), touched(to), 0); }
+
+  [[nodiscard]] SweptEnd best() const {
+    return {leaving_ ? best_value_ : -best_value_, best_t_, best_face_};
+  }
+
+ private:
+  struct Touched {
+    double t;
+    ToolPose pose;
+    TouchingPlane plane;
+    ProfileFace face;
+  };
+
+  [[nodiscard]] Touched touched(const Sample& s) const {
+    return {s.t, s.pose, TouchingPlane(body_, s.pose, ray_, *s.chord, leaving_),
+            leaving_ ? s.chord->hi_face : s.chord->lo_face};
+  }
+
+  void note(const Touched& end) {
+    if (end.plane.value <= best_value_) return;
+    best_value_ = end.plane.value;
+    best_t_ = end.t;
+    best_face_ = end.face;
+  }
+
+  void search(const Touched& a, const Touched& b, int depth) {
+    note(a);
+    note(b);
+    const double dt = b.t - a.t;
+    if (depth > 60 || dt * motion_.travel() < kSameMoment) return;
+    const double along = std::max(a.plane.along, b.plane.along);
+    const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
+    // On x in [0, 1] the end stays below both straight lines a.value..a_at_b and b_at_a..b.value.
+    const double slack = motion_.bend() * dt * dt / 8.0;
+    const double a_at_b = a.plane.crossing(body_, b.pose, ray_);
+    const double b_at_a = b.plane.crossing(body_, a.pose, ray_);
+    const double rise_a = a_at_b - a.plane.value, rise_b = b.plane.value - b_at_a;
+    double meet = 0.5, bound = kInfinity;
+    if (!(rise_a > 0.0)) {
+      bound = a.plane.value + slack / a.plane.along;
+    } else if (!(rise_b < 0.0)) {
+      bound = b.plane.value + slack / b.plane.along;
+    } else if (std::isfinite(rise_a) && std::isfinite(rise_b)) {
+      const double crossing = (b_at_a - a.plane.value) / (rise_a - rise_b);
+      meet = std::clamp(crossing, 0.0, 1.0);
+      bound = a.plane.value + meet * rise_a + slack / std::min(a.plane.along, b.plane.along);
+    }
+    if (bound <= enough) return;
+    // Smooth tops: where the slopes, taken as linear, pass zero; edges: where the lines meet.
+    double x = 0.5;
+    if (rise_a > 0.0 && rise_b < 0.0 && std::isfinite(bound)) {
+      x = depth % 2 == 0 ? rise_a / (rise_a - rise_b) : meet;
+      if (depth > 12 && depth % 3 == 0) x = 0.5;
+    }
+    const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
+    Sample middle{.t = t, .pose = motion_.at(t)};
+    middle.chord = body_.chord(middle.pose, ray_);
+    if (!middle.chord) return;  // within rounding of an end of the run
+    const Touched m = touched(middle);
+    note(m);
+    search(a, m, depth + 1);
+    search(m, b, depth + 1);
+  }
+
+  const Profile& body_;
+  const StretchMotion& motion_;
+  const Ray& ray_;
+  bool leaving_;
+  double floor_;
+  double best_value_ = -kInfinity;
+  double best_t_ = 0.0;
+  ProfileFace best_face_ = kTopFace;
 };
 
 }  // namespace
 
-StretchMotion::StretchMotion(const ToolPose& from, const ToolPose& to, double reach)
-    : from_(from),
-      to_(to),
-      turn_(angle_between(from.axis, to.axis)),
-      sin_turn_(std::sin(turn_)),
-      travel_((to.tip - from.tip).norm() + reach * turn_),
-      bend_(reach * turn_ * turn_) {}
-
-ToolPose StretchMotion::at(double t) const {
-  if (turn_ == 0.0) return {from_.tip + t * (to_.tip - from_.tip), from_.axis};
-  if (t == 0.0) return from_;
-  if (t == 1.0) return to_;
-  const double a = std::sin((1.0 - t) * turn_) / sin_turn_;
-  const double b = std::sin(t * turn_) / sin_turn_;
-  return {from_.tip + t * (to_.tip - from_.tip), a * from_.axis + b * to_.axis};
+TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray,
+                             const Chord& chord, bool leaving) {
+  const double s = leaving ? chord.hi : chord.lo;
+  normal = body.normal_of(leaving ? chord.hi_face : chord.lo_face, pose, ray.at(s));
+  value = leaving ? s : -s;
+  along = leaving ? normal.dot(ray.direction) : -normal.dot(ray.direction);
+  // A grazing ray leaves the plane nowhere, or by rounding on the wrong side.
+  along = std::max(along, 1e-12);
 }
 
-std::optional<Chord> covering_chord(const Profile& body, const StretchMotion& motion,
-                                    const Ray& ray) {
-  return body.chord(motion.at(0.5), ray, 0.5 * motion.travel());
+double TouchingPlane::crossing(const Profile& body, const ToolPose& pose, const Ray& ray) const {
+  const double n_axis = std::clamp(normal.dot(pose.axis), -1.0, 1.0);
+  const double origin = normal.dot(ray.origin - pose.tip);
+  return (body.support(n_axis) - origin) / along;
+}
+
+bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
+                  const Ray& ray) {
+  const auto apart = [&](const Vec3& normal) {
+    return gap_of(normal, body, a, ray) > 0.0 && gap_of(normal, body, b, ray) > slack;
+  };
+  // The plane between the ray and the axis, and the one that faces an end of the cutter.
+  const Vec3 across = ray.direction.cross(a.axis);
+  const double sine = across.norm();
+  if (sine > 1e-3) {
+    const double side = across.dot(ray.origin - a.tip) > 0.0 ? 1.0 : -1.0;
+    if (apart(across * (side / sine))) return true;
+  }
+  const Vec3 facing = a.axis - ray.direction.dot(a.axis) * ray.direction;
+  const double length = facing.norm();
+  if (length < 1e-3) return false;
+  return apart(facing / length) || apart(facing / -length);
 }
 
 std::vector<SweptInterval> swept_intervals(const Profile& body, const StretchMotion& motion,
-                                           const Ray& ray) {
-  return Search(body, motion, ray).run();
+                                           const Ray& ray, const std::optional<Chord>& known) {
+  const ChordTimes times(body, motion, ray);
+  const std::vector<Sample>& samples = times.samples();
+  std::vector<SweptInterval> found;
+  std::size_t i = 0;
+  while (i < samples.size()) {
+    if (!samples[i].chord) {
+      ++i;
+      continue;
+    }
+    HighestEnd lo(body, motion, ray, false, known ? -known->lo : -kInfinity);
+    HighestEnd hi(body, motion, ray, true, known ? known->hi : -kInfinity);
+    lo.offer(samples[i]);
+    hi.offer(samples[i]);
+    for (; i + 1 < samples.size() && samples[i + 1].chord; ++i) {
+      lo.search(samples[i], samples[i + 1]);
+      hi.search(samples[i], samples[i + 1]);
+    }
+    found.push_back({lo.best(), hi.best()});
+    ++i;
+  }
+  return found;
 }
 
 }  // namespace frustum::cutter

@@ -1,56 +1,63 @@
-// A ray against a cutter moving over one stretch of tool path: the exact covered intervals.
+// A ray against a convex cutter moving over one stretch of tool path: the exact covered intervals.
 //
-// Model    : at time t in [0, 1] the convex body meets the ray in [A(t), B(t)] or not at all; over each
-//            connected span of times with a chord the union is [min A, max B]
+// Model    : at time t in [0, 1] the body meets the ray in [A(t), B(t)] or not at all; over each connected
+//            span of times with a chord the union is [min A, max B]. The plane that touches the body where
+//            the ray leaves it moves nearly linearly, so it bounds B at all other times: two such planes
+//            close in on the maximum from above while chords close in from below
 // Units    : mm; frame: workpiece
 // Errors   : none; degenerate motions (no motion, pure rotation, ray along the motion) are ordinary
-// Accuracy : ends within 1 nm normal to the swept surface (tests/cutter/swept_cutter_test.cpp). A span
-//            of times without a chord is proven empty by separating planes, not sampled, down to a
-//            penetration of 0.5 nm.
-// Source   : envelope condition of swept volumes; separation after the support function of the body
+// Accuracy : ends within 0.01 nm normal to the swept surface: proven by the planes, not sampled. A span of
+//            times without a chord is proven empty by separating planes down to a penetration of 0.5 nm
+// Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "cutter/profile.hpp"
+#include "cutter/stretch_motion.hpp"
 
 namespace frustum::cutter {
 
+// Where and when the cutter touches an end of what it covers.
+struct SweptEnd {
+  double s = 0.0;
+  double t = 0.0;
+  ProfileFace face = kTopFace;
+};
 struct SweptInterval {
-  double lo = 0.0;
-  double hi = 0.0;
-  double t_lo = 0.0;  // when the cutter touches that end
-  double t_hi = 0.0;
+  SweptEnd lo{};
+  SweptEnd hi{};
 };
 
-// The motion of a stretch, with what the search needs to know about it.
-class StretchMotion {
- public:
-  StretchMotion(const ToolPose& from, const ToolPose& to, double reach);
-  [[nodiscard]] ToolPose at(double t) const;
-  // No point of the cutter moves more than this in the whole stretch (mm).
-  [[nodiscard]] double travel() const { return travel_; }
-  // The cutter turns by this (rad).
-  [[nodiscard]] double turn() const { return turn_; }
-  // No point of the cutter leaves the plane of its straight-line motion by more (second order, mm).
-  [[nodiscard]] double bend() const { return bend_; }
+// No error of an end, normal to the surface, is larger than this because the search stops (mm).
+inline constexpr double kSearchTolerance = 1e-8;
 
- private:
-  ToolPose from_;
-  ToolPose to_;
-  double turn_;
-  double sin_turn_;
-  double travel_;
-  double bend_;
+// The plane that touches the body where the ray leaves it (or enters it): every other pose of the body
+// leaves the ray before it leaves the moved plane.
+struct TouchingPlane {
+  // `leaving`: at chord.hi, else at chord.lo.
+  TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray, const Chord& chord,
+                bool leaving);
+  // Where the ray crosses the plane that touches the body at another pose, counted along the ray if
+  // leaving, else against it. Infinite if the ray runs along the plane.
+  [[nodiscard]] double crossing(const Profile& body, const ToolPose& pose, const Ray& ray) const;
+
+  Vec3 normal;   // unit, out of the body
+  double value;  // of this pose: s if leaving, else -s
+  double along;  // cosine between the normal and the direction of counting
 };
 
-// Conservative: everything the stretch covers lies inside; nothing when it surely misses the ray.
-[[nodiscard]] std::optional<Chord> covering_chord(const Profile& body, const StretchMotion& motion,
-                                                  const Ray& ray);
+// The exact intervals, in no particular order, possibly overlapping. Ends that `known` covers already may be
+// left inexact: what they bound lies inside `known`.
+[[nodiscard]] std::vector<SweptInterval> swept_intervals(
+    const Profile& body, const StretchMotion& motion, const Ray& ray,
+    const std::optional<Chord>& known = std::nullopt);
 
-// The exact intervals, in no particular order, possibly overlapping.
-[[nodiscard]] std::vector<SweptInterval> swept_intervals(const Profile& body,
-                                                         const StretchMotion& motion,
-                                                         const Ray& ray);
+// A plane along the ray that has the body, at all of the poses in `poses`, on its other side? True is a
+// proof; false says nothing.
+[[nodiscard]] bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b,
+                                double slack, const Ray& ray);
 
 }  // namespace frustum::cutter

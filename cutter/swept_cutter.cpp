@@ -34,7 +34,7 @@ Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Profile& prof
 void append(std::vector<Interval>& all, const std::vector<SweptInterval>& found,
             std::uint32_t stretch) {
   for (const SweptInterval& i : found) {
-    all.push_back({i.lo, i.hi, static_cast<EndTag>(stretch), static_cast<EndTag>(stretch)});
+    all.push_back({i.lo.s, i.hi.s, static_cast<EndTag>(stretch), static_cast<EndTag>(stretch)});
   }
 }
 
@@ -90,7 +90,7 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   for (const std::uint32_t i : candidates) {
     const Stretch& stretch = path_.stretches[i];
     const StretchMotion motion(path_.from(stretch), path_.to(stretch), profile_of(i).reach());
-    const auto outer = covering_chord(profile_of(i), motion, ray);
+    const auto outer = profile_of(i).chord(motion.at(0.5), ray, 0.5 * motion.travel());
     if (!outer || covered.covers(outer->lo, outer->hi)) continue;
     if (outer->hi < span.lo || outer->lo > span.hi) continue;
     append(all, swept_intervals(profile_of(i), motion, ray), i);
@@ -122,13 +122,13 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
   double t = 0.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const SweptInterval& i : swept_intervals(profile, motion, ray)) {
-    if (std::abs(i.lo - s) < nearest) {
-      nearest = std::abs(i.lo - s);
-      t = i.t_lo;
+    if (std::abs(i.lo.s - s) < nearest) {
+      nearest = std::abs(i.lo.s - s);
+      t = i.lo.t;
     }
-    if (std::abs(i.hi - s) < nearest) {
-      nearest = std::abs(i.hi - s);
-      t = i.t_hi;
+    if (std::abs(i.hi.s - s) < nearest) {
+      nearest = std::abs(i.hi.s - s);
+      t = i.hi.t;
     }
   }
   ToolPose pose = motion.at(t);

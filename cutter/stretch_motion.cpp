@@ -1,0 +1,46 @@
+#include "cutter/stretch_motion.hpp"
+
+#include <cmath>
+
+namespace frustum::cutter {
+namespace {
+
+// Below this the series for the sine, to the ninth power, is exact within rounding.
+constexpr double kSmallTurn = 0.1;  // rad
+
+double sine(double x) {
+  if (x > kSmallTurn) return std::sin(x);
+  const double x2 = x * x;
+  return x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0))));
+}
+
+// The angle between unit vectors, from the chord between them.
+double angle(const Vec3& a, const Vec3& b) {
+  const double chord2 = (b - a).squaredNorm();
+  if (chord2 == 0.0) return 0.0;
+  if (chord2 > kSmallTurn * kSmallTurn) return angle_between(a, b);
+  return std::sqrt(chord2) *
+         (1.0 + chord2 / 24.0 * (1.0 + chord2 * (9.0 / 80.0) * (1.0 + chord2 * (25.0 / 168.0))));
+}
+
+}  // namespace
+
+StretchMotion::StretchMotion(const ToolPose& from, const ToolPose& to, double reach)
+    : from_(from),
+      to_(to),
+      step_(to.tip - from.tip),
+      turn_(angle(from.axis, to.axis)),
+      sin_turn_(sine(turn_)),
+      travel_(step_.norm() + reach * turn_),
+      bend_(reach * turn_ * turn_) {}
+
+ToolPose StretchMotion::at(double t) const {
+  if (t == 0.0) return from_;
+  if (t == 1.0) return to_;
+  if (turn_ == 0.0) return {from_.tip + t * step_, from_.axis};
+  const double a = sine((1.0 - t) * turn_) / sin_turn_;
+  const double b = sine(t * turn_) / sin_turn_;
+  return {from_.tip + t * step_, a * from_.axis + b * to_.axis};
+}
+
+}  // namespace frustum::cutter

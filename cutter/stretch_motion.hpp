@@ -1,0 +1,38 @@
+// The motion of a cutter over one stretch of a tool path, with what bounds it.
+//
+// Model    : tip linear in t, axis on a great circle, t in [0, 1]
+// Units    : mm, rad; frame: workpiece
+// Errors   : none; no motion and pure rotation are ordinary
+// Accuracy : the axis is a unit vector within 4e-16
+#pragma once
+
+#include "kinematics/tool_path.hpp"
+
+namespace frustum::cutter {
+
+using kinematics::ToolPose;
+
+class StretchMotion {
+ public:
+  // `reach`: no point of the cutter is farther than this from the tip.
+  StretchMotion(const ToolPose& from, const ToolPose& to, double reach);
+  [[nodiscard]] ToolPose at(double t) const;
+  // No point of the cutter moves more than this in the whole stretch (mm).
+  [[nodiscard]] double travel() const { return travel_; }
+  // The cutter turns by this (rad).
+  [[nodiscard]] double turn() const { return turn_; }
+  // Second derivative to t of any cutter point's place, at most (mm): over a part dt of the stretch no
+  // point leaves the straight line between its ends by more than bend dt^2 / 8.
+  [[nodiscard]] double bend() const { return bend_; }
+
+ private:
+  ToolPose from_;
+  ToolPose to_;
+  Vec3 step_;
+  double turn_;
+  double sin_turn_;
+  double travel_;
+  double bend_;
+};
+
+}  // namespace frustum::cutter
