@@ -295,6 +295,14 @@ class HighestEnd {
   ProfileFace best_face_ = kTopFace;
 };
 
+// The known interval that a chord overlaps; one that holds nothing if there is none.
+Chord overlapped(std::span<const Chord> known, const Chord& chord) {
+  for (const Chord& k : known) {
+    if (k.lo <= chord.hi && chord.lo <= k.hi) return k;
+  }
+  return {kInfinity, -kInfinity};
+}
+
 }  // namespace
 
 TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray,
@@ -331,19 +339,29 @@ bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, dou
   return apart(facing / length) || apart(facing / -length);
 }
 
-std::vector<SweptInterval> swept_intervals(const Profile& body, const StretchMotion& motion,
-                                           const Ray& ray, const std::optional<Chord>& known) {
+void append_swept_intervals(const Profile& body, const StretchMotion& motion, const Ray& ray,
+                            std::span<const Chord> known, std::vector<SweptInterval>& found) {
+  // Nearly always the ray meets the cutter at both ends of a motion that is as good as straight.
+  if (motion.bend() / 8.0 < kMissedDepth) {
+    const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
+    const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
+    if (a.chord && b.chord) {
+      const Chord inside = overlapped(known, *a.chord);
+      HighestEnd lo(body, motion, ray, false, -inside.lo);
+      HighestEnd hi(body, motion, ray, true, inside.hi);
+      lo.search(a, b);
+      hi.search(a, b);
+      found.push_back({lo.best(), hi.best()});
+      return;
+    }
+  }
   const ChordTimes times(body, motion, ray);
   const std::vector<Sample>& samples = times.samples();
-  std::vector<SweptInterval> found;
-  std::size_t i = 0;
-  while (i < samples.size()) {
-    if (!samples[i].chord) {
-      ++i;
-      continue;
-    }
-    HighestEnd lo(body, motion, ray, false, known ? -known->lo : -kInfinity);
-    HighestEnd hi(body, motion, ray, true, known ? known->hi : -kInfinity);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!samples[i].chord) continue;
+    const Chord inside = overlapped(known, *samples[i].chord);
+    HighestEnd lo(body, motion, ray, false, -inside.lo);
+    HighestEnd hi(body, motion, ray, true, inside.hi);
     lo.offer(samples[i]);
     hi.offer(samples[i]);
     for (; i + 1 < samples.size() && samples[i + 1].chord; ++i) {
@@ -351,8 +369,13 @@ std::vector<SweptInterval> swept_intervals(const Profile& body, const StretchMot
       hi.search(samples[i], samples[i + 1]);
     }
     found.push_back({lo.best(), hi.best()});
-    ++i;
   }
+}
+
+std::vector<SweptInterval> swept_intervals(const Profile& body, const StretchMotion& motion,
+                                           const Ray& ray) {
+  std::vector<SweptInterval> found;
+  append_swept_intervals(body, motion, ray, {}, found);
   return found;
 }
 

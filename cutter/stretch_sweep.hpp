@@ -12,7 +12,7 @@
 #pragma once
 
 #include <limits>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "cutter/profile.hpp"
@@ -49,11 +49,13 @@ struct TouchingPlane {
   double along;  // cosine between the normal and the direction of counting
 };
 
-// The exact intervals, in no particular order, possibly overlapping. Ends that `known` covers already may be
-// left inexact: what they bound lies inside `known`.
-[[nodiscard]] std::vector<SweptInterval> swept_intervals(
-    const Profile& body, const StretchMotion& motion, const Ray& ray,
-    const std::optional<Chord>& known = std::nullopt);
+// Appends the exact intervals, in no particular order, possibly overlapping. An end inside an interval of
+// `known` (what is covered anyway) that the interval overlaps may be left inexact.
+void append_swept_intervals(const Profile& body, const StretchMotion& motion, const Ray& ray,
+                            std::span<const Chord> known, std::vector<SweptInterval>& found);
+[[nodiscard]] std::vector<SweptInterval> swept_intervals(const Profile& body,
+                                                         const StretchMotion& motion,
+                                                         const Ray& ray);
 
 // A plane along the ray that has the body, at all of the poses in `poses`, on its other side? True is a
 // proof; false says nothing.

@@ -31,12 +31,7 @@ Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Profile& prof
   return {a.min.cwiseMin(b.min) - grow, a.max.cwiseMax(b.max) + grow};
 }
 
-void append(std::vector<Interval>& all, const std::vector<SweptInterval>& found,
-            std::uint32_t stretch) {
-  for (const SweptInterval& i : found) {
-    all.push_back({i.lo.s, i.hi.s, static_cast<EndTag>(stretch), static_cast<EndTag>(stretch)});
-  }
-}
+constexpr double kPassedOver = 1e-9;  // mm
 
 }  // namespace
 
@@ -64,7 +59,20 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
     boxes_.push_back(
         box_of_stretch(path_.from(stretch), path_.to(stretch), *profile_of_block_[stretch.block]));
   }
-  tree_ = std::make_shared<const CandidateTree>(boxes_);
+
+  std::map<int, std::vector<std::uint32_t>> stretches_of_tool;
+  for (std::uint32_t i = 0; i < path_.stretches.size(); ++i) {
+    stretches_of_tool[path_.blocks[path_.stretches[i].block].tool].push_back(i);
+  }
+  std::vector<ToolSweep> sweeps;
+  for (auto& [number, stretches] : stretches_of_tool) {
+    const Profile& profile = tools_->at(number).profile();
+    sweeps.push_back({.parts = {&profile, 1},
+                      .carved = {},
+                      .reach = profile.reach(),
+                      .tree = PoseTree(path_, boxes_, std::move(stretches), profile.reach())});
+  }
+  sweeps_ = std::make_shared<const std::vector<ToolSweep>>(std::move(sweeps));
 }
 
 const Profile& SweptCutter::profile_of(std::uint32_t stretch) const {
@@ -72,30 +80,45 @@ const Profile& SweptCutter::profile_of(std::uint32_t stretch) const {
 }
 
 IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first_excluded) const {
-  std::vector<std::uint32_t> candidates = tree_->candidates(ray, span);
-  std::erase_if(candidates, [&](std::uint32_t i) { return i >= first_excluded; });
-
-  // What the cutter covers where each stretch begins: cheap, and nearly everything.
-  std::vector<Interval> standing;
-  standing.reserve(candidates.size());
-  for (const std::uint32_t i : candidates) {
-    if (const auto chord = profile_of(i).chord(path_.from(path_.stretches[i]), ray)) {
-      standing.push_back({chord->lo, chord->hi, i, i});
-    }
-  }
-  const IntervalSet covered(standing);
-
-  // Only stretches that may reach beyond it are solved.
-  std::vector<Interval> all(covered.intervals().begin(), covered.intervals().end());
-  for (const std::uint32_t i : candidates) {
-    const Stretch& stretch = path_.stretches[i];
-    const StretchMotion motion(path_.from(stretch), path_.to(stretch), profile_of(i).reach());
-    const auto outer = profile_of(i).chord(motion.at(0.5), ray, 0.5 * motion.travel());
-    if (!outer || covered.covers(outer->lo, outer->hi)) continue;
-    if (outer->hi < span.lo || outer->lo > span.hi) continue;
-    append(all, swept_intervals(profile_of(i), motion, ray), i);
+  const RayQuestion question{&path_, ray, span, first_excluded};
+  std::vector<CoverInterval> cover;
+  for (const ToolSweep& sweep : *sweeps_) extend_cover(question, sweep, cover);
+  std::vector<Interval> all;
+  all.reserve(cover.size());
+  for (const CoverInterval& c : cover) {
+    all.push_back(
+        {c.lo.s, c.hi.s, static_cast<EndTag>(c.lo.stretch), static_cast<EndTag>(c.hi.stretch)});
   }
   return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
+}
+
+std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
+                                                     std::uint32_t first_excluded) const {
+  const RayQuestion question{&path_, ray, {from, to}, first_excluded};
+  CoverEnd front{.s = from};
+  bool moved = false;
+  for (bool again = true; again;) {
+    again = false;
+    for (const ToolSweep& sweep : *sweeps_)
+      again |= advance_front(question, sweep, kPassedOver, front);
+    moved |= again;
+    again = again && sweeps_->size() > 1;
+  }
+  if (!moved) return std::nullopt;
+  return contact_of(ray, front);
+}
+
+SweepContact SweptCutter::contact_of(const Ray& ray, const CoverEnd& end) const {
+  const Stretch& at = path_.stretches[end.stretch];
+  const Profile& profile = profile_of(end.stretch);
+  const ToolPose pose = StretchMotion(path_.from(at), path_.to(at), profile.reach()).at(end.t);
+  return {end.s,
+          end.stretch,
+          end.part,
+          end.face,
+          end.t,
+          pose,
+          profile.normal_of(end.face, pose, ray.at(end.s))};
 }
 
 IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
@@ -118,35 +141,17 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
   const Stretch& at = path_.stretches[stretch];
   const Profile& profile = profile_of(stretch);
   const StretchMotion motion(path_.from(at), path_.to(at), profile.reach());
-  // The standing chord at the stretch's beginning is the fallback: it made the end if nothing else did.
-  double t = 0.0;
+  CoverEnd end{.s = s, .stretch = stretch};
   double nearest = std::numeric_limits<double>::infinity();
   for (const SweptInterval& i : swept_intervals(profile, motion, ray)) {
-    if (std::abs(i.lo.s - s) < nearest) {
-      nearest = std::abs(i.lo.s - s);
-      t = i.lo.t;
-    }
-    if (std::abs(i.hi.s - s) < nearest) {
-      nearest = std::abs(i.hi.s - s);
-      t = i.hi.t;
+    for (const SweptEnd& e : {i.lo, i.hi}) {
+      if (std::abs(e.s - s) >= nearest) continue;
+      nearest = std::abs(e.s - s);
+      end.t = e.t;
+      end.face = e.face;
     }
   }
-  ToolPose pose = motion.at(t);
-  Vec3 normal = profile.normal(pose, ray.at(s));
-  // Where a flat face slides across the ray every time is as good as any, and rounding may have chosen
-  // one at the rim, with the flank's normal. A little earlier or later the face itself is met.
-  constexpr double kGrazing = 1e-3, kSameEnd = 1e-9;  // of the normal along the ray; mm
-  const double step = 0.1 * profile.max_radius() / std::max(motion.travel(), 1e-9);
-  for (const double beside : {std::max(0.0, t - step), std::min(1.0, t + step)}) {
-    if (std::abs(normal.dot(ray.direction)) > kGrazing) break;
-    const auto chord = profile.chord(motion.at(beside), ray);
-    if (!chord) continue;
-    if (std::min(std::abs(chord->lo - s), std::abs(chord->hi - s)) > kSameEnd) continue;
-    t = beside;
-    pose = motion.at(t);
-    normal = profile.normal(pose, ray.at(s));
-  }
-  return {stretch, t, pose, normal};
+  return contact_of(ray, end);
 }
 
 }  // namespace frustum::cutter

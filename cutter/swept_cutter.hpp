@@ -11,20 +11,24 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/interval_set.hpp"
 #include "core/result.hpp"
-#include "cutter/candidate_tree.hpp"
 #include "cutter/cutter.hpp"
 #include "cutter/ray.hpp"
+#include "cutter/ray_search.hpp"
 #include "kinematics/tool_path.hpp"
 
 namespace frustum::cutter {
 
 // How a point of the swept surface came about.
 struct SweepContact {
+  double s = 0.0;  // mm along the ray
   std::uint32_t stretch = 0;
+  std::uint32_t part = 0;       // of the cutter's body
+  ProfileFace face = kTopFace;  // of that part
   double t = 0.0;               // moment within the stretch, 0..1
   kinematics::ToolPose pose{};  // of the cutter at that moment
   Vec3 normal = Vec3::UnitZ();  // unit, out of the cutter at the point
@@ -42,6 +46,10 @@ class SweptCutter {
   // `first_excluded` on are left out.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
+  // Walks from `from` to the end of what is covered there without a gap: where a probe that comes out of the
+  // void meets material. Nothing if `from` is not covered. Gaps of less than 1e-9 mm are passed over.
+  [[nodiscard]] std::optional<SweepContact> end_of_void(const Ray& ray, double from, double to,
+                                                        std::uint32_t first_excluded = kAll) const;
   // What the cutter, shrunk by `shrunk_by` all round, surely covers in these stretches alone: standing
   // cutters a quarter of its radius apart. For finding collisions, not for surfaces.
   [[nodiscard]] IntervalSet core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
@@ -58,12 +66,13 @@ class SweptCutter {
  private:
   SweptCutter(kinematics::ToolPath path, std::map<int, Cutter> tools);
   [[nodiscard]] const Profile& profile_of(std::uint32_t stretch) const;
+  [[nodiscard]] SweepContact contact_of(const Ray& ray, const CoverEnd& end) const;
 
   kinematics::ToolPath path_;
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to
   std::vector<const Profile*> profile_of_block_;
   std::vector<Box> boxes_;
-  std::shared_ptr<const CandidateTree> tree_;
+  std::shared_ptr<const std::vector<ToolSweep>> sweeps_;
 };
 
 }  // namespace frustum::cutter

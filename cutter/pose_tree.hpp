@@ -1,0 +1,62 @@
+// The poses of a tool path in groups of groups, each with what bounds its sweep from one known pose.
+//
+// Model    : a group holds stretches that are near each other in place and direction. All their poses lie in
+//            an oriented box around the witness, a pose that the path really takes: the cutter standing
+//            there is covered for certain, and a plane that touches it there, moved out by the box, bounds
+//            what all of the group covers. A group along a surface is flat, so that the bound is tight: far
+//            tighter than a box of the swept volume, which overlaps all its neighbours
+// Units    : mm; frame: workpiece
+// Shape    : a binary tree in depth-first order, up to two stretches a leaf; about 330 bytes a stretch
+// Errors   : none
+// Accuracy : bounds hold within rounding (1e-12 mm)
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "cutter/profile.hpp"
+#include "kinematics/tool_path.hpp"
+
+namespace frustum::cutter {
+
+struct Box {
+  Vec3 min = Vec3::Zero();
+  Vec3 max = Vec3::Zero();
+};
+
+struct PoseGroup {
+  Box box{};           // of all that the cutter covers in these stretches
+  ToolPose witness{};  // where one of the stretches begins
+  std::uint32_t witness_stretch = 0;
+  std::uint32_t earliest = 0;  // the first of the stretches in program order
+  std::uint32_t first = 0;     // a leaf's stretches: PoseTree::stretches(), first and count
+  std::uint32_t count = 0;     // 0: not a leaf; its first child is the next group
+  std::uint32_t second_child = 0;
+  Mat3 frame = Mat3::Identity();                        // columns: directions of the oriented box
+  Vec3 tip_lo = Vec3::Zero(), tip_hi = Vec3::Zero();    // of tip - witness.tip along them
+  Vec3 axis_lo = Vec3::Zero(), axis_hi = Vec3::Zero();  // of axis - witness.axis along them
+  double shift = 0.0;  // no point of the cutter is farther from its place at the witness (mm)
+};
+
+// Largest value of x.n over all poses of the group, counted from the witness's tip.
+[[nodiscard]] double support(const PoseGroup& group, const Profile& body, const Vec3& normal);
+
+class PoseTree {
+ public:
+  // `boxes` holds the box of every stretch of the path; the tree is over `stretches`. `reach`: no point of
+  // the cutter is farther than this from the tip.
+  PoseTree(const kinematics::ToolPath& path, std::span<const Box> boxes,
+           std::vector<std::uint32_t> stretches, double reach);
+
+  // The first is the root; empty without stretches.
+  [[nodiscard]] std::span<const PoseGroup> groups() const { return groups_; }
+  [[nodiscard]] std::span<const std::uint32_t> stretches() const { return stretches_; }
+
+ private:
+  std::vector<PoseGroup> groups_{};
+  std::vector<std::uint32_t> stretches_;
+};
+
+}  // namespace frustum::cutter
