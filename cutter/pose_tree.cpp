@@ -108,7 +108,9 @@ class Builder {
     }
     group.axis_lo.array() -= sagitta;
     group.axis_hi.array() += sagitta;
-    group.shift = std::sqrt(tip_shift2) + reach_ * (std::sqrt(axis_shift2) + sagitta);
+    group.tip_shift = std::sqrt(tip_shift2);
+    group.axis_shift = std::sqrt(axis_shift2) + sagitta;
+    group.shift = group.tip_shift + reach_ * group.axis_shift;
     return group;
   }
 
@@ -120,6 +122,16 @@ class Builder {
 };
 
 }  // namespace
+
+double farthest_tip(const PoseGroup& group, const Vec3& v) {
+  const Vec3 n = group.frame.transpose() * v;
+  return n.cwiseProduct(group.tip_lo).cwiseMax(n.cwiseProduct(group.tip_hi)).sum();
+}
+
+double farthest_axis(const PoseGroup& group, const Vec3& v) {
+  const Vec3 n = group.frame.transpose() * v;
+  return n.cwiseProduct(group.axis_lo).cwiseMax(n.cwiseProduct(group.axis_hi)).sum();
+}
 
 double support(const PoseGroup& group, const Profile& body, const Vec3& normal) {
   const Vec3 n = group.frame.transpose() * normal;

@@ -37,11 +37,17 @@ struct PoseGroup {
   Mat3 frame = Mat3::Identity();                        // columns: directions of the oriented box
   Vec3 tip_lo = Vec3::Zero(), tip_hi = Vec3::Zero();    // of tip - witness.tip along them
   Vec3 axis_lo = Vec3::Zero(), axis_hi = Vec3::Zero();  // of axis - witness.axis along them
-  double shift = 0.0;  // no point of the cutter is farther from its place at the witness (mm)
+  double tip_shift = 0.0;                               // no tip is farther from the witness's (mm)
+  double axis_shift = 0.0;                              // nor any axis from its axis
+  double shift = 0.0;  // nor any point of the cutter from its place at the witness (mm)
 };
 
 // Largest value of x.n over all poses of the group, counted from the witness's tip.
 [[nodiscard]] double support(const PoseGroup& group, const Profile& body, const Vec3& normal);
+
+// Largest value of v.(tip - witness.tip) over the group, and the same for axes.
+[[nodiscard]] double farthest_tip(const PoseGroup& group, const Vec3& v);
+[[nodiscard]] double farthest_axis(const PoseGroup& group, const Vec3& v);
 
 class PoseTree {
  public:

@@ -160,12 +160,12 @@ Span torus_span(const ToolRay& ray, double major, double tube, double centre, co
 }
 
 // The lateral surface alone, grown outwards; `within` bounds where it is asked for.
-Span lateral_span(const Zone& zone, const ToolRay& ray, double grown_by, const Span& within) {
+Span lateral_span(const Zone& zone, double secant, const ToolRay& ray, double grown_by,
+                  const Span& within) {
   switch (zone.kind) {
     case ZoneKind::cone:
       if (zone.slope == 0.0) return cylinder_span(ray, zone.radius + grown_by);
-      return cone_span(ray, zone.radius + grown_by * std::hypot(1.0, zone.slope), zone.slope,
-                       zone.z_lo);
+      return cone_span(ray, zone.radius + grown_by * secant, zone.slope, zone.z_lo);
     case ZoneKind::sphere:
       return sphere_span(ray, zone.radius + grown_by, zone.centre);
     case ZoneKind::torus:
@@ -241,6 +241,7 @@ Profile::Profile(std::vector<Zone> zones) : zones_(std::move(zones)) {
   bottom_ = zones_.front().z_lo;
   height_ = zones_.back().z_hi;
   for (const Zone& zone : zones_) {
+    secants_.push_back(std::hypot(1.0, zone.slope));
     for (const double z : {zone.z_lo, zone.z_hi}) {
       max_radius_ = std::max(max_radius_, radius_at(zone, z));
       reach_ = std::max(reach_, std::hypot(z, radius_at(zone, z)));
@@ -268,7 +269,7 @@ std::optional<Chord> Profile::chord(const ToolPose& pose, const Ray& ray, double
     const Span height =
         zones_.size() == 1 ? slab : slab_span(tool_ray, zone.z_lo - grown_by, zone.z_hi + grown_by);
     if (height.empty()) continue;
-    const Span lateral = lateral_span(zone, tool_ray, grown_by, height);
+    const Span lateral = lateral_span(zone, secants_[i], tool_ray, grown_by, height);
     const Span part = overlap(lateral, height);
     if (part.empty()) continue;
     const auto face = static_cast<ProfileFace>(i);
@@ -297,30 +298,35 @@ double Profile::support(double across, double u) const {
   return best;
 }
 
-Vec3 Profile::normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const {
-  if (face == kTopFace) return pose.axis;
-  if (face == kBottomFace) return -pose.axis;
-  const Zone& zone = zones_[static_cast<std::size_t>(face)];
+Facing Profile::facing(ProfileFace face, const ToolPose& pose, const Vec3& point) const {
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
   const Vec3 across = m - z * pose.axis;
   const double rho = across.norm();
-  const Vec3 radial = rho > 0.0 ? Vec3(across / rho) : Vec3(Vec3::Zero());
-  Vec3 normal = radial;
-  switch (zone.kind) {
-    case ZoneKind::cone:
-      normal = radial - zone.slope * pose.axis;
-      break;
-    case ZoneKind::sphere:
-      normal = m - zone.centre * pose.axis;
-      break;
-    case ZoneKind::torus:
-      normal = std::max(0.0, rho - zone.major) * radial + (z - zone.centre) * pose.axis;
-      break;
+  const bool on_axis = rho < 1e-12;
+  Facing facing{.side = on_axis ? perpendicular_to(pose.axis) : Vec3(across / rho)};
+  if (face == kTopFace) return facing;
+  facing.axial = -1.0;
+  if (face == kBottomFace) return facing;
+  const auto index = static_cast<std::size_t>(face);
+  const Zone& zone = zones_[index];
+  if (zone.kind == ZoneKind::cone) {
+    if (on_axis) return facing;
+    facing.lateral = 1.0 / secants_[index];
+    facing.axial = -zone.slope * facing.lateral;
+    return facing;
   }
-  const double length = normal.norm();
-  if (length > 0.0) return normal / length;
-  return z > 0.5 * (bottom_ + height_) ? pose.axis : Vec3(-pose.axis);
+  const double beside = std::max(0.0, rho - zone.major), above = z - zone.centre;
+  const double length = std::sqrt(beside * beside + above * above);
+  if (length == 0.0) return facing;
+  facing.lateral = beside / length;
+  facing.axial = above / length;
+  return facing;
+}
+
+Vec3 Profile::normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const {
+  const Facing at = facing(face, pose, point);
+  return at.lateral * at.side + at.axial * pose.axis;
 }
 
 Profile::Nearest Profile::nearest_surface(const ToolPose& pose, const Vec3& point) const {

@@ -52,6 +52,13 @@ struct Chord {
   ProfileFace hi_face = kTopFace;
 };
 
+// The outward unit normal of a body of revolution at a point: lateral * side + axial * axis.
+struct Facing {
+  double axial = 1.0;
+  double lateral = 0.0;
+  Vec3 side = Vec3::UnitX();  // unit, normal to the axis; where lateral is 0 any such
+};
+
 class Profile {
  public:
   // `zones` from the tip upwards, without gaps. Precondition: the body is convex.
@@ -65,7 +72,8 @@ class Profile {
   [[nodiscard]] double support(double u) const;
   // The same for a direction of any length: `across` of it normal to the axis, u along.
   [[nodiscard]] double support(double across, double u) const;
-  // Outward unit normal of a face at a point on it (on the axis of a pointed end: along the axis).
+  // Outward normal of a face at a point on it (on the axis of a pointed end: along the axis).
+  [[nodiscard]] Facing facing(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
   [[nodiscard]] Vec3 normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
   // Outward unit normal of the body's surface nearest to `point`.
   [[nodiscard]] Vec3 normal(const ToolPose& pose, const Vec3& point) const;
@@ -87,6 +95,7 @@ class Profile {
   [[nodiscard]] Nearest nearest_surface(const ToolPose& pose, const Vec3& point) const;
 
   std::vector<Zone> zones_;
+  std::vector<double> secants_{};  // of the flanks' slopes: sqrt(1 + slope^2)
   double bottom_ = 0.0;
   double height_ = 0.0;
   double max_radius_ = 0.0;

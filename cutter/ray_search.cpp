@@ -13,6 +13,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Below this cosine between ray and surface the touching planes bound badly; the grown cutter helps.
 constexpr double kGrazing = 0.02;
+// And where the axes of a group differ by more than this (rad).
+constexpr double kMuchTurned = 0.1;
 
 // Where along the ray a group may cover anything, and what its witness covers for certain.
 struct Reach {
@@ -20,16 +22,27 @@ struct Reach {
   double hi = -kInfinity;
   double lo_slack = 0.0;  // what the tolerance normal to the surface makes along the ray
   double hi_slack = 0.0;
-  std::optional<Chord> known{};
 
   [[nodiscard]] bool empty() const { return !(lo <= hi); }
 };
 
-// Where the plane that touches the witness, moved out by what the group needs, crosses the ray.
-double crossing(const TouchingPlane& plane, const PoseGroup& group, const Profile& part,
-                const Ray& ray) {
-  return (support(group, part, plane.normal) - plane.normal.dot(ray.origin - group.witness.tip)) /
-         plane.along;
+// Beyond what place along the ray no pose of the group reaches, by the plane that touches the witness.
+//
+// At another pose, tip p + dp and axis a + da, the plane through the contact y (from the tip) has the normal
+// n + dn, dn = axial da - lateral (side.da) a within 2 |da|^2, and lies dn.y - n.dp - dn.dp nearer.
+double crossing(const TouchingPlane& plane, const PoseGroup& group, const Ray& ray) {
+  constexpr double kFarTurned = 0.5;  // the expansion holds below
+  const double turned = group.axis_shift;
+  if (turned == 0.0) return plane.value + farthest_tip(group, plane.normal) / plane.along;
+  if (turned > kFarTurned) return kInfinity;
+  const double fall = plane.along - turned * (1.0 + 2.0 * turned);
+  if (!(fall > 0.0)) return kInfinity;
+  const Vec3 y = ray.at(plane.direction * plane.value) - group.witness.tip;
+  const Vec3 c = plane.lateral * y.dot(group.witness.axis) * plane.side - plane.axial * y;
+  const double room = farthest_tip(group, plane.normal) + farthest_axis(group, c) +
+                      turned * (1.0 + 2.0 * turned) * group.tip_shift +
+                      2.0 * turned * turned * y.norm();
+  return plane.value + std::max(0.0, room) / fall;
 }
 
 bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
@@ -49,10 +62,13 @@ bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
   return apart(facing * (side / length));
 }
 
-Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray) {
+// Bounds for what the group covers, from a chord of its witness or from the grown witness. `wants_lo` tells
+// from the bound above and the witness's chord whether the bound below matters.
+template <class WantsLo>
+Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
+               const std::optional<Chord>& known, const WantsLo& wants_lo) {
   Reach reach;
-  reach.known = part.chord(group.witness, ray);
-  if (!reach.known) {
+  if (!known) {
     if (surely_apart(group, part, ray)) return reach;
     if (const auto grown = part.chord(group.witness, ray, group.shift)) {
       reach.lo = grown->lo;
@@ -60,18 +76,23 @@ Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray) {
     }
     return reach;
   }
-  const TouchingPlane leaving(part, group.witness, ray, *reach.known, true);
-  const TouchingPlane entering(part, group.witness, ray, *reach.known, false);
-  reach.hi = crossing(leaving, group, part, ray);
-  reach.lo = -crossing(entering, group, part, ray);
-  if (std::min(leaving.along, entering.along) < kGrazing) {
+  const TouchingPlane leaving(part, group.witness, ray, *known, true);
+  reach.hi = crossing(leaving, group, ray);
+  reach.hi_slack = kSearchTolerance / leaving.along;
+  reach.lo = known->lo;
+  double along = leaving.along;
+  if (wants_lo(reach)) {
+    const TouchingPlane entering(part, group.witness, ray, *known, false);
+    reach.lo = -crossing(entering, group, ray);
+    reach.lo_slack = kSearchTolerance / entering.along;
+    along = std::min(along, entering.along);
+  }
+  if (along < kGrazing || group.axis_shift > kMuchTurned) {
     if (const auto grown = part.chord(group.witness, ray, group.shift)) {
       reach.lo = std::max(reach.lo, grown->lo);
       reach.hi = std::min(reach.hi, grown->hi);
     }
   }
-  reach.lo_slack = kSearchTolerance / entering.along;
-  reach.hi_slack = kSearchTolerance / leaving.along;
   return reach;
 }
 
@@ -80,12 +101,14 @@ class Slabs {
   explicit Slabs(const Ray& ray) : origin_(ray.origin) {
     for (int k = 0; k < 3; ++k) inverse_[k] = 1.0 / ray.direction[k];
   }
-  // True if the ray may cross the box within the span.
-  [[nodiscard]] bool cross(const Box& box, const RaySpan& span) const {
+  // Where within the span the ray may cross the box; lo above hi: nowhere.
+  [[nodiscard]] RaySpan within(const Box& box, const RaySpan& span) const {
     double lo = span.lo, hi = span.hi;
     for (int k = 0; k < 3; ++k) {
       if (std::isinf(inverse_[k])) {
-        if (origin_[k] < box.min[k] - kMargin || origin_[k] > box.max[k] + kMargin) return false;
+        if (origin_[k] < box.min[k] - kMargin || origin_[k] > box.max[k] + kMargin) {
+          return {1.0, 0.0};
+        }
         continue;
       }
       const double a = (box.min[k] - kMargin - origin_[k]) * inverse_[k];
@@ -93,7 +116,7 @@ class Slabs {
       lo = std::max(lo, std::min(a, b));
       hi = std::min(hi, std::max(a, b));
     }
-    return lo <= hi;
+    return {lo, hi};
   }
 
  private:
@@ -104,6 +127,8 @@ class Slabs {
 
 // The search, for a goal that knows what it still wants:
 //   bool wants(lo, hi, lo_slack, hi_slack)   could this still add anything?
+//   bool puts_aside(group, lo)               not now, since it begins at lo
+//   bool wants_lo(lo, hi)                    does it matter where it begins?
 //   void take(interval)                      covered for certain
 //   span<const Chord> known()                ends of stretches inside these need not be exact
 template <class Goal>
@@ -135,28 +160,30 @@ class Search {
     const PoseGroup& group = groups_[index];
     Judgement judged;
     if (group.earliest >= question_.first_excluded) return judged;
-    if (!slabs_.cross(group.box, goal_.span())) return judged;
-    const auto parts = sweep_.parts;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Reach reach = reach_of(group, parts[i], question_.ray);
-      if (reach.empty()) continue;
-      if (reach.known && group.witness_stretch < question_.first_excluded) {
+    const RaySpan in_box = slabs_.within(group.box, goal_.span());
+    if (!(in_box.lo <= in_box.hi)) return judged;
+    if (goal_.puts_aside(index, in_box.lo)) return judged;
+    const auto wants_lo = [&](const Reach& reach) { return goal_.wants_lo(reach.lo, reach.hi); };
+    const bool counts = group.witness_stretch < question_.first_excluded;
+    for (std::size_t i = 0; i < sweep_.parts.size(); ++i) {
+      const auto known = sweep_.parts[i].chord(group.witness, question_.ray);
+      if (known && counts) {
         const auto part = static_cast<std::uint32_t>(i);
-        const Chord& k = *reach.known;
-        goal_.take({{k.lo, group.witness_stretch, part, 0.0, k.lo_face},
-                    {k.hi, group.witness_stretch, part, 0.0, k.hi_face}});
+        goal_.take({{known->lo, group.witness_stretch, part, 0.0, known->lo_face},
+                    {known->hi, group.witness_stretch, part, 0.0, known->hi_face}});
       }
-      widen(judged, reach);
+      widen(judged, reach_of(group, sweep_.parts[i], question_.ray, known, wants_lo));
     }
     for (const Profile& hull : sweep_.carved) {
-      const Reach reach = reach_of(group, hull, question_.ray);
-      if (!reach.empty()) widen(judged, reach);
+      const auto known = hull.chord(group.witness, question_.ray);
+      widen(judged, reach_of(group, hull, question_.ray, known, wants_lo));
     }
     judged.wanted = goal_.wants(index, judged.lo, judged.hi, judged.lo_slack, judged.hi_slack);
     return judged;
   }
 
   static void widen(Judgement& judged, const Reach& reach) {
+    if (reach.empty()) return;
     judged.lo = std::min(judged.lo, reach.lo);
     judged.hi = std::max(judged.hi, reach.hi);
     judged.lo_slack = std::min(judged.lo_slack, reach.lo_slack);
@@ -212,6 +239,8 @@ class WholeCover {
   WholeCover(const RaySpan& span, std::vector<CoverInterval>& cover) : span_(span), cover_(cover) {}
 
   [[nodiscard]] const RaySpan& span() const { return span_; }
+  [[nodiscard]] static bool puts_aside(std::uint32_t, double) { return false; }
+  [[nodiscard]] static bool wants_lo(double, double) { return true; }
 
   [[nodiscard]] bool wants(std::uint32_t, double lo, double hi, double lo_slack,
                            double hi_slack) const {
@@ -262,11 +291,20 @@ class Front {
 
   [[nodiscard]] RaySpan span() const { return {front_.s - gap_, span_.hi}; }
 
+  // What begins beyond the front is asked again when the front has come there.
+  [[nodiscard]] bool puts_aside(std::uint32_t group, double lo) {
+    if (lo <= front_.s + gap_) return false;
+    deferred_.push_back({lo, group});
+    return true;
+  }
+
+  [[nodiscard]] bool wants_lo(double lo, double hi) const {
+    return hi > front_.s && lo > front_.s + gap_;
+  }
+
   [[nodiscard]] bool wants(std::uint32_t group, double lo, double hi, double, double hi_slack) {
     if (!(lo <= hi) || hi <= front_.s + hi_slack) return false;
-    if (lo <= front_.s + gap_) return true;
-    deferred_.push_back({lo, group});
-    return false;
+    return !puts_aside(group, lo);
   }
 
   [[nodiscard]] std::span<const Chord> known() {

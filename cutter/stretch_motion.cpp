@@ -29,6 +29,7 @@ StretchMotion::StretchMotion(const ToolPose& from, const ToolPose& to, double re
     : from_(from),
       to_(to),
       step_(to.tip - from.tip),
+      reach_(reach),
       turn_(angle(from.axis, to.axis)),
       sin_turn_(sine(turn_)),
       travel_(step_.norm() + reach * turn_),

@@ -19,6 +19,7 @@ class StretchMotion {
   [[nodiscard]] ToolPose at(double t) const;
   // No point of the cutter moves more than this in the whole stretch (mm).
   [[nodiscard]] double travel() const { return travel_; }
+  [[nodiscard]] double reach() const { return reach_; }
   // The cutter turns by this (rad).
   [[nodiscard]] double turn() const { return turn_; }
   // Second derivative to t of any cutter point's place, at most (mm): over a part dt of the stretch no
@@ -29,6 +30,7 @@ class StretchMotion {
   ToolPose from_;
   ToolPose to_;
   Vec3 step_;
+  double reach_;
   double turn_;
   double sin_turn_;
   double travel_;

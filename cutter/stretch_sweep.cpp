@@ -15,7 +15,7 @@ constexpr double kMissedDepth = 0.5e-6;  // mm
 // Times where chords begin or end are found to this much motion.
 constexpr double kTangentMotion = 1e-9;  // mm
 // Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
-constexpr double kSameMoment = 1e-10;
+constexpr double kSameMoment = 1e-11;
 // The body turns by at most this between two samples of its chord.
 constexpr double kTurnPerSample = 0.05;  // rad
 
@@ -210,6 +210,62 @@ class ChordTimes {
   std::vector<Sample> samples_{};
 };
 
+// Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it there,
+// moved to the other moment, make straight lines, and turning adds at most 4 bulge x (1 - x).
+//
+// With n(t) the plane's normal, seen from a point that runs along the ray as the line says, the distance
+// n(t).(x(t) - p(t)) has the second derivative n''.(x - p) + 2 n'.(x' - p').
+class Roof {
+ public:
+  Roof(const TouchingPlane& a, double a_at_b, const TouchingPlane& b, double b_at_a,
+       const StretchMotion& motion, double dt)
+      : a_(a.value), rise_a_(a_at_b - a.value), b_at_a_(b_at_a), rise_b_(b.value - b_at_a) {
+    const bool bounded = std::isfinite(rise_a_) && std::isfinite(rise_b_);
+    if (motion.turn() > 0.0 && bounded) {
+      const double run = std::max(std::abs(rise_a_), std::abs(rise_b_)) + motion.travel() * dt;
+      const double turn = motion.turn() * dt;
+      const double departure = 0.125 * turn * (turn * motion.reach() + 2.0 * run);
+      bulge_ = std::max(departure / std::min(a.along, b.along), bulge_);
+    }
+    if (!(rise_a_ > 0.0)) {
+      top_ = height_on_a(summit(rise_a_));
+    } else if (!(rise_b_ < 0.0)) {
+      top_ = height_on_b(summit(rise_b_));
+    } else if (bounded) {
+      has_ridge_ = true;
+      ridge_ = std::clamp((b_at_a_ - a_) / (rise_a_ - rise_b_), 0.0, 1.0);
+      const double on_a = summit(rise_a_), on_b = summit(rise_b_);
+      top_ = ridge_ < on_b ? height_on_b(on_b) : height_on_a(ridge_ > on_a ? on_a : ridge_);
+    }
+  }
+
+  [[nodiscard]] double top() const { return top_; }
+
+  // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet.
+  [[nodiscard]] double place_to_look(int depth) const {
+    if (!has_ridge_ || depth % 3 == 2) return 0.5;
+    return depth % 3 == 0 ? rise_a_ / (rise_a_ - rise_b_) : ridge_;
+  }
+
+ private:
+  // Where a line of that rise, with the bulge on it, is highest.
+  [[nodiscard]] double summit(double rise) const {
+    return std::clamp(0.5 + rise / (8.0 * bulge_), 0.0, 1.0);
+  }
+  [[nodiscard]] double height_on_a(double x) const {
+    return a_ + rise_a_ * x + 4.0 * bulge_ * x * (1.0 - x);
+  }
+  [[nodiscard]] double height_on_b(double x) const {
+    return b_at_a_ + rise_b_ * x + 4.0 * bulge_ * x * (1.0 - x);
+  }
+
+  double a_, rise_a_, b_at_a_, rise_b_;
+  double bulge_ = 1e-300;
+  double ridge_ = 0.5;
+  bool has_ridge_ = false;
+  double top_ = kInfinity;
+};
+
 // The highest value that one end of the chord takes: B(t) for `leaving`, -A(t) else.
 class HighestEnd {
  public:
@@ -253,28 +309,10 @@ class HighestEnd {
     if (depth > 60 || dt * motion_.travel() < kSameMoment) return;
     const double along = std::max(a.plane.along, b.plane.along);
     const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
-    // On x in [0, 1] the end stays below both straight lines a.value..a_at_b and b_at_a..b.value.
-    const double slack = motion_.bend() * dt * dt / 8.0;
-    const double a_at_b = a.plane.crossing(body_, b.pose, ray_);
-    const double b_at_a = b.plane.crossing(body_, a.pose, ray_);
-    const double rise_a = a_at_b - a.plane.value, rise_b = b.plane.value - b_at_a;
-    double meet = 0.5, bound = kInfinity;
-    if (!(rise_a > 0.0)) {
-      bound = a.plane.value + slack / a.plane.along;
-    } else if (!(rise_b < 0.0)) {
-      bound = b.plane.value + slack / b.plane.along;
-    } else if (std::isfinite(rise_a) && std::isfinite(rise_b)) {
-      const double crossing = (b_at_a - a.plane.value) / (rise_a - rise_b);
-      meet = std::clamp(crossing, 0.0, 1.0);
-      bound = a.plane.value + meet * rise_a + slack / std::min(a.plane.along, b.plane.along);
-    }
-    if (bound <= enough) return;
-    // Smooth tops: where the slopes, taken as linear, pass zero; edges: where the lines meet.
-    double x = 0.5;
-    if (rise_a > 0.0 && rise_b < 0.0 && std::isfinite(bound)) {
-      x = depth % 2 == 0 ? rise_a / (rise_a - rise_b) : meet;
-      if (depth > 12 && depth % 3 == 0) x = 0.5;
-    }
+    const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
+                    b.plane.crossing(a.pose, ray_), motion_, dt);
+    if (roof.top() <= enough) return;
+    const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     Sample middle{.t = t, .pose = motion_.at(t)};
     middle.chord = body_.chord(middle.pose, ray_);
@@ -306,19 +344,27 @@ Chord overlapped(std::span<const Chord> known, const Chord& chord) {
 }  // namespace
 
 TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray,
-                             const Chord& chord, bool leaving) {
+                             const Chord& chord, bool leaving)
+    : direction(leaving ? 1.0 : -1.0) {
   const double s = leaving ? chord.hi : chord.lo;
-  normal = body.normal_of(leaving ? chord.hi_face : chord.lo_face, pose, ray.at(s));
-  value = leaving ? s : -s;
-  along = leaving ? normal.dot(ray.direction) : -normal.dot(ray.direction);
+  const Vec3 point = ray.at(s);
+  const Facing at = body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point);
+  axial = at.axial;
+  lateral = at.lateral;
+  side = at.side;
+  normal = lateral * side + axial * pose.axis;
+  value = direction * s;
   // A grazing ray leaves the plane nowhere, or by rounding on the wrong side.
-  along = std::max(along, 1e-12);
+  along = std::max(direction * normal.dot(ray.direction), 1e-12);
+  offset = normal.dot(point - pose.tip);
 }
 
-double TouchingPlane::crossing(const Profile& body, const ToolPose& pose, const Ray& ray) const {
-  const double n_axis = std::clamp(normal.dot(pose.axis), -1.0, 1.0);
-  const double origin = normal.dot(ray.origin - pose.tip);
-  return (body.support(n_axis) - origin) / along;
+double TouchingPlane::crossing(const ToolPose& pose, const Ray& ray) const {
+  const Vec3 turned = side - side.dot(pose.axis) * pose.axis;
+  const Vec3 n = axial * pose.axis + (lateral / turned.norm()) * turned;
+  const double fall = direction * n.dot(ray.direction);
+  if (!(fall > 0.0)) return kInfinity;
+  return (offset - n.dot(ray.origin - pose.tip)) / fall;
 }
 
 bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,

@@ -2,11 +2,11 @@
 //
 // Model    : at time t in [0, 1] the body meets the ray in [A(t), B(t)] or not at all; over each connected
 //            span of times with a chord the union is [min A, max B]. The plane that touches the body where
-//            the ray leaves it moves nearly linearly, so it bounds B at all other times: two such planes
-//            close in on the maximum from above while chords close in from below
+//            the ray leaves it goes with the body and bounds B at all other times: two such planes close in
+//            on the maximum from above while chords close in from below
 // Units    : mm; frame: workpiece
 // Errors   : none; degenerate motions (no motion, pure rotation, ray along the motion) are ordinary
-// Accuracy : ends within 0.01 nm normal to the swept surface: proven by the planes, not sampled. A span of
+// Accuracy : ends within 0.001 nm normal to the swept surface: proven by the planes, not sampled. A span of
 //            times without a chord is proven empty by separating planes down to a penetration of 0.5 nm
 // Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
 #pragma once
@@ -32,21 +32,26 @@ struct SweptInterval {
 };
 
 // No error of an end, normal to the surface, is larger than this because the search stops (mm).
-inline constexpr double kSearchTolerance = 1e-8;
+inline constexpr double kSearchTolerance = 4e-10;
 
-// The plane that touches the body where the ray leaves it (or enters it): every other pose of the body
-// leaves the ray before it leaves the moved plane.
+// The plane that touches the body where the ray leaves it (or enters it), fixed to the body: wherever the
+// body goes it stays on its side of the plane, turned about its axis to any side.
 struct TouchingPlane {
   // `leaving`: at chord.hi, else at chord.lo.
   TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray, const Chord& chord,
                 bool leaving);
-  // Where the ray crosses the plane that touches the body at another pose, counted along the ray if
-  // leaving, else against it. Infinite if the ray runs along the plane.
-  [[nodiscard]] double crossing(const Profile& body, const ToolPose& pose, const Ray& ray) const;
+  // Where the ray crosses the plane when the body stands at another pose, counted along the ray if leaving,
+  // else against it: no end of the body's chord is beyond. Infinite if the ray runs along the plane.
+  [[nodiscard]] double crossing(const ToolPose& pose, const Ray& ray) const;
 
-  Vec3 normal;   // unit, out of the body
-  double value;  // of this pose: s if leaving, else -s
-  double along;  // cosine between the normal and the direction of counting
+  Vec3 normal;       // unit, out of the body, at the pose it was made for
+  double value;      // where that pose leaves the ray: s if leaving, else -s
+  double along;      // cosine between the normal and the direction of counting
+  double axial;      // of the normal along the tool axis
+  double lateral;    // and across it
+  Vec3 side;         // unit, the direction across
+  double offset;     // distance of the plane from the tip
+  double direction;  // of counting: 1 leaving, -1 entering
 };
 
 // Appends the exact intervals, in no particular order, possibly overlapping. An end inside an interval of

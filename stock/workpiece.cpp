@@ -10,6 +10,9 @@ namespace {
 EndTag tag_of_face(EndTag face) { return face < 0 ? face : -2 - face; }
 EndTag face_of_tag(EndTag tag) { return -2 - tag; }
 
+// Material thinner than this is what rounding leaves of a cut that is flush with a face.
+constexpr double kSkin = 1e-9;  // mm
+
 }  // namespace
 
 Workpiece::Workpiece(Blank blank, cutter::SweptCutter removed)
@@ -36,13 +39,9 @@ IntervalSet Workpiece::material_along(const Ray& ray, RaySpan span,
 
 SurfacePoint Workpiece::surface_at(const Ray& ray, double s, EndTag tag) const {
   SurfacePoint found{.s = s, .point = ray.at(s)};
-  if (tag >= 0) {
-    const auto stretch = static_cast<std::uint32_t>(tag);
-    found.normal = -removed_.contact(ray, s, stretch).normal;
-    found.stretch = stretch;
-    const auto& path = removed_.path();
-    found.source_line = path.blocks[path.stretches[stretch].block].source_line;
-  } else if (tag <= -2) {
+  if (tag >= 0)
+    return surface_point(ray, removed_.contact(ray, s, static_cast<std::uint32_t>(tag)));
+  if (tag <= -2) {
     found.normal = blank_.normal(face_of_tag(tag), found.point);
   } else {
     found.normal = -ray.direction;  // the end of the span asked for, not a surface
@@ -50,12 +49,27 @@ SurfacePoint Workpiece::surface_at(const Ray& ray, double s, EndTag tag) const {
   return found;
 }
 
+SurfacePoint Workpiece::surface_point(const Ray& ray, const cutter::SweepContact& contact) const {
+  const auto& path = removed_.path();
+  return {.s = contact.s,
+          .point = ray.at(contact.s),
+          .normal = -contact.normal,
+          .stretch = contact.stretch,
+          .source_line = path.blocks[path.stretches[contact.stretch].block].source_line};
+}
+
 std::optional<SurfacePoint> Workpiece::first_surface(const Ray& ray, RaySpan span) const {
-  const IntervalSet material = material_along(ray, span);
-  if (material.empty()) return std::nullopt;
-  const Interval& first = material.intervals().front();
-  if (first.lo_tag == -1) return std::nullopt;  // the span begins inside the material
-  return surface_at(ray, first.lo, first.lo_tag);
+  const IntervalSet uncut = blank_.along(ray, span);
+  for (const Interval& chord : uncut.intervals()) {
+    const auto contact = removed_.end_of_void(ray, chord.lo, chord.hi);
+    if (!contact) {
+      if (chord.lo_tag == -1) return std::nullopt;  // the span begins inside the material
+      return surface_at(ray, chord.lo, tag_of_face(chord.lo_tag));
+    }
+    if (contact->s >= chord.hi - kSkin) continue;
+    return surface_point(ray, *contact);
+  }
+  return std::nullopt;
 }
 
 }  // namespace frustum::stock

@@ -48,6 +48,9 @@ class Workpiece {
   [[nodiscard]] const cutter::SweptCutter& removed() const { return removed_; }
 
  private:
+  [[nodiscard]] SurfacePoint surface_point(const Ray& ray,
+                                           const cutter::SweepContact& contact) const;
+
   Blank blank_;
   cutter::SweptCutter removed_;
 };
