@@ -32,8 +32,10 @@ class PointUnderPass {
     const auto& path = swept_.path();
     const auto& stretch = path.stretches[moment.stretch];
     const auto pose = kinematics::between(path.from(stretch), path.to(stretch), moment.t);
-    const auto& profile = swept_.tool(path.blocks[stretch.block].tool).profile();
-    return profile.touches(pose, point_, tolerance_);
+    const auto& outline = swept_.tool(path.blocks[stretch.block].tool).body().outline();
+    const Vec3 m = point_ - pose.tip;
+    const double z = m.dot(pose.axis);
+    return std::abs(outline.distance((m - z * pose.axis).norm(), z)) <= tolerance_;
   }
 
   [[nodiscard]] Vec3 tip(const PathMoment& moment) const {

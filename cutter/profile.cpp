@@ -121,8 +121,14 @@ Span sphere_span(const ToolRay& ray, double radius, double centre) {
   return below_parabola(a, b, ray.rho2 + h * h - radius * radius);
 }
 
-// The points within `tube` of the disc of radius `major` at height `centre`, inside `within`. The squared
-// distance to the disc is a convex function of u, so Newton's steps from outside never pass the end.
+// How far a point is from the circle of a torus across the axis. Inside the circle of an ordinary torus the
+// tube's height alone counts; of a lens (negative major radius) the outer side is all there is.
+double beside_circle(double rho, double major) {
+  return major < 0.0 ? rho - major : std::max(0.0, rho - major);
+}
+
+// The points within `tube` of the circle, or of the disc in it, inside `within`. The squared distance is a
+// convex function of u, so Newton's steps from outside never pass the end.
 Span torus_span(const ToolRay& ray, double major, double tube, double centre, const Span& within) {
   const Span outer = overlap(cylinder_span(ray, major + tube), within);
   if (outer.empty()) return kNothing;
@@ -131,10 +137,10 @@ Span torus_span(const ToolRay& ray, double major, double tube, double centre, co
       const double rho2 = std::max(0.0, ray.rho2 + u * (2.0 * ray.bend + u * ray.v2));
       const double rho = std::sqrt(rho2);
       const double h = ray.z0 - centre + u * ray.dz;
-      const double over = std::max(0.0, rho - major);
+      const double over = beside_circle(rho, major);
       const double excess = over * over + h * h - tube * tube;
       if (excess <= 0.0) return u;
-      const double lateral = over > 0.0 ? over * (ray.bend + u * ray.v2) / rho : 0.0;
+      const double lateral = over > 0.0 && rho > 0.0 ? over * (ray.bend + u * ray.v2) / rho : 0.0;
       const double fall = -2.0 * inward * (lateral + h * ray.dz);
       if (!(fall > 0.0)) return kInfinity;  // it rises and is still outside: no end this way
       const double step = excess / fall;
@@ -147,7 +153,7 @@ Span torus_span(const ToolRay& ray, double major, double tube, double centre, co
   if (std::isinf(outer.lo) || std::isinf(outer.hi)) {
     // Along the axis: rho is constant, and so the height limits alone.
     const double rho = std::sqrt(std::max(0.0, ray.rho2));
-    const double over = std::max(0.0, rho - major);
+    const double over = beside_circle(rho, major);
     if (over > tube) return kNothing;
     const double half = std::sqrt(tube * tube - over * over);
     return overlap(slab_span(ray, centre - half, centre + half), within);
@@ -197,19 +203,6 @@ double zone_support(const Zone& zone, double across, double u) {
     if (length > 0.0) z = std::clamp(zone.centre + zone.radius * u / length, zone.z_lo, zone.z_hi);
   }
   return z * u + radius_at(zone, z) * across;
-}
-
-// Distance of a point (rho, z) from the zone's lateral surface, as far as it lies beside it.
-double lateral_distance(const Zone& zone, double rho, double z) {
-  switch (zone.kind) {
-    case ZoneKind::cone:
-      return (rho - zone.radius - zone.slope * (z - zone.z_lo)) / std::hypot(1.0, zone.slope);
-    case ZoneKind::sphere:
-      return std::hypot(rho, z - zone.centre) - zone.radius;
-    case ZoneKind::torus:
-      return std::hypot(std::max(0.0, rho - zone.major), z - zone.centre) - zone.radius;
-  }
-  return 0.0;
 }
 
 }  // namespace
@@ -316,7 +309,7 @@ Facing Profile::facing(ProfileFace face, const ToolPose& pose, const Vec3& point
     facing.axial = -zone.slope * facing.lateral;
     return facing;
   }
-  const double beside = std::max(0.0, rho - zone.major), above = z - zone.centre;
+  const double beside = beside_circle(rho, zone.major), above = z - zone.centre;
   const double length = std::sqrt(beside * beside + above * above);
   if (length == 0.0) return facing;
   facing.lateral = beside / length;
@@ -327,38 +320,6 @@ Facing Profile::facing(ProfileFace face, const ToolPose& pose, const Vec3& point
 Vec3 Profile::normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const {
   const Facing at = facing(face, pose, point);
   return at.lateral * at.side + at.axial * pose.axis;
-}
-
-Profile::Nearest Profile::nearest_surface(const ToolPose& pose, const Vec3& point) const {
-  const Vec3 m = point - pose.tip;
-  const double z = m.dot(pose.axis);
-  const double rho = (m - z * pose.axis).norm();
-  Nearest nearest{std::abs(z - height_), kTopFace};
-  const auto offer = [&](double distance, ProfileFace face) {
-    if (distance < nearest.distance) nearest = {distance, face};
-  };
-  if (radius_at(zones_.front(), bottom_) > 0.0) offer(std::abs(z - bottom_), kBottomFace);
-  for (std::size_t i = 0; i < zones_.size(); ++i) {
-    const Zone& zone = zones_[i];
-    const double outside = std::max({0.0, zone.z_lo - z, z - zone.z_hi});
-    offer(std::hypot(outside, lateral_distance(zone, rho, z)), static_cast<ProfileFace>(i));
-  }
-  return nearest;
-}
-
-Vec3 Profile::normal(const ToolPose& pose, const Vec3& point) const {
-  return normal_of(nearest_surface(pose, point).face, pose, point);
-}
-
-bool Profile::touches(const ToolPose& pose, const Vec3& point, double tolerance) const {
-  const Vec3 m = point - pose.tip;
-  const double z = m.dot(pose.axis);
-  const double rho = (m - z * pose.axis).norm();
-  const bool within = std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) {
-    return z >= zone.z_lo - tolerance && z <= zone.z_hi + tolerance &&
-           rho <= radius_at(zone, std::clamp(z, zone.z_lo, zone.z_hi)) + tolerance;
-  });
-  return within && nearest_surface(pose, point).distance <= tolerance;
 }
 
 }  // namespace frustum::cutter

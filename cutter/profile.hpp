@@ -23,7 +23,8 @@ using kinematics::ToolPose;
 enum class ZoneKind : std::uint8_t {
   cone,    // r = radius + slope (z - z_lo); a cylinder has slope 0
   sphere,  // about the axis point at height `centre`
-  torus,   // outer side of a tube of `radius` about the circle of radius `major` at height `centre`
+  torus,  // outer side of a tube of `radius` about the circle of radius `major` at height `centre`; major
+          // below 0: the lens that such arcs make when their centre is beyond the axis
 };
 struct Zone {
   ZoneKind kind = ZoneKind::cone;
@@ -75,11 +76,6 @@ class Profile {
   // Outward normal of a face at a point on it (on the axis of a pointed end: along the axis).
   [[nodiscard]] Facing facing(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
   [[nodiscard]] Vec3 normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
-  // Outward unit normal of the body's surface nearest to `point`.
-  [[nodiscard]] Vec3 normal(const ToolPose& pose, const Vec3& point) const;
-  // True when `point` lies on the body's surface, within `tolerance` of it.
-  [[nodiscard]] bool touches(const ToolPose& pose, const Vec3& point, double tolerance) const;
-
   [[nodiscard]] double bottom() const { return bottom_; }
   [[nodiscard]] double height() const { return height_; }
   [[nodiscard]] std::span<const Zone> zones() const { return zones_; }
@@ -88,12 +84,6 @@ class Profile {
   [[nodiscard]] double reach() const { return reach_; }
 
  private:
-  struct Nearest {
-    double distance = 0.0;
-    ProfileFace face = kTopFace;
-  };
-  [[nodiscard]] Nearest nearest_surface(const ToolPose& pose, const Vec3& point) const;
-
   std::vector<Zone> zones_;
   std::vector<double> secants_{};  // of the flanks' slopes: sqrt(1 + slope^2)
   double bottom_ = 0.0;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "cutter/carved_sweep.hpp"
+
 namespace frustum::cutter {
 namespace {
 
@@ -138,6 +140,7 @@ class Search {
       : question_(question),
         sweep_(sweep),
         goal_(goal),
+        parts_(sweep.body->parts()),
         groups_(sweep.tree.groups()),
         slabs_(question.ray) {}
 
@@ -165,16 +168,16 @@ class Search {
     if (goal_.puts_aside(index, in_box.lo)) return judged;
     const auto wants_lo = [&](const Reach& reach) { return goal_.wants_lo(reach.lo, reach.hi); };
     const bool counts = group.witness_stretch < question_.first_excluded;
-    for (std::size_t i = 0; i < sweep_.parts.size(); ++i) {
-      const auto known = sweep_.parts[i].chord(group.witness, question_.ray);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const auto known = parts_[i].chord(group.witness, question_.ray);
       if (known && counts) {
         const auto part = static_cast<std::uint32_t>(i);
         goal_.take({{known->lo, group.witness_stretch, part, 0.0, known->lo_face},
                     {known->hi, group.witness_stretch, part, 0.0, known->hi_face}});
       }
-      widen(judged, reach_of(group, sweep_.parts[i], question_.ray, known, wants_lo));
+      widen(judged, reach_of(group, parts_[i], question_.ray, known, wants_lo));
     }
-    for (const Profile& hull : sweep_.carved) {
+    for (const Profile& hull : sweep_.body->carved()) {
       const auto known = hull.chord(group.witness, question_.ray);
       widen(judged, reach_of(group, hull, question_.ray, known, wants_lo));
     }
@@ -212,11 +215,14 @@ class Search {
   void solve(std::uint32_t index) {
     const auto& stretch = question_.path->stretches[index];
     const StretchMotion motion(question_.path->from(stretch), question_.path->to(stretch),
-                               sweep_.reach);
-    const auto parts = sweep_.parts;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
+                               sweep_.body->reach());
+    for (std::size_t i = 0; i <= parts_.size(); ++i) {
       found_.clear();
-      append_swept_intervals(parts[i], motion, question_.ray, goal_.known(), found_);
+      if (i < parts_.size()) {
+        append_swept_intervals(parts_[i], motion, question_.ray, goal_.known(), found_);
+      } else if (!sweep_.body->carved().empty()) {
+        append_carved_intervals(*sweep_.body, motion, question_.ray, goal_.known(), found_);
+      }
       const auto part = static_cast<std::uint32_t>(i);
       for (const SweptInterval& f : found_) {
         goal_.take(
@@ -228,6 +234,7 @@ class Search {
   const RayQuestion& question_;
   const ToolSweep& sweep_;
   Goal& goal_;
+  std::span<const Profile> parts_;
   std::span<const PoseGroup> groups_;
   Slabs slabs_;
   std::vector<SweptInterval> found_{};

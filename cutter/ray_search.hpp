@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "cutter/body.hpp"
 #include "cutter/pose_tree.hpp"
 #include "cutter/stretch_sweep.hpp"
 #include "kinematics/tool_path.hpp"
@@ -22,9 +23,7 @@ namespace frustum::cutter {
 
 // The sweeps of one tool.
 struct ToolSweep {
-  std::span<const Profile> parts{};
-  std::span<const Profile> carved{};
-  double reach = 0.0;
+  const Body* body = nullptr;
   PoseTree tree;
 };
 
@@ -32,7 +31,7 @@ struct ToolSweep {
 struct CoverEnd {
   double s = 0.0;
   std::uint32_t stretch = 0;
-  std::uint32_t part = 0;  // of the body
+  std::uint32_t part = 0;  // of the body; as many as it has: where it is carved
   double t = 0.0;
   ProfileFace face = kTopFace;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cutter/carved_sweep.hpp"
 #include "cutter/stretch_sweep.hpp"
 
 namespace frustum::cutter {
@@ -15,18 +16,18 @@ using kinematics::Stretch;
 using kinematics::ToolPath;
 
 // Box of a capped cylinder around the whole cutter at one pose.
-Box box_at(const ToolPose& pose, const Profile& profile) {
-  const Vec3 top = pose.tip + profile.height() * pose.axis;
+Box box_at(const ToolPose& pose, const Body& body) {
+  const Vec3 top = pose.tip + body.height() * pose.axis;
   const Vec3 across =
-      profile.max_radius() * (Vec3::Ones() - pose.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+      body.max_radius() * (Vec3::Ones() - pose.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   return {pose.tip.cwiseMin(top) - across, pose.tip.cwiseMax(top) + across};
 }
 
-Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Profile& profile) {
-  const Box a = box_at(from, profile);
-  const Box b = box_at(to, profile);
+Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Body& body) {
+  const Box a = box_at(from, body);
+  const Box b = box_at(to, body);
   // Points of the turning cutter run on arcs: at most bend/8 outside their chords.
-  const double bend = StretchMotion(from, to, profile.reach()).bend() / 8.0;
+  const double bend = StretchMotion(from, to, body.reach()).bend() / 8.0;
   const Vec3 grow = Vec3::Constant(bend);
   return {a.min.cwiseMin(b.min) - grow, a.max.cwiseMax(b.max) + grow};
 }
@@ -51,13 +52,12 @@ Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tool
 SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
     : path_(std::move(path)),
       tools_(std::make_shared<const std::map<int, Cutter>>(std::move(tools))) {
-  profile_of_block_.reserve(path_.blocks.size());
-  for (const auto& block : path_.blocks)
-    profile_of_block_.push_back(&tools_->at(block.tool).profile());
+  body_of_block_.reserve(path_.blocks.size());
+  for (const auto& block : path_.blocks) body_of_block_.push_back(&tools_->at(block.tool).body());
   boxes_.reserve(path_.stretches.size());
   for (const Stretch& stretch : path_.stretches) {
     boxes_.push_back(
-        box_of_stretch(path_.from(stretch), path_.to(stretch), *profile_of_block_[stretch.block]));
+        box_of_stretch(path_.from(stretch), path_.to(stretch), *body_of_block_[stretch.block]));
   }
 
   std::map<int, std::vector<std::uint32_t>> stretches_of_tool;
@@ -66,17 +66,15 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
   }
   std::vector<ToolSweep> sweeps;
   for (auto& [number, stretches] : stretches_of_tool) {
-    const Profile& profile = tools_->at(number).profile();
-    sweeps.push_back({.parts = {&profile, 1},
-                      .carved = {},
-                      .reach = profile.reach(),
-                      .tree = PoseTree(path_, boxes_, std::move(stretches), profile.reach())});
+    const Body& body = tools_->at(number).body();
+    sweeps.push_back(
+        {.body = &body, .tree = PoseTree(path_, boxes_, std::move(stretches), body.reach())});
   }
   sweeps_ = std::make_shared<const std::vector<ToolSweep>>(std::move(sweeps));
 }
 
-const Profile& SweptCutter::profile_of(std::uint32_t stretch) const {
-  return *profile_of_block_[path_.stretches[stretch].block];
+const Body& SweptCutter::body_of(std::uint32_t stretch) const {
+  return *body_of_block_[path_.stretches[stretch].block];
 }
 
 IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first_excluded) const {
@@ -110,15 +108,13 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
 
 SweepContact SweptCutter::contact_of(const Ray& ray, const CoverEnd& end) const {
   const Stretch& at = path_.stretches[end.stretch];
-  const Profile& profile = profile_of(end.stretch);
-  const ToolPose pose = StretchMotion(path_.from(at), path_.to(at), profile.reach()).at(end.t);
-  return {end.s,
-          end.stretch,
-          end.part,
-          end.face,
-          end.t,
-          pose,
-          profile.normal_of(end.face, pose, ray.at(end.s))};
+  const Body& body = body_of(end.stretch);
+  const ToolPose pose = StretchMotion(path_.from(at), path_.to(at), body.reach()).at(end.t);
+  const Vec3 point = ray.at(end.s);
+  const Vec3 normal = end.part < body.parts().size()
+                          ? body.parts()[end.part].normal_of(end.face, pose, point)
+                          : outline_normal(body.outline(), pose, point);
+  return {end.s, end.stretch, end.part, end.face, end.t, pose, normal};
 }
 
 IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
@@ -126,12 +122,14 @@ IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_
   std::vector<Interval> all;
   for (const std::uint32_t i : stretches) {
     const Stretch& stretch = path_.stretches[i];
-    const Profile& profile = profile_of(i);
-    const StretchMotion motion(path_.from(stretch), path_.to(stretch), profile.reach());
-    const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * profile.max_radius()));
+    const Body& body = body_of(i);
+    const StretchMotion motion(path_.from(stretch), path_.to(stretch), body.reach());
+    const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * body.max_radius()));
     for (int k = 0; k <= steps; ++k) {
-      const auto chord = profile.chord(motion.at(static_cast<double>(k) / steps), ray, -shrunk_by);
-      if (chord) all.push_back({chord->lo, chord->hi, i, i});
+      for (const Profile& part : body.parts()) {
+        const auto chord = part.chord(motion.at(static_cast<double>(k) / steps), ray, -shrunk_by);
+        if (chord) all.push_back({chord->lo, chord->hi, i, i});
+      }
     }
   }
   return IntervalSet(std::move(all));
@@ -139,17 +137,28 @@ IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_
 
 SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretch) const {
   const Stretch& at = path_.stretches[stretch];
-  const Profile& profile = profile_of(stretch);
-  const StretchMotion motion(path_.from(at), path_.to(at), profile.reach());
+  const Body& body = body_of(stretch);
+  const StretchMotion motion(path_.from(at), path_.to(at), body.reach());
   CoverEnd end{.s = s, .stretch = stretch};
   double nearest = std::numeric_limits<double>::infinity();
-  for (const SweptInterval& i : swept_intervals(profile, motion, ray)) {
-    for (const SweptEnd& e : {i.lo, i.hi}) {
-      if (std::abs(e.s - s) >= nearest) continue;
-      nearest = std::abs(e.s - s);
-      end.t = e.t;
-      end.face = e.face;
+  const auto offer = [&](std::size_t part, std::span<const SweptInterval> found) {
+    for (const SweptInterval& i : found) {
+      for (const SweptEnd& e : {i.lo, i.hi}) {
+        if (std::abs(e.s - s) >= nearest) continue;
+        nearest = std::abs(e.s - s);
+        end.part = static_cast<std::uint32_t>(part);
+        end.t = e.t;
+        end.face = e.face;
+      }
     }
+  };
+  for (std::size_t part = 0; part < body.parts().size(); ++part) {
+    offer(part, swept_intervals(body.parts()[part], motion, ray));
+  }
+  if (nearest > kSearchTolerance && !body.carved().empty()) {
+    std::vector<SweptInterval> found;
+    append_carved_intervals(body, motion, ray, {}, found);
+    offer(body.parts().size(), found);
   }
   return contact_of(ray, end);
 }

@@ -65,12 +65,12 @@ class SweptCutter {
 
  private:
   SweptCutter(kinematics::ToolPath path, std::map<int, Cutter> tools);
-  [[nodiscard]] const Profile& profile_of(std::uint32_t stretch) const;
+  [[nodiscard]] const Body& body_of(std::uint32_t stretch) const;
   [[nodiscard]] SweepContact contact_of(const Ray& ray, const CoverEnd& end) const;
 
   kinematics::ToolPath path_;
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to
-  std::vector<const Profile*> profile_of_block_;
+  std::vector<const Body*> body_of_block_;
   std::vector<Box> boxes_;
   std::shared_ptr<const std::vector<ToolSweep>> sweeps_;
 };

@@ -58,7 +58,7 @@ std::vector<SuspectMove> suspects(const Workpiece& workpiece) {
 std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& move) {
   const ToolPath& path = workpiece.removed().path();
   const PathBlock& block = path.blocks[move.block];
-  const double pitch = workpiece.removed().tool(block.tool).profile().max_radius() / 6.0;
+  const double pitch = workpiece.removed().tool(block.tool).body().max_radius() / 6.0;
   const Vec3 size = move.box.max - move.box.min;
   if (!(size.array() > 0.0).all()) return std::nullopt;
   Collision worst{.kind = block.kind == PathKind::rapid ? CollisionKind::rapid_through_material

@@ -250,7 +250,8 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
                                                const PolyhedralOptions& options) {
   std::map<int, FacetedBody> bodies;
   for (const auto& [number, cutter] : cutters) {
-    bodies.emplace(number, FacetedBody(cutter.profile(), options.facets, options.arc_facets));
+    bodies.emplace(number,
+                   FacetedBody(cutter.body().parts().front(), options.facets, options.arc_facets));
   }
   Sweep sweep(within, options);
   std::optional<std::uint32_t> pose_before;

@@ -25,7 +25,7 @@ struct RadiusPair {
   cutter::Cutter larger, smaller;
 
   [[nodiscard]] double support_gain(double u) const {
-    return (larger.profile().support(u) - smaller.profile().support(u)) / (2.0 * kRadiusStep);
+    return (larger.body().support(u) - smaller.body().support(u)) / (2.0 * kRadiusStep);
   }
 };
 

@@ -105,7 +105,7 @@ TEST_P(BothCutters, AgreesWithTwentyThousandStandingCuttersOnRandomRaysThroughAF
   const ToolPose from{Vec3(-2, 1, 0), Vec3(0.3, -0.2, 1.0).normalized()};
   const ToolPose to{Vec3(2.5, -0.5, 0.8), Vec3(-0.1, 0.4, 1.0).normalized()};
   const SweptCutter swept = sweep(GetParam(), {from, to});
-  const Profile& profile = swept.tool(1).profile();
+  const Profile& profile = swept.tool(1).body().parts().front();
   double worst = 0.0;
   int met = 0, short_cords = 0;
   for (std::uint32_t k = 0; k < 600; ++k) {
@@ -132,7 +132,7 @@ TEST_P(BothCutters, NeverMissesWhatAStandingCutterCovers) {
   const ToolPose from{Vec3(0, 0, 0), Vec3::UnitZ()};
   const ToolPose to{Vec3(30, 5, 1), rotation_y(0.3) * Vec3::UnitZ()};
   const SweptCutter swept = sweep(GetParam(), {from, to});
-  const Profile& profile = swept.tool(1).profile();
+  const Profile& profile = swept.tool(1).body().parts().front();
   for (std::uint32_t k = 0; k < 3000; ++k) {
     const ToolPose at = kinematics::between(from, to, uniform({.seed = 9}, k));
     const Vec3 d = random_direction(10, 2 * k);
