@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace frustum::cutter {
 namespace {
@@ -275,8 +276,17 @@ class HighestEnd {
 
   void offer(const Sample& sample) { note(touched(sample)); }
 
-  // Looks between two samples with chords.
-  void search(const Sample& from, const Sample& to) { search(touched(from), touched(to), 0); }
+  // Looks between two samples with chords; returns the planes that touch the body at both.
+  std::pair<TouchingPlane, TouchingPlane> search(const Sample& from, const Sample& to) {
+    const Touched a = touched(from);
+    if (floor_ == kInfinity) {
+      note(a);
+      return {a.plane, a.plane};
+    }
+    const Touched b = touched(to);
+    close_in(a, b, 0);
+    return {a.plane, b.plane};
+  }
 
   [[nodiscard]] SweptEnd best() const {
     return {leaving_ ? best_value_ : -best_value_, best_t_, best_face_};
@@ -302,7 +312,7 @@ class HighestEnd {
     best_face_ = end.face;
   }
 
-  void search(const Touched& a, const Touched& b, int depth) {
+  void close_in(const Touched& a, const Touched& b, int depth) {
     note(a);
     note(b);
     const double dt = b.t - a.t;
@@ -319,8 +329,8 @@ class HighestEnd {
     if (!middle.chord) return;  // within rounding of an end of the run
     const Touched m = touched(middle);
     note(m);
-    search(a, m, depth + 1);
-    search(m, b, depth + 1);
+    close_in(a, m, depth + 1);
+    close_in(m, b, depth + 1);
   }
 
   const Profile& body_;
@@ -416,6 +426,17 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
     }
     found.push_back({lo.best(), hi.best()});
   }
+}
+
+std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& motion,
+                                  const Ray& ray) {
+  if (motion.bend() / 8.0 >= kMissedDepth) return std::nullopt;
+  const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
+  const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
+  if (!a.chord || !b.chord) return std::nullopt;
+  HighestEnd hi(body, motion, ray, true, -kInfinity);
+  const auto [from, to] = hi.search(a, b);
+  return LastExit{hi.best(), from, to};
 }
 
 std::vector<SweptInterval> swept_intervals(const Profile& body, const StretchMotion& motion,

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,16 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
 [[nodiscard]] std::vector<SweptInterval> swept_intervals(const Profile& body,
                                                          const StretchMotion& motion,
                                                          const Ray& ray);
+
+// Where the ray leaves the sweep last, with the planes that touch the body there as the motion begins and
+// ends. Only if the ray meets the body at both ends of a motion that is as good as straight.
+struct LastExit {
+  SweptEnd end;
+  TouchingPlane at_begin;
+  TouchingPlane at_end;
+};
+[[nodiscard]] std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& motion,
+                                                const Ray& ray);
 
 // A plane along the ray that has the body, at all of the poses in `poses`, on its other side? True is a
 // proof; false says nothing.

@@ -34,6 +34,25 @@ Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Body& body) {
 
 constexpr double kPassedOver = 1e-9;  // mm
 
+double signed_distance(const Body& body, const ToolPose& pose, const Vec3& point) {
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  return body.outline().distance((m - z * pose.axis).norm(), z);
+}
+
+// Not more than the distance between the point and the sweep from pose to pose.
+double least_distance(const Body& body, const ToolPose& from, const ToolPose& to,
+                      const Vec3& point) {
+  const StretchMotion motion(from, to, body.reach());
+  const int steps = 1 + static_cast<int>(motion.travel() / (0.02 * body.max_radius()));
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= steps; ++k) {
+    least =
+        std::min(least, signed_distance(body, motion.at(static_cast<double>(k) / steps), point));
+  }
+  return least - 0.5 * motion.travel() / steps;
+}
+
 }  // namespace
 
 Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tools) {
@@ -161,6 +180,38 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
     offer(body.parts().size(), found);
   }
   return contact_of(ray, end);
+}
+
+double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint32_t last,
+                              double enough) const {
+  double least = enough;
+  for (const ToolSweep& sweep : *sweeps_) {
+    const auto groups = sweep.tree.groups();
+    std::vector<std::uint32_t> open;
+    if (!groups.empty()) open.push_back(0);
+    while (!open.empty()) {
+      const std::uint32_t index = open.back();
+      open.pop_back();
+      const PoseGroup& group = groups[index];
+      const Vec3 beyond =
+          (group.box.min - point).cwiseMax(point - group.box.max).cwiseMax(Vec3::Zero());
+      if (beyond.norm() >= least) continue;
+      const double distance = signed_distance(*sweep.body, group.witness, point);
+      if (distance - group.shift >= least) continue;
+      if (group.count == 0) {
+        open.push_back(group.second_child);
+        open.push_back(index + 1);
+        continue;
+      }
+      for (const std::uint32_t i : sweep.tree.stretches().subspan(group.first, group.count)) {
+        if (i >= first && i <= last) continue;
+        const Stretch& stretch = path_.stretches[i];
+        least = std::min(
+            least, least_distance(*sweep.body, path_.from(stretch), path_.to(stretch), point));
+      }
+    }
+  }
+  return least;
 }
 
 }  // namespace frustum::cutter

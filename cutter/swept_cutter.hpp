@@ -57,6 +57,10 @@ class SweptCutter {
   // The contact behind the end at s that along() tagged with `stretch`.
   [[nodiscard]] SweepContact contact(const Ray& ray, double s, std::uint32_t stretch) const;
 
+  // No stretch outside [first, last] comes nearer to the point than this, or than `enough` (mm).
+  [[nodiscard]] double clearance(const Vec3& point, std::uint32_t first, std::uint32_t last,
+                                 double enough) const;
+
   // Box of the stretch's sweep, and of the whole path's.
   [[nodiscard]] const Box& box(std::uint32_t stretch) const { return boxes_[stretch]; }
 

@@ -1,0 +1,61 @@
+// A contact found once and followed when the tool path changes a little: the same answer, much faster.
+//
+// Model    : a trail keeps a contact of the nominal path, the stretches around it and the distance to all
+//            others. On a changed path the contact is solved anew in its own stretch or the next ones. The
+//            planes that touch the cutter at both ends of those prove, pose by pose, that nothing else of the
+//            window reaches beyond; the distance proves it for the rest. What cannot be proven is not
+//            answered: then the whole sweep is to be asked
+// Units    : mm; frame: workpiece
+// Errors   : on() refuses a path with other stretches, blocks or tools than the nominal one
+// Accuracy : that of SweptCutter::end_of_void: 0.02 nm normal to the surface
+// Source   : ours
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/result.hpp"
+#include "cutter/swept_cutter.hpp"
+
+namespace frustum::cutter {
+
+// A probe's ray and what it found on the nominal path.
+struct ContactTrail {
+  Ray ray{};
+  double start = 0.0;  // mm along the ray: the void is asked for from here
+  SweepContact contact{};
+  std::uint32_t first = 0, last = 0;  // the window of stretches around the contact
+  double clearance =
+      0.0;  // no other stretch comes nearer to the contact point (mm); 0: do not follow
+};
+
+// The trail of a contact that end_of_void(ray, start, ...) found.
+[[nodiscard]] ContactTrail trail_of(const SweptCutter& nominal, const Ray& ray, double start,
+                                    const SweepContact& contact);
+
+class ChangedPath {
+ public:
+  [[nodiscard]] static Result<ChangedPath> on(const SweptCutter& nominal,
+                                              kinematics::ToolPath path);
+
+  // Where the probe meets the part that this path cuts; nothing: not proven, ask the whole sweep.
+  [[nodiscard]] std::optional<SweepContact> follow(const ContactTrail& trail) const;
+
+  // No point of a cutter is farther from its nominal place at any pose (mm).
+  [[nodiscard]] double displacement() const { return displacement_; }
+  [[nodiscard]] const kinematics::ToolPath& path() const { return path_; }
+
+ private:
+  ChangedPath(const SweptCutter& nominal, kinematics::ToolPath path, double displacement,
+              double departure);
+
+  kinematics::ToolPath path_;
+  SweptCutter nominal_;  // a copy shares its tools
+  std::vector<const Body*> body_of_block_{};
+  double displacement_;
+  double
+      departure_;  // from straight motion within any stretch, of a plane that goes with a cutter (mm)
+};
+
+}  // namespace frustum::cutter
