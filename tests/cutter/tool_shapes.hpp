@@ -48,7 +48,7 @@ inline std::vector<CutterSpec> specimens() {
   lens.corner_radius = {1.5};
   CutterSpec& apt = add(base(CutterType::apt, 14.0, 26.0));
   apt.corner_radius = {3.0};
-  apt.arc_offset = {4.0};
+  apt.arc_offset = {4.3};
   apt.arc_height = {3.2};
   apt.end_slope = 4.0_deg;
   apt.taper_angle = 3.0_deg;
