@@ -153,14 +153,23 @@ Result<Chain> with_run_out(const Chain& chain, double offset, double tilt) {
 
 Chain widened(const Chain& chain, double by) {
   if (by == 0.0) return chain;
-  const Ends ends = ends_of(chain);
-  Chain out = ends.recess;
-  const MeridianPoint from = out.empty() ? MeridianPoint{0.0, ends.outer.z} : out.back().to;
-  add_level(out, from, {ends.outer.r + by, ends.outer.z});
-  const std::size_t first = out.size();
-  for (const OutlineSegment& s : ends.flank) out.push_back(moved(s, by));
-  if (first > 0) out[first].from = out[first - 1].to;
-  return out;
+  Chain moved_on;
+  if (by < 0.0) {
+    // What comes to lie beyond the axis is ground off.
+    moved_on = narrowed(monotone_in_height(chain), -by);
+  } else {
+    const double height = chain.front().from.z;
+    add_level(moved_on, {0.0, height}, {by, height});
+    for (const OutlineSegment& s : chain) moved_on.push_back(moved(s, by));
+  }
+  if (moved_on.empty()) return chain;
+  // A point that is ground off leaves a new lowest point, from which heights count.
+  double lowest = moved_on.front().from.z;
+  for (const OutlineSegment& s : moved_on) lowest = std::min(lowest, s.to.z);
+  for (OutlineSegment& s : moved_on) {
+    for (MeridianPoint* p : {&s.from, &s.to, &s.centre}) p->z -= lowest;
+  }
+  return moved_on;
 }
 
 }  // namespace frustum::cutter

@@ -19,7 +19,7 @@ namespace frustum::cutter {
 
 [[nodiscard]] Result<std::vector<OutlineSegment>> with_run_out(
     const std::vector<OutlineSegment>& chain, double offset, double tilt);
-// Every point of the flank farther from the axis; the end face goes with it.
+// Every point farther from the axis by `by`, or nearer; a face of the radius `by` fills the middle.
 [[nodiscard]] std::vector<OutlineSegment> widened(const std::vector<OutlineSegment>& chain,
                                                   double by);
 

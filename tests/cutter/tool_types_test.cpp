@@ -162,8 +162,7 @@ TEST(ToolTypes, AHollowEndRisesByRadiusTimesTheTangentOfItsAngle) {
 
 TEST(ToolTypes, ConvexOnesAreOnePart) {
   for (const CutterSpec& spec : specimens()) {
-    const bool hollow = spec.end_angle.value > 0.0 || spec.type == CutterType::profile ||
-                        spec.type == CutterType::measured;
+    const bool hollow = spec.end_angle.value > 0.0 || spec.type == CutterType::profile;
     EXPECT_EQ(made(spec).body().is_convex(), !hollow) << to_string(spec.type);
   }
 }
@@ -201,6 +200,19 @@ TEST(RunOutLaws, TheBodyIsWhatTheTurningToolCovers) {
       }
       EXPECT_EQ(covered, turning.distance(r, z) < 0.0)
           << to_string(spec.type) << " at " << r << ", " << z;
+    }
+  }
+}
+
+TEST(ToolTypes, ARadiusErrorOfAFreeOutlineMovesItWhole) {
+  CutterSpec spec = specimens()[15];
+  const Outline nominal = made(spec).body().outline();
+  for (const double by : {0.02, -0.02}) {
+    spec.radius_error = {by};
+    const Outline real = made(spec).body().outline();
+    for (const auto& p : along(nominal, 50)) {
+      if (p.r + by < 0.0 || p.z >= nominal.height()) continue;
+      EXPECT_NEAR(real.distance(p.r + by, p.z), 0.0, 1e-9);
     }
   }
 }
