@@ -92,8 +92,8 @@ void read_tools(const TomlTable& root, programs::TestPiece& piece, Diagnostics& 
     auto loaded = cutter::load_tool_library(root.file_path("tools"));
     if (!loaded) {
       problems.insert(problems.end(), loaded.error().begin(), loaded.error().end());
-      // What is changed of unknown tools cannot be judged.
-      if (root.has("tool")) static_cast<void>(root.table("tool"));
+      // What the job changes of unknown tools cannot be judged.
+      static_cast<void>(root.has("tool"));
       return;
     }
     library = *std::move(loaded);

@@ -93,6 +93,8 @@ std::string rows_text(const std::vector<CutterRow>& rows, std::size_t width) {
 std::optional<std::string> value_text(const CutterSpec& spec, const CutterKey& key) {
   if (const auto* length = std::get_if<Mm CutterSpec::*>(&key.value)) {
     const double value = (spec.**length).value;
+    // The error that people try first: a place to write it.
+    if (value == 0.0 && key.name == "radius_error") return "\"0 um\"";
     if (value == 0.0) return std::nullopt;
     return fmt::format("{}", value);
   }
