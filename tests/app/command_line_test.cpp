@@ -81,6 +81,8 @@ TEST_F(CommandLineSystem, RefusesBadInputWithPlaceAndRemedy) {
        "radius_error",
        "radius_eror",
        {"tool.1.radius_eror", "did you mean radius_error?"}},
+      {"job.toml", "title ", "tools = \"none.tbl\"\ntitle ", {"none.tbl", "cannot be read"}},
+      {"job.toml", "type = \"flat\"", "type = \"bull\"", {"tool.1.corner_radius"}},
       {"job.toml", "diameter = 110", "diameter = 0", {"blank.diameter", "greater than 0"}},
       {"job.toml", "e0 = \"0 um\"", "e0 = \"0 urad\"", {"inspection.cmm.e0", "length"}},
       {"job.toml", "cone.nc", "none.nc", {"program.file", "cannot be read"}},
