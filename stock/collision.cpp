@@ -93,6 +93,7 @@ class OverlapSearch {
   OverlapSearch(const Workpiece& workpiece, const SuspectMove& move)
       : workpiece_(workpiece), first_(move.stretches.front()) {}
 
+  // The stretch must be straight.
   void follow(const Profile& body, const std::vector<Ring>& rings, const ToolPose& from,
               const ToolPose& to) {
     const Vec3 way = to.tip - from.tip;
@@ -101,12 +102,15 @@ class OverlapSearch {
     const Vec3 side = any_normal(from.axis);
     const Vec3 other = from.axis.cross(side);
     constexpr int kAround = 16;
+    const bool square = std::abs(direction.dot(from.axis)) < 1e-9;
     for (const Ring& ring : rings) {
       const int around = ring.radius > 0.0 ? kAround : 1;
       for (int j = 0; j < around; ++j) {
         const double angle = 2.0 * std::numbers::pi * j / around;
-        const Vec3 at = from.tip + ring.z * from.axis +
-                        ring.radius * (std::cos(angle) * side + std::sin(angle) * other);
+        const Vec3 out = std::cos(angle) * side + std::sin(angle) * other;
+        // Square to the axis, the rays through the back of a ring are those through its front.
+        if (square && out.dot(direction) < -1e-9) continue;
+        const Vec3 at = from.tip + ring.z * from.axis + ring.radius * out;
         follow_ray({at, direction}, body, from, length);
       }
     }
@@ -125,6 +129,7 @@ class OverlapSearch {
     const auto chord = body.chord(from, ray, -kCollisionMargin);
     if (!chord) return;
     const RaySpan span{chord->lo, chord->hi + length};
+    if (workpiece_.blank().along(ray, span).minus(lately_removed(ray)).empty()) return;
     const IntervalSet met = workpiece_.material_along(ray, span, first_);
     for (const Interval& piece : met.intervals()) {
       const Vec3 a = ray.at(piece.lo), b = ray.at(piece.hi);
@@ -132,6 +137,27 @@ class OverlapSearch {
       found_->min = found_->min.cwiseMin(a.cwiseMin(b));
       found_->max = found_->max.cwiseMax(a.cwiseMax(b));
     }
+  }
+
+  // Some of what the few stretches before the move have removed: most rapids run where the tool has just
+  // been, and this is much cheaper than to ask the whole program.
+  [[nodiscard]] IntervalSet lately_removed(const Ray& ray) const {
+    constexpr std::uint32_t kLately = 8;
+    const ToolPath& path = workpiece_.removed().path();
+    std::vector<Interval> all;
+    for (std::uint32_t i = first_ - std::min(first_, kLately); i < first_; ++i) {
+      const Stretch& s = path.stretches[i];
+      const Profile& body = workpiece_.removed().tool(path.blocks[s.block].tool).profile();
+      const auto a = body.chord(path.from(s), ray), b = body.chord(path.to(s), ray);
+      if (a) all.push_back({a->lo, a->hi});
+      if (b) all.push_back({b->lo, b->hi});
+      // Moving along the ray, the body also covers what lies between.
+      const Vec3 way = path.to(s).tip - path.from(s).tip;
+      const bool along = path.from(s).axis == path.to(s).axis &&
+                         way.cross(ray.direction).norm() <= 1e-12 * way.norm();
+      if (a && b && along) all.push_back({std::min(a->lo, b->lo), std::max(a->hi, b->hi)});
+    }
+    return IntervalSet(std::move(all));
   }
 
   const Workpiece& workpiece_;
