@@ -23,7 +23,7 @@ Moment moment_after(const ToolPath& path, std::uint32_t stretches, double time) 
 }
 
 Moment before(const ToolPath& path, const Timetable& table, std::uint32_t stretch) {
-  return moment_after(path, stretch, stretch == 0 ? 0.0 : table.time(stretch - 1, 1.0));
+  return moment_after(path, stretch, table.start(stretch));
 }
 
 // Rays of a plane-filling triad through the point: one of them meets any surface at 55 degrees or less
@@ -67,8 +67,6 @@ Timetable::Timetable(const ToolPath& path) : first_(path.blocks.size() + 1) {
 double Timetable::time(std::uint32_t stretch, double t) const {
   return starts_[stretch] + t * (starts_[stretch + 1] - starts_[stretch]);
 }
-
-double Timetable::end() const { return starts_.back(); }
 
 Moment start_of(const ToolPath& path) { return moment_after(path, 0, 0.0); }
 

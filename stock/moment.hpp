@@ -30,7 +30,9 @@ class Timetable {
   // Seconds since the start of the program at a fraction t of a stretch. Of a path without times they
   // are the sums of the blocks' durations, stretches of a block taking equally long.
   [[nodiscard]] double time(std::uint32_t stretch, double t) const;
-  [[nodiscard]] double end() const;
+  // Of a stretch; of the number of stretches, the end of the program.
+  [[nodiscard]] double start(std::uint32_t stretch) const { return starts_[stretch]; }
+  [[nodiscard]] double end() const { return starts_.back(); }
   [[nodiscard]] std::uint32_t blocks() const {
     return static_cast<std::uint32_t>(first_.size() - 1);
   }
