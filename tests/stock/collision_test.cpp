@@ -44,7 +44,7 @@ TEST(BodyCollision, OfAShankInASlotDeeperThanItsFlutes) {
   EXPECT_NEAR(found[0].depth, 3.0, 0.03);
 }
 
-TEST(BodyCollision, DoesNotCountWhatWasCutBefore) {
+TEST(BodyCollision, DoesNotCountWhatWasCutBefore_Complaint16) {
   // The second pass is deeper than the flutes, but the shank runs where the first has cut.
   EXPECT_TRUE(of_slot({-6.0, -11.0}, kShank).empty());
   EXPECT_TRUE(of_slot({-6.0, -11.0}, kThinShank).empty());
