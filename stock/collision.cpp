@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <tuple>
 
 namespace frustum::stock {
 namespace {
@@ -277,8 +279,30 @@ std::vector<Collision> find_cutter_collisions(const Workpiece& workpiece) {
   return found;
 }
 
+std::vector<NonCuttingBody> non_cutting_bodies(const Workpiece& workpiece) {
+  const cutter::SweptCutter& swept = workpiece.removed();
+  std::set<int> numbers;
+  for (const PathBlock& block : swept.path().blocks) numbers.insert(block.tool);
+  std::vector<NonCuttingBody> bodies;
+  const auto add = [&](int tool, CollisionBody which, const std::optional<cutter::Body>& body) {
+    if (!body) return;
+    bodies.push_back({tool, which, {body->parts().begin(), body->parts().end()}});
+  };
+  for (const int number : numbers) {
+    add(number, CollisionBody::shank, swept.tool(number).shank());
+    add(number, CollisionBody::holder, swept.tool(number).holder());
+  }
+  return bodies;
+}
+
 std::vector<Collision> find_collisions(const Workpiece& workpiece) {
-  return find_cutter_collisions(workpiece);
+  std::vector<Collision> found = find_cutter_collisions(workpiece);
+  const auto bodies = find_body_collisions(workpiece, non_cutting_bodies(workpiece));
+  found.insert(found.end(), bodies.begin(), bodies.end());
+  std::ranges::stable_sort(found, [](const Collision& a, const Collision& b) {
+    return std::tie(a.block, a.body) < std::tie(b.block, b.body);
+  });
+  return found;
 }
 
 }  // namespace frustum::stock

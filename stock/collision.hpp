@@ -48,6 +48,9 @@ struct NonCuttingBody {
   std::vector<cutter::Profile> parts{};
 };
 
+// The shanks and holders of the tools that the program uses.
+[[nodiscard]] std::vector<NonCuttingBody> non_cutting_bodies(const Workpiece& workpiece);
+
 // Of all bodies of all tools, in program order.
 [[nodiscard]] std::vector<Collision> find_collisions(const Workpiece& workpiece);
 

@@ -267,8 +267,11 @@ CellRays CellRays::over(const BoundingBox& box, int axis, double pitch) {
 }
 
 Ray CellRays::ray(int u, int v) const {
-  return {origin + (u + 0.5) * pitch_u * Vec3::Unit((axis + 1) % 3) +
-              (v + 0.5) * pitch_v * Vec3::Unit((axis + 2) % 3),
+  // Irrational steps from row to row: a face along the rays of one row is not met by all rows alike.
+  constexpr double kStepU = 0.61803398874989485, kStepV = 0.41421356237309505;
+  const auto shift = [](double s) { return s - std::floor(s); };
+  return {origin + (u + shift(0.5 + kStepU * v)) * pitch_u * Vec3::Unit((axis + 1) % 3) +
+              (v + shift(0.5 + kStepV * u)) * pitch_v * Vec3::Unit((axis + 2) % 3),
           Vec3::Unit(axis)};
 }
 
