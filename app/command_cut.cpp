@@ -1,132 +1,295 @@
-// frustum cut: the finished workpiece as a mesh and a picture.
+// frustum cut: the workpiece at any moment as a mesh and a picture, and what the program did to it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/console.hpp"
+#include "app/cut_result.hpp"
 #include "app/job.hpp"
 #include "app/job_report.hpp"
 #include "app/number_check.hpp"
+#include "app/polyhedral_engine.hpp"
+#include "app/removal_csv.hpp"
 #include "app/trial_run.hpp"
+#include "core/whole_file.hpp"
 #include "report/picture.hpp"
 #include "stock/mesh_file.hpp"
 
 namespace frustum::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   std::string job{};
   std::string mesh{};
   std::string picture{};
+  std::string removal{};
+  std::string point{};
   double pitch = 0.0;
+  std::uint32_t until_line = 0;  // 0: to the end
+  int snapshots = 0;
+  std::string engine = "ray";
+  PolyhedralFacets facets{};
+  double facet_tolerance_mm = 0.01;
+  double gouge_limit_um = 0.0, excess_limit_um = 0.0;  // 0: none
   JobOverrides overrides{};
   bool json = false;
   bool quiet = false;
-};
 
-struct DeviationRange {
-  std::size_t vertices = 0;  // with a nominal
-  double lowest = 0.0, highest = 0.0;
-};
-
-DeviationRange range_of(const stock::SurfaceMesh& mesh) {
-  DeviationRange range;
-  for (const auto& d : mesh.deviation) {
-    if (!d) continue;
-    range.lowest = range.vertices == 0 ? *d : std::min(range.lowest, *d);
-    range.highest = range.vertices == 0 ? *d : std::max(range.highest, *d);
-    ++range.vertices;
+  [[nodiscard]] bool polyhedral() const { return engine == "polyhedral"; }
+  [[nodiscard]] bool limited() const { return gouge_limit_um > 0.0 || excess_limit_um > 0.0; }
+  [[nodiscard]] bool wants_surface() const {
+    return !mesh.empty() || !picture.empty() || limited();
   }
-  return range;
+};
+
+std::optional<Diagnostic> fault_of(const Options& o) {
+  if (!o.wants_surface() && o.removal.empty() && o.point.empty()) {
+    return error("nothing to write",
+                 "give --mesh OUT.stl|.ply|.obj, --picture OUT.png, "
+                 "--removal OUT.csv, --point X,Y,Z or a limit");
+  }
+  if (o.snapshots > 0 && o.mesh.empty()) {
+    return error("snapshots need a name", "give --mesh part.ply for part_0001.ply and so on");
+  }
+  if (!o.mesh.empty()) {
+    if (const auto format = stock::mesh_format_of(o.mesh); !format) return format.error().front();
+  }
+  if (!o.picture.empty() && fs::path(o.picture).extension() != ".png") {
+    return error("pictures are written as .png, not " + o.picture);
+  }
+  if (!o.removal.empty() && fs::path(o.removal).extension() != ".csv") {
+    return error("the removal of each block is written as .csv, not " + o.removal);
+  }
+  return std::nullopt;
 }
 
-int cut(const Options& options) {
-  if (options.mesh.empty() && options.picture.empty()) {
-    return refuse("nothing to write", "give --mesh OUT.stl|.ply|.obj or --picture OUT.png");
+// Steps of the command; each fills its part of the result, or says what is wrong.
+class Cut {
+ public:
+  Cut(const Options& options, const Job& job, const trials::Trial& trial, TrialRun& run)
+      : options_(options), job_(job), trial_(trial), run_(run) {}
+
+  [[nodiscard]] Result<CutResult> result() {
+    if (auto failure = find_moment()) return *failure;
+    result_.blank_volume = workpiece().blank().volume();
+    for (const stock::Collision& c : trial_.collisions) {
+      if (result_.until.block && c.block <= *result_.until.block) result_.collisions.push_back(c);
+    }
+    if (auto failure = find_maker()) return *failure;
+    if (options_.wants_surface()) {
+      if (auto failure = write_surfaces()) return *failure;
+    }
+    if (!options_.removal.empty()) {
+      if (auto failure = write_removal()) return *failure;
+    }
+    return result_;
   }
-  if (!options.mesh.empty()) {
-    if (const auto format = stock::mesh_format_of(options.mesh); !format)
-      return refuse(format.error());
+
+ private:
+  using Failure = std::optional<Diagnostics>;
+
+  [[nodiscard]] const stock::Workpiece& workpiece() const { return *trial_.workpiece; }
+  [[nodiscard]] const kinematics::ToolPath& path() const { return workpiece().removed().path(); }
+  [[nodiscard]] stock::WorkpieceAt part() const { return {workpiece(), result_.until}; }
+
+  Failure find_moment() {
+    result_.until = stock::end_of(path());
+    if (options_.until_line == 0) return std::nullopt;
+    const auto moment = stock::after_line(path(), options_.until_line);
+    if (!moment) return moment.error();
+    result_.finished = moment->stretches == result_.until.stretches;
+    result_.until = *moment;
+    return std::nullopt;
   }
-  if (!options.picture.empty() && std::filesystem::path(options.picture).extension() != ".png") {
-    return refuse("pictures are written as .png, not " + options.picture);
+
+  Failure find_maker() {
+    if (options_.point.empty()) return std::nullopt;
+    const auto words = numbers_of(options_.point, 3, "--point");
+    if (!words) return words.error();
+    result_.asked_point = Vec3((*words)[0], (*words)[1], (*words)[2]);
+    result_.maker = stock::maker_of(part(), *result_.asked_point);
+    return std::nullopt;
   }
+
+  struct Meshed {
+    stock::SurfaceMesh mesh{};
+    std::optional<Mm> bound{};
+  };
+  [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {
+    if (!options_.polyhedral()) {
+      auto mesh = finished_surface(job_, part, options_.pitch);
+      if (!mesh) return mesh.error();
+      return Meshed{*std::move(mesh), {}};
+    }
+    auto faceted = faceted_surface(part, options_.facets);
+    if (!faceted) return faceted.error();
+    judge_surface(job_, faceted->mesh);
+    return Meshed{std::move(faceted->mesh), faceted->bound};
+  }
+
+  Failure write_surfaces() {
+    run_.begin("mesh the surface");
+    if (options_.snapshots > 0) {
+      if (auto failure = write_snapshots()) return failure;
+    }
+    const auto meshed = surface_of(part());
+    run_.end();
+    if (!meshed) return meshed.error();
+    const stock::SurfaceMesh& mesh = meshed->mesh;
+    if (!options_.mesh.empty() && options_.snapshots == 0) {
+      if (const auto file = stock::write_mesh(mesh, options_.mesh); !file) return file.error();
+    }
+    if (!options_.picture.empty()) {
+      const auto file = report::write_picture(options_.picture, picture_of(mesh, job_.piece.plan));
+      if (!file) return file.error();
+    }
+    describe(*meshed);
+    return std::nullopt;
+  }
+
+  void describe(const Meshed& meshed) {
+    const stock::SurfaceMesh& mesh = meshed.mesh;
+    // A faceted vertex is looked up where it stands, as far off the exact surface as it may be.
+    const Mm near{std::max(1e-3, meshed.bound.value_or(Mm{}).value)};
+    CutSurface surface{.vertices = mesh.vertices.size(),
+                       .triangles = mesh.triangles.size(),
+                       .measure = stock::measure(mesh),
+                       .deviations = stock::worst_deviations(part(), mesh, near),
+                       .faceted_within = meshed.bound};
+    bool first = true;
+    for (const auto& d : mesh.deviation) {
+      if (!d) continue;
+      surface.lowest = first ? *d : std::min(surface.lowest, *d);
+      surface.highest = first ? *d : std::max(surface.highest, *d);
+      first = false;
+    }
+    result_.surface = std::move(surface);
+  }
+
+  Failure write_snapshots() {
+    const fs::path name(options_.mesh);
+    for (const stock::Moment& moment :
+         stock::equally_spaced(path(), options_.snapshots, result_.until)) {
+      const auto meshed = surface_of({workpiece(), moment});
+      if (!meshed) return meshed.error();
+      const fs::path file =
+          name.parent_path() / fmt::format("{}_{:04}{}", name.stem().string(),
+                                           result_.snapshots.size() + 1, name.extension().string());
+      if (const auto written = stock::write_mesh(meshed->mesh, file); !written) {
+        return written.error();
+      }
+      result_.snapshots.push_back({file.string(), moment, stock::measure(meshed->mesh).volume});
+    }
+    // The index comes last: where it is, the series is complete.
+    const auto index = write_whole_file(fs::path(name).replace_extension(".json"),
+                                        snapshot_index(result_.snapshots));
+    return index ? std::nullopt : Failure(index.error());
+  }
+
+  Failure write_removal() {
+    run_.begin("follow the removal");
+    auto removal = stock::removal_of(workpiece(), {.pitch = Mm{options_.pitch}});
+    run_.end();
+    if (!removal) return removal.error();
+    removal->resize(result_.until.block ? *result_.until.block + 1 : 0);
+    const auto file = write_whole_file(options_.removal, removal_csv(path(), *removal));
+    if (!file) return file.error();
+    RemovalTotal total{.file = options_.removal};
+    for (const stock::BlockRemoval& r : *removal) {
+      if (r.volume > 0.0) ++total.blocks;
+      total.volume += r.volume;
+    }
+    result_.removal = total;
+    return std::nullopt;
+  }
+
+  const Options& options_;
+  const Job& job_;
+  const trials::Trial& trial_;
+  TrialRun& run_;
+  CutResult result_{};
+};
+
+void tell_collisions(const Job& job, const CutResult& result) {
+  for (const stock::Collision& c : result.collisions) {
+    Diagnostic told = error(collision_text(c));
+    told.file = job.piece.program_file;
+    told.line = static_cast<int>(c.source_line);
+    print(std::cerr, {told});
+  }
+}
+
+int cut(Options options) {
+  if (const auto fault = fault_of(options)) return refuse({*fault});
+  options.facets.tolerance = Mm{options.facet_tolerance_mm};
   const auto job = load_job(options.job, options.overrides, false);
   if (!job) return refuse(job.error());
   TrialRun run(progress_style(options.quiet || options.json));
   const auto trial = run.trial(*job, false);
   if (!trial) return refuse(trial.error());
-  run.begin("mesh the surface");
-  const auto mesh = finished_surface(*job, *trial->workpiece, options.pitch);
-  run.end();
-  if (!mesh) return refuse(mesh.error());
-  if (!options.mesh.empty()) {
-    if (const auto file = stock::write_mesh(*mesh, options.mesh); !file)
-      return refuse(file.error());
-  }
-  if (!options.picture.empty()) {
-    const auto file = report::write_picture(options.picture, picture_of(*mesh, job->piece.plan));
-    if (!file) return refuse(file.error());
-  }
-  const stock::MeshMeasure measure = stock::measure(*mesh);
-  const double blank = trial->workpiece->blank().volume();
-  const DeviationRange deviation = range_of(*mesh);
-  nlohmann::ordered_json collision_list = nlohmann::ordered_json::array();
-  for (const report::Collision& c : report_of(*job, *trial).collisions) {
-    collision_list.push_back({{"line", c.line}, {"text", c.text}});
-    Diagnostic told = error(c.text);
-    told.file = job->piece.program_file;
-    told.line = static_cast<int>(c.line);
-    print(std::cerr, {told});
-  }
+  auto result = Cut(options, *job, *trial, run).result();
+  if (!result) return refuse(result.error());
+  if (options.gouge_limit_um > 0.0) result->limits.gouge = options.gouge_limit_um / kUmPerMm;
+  if (options.excess_limit_um > 0.0) result->limits.excess = options.excess_limit_um / kUmPerMm;
+  tell_collisions(*job, *result);
   if (options.json) {
-    const nlohmann::ordered_json doc{
-        {"vertices", mesh->vertices.size()},
-        {"triangles", mesh->triangles.size()},
-        {"closed", measure.is_closed},
-        {"manifold", measure.is_manifold},
-        {"volume_mm3", measure.volume},
-        {"blank_volume_mm3", blank},
-        {"removed_volume_mm3", removed_volume(blank, measure.volume)},
-        {"vertices_with_nominal", deviation.vertices},
-        {"deviation_um", {deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm}},
-        {"collisions", trial->collisions.size()},
-        {"collision_list", collision_list}};
-    std::cout << doc.dump(2) << '\n';
+    std::cout << cut_json(*result);
   } else if (!options.quiet) {
-    std::cout << fmt::format(
-        "{} vertices, {} triangles, {}\nvolume {:.3f} mm3 of {:.3f}, removed {:.3f}\n"
-        "deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
-        mesh->vertices.size(), mesh->triangles.size(),
-        measure.is_closed && measure.is_manifold ? "closed and manifold" : "NOT closed",
-        measure.volume, blank, removed_volume(blank, measure.volume), deviation.lowest * kUmPerMm,
-        deviation.highest * kUmPerMm, deviation.vertices);
+    std::cout << cut_text(*result);
   }
-  return trial->collisions.empty() ? kDone : kOutOfTolerance;
+  return result->passes() ? kDone : kOutOfTolerance;
+}
+
+void add_options(CLI::App& command, Options& o) {
+  command.add_option("job", o.job, "Job file")->required();
+  command.add_option("--mesh", o.mesh, "Mesh to write: .stl, .ply (with deviations) or .obj");
+  command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
+  command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
+      ->check(positive_number());
+  command.add_option("--until-line", o.until_line, "Stop after the last motion of this NC line")
+      ->check(CLI::Range(1U, 4'000'000'000U));
+  command
+      .add_option("--snapshots", o.snapshots,
+                  "So many meshes at equal steps of time, named after --mesh, with an index .json")
+      ->check(CLI::Range(1, 9999));
+  command.add_option("--removal", o.removal,
+                     "Table to write, .csv: volume, rate and engagement of each block");
+  command.add_option("--point", o.point, "X,Y,Z: say which NC line made the surface there");
+  command
+      .add_option("--engine", o.engine, "ray: exact; polyhedral: Boolean operations, to compare")
+      ->check(CLI::IsMember({"ray", "polyhedral"}))
+      ->capture_default_str();
+  command.add_option("--facets", o.facets.facets, "Of the polyhedral engine, around the axis")
+      ->check(CLI::Range(3, 4096))
+      ->capture_default_str();
+  command
+      .add_option("--facet-tolerance", o.facet_tolerance_mm,
+                  "Of the polyhedral engine's sweeps, mm")
+      ->check(positive_number())
+      ->capture_default_str();
+  command.add_option("--gouge-limit", o.gouge_limit_um, "um: exit code 1 where more is missing")
+      ->check(positive_number());
+  command.add_option("--excess-limit", o.excess_limit_um, "um: exit code 1 where more is left")
+      ->check(positive_number());
+  add_error_options(command, o.overrides.errors);
+  command.add_option("--tool-radius-error", o.overrides.tool_radius_error, "With unit");
+  command.add_flag("--json", o.json, "One JSON document on stdout and nothing else");
+  command.add_flag("--quiet", o.quiet, "No progress, no summary");
 }
 
 }  // namespace
 
 void add_cut(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("cut", "Cut a job and write the finished workpiece");
-  command->add_option("job", options->job, "Job file")->required();
-  command->add_option("--mesh", options->mesh,
-                      "Mesh to write: .stl, .ply (with deviations) or .obj");
-  command->add_option("--picture", options->picture,
-                      "Picture to write: .png, coloured by deviation");
-  command
-      ->add_option("--pitch", options->pitch,
-                   "Of the sampling grid, mm (default: longest side / 120)")
-      ->check(positive_number());
-  add_error_options(*command, options->overrides.errors);
-  command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
-  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
-  command->add_flag("--quiet", options->quiet, "No progress, no summary");
+  CLI::App* command =
+      program.add_subcommand("cut", "Cut a job and write the workpiece at any moment");
+  add_options(*command, *options);
   command->footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
   command->callback([options, &exit_code] { exit_code = cut(*options); });
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "metrology/nominal.hpp"
+#include "stock/deviation.hpp"
 
 namespace frustum::app {
 namespace {
@@ -85,15 +86,42 @@ void judge_edges(stock::SurfaceMesh& mesh, const metrology::InspectionPlan& plan
   }
 }
 
-std::string collision_text(const stock::Collision& c) {
-  const char* what = c.kind == stock::CollisionKind::rapid_through_material
-                         ? "rapid move (G0) through material"
-                         : "feed move with the spindle off in material";
-  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f})", what, c.tool,
-                     c.depth, c.point.x(), c.point.y(), c.point.z());
+std::string body_text(const stock::Collision& c) {
+  switch (c.body) {
+    case stock::CollisionBody::cutter:
+      break;
+    case stock::CollisionBody::shank:
+      return "shank ";
+    case stock::CollisionBody::holder:
+      return "holder ";
+  }
+  return "";
+}
+
+std::string kind_text(stock::CollisionKind kind) {
+  switch (kind) {
+    case stock::CollisionKind::rapid_through_material:
+      return "rapid move (G0) through material";
+    case stock::CollisionKind::feed_with_spindle_off:
+      return "feed move with the spindle off in material";
+    case stock::CollisionKind::body_in_material:
+      break;
+  }
+  return "in material during a feed move";
 }
 
 }  // namespace
+
+std::string collision_text(const stock::Collision& c) {
+  std::string what = kind_text(c.kind);
+  if (c.body != stock::CollisionBody::cutter) {
+    what = body_text(c) + (c.kind == stock::CollisionKind::body_in_material ? "" : "in a ") + what;
+  }
+  const std::string until =
+      c.last_line == c.source_line ? "" : fmt::format(", until line {}", c.last_line);
+  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f}){}", what, c.tool,
+                     c.depth, c.point.x(), c.point.y(), c.point.z(), until);
+}
 
 report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   report::RunReport report;
@@ -137,9 +165,9 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   return report;
 }
 
-Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpiece& workpiece,
+Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
                                             double pitch) {
-  const stock::BoundingBox box = workpiece.blank().bounds();
+  const stock::BoundingBox box = part.workpiece().blank().bounds();
   if (pitch <= 0.0) pitch = job.mesh_pitch;
   if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 120.0;
   // A grid that the part falls through would be answered with nothing at all.
@@ -148,15 +176,18 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
     return error(fmt::format("a pitch of {:g} mm is too coarse for this blank", pitch),
                  fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
   }
-  auto mesh = stock::extract_surface(workpiece, box, Mm{pitch});
-  if (!mesh || job.piece.plan.features.empty()) return mesh;
-  mesh->deviation.reserve(mesh->vertices.size());
-  for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
-    mesh->deviation.push_back(
-        metrology::deviation_from_nominal(job.piece.plan, mesh->vertices[i], mesh->normals[i]));
-  }
-  judge_edges(*mesh, job.piece.plan);
+  auto mesh = stock::extract_surface(part, box, Mm{pitch});
+  if (mesh) judge_surface(job, *mesh);
   return mesh;
+}
+
+void judge_surface(const Job& job, stock::SurfaceMesh& mesh) {
+  const metrology::InspectionPlan& plan = job.piece.plan;
+  if (plan.features.empty()) return;
+  stock::compare(mesh, [&](const Vec3& point, const Vec3& normal) {
+    return metrology::deviation_from_nominal(plan, point, normal);
+  });
+  judge_edges(mesh, plan);
 }
 
 double removed_volume(double blank, double finished) {

@@ -1,0 +1,255 @@
+// Shanks and holders against material. Along each ray of a grid the history of the material is known, piece
+// by piece: a body that reaches a piece before the block that removes it has collided.
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "cutter/stretch_sweep.hpp"
+#include "stock/collision.hpp"
+#include "stock/removal.hpp"
+
+namespace frustum::stock {
+namespace {
+
+using cutter::Box;
+using cutter::Profile;
+using cutter::StretchMotion;
+using kinematics::PathBlock;
+using kinematics::PathKind;
+using kinematics::Stretch;
+using kinematics::ToolPath;
+using kinematics::ToolPose;
+
+// One body on one stretch.
+struct Passage {
+  std::uint32_t stretch = 0;
+  const NonCuttingBody* body = nullptr;
+};
+
+Box box_at(const ToolPose& pose, const Profile& part) {
+  const Vec3 low = pose.tip + part.bottom() * pose.axis;
+  const Vec3 top = pose.tip + part.height() * pose.axis;
+  const Vec3 across =
+      part.max_radius() * (Vec3::Ones() - pose.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  return {low.cwiseMin(top) - across, low.cwiseMax(top) + across};
+}
+
+void grow(Box& box, const Box& other) {
+  box = {box.min.cwiseMin(other.min), box.max.cwiseMax(other.max)};
+}
+
+Box box_of(const NonCuttingBody& body, const ToolPose& from, const ToolPose& to) {
+  Box all = box_at(from, body.parts.front());
+  for (const Profile& part : body.parts) {
+    Box box = box_at(from, part);
+    grow(box, box_at(to, part));
+    // Points of a turning body run on arcs: at most bend/8 outside their chords.
+    const double bend = StretchMotion(from, to, part.reach()).bend() / 8.0;
+    grow(all, {box.min - Vec3::Constant(bend), box.max + Vec3::Constant(bend)});
+  }
+  return all;
+}
+
+bool overlap(const Box& a, const BoundingBox& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+// All passages that come near the blank, in program order, with a tree to find them by ray.
+class Passages {
+ public:
+  Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies)
+      : path_(workpiece.removed().path()), tree_(collect(workpiece, bodies)) {}
+
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+  [[nodiscard]] const Passage& operator[](std::uint32_t i) const { return all_[i]; }
+  [[nodiscard]] std::vector<std::uint32_t> near(const Ray& ray, RaySpan span) const {
+    return tree_.candidates(ray, span);
+  }
+  [[nodiscard]] const PathBlock& block_of(const Passage& p) const {
+    return path_.blocks[path_.stretches[p.stretch].block];
+  }
+  [[nodiscard]] std::uint32_t block_index(const Passage& p) const {
+    return path_.stretches[p.stretch].block;
+  }
+  // What the body, shrunk by the margin, surely covers: standing bodies a quarter of a radius apart.
+  [[nodiscard]] IntervalSet core_along(const Passage& p, const Ray& ray) const {
+    const Stretch& stretch = path_.stretches[p.stretch];
+    std::vector<Interval> all;
+    for (const Profile& part : p.body->parts) {
+      const StretchMotion motion(path_.from(stretch), path_.to(stretch), part.reach());
+      if (!covering_chord(part, motion, ray)) continue;
+      const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * part.max_radius()));
+      for (int k = 0; k <= steps; ++k) {
+        const auto chord =
+            part.chord(motion.at(static_cast<double>(k) / steps), ray, -kCollisionMargin);
+        if (chord) all.push_back({chord->lo, chord->hi, 0, 0});
+      }
+    }
+    return IntervalSet(std::move(all));
+  }
+
+ private:
+  std::vector<Box> collect(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies) {
+    const BoundingBox blank = workpiece.blank().bounds();
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < path_.stretches.size(); ++i) {
+      const Stretch& stretch = path_.stretches[i];
+      for (const NonCuttingBody& body : bodies) {
+        if (body.tool != path_.blocks[stretch.block].tool || body.parts.empty()) continue;
+        const Box box = box_of(body, path_.from(stretch), path_.to(stretch));
+        if (!overlap(box, blank)) continue;
+        all_.push_back({i, &body});
+        boxes.push_back(box);
+      }
+    }
+    return boxes;
+  }
+
+  const ToolPath& path_;
+  std::vector<Passage> all_{};
+  cutter::CandidateTree tree_;
+};
+
+struct Key {
+  std::uint32_t block = 0;
+  CollisionBody body = CollisionBody::shank;
+  auto operator<=>(const Key&) const = default;
+};
+struct Longest {
+  double length = 0.0;
+  Vec3 point = Vec3::Zero();
+};
+using Hits = std::map<Key, Longest>;
+
+void keep_longer(Hits& hits, const Key& key, const Longest& hit) {
+  Longest& best = hits[key];
+  if (hit.length > best.length) best = hit;
+}
+
+// The ray's material, each piece with the block that takes it away.
+std::vector<RemovedPiece> history(const Workpiece& workpiece, const Timetable& table,
+                                  const Ray& ray, RaySpan span) {
+  std::vector<RemovedPiece> pieces = removed_along(workpiece, table, ray, span);
+  const IntervalSet stays = workpiece.material_along(ray, span);
+  for (const Interval& piece : stays.intervals()) pieces.push_back({table.blocks(), piece});
+  return pieces;
+}
+
+void examine(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
+             const Ray& ray, RaySpan span, Hits& hits) {
+  const auto near = passages.near(ray, span);
+  std::vector<RemovedPiece> pieces;
+  for (const std::uint32_t i : near) {
+    const Passage& passage = passages[i];
+    const IntervalSet covered = passages.core_along(passage, ray);
+    if (covered.empty()) continue;
+    if (pieces.empty()) pieces = history(workpiece, table, ray, span);
+    const std::uint32_t block = passages.block_index(passage);
+    std::vector<Interval> standing;
+    for (const RemovedPiece& r : pieces) {
+      if (r.block > block) standing.push_back(r.piece);
+    }
+    const IntervalSet met = IntervalSet(std::move(standing)).intersected(covered);
+    for (const Interval& piece : met.intervals()) {
+      keep_longer(hits, {block, passage.body->body},
+                  {piece.length(), ray.at(0.5 * (piece.lo + piece.hi))});
+    }
+  }
+}
+
+Hits hits_of_family(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
+                    const CellRays& rays) {
+  std::vector<Hits> rows(static_cast<std::size_t>(rays.count_v));
+  tbb::parallel_for(0, rays.count_v, [&](int v) {
+    for (int u = 0; u < rays.count_u; ++u) {
+      examine(workpiece, table, passages, rays.ray(u, v), rays.span(),
+              rows[static_cast<std::size_t>(v)]);
+    }
+  });
+  Hits all;
+  for (const Hits& row : rows) {
+    for (const auto& [key, hit] : row) keep_longer(all, key, hit);
+  }
+  return all;
+}
+
+// The depth is the longest overlap along the direction in which the overlap is thinnest.
+Hits thinnest(const std::array<Hits, 3>& families) {
+  Hits all;
+  for (const Hits& family : families) {
+    for (const auto& [key, hit] : family) {
+      if (hit.length <= kCollisionMargin) continue;
+      const auto [at, is_new] = all.emplace(key, hit);
+      if (!is_new && hit.length < at->second.length) at->second = hit;
+    }
+  }
+  return all;
+}
+
+Collision described(const ToolPath& path, const Key& key, const Longest& hit) {
+  const PathBlock& block = path.blocks[key.block];
+  return {.kind = block.kind == PathKind::rapid ? CollisionKind::rapid_through_material
+                                                : CollisionKind::body_in_material,
+          .body = key.body,
+          .block = key.block,
+          .source_line = block.source_line,
+          .last_line = block.source_line,
+          .tool = block.tool,
+          .point = hit.point,
+          .depth = hit.length};
+}
+
+double pitch_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bodies) {
+  const double side = (blank.max - blank.min).maxCoeff();
+  double pitch = side / 60.0;
+  for (const NonCuttingBody& body : bodies) {
+    for (const Profile& part : body.parts) pitch = std::min(pitch, 0.25 * part.max_radius());
+  }
+  return std::max(pitch, side / 250.0);
+}
+
+}  // namespace
+
+std::vector<Collision> find_body_collisions(const Workpiece& workpiece,
+                                            const std::vector<NonCuttingBody>& bodies) {
+  const Passages passages(workpiece, bodies);
+  if (passages.empty()) return {};
+  const ToolPath& path = workpiece.removed().path();
+  const Timetable table(path);
+  const BoundingBox blank = workpiece.blank().bounds();
+  const double pitch = pitch_for(blank, bodies);
+  std::array<Hits, 3> families;
+  for (int axis = 0; axis < 3; ++axis) {
+    families[static_cast<std::size_t>(axis)] =
+        hits_of_family(workpiece, table, passages, CellRays::over(blank, axis, pitch));
+  }
+  // Blocks that follow each other make one collision, of each body.
+  std::vector<Collision> found;
+  std::map<CollisionBody, std::pair<std::size_t, std::uint32_t>> open;  // its index and last block
+  for (const auto& [key, hit] : thinnest(families)) {
+    const Collision here = described(path, key, hit);
+    const auto before = open.find(key.body);
+    const bool goes_on = before != open.end() && before->second.second + 1 == key.block &&
+                         found[before->second.first].kind == here.kind &&
+                         found[before->second.first].tool == here.tool;
+    if (!goes_on) {
+      open[key.body] = {found.size(), key.block};
+      found.push_back(here);
+      continue;
+    }
+    Collision& whole = found[before->second.first];
+    before->second.second = key.block;
+    whole.last_line = here.source_line;
+    if (here.depth > whole.depth) {
+      whole.depth = here.depth;
+      whole.point = here.point;
+    }
+  }
+  return found;
+}
+
+}  // namespace frustum::stock

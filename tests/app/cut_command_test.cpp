@@ -1,0 +1,114 @@
+// frustum cut as users and scripts see it: moments, removal, limits, engines, files whole or not at all.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/command_line.hpp"
+
+namespace frustum {
+namespace {
+
+using nlohmann::json;
+
+// A plate and a slot of 10 mm in two passes, 5 and 8 mm deep; the last line comes back in rapid.
+class CutCommandSystem : public CommandLine {
+ protected:
+  void write_plate(const std::string& last = "G0 Z10") const {
+    std::ofstream(folder_ / "plate.nc") << "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\n"
+                                           "G0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F600\nG0 Z10\n"
+                                           "G0 X-60\nG0 Z-8\nG1 X60 F600\n"
+                                        << last << "\nM30\n";
+    std::ofstream(folder_ / "plate.toml")
+        << "title = \"plate\"\nmachine = \"three-axis\"\n"
+           "program = { file = \"plate.nc\", dialect = \"fanuc\" }\n"
+           "blank = { shape = \"box\", size = [80, 60, 20] }\n"
+           "tool.1 = { type = \"flat\", diameter = 10, length = 100, flute_length = 30 }\n";
+  }
+  json cut(const std::string& more, int exit_code = 0) const {
+    const Outcome outcome = run("cut plate.toml --json " + more);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    return json::parse(outcome.out, nullptr, false);
+  }
+};
+
+TEST_F(CutCommandSystem, TellsWhatEachBlockRemoves) {
+  write_plate();
+  const json doc = cut("--removal removal.csv --pitch 1");
+  EXPECT_NEAR(doc["removal"]["volume_mm3"].get<double>(), 6400.0, 1e-3);
+  EXPECT_EQ(doc["removal"]["blocks"], 2);
+  const std::string csv = read(folder_ / "removal.csv");
+  EXPECT_TRUE(csv.starts_with("line,block,kind,tool,start_s"));
+  EXPECT_NE(csv.find("\n7,"), std::string::npos);
+  const json first = cut("--removal removal.csv --pitch 1 --until-line 9");
+  EXPECT_NEAR(first["removal"]["volume_mm3"].get<double>(), 4000.0, 1e-3);
+  EXPECT_FALSE(first["finished"].get<bool>());
+}
+
+TEST_F(CutCommandSystem, ShowsThePartAtAnyMoment) {
+  write_plate();
+  EXPECT_NEAR(cut("--mesh a.stl --pitch 2")["volume_mm3"].get<double>(), 96000.0 - 6400.0, 1.0);
+  EXPECT_NEAR(cut("--mesh a.stl --pitch 2 --until-line 7")["volume_mm3"].get<double>(),
+              96000.0 - 4000.0, 1.0);
+  EXPECT_EQ(cut("--point 0,1,-5 --until-line 7")["made_by"]["line"], 7);
+  EXPECT_EQ(cut("--point 0,1,-8")["made_by"]["line"], 11);
+  EXPECT_FALSE(cut("--point 0,1,-5")["made_by"]["on_surface"].get<bool>());
+}
+
+TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
+  write_plate();
+  cut("--mesh film.ply --pitch 2 --snapshots 4");
+  const json index = json::parse(read(folder_ / "film.json"));
+  ASSERT_EQ(index["snapshots"].size(), 4U);
+  double volume = 96000.1;
+  for (const json& s : index["snapshots"]) {
+    EXPECT_TRUE(fs::exists(folder_ / s["file"].get<std::string>()));
+    EXPECT_LE(s["volume_mm3"].get<double>(), volume);
+    volume = s["volume_mm3"].get<double>() + 1e-6;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "film.ply"));
+}
+
+TEST_F(CutCommandSystem, FailsWithExitCodeOneOnACollision) {
+  write_plate("G0 X-60 Y8");
+  const json doc = cut("--mesh a.stl --pitch 2", 1);
+  ASSERT_EQ(doc["collisions"], 1);
+  EXPECT_EQ(doc["collision_list"][0]["line"], 12);
+  EXPECT_EQ(doc["collision_list"][0]["body"], "cutter");
+  // Before that line there is none.
+  EXPECT_EQ(cut("--mesh a.stl --pitch 2 --until-line 11")["collisions"], 0);
+}
+
+TEST_F(CutCommandSystem, AgreesWithThePolyhedralEngineOrSaysThatItIsMissing) {
+  write_plate();
+  const Outcome outcome = run("cut plate.toml --json --engine polyhedral --facets 32 --mesh p.stl");
+  if (outcome.exit_code == 2) {
+    EXPECT_NE(outcome.err.find("built without the polyhedral engine"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder_ / "p.stl"));
+    return;
+  }
+  const json doc = json::parse(outcome.out);
+  EXPECT_EQ(doc["engine"], "polyhedral");
+  EXPECT_TRUE(doc["closed"].get<bool>());
+  EXPECT_LE(doc["volume_mm3"].get<double>(), 89600.1);
+  // Walls stand off by up to 5 mm (1/cos(pi/32) - 1) on both sides of 80 x 8 mm.
+  EXPECT_NEAR(doc["volume_mm3"].get<double>(), 89600.0, 31.5);
+}
+
+TEST_F(CutCommandSystem, RefusesAndWritesNothing) {
+  write_plate();
+  for (const char* arguments :
+       {"", "--snapshots 3", "--mesh part.xyz", "--removal part.txt", "--picture part.gif",
+        "--point 1,2", "--mesh part.ply --engine voxel", "--mesh part.ply --until-line 0",
+        "--mesh part.ply --gouge-limit -1", "--mesh part.ply --facets 2",
+        "--removal no/such/folder/part.csv", "--removal part.csv --pitch 1e-4"}) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(std::string("cut plate.toml --quiet ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_FALSE(outcome.err.empty());
+    const auto files = fs::directory_iterator(folder_);
+    EXPECT_TRUE(std::none_of(begin(files), end(files),
+                             [](const auto& entry) { return entry.path().stem() == "part"; }));
+  }
+}
+
+}  // namespace
+}  // namespace frustum

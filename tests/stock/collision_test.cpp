@@ -1,0 +1,123 @@
+// Shanks and holders in material, at the moment they are there; rapids, many of them.
+#include "stock/collision.hpp"
+
+#include <oneapi/tbb/global_control.h>
+
+#include "stock/removal.hpp"
+#include "tests/stock/milling.hpp"
+
+namespace frustum::stock {
+namespace {
+
+using kinematics::PathKind;
+using testing::cut;
+using testing::end_mill;
+using testing::path_through;
+using testing::random_path;
+
+// Flutes of 6 mm and a shank or holder above them.
+NonCuttingBody above_flutes(CollisionBody body, double radius) {
+  return {1, body, {cutter::Profile({cutter::cylinder_zone(radius, 6.0, 60.0)})}};
+}
+const NonCuttingBody kShank = above_flutes(CollisionBody::shank, 5.0);
+const NonCuttingBody kThinShank = above_flutes(CollisionBody::shank, 4.0);
+const NonCuttingBody kHolder = above_flutes(CollisionBody::holder, 12.0);
+
+std::vector<Collision> of_slot(const std::vector<double>& floors, const NonCuttingBody& body) {
+  std::vector<Vec3> tips;
+  double x = -70.0;
+  for (const double z : floors) {
+    tips.push_back({x, 0, z});
+    tips.push_back({x = -x, 0, z});
+  }
+  return find_body_collisions(cut(path_through(tips), end_mill(10.0, 6.0)), {body});
+}
+
+TEST(BodyCollision, OfAShankInASlotDeeperThanItsFlutes) {
+  EXPECT_TRUE(of_slot({-6.0}, kShank).empty());
+  const auto found = of_slot({-9.0}, kShank);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, CollisionKind::body_in_material);
+  EXPECT_EQ(found[0].body, CollisionBody::shank);
+  EXPECT_EQ(found[0].source_line, 10U);
+  EXPECT_EQ(found[0].tool, 1);
+  EXPECT_NEAR(found[0].depth, 3.0, 0.03);
+}
+
+TEST(BodyCollision, DoesNotCountWhatWasCutBefore_Complaint16) {
+  // The second pass is deeper than the flutes, but the shank runs where the first has cut.
+  EXPECT_TRUE(of_slot({-6.0, -11.0}, kShank).empty());
+  EXPECT_TRUE(of_slot({-6.0, -11.0}, kThinShank).empty());
+  // A holder wider than the slot meets its shoulders.
+  const auto found = of_slot({-6.0, -11.0}, kHolder);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].body, CollisionBody::holder);
+  EXPECT_EQ(found[0].source_line, 30U);
+  EXPECT_NEAR(found[0].depth, 5.0, 0.05);
+}
+
+TEST(BodyCollision, IsNotUndoneByALaterCut) {
+  // What is in the way is removed afterwards: it was in the way all the same.
+  const Workpiece part =
+      cut(path_through(std::vector<Vec3>{
+              {-70, 0, -9}, {70, 0, -9}, {70, 0, 30}, {-70, 0, 30}, {-70, 0, -3}, {70, 0, -3}}),
+          end_mill(40.0, 6.0));
+  const auto found = find_body_collisions(part, {kShank});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].source_line, 10U);
+  EXPECT_NEAR(found[0].depth, 3.0, 0.05);
+}
+
+TEST(BodyCollision, OfBlocksThatFollowEachOtherIsOne) {
+  std::vector<Vec3> tips;
+  for (int i = 0; i <= 14; ++i) tips.emplace_back(-70.0 + 10.0 * i, 0, -9);
+  const auto found = find_body_collisions(cut(path_through(tips), end_mill(10.0, 6.0)), {kShank});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].source_line, 20U);
+  EXPECT_EQ(found[0].last_line, 130U);
+}
+
+TEST(CollisionLaws, GiveTheSameBitsForAnyNumberOfThreads) {
+  auto path = random_path(7, 12);
+  for (std::size_t i = 0; i < path.blocks.size(); i += 3) path.blocks[i].kind = PathKind::rapid;
+  const Workpiece part = cut(path);
+  std::vector<Collision> cutter, body;
+  for (const std::size_t threads : {1U, 2U, 8U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto c = find_cutter_collisions(part);
+    const auto b = find_body_collisions(part, {kHolder});
+    if (threads == 1) cutter = c, body = b;
+    ASSERT_EQ(c.size(), cutter.size());
+    ASSERT_EQ(b.size(), body.size());
+    for (std::size_t i = 0; i < c.size(); ++i) EXPECT_EQ(c[i].depth, cutter[i].depth);
+    for (std::size_t i = 0; i < b.size(); ++i) EXPECT_EQ(b[i].depth, body[i].depth);
+  }
+  EXPECT_FALSE(cutter.empty());
+  EXPECT_FALSE(body.empty());
+}
+
+// Each stroke cuts 0.05 mm deeper and comes back in rapid where it has cut; one comes back too low.
+TEST(RapidCollision, IsFoundAmongHundredsThatAreNone) {
+  constexpr int kStrokes = 200, kBad = 123;
+  std::vector<Vec3> tips{{-60, 0, 0}};
+  for (int i = 0; i < kStrokes; ++i) {
+    const double z = -0.05 * (i + 1);
+    const double back = i == kBad ? z - 0.04 : z;
+    for (const Vec3& tip :
+         {Vec3(-60, 0, z), Vec3(60, 0, z), Vec3(60, 0, back), Vec3(-60, 0, back)}) {
+      tips.push_back(tip);
+    }
+  }
+  auto path = path_through(tips);
+  for (std::size_t i = 0; i < path.blocks.size(); ++i) {
+    if (i % 4 == 0 || i % 4 == 3) path.blocks[i].kind = PathKind::rapid;
+  }
+  const auto found = find_collisions(cut(path));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].block, 4U * kBad + 3U);
+  EXPECT_EQ(found[0].body, CollisionBody::cutter);
+  EXPECT_NEAR(found[0].depth, 0.03, 0.002);  // less the margin
+}
+
+}  // namespace
+}  // namespace frustum::stock
