@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/console.hpp"
 #include "app/job.hpp"
@@ -14,6 +15,7 @@
 #include "app/trial_run.hpp"
 #include "report/picture.hpp"
 #include "stock/mesh_file.hpp"
+#include "stock/nominal_mesh.hpp"
 
 namespace frustum::app {
 namespace {
@@ -23,6 +25,8 @@ struct Options {
   std::string mesh{};
   std::string picture{};
   double pitch = 0.0;
+  double chord = 0.0;
+  double decimate = 0.0;
   JobOverrides overrides{};
   bool json = false;
   bool quiet = false;
@@ -44,9 +48,47 @@ DeviationRange range_of(const stock::SurfaceMesh& mesh) {
   return range;
 }
 
+// A vertex that stands out, and the NC line that made it (0: the blank).
+struct Extreme {
+  double deviation = 0.0;
+  Vec3 point = Vec3::Zero();
+  std::uint32_t line = 0;
+};
+
+std::optional<Extreme> extreme_of(const stock::SurfaceMesh& mesh,
+                                  const std::optional<std::size_t>& vertex,
+                                  const stock::Workpiece& workpiece) {
+  if (!vertex) return std::nullopt;
+  Extreme found{mesh.deviation[*vertex].value_or(0.0), mesh.vertices[*vertex]};
+  // Just beside the vertex, along its normal; a feature vertex has several makers, one is told.
+  constexpr double kBeside = 1e-3;  // mm
+  const Vec3& normal = mesh.normals[*vertex];
+  const stock::Ray inwards{found.point + kBeside * normal, -normal};
+  if (const auto surface = workpiece.first_surface(inwards, {0.0, 2.0 * kBeside})) {
+    found.line = surface->source_line;
+  }
+  return found;
+}
+
+nlohmann::ordered_json json_of(const std::optional<Extreme>& extreme) {
+  if (!extreme) return nullptr;
+  return {{"deviation_um", extreme->deviation * kUmPerMm},
+          {"point_mm", {extreme->point.x(), extreme->point.y(), extreme->point.z()}},
+          {"line", extreme->line}};
+}
+
+std::string told(const char* what, const std::optional<Extreme>& extreme) {
+  if (!extreme) return fmt::format("no {}\n", what);
+  return fmt::format("worst {} {:.3f} um at ({:.4f}, {:.4f}, {:.4f}) mm, {}\n", what,
+                     std::abs(extreme->deviation) * kUmPerMm, extreme->point.x(),
+                     extreme->point.y(), extreme->point.z(),
+                     extreme->line > 0 ? fmt::format("line {}", extreme->line)
+                                       : std::string("on the blank's own surface"));
+}
+
 int cut(const Options& options) {
   if (options.mesh.empty() && options.picture.empty()) {
-    return refuse("nothing to write", "give --mesh OUT.stl|.ply|.obj or --picture OUT.png");
+    return refuse("nothing to write", "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp or --picture OUT.png");
   }
   if (!options.mesh.empty()) {
     if (const auto format = stock::mesh_format_of(options.mesh); !format)
@@ -61,7 +103,8 @@ int cut(const Options& options) {
   const auto trial = run.trial(*job, false);
   if (!trial) return refuse(trial.error());
   run.begin("mesh the surface");
-  const auto mesh = finished_surface(*job, *trial->workpiece, options.pitch);
+  const auto mesh = finished_surface(*job, *trial->workpiece,
+                                     {options.pitch, options.chord, options.decimate});
   run.end();
   if (!mesh) return refuse(mesh.error());
   if (!options.mesh.empty()) {
@@ -75,6 +118,9 @@ int cut(const Options& options) {
   const stock::MeshMeasure measure = stock::measure(*mesh);
   const double blank = trial->workpiece->blank().volume();
   const DeviationRange deviation = range_of(*mesh);
+  const auto worst = stock::worst_deviations(*mesh);
+  const auto gouge = extreme_of(*mesh, worst.gouge, *trial->workpiece);
+  const auto excess = extreme_of(*mesh, worst.excess, *trial->workpiece);
   nlohmann::ordered_json collision_list = nlohmann::ordered_json::array();
   for (const report::Collision& c : report_of(*job, *trial).collisions) {
     collision_list.push_back({{"line", c.line}, {"text", c.text}});
@@ -94,6 +140,8 @@ int cut(const Options& options) {
         {"removed_volume_mm3", removed_volume(blank, measure.volume)},
         {"vertices_with_nominal", deviation.vertices},
         {"deviation_um", {deviation.lowest * kUmPerMm, deviation.highest * kUmPerMm}},
+        {"worst_gouge", json_of(gouge)},
+        {"worst_excess", json_of(excess)},
         {"collisions", trial->collisions.size()},
         {"collision_list", collision_list}};
     std::cout << doc.dump(2) << '\n';
@@ -105,6 +153,7 @@ int cut(const Options& options) {
         measure.is_closed && measure.is_manifold ? "closed and manifold" : "NOT closed",
         measure.volume, blank, removed_volume(blank, measure.volume), deviation.lowest * kUmPerMm,
         deviation.highest * kUmPerMm, deviation.vertices);
+    if (deviation.vertices > 0) std::cout << told("gouge", gouge) << told("excess", excess);
   }
   return trial->collisions.empty() ? kDone : kOutOfTolerance;
 }
@@ -116,12 +165,20 @@ void add_cut(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("cut", "Cut a job and write the finished workpiece");
   command->add_option("job", options->job, "Job file")->required();
   command->add_option("--mesh", options->mesh,
-                      "Mesh to write: .stl, .ply (with deviations) or .obj");
+                      "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
   command->add_option("--picture", options->picture,
                       "Picture to write: .png, coloured by deviation");
   command
       ->add_option("--pitch", options->pitch,
                    "Of the sampling grid, mm (default: longest side / 120)")
+      ->check(positive_number());
+  command
+      ->add_option("--chord", options->chord,
+                   "Refine until the triangles leave the surface by less, mm")
+      ->check(positive_number());
+  command
+      ->add_option("--decimate", options->decimate,
+                   "Take away what is not needed for this tolerance, mm")
       ->check(positive_number());
   add_error_options(*command, options->overrides.errors);
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");

@@ -10,6 +10,9 @@
 #include <utility>
 
 #include "metrology/nominal.hpp"
+#include "stock/decimate_surface.hpp"
+#include "stock/nominal_mesh.hpp"
+#include "stock/refine_surface.hpp"
 
 namespace frustum::app {
 namespace {
@@ -137,7 +140,8 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
 }
 
 Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpiece& workpiece,
-                                            double pitch) {
+                                            const SurfaceRequest& request) {
+  double pitch = request.pitch;
   const stock::BoundingBox box = workpiece.blank().bounds();
   if (pitch <= 0.0) pitch = job.mesh_pitch;
   if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 120.0;
@@ -148,6 +152,16 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
                  fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
   }
   auto mesh = stock::extract_surface(workpiece, box, Mm{pitch});
+  if (mesh && request.chord > 0.0) {
+    auto refined = stock::refine_surface(workpiece, *std::move(mesh), {.chord = Mm{request.chord}});
+    if (!refined) return refined.error();
+    mesh = std::move(refined->mesh);
+  }
+  if (mesh && request.decimate > 0.0) mesh = stock::decimate_surface(*mesh, Mm{request.decimate});
+  if (mesh && job.nominal != nullptr) {
+    mesh->deviation = stock::deviations_from(*job.nominal, mesh->vertices);
+    return mesh;
+  }
   if (!mesh || job.piece.plan.features.empty()) return mesh;
   mesh->deviation.reserve(mesh->vertices.size());
   for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {

@@ -12,11 +12,16 @@ namespace frustum::app {
 // Everything but surface, volumes, timings and files.
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
 
-// The finished surface at the pitch the job or `pitch` (mm; 0: the blank's longest side / 120) asks for,
-// with the deviation of each vertex from the plan's nominal surfaces.
+struct SurfaceRequest {
+  double pitch = 0.0;     // mm; 0: what the job says, or the blank's longest side / 120
+  double chord = 0.0;     // mm; 0: not refined
+  double decimate = 0.0;  // mm; 0: not decimated
+};
+// The finished surface with the deviation of each vertex: from the job's nominal mesh if it has one,
+// or else from the plan's nominal surfaces.
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::Workpiece& workpiece,
-                                                          double pitch);
+                                                          const SurfaceRequest& request);
 // What was cut away; a part that was not cut shows no rounding.
 [[nodiscard]] double removed_volume(double blank, double finished);
 [[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
