@@ -38,6 +38,7 @@ struct Options {
   double facet_tolerance_mm = 0.01;
   double gouge_limit_um = 0.0, excess_limit_um = 0.0;  // 0: none
   JobOverrides overrides{};
+  double chord = 0.0, decimate = 0.0;  // mm; 0: not asked for
   bool json = false;
   bool quiet = false;
 
@@ -51,7 +52,7 @@ struct Options {
 std::optional<Diagnostic> fault_of(const Options& o) {
   if (!o.wants_surface() && o.removal.empty() && o.point.empty()) {
     return error("nothing to write",
-                 "give --mesh OUT.stl|.ply|.obj, --picture OUT.png, "
+                 "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp, --picture OUT.png, "
                  "--removal OUT.csv, --point X,Y,Z or a limit");
   }
   if (o.snapshots > 0 && o.mesh.empty()) {
@@ -123,7 +124,8 @@ class Cut {
   };
   [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {
     if (!options_.polyhedral()) {
-      auto mesh = finished_surface(job_, part, options_.pitch);
+      auto mesh = finished_surface(
+          job_, part, {options_.pitch, options_.chord, options_.decimate});
       if (!mesh) return mesh.error();
       return Meshed{*std::move(mesh), {}};
     }
@@ -248,9 +250,16 @@ int cut(Options options) {
 
 void add_options(CLI::App& command, Options& o) {
   command.add_option("job", o.job, "Job file")->required();
-  command.add_option("--mesh", o.mesh, "Mesh to write: .stl, .ply (with deviations) or .obj");
+  command.add_option("--mesh", o.mesh, "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
   command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
   command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
+      ->check(positive_number());
+  command
+      .add_option("--chord", o.chord, "Refine until the triangles leave the surface by less, mm")
+      ->check(positive_number());
+  command
+      .add_option("--decimate", o.decimate,
+                  "Take away what is not needed for this tolerance, mm")
       ->check(positive_number());
   command.add_option("--until-line", o.until_line, "Stop after the last motion of this NC line")
       ->check(CLI::Range(1U, 4'000'000'000U));

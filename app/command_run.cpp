@@ -58,7 +58,7 @@ int run_job(const Options& options) {
   report::RunReport report = report_of(*job, *trial);
   if (job->report) {
     run.begin("mesh the surface");
-    auto mesh = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), 0.0);
+    auto mesh = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), {});
     if (!mesh) return refuse(mesh.error());
     report.surface = picture_of(*mesh, job->piece.plan);
     const double finished = stock::measure(*mesh).volume;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/machine_files.hpp"
+#include "app/mesh_input.hpp"
 #include "core/spelling.hpp"
 #include "core/toml_document.hpp"
 #include "cutter/cutter_file.hpp"
@@ -59,7 +60,7 @@ stock::LoftShape read_loft(const TomlTable& blank) {
 
 void read_blank(const TomlTable& root, programs::TestPiece& piece) {
   const TomlTable blank = root.table("blank");
-  const std::size_t shape = blank.choice("shape", {"box", "cylinder", "frustum", "loft"});
+  const std::size_t shape = blank.choice("shape", {"box", "cylinder", "frustum", "loft", "mesh"});
   double height = 0.0;
   if (shape == 0) {
     const Vec3 size = blank.vector("size");
@@ -73,6 +74,10 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
     stock::LoftShape loft = read_loft(blank);
     if (!loft.sections.empty()) height = loft.sections.back().z;
     piece.blank = std::move(loft);
+  } else if (shape == 4) {
+    // Its coordinates are those of the workpiece unless `origin` moves them.
+    stock::MeshShape mesh{read_closed_mesh(blank, "file", Vec3::Zero()), blank.text("file")};
+    if (mesh.solid != nullptr) piece.blank = std::move(mesh);
   } else {
     height = blank.length("height", Bound::positive).value;
     const char* bottom = shape == 1 ? "diameter" : "bottom_diameter";
@@ -207,6 +212,10 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   read_program(root, piece);
   read_setup(root, piece);
   read_blank(root, piece);
+  std::shared_ptr<const stock::FacetSolid> nominal;
+  if (const auto table = root.table_if("nominal")) {
+    nominal = read_closed_mesh(*table, "file", table->vector_or("origin", Vec3::Zero()));
+  }
   read_tools(root, piece, problems);
   read_operations(root, piece);
   kinematics::ErrorList written_errors;

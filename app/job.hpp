@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "kinematics/machine.hpp"
 #include "metrology/cmm.hpp"
 #include "programs/test_piece.hpp"
+#include "stock/facet_solid.hpp"
 
 namespace frustum::app {
 
@@ -25,6 +27,8 @@ struct Job {
   std::filesystem::path machine_file{};
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
+  // A shape to compare with where the plan has no features; null: none.
+  std::shared_ptr<const stock::FacetSolid> nominal{};
   metrology::CmmModel cmm{};
   ControllerSettings controller{};
   double path_bound = 1e-5;  // mm

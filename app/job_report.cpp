@@ -10,7 +10,10 @@
 #include <utility>
 
 #include "metrology/nominal.hpp"
+#include "stock/decimate_surface.hpp"
 #include "stock/deviation.hpp"
+#include "stock/nominal_mesh.hpp"
+#include "stock/refine_surface.hpp"
 
 namespace frustum::app {
 namespace {
@@ -166,7 +169,8 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
 }
 
 Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
-                                            double pitch) {
+                                            const SurfaceRequest& request) {
+  double pitch = request.pitch;
   const stock::BoundingBox box = part.workpiece().blank().bounds();
   if (pitch <= 0.0) pitch = job.mesh_pitch;
   if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 120.0;
@@ -177,11 +181,21 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
                  fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
   }
   auto mesh = stock::extract_surface(part, box, Mm{pitch});
+  if (mesh && request.chord > 0.0) {
+    auto refined = stock::refine_surface(part, *std::move(mesh), {.chord = Mm{request.chord}});
+    if (!refined) return refined.error();
+    mesh = std::move(refined->mesh);
+  }
+  if (mesh && request.decimate > 0.0) mesh = stock::decimate_surface(*mesh, Mm{request.decimate});
   if (mesh) judge_surface(job, *mesh);
   return mesh;
 }
 
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh) {
+  if (job.nominal != nullptr) {
+    mesh.deviation = stock::deviations_from(*job.nominal, mesh.vertices);
+    return;
+  }
   const metrology::InspectionPlan& plan = job.piece.plan;
   if (plan.features.empty()) return;
   stock::compare(mesh, [&](const Vec3& point, const Vec3& normal) {

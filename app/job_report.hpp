@@ -15,12 +15,17 @@ namespace frustum::app {
 // Everything but surface, volumes, timings and files.
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
 
-// The surface at the part's moment, at the pitch the job or `pitch` (mm; 0: the blank's longest side / 120) asks for,
-// with the deviation of each vertex from the plan's nominal surfaces.
+struct SurfaceRequest {
+  double pitch = 0.0;     // mm; 0: what the job says, or the blank's longest side / 120
+  double chord = 0.0;     // mm; 0: not refined
+  double decimate = 0.0;  // mm; 0: not decimated
+};
+// The surface at the part's moment with the deviation of each vertex.
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::WorkpieceAt& part,
-                                                          double pitch);
-// Fills the deviations of a mesh from the plan's nominal surfaces.
+                                                          const SurfaceRequest& request);
+// Fills the deviations of a mesh: from the job's nominal mesh if it has one, or else from the plan's
+// nominal surfaces.
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh);
 [[nodiscard]] std::string collision_text(const stock::Collision& collision);
 // What was cut away; a part that was not cut shows no rounding.

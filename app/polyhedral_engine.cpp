@@ -45,7 +45,7 @@ double largest_radius(const stock::Blank& blank, const std::map<int, cutter::Cut
     radius = std::max(round->bottom_radius, round->top_radius);
   }
   for (const auto& [number, tool] : cutters) {
-    radius = std::max(radius, tool.profile().max_radius());
+    radius = std::max(radius, tool.body().max_radius());
   }
   return radius;
 }

@@ -87,6 +87,29 @@ Body::Body(Outline outline) : outline_(std::move(outline)) {
   }
 }
 
+bool Body::meets(const ToolPose& pose, const Ray& ray, double lo, double hi) const {
+  for (const Profile& part : parts_) {
+    const auto chord = part.chord(pose, ray);
+    if (chord && chord->lo < hi && chord->hi > lo) return true;
+  }
+  for (const Profile& hull : carved_) {
+    const auto within = hull.chord(pose, ray);
+    if (!within) continue;
+    // The distance changes by at most the way along the ray.
+    constexpr double kLeastStep = 1e-6;  // mm
+    double s = std::max(lo, within->lo);
+    const double end = std::min(hi, within->hi);
+    while (s <= end) {
+      const Vec3 m = ray.at(s) - pose.tip;
+      const double z = m.dot(pose.axis);
+      const double distance = outline_.distance((m - z * pose.axis).norm(), z);
+      if (distance < 0.0) return true;
+      s += std::max(kLeastStep, distance);
+    }
+  }
+  return false;
+}
+
 double Body::support(double u) const {
   const double across = std::sqrt(std::max(0.0, 1.0 - u * u));
   double best = -std::numeric_limits<double>::infinity();

@@ -25,6 +25,8 @@ class Body {
   [[nodiscard]] std::span<const Profile> carved() const { return carved_; }
   [[nodiscard]] bool is_convex() const { return parts_.size() == 1 && carved_.empty(); }
 
+  // Whether the body, standing at the pose, covers some of the ray between lo and hi.
+  [[nodiscard]] bool meets(const ToolPose& pose, const Ray& ray, double lo, double hi) const;
   // Largest value of x.n over the body (tip at the origin), for a unit direction n with n.axis = u.
   [[nodiscard]] double support(double u) const;
   [[nodiscard]] double height() const { return outline_.height(); }

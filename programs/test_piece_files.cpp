@@ -31,6 +31,10 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
         "{{ shape = \"loft\", origin = {}, sections = [  # z, size in X, size in Y{}\n]}}",
         vector_text(origin), rows);
   }
+  if (const auto* mesh = std::get_if<stock::MeshShape>(&shape)) {
+    return fmt::format("{{ shape = \"mesh\", file = \"{}\", origin = {} }}", mesh->file,
+                       vector_text(origin));
+  }
   const auto& frustum = std::get<stock::FrustumShape>(shape);
   if (frustum.bottom_radius == frustum.top_radius) {
     return fmt::format("{{ shape = \"cylinder\", diameter = {}, height = {}, origin = {} }}",

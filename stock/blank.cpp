@@ -115,6 +115,11 @@ IntervalSet chords_along(const FrustumShape& frustum, const Vec3& p, const Vec3&
   return IntervalSet({chord});
 }
 
+// Faces are the facets.
+IntervalSet chords_along(const MeshShape& mesh, const Vec3& p, const Vec3& d, RaySpan span) {
+  return mesh.solid->along({p, d}, span);
+}
+
 // Faces of slab k: 6k + those of a box.
 IntervalSet chords_along(std::span<const LoftSlab> slabs, const Vec3& p, const Vec3& d,
                          RaySpan span) {
@@ -158,6 +163,17 @@ BoundingBox bounds_of(const FrustumShape& frustum) {
   return {-half, half + frustum.height * Vec3::UnitZ()};
 }
 
+BoundingBox bounds_of(const MeshShape& mesh) {
+  BoundingBox box{mesh.solid->vertices().front(), mesh.solid->vertices().front()};
+  for (const auto& facet : mesh.solid->facets()) {
+    for (const std::uint32_t v : facet) {
+      box.min = box.min.cwiseMin(mesh.solid->vertices()[v]);
+      box.max = box.max.cwiseMax(mesh.solid->vertices()[v]);
+    }
+  }
+  return box;
+}
+
 BoundingBox bounds_of(const LoftShape& loft) {
   Vec3 across = Vec3::Zero();
   for (const LoftSection& s : loft.sections) {
@@ -167,6 +183,7 @@ BoundingBox bounds_of(const LoftShape& loft) {
           across + loft.sections.back().z * Vec3::UnitZ()};
 }
 
+double volume_of(const MeshShape& mesh) { return mesh.solid->volume(); }
 double volume_of(const BoxShape& box) { return box.size_x * box.size_y * box.height; }
 
 double volume_of(const FrustumShape& f) {
@@ -205,6 +222,17 @@ std::optional<Diagnostic> fault_of(const FrustumShape& frustum) {
     return empty_blank("its bottom radius", frustum.bottom_radius);
   }
   if (!positive(frustum.top_radius)) return empty_blank("its top radius", frustum.top_radius);
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> fault_of(const MeshShape& mesh) {
+  if (mesh.solid == nullptr || mesh.solid->facets().empty()) {
+    return error("the blank's mesh has no facets");
+  }
+  if (!(mesh.solid->volume() > 0.0)) {
+    return error(fmt::format("the blank's mesh holds {} mm3", mesh.solid->volume()),
+                 "its facets must face out of the material");
+  }
   return std::nullopt;
 }
 
@@ -290,6 +318,7 @@ Vec3 Blank::normal(EndTag face, const Vec3& point) const {
                    return mantle_normal(
                        frustum, Vec3(point.x() - origin_.x(), point.y() - origin_.y(), 0.0));
                  },
+                 [&](const MeshShape& mesh) { return mesh.solid->normal(face); },
                  [&](const LoftShape&) {
                    return slab_normal(slabs_[static_cast<std::size_t>(face / 6)], face % 6);
                  }},

@@ -1,10 +1,12 @@
-// The body the machine starts from: box, cylinder, cone frustum, or a loft of rectangles.
+// The body the machine starts from: box, cylinder, cone frustum, a loft of rectangles, or a mesh.
 //
-// Placed in the workpiece frame by `origin`, the centre of its bottom face (of a loft: of its z = 0); its
-// height runs along +Z.
+// Placed in the workpiece frame by `origin`, the centre of its bottom face (of a loft: of its z = 0; of a
+// mesh: its own zero); its height runs along +Z.
 // Units: mm. Errors: Blank::make refuses empty and non-finite bodies, and lofts that are no body.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "core/pose.hpp"
 #include "core/result.hpp"
 #include "cutter/ray.hpp"
+#include "stock/facet_solid.hpp"
 
 namespace frustum::stock {
 
@@ -32,7 +35,12 @@ struct LoftSection {
 struct LoftShape {
   std::vector<LoftSection> sections{};
 };
-using BlankShape = std::variant<BoxShape, FrustumShape, LoftShape>;
+// One body bounded by facets (stock/mesh_faults.hpp tells whether they do).
+struct MeshShape {
+  std::shared_ptr<const FacetSolid> solid{};  // shared: a blank is copied
+  std::string file{};                         // where it came from, as people write it
+};
+using BlankShape = std::variant<BoxShape, FrustumShape, LoftShape, MeshShape>;
 
 // The convex body between two sections of a loft.
 struct LoftSlab {

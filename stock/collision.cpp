@@ -13,6 +13,7 @@
 namespace frustum::stock {
 namespace {
 
+using cutter::Body;
 using cutter::Box;
 using cutter::Profile;
 using kinematics::PathBlock;
@@ -149,15 +150,17 @@ class OverlapSearch {
     std::vector<Interval> all;
     for (std::uint32_t i = first_ - std::min(first_, kLately); i < first_; ++i) {
       const Stretch& s = path.stretches[i];
-      const Profile& body = workpiece_.removed().tool(path.blocks[s.block].tool).profile();
-      const auto a = body.chord(path.from(s), ray), b = body.chord(path.to(s), ray);
-      if (a) all.push_back({a->lo, a->hi});
-      if (b) all.push_back({b->lo, b->hi});
-      // Moving along the ray, the body also covers what lies between.
       const Vec3 way = path.to(s).tip - path.from(s).tip;
       const bool along = path.from(s).axis == path.to(s).axis &&
                          way.cross(ray.direction).norm() <= 1e-12 * way.norm();
-      if (a && b && along) all.push_back({std::min(a->lo, b->lo), std::max(a->hi, b->hi)});
+      for (const Profile& part :
+           workpiece_.removed().tool(path.blocks[s.block].tool).body().parts()) {
+        const auto a = part.chord(path.from(s), ray), b = part.chord(path.to(s), ray);
+        if (a) all.push_back({a->lo, a->hi});
+        if (b) all.push_back({b->lo, b->hi});
+        // Moving along the ray, the part also covers what lies between.
+        if (a && b && along) all.push_back({std::min(a->lo, b->lo), std::max(a->hi, b->hi)});
+      }
     }
     return IntervalSet(std::move(all));
   }
@@ -173,7 +176,7 @@ struct Suspicion {
   int most_rays = 0;
 };
 
-// Nothing when there is no overlap; turning moves are measured all over.
+// Nothing when there is no overlap; turning moves and hollowed cutters are measured all over.
 std::optional<Suspicion> suspicion(const Workpiece& workpiece, const SuspectMove& move) {
   constexpr std::size_t kMostStretches = 4;
   const ToolPath& path = workpiece.removed().path();
@@ -181,14 +184,17 @@ std::optional<Suspicion> suspicion(const Workpiece& workpiece, const SuspectMove
     const Stretch& s = path.stretches[i];
     return path.from(s).axis != path.to(s).axis;
   };
-  if (move.stretches.size() > kMostStretches || std::ranges::any_of(move.stretches, turns)) {
+  const Body& body = workpiece.removed().tool(path.blocks[move.block].tool).body();
+  if (move.stretches.size() > kMostStretches || !body.carved().empty() ||
+      std::ranges::any_of(move.stretches, turns)) {
     return Suspicion{move.box, std::numeric_limits<int>::max()};
   }
   OverlapSearch search(workpiece, move);
-  const Profile& body = workpiece.removed().tool(path.blocks[move.block].tool).profile();
-  const std::vector<Ring> rings = rings_of(body);
-  for (const std::uint32_t i : move.stretches) {
-    search.follow(body, rings, path.from(path.stretches[i]), path.to(path.stretches[i]));
+  for (const Profile& part : body.parts()) {
+    const std::vector<Ring> rings = rings_of(part);
+    for (const std::uint32_t i : move.stretches) {
+      search.follow(part, rings, path.from(path.stretches[i]), path.to(path.stretches[i]));
+    }
   }
   if (!search.found()) return std::nullopt;
   // The next ray, which met nothing, was not farther away than this.
@@ -250,7 +256,7 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
   const std::optional<Suspicion> where = suspicion(workpiece, move);
   if (!where) return std::nullopt;
   const PathBlock& block = workpiece.removed().path().blocks[move.block];
-  const double pitch = workpiece.removed().tool(block.tool).profile().max_radius() / 6.0;
+  const double pitch = workpiece.removed().tool(block.tool).body().max_radius() / 6.0;
   const Overlap worst = measured_overlap(workpiece, move, *where, pitch);
   if (worst.depth == 0.0) return std::nullopt;
   const std::uint32_t last = workpiece.removed().path().stretches[move.stretches.back()].block;

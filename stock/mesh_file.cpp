@@ -6,15 +6,17 @@
 #include <array>
 #include <bit>
 #include <iterator>
+#include <limits>
 
 #include "core/whole_file.hpp"
+#include "stock/zip_archive.hpp"
 
 namespace frustum::stock {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kChoices = "use one of .stl, .ply, .obj";
+constexpr const char* kChoices = "use one of .stl, .ply, .obj, .3mf, .vtp";
 
 // Appends numbers with the lowest byte first, whatever the machine does.
 template <typename Word>
@@ -105,6 +107,122 @@ std::string obj_bytes(const SurfaceMesh& mesh) {
   return out;
 }
 
+constexpr std::string_view kContentTypes =
+    R"(<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+)";
+constexpr std::string_view kRelationships =
+    R"(<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Id="model" Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+)";
+
+// An archive of three XML files (3MF Core Specification 1.2).
+std::string three_mf_bytes(const SurfaceMesh& mesh) {
+  std::string model =
+      R"(<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<resources><object id="1" type="model"><mesh>
+<vertices>
+)";
+  const auto to = std::back_inserter(model);
+  for (const Vec3& v : mesh.vertices) {
+    fmt::format_to(to, "<vertex x=\"{:.7f}\" y=\"{:.7f}\" z=\"{:.7f}\"/>\n", v.x(), v.y(), v.z());
+  }
+  model += "</vertices>\n<triangles>\n";
+  for (const auto& [a, b, c] : mesh.triangles) {
+    fmt::format_to(to, "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", a, b, c);
+  }
+  model +=
+      "</triangles>\n</mesh></object></resources>\n<build><item objectid=\"1\"/></build>\n</model>\n";
+  return zip_archive(std::array{ZipEntry{"[Content_Types].xml", kContentTypes},
+                                ZipEntry{"_rels/.rels", kRelationships},
+                                ZipEntry{"3D/3dmodel.model", model}});
+}
+
+// One array of a VTP, as it stands in the appended data: its length in bytes, then its numbers.
+class VtpArrays {
+ public:
+  // Returns the offset that the XML names.
+  template <typename Fill>
+  std::size_t add(std::size_t bytes, const Fill& fill) {
+    const std::size_t offset = data_.size();
+    data_.reserve(offset + 8 + bytes);
+    put_word(data_, std::uint64_t{bytes});
+    fill(data_);
+    return offset;
+  }
+  [[nodiscard]] const std::string& data() const { return data_; }
+
+ private:
+  std::string data_;
+};
+
+std::string vtp_bytes(const SurfaceMesh& mesh) {
+  const std::size_t n = mesh.vertices.size();
+  const std::size_t m = mesh.triangles.size();
+  VtpArrays arrays;
+  const auto points = arrays.add(24 * n, [&](std::string& out) {
+    for (const Vec3& v : mesh.vertices) {
+      for (const double x : v) put(out, x);
+    }
+  });
+  const auto normals = arrays.add(12 * n, [&](std::string& out) {
+    for (std::size_t v = 0; v < n; ++v) {
+      put_floats(out, v < mesh.normals.size() ? mesh.normals[v] : Vec3(Vec3::Zero()));
+    }
+  });
+  const auto deviation = arrays.add(4 * n, [&](std::string& out) {
+    for (std::size_t v = 0; v < n; ++v) {
+      const auto known = v < mesh.deviation.size() ? mesh.deviation[v] : std::nullopt;
+      put(out, known ? static_cast<float>(*known * kUmPerMm)
+                     : std::numeric_limits<float>::quiet_NaN());
+    }
+  });
+  const auto kinds = arrays.add(n, [&](std::string& out) {
+    for (std::size_t v = 0; v < n; ++v) {
+      out.push_back(v < mesh.kinds.size() ? static_cast<char>(mesh.kinds[v]) : '\0');
+    }
+  });
+  const auto corners = arrays.add(24 * m, [&](std::string& out) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t v : triangle) put_word(out, std::uint64_t{v});
+    }
+  });
+  const auto ends = arrays.add(8 * m, [&](std::string& out) {
+    for (std::size_t t = 1; t <= m; ++t) put_word(out, std::uint64_t{3 * t});
+  });
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" "
+      "NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+      n, m);
+  const auto array = [&](std::string_view type, std::string_view name, int components,
+                         std::size_t offset) {
+    out += fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+        "offset=\"{}\"/>\n",
+        type, name, components, offset);
+  };
+  out += "<PointData Normals=\"Normals\" Scalars=\"deviation_um\">\n";
+  array("Float32", "Normals", 3, normals);
+  array("Float32", "deviation_um", 1, deviation);
+  array("UInt8", "kind", 1, kinds);
+  out += "</PointData>\n<Points>\n";
+  array("Float64", "Points", 3, points);
+  out += "</Points>\n<Polys>\n";
+  array("Int64", "connectivity", 1, corners);
+  array("Int64", "offsets", 1, ends);
+  out += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  out += arrays.data();
+  return out + "\n</AppendedData>\n</VTKFile>\n";
+}
+
 }  // namespace
 
 Result<MeshFormat> mesh_format_of(const fs::path& file) {
@@ -115,6 +233,8 @@ Result<MeshFormat> mesh_format_of(const fs::path& file) {
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".obj") return MeshFormat::obj;
+  if (extension == ".3mf") return MeshFormat::three_mf;
+  if (extension == ".vtp") return MeshFormat::vtp;
   Diagnostic unknown =
       error(extension.empty() ? std::string("the mesh file has no extension to tell its format")
                               : fmt::format("{} is not a mesh format known here", extension),
@@ -129,6 +249,10 @@ std::string mesh_bytes(const SurfaceMesh& mesh, MeshFormat format) {
       return stl_bytes(mesh);
     case MeshFormat::ply:
       return ply_bytes(mesh);
+    case MeshFormat::three_mf:
+      return three_mf_bytes(mesh);
+    case MeshFormat::vtp:
+      return vtp_bytes(mesh);
     case MeshFormat::obj:
       break;
   }
@@ -138,6 +262,15 @@ std::string mesh_bytes(const SurfaceMesh& mesh, MeshFormat format) {
 Result<std::uintmax_t> write_mesh(const SurfaceMesh& mesh, const fs::path& file) {
   const auto format = mesh_format_of(file);
   if (!format) return format.error();
+  // A vertex takes up to 90 bytes of XML, a triangle up to 60.
+  const std::uint64_t most = 90 * std::uint64_t{mesh.vertices.size()} + 60 * mesh.triangles.size();
+  if (*format == MeshFormat::three_mf && most > 0xFFFF'0000U) {
+    Diagnostic large = error(fmt::format("{} triangles are too many for a 3MF",
+                                         mesh.triangles.size()),
+                             "decimate the mesh, or write .ply");
+    large.file = file.string();
+    return large;
+  }
   const std::string bytes = mesh_bytes(mesh, *format);
   const auto written = write_whole_file(file, bytes);
   if (!written) return written.error();

@@ -1,12 +1,15 @@
-// Surface meshes as files that other programs open: STL, PLY, OBJ.
+// Surface meshes as files that other programs open: STL, PLY, OBJ, 3MF, VTP.
 //
 // STL is binary, single precision, no per-vertex data. PLY is binary little endian: x y z as
 // double, nx ny nz, deviation_um, quality (the same number, under the name by which viewers colour)
 // as float, and uchar has_nominal (0: no nominal at this vertex, its deviation says 0). OBJ is text
-// with normals.
-// Units: mm; deviations in micrometres (PLY only).
-// Errors: an extension other than .stl .ply .obj, a path that cannot be written. The file appears
-// whole or not at all: an existing file is untouched until the new one is complete.
+// with normals. 3MF is one object in millimetres. VTP (ParaView) has points as double, normals,
+// deviation_um (not a number where there is no nominal: drawn in the colour for that) and kind
+// (VertexKind) at every point.
+// Units: mm; deviations in micrometres (PLY and VTP only).
+// Errors: an extension other than .stl .ply .obj .3mf .vtp, a path that cannot be written, a 3MF beyond
+// the 4 GiB of its archive. The file appears whole or not at all: an existing file is untouched until
+// the new one is complete.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +21,7 @@
 
 namespace frustum::stock {
 
-enum class MeshFormat { stl, ply, obj };
+enum class MeshFormat { stl, ply, obj, three_mf, vtp };
 
 // By the extension, upper or lower case.
 [[nodiscard]] Result<MeshFormat> mesh_format_of(const std::filesystem::path& file);

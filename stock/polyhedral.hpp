@@ -15,9 +15,9 @@
 // Errors   : cut() refuses options out of range, a tool number without a cutter, a sweep of more
 //            than max_pieces hulls, and reports solids that the Boolean operations cannot process
 // Accuracy : normal to the surface, polyhedral_bound(); order 2 in the number of facets when the
-//            tolerance falls with its square (tests/stock/polyhedral_test.cpp). Topology and order
-//            of crossings are exact (CGAL, exact predicates and constructions); final vertices are
-//            rounded to double
+//            tolerance falls with its square (tests/stock/polyhedral_test.cpp). The solid is exact
+//            (CGAL, exact predicates and constructions) until its vertices are rounded to double;
+//            rays meet it as stock/facet_solid.hpp says
 // Source   : CGAL 5.5, Polygon Mesh Processing, corefinement
 // Threads  : const member functions may be called from any number of threads
 #pragma once
@@ -66,7 +66,7 @@ class PolyhedralWorkpiece {
                                                        const PolyhedralOptions& options = {});
 
   // Material met by the ray between span.lo and span.hi; an end's tag is its facet, or -1 for an
-  // end of the span. A ray that meets an edge exactly is answered as one 1e-9 mm beside it.
+  // end of the span.
   [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const;
   // The surface at an interval end: s and tag as found in material_along() of the same ray. It
   // names neither stretch nor source line: facets do not remember what made them.

@@ -120,11 +120,10 @@ class MeetingSearch {
   [[nodiscard]] std::optional<double> first_in(std::uint32_t i, const RemovedPiece& removed,
                                                const Ray& ray) const {
     const auto& stretch = path_.stretches[i];
-    const cutter::Profile& body = swept_.tool(path_.blocks[removed.block].tool).profile();
+    const cutter::Body& body = swept_.tool(path_.blocks[removed.block].tool).body();
     const StretchMotion motion(path_.from(stretch), path_.to(stretch), body.reach());
     const auto covers = [&](double t) {
-      const auto chord = body.chord(motion.at(t), ray);
-      return chord && chord->lo < removed.piece.hi && chord->hi > removed.piece.lo;
+      return body.meets(motion.at(t), ray, removed.piece.lo, removed.piece.hi);
     };
     if (covers(0.0)) return 0.0;
     const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * body.max_radius()));

@@ -1,19 +1,13 @@
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "stock/open_mesh.hpp"
 #include "stock/surface_mesh.hpp"
 
 namespace frustum::stock {
 namespace {
-
-struct DoubleTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
-};
-using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
 // True if no two triangles run along an edge in the same direction. OpenMesh would refuse such a
 // triangle too, but not without a line on stderr.
@@ -27,22 +21,10 @@ bool directed_edges_differ(const SurfaceMesh& mesh) {
   return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
-Mesh build(const SurfaceMesh& mesh) {
-  Mesh built;
-  built.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
-  for (const Vec3& v : mesh.vertices) built.add_vertex(Mesh::Point(v.x(), v.y(), v.z()));
-  const auto handle = [&](std::uint32_t v) { return built.vertex_handle(v); };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    if (a == b || b == c || c == a) continue;
-    built.add_face(handle(a), handle(b), handle(c));
-  }
-  return built;
-}
-
 // Pieces connected through their edges.
-std::size_t count_components(const Mesh& mesh) {
+std::size_t count_components(const OpenMesh3& mesh) {
   std::vector<bool> seen(mesh.n_faces(), false);
-  std::vector<Mesh::FaceHandle> open;
+  std::vector<OpenMesh3::FaceHandle> open;
   std::size_t components = 0;
   for (const auto start : mesh.faces()) {
     if (seen[static_cast<std::size_t>(start.idx())]) continue;
@@ -82,7 +64,7 @@ MeshMeasure measure(const SurfaceMesh& mesh) {
     if (!(twice_area > 1e-6 * longest * longest)) ++found.degenerate_triangles;
   }
   const bool edges_differ = directed_edges_differ(mesh);
-  const Mesh built = build(mesh);
+  const OpenMesh3 built = open_mesh_of(mesh);
   found.is_closed = std::all_of(built.edges().begin(), built.edges().end(),
                                 [&](const auto& edge) { return !built.is_boundary(edge); });
   found.is_manifold = edges_differ && built.n_faces() == mesh.triangles.size() &&

@@ -93,27 +93,13 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
   return mean;
 }
 
-// The surface next to `point` that faces along `normal`, at most `reach` away along it.
-std::optional<HermiteSample> nearest_along(SolidView solid, const Vec3& point, const Vec3& normal,
-                                           double reach) {
-  const Ray ray{point - reach * normal, normal};
-  const IntervalSet material = solid.material_along(ray, {0.0, 2.0 * reach});
-  const Interval* best = nullptr;
-  for (const Interval& piece : material.intervals()) {
-    if (piece.hi_tag == -1) continue;  // the end of the search, not a surface
-    if (best == nullptr || std::abs(piece.hi - reach) < std::abs(best->hi - reach)) best = &piece;
-  }
-  if (best == nullptr) return std::nullopt;
-  return HermiteSample{ray.at(best->hi), solid.surface_at(ray, best->hi, best->hi_tag).normal};
-}
-
 // The samples again, but closer to the vertex; a sample keeps its place if the surface found there
 // belongs to another face.
 void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
                  double reach) {
   for (HermiteSample& sample : samples) {
     const Vec3 at = vertex + kCloser * (sample.point - vertex);
-    const auto found = nearest_along(solid, at, sample.normal, reach);
+    const auto found = nearest_surface(solid, at, sample.normal, reach);
     // Within a cell a face turns by less than 60 degrees, or the pitch is too coarse for it anyway.
     if (found && found->normal.dot(sample.normal) > 0.5) sample = *found;
   }
@@ -144,7 +130,7 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
     answer.placed.normal = samples.front().normal;
     return answer;
   }
-  answer.found = nearest_along(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch);
+  answer.found = nearest_surface(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch);
   if (!answer.found || !contains(allowed, answer.found->point)) return answer;
   // An edge vertex is on its edge already but for what the curvature of its faces left over.
   const bool meets = (answer.found->point - vertex).norm() < 1e-3 * pitch;
@@ -156,6 +142,19 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
 }
 
 }  // namespace
+
+std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point, const Vec3& normal,
+                                             double reach) {
+  const Ray ray{point - reach * normal, normal};
+  const IntervalSet material = solid.material_along(ray, {0.0, 2.0 * reach});
+  const Interval* best = nullptr;
+  for (const Interval& piece : material.intervals()) {
+    if (piece.hi_tag == -1) continue;  // the end of the search, not a surface
+    if (best == nullptr || std::abs(piece.hi - reach) < std::abs(best->hi - reach)) best = &piece;
+  }
+  if (best == nullptr) return std::nullopt;
+  return HermiteSample{ray.at(best->hi), solid.surface_at(ray, best->hi, best->hi_tag).normal};
+}
 
 PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
                           const BoundingBox& cell, double leave) {

@@ -15,6 +15,7 @@
 // Accuracy : see surface_mesh.hpp
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "stock/blank.hpp"
@@ -32,5 +33,9 @@ struct PlacedVertex {
 
 [[nodiscard]] PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
                                         const BoundingBox& cell, double leave);
+
+// The surface next to `point` that faces along `normal` (unit), at most `reach` away along it.
+[[nodiscard]] std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point,
+                                                           const Vec3& normal, double reach);
 
 }  // namespace frustum::stock
