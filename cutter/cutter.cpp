@@ -8,6 +8,12 @@ namespace frustum::cutter {
 
 std::string to_string(CutterType type) { return type == CutterType::flat ? "flat" : "ball"; }
 
+Result<Cutter> Cutter::body_of(const CutterSpec& spec, std::vector<OutlineSegment> chain) {
+  return Outline::make(std::move(chain)).transform([&](Outline outline) {
+    return Cutter(spec, Body(std::move(outline)));
+  });
+}
+
 Result<Cutter> Cutter::make(const CutterSpec& spec) {
   const double radius = spec.diameter.value / 2.0 + spec.radius_error.value;
   const double height = spec.flute_length.value > 0.0 ? spec.flute_length.value : spec.length.value;
@@ -29,18 +35,16 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
                  "the flutes end below the gauge point");
   }
   if (spec.type == CutterType::flat) {
-    return Cutter(spec, Profile({cylinder_zone(radius, 0.0, height)}));
+    return body_of(spec, {line({0.0, 0.0}, {radius, 0.0}), line({radius, 0.0}, {radius, height})});
   }
   if (height < radius) {
     return error(
         fmt::format("flute length {} mm of a ball end mill of radius {} mm", height, radius),
         "the flutes must reach past the ball: at least the radius");
   }
-  if (height == radius) {
-    return Cutter(spec, Profile({sphere_zone(radius, radius, 0.0, radius)}));
-  }
-  return Cutter(spec, Profile({sphere_zone(radius, radius, 0.0, radius),
-                               cylinder_zone(radius, radius, height)}));
+  std::vector<OutlineSegment> chain{arc({0.0, 0.0}, {radius, radius}, {0.0, radius})};
+  if (height > radius) chain.push_back(line({radius, radius}, {radius, height}));
+  return body_of(spec, std::move(chain));
 }
 
 }  // namespace frustum::cutter

@@ -10,6 +10,7 @@
 
 #include "core/result.hpp"
 #include "core/units.hpp"
+#include "cutter/body.hpp"
 #include "cutter/profile.hpp"
 
 namespace frustum::cutter {
@@ -33,12 +34,16 @@ class Cutter {
   [[nodiscard]] const CutterSpec& spec() const { return spec_; }
   // The body that really cuts: radius error included. The length error moves the tip and therefore
   // belongs to the tool path.
-  [[nodiscard]] const Profile& profile() const { return profile_; }
+  [[nodiscard]] const Body& body() const { return body_; }
+  // The same while sweeps take one convex part.
+  [[nodiscard]] const Profile& profile() const { return body_.parts().front(); }
 
  private:
-  Cutter(const CutterSpec& spec, Profile profile) : spec_(spec), profile_(std::move(profile)) {}
+  [[nodiscard]] static Result<Cutter> body_of(const CutterSpec& spec,
+                                              std::vector<OutlineSegment> chain);
+  Cutter(const CutterSpec& spec, Body body) : spec_(spec), body_(std::move(body)) {}
   CutterSpec spec_;
-  Profile profile_;
+  Body body_;
 };
 
 }  // namespace frustum::cutter

@@ -2,10 +2,11 @@
 //
 // Model    : a chain of segments from the tool axis, round the end and up the side, to the top; a flat top
 //            face closes it. The body is what lies between the chain and the axis. Concave parts (a hollow
-//            end, a waist, an inside radius) are ordinary
+//            end, a waist, an inside radius) are ordinary. From the lowest point on the chain never falls:
+//            the outer radius is a function of height, with steps
 // Units    : mm; frame: tool (r from the axis, z from the tip towards the spindle; the lowest point has z = 0)
 // Errors   : make() names the segment that is no part of such a chain: gaps, r < 0, points that are not
-//            numbers, an arc whose ends are not on its circle, a chain that crosses itself
+//            numbers, an arc whose ends are not on its circle, a chain that turns back on or crosses itself
 // Accuracy : distance() within 1e-12 mm for bodies below 1 m
 #pragma once
 
@@ -30,6 +31,15 @@ struct OutlineSegment {
   bool bulges = true;       // an arc with its centre on the body's side; false: hollowed out
 };
 
+[[nodiscard]] OutlineSegment line(MeridianPoint from, MeridianPoint to);
+[[nodiscard]] OutlineSegment arc(MeridianPoint from, MeridianPoint to, MeridianPoint centre,
+                                 bool bulges = true);
+// The same chain, with arcs cut where they turn in height, so that z rises, falls or stays along each.
+[[nodiscard]] std::vector<OutlineSegment> monotone_in_height(
+    std::span<const OutlineSegment> segments);
+// Radius of such a piece, not horizontal, at a height between its ends.
+[[nodiscard]] double radius_at(const OutlineSegment& piece, double z);
+
 class Outline {
  public:
   [[nodiscard]] static Result<Outline> make(std::vector<OutlineSegment> segments);
@@ -46,6 +56,7 @@ class Outline {
   explicit Outline(std::vector<OutlineSegment> segments);
 
   std::vector<OutlineSegment> segments_;
+  std::vector<OutlineSegment> pieces_;  // the segments, cut where they turn in height
   double max_radius_ = 0.0;
   double reach_ = 0.0;
 };

@@ -1,0 +1,106 @@
+#include "cutter/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace frustum::cutter {
+namespace {
+
+// A piece flatter than this is a step: as thin as the parts' own accuracy, mm.
+constexpr double kStep = 1e-12;
+
+bool is_arc(const OutlineSegment& s) { return s.arc_radius > 0.0; }
+bool is_hollow(const OutlineSegment& s) { return is_arc(s) && !s.bulges; }
+
+// Height of the recess in a hollow end: the chain starts on the axis at its apex.
+double apex_of(const Outline& outline) { return outline.segments().front().from.z; }
+
+// The outer side: the pieces that rise, from the rim upwards, cut at the recess's apex.
+std::vector<OutlineSegment> outer_side(const Outline& outline) {
+  const double apex = apex_of(outline);
+  std::vector<OutlineSegment> side;
+  for (const OutlineSegment& piece : monotone_in_height(outline.segments())) {
+    if (piece.to.z - piece.from.z <= kStep) continue;
+    if (piece.from.z + kStep < apex && apex + kStep < piece.to.z) {
+      const MeridianPoint cut{radius_at(piece, apex), apex};
+      side.push_back(piece);
+      side.back().to = cut;
+      side.push_back(piece);
+      side.back().from = cut;
+    } else {
+      side.push_back(piece);
+    }
+  }
+  return side;
+}
+
+// Direction along the chain at an end of a piece.
+MeridianPoint direction(const OutlineSegment& s, const MeridianPoint& at) {
+  if (!is_arc(s)) {
+    const double length = std::hypot(s.to.r - s.from.r, s.to.z - s.from.z);
+    return {(s.to.r - s.from.r) / length, (s.to.z - s.from.z) / length};
+  }
+  const double scale = (s.bulges ? 1.0 : -1.0) / s.arc_radius;
+  return {-(at.z - s.centre.z) * scale, (at.r - s.centre.r) * scale};
+}
+
+double chord_length(const OutlineSegment& s) {
+  return std::hypot(s.to.r - s.from.r, s.to.z - s.from.z);
+}
+
+// Whether the radius stays a concave function of height from one piece to the next. A dent that is
+// shallower than a step is rounding of a smooth joint.
+bool goes_on(const OutlineSegment& below, const OutlineSegment& above) {
+  if (is_hollow(below) || is_hollow(above)) return false;
+  if (std::hypot(above.from.r - below.to.r, above.from.z - below.to.z) > kStep) return false;
+  const MeridianPoint in = direction(below, below.to), out = direction(above, above.from);
+  const double kink = in.r * out.z - in.z * out.r;
+  return kink * std::min(chord_length(below), chord_length(above)) > -kStep;
+}
+
+Zone zone_of(const OutlineSegment& s) {
+  if (!is_arc(s) || is_hollow(s)) return cone_zone(s.from.r, s.to.r, s.from.z, s.to.z);
+  if (std::abs(s.centre.r) <= kStep) {
+    return sphere_zone(s.arc_radius, s.centre.z, s.from.z, s.to.z);
+  }
+  return torus_zone(s.centre.r, s.arc_radius, s.centre.z, s.from.z, s.to.z);
+}
+
+}  // namespace
+
+Body::Body(Outline outline) : outline_(std::move(outline)) {
+  const std::vector<OutlineSegment> side = outer_side(outline_);
+  const double apex = apex_of(outline_);
+  for (std::size_t first = 0; first < side.size();) {
+    const bool recessed = side[first].from.z + kStep < apex;
+    std::vector<Zone> zones{zone_of(side[first])};
+    std::size_t next = first + 1;
+    while (next < side.size() && goes_on(side[next - 1], side[next]) &&
+           (side[next].from.z + kStep < apex) == recessed) {
+      zones.push_back(zone_of(side[next++]));
+    }
+    const bool carved = recessed || is_hollow(side[first]);
+    (carved ? carved_ : parts_).emplace_back(std::move(zones));
+    first = next;
+  }
+}
+
+double Body::support(double u) const {
+  const double across = std::sqrt(std::max(0.0, 1.0 - u * u));
+  double best = -std::numeric_limits<double>::infinity();
+  const auto offer = [&](double r, double z) { best = std::max(best, across * r + u * z); };
+  for (const OutlineSegment& s : outline_.segments()) {
+    offer(s.from.r, s.from.z);
+    offer(s.to.r, s.to.z);
+    if (!is_arc(s) || is_hollow(s)) continue;
+    const MeridianPoint a{s.from.r - s.centre.r, s.from.z - s.centre.z};
+    const MeridianPoint b{s.to.r - s.centre.r, s.to.z - s.centre.z};
+    const bool on_arc = a.r * u - a.z * across >= 0.0 && across * b.z - u * b.r >= 0.0;
+    if (on_arc) offer(s.centre.r + s.arc_radius * across, s.centre.z + s.arc_radius * u);
+  }
+  return best;
+}
+
+}  // namespace frustum::cutter
