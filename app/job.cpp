@@ -8,6 +8,7 @@
 #include "app/machine_files.hpp"
 #include "core/spelling.hpp"
 #include "core/toml_document.hpp"
+#include "cutter/cutter_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -84,25 +85,23 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
   piece.blank_origin = blank.vector_or("origin", Vec3(0.0, 0.0, -height));
 }
 
-void read_tools(const TomlTable& root, programs::TestPiece& piece) {
-  const TomlTable tools = root.table("tool");
-  for (const std::string& key : tools.keys()) {
-    const TomlTable table = tools.table(key);
-    int number = 0;
-    const bool whole = key.find_first_not_of("0123456789") == std::string::npos && key.size() < 6;
-    if (whole) number = std::stoi(key);
-    if (number < 1) {
-      tools.fail(key, "a tool is named by its number", "for example tool.1");
-      continue;
+// tools = "library.toml" or a LinuxCNC table; [tool.N] are tools of the job's own or change one of those.
+void read_tools(const TomlTable& root, programs::TestPiece& piece, Diagnostics& problems) {
+  cutter::ToolList library;
+  if (root.has("tools") && !root.text("tools").empty()) {
+    auto loaded = cutter::load_tool_library(root.file_path("tools"));
+    if (!loaded) {
+      problems.insert(problems.end(), loaded.error().begin(), loaded.error().end());
+      // What is changed of unknown tools cannot be judged.
+      if (root.has("tool")) static_cast<void>(root.table("tool"));
+      return;
     }
-    cutter::CutterSpec tool;
-    tool.type = static_cast<cutter::CutterType>(table.choice("type", {"flat", "ball"}));
-    tool.diameter = table.length("diameter", Bound::positive);
-    tool.length = table.length("length", Bound::positive);
-    tool.flute_length = table.length_or("flute_length", {}, Bound::positive);
-    tool.radius_error = table.length_or("radius_error", {});
-    tool.length_error = table.length_or("length_error", {});
-    piece.tools.emplace(number, tool);
+    library = *std::move(loaded);
+  }
+  if (library.empty() || root.has("tool")) {
+    piece.tools = cutter::read_tools(root.table("tool"), std::move(library));
+  } else {
+    piece.tools = std::move(library);
   }
 }
 
@@ -208,7 +207,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   read_program(root, piece);
   read_setup(root, piece);
   read_blank(root, piece);
-  read_tools(root, piece);
+  read_tools(root, piece, problems);
   read_operations(root, piece);
   kinematics::ErrorList written_errors;
   if (const auto table = root.table_if("errors")) {

@@ -18,15 +18,16 @@ using kinematics::AxisLetter;
 using kinematics::Joint;
 
 std::string describe(const cutter::CutterSpec& tool) {
-  std::string text =
-      fmt::format("{} end mill, diameter {:g} mm, length {:g} mm", cutter::to_string(tool.type),
-                  tool.diameter.value, tool.length.value);
-  if (tool.radius_error.value != 0.0) {
-    text += fmt::format(", radius error {:g} um", tool.radius_error.value * kUmPerMm);
-  }
-  if (tool.length_error.value != 0.0) {
-    text += fmt::format(", length error {:g} um", tool.length_error.value * kUmPerMm);
-  }
+  std::string text{cutter::type_row(tool.type).title};
+  if (tool.diameter.value != 0.0) text += fmt::format(", diameter {:g} mm", tool.diameter.value);
+  text += fmt::format(", length {:g} mm", tool.length.value);
+  const auto add_error = [&text](std::string_view name, double value, std::string_view unit) {
+    if (value != 0.0) text += fmt::format(", {} {:g} {}", name, value, unit);
+  };
+  add_error("radius error", tool.radius_error.value * kUmPerMm, "um");
+  add_error("length error", tool.length_error.value * kUmPerMm, "um");
+  add_error("run-out", tool.run_out.value * kUmPerMm, "um");
+  add_error("run-out tilt", tool.run_out_tilt.value * kUradPerRad, "urad");
   return text;
 }
 

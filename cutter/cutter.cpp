@@ -3,48 +3,180 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
+
+#include "cutter/run_out.hpp"
 
 namespace frustum::cutter {
+namespace {
 
-std::string to_string(CutterType type) { return type == CutterType::flat ? "flat" : "ball"; }
+using Chain = std::vector<OutlineSegment>;
 
-Result<Cutter> Cutter::body_of(const CutterSpec& spec, std::vector<OutlineSegment> chain) {
-  return Outline::make(std::move(chain)).transform([&](Outline outline) {
-    return Cutter(spec, Body(std::move(outline)));
-  });
+bool finite(const std::vector<CutterRow>& rows) {
+  for (const CutterRow& row : rows) {
+    for (const double value : row) {
+      if (!std::isfinite(value)) return false;
+    }
+  }
+  return true;
 }
 
-Result<Cutter> Cutter::make(const CutterSpec& spec) {
-  const double radius = spec.diameter.value / 2.0 + spec.radius_error.value;
-  const double height = spec.flute_length.value > 0.0 ? spec.flute_length.value : spec.length.value;
-  if (!(spec.diameter.value > 0.0) || !std::isfinite(spec.diameter.value)) {
-    return error(fmt::format("tool diameter {} mm", spec.diameter.value), "it must be above 0");
+// Every number of the spec is a number, and not negative where that means nothing.
+std::optional<Diagnostic> wrong_number(const CutterSpec& spec, std::span<const CutterKey> keys) {
+  for (const CutterKey& key : keys) {
+    double value = 0.0;
+    if (const auto* length = std::get_if<Mm CutterSpec::*>(&key.value)) {
+      value = (spec.**length).value;
+    } else if (const auto* angle = std::get_if<Rad CutterSpec::*>(&key.value)) {
+      value = (spec.**angle).value;
+    } else if (!finite(spec.*std::get<std::vector<CutterRow> CutterSpec::*>(key.value))) {
+      value = NAN;
+    }
+    if (!std::isfinite(value)) {
+      return error(fmt::format("tool {} is not a number", key.name), "give mm or degrees");
+    }
+    const bool empty = key.required && value == 0.0 && key.value.index() == 0;
+    if (empty || (value < 0.0 && key.bound != Bound::any)) {
+      return error(fmt::format("tool {} {} mm", key.name, value),
+                   key.name == "length" ? "give the length from the spindle gauge point to the tip"
+                   : key.required       ? "it must be above 0"
+                                        : "it must not be negative");
+    }
   }
-  if (!(radius > 0.0)) {
+  return std::nullopt;
+}
+
+bool has_diameter(const CutterTypeRow& row) {
+  return std::get_if<Mm CutterSpec::*>(&row.keys.front().value) != nullptr;
+}
+
+// The outline that cuts: the type's own, larger by the radius error, off the spindle axis by the run-out.
+Result<Chain> real_outline(const CutterSpec& spec) {
+  const CutterTypeRow& row = type_row(spec.type);
+  CutterSpec larger = spec;
+  larger.diameter = larger.diameter + 2.0 * spec.radius_error;
+  if (has_diameter(row) && !(larger.diameter.value > 0.0)) {
     return error(fmt::format("radius error {} mm leaves no tool of diameter {} mm",
                              spec.radius_error.value, spec.diameter.value),
                  "the error must be smaller than the radius");
   }
-  if (!(spec.length.value > 0.0)) {
-    return error(fmt::format("tool length {} mm", spec.length.value),
-                 "give the length from the spindle gauge point to the tip");
+  auto nominal = row.outline(larger);
+  if (!nominal) return nominal.error();
+  // Judged before it is moved: what is wrong with it must be told in its own numbers.
+  if (auto made = Outline::make(*nominal); !made) return made.error();
+  const Chain chain = has_diameter(row) ? *nominal : widened(*nominal, spec.radius_error.value);
+  const double at_tip = spec.run_out.value + spec.run_out_tilt.value * spec.length.value;
+  return with_run_out(chain, at_tip, spec.run_out_tilt.value);
+}
+
+double height_of(const std::vector<CutterRow>& holder) {
+  double height = 0.0;
+  for (const CutterRow& row : holder) height += row[0];
+  return height;
+}
+
+// A stack of cones standing at `bottom`, drawn from its axis.
+class Stack {
+ public:
+  explicit Stack(double bottom) : bottom_(bottom), at_{0.0, bottom} {}
+  void widen(double radius) { go({radius, at_.z}); }
+  void rise(double radius, double z) { go({radius, z}); }
+  [[nodiscard]] Result<Body> body() const {
+    return Outline::make(chain_, bottom_).transform([](Outline o) { return Body(std::move(o)); });
   }
+  [[nodiscard]] double height() const { return at_.z; }
+
+ private:
+  void go(MeridianPoint to) {
+    if (to.r != at_.r || to.z != at_.z) chain_.push_back(line(at_, to));
+    at_ = to;
+  }
+  double bottom_;
+  MeridianPoint at_;
+  std::vector<OutlineSegment> chain_;
+};
+
+Result<Body> shank_body(const CutterSpec& spec, double flutes_end, double top) {
+  const double neck = 0.5 * spec.neck_diameter.value;
+  const double shank = spec.shank_diameter.value > 0.0 ? 0.5 * spec.shank_diameter.value : neck;
+  Stack stack(flutes_end);
+  if (neck > 0.0) {
+    const double rest = top - flutes_end;
+    const double length = spec.neck_length.value > 0.0 ? spec.neck_length.value : rest;
+    const double slope = std::tan(spec.neck_angle.value);
+    const double cone = slope > 0.0 ? (shank - neck) / slope : 0.0;
+    if (cone < 0.0 || length + cone > rest * (1.0 + 1e-12)) {
+      return error(
+          fmt::format("a neck of {:.6g} mm above the flutes where {:.6g} mm are free",
+                      length + cone, rest),
+          "neck_length and the cone of neck_angle end below the holder; the shank is wider");
+    }
+    stack.widen(neck);
+    stack.rise(neck, flutes_end + std::min(length, rest));
+    if (cone > 0.0) stack.rise(shank, std::min(stack.height() + cone, top));
+  }
+  if (stack.height() < top) {
+    stack.widen(shank);
+    stack.rise(shank, top);
+  }
+  return stack.body();
+}
+
+Result<Body> holder_body(const CutterSpec& spec, double bottom) {
+  Stack stack(bottom);
+  for (const auto& [height, lower, upper] : spec.holder) {
+    if (!(height > 0.0 && lower > 0.0 && upper > 0.0)) {
+      return error(fmt::format("holder row [{}, {}, {}]", height, lower, upper),
+                   "height, lower diameter and upper diameter in mm, all above 0");
+    }
+    stack.widen(0.5 * lower);
+    stack.rise(0.5 * upper, stack.height() + height);
+  }
+  return stack.body();
+}
+
+}  // namespace
+
+Result<Cutter> Cutter::make(const CutterSpec& spec) {
+  const CutterTypeRow& row = type_row(spec.type);
+  if (auto wrong = wrong_number(spec, row.keys)) return *std::move(wrong);
+  if (auto wrong = wrong_number(spec, common_keys())) return *std::move(wrong);
   if (spec.flute_length.value > spec.length.value) {
     return error(fmt::format("flute length {} mm exceeds the tool length {} mm",
                              spec.flute_length.value, spec.length.value),
                  "the flutes end below the gauge point");
   }
-  if (spec.type == CutterType::flat) {
-    return body_of(spec, {line({0.0, 0.0}, {radius, 0.0}), line({radius, 0.0}, {radius, height})});
+  auto chain = real_outline(spec);
+  if (!chain) return chain.error();
+  auto outline = Outline::make(*std::move(chain));
+  if (!outline) return outline.error();
+  Cutter cutter(spec, Body(*std::move(outline)));
+
+  const double flutes_end = cutter.body_.height();
+  const double holder_bottom = spec.length.value - height_of(spec.holder);
+  const double shortest = 1e-6;  // mm: below it there is no room and no body
+  if (flutes_end > spec.length.value + shortest) {
+    return error(fmt::format("the cutting part is {:.6g} mm high, the tool {} mm long", flutes_end,
+                             spec.length.value),
+                 "the flutes end below the gauge point");
   }
-  if (height < radius) {
-    return error(
-        fmt::format("flute length {} mm of a ball end mill of radius {} mm", height, radius),
-        "the flutes must reach past the ball: at least the radius");
+  if (!spec.holder.empty() && holder_bottom < flutes_end - shortest) {
+    return error(fmt::format("a holder of {:.6g} mm on a tool of {} mm with {:.6g} mm of flutes",
+                             height_of(spec.holder), spec.length.value, flutes_end),
+                 "the holder reaches from the gauge point down to above the flutes");
   }
-  std::vector<OutlineSegment> chain{arc({0.0, 0.0}, {radius, radius}, {0.0, radius})};
-  if (height > radius) chain.push_back(line({radius, radius}, {radius, height}));
-  return body_of(spec, std::move(chain));
+  const bool has_shank = spec.shank_diameter.value > 0.0 || spec.neck_diameter.value > 0.0;
+  if (has_shank && holder_bottom > flutes_end + shortest) {
+    auto shank = shank_body(spec, flutes_end, holder_bottom);
+    if (!shank) return shank.error();
+    cutter.shank_ = *std::move(shank);
+  }
+  if (!spec.holder.empty()) {
+    auto holder = holder_body(spec, holder_bottom);
+    if (!holder) return holder.error();
+    cutter.holder_ = *std::move(holder);
+  }
+  return cutter;
 }
 
 }  // namespace frustum::cutter

@@ -128,25 +128,26 @@ std::optional<Diagnostic> turns_back(const std::vector<OutlineSegment>& chain) {
 
 // The material between a hollow end and the flank, at its thinnest over the heights that both share. The
 // wall is looked at in 256 places: it may be thin, and a recess that leaves none is a mistake in the data.
-double thinnest_wall(const OutlineSegment& recess, const OutlineSegment& flank) {
+double thinnest_wall(const OutlineSegment& recess, const OutlineSegment& flank, double bottom) {
   constexpr int kPlaces = 256;
   const double lo = std::max(recess.to.z, flank.from.z), hi = std::min(recess.from.z, flank.to.z);
   double thinnest = kInfinity;
   for (int k = 0; k <= kPlaces && lo <= hi; ++k) {
     const double z = k == kPlaces ? hi : lo + (hi - lo) * k / kPlaces;
     // At the rim the two meet.
-    if (z > kMeets) thinnest = std::min(thinnest, radius_at(flank, z) - radius_at(recess, z));
+    if (z > bottom + kMeets)
+      thinnest = std::min(thinnest, radius_at(flank, z) - radius_at(recess, z));
   }
   return thinnest;
 }
 
-std::optional<Diagnostic> crosses_itself(const std::vector<OutlineSegment>& chain) {
+std::optional<Diagnostic> crosses_itself(const std::vector<OutlineSegment>& chain, double bottom) {
   const auto pieces = monotone_in_height(chain);
   for (const OutlineSegment& recess : pieces) {
     if (recess.to.z >= recess.from.z - kMeets) continue;
     for (const OutlineSegment& flank : pieces) {
       if (flank.to.z <= flank.from.z) continue;
-      if (thinnest_wall(recess, flank) <= 0.0) {
+      if (thinnest_wall(recess, flank, bottom) <= 0.0) {
         return error("the hollow end of the outline crosses its flank",
                      "the recess must stay inside the outer side");
       }
@@ -155,7 +156,7 @@ std::optional<Diagnostic> crosses_itself(const std::vector<OutlineSegment>& chai
   return std::nullopt;
 }
 
-std::optional<Diagnostic> wrong_place(const std::vector<OutlineSegment>& chain) {
+std::optional<Diagnostic> wrong_place(const std::vector<OutlineSegment>& chain, double bottom) {
   if (chain.empty()) return error("an outline without segments", "give lines and arcs from r = 0");
   if (chain.front().from.r != 0.0) {
     return error(fmt::format("the outline starts {} mm off the tool axis", chain.front().from.r),
@@ -163,11 +164,11 @@ std::optional<Diagnostic> wrong_place(const std::vector<OutlineSegment>& chain) 
   }
   double lowest = chain.front().from.z;
   for (const OutlineSegment& s : monotone_in_height(chain)) lowest = std::min(lowest, s.to.z);
-  if (std::abs(lowest) > kMeets) {
+  if (!(std::abs(lowest - bottom) <= kMeets)) {
     return error(fmt::format("the lowest point of the outline is at z = {} mm", lowest),
-                 "heights count from the lowest point: it has z = 0");
+                 fmt::format("heights count from the lowest point: it has z = {}", bottom));
   }
-  if (!(chain.back().to.z > std::max(kMeets, chain.front().from.z))) {
+  if (!(chain.back().to.z > std::max(bottom + kMeets, chain.front().from.z))) {
     return error(
         fmt::format("the outline ends at z = {} mm, not above its start", chain.back().to.z),
         "the last point is the top of the body");
@@ -222,14 +223,14 @@ double radius_at(const OutlineSegment& piece, double z) {
   return outer ? piece.centre.r + half : piece.centre.r - half;
 }
 
-Result<Outline> Outline::make(std::vector<OutlineSegment> segments) {
-  if (auto wrong = wrong_place(segments)) return *std::move(wrong);
+Result<Outline> Outline::make(std::vector<OutlineSegment> segments, double bottom) {
+  if (auto wrong = wrong_place(segments, bottom)) return *std::move(wrong);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (auto wrong = wrong_segment(segments, i)) return *std::move(wrong);
     if (i > 0) segments[i].from = segments[i - 1].to;
   }
   if (auto wrong = turns_back(segments)) return *std::move(wrong);
-  if (auto wrong = crosses_itself(segments)) return *std::move(wrong);
+  if (auto wrong = crosses_itself(segments, bottom)) return *std::move(wrong);
   return Outline(std::move(segments));
 }
 

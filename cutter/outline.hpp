@@ -4,7 +4,8 @@
 //            face closes it. The body is what lies between the chain and the axis. Concave parts (a hollow
 //            end, a waist, an inside radius) are ordinary. From the lowest point on the chain never falls:
 //            the outer radius is a function of height, with steps
-// Units    : mm; frame: tool (r from the axis, z from the tip towards the spindle; the lowest point has z = 0)
+// Units    : mm; frame: tool (r from the axis, z from the tip towards the spindle; the lowest point has z = 0,
+//            or `bottom` for a shank or holder above the cutting part)
 // Errors   : make() names the segment that is no part of such a chain: gaps, r < 0, points that are not
 //            numbers, an arc whose ends are not on its circle, a chain that turns back on or crosses itself
 // Accuracy : distance() within 1e-12 mm for bodies below 1 m
@@ -42,7 +43,8 @@ struct OutlineSegment {
 
 class Outline {
  public:
-  [[nodiscard]] static Result<Outline> make(std::vector<OutlineSegment> segments);
+  [[nodiscard]] static Result<Outline> make(std::vector<OutlineSegment> segments,
+                                            double bottom = 0.0);
 
   [[nodiscard]] std::span<const OutlineSegment> segments() const { return segments_; }
   // Signed distance to the body's surface, inside negative. At a corner it is that to the corner.

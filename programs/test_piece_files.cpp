@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/whole_file.hpp"
+#include "cutter/cutter_file.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -41,14 +42,6 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
       2.0 * frustum.bottom_radius, 2.0 * frustum.top_radius, frustum.height, vector_text(origin));
 }
 
-std::string tool_text(const cutter::CutterSpec& tool) {
-  return fmt::format(
-      "{{ type = \"{}\", diameter = {}, length = {}, flute_length = {}, radius_error = \"{} um\" "
-      "}}",
-      cutter::to_string(tool.type), tool.diameter.value, tool.length.value, tool.flute_length.value,
-      tool.radius_error.value * kUmPerMm);
-}
-
 }  // namespace
 
 std::string job_text(const TestPiece& piece, const std::string& machine,
@@ -66,7 +59,7 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
   line("# origin: centre of the blank's bottom face in the workpiece frame, mm");
   line(fmt::format("blank   = {}", blank_text(piece.blank, piece.blank_origin)));
   for (const auto& [number, tool] : piece.tools) {
-    line(fmt::format("tool.{}  = {}", number, tool_text(tool)));
+    line(fmt::format("tool.{}  = {}", number, cutter::cutter_text(tool)));
   }
   line("");
   line("# Program origins in the table frame, mm");
