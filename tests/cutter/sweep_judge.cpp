@@ -79,17 +79,17 @@ void SweepJudge::judge_point(const Ray& ray, double s, bool reported_covered,
                              Judgement& judged) const {
   const Vec3L point = point_at(ray, s);
   if (reported_covered) {
-    const Real depth = standing_.depth(point, 1e3L, -1e-9L);
+    const Real depth = standing_.depth(point, 1e-5L, -1e-9L);
     judged.worst_covered = std::max(judged.worst_covered, static_cast<double>(depth));
   } else {
-    const Real depth = standing_.depth(point, -1e-9L, -1e3L);
+    const Real depth = standing_.depth(point, -1e-9L, -1e-5L);
     judged.worst_void = std::max(judged.worst_void, -static_cast<double>(depth));
   }
 }
 
 void SweepJudge::judge_end(const Ray& ray, double s, EndTag tag, Judgement& judged) const {
   const Vec3L point = point_at(ray, s);
-  const double error = std::abs(static_cast<double>(standing_.depth(point, 1e3L, -1e3L)));
+  const double error = std::abs(static_cast<double>(standing_.depth(point)));
   ++judged.ends;
   if (error > judged.worst_end) {
     judged.worst_end = error;
