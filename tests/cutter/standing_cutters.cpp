@@ -10,6 +10,8 @@ namespace {
 
 constexpr Real kStep = 0.5e-3L;        // mm of motion between neighbouring times
 constexpr Real kIndifferent = 1e-10L;  // mm: a deeper moment by less is not looked for
+constexpr Real kSliding = 0.05L;       // mm
+constexpr Real kEqual = 1e-13L;        // mm
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 
 Real cross(Real ar, Real az, Real br, Real bz) { return ar * bz - az * br; }
@@ -182,6 +184,10 @@ struct StandingCutters::Search {
     if (bound(b - a, fa, fm, fb) > std::min(best - kIndifferent, of_interest)) return;
     const Real motion = speed_ * (b - a) / 2;
     if (motion < 1e-11L) return;
+    // A wall that slides along itself: three equal distances within a twentieth of a millimetre.
+    if (!all.is_convex_ && motion < kSliding &&
+        std::max(std::abs(fm - fa), std::abs(fm - fb)) < kEqual)
+      return;
     if (!all.is_convex_ && motion < kStep) {
       if (fm <= fa && fm <= fb) descend(a, b);
       return;

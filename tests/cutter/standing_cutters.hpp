@@ -5,8 +5,8 @@
 //            when a bound on the motion proves that they hold nothing lower
 // Units    : mm, rad; frames: tool (meridian), workpiece (motions)
 // Errors   : none; meridians and motions are given by tests
-// Accuracy : convex bodies: proven to 1e-4 nm. Others: times at 0.5 um of motion or closer, then the
-//            valley between three of them to 1e-4 nm
+// Accuracy : convex bodies: proven to 1e-4 nm. Others: times at 0.5 um of motion or closer (0.05 mm while
+//            the distance stays the same), then the valley between three of them to 1e-4 nm
 #pragma once
 
 #include <Eigen/Core>
