@@ -7,7 +7,6 @@ find_package(fmt 9 REQUIRED)                  # fmt::fmt
 find_package(nlohmann_json 3.11 REQUIRED)     # nlohmann_json::nlohmann_json
 find_package(tomlplusplus 3.3 REQUIRED)       # tomlplusplus::tomlplusplus
 find_package(TBB REQUIRED)                    # TBB::tbb
-find_package(embree 3 REQUIRED)               # embree
 find_package(Boost 1.74 REQUIRED)             # Boost::headers
 find_package(CLI11 REQUIRED)                  # CLI11::CLI11
 find_package(PNG 1.6 REQUIRED)                # PNG::PNG

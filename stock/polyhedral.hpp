@@ -12,8 +12,8 @@
 // Shape    : a closed triangle mesh with outward facets; memory and time grow with the facets of
 //            all hulls, so this is for tens of stretches, not for thousands. How flat faces are
 //            split into triangles may differ from run to run; the solid does not
-// Errors   : cut() refuses options out of range, a tool number without a cutter, a sweep of more
-//            than max_pieces hulls, and reports solids that the Boolean operations cannot process
+// Errors   : cut() refuses options out of range, a tool number without a cutter, a hollow cutter (its
+//            body is no union of convex parts), a sweep of more than max_pieces hulls, and reports solids that the Boolean operations cannot process
 // Accuracy : normal to the surface, polyhedral_bound(); order 2 in the number of facets when the
 //            tolerance falls with its square (tests/stock/polyhedral_test.cpp). The solid is exact
 //            (CGAL, exact predicates and constructions) until its vertices are rounded to double;

@@ -17,9 +17,25 @@ FacetedBody::FacetedBody(const cutter::Profile& profile, int facets, int arc_fac
     TangentLine line{std::cos(slope), std::sin(slope), 0.0};
     if (i == 0 || i == steps) line = {0.0, i == 0 ? -1.0 : 1.0, 0.0};
     if (i == arc_facets) line = {1.0, 0.0, 0.0};
-    line.distance = profile.support(line.sin_slope);
     all.push_back(line);
   }
+  // A cone is its own tangent; lines to either side of its slope would stand off it.
+  for (const cutter::Zone& zone : profile.zones()) {
+    if (zone.kind != cutter::ZoneKind::cone || zone.slope == 0.0) continue;
+    const double across = 1.0 / std::hypot(1.0, zone.slope);
+    all.push_back({across, -zone.slope * across, 0.0});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const TangentLine& a, const TangentLine& b) { return a.sin_slope < b.sin_slope; });
+  // Two lines at nearly one slope cross nowhere in particular.
+  constexpr double kSameSlope = 1e-7;
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const TangentLine& a, const TangentLine& b) {
+                          return std::abs(a.cos_slope * b.sin_slope - b.cos_slope * a.sin_slope) <
+                                 kSameSlope;
+                        }),
+            all.end());
+  for (TangentLine& line : all) line.distance = profile.support(line.sin_slope);
   // Lines through a corner of the outline touch it there and bound nothing. Edges shorter than this
   // are such corners seen through rounding.
   constexpr double kCorner = 1e-9;  // mm

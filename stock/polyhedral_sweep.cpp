@@ -90,6 +90,15 @@ class Sweep {
     across_ = b.rotation.col(0);
   }
 
+  // The same motion of every part.
+  void add(const std::vector<FacetedBody>& parts, const ToolPose& from, const ToolPose& to,
+           double apart) {
+    const Vec3 across = across_;
+    for (const FacetedBody& part : parts) {
+      across_ = across;
+      add(part, from, to, apart);
+    }
+  }
   // Facets keep their roll from stretch to stretch.
   void begin_at(const ToolPose& pose) { across_ = perpendicular_to(pose.axis); }
   [[nodiscard]] bool overfull() const {
@@ -248,10 +257,11 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
                                                const std::map<int, cutter::Cutter>& cutters,
                                                const BoundingBox& within,
                                                const PolyhedralOptions& options) {
-  std::map<int, FacetedBody> bodies;
+  std::map<int, std::vector<FacetedBody>> bodies;
   for (const auto& [number, cutter] : cutters) {
-    bodies.emplace(number,
-                   FacetedBody(cutter.body().parts().front(), options.facets, options.arc_facets));
+    for (const cutter::Profile& part : cutter.body().parts()) {
+      bodies[number].emplace_back(part, options.facets, options.arc_facets);
+    }
   }
   Sweep sweep(within, options);
   std::optional<std::uint32_t> pose_before;
@@ -267,9 +277,17 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
       failure.line = static_cast<int>(block.source_line);
       return failure;
     }
+    if (!cutters.at(block.tool).body().carved().empty()) {
+      Diagnostic failure = error(
+          fmt::format("the polyhedral engine cannot take tool T{}: its outline is hollowed out",
+                      block.tool),
+          "it takes bodies made of convex parts; the ray engine takes this one");
+      failure.line = static_cast<int>(block.source_line);
+      return failure;
+    }
     if (pose_before != first.first_pose) sweep.begin_at(path.from(first));
-    const Run run =
-        merged_run(path, next, body->second.reach(), kMergeShare * options.tolerance.value);
+    const Run run = merged_run(path, next, cutters.at(block.tool).body().reach(),
+                               kMergeShare * options.tolerance.value);
     const kinematics::Stretch& last = path.stretches[run.last - 1];
     sweep.add(body->second, path.from(first), path.to(last), run.apart);
     if (sweep.overfull()) {

@@ -12,10 +12,11 @@
 //                at time l the same point less l(1-l)M(y - x).) Where this exceeds half the
 //                tolerance, walls are cut into slabs across the axis, and for end faces the motion
 //                is halved.
+//            A body of several convex parts makes the pieces of each.
 //            Neighbouring stretches merge while the poses between stay within a quarter of the
 //            tolerance of one straight motion; the cutter grows by their distance.
 // Units    : mm; frame: workpiece
-// Errors   : a tool number without a cutter; more pieces than max_pieces
+// Errors   : a tool number without a cutter, or with a hollow one; more pieces than max_pieces
 // Accuracy : the union of the pieces contains the sweep of the faceted cutter and leaves it by at
 //            most the tolerance, to leading order in theta
 #pragma once

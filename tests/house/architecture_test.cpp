@@ -59,7 +59,6 @@ std::vector<Confined> confined_headers() {
   return {
       entry("Boost.Spirit", "boost/(spirit|fusion|phoenix)/.*", "parser/grammar\\.cpp"),
       entry("CGAL", "CGAL/.*", "stock/polyhedral[a-z0-9_]*\\.cpp"),
-      entry("Embree", "embree[0-9]*/.*", "(cutter|stock)/[a-z0-9_]+\\.cpp"),
       entry("OpenMesh", "OpenMesh/.*", ".*\\.cpp"),
       entry("toml++", "toml\\+\\+/.*|toml\\.hpp", "core/toml_document\\.cpp"),
       entry("Random123", "Random123/.*", "core/random\\.cpp"),

@@ -19,6 +19,7 @@ namespace frustum::stock {
 namespace {
 
 using cutter::Cutter;
+using cutter::CutterSpec;
 using cutter::CutterType;
 using kinematics::ToolPath;
 using kinematics::ToolPose;
@@ -208,6 +209,111 @@ TEST(PolyhedralReference, ConvergesToTheRaysForSeveralStretchesThatCrossTheirOwn
                                       {Vec3(-12, 8, 5.6), tilted},
                                       {Vec3(-12, 8, 3.1), tilted}});
   expect_second_order("crossing", box(40, 30, 10), path, CutterType::flat, {16, 32, 64});
+}
+
+// Programs, each with its cutter, against the rays with two numbers of facets.
+struct Program {
+  std::string name;
+  CutterSpec cutter;
+  std::vector<ToolPose> poses;
+};
+void PrintTo(const Program& program, std::ostream* out) { *out << program.name; }
+
+std::vector<Program> programs_of_all_kinds() {
+  const Vec3 up = Vec3::UnitZ();
+  const auto at = [&](double x, double y, double z) { return ToolPose{Vec3(x, y, z), up}; };
+  const CutterSpec flat{
+      .type = CutterType::flat, .diameter = {12.0}, .length = {60.0}, .flute_length = {14.0}};
+  const CutterSpec ball{
+      .type = CutterType::ball, .diameter = {10.0}, .length = {60.0}, .flute_length = {14.0}};
+  const CutterSpec bull{.type = CutterType::bull,
+                        .diameter = {12.0},
+                        .length = {60.0},
+                        .flute_length = {14.0},
+                        .corner_radius = {2.0}};
+  const CutterSpec taper{.type = CutterType::taper,
+                         .diameter = {6.0},
+                         .length = {60.0},
+                         .flute_length = {14.0},
+                         .taper_angle = {10.0 * kRadPerDeg}};
+  const CutterSpec lollipop{
+      .type = CutterType::lollipop, .diameter = {8.0}, .length = {60.0}, .neck_diameter = {4.0}};
+  const CutterSpec t_slot{
+      .type = CutterType::t_slot, .diameter = {12.0}, .length = {60.0}, .flute_length = {4.0}};
+  // A head, a cone inwards and a collar: three convex parts.
+  const CutterSpec waisted{
+      .type = CutterType::profile,
+      .length = {60.0},
+      .rows = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {2.5, 4, 0}, {2.5, 6, 0}, {6, 8, 0}, {6, 14, 0}}};
+  std::vector<ToolPose> swarf;
+  for (int i = 0; i <= 2; ++i) {
+    const double phi = 0.05 * i;
+    const Vec3 out(std::cos(phi), std::sin(phi), 0.0);
+    swarf.push_back({34.0 * out - Vec3(34, 4, -1), (up - 0.26 * out).normalized()});
+  }
+  const Vec3 leaning = Vec3(-0.10, 0.05, 1.0).normalized(),
+             tilted = Vec3(-0.07, 0.02, 1.0).normalized();
+  return {
+      {"slot", flat, {at(-9, 1, 5), at(9, 1, 5)}},
+      {"pocket", flat, {at(-6, -4, 4), at(6, -4, 4), at(6, 4, 4), at(-6, 4, 4), at(-6, -4, 4)}},
+      {"plunge", ball, {{Vec3(1, 0, 12), leaning}, {Vec3(1, 0, 12) - 8.0 * leaning, leaning}}},
+      {"swarf", flat, swarf},
+      {"crossing",
+       flat,
+       {{Vec3(-9, -6, 6), leaning},
+        {Vec3(9, 5, 5.2), tilted},
+        {Vec3(7, -6, 6), tilted},
+        {Vec3(-8, 7, 5.6), leaning}}},
+      {"ball", ball, {{Vec3(-9, -1, 5), leaning}, {Vec3(8, 2, 4), tilted}}},
+      {"bull", bull, {{Vec3(-9, -1, 5), leaning}, {Vec3(8, 2, 4), tilted}}},
+      {"taper", taper, {{Vec3(-9, -1, 3), leaning}, {Vec3(8, 2, 4), tilted}}},
+      {"t_slot", t_slot, {at(-25, 1, 3), at(4, -2, 3), at(4, 2, 4)}},
+      {"lollipop", lollipop, {{Vec3(-20, 1, 2), up}, {Vec3(6, -2, 2.5), leaning}}},
+      {"waisted", waisted, {at(-25, 1, 2), at(5, -1, 2)}},
+  };
+}
+
+class ProgramsReference : public ::testing::TestWithParam<Program> {};
+
+TEST_P(ProgramsReference, ConvergeToTheRaysAtSecondOrder) {
+  const Blank blank = box(30, 24, 10);
+  const ToolPath path = path_through(GetParam().poses);
+  const std::map<int, Cutter> tools = {{1, Cutter::make(GetParam().cutter).value()}};
+  const Workpiece exact(blank, cutter::SweptCutter::sweep(path, tools).value());
+  std::vector<Difference> found;
+  for (const int facets : {12, 24}) {
+    const PolyhedralOptions options = with_facets(facets);
+    auto faceted = PolyhedralWorkpiece::cut(blank, path, tools, options);
+    ASSERT_TRUE(faceted) << to_string(faceted.error().front());
+    found.push_back(difference(exact, *faceted, 100));
+    // The mean: beside an edge no direction of search need lead to the other surface's nearest point.
+    EXPECT_LT(found.back().rms, polyhedral_bound(options, {tools.at(1).body().max_radius()}).value);
+    EXPECT_LT(found.back().excess, 1e-8) << "material that the true part lacks, facets " << facets;
+    EXPECT_GT(found.back().points, 40);
+  }
+  const double rms_order = order(found[0].rms, found[1].rms);
+  print(fmt::format("{}: rms {:.2e} to {:.2e} mm, worst {:.2e} to {:.2e}: order {:.2f}",
+                    GetParam().name, found[0].rms, found[1].rms, found[0].worst, found[1].worst,
+                    rms_order));
+  EXPECT_NEAR(rms_order, 2.0, 0.7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ProgramsReference, ::testing::ValuesIn(programs_of_all_kinds()),
+                         [](const auto& each) { return each.param.name; });
+
+TEST(PolyhedralWorkpiece, RefusesAHollowCutterAndSaysWhoTakesIt) {
+  const CutterSpec hollow{.type = CutterType::flat,
+                          .diameter = {12.0},
+                          .length = {60.0},
+                          .flute_length = {14.0},
+                          .end_angle = {2.0 * kRadPerDeg}};
+  const auto cut = PolyhedralWorkpiece::cut(box(30, 24, 10), five_axis_stretch(),
+                                            {{1, Cutter::make(hollow).value()}}, {});
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(to_string(cut.error().front()),
+            ":1: error: the polyhedral engine cannot take tool T1: its outline is hollowed "
+            "out (hint: it "
+            "takes bodies made of convex parts; the ray engine takes this one)");
 }
 
 TEST(PolyhedralReference, StraightSlotVolumeConvergesToTheClosedFormAtSecondOrder) {

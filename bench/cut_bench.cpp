@@ -1,0 +1,90 @@
+// Material removal: how soon a workpiece is ready, probes by the second, meshes, and how a probe's time grows
+// with the program. Goals (two cores): cone ready in 0.1 s, 200,000 exact probes by the second and core,
+// its mesh at 0.25 mm in 2 s; a million freeform blocks ready in 10 s and 4 GiB, probes no worse than log N.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "bench/cut_scenes.hpp"
+#include "stock/surface_mesh.hpp"
+
+namespace frustum::bench {
+namespace {
+
+constexpr int kConeBlocks = 7200;
+
+// Of the whole program, now, in MiB.
+double resident() {
+  long pages = 0, all = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &all, &pages) != 2) pages = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(pages) * 4096.0 / (1024.0 * 1024.0);
+}
+
+void cone_of_7200_blocks_ready(benchmark::State& state) {
+  const ToolPath path = ConeScene::path(kConeBlocks);
+  for (auto _ : state) {
+    auto swept = cutter::SweptCutter::sweep(
+        path, {{1, end_mill(cutter::CutterType::flat, 2 * ConeScene::kRadius, 50.0)}});
+    benchmark::DoNotOptimize(stock::Workpiece(ConeScene::blank(), *std::move(swept)));
+  }
+}
+BENCHMARK(cone_of_7200_blocks_ready)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void cone_exact_probes(benchmark::State& state) {
+  const stock::Workpiece part = ConeScene::cut(kConeBlocks);
+  std::uint64_t k = 0;
+  for (auto _ : state) {
+    const auto met = part.first_surface(ConeScene::probe(k++), {0.0, 10.0});
+    if (!met) state.SkipWithError("a probe met nothing");
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(cone_exact_probes);
+
+void cone_mesh_at_a_quarter_millimetre(benchmark::State& state) {
+  const stock::Workpiece part = ConeScene::cut(kConeBlocks);
+  for (auto _ : state) {
+    const auto mesh = stock::extract_surface(part, part.blank().bounds(), Mm{0.25});
+    state.counters["triangles"] = static_cast<double>(mesh->triangles.size());
+  }
+}
+BENCHMARK(cone_mesh_at_a_quarter_millimetre)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
+
+void freeform_ready(benchmark::State& state) {
+  const double before = resident();
+  const ToolPath path = FreeformScene::path(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    auto swept = cutter::SweptCutter::sweep(
+        path, {{1, end_mill(cutter::CutterType::ball, 2 * FreeformScene::kRadius, 40.0)}});
+    const stock::Workpiece part(FreeformScene::blank(), *std::move(swept));
+    state.counters["MiB"] = resident() - before;
+  }
+  state.counters["blocks"] = static_cast<double>(path.stretches.size());
+}
+BENCHMARK(freeform_ready)->Arg(1'000'000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+
+void freeform_probe(benchmark::State& state) {
+  const stock::Workpiece part = FreeformScene::cut(static_cast<int>(state.range(0)));
+  std::uint64_t k = 0;
+  for (auto _ : state) {
+    const auto met = part.first_surface(FreeformScene::probe(k++), {0.0, 30.0});
+    if (!met) state.SkipWithError("a probe met nothing");
+  }
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(freeform_probe)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1'000'000)
+    ->Unit(benchmark::kMicrosecond)
+    ->Complexity(benchmark::oLogN)
+    ->Complexity();
+
+}  // namespace
+}  // namespace frustum::bench
