@@ -124,8 +124,7 @@ class Cut {
   };
   [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {
     if (!options_.polyhedral()) {
-      auto mesh = finished_surface(
-          job_, part, {options_.pitch, options_.chord, options_.decimate});
+      auto mesh = finished_surface(job_, part, {options_.pitch, options_.chord, options_.decimate});
       if (!mesh) return mesh.error();
       return Meshed{*std::move(mesh), {}};
     }
@@ -250,7 +249,8 @@ int cut(Options options) {
 
 void add_options(CLI::App& command, Options& o) {
   command.add_option("job", o.job, "Job file")->required();
-  command.add_option("--mesh", o.mesh, "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
+  command.add_option("--mesh", o.mesh,
+                     "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
   command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
   command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
       ->check(positive_number());
@@ -258,8 +258,7 @@ void add_options(CLI::App& command, Options& o) {
       .add_option("--chord", o.chord, "Refine until the triangles leave the surface by less, mm")
       ->check(positive_number());
   command
-      .add_option("--decimate", o.decimate,
-                  "Take away what is not needed for this tolerance, mm")
+      .add_option("--decimate", o.decimate, "Take away what is not needed for this tolerance, mm")
       ->check(positive_number());
   command.add_option("--until-line", o.until_line, "Stop after the last motion of this NC line")
       ->check(CLI::Range(1U, 4'000'000'000U));

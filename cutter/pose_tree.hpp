@@ -16,15 +16,12 @@
 #include <vector>
 
 #include "core/pose.hpp"
+#include "cutter/box.hpp"
 #include "cutter/profile.hpp"
+#include "cutter/ray.hpp"
 #include "kinematics/tool_path.hpp"
 
 namespace frustum::cutter {
-
-struct Box {
-  Vec3 min = Vec3::Zero();
-  Vec3 max = Vec3::Zero();
-};
 
 struct PoseGroup {
   Box box{};           // of all that the cutter covers in these stretches
@@ -64,5 +61,9 @@ class PoseTree {
   std::vector<PoseGroup> groups_{};
   std::vector<std::uint32_t> stretches_;
 };
+
+// Stretches of the leaves whose box the ray crosses within the span; some of them it may pass by.
+[[nodiscard]] std::vector<std::uint32_t> stretches_near(const PoseTree& tree, const Ray& ray,
+                                                        RaySpan span);
 
 }  // namespace frustum::cutter

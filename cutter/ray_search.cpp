@@ -98,35 +98,6 @@ Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
   return reach;
 }
 
-class Slabs {
- public:
-  explicit Slabs(const Ray& ray) : origin_(ray.origin) {
-    for (int k = 0; k < 3; ++k) inverse_[k] = 1.0 / ray.direction[k];
-  }
-  // Where within the span the ray may cross the box; lo above hi: nowhere.
-  [[nodiscard]] RaySpan within(const Box& box, const RaySpan& span) const {
-    double lo = span.lo, hi = span.hi;
-    for (int k = 0; k < 3; ++k) {
-      if (std::isinf(inverse_[k])) {
-        if (origin_[k] < box.min[k] - kMargin || origin_[k] > box.max[k] + kMargin) {
-          return {1.0, 0.0};
-        }
-        continue;
-      }
-      const double a = (box.min[k] - kMargin - origin_[k]) * inverse_[k];
-      const double b = (box.max[k] + kMargin - origin_[k]) * inverse_[k];
-      lo = std::max(lo, std::min(a, b));
-      hi = std::min(hi, std::max(a, b));
-    }
-    return {lo, hi};
-  }
-
- private:
-  static constexpr double kMargin = 1e-9;  // mm, above rounding
-  Vec3 origin_;
-  Vec3 inverse_ = Vec3::Zero();
-};
-
 // The search, for a goal that knows what it still wants:
 //   bool wants(lo, hi, lo_slack, hi_slack)   could this still add anything?
 //   bool puts_aside(group, lo)               not now, since it begins at lo
@@ -142,7 +113,7 @@ class Search {
         goal_(goal),
         parts_(sweep.body->parts()),
         groups_(sweep.tree.groups()),
-        slabs_(question.ray) {}
+        in_box_(question.ray) {}
 
   void run(std::uint32_t group) {
     if (groups_.empty()) return;
@@ -163,7 +134,7 @@ class Search {
     const PoseGroup& group = groups_[index];
     Judgement judged;
     if (group.earliest >= question_.first_excluded) return judged;
-    const RaySpan in_box = slabs_.within(group.box, goal_.span());
+    const RaySpan in_box = in_box_.within(group.box, goal_.span());
     if (!(in_box.lo <= in_box.hi)) return judged;
     if (goal_.puts_aside(index, in_box.lo)) return judged;
     const auto wants_lo = [&](const Reach& reach) { return goal_.wants_lo(reach.lo, reach.hi); };
@@ -236,7 +207,7 @@ class Search {
   Goal& goal_;
   std::span<const Profile> parts_;
   std::span<const PoseGroup> groups_;
-  Slabs slabs_;
+  BoxCrossing in_box_;
   std::vector<SweptInterval> found_{};
 };
 

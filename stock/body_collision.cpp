@@ -8,7 +8,8 @@
 #include <map>
 #include <utility>
 
-#include "cutter/stretch_sweep.hpp"
+#include "cutter/pose_tree.hpp"
+#include "cutter/stretch_motion.hpp"
 #include "stock/collision.hpp"
 #include "stock/removal.hpp"
 
@@ -58,19 +59,23 @@ bool overlap(const Box& a, const BoundingBox& b) {
   return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
-// All passages that come near the blank, in program order, with a tree to find them by ray.
+// All passages that come near the blank, with a tree for every body to find them by ray.
 class Passages {
  public:
   Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies)
-      : path_(workpiece.removed().path()), tree_(collect(workpiece, bodies)) {}
-
-  [[nodiscard]] bool empty() const { return all_.empty(); }
-  [[nodiscard]] const Passage& operator[](std::uint32_t i) const { return all_[i]; }
-  [[nodiscard]] std::vector<std::uint32_t> near(const Ray& ray, RaySpan span) const {
-    return tree_.candidates(ray, span);
+      : path_(workpiece.removed().path()) {
+    for (const NonCuttingBody& body : bodies) collect(workpiece.blank().bounds(), body);
   }
-  [[nodiscard]] const PathBlock& block_of(const Passage& p) const {
-    return path_.blocks[path_.stretches[p.stretch].block];
+
+  [[nodiscard]] bool empty() const { return trees_.empty(); }
+  [[nodiscard]] std::vector<Passage> near(const Ray& ray, RaySpan span) const {
+    std::vector<Passage> found;
+    for (const BodyTree& each : trees_) {
+      for (const std::uint32_t stretch : stretches_near(each.tree, ray, span)) {
+        found.push_back({stretch, each.body});
+      }
+    }
+    return found;
   }
   [[nodiscard]] std::uint32_t block_index(const Passage& p) const {
     return path_.stretches[p.stretch].block;
@@ -81,7 +86,8 @@ class Passages {
     std::vector<Interval> all;
     for (const Profile& part : p.body->parts) {
       const StretchMotion motion(path_.from(stretch), path_.to(stretch), part.reach());
-      if (!covering_chord(part, motion, ray)) continue;
+      // All poses of the stretch are within half its way of the middle.
+      if (!part.chord(motion.at(0.5), ray, 0.5 * motion.travel())) continue;
       const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * part.max_radius()));
       for (int k = 0; k <= steps; ++k) {
         const auto chord =
@@ -93,25 +99,29 @@ class Passages {
   }
 
  private:
-  std::vector<Box> collect(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies) {
-    const BoundingBox blank = workpiece.blank().bounds();
-    std::vector<Box> boxes;
+  struct BodyTree {
+    const NonCuttingBody* body = nullptr;
+    cutter::PoseTree tree;
+  };
+
+  void collect(const BoundingBox& blank, const NonCuttingBody& body) {
+    if (body.parts.empty()) return;
+    double reach = 0.0;
+    for (const Profile& part : body.parts) reach = std::max(reach, part.reach());
+    std::vector<Box> boxes(path_.stretches.size());
+    std::vector<std::uint32_t> near_blank;
     for (std::uint32_t i = 0; i < path_.stretches.size(); ++i) {
       const Stretch& stretch = path_.stretches[i];
-      for (const NonCuttingBody& body : bodies) {
-        if (body.tool != path_.blocks[stretch.block].tool || body.parts.empty()) continue;
-        const Box box = box_of(body, path_.from(stretch), path_.to(stretch));
-        if (!overlap(box, blank)) continue;
-        all_.push_back({i, &body});
-        boxes.push_back(box);
-      }
+      if (body.tool != path_.blocks[stretch.block].tool) continue;
+      boxes[i] = box_of(body, path_.from(stretch), path_.to(stretch));
+      if (overlap(boxes[i], blank)) near_blank.push_back(i);
     }
-    return boxes;
+    if (near_blank.empty()) return;
+    trees_.push_back({&body, cutter::PoseTree(path_, boxes, std::move(near_blank), reach)});
   }
 
   const ToolPath& path_;
-  std::vector<Passage> all_{};
-  cutter::CandidateTree tree_;
+  std::vector<BodyTree> trees_{};
 };
 
 struct Key {
@@ -143,8 +153,7 @@ void examine(const Workpiece& workpiece, const Timetable& table, const Passages&
              const Ray& ray, RaySpan span, Hits& hits) {
   const auto near = passages.near(ray, span);
   std::vector<RemovedPiece> pieces;
-  for (const std::uint32_t i : near) {
-    const Passage& passage = passages[i];
+  for (const Passage& passage : near) {
     const IntervalSet covered = passages.core_along(passage, ray);
     if (covered.empty()) continue;
     if (pieces.empty()) pieces = history(workpiece, table, ray, span);

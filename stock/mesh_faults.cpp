@@ -92,10 +92,10 @@ std::optional<Diagnostic> crossings(const Mesh& mesh) {
   if (pairs.empty()) return std::nullopt;
   const auto first = std::min_element(pairs.begin(), pairs.end());
   const auto corner = mesh.target(mesh.halfedge(first->first));
-  return error(fmt::format("{} of facets cross; one of them has a corner at {} mm",
-                           counted(pairs.size(), "pair", "pairs"),
-                           place_of(vec_of(mesh.point(corner)))),
-               "unite the bodies, or repair the mesh, in the program that made it");
+  return error(
+      fmt::format("{} of facets cross; one of them has a corner at {} mm",
+                  counted(pairs.size(), "pair", "pairs"), place_of(vec_of(mesh.point(corner)))),
+      "unite the bodies, or repair the mesh, in the program that made it");
 }
 
 std::optional<Diagnostic> shells(Mesh& mesh, const SurfaceMesh& given) {
@@ -130,10 +130,11 @@ std::optional<Diagnostic> shells(Mesh& mesh, const SurfaceMesh& given) {
                  "a blank is one body: keep one shell");
   }
   if (!pmp::does_bound_a_volume(mesh)) {
-    return error(fmt::format("the {} of the mesh do not bound one body: a void lies outside it, or is "
-                             "not turned inwards",
-                             counted(count, "shell", "shells")),
-                 "facets face out of the material, so those of a void face into it");
+    return error(
+        fmt::format("the {} of the mesh do not bound one body: a void lies outside it, or is "
+                    "not turned inwards",
+                    counted(count, "shell", "shells")),
+        "facets face out of the material, so those of a void face into it");
   }
   return std::nullopt;
 }

@@ -138,7 +138,8 @@ std::string three_mf_bytes(const SurfaceMesh& mesh) {
     fmt::format_to(to, "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", a, b, c);
   }
   model +=
-      "</triangles>\n</mesh></object></resources>\n<build><item objectid=\"1\"/></build>\n</model>\n";
+      "</triangles>\n</mesh></object></resources>\n<build><item "
+      "objectid=\"1\"/></build>\n</model>\n";
   return zip_archive(std::array{ZipEntry{"[Content_Types].xml", kContentTypes},
                                 ZipEntry{"_rels/.rels", kRelationships},
                                 ZipEntry{"3D/3dmodel.model", model}});
@@ -179,8 +180,8 @@ std::string vtp_bytes(const SurfaceMesh& mesh) {
   const auto deviation = arrays.add(4 * n, [&](std::string& out) {
     for (std::size_t v = 0; v < n; ++v) {
       const auto known = v < mesh.deviation.size() ? mesh.deviation[v] : std::nullopt;
-      put(out, known ? static_cast<float>(*known * kUmPerMm)
-                     : std::numeric_limits<float>::quiet_NaN());
+      put(out,
+          known ? static_cast<float>(*known * kUmPerMm) : std::numeric_limits<float>::quiet_NaN());
     }
   });
   const auto kinds = arrays.add(n, [&](std::string& out) {
@@ -265,9 +266,9 @@ Result<std::uintmax_t> write_mesh(const SurfaceMesh& mesh, const fs::path& file)
   // A vertex takes up to 90 bytes of XML, a triangle up to 60.
   const std::uint64_t most = 90 * std::uint64_t{mesh.vertices.size()} + 60 * mesh.triangles.size();
   if (*format == MeshFormat::three_mf && most > 0xFFFF'0000U) {
-    Diagnostic large = error(fmt::format("{} triangles are too many for a 3MF",
-                                         mesh.triangles.size()),
-                             "decimate the mesh, or write .ply");
+    Diagnostic large =
+        error(fmt::format("{} triangles are too many for a 3MF", mesh.triangles.size()),
+              "decimate the mesh, or write .ply");
     large.file = file.string();
     return large;
   }

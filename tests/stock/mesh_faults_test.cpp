@@ -16,9 +16,18 @@ void add_cube(SurfaceMesh& mesh, const Vec3& corner, double size, bool inwards =
   for (int c = 0; c < 8; ++c) {
     mesh.vertices.push_back(corner + size * Vec3(c & 1, c >> 1 & 1, c >> 2 & 1));
   }
-  constexpr std::array<std::array<std::uint32_t, 3>, 12> kFacets{
-      {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}}};
+  constexpr std::array<std::array<std::uint32_t, 3>, 12> kFacets{{{0, 2, 1},
+                                                                  {1, 2, 3},
+                                                                  {4, 5, 6},
+                                                                  {5, 7, 6},
+                                                                  {0, 1, 4},
+                                                                  {1, 5, 4},
+                                                                  {2, 6, 3},
+                                                                  {3, 6, 7},
+                                                                  {0, 4, 2},
+                                                                  {2, 4, 6},
+                                                                  {1, 3, 5},
+                                                                  {3, 7, 5}}};
   for (auto facet : kFacets) {
     if (inwards) std::swap(facet[1], facet[2]);
     mesh.triangles.push_back({first + facet[0], first + facet[1], first + facet[2]});

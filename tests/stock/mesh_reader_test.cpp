@@ -87,7 +87,8 @@ TEST(MeshReader, ReadsPlyOfBigEndianMachinesAndSplitsPolygons) {
     std::reverse(raw, raw + sizeof value);  // the test machine keeps the lowest byte first
     ply.append(raw, sizeof value);
   };
-  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 3)}) {
+  for (const Vec3& p :
+       {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 3)}) {
     for (const double x : p) put(x);
     put(std::uint8_t{7});
   }
@@ -112,7 +113,8 @@ TEST(MeshReader, ReadsPlyOfBigEndianMachinesAndSplitsPolygons) {
 TEST(MeshReader, SaysWhatIsWrongAndWhere) {
   std::string stl = mesh_bytes(tetrahedron(), MeshFormat::stl);
   stl.pop_back();
-  EXPECT_THAT(fault(stl, MeshFormat::stl), HasSubstr("4 triangles has 284 bytes, this file has 283"));
+  EXPECT_THAT(fault(stl, MeshFormat::stl),
+              HasSubstr("4 triangles has 284 bytes, this file has 283"));
   EXPECT_THAT(fault("", MeshFormat::stl), HasSubstr("within the header"));
   EXPECT_THAT(fault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n", MeshFormat::stl),
               HasSubstr("4: 'zero' is not a finite coordinate"));
