@@ -53,6 +53,11 @@ double least_distance(const Body& body, const ToolPose& from, const ToolPose& to
   return least - 0.5 * motion.travel() / steps;
 }
 
+double accuracy_of(const Body& body) {
+  const double convex = 2.0 * kSearchTolerance + kMissedDepth;
+  return body.carved().empty() ? convex : convex + carved_accuracy(body);
+}
+
 }  // namespace
 
 Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tools) {
@@ -86,6 +91,7 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
   std::vector<ToolSweep> sweeps;
   for (auto& [number, stretches] : stretches_of_tool) {
     const Body& body = tools_->at(number).body();
+    accuracy_ = std::max(accuracy_, accuracy_of(body));
     sweeps.push_back(
         {.body = &body, .tree = PoseTree(path_, boxes_, std::move(stretches), body.reach())});
   }

@@ -61,6 +61,11 @@ class SweptCutter {
   [[nodiscard]] double clearance(const Vec3& point, std::uint32_t first, std::uint32_t last,
                                  double enough) const;
 
+  // No end found on a ray is farther than this from the surface that the path sweeps, normal to it and but
+  // for rounding (mm): twice kSearchTolerance, for the solution and for what is left aside, and kMissedDepth;
+  // with hollowed cutters more (carved_sweep.hpp).
+  [[nodiscard]] double accuracy() const { return accuracy_; }
+
   // Box of the stretch's sweep, and of the whole path's.
   [[nodiscard]] const Box& box(std::uint32_t stretch) const { return boxes_[stretch]; }
 
@@ -76,6 +81,7 @@ class SweptCutter {
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to
   std::vector<const Body*> body_of_block_;
   std::vector<Box> boxes_;
+  double accuracy_ = 0.0;
   std::shared_ptr<const std::vector<ToolSweep>> sweeps_;
 };
 
