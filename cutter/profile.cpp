@@ -268,11 +268,11 @@ std::optional<Chord> Profile::chord(const ToolPose& pose, const Ray& ray, double
     const auto face = static_cast<ProfileFace>(i);
     if (part.lo < all.lo) {
       all.lo = part.lo;
-      all.lo_face = part.lo == slab.lo && lateral.lo < slab.lo ? at_slab_lo : face;
+      all.lo_face = part.lo == slab.lo && lateral.lo <= slab.lo ? at_slab_lo : face;
     }
     if (part.hi > all.hi) {
       all.hi = part.hi;
-      all.hi_face = part.hi == slab.hi && lateral.hi > slab.hi ? at_slab_hi : face;
+      all.hi_face = part.hi == slab.hi && lateral.hi >= slab.hi ? at_slab_hi : face;
     }
   }
   if (!(all.lo <= all.hi)) return std::nullopt;

@@ -67,7 +67,7 @@ TEST(Certificate, Explore) {
           if (!p.stretch && std::getenv("K")) continue;
           const Certificate c = certifier.certify(p);
           counts[kind.name].add(p, c);
-          counts[to_string(family)].add(p, c);
+          counts[to_string(family)].add(p, c); if (std::getenv("V")) std::cout << to_string(family) << seed << " spans " << c.spans << " " << c.reason << " n " << p.normal.transpose() << " bound " << p.sweep_bound << std::endl;
           if (c.verdict == Verdict::refuted || (c.verdict == Verdict::open && draw.chance(0.05)))
             std::cout << kind.name << ' ' << to_string(family) << ' ' << seed << " n.z " << p.normal.transpose() << " cut " << p.stretch.has_value() << ": " << c.reason << " spans " << c.spans << " P " << p.point.transpose().format(Eigen::IOFormat(17)) << " bound " << p.sweep_bound << std::endl;
         }
