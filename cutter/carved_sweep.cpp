@@ -96,6 +96,7 @@ class CarvedSearch {
       double x = a + (b - a) * at_a.distance / (at_a.distance - at_b.distance);
       if (i % 3 == 2 || !(x > a && x < b)) x = 0.5 * (a + b);
       const Nearest at_x = nearest(x);
+      if (at_x.distance == 0.0) return {x, at_x.t};
       if ((at_x.distance < 0.0) == (at_a.distance < 0.0)) {
         a = x;
         at_a = at_x;
@@ -103,7 +104,6 @@ class CarvedSearch {
         b = x;
         at_b = at_x;
       }
-      if (at_x.distance == 0.0) break;
     }
     return at_a.distance < 0.0 ? SweptEnd{a, at_a.t} : SweptEnd{b, at_b.t};
   }
