@@ -36,6 +36,37 @@ double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, con
   return normal.dot(ray.origin - pose.tip) - body.support(u);
 }
 
+// A point that runs along the ray while the body turns is seen from the body on a curve: with the turn w, the
+// way v of the tip and x of the point its second derivative is below w^2 reach + 2 w (x + v). That far, an
+// eighth of it, the curve may leave the straight line between two points of the (convex) body.
+double departure(const StretchMotion& motion, double dt, double way_of_point) {
+  const double turn = motion.turn() * dt;
+  return (motion.bend() * dt * dt + 2.0 * turn * (way_of_point + motion.travel() * dt)) / 8.0;
+}
+
+// How far apart two chords are along the ray.
+double gap_between(const Chord& a, const Chord& b) {
+  return std::max(0.0, std::max(a.lo, b.lo) - std::min(a.hi, b.hi));
+}
+
+// Whether a ray that meets the body at both moments meets it at all moments between, but for kMissedDepth: so
+// it is where a body shrunk by the departure is met at both, not farther apart.
+bool surely_meets_between(const Profile& body, const StretchMotion& motion, const Ray& ray,
+                          const ToolPose& from, const Chord& at_from, const ToolPose& to,
+                          const Chord& at_to, double dt) {
+  double gap = gap_between(at_from, at_to);
+  for (int tries = 0; tries < 3; ++tries) {
+    const double shrunk = departure(motion, dt, gap);
+    if (tries == 0 && shrunk < kMissedDepth) return true;
+    const auto a = body.chord(from, ray, -shrunk), b = body.chord(to, ray, -shrunk);
+    if (!a || !b) return false;
+    const double wider = gap_between(*a, *b);
+    if (wider <= gap) return true;
+    gap = 1.5 * wider;
+  }
+  return false;
+}
+
 // The times at which the ray meets the body, as runs of samples that all have a chord.
 class ChordTimes {
  public:
@@ -79,13 +110,11 @@ class ChordTimes {
     }
   }
 
-  // A body that turns may leave the ray and come back by what its points depart from straight motion. Where
-  // a body shrunk by that still meets the ray at both ends, it does not.
+  // A body that turns may leave the ray and come back.
   void split_if_it_may_part(const Sample& a, const Sample& b, int depth) {
     const double dt = b.t - a.t;
-    const double departure = motion_.bend() * dt * dt / 8.0;
-    if (departure < kMissedDepth || depth > 40) return;
-    if (body_.chord(a.pose, ray_, -departure) && body_.chord(b.pose, ray_, -departure)) return;
+    if (depth > 40 || dt * motion_.travel() < kTangentMotion) return;
+    if (surely_meets_between(body_, motion_, ray_, a.pose, *a.chord, b.pose, *b.chord, dt)) return;
     const Sample middle = sample(0.5 * (a.t + b.t));
     refine_between(a, middle, depth + 1);
     samples_.push_back(middle);
@@ -95,7 +124,8 @@ class ChordTimes {
   // Between the last moment of a run and a sample without a chord: none but what turning brings back.
   void search_beside_run(const Sample& run_end, const Sample& outside) {
     const double dt = outside.t - run_end.t;
-    if (motion_.bend() * dt * dt / 8.0 < kMissedDepth) return;  // as good as straight: no way back
+    // As good as straight, wherever on the body it might come back: no way back.
+    if (departure(motion_, std::abs(dt), 2.0 * motion_.reach()) < kMissedDepth) return;
     const double beyond = run_end.t + std::copysign(2.0 * resolution(), dt);
     if (std::abs(beyond - run_end.t) >= std::abs(dt)) return;
     const Sample gone = sample(beyond);
@@ -399,7 +429,9 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
   if (motion.bend() / 8.0 < kMissedDepth) {
     const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
     const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
-    if (a.chord && b.chord) {
+    const bool meets = a.chord && b.chord &&
+                       surely_meets_between(body, motion, ray, a.pose, *a.chord, b.pose, *b.chord, 1.0);
+    if (meets) {
       const Chord inside = overlapped(known, *a.chord);
       HighestEnd lo(body, motion, ray, false, -inside.lo);
       HighestEnd hi(body, motion, ray, true, inside.hi);
@@ -432,6 +464,9 @@ std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& moti
   const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
   const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
   if (!a.chord || !b.chord) return std::nullopt;
+  if (!surely_meets_between(body, motion, ray, a.pose, *a.chord, b.pose, *b.chord, 1.0)) {
+    return std::nullopt;
+  }
   HighestEnd hi(body, motion, ray, true, -kInfinity);
   const auto [from, to] = hi.search(a, b);
   return LastExit{hi.best(), from, to};

@@ -109,8 +109,13 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   std::vector<Interval> all;
   all.reserve(cover.size());
   for (const CoverInterval& c : cover) {
-    all.push_back(
-        {c.lo.s, c.hi.s, static_cast<EndTag>(c.lo.stretch), static_cast<EndTag>(c.hi.stretch)});
+    const auto lo_tag = static_cast<EndTag>(c.lo.stretch), hi_tag = static_cast<EndTag>(c.hi.stretch);
+    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
+      all.back().hi = c.hi.s;
+      all.back().hi_tag = hi_tag;
+    } else {
+      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
+    }
   }
   return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
 }

@@ -43,7 +43,8 @@ class SweptCutter {
                                                  std::map<int, Cutter> tools);
 
   // Covered part of the ray; an end's tag is the stretch that made it. Stretches from
-  // `first_excluded` on are left out.
+  // `first_excluded` on are left out. Gaps of less than 1e-9 mm are passed over: rounding leaves them where
+  // the parts of a cutter meet.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
   // Walks from `from` to the end of what is covered there without a gap: where a probe that comes out of the
