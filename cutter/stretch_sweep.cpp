@@ -429,8 +429,9 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
   if (motion.bend() / 8.0 < kMissedDepth) {
     const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
     const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
-    const bool meets = a.chord && b.chord &&
-                       surely_meets_between(body, motion, ray, a.pose, *a.chord, b.pose, *b.chord, 1.0);
+    const bool meets =
+        a.chord && b.chord &&
+        surely_meets_between(body, motion, ray, a.pose, *a.chord, b.pose, *b.chord, 1.0);
     if (meets) {
       const Chord inside = overlapped(known, *a.chord);
       HighestEnd lo(body, motion, ray, false, -inside.lo);

@@ -109,7 +109,8 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   std::vector<Interval> all;
   all.reserve(cover.size());
   for (const CoverInterval& c : cover) {
-    const auto lo_tag = static_cast<EndTag>(c.lo.stretch), hi_tag = static_cast<EndTag>(c.hi.stretch);
+    const auto lo_tag = static_cast<EndTag>(c.lo.stretch),
+               hi_tag = static_cast<EndTag>(c.hi.stretch);
     if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
       all.back().hi = c.hi.s;
       all.back().hi_tag = hi_tag;

@@ -19,7 +19,8 @@ struct Behind {
 // Behind the face that stands at half + growth z from the middle of a direction `axis`, on either side.
 void add_pair(std::vector<Behind>& faces, const Enclosure& at, const Enclosure& half,
               const Enclosure& growth, const Vec3& axis) {
-  const Enclosure scale = Enclosure(1.0) / boost::numeric::sqrt(1.0 + boost::numeric::square(growth));
+  const Enclosure scale =
+      Enclosure(1.0) / boost::numeric::sqrt(1.0 + boost::numeric::square(growth));
   const Vec3 up = median(growth) * Vec3::UnitZ();
   faces.push_back({(half - at) * scale, (axis - up).normalized()});
   faces.push_back({(half + at) * scale, (-axis - up).normalized()});
@@ -42,7 +43,8 @@ std::vector<Slab> slabs(const FrustumShape& f, const Enclosure3& p) {
   const Enclosure radius = f.bottom_radius + growth * p.z;
   const Enclosure across =
       boost::numeric::sqrt(boost::numeric::square(p.x) + boost::numeric::square(p.y));
-  const Enclosure scale = Enclosure(1.0) / boost::numeric::sqrt(1.0 + boost::numeric::square(growth));
+  const Enclosure scale =
+      Enclosure(1.0) / boost::numeric::sqrt(1.0 + boost::numeric::square(growth));
   const Vec3 away = Vec3(median(p.x), median(p.y), 0.0).normalized();
   return {{{(radius - across) * scale, (away - median(growth) * Vec3::UnitZ()).normalized()},
            {p.z, -Vec3::UnitZ()},
@@ -94,7 +96,7 @@ BlankSide side_of(const Blank& blank, const Vec3& point, double margin) {
     constexpr double kMeshAccuracy = 1e-10;  // mm, of meshes below a metre
     const Vec3 p = point - blank.origin();
     const double distance = mesh->solid->signed_distance(p);
-    return {distance < -margin - kMeshAccuracy, distance > margin + kMeshAccuracy,
+    return {distance<-margin - kMeshAccuracy, distance> margin + kMeshAccuracy,
             mesh->solid->normal(mesh->solid->nearest(p).facet)};
   }
   const Enclosure3 p = enclose(point) - enclose(blank.origin());

@@ -13,8 +13,8 @@
 namespace frustum::stock {
 
 struct BlankSide {
-  bool inside = false;   // surely, and deeper than the margin
-  bool outside = false;  // surely, and farther than the margin
+  bool inside = false;           // surely, and deeper than the margin
+  bool outside = false;          // surely, and farther than the margin
   Vec3 outward = Vec3::UnitZ();  // about: across the nearest face
 };
 [[nodiscard]] BlankSide side_of(const Blank& blank, const Vec3& point, double margin);

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+#include <map>
+#include <numbers>
+#include <string>
 #include <utility>
 
 #include "cutter/carved_sweep.hpp"
@@ -58,8 +59,8 @@ struct Certifier::Tool {
                 .last = last};
     const double reach = body.outline->reach();
     const auto include = [&](const ToolPose& pose) {
-      const double moved = (pose.tip - group.witness.tip).norm() +
-                           reach * (pose.axis - group.witness.axis).norm();
+      const double moved =
+          (pose.tip - group.witness.tip).norm() + reach * (pose.axis - group.witness.axis).norm();
       group.shift = std::max(group.shift, moved);
     };
     // Between two poses the tip is between the tips; axes in a cap of less than a right angle stay in it.
@@ -141,151 +142,168 @@ void Certifier::keep_off(const Tool& tool, Search& search) const {
 
 namespace {
 
-// The deepest moment near t, by a walk downhill and a golden section.
+// The deepest moment near t: a walk downhill to either side, then a golden section.
 double deepest_near(const BodyOutline& body, const ToolPath& path, std::uint32_t stretch, double t,
                     const Vec3& point) {
   const auto depth = [&](double at) {
     const ToolPose pose = pose_at(path, stretch, at);
     return distance_from(body, pose.tip, pose.axis, point);
   };
-  double lo = t, hi = t;
-  for (const double way : {-1.0, 1.0}) {
-    double step = 1e-6, here = t, value = depth(t);
-    for (int i = 0; i < 40; ++i) {
+  const auto walked = [&](double way) {
+    double here = t;
+    for (double step = 1e-6; step < 1.0; step *= 2.0) {
       const double next = std::clamp(here + way * step, 0.0, 1.0);
-      const double there = depth(next);
-      (way < 0.0 ? lo : hi) = next;
-      if (there > value || next == here) break;
+      if (next == here || depth(next) > depth(here)) return next;
       here = next;
-      value = there;
-      step *= 2.0;
     }
-  }
+    return here;
+  };
+  double lo = walked(-1.0), hi = walked(1.0);
   constexpr double kGolden = 0.6180339887498949;
   for (int i = 0; i < 60; ++i) {
     const double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
-    (depth(a) < depth(b) ? hi : lo) = depth(a) < depth(b) ? b : a;
+    if (depth(a) < depth(b)) {
+      hi = b;
+    } else {
+      lo = a;
+    }
   }
   return 0.5 * (lo + hi);
 }
 
 }  // namespace
 
-Certificate Certifier::certify(const SurfacePoint& point) const {
-  if (!point.point.allFinite() || !point.normal.allFinite() || !(point.sweep_bound > 0.0)) {
-    return {.reason = "it is no surface point with a bound"};
+// The claim that a point is within its bound of the surface, and what was found out about it.
+struct Certifier::Claim {
+  const Certifier& certifier;
+  const SurfacePoint& point;
+  const Tool* maker = nullptr;
+  Certificate answer{};
+
+  [[nodiscard]] const ToolPath& path() const { return certifier.workpiece_->removed().path(); }
+  [[nodiscard]] const Blank& blank() const { return certifier.workpiece_->blank(); }
+  [[nodiscard]] double bound() const { return point.sweep_bound; }
+  [[nodiscard]] std::uint32_t line_of(std::uint32_t stretch) const {
+    return path().blocks[path().stretches[stretch].block].source_line;
   }
-  return certified(point);
-}
 
-Certificate Certifier::certified(const SurfacePoint& point) const {
-  const ToolPath& path = workpiece_->removed().path();
-  const Blank& blank = workpiece_->blank();
-  const double bound = point.sweep_bound;
-  Certificate answer;
-
-  const auto tool_of = [&](std::uint32_t stretch) -> const Tool* {
-    for (const auto& tool : tools_) {
-      if (std::binary_search(tool->stretches.begin(), tool->stretches.end(), stretch)) {
-        return tool.get();
-      }
-    }
-    return nullptr;
-  };
-  const auto search = [&](const Vec3& at, double margin) {
-    Search s{.point = at, .margin = margin, .most_spans = options_.most_spans};
+  Search search(const Vec3& at, double margin) {
+    Search s{.point = at, .margin = margin, .most_spans = certifier.options_.most_spans};
     s.most_spans -= std::min(s.most_spans, answer.spans);
-    for (const auto& tool : tools_) {
-      if (s.keeping == Keeping::apart) keep_off(*tool, s);
+    for (const auto& tool : certifier.tools_) {
+      if (s.keeping == Keeping::apart) certifier.keep_off(*tool, s);
     }
     answer.spans += s.spans;
     answer.stretches += s.stretches;
     return s;
-  };
-
-  // (a) The void.
-  const Tool* maker = point.stretch ? tool_of(*point.stretch) : nullptr;
-  if (point.stretch && maker == nullptr) {
-    answer.reason = "the stretch that is said to have made it has not cut";
-    return answer;
   }
-  const auto is_void = [&](const Vec3& direction) {
-    const Vec3 at = point.point + bound * direction;
-    if (maker == nullptr) return side_of(blank, at, 0.0).outside;
-    return surely_inside(maker->body, span_of(path, *point.stretch), point.t, at);
-  };
-  answer.regular = is_void(point.normal);
-  bool has_void = answer.regular;
-  if (!has_void && maker != nullptr) {
-    // On a rim the normal may point along a face; some way into the cutter there is.
-    const ToolPose pose = pose_at(path, *point.stretch, point.t);
+
+  void refute(std::string reason) {
+    answer.verdict = Verdict::refuted;
+    answer.reason = std::move(reason);
+  }
+
+  [[nodiscard]] bool is_void(const Vec3& direction) const {
+    const Vec3 at = point.point + bound() * direction;
+    if (maker == nullptr) return side_of(blank(), at, 0.0).outside;
+    return surely_inside(maker->body, span_of(path(), *point.stretch), point.t, at);
+  }
+
+  // (a): along the normal; on a rim, where the normal may be that of a face, anywhere in the cutter.
+  bool void_is_near() {
+    answer.regular = is_void(point.normal);
+    if (answer.regular || maker == nullptr) return answer.regular;
+    const ToolPose pose = pose_at(path(), *point.stretch, point.t);
     const Vec3 m = point.point - pose.tip;
     const Vec3 across = m - m.dot(pose.axis) * pose.axis;
     const Vec3 side = across.norm() > 0.0 ? across.normalized() : perpendicular_to(pose.axis);
-    for (int k = 0; k < 8 && !has_void; ++k) {
-      const double turn = k * 0.25 * 3.14159265358979;
-      has_void = is_void(std::cos(turn) * side + std::sin(turn) * pose.axis);
+    constexpr int kWays = 16;
+    for (int k = 0; k < kWays; ++k) {
+      const double turn = 2.0 * std::numbers::pi * k / kWays;
+      if (is_void(std::cos(turn) * side + std::sin(turn) * pose.axis)) return true;
     }
-  }
-  if (!has_void) {
-    const BlankSide side = side_of(blank, point.point, bound);
-    const Search s = search(point.point, bound);
-    if (side.inside && s.keeping == Keeping::apart) {
-      answer.verdict = Verdict::refuted;
-      answer.reason = "all of the material within the bound is still there";
-    } else if (side.outside && maker == nullptr) {
-      answer.verdict = Verdict::refuted;
-      answer.reason = "it is outside the blank by more than the bound";
-    } else {
-      answer.reason = maker == nullptr
-                          ? "no point within the bound was shown to be outside the blank"
-                          : "no point within the bound was shown to be inside the cutter that made it";
-    }
-    return answer;
+    return false;
   }
 
-  // (b) The material.
-  Vec3 into = -point.normal;
-  for (int k = 0; k < kDirections; ++k) {
-    const Vec3 at = point.point + bound * into;
-    const BlankSide side = side_of(blank, at, 0.0);
-    if (!side.inside) {
-      answer.regular = false;
-      if (side_of(blank, point.point, bound).outside) {
-        answer.verdict = Verdict::refuted;
-        answer.reason = "it is outside the blank by more than the bound";
-        return answer;
-      }
-      answer.reason = "no material of the blank was found within the bound";
-      into = (into - side.outward).normalized();
-      continue;
+  // Without a void: is all within the bound material, or beside the blank?
+  void look_for_refutation() {
+    const BlankSide side = side_of(blank(), point.point, bound());
+    if (side.outside) return refute("it is outside the blank by more than the bound");
+    if (side.inside && search(point.point, bound()).keeping == Keeping::apart) {
+      return refute("everything within the bound is material");
     }
-    const Search s = search(at, 0.0);
-    if (s.keeping == Keeping::apart) {
-      answer.verdict = Verdict::proven;
-      answer.reason.clear();
-      return answer;
-    }
-    answer.regular = false;
-    if (s.keeping == Keeping::open) {
-      answer.reason = fmt::format("not shown within {} spans of time", options_.most_spans);
-      return answer;
-    }
-    const Tool& tool = *tool_of(s.stretch);
-    const double t = deepest_near(tool.body, path, s.stretch, s.t, point.point);
-    if (surely_inside(tool.body, span_of(path, s.stretch), t, point.point, bound)) {
-      answer.verdict = Verdict::refuted;
-      answer.reason = fmt::format(
-          "the cutter takes everything within the bound, in line {}",
-          path.blocks[path.stretches[s.stretch].block].source_line);
-      return answer;
-    }
-    answer.reason = fmt::format("no material was found within the bound; line {} cuts there",
-                                path.blocks[path.stretches[s.stretch].block].source_line);
-    const ToolPose pose = pose_at(path, s.stretch, s.t);
-    into = (into + cutter::outline_normal(*tool.body.outline, pose, at)).normalized();
+    answer.reason = "no point within the bound was shown to be void";
   }
-  return answer;
+
+  // (b): a direction in which there is material. What stands in the way turns the next try away from it.
+  void find_material() {
+    Vec3 into = -point.normal;
+    for (int k = 0; k < kDirections && answer.verdict == Verdict::open; ++k) {
+      if (k > 0) answer.regular = false;
+      const Vec3 at = point.point + bound() * into;
+      const BlankSide side = side_of(blank(), at, 0.0);
+      if (!side.inside) {
+        answer.reason = "no material of the blank was found within the bound";
+        if (side_of(blank(), point.point, bound()).outside) look_for_refutation();
+        into = (into - side.outward).normalized();
+        continue;
+      }
+      const Search s = search(at, 0.0);
+      if (s.keeping == Keeping::apart) {
+        answer.verdict = Verdict::proven;
+        answer.reason.clear();
+      } else if (s.keeping == Keeping::open && answer.spans >= certifier.options_.most_spans) {
+        answer.reason = fmt::format("line {} was not shown to keep off within {} spans of time",
+                                    line_of(s.stretch), certifier.options_.most_spans);
+        return;
+      } else {
+        meet(s, at);
+        const Tool& tool = *certifier.tool_of(s.stretch);
+        const ToolPose pose = pose_at(path(), s.stretch, s.t);
+        into = (into + cutter::outline_normal(*tool.body.outline, pose, at)).normalized();
+      }
+    }
+  }
+
+  // A cutter covers the point that should be material: perhaps all that is within the bound.
+  void meet(const Search& s, const Vec3& at) {
+    const BodyOutline& body = certifier.tool_of(s.stretch)->body;
+    const PoseSpan span = span_of(path(), s.stretch);
+    answer.reason = fmt::format("no material was found within the bound: line {} cuts there",
+                                line_of(s.stretch));
+    for (const double from : {s.t, s.stretch == point.stretch ? point.t : s.t}) {
+      const double t = deepest_near(body, path(), s.stretch, from, at);
+      if (!surely_inside(body, span, t, point.point, bound())) continue;
+      return refute(
+          fmt::format("line {} cuts away everything within the bound", line_of(s.stretch)));
+    }
+  }
+};
+
+const Certifier::Tool* Certifier::tool_of(std::uint32_t stretch) const {
+  for (const auto& tool : tools_) {
+    if (std::binary_search(tool->stretches.begin(), tool->stretches.end(), stretch)) {
+      return tool.get();
+    }
+  }
+  return nullptr;
+}
+
+Certificate Certifier::certify(const SurfacePoint& point) const {
+  if (!point.point.allFinite() || !point.normal.allFinite() || !(point.sweep_bound > 0.0)) {
+    return {.reason = "it is no surface point with a bound"};
+  }
+  Claim claim{*this, point, point.stretch ? tool_of(*point.stretch) : nullptr};
+  if (point.stretch && claim.maker == nullptr) {
+    return {.reason = "the stretch that is said to have made it has not cut"};
+  }
+  if (claim.void_is_near()) {
+    claim.find_material();
+  } else {
+    claim.look_for_refutation();
+  }
+  claim.answer.regular = claim.answer.regular && claim.answer.verdict == Verdict::proven;
+  return std::move(claim.answer);
 }
 
 }  // namespace frustum::stock

@@ -15,7 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,10 +27,10 @@ enum class Verdict : std::uint8_t { proven, open, refuted };
 
 struct Certificate {
   Verdict verdict = Verdict::open;
-  bool regular = false;      // proven along the point's own normal
-  std::string reason{};      // why it is not proven
-  std::size_t spans = 0;     // of time that were looked at
-  std::size_t stretches = 0; // that came near enough to be looked at one by one
+  bool regular = false;       // proven along the point's own normal
+  std::string reason{};       // why it is not proven
+  std::size_t spans = 0;      // of time that were looked at
+  std::size_t stretches = 0;  // that came near enough to be looked at one by one
 };
 
 struct CertifierOptions {
@@ -50,7 +50,8 @@ class Certifier {
  private:
   struct Tool;
   struct Search;
-  [[nodiscard]] Certificate certified(const SurfacePoint& point) const;
+  struct Claim;
+  [[nodiscard]] const Tool* tool_of(std::uint32_t stretch) const;
   void keep_off(const Tool& tool, Search& search) const;
 
   const Workpiece* workpiece_;

@@ -114,8 +114,7 @@ class ZoneProof {
     const double chord = (span.axis1.middle - span.axis0.middle).norm();
     if (chord > 1.0) return false;
     const double turned = 0.5 * chord * 1.125 * body_.outline->reach();
-    const double distance =
-        distance_from(body_, span.tip(middle.t), middle.axis.middle, point_);
+    const double distance = distance_from(body_, span.tip(middle.t), middle.axis.middle, point_);
     return distance - margin_ > half_way + turned + kRounding;
   }
 
@@ -142,7 +141,8 @@ class ZoneProof {
     if (chord > 0.8) return false;
     // angle <= chord (1 + chord^2 / 20) and angle / sin(angle) <= 1 + angle^2 / 5, both below 1 rad.
     const double angle = chord * (1.0 + 0.05 * chord * chord);
-    const Enclosure3 turn = Enclosure(0.5, 0.5 * (1.0 + 0.2 * angle * angle) * (1.0 + 1e-15)) * ends;
+    const Enclosure3 turn =
+        Enclosure(0.5, 0.5 * (1.0 + 0.2 * angle * angle) * (1.0 + 1e-15)) * ends;
     const Enclosure3 step =
         (0.5 * (Enclosure(span.t1) - span.t0)) * (enclose(span.end) - enclose(span.begin));
     const Enclosure slope = dot(cross(turn, n), m) - dot(n, step);
@@ -151,7 +151,8 @@ class ZoneProof {
     const double v = longest(step), reach = longest(m);
     const auto stays = [&](double x) {
       const Enclosure X = x, far = std::abs(x);
-      const Enclosure bend = Enclosure(0.5) * w * w * (Enclosure(reach) + far * v) + Enclosure(w) * v;
+      const Enclosure bend =
+          Enclosure(0.5) * w * w * (Enclosure(reach) + far * v) + Enclosure(w) * v;
       // The plane's normal is a unit vector within rounding.
       return (free + X * slope - X * X * bend * Enclosure(1.0, 1.0 + 1e-9)).lower() > margin_;
     };

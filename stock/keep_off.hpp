@@ -59,9 +59,7 @@ struct BodyOutline {
   bool filled = true;  // the zones are the body; false: it is hollowed out and they hold it
 
   explicit BodyOutline(const cutter::Body& body)
-      : outline(&body.outline()),
-        zones(zones_of(body.outline())),
-        filled(body.carved().empty()) {}
+      : outline(&body.outline()), zones(zones_of(body.outline())), filled(body.carved().empty()) {}
 };
 
 // Signed distance of a point from the body at a pose, in double precision: within 1e-11 mm.

@@ -52,14 +52,12 @@ std::optional<MeridianDirection> MeridianZone::touching(double r, double z) cons
     if (turn_from(towards, last) < 0.0) return MeridianDirection{last.across, last.along, away};
     return towards;
   };
-  const bool past_lower = bulges() ? turn_from(at_lower, side) < 0.0
-                                   : (r - lower.r) * (upper.r - lower.r) +
-                                             (z - lower.z) * (upper.z - lower.z) <
-                                         0.0;
-  const bool past_upper = bulges() ? turn_from(side, at_upper) < 0.0
-                                   : (r - upper.r) * (upper.r - lower.r) +
-                                             (z - upper.z) * (upper.z - lower.z) >
-                                         0.0;
+  const bool past_lower =
+      bulges() ? turn_from(at_lower, side) < 0.0
+               : (r - lower.r) * (upper.r - lower.r) + (z - lower.z) * (upper.z - lower.z) < 0.0;
+  const bool past_upper =
+      bulges() ? turn_from(side, at_upper) < 0.0
+               : (r - upper.r) * (upper.r - lower.r) + (z - upper.z) * (upper.z - lower.z) > 0.0;
   if (past_lower) return from_corner(lower, {0.0, -1.0, 0.0}, at_lower);
   if (past_upper) return from_corner(upper, at_upper, {0.0, 1.0, 0.0});
   return side.across >= 0.0 ? side : MeridianDirection{0.0, side.along, side.distance};

@@ -34,7 +34,7 @@ struct SurfacePoint {
   std::uint32_t source_line = 0;           // NC line that cut it; 0: the blank
   double t = 0.0;                          // when in the stretch, 0..1
   double sweep_bound = 0.0;  // mm, from what this tool path leaves: solution and rounding
-  double bound = 0.0;        // mm, from what the commanded motion leaves: the path's own bound added
+  double bound = 0.0;  // mm, from what the commanded motion leaves: the path's own bound added
 };
 
 class Workpiece {

@@ -18,7 +18,7 @@ namespace frustum::trials {
 
 struct PointProof {
   std::size_t points = 0;
-  double worst_bound = 0.0;  // of all points, against the commanded motion
+  double worst_bound = 0.0;        // of all points, against the commanded motion
   double worst_sweep_bound = 0.0;  // of all points, against the tool path: what is proven
   std::size_t sampled = 0;
   std::size_t proven = 0;
