@@ -31,7 +31,9 @@ struct SweepContact {
   ProfileFace face = kTopFace;  // of that part
   double t = 0.0;               // moment within the stretch, 0..1
   kinematics::ToolPose pose{};  // of the cutter at that moment
-  Vec3 normal = Vec3::UnitZ();  // unit, out of the cutter at the point
+  // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at an angle,
+  // it lies between theirs, across the motion.
+  Vec3 normal = Vec3::UnitZ();
 };
 
 class SweptCutter {
