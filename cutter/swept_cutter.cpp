@@ -56,8 +56,7 @@ std::vector<MeridianNormal> normals_at(const Outline& outline, double r, double 
     const double length = std::hypot(along.r, along.z);
     MeridianNormal n{along.z / length, -along.r / length};
     double off = (r - s.from.r) * n.across + (z - s.from.z) * n.along;
-    const double share =
-        ((r - s.from.r) * along.r + (z - s.from.z) * along.z) / (length * length);
+    const double share = ((r - s.from.r) * along.r + (z - s.from.z) * along.z) / (length * length);
     if (s.arc_radius > 0.0) {
       const double dr = r - s.centre.r, dz = z - s.centre.z, away = std::hypot(dr, dz);
       if (!(away > 0.0)) return;
@@ -197,16 +196,15 @@ SweepContact SweptCutter::contact_of(const Ray& ray, const CoverEnd& end) const 
   const ToolPose pose = motion.at(end.t);
   const Vec3 point = ray.at(end.s);
   Vec3 normal = end.part < body.parts().size()
-                          ? body.parts()[end.part].normal_of(end.face, pose, point)
-                          : outline_normal(body.outline(), pose, point);
+                    ? body.parts()[end.part].normal_of(end.face, pose, point)
+                    : outline_normal(body.outline(), pose, point);
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
   const Vec3 across = m - z * pose.axis;
   if (const double r = across.norm(); r > 0.0) {
     const Vec3 side = across / r;
     const Vec3 moving = motion.velocity(point, end.t);
-    const auto rim =
-        rim_normal(body.outline(), r, z, {moving.dot(side), moving.dot(pose.axis)});
+    const auto rim = rim_normal(body.outline(), r, z, {moving.dot(side), moving.dot(pose.axis)});
     if (rim) normal = rim->across * side + rim->along * pose.axis;
   }
   return {end.s, end.stretch, end.part, end.face, end.t, pose, normal};

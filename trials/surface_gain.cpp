@@ -135,9 +135,8 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       for (Eigen::Index k = 0; k < columns; ++k) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const PathMoment& moment : moments) {
-          const double g = 
-              lengthened *
-              gain(parameters[static_cast<std::size_t>(k)], moment, surface->point, own);
+          const double g = lengthened * gain(parameters[static_cast<std::size_t>(k)], moment,
+                                             surface->point, own);
           low = std::min(low, g);
           high = std::max(high, g);
         }
