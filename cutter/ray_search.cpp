@@ -17,6 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGrazing = 0.02;
 // And where the axes of a group differ by more than this (rad).
 constexpr double kMuchTurned = 0.1;
+// Parts of a cutter that stand on each other touch within this (mm): rounding of their ends.
+constexpr double kTouching = 1e-11;
 
 // Where along the ray a group may cover anything, and what its witness covers for certain.
 struct Reach {
@@ -240,10 +242,10 @@ class WholeCover {
   void take(const CoverInterval& next) {
     // The intervals that touch it become one with it; a tie keeps the older end.
     auto first = cover_.begin();
-    while (first != cover_.end() && first->hi.s < next.lo.s) ++first;
+    while (first != cover_.end() && first->hi.s < next.lo.s - kTouching) ++first;
     auto last = first;
     CoverInterval joined = next;
-    while (last != cover_.end() && last->lo.s <= next.hi.s) {
+    while (last != cover_.end() && last->lo.s <= next.hi.s + kTouching) {
       if (last->lo.s <= joined.lo.s) joined.lo = last->lo;
       if (last->hi.s >= joined.hi.s) joined.hi = last->hi;
       ++last;
