@@ -82,17 +82,19 @@ Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
   }
   const TouchingPlane leaving(part, group.witness, ray, *known, true);
   reach.hi = crossing(leaving, group, ray);
-  reach.hi_slack = kSearchTolerance / leaving.along;
+  reach.hi_slack = search_slack(leaving.along);
   reach.lo = known->lo;
   double along = leaving.along;
   if (wants_lo(reach)) {
     const TouchingPlane entering(part, group.witness, ray, *known, false);
     reach.lo = -crossing(entering, group, ray);
-    reach.lo_slack = kSearchTolerance / entering.along;
+    reach.lo_slack = search_slack(entering.along);
     along = std::min(along, entering.along);
   }
   if (along < kGrazing || group.axis_shift > kMuchTurned) {
     if (const auto grown = part.chord(group.witness, ray, group.shift)) {
+      if (grown->lo > reach.lo) reach.lo_slack = 0.0;
+      if (grown->hi < reach.hi) reach.hi_slack = 0.0;
       reach.lo = std::max(reach.lo, grown->lo);
       reach.hi = std::min(reach.hi, grown->hi);
     }
