@@ -99,12 +99,22 @@ class ChordTimes {
 
   // Samples between two chords until neighbours overlap, or show a gap.
   void join(const Sample& a, const Sample& b, int depth) {
-    if (overlap(*a.chord, *b.chord)) return;
-    if (depth > 60 || (b.t - a.t) * motion_.travel() < kSameMoment) return;
+    if (overlap(*a.chord, *b.chord) || motion_.turn() == 0.0) return;
+    if (departure(a, b) < kMissedDepth || depth > 60) return;
     const Sample middle = sample(0.5 * (a.t + b.t));
     refine_between(a, middle, depth + 1);
     samples_.push_back(middle);
     refine_between(middle, b, depth + 1);
+  }
+
+  // A body that does not turn meets the ray from the one chord to the other without a break. One that turns
+  // is never farther than this from it: its points run on arcs, and two of them, on the ray at either moment,
+  // are moved differently.
+  [[nodiscard]] double departure(const Sample& a, const Sample& b) const {
+    const double dt = b.t - a.t;
+    const double apart = std::max(a.chord->lo - b.chord->hi, b.chord->lo - a.chord->hi);
+    return motion_.bend() * dt * dt / 8.0 +
+           0.25 * motion_.turn() * dt * (motion_.travel() * dt + std::max(0.0, apart));
   }
 
   // Between the last moment of a run and a sample without a chord: none but what turning brings back.
@@ -368,8 +378,8 @@ class HighestEnd {
     Sample middle{.t = t, .pose = motion_.at(t)};
     middle.chord = body_.chord(middle.pose, ray_);
     if (!middle.chord) {
-      // Nearer than that it is within rounding of an end of the run.
-      if (dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+      // Else it is within rounding of the surface, or of an end of the run.
+      if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
       return;
     }
     const Touched m = touched(middle);
@@ -473,6 +483,8 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
     }
   }
   ChordTimes times(body, motion, ray);
+  constexpr int kMostGaps = 64;
+  int gaps = 0;
   for (std::size_t i = 0; i < times.samples().size();) {
     if (!times.samples()[i].chord) {
       ++i;
@@ -488,9 +500,10 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
       const Sample from = times.samples()[next - 1], to = times.samples()[next];
       lo.search(from, to);
       hi.search(from, to);
-      if (lo.gap() || hi.gap()) break;
+      if ((lo.gap() || hi.gap()) && gaps + 1 < kMostGaps) break;
     }
-    if (lo.gap() || hi.gap()) {
+    // A body that turns may slide along the ray within rounding: gaps without end.
+    if ((lo.gap() || hi.gap()) && ++gaps < kMostGaps) {
       times.insert(next - 1, lo.gap() ? *lo.gap() : *hi.gap());
       continue;  // the run is shorter now
     }
