@@ -92,7 +92,7 @@ Span cone_span(const ToolRay& ray, double radius, double slope, double z_lo) {
   if (a <= 1e-14 * scale) {
     const double disc = std::max(0.0, b * b - a * c);
     const double q = -(b + std::copysign(std::sqrt(disc), b));
-    if (q == 0.0) return kNothing;
+    if (q == 0.0) return e > 0.0 ? Span{0.0, kInfinity} : Span{-kInfinity, 0.0};  // by the apex
     const double near = c / q;
     const double far = std::abs(a) <= 1e-14 * scale ? std::copysign(kInfinity, q) : q / a;
     // Of the two half-lines outside the roots the one on the cone's own side of its apex.

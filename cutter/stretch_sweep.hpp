@@ -51,6 +51,9 @@ struct TouchingPlane {
   // else against it: no end of the body's chord is beyond. Infinite if the ray runs along the plane.
   [[nodiscard]] PlaneCrossing crossing(const ToolPose& pose, const Ray& ray) const;
 
+  // How far the point is beyond the plane when the body stands at another pose.
+  [[nodiscard]] double height(const ToolPose& pose, const Vec3& point) const;
+
   Vec3 normal;       // unit, out of the body, at the pose it was made for
   double value;      // where that pose leaves the ray: s if leaving, else -s
   double along;      // cosine between the normal and the direction of counting
