@@ -456,7 +456,8 @@ TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ra
     : direction(leaving ? 1.0 : -1.0) {
   const double s = leaving ? chord.hi : chord.lo;
   const Vec3 point = ray.at(s);
-  const Facing at = body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point);
+  const Facing at =
+      body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point, direction * ray.direction);
   axial = at.axial;
   lateral = at.lateral;
   side = at.side;
