@@ -56,6 +56,8 @@ int run_job(const Options& options) {
   auto trial = run.trial(*job);
   if (!trial) return refuse(trial.error());
   report::RunReport report = report_of(*job, *trial);
+  run.begin("prove points");
+  add_proof(report, trials::prove_points(*trial->workpiece, trial->measurement));
   if (job->report) {
     run.begin("mesh the surface");
     auto mesh = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), {});

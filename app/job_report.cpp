@@ -150,8 +150,10 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
     report.slowed.push_back({block.source_line, std::string(1, kinematics::to_char(block.axis)),
                              block.programmed_feed, block.reached_feed});
   }
-  report.budget = {{"tool path chord", job.path_bound * kUmPerMm, {}, "um"},
-                   {"ray against sweep", 1.0, {}, "nm"}};
+  const double kNmPerMm = 1e6;
+  report.budget = {
+      {"tool path chord", job.path_bound * kUmPerMm, {}, "um"},
+      {"ray against sweep", trial.workpiece->removed().accuracy() * kNmPerMm, {}, "nm"}};
   report.diagnostics = trial.warnings;
   report.diagnostics.insert(report.diagnostics.end(), trial.wrong_cuts.begin(),
                             trial.wrong_cuts.end());
@@ -166,6 +168,24 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
                     job.piece.error_span));
   }
   return report;
+}
+
+void add_proof(report::RunReport& report, const trials::PointProof& proof) {
+  if (proof.points == 0) return;
+  report.bounds = {proof.points, proof.worst_bound, proof.sampled,
+                   proof.proven, proof.regular,     proof.refuted};
+  report.budget.push_back({"measured point, together", proof.worst_bound * kUmPerMm, {}, "um"});
+  if (proof.refuted > 0) {
+    report.diagnostics.push_back(
+        error(fmt::format("{} of {} sampled points are not where the engine says: {}",
+                          proof.refuted, proof.sampled, proof.first_refuted),
+              "this is a fault of the program: please report it with the job"));
+  }
+  if (!proof.first_open.empty()) {
+    report.notes.push_back(fmt::format("{} of {} sampled points could not be proven: {}",
+                                       proof.sampled - proof.proven - proof.refuted, proof.sampled,
+                                       proof.first_open));
+  }
 }
 
 Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,

@@ -8,12 +8,17 @@
 #include "report/run_report.hpp"
 #include "stock/moment.hpp"
 #include "stock/surface_mesh.hpp"
+#include "trials/point_proof.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::app {
 
 // Everything but surface, volumes, timings and files.
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
+
+// Tells in the report how near the measured points are to the true surface. A point that is refuted is an
+// error of the engine, and the run does not pass.
+void add_proof(report::RunReport& report, const trials::PointProof& proof);
 
 struct SurfaceRequest {
   double pitch = 0.0;     // mm; 0: what the job says, or the blank's longest side / 120

@@ -127,6 +127,15 @@ class CarvedSearch {
 
 }  // namespace
 
+double carved_accuracy(const Body& body) {
+  constexpr double kEnds = 1e-7;  // mm
+  double smallest = body.max_radius();
+  for (const OutlineSegment& s : body.outline().segments()) {
+    if (s.arc_radius > 0.0) smallest = std::min(smallest, s.arc_radius);
+  }
+  return kEnds + kSampleMotion * kSampleMotion / (8.0 * smallest);
+}
+
 Vec3 outline_normal(const Outline& outline, const ToolPose& pose, const Vec3& point) {
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);

@@ -20,6 +20,9 @@
 
 namespace frustum::cutter {
 
+// What the Accuracy line says of this body: no end is farther from the sweep, normal to it (mm).
+[[nodiscard]] double carved_accuracy(const Body& body);
+
 // Outward unit normal of the body's surface nearest to a point.
 [[nodiscard]] Vec3 outline_normal(const Outline& outline, const ToolPose& pose, const Vec3& point);
 

@@ -44,4 +44,10 @@ ToolPose StretchMotion::at(double t) const {
   return {from_.tip + t * step_, a * from_.axis + b * to_.axis};
 }
 
+Vec3 StretchMotion::velocity(const Vec3& point, double t) const {
+  if (turn_ == 0.0) return step_;
+  const Vec3 about = from_.axis.cross(to_.axis) * (turn_ / sin_turn_);
+  return step_ + about.cross(point - from_.tip - t * step_);
+}
+
 }  // namespace frustum::cutter

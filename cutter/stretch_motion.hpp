@@ -17,6 +17,8 @@ class StretchMotion {
   // `reach`: no point of the cutter is farther than this from the tip.
   StretchMotion(const ToolPose& from, const ToolPose& to, double reach);
   [[nodiscard]] ToolPose at(double t) const;
+  // How fast a point that goes with the cutter moves (mm a stretch), standing at `point` at time t.
+  [[nodiscard]] Vec3 velocity(const Vec3& point, double t) const;
   // No point of the cutter moves more than this in the whole stretch (mm).
   [[nodiscard]] double travel() const { return travel_; }
   [[nodiscard]] double reach() const { return reach_; }

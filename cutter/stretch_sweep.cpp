@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A chord may be missed only where the ray enters the sweep by less than this normal to its surface.
-constexpr double kMissedDepth = 0.5e-6;  // mm
 // Times where chords begin or end are found to this much motion.
 constexpr double kTangentMotion = 1e-9;  // mm
 // Two moments whose cutters are this near are one (mm): rounding of their chords is larger.

@@ -34,6 +34,9 @@ struct SweptInterval {
 
 // No error of an end, normal to the surface, is larger than this because the search stops (mm).
 inline constexpr double kSearchTolerance = 4e-10;
+// A piece of the ray that is covered may be missed only where the ray enters the sweep by less than this,
+// normal to its surface (mm).
+inline constexpr double kMissedDepth = 0.5e-6;
 
 // Where the ray crosses a plane, and the cosine between them; infinite where it does not.
 struct PlaneCrossing {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "cutter/carved_sweep.hpp"
 #include "cutter/stretch_sweep.hpp"
@@ -40,6 +42,56 @@ double signed_distance(const Body& body, const ToolPose& pose, const Vec3& point
   return body.outline().distance((m - z * pose.axis).norm(), z);
 }
 
+// A direction in the meridian through a point: across the axis, and along it.
+struct MeridianNormal {
+  double across, along;
+};
+
+// Outward normals of the outline's pieces that end or pass within rounding of a point on the body.
+std::vector<MeridianNormal> normals_at(const Outline& outline, double r, double z) {
+  constexpr double kNear = 1e-7;  // mm
+  std::vector<MeridianNormal> normals;
+  const auto add = [&](const OutlineSegment& s) {
+    const MeridianPoint along{s.to.r - s.from.r, s.to.z - s.from.z};
+    const double length = std::hypot(along.r, along.z);
+    MeridianNormal n{along.z / length, -along.r / length};
+    double off = (r - s.from.r) * n.across + (z - s.from.z) * n.along;
+    const double share = ((r - s.from.r) * along.r + (z - s.from.z) * along.z) / (length * length);
+    if (s.arc_radius > 0.0) {
+      const double dr = r - s.centre.r, dz = z - s.centre.z, away = std::hypot(dr, dz);
+      if (!(away > 0.0)) return;
+      const double outwards = s.bulges ? 1.0 : -1.0;
+      n = {outwards * dr / away, outwards * dz / away};
+      off = away - s.arc_radius;
+    }
+    const double beyond = kNear / length;
+    if (std::abs(off) <= kNear && share >= -beyond && share <= 1.0 + beyond) normals.push_back(n);
+  };
+  for (const OutlineSegment& s : outline.segments()) add(s);
+  const MeridianPoint rim = outline.segments().back().to;
+  if (rim.r > 0.0) add(line(rim, {0.0, rim.z}));
+  return normals;
+}
+
+// Between the normals of two faces that meet at a rim: across the motion of the rim there, or, if that is
+// outside of them, the nearer of both.
+std::optional<MeridianNormal> rim_normal(const Outline& outline, double r, double z,
+                                         const MeridianNormal& motion) {
+  constexpr double kSmooth = 1e-5;  // rad, where arcs and lines go on into each other
+  const std::vector<MeridianNormal> faces = normals_at(outline, r, z);
+  if (faces.size() != 2) return std::nullopt;
+  const MeridianNormal &a = faces.front(), &b = faces.back();
+  const double kink = a.across * b.along - a.along * b.across;
+  const double speed = std::hypot(motion.across, motion.along);
+  if (!(kink > kSmooth) || !(speed > 0.0)) return std::nullopt;
+  const double side =
+      motion.across * (a.along + b.along) - motion.along * (a.across + b.across) > 0.0 ? 1.0 : -1.0;
+  const MeridianNormal n{-side * motion.along / speed, side * motion.across / speed};
+  if (a.across * n.along - a.along * n.across < 0.0) return a;
+  if (n.across * b.along - n.along * b.across < 0.0) return b;
+  return n;
+}
+
 // Not more than the distance between the point and the sweep from pose to pose.
 double least_distance(const Body& body, const ToolPose& from, const ToolPose& to,
                       const Vec3& point) {
@@ -51,6 +103,11 @@ double least_distance(const Body& body, const ToolPose& from, const ToolPose& to
         std::min(least, signed_distance(body, motion.at(static_cast<double>(k) / steps), point));
   }
   return least - 0.5 * motion.travel() / steps;
+}
+
+double accuracy_of(const Body& body) {
+  const double convex = 2.0 * kSearchTolerance + kMissedDepth;
+  return body.carved().empty() ? convex : convex + carved_accuracy(body);
 }
 
 }  // namespace
@@ -86,6 +143,7 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
   std::vector<ToolSweep> sweeps;
   for (auto& [number, stretches] : stretches_of_tool) {
     const Body& body = tools_->at(number).body();
+    accuracy_ = std::max(accuracy_, accuracy_of(body));
     sweeps.push_back(
         {.body = &body, .tree = PoseTree(path_, boxes_, std::move(stretches), body.reach())});
   }
@@ -103,8 +161,14 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   std::vector<Interval> all;
   all.reserve(cover.size());
   for (const CoverInterval& c : cover) {
-    all.push_back(
-        {c.lo.s, c.hi.s, static_cast<EndTag>(c.lo.stretch), static_cast<EndTag>(c.hi.stretch)});
+    const auto lo_tag = static_cast<EndTag>(c.lo.stretch),
+               hi_tag = static_cast<EndTag>(c.hi.stretch);
+    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
+      all.back().hi = c.hi.s;
+      all.back().hi_tag = hi_tag;
+    } else {
+      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
+    }
   }
   return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
 }
@@ -128,11 +192,21 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
 SweepContact SweptCutter::contact_of(const Ray& ray, const CoverEnd& end) const {
   const Stretch& at = path_.stretches[end.stretch];
   const Body& body = body_of(end.stretch);
-  const ToolPose pose = StretchMotion(path_.from(at), path_.to(at), body.reach()).at(end.t);
+  const StretchMotion motion(path_.from(at), path_.to(at), body.reach());
+  const ToolPose pose = motion.at(end.t);
   const Vec3 point = ray.at(end.s);
-  const Vec3 normal = end.part < body.parts().size()
-                          ? body.parts()[end.part].normal_of(end.face, pose, point)
-                          : outline_normal(body.outline(), pose, point);
+  Vec3 normal = end.part < body.parts().size()
+                    ? body.parts()[end.part].normal_of(end.face, pose, point)
+                    : outline_normal(body.outline(), pose, point);
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  const Vec3 across = m - z * pose.axis;
+  if (const double r = across.norm(); r > 0.0) {
+    const Vec3 side = across / r;
+    const Vec3 moving = motion.velocity(point, end.t);
+    const auto rim = rim_normal(body.outline(), r, z, {moving.dot(side), moving.dot(pose.axis)});
+    if (rim) normal = rim->across * side + rim->along * pose.axis;
+  }
   return {end.s, end.stretch, end.part, end.face, end.t, pose, normal};
 }
 

@@ -31,7 +31,9 @@ struct SweepContact {
   ProfileFace face = kTopFace;  // of that part
   double t = 0.0;               // moment within the stretch, 0..1
   kinematics::ToolPose pose{};  // of the cutter at that moment
-  Vec3 normal = Vec3::UnitZ();  // unit, out of the cutter at the point
+  // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at an angle,
+  // it lies between theirs, across the motion.
+  Vec3 normal = Vec3::UnitZ();
 };
 
 class SweptCutter {
@@ -43,7 +45,8 @@ class SweptCutter {
                                                  std::map<int, Cutter> tools);
 
   // Covered part of the ray; an end's tag is the stretch that made it. Stretches from
-  // `first_excluded` on are left out.
+  // `first_excluded` on are left out. Gaps of less than 1e-9 mm are passed over: rounding leaves them where
+  // the parts of a cutter meet.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
   // Walks from `from` to the end of what is covered there without a gap: where a probe that comes out of the
@@ -61,6 +64,11 @@ class SweptCutter {
   [[nodiscard]] double clearance(const Vec3& point, std::uint32_t first, std::uint32_t last,
                                  double enough) const;
 
+  // No end found on a ray is farther than this from the surface that the path sweeps, normal to it and but
+  // for rounding (mm): twice kSearchTolerance, for the solution and for what is left aside, and kMissedDepth;
+  // with hollowed cutters more (carved_sweep.hpp).
+  [[nodiscard]] double accuracy() const { return accuracy_; }
+
   // Box of the stretch's sweep, and of the whole path's.
   [[nodiscard]] const Box& box(std::uint32_t stretch) const { return boxes_[stretch]; }
 
@@ -76,6 +84,7 @@ class SweptCutter {
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to
   std::vector<const Body*> body_of_block_;
   std::vector<Box> boxes_;
+  double accuracy_ = 0.0;
   std::shared_ptr<const std::vector<ToolSweep>> sweeps_;
 };
 

@@ -152,6 +152,13 @@ std::string json_report(const RunReport& report) {
                 {"worst", number(entry.worst)},
                 {"unit", entry.unit}};
   });
+  if (report.bounds) {
+    const PointBounds& bounds = *report.bounds;
+    json["point_bounds"] = {
+        {"points", bounds.points},   {"worst_bound_um", number(bounds.worst_bound * kUmPerMm)},
+        {"sampled", bounds.sampled}, {"proven", bounds.proven},
+        {"regular", bounds.regular}, {"refuted", bounds.refuted}};
+  }
   json["notes"] = report.notes;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

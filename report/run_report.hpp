@@ -102,6 +102,16 @@ struct BudgetEntry {
   std::string unit{};             // "um", "nm"
 };
 
+// How near the measured points are to the true surface: bounds of all, proofs for a sample.
+struct PointBounds {
+  std::size_t points = 0;
+  double worst_bound = 0.0;  // mm, of all points
+  std::size_t sampled = 0;
+  std::size_t proven = 0;
+  std::size_t regular = 0;  // proven along their own normal, not on an edge
+  std::size_t refuted = 0;
+};
+
 struct RunReport {
   std::string title{};
   std::string date{};       // as it should be printed; left out when empty
@@ -120,6 +130,7 @@ struct RunReport {
   std::vector<SlowedBlock> slowed{};   // those that lose most time first
   std::vector<Timing> timings{};       // in the order in which the work was done
   std::vector<BudgetEntry> budget{};
+  std::optional<PointBounds> bounds{};
   Diagnostics diagnostics{};  // of the run; the measurement has its own
   std::vector<std::string> notes{};
   std::vector<std::string> files{};  // written so far, for the terminal summary

@@ -181,6 +181,15 @@ void write_cycle(Page& page, const RunReport& report) {
   }
 }
 
+void write_bounds(Page& page, const RunReport& report) {
+  if (!report.bounds || report.bounds->points == 0) return;
+  const PointBounds& b = *report.bounds;
+  page.line();
+  page.labelled("Points     ",
+                fmt::format("worst bound {} um, {} of {} sampled points proven",
+                            fixed_text(b.worst_bound * kUmPerMm, 4), b.proven, b.sampled));
+}
+
 void write_collisions(Page& page, const RunReport& report) {
   if (report.collisions.empty()) return;
   page.heading(fmt::format("Collisions ({})", report.collisions.size()));
@@ -235,6 +244,7 @@ std::string terminal_report(const RunReport& report, const TerminalOptions& opti
   write_errors(page, report);
   write_characteristics(page, report);
   write_cycle(page, report);
+  write_bounds(page, report);
   write_collisions(page, report);
   write_diagnostics(page, report);
   write_foot(page, report);

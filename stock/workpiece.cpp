@@ -1,6 +1,9 @@
 #include "stock/workpiece.hpp"
 
+#include <cmath>
+#include <limits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace frustum::stock {
@@ -12,6 +15,14 @@ EndTag face_of_tag(EndTag tag) { return -2 - tag; }
 
 // Material thinner than this is what rounding leaves of a cut that is flush with a face.
 constexpr double kSkin = 1e-9;  // mm
+
+// As derived in the header; `size`: the sum of all lengths that go into the point.
+double rounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
+
+// Facets are met within 1e-12 of the size of their mesh; below a metre that is this.
+double facet_bound(const Blank& blank) {
+  return std::holds_alternative<MeshShape>(blank.shape()) ? 1e-9 : 0.0;  // mm
+}
 
 }  // namespace
 
@@ -43,6 +54,8 @@ SurfacePoint Workpiece::surface_at(const Ray& ray, double s, EndTag tag) const {
     return surface_point(ray, removed_.contact(ray, s, static_cast<std::uint32_t>(tag)));
   if (tag <= -2) {
     found.normal = blank_.normal(face_of_tag(tag), found.point);
+    const double size = ray.origin.norm() + std::abs(s) + blank_.origin().norm();
+    found.bound = found.sweep_bound = rounding(size) + facet_bound(blank_);
   } else {
     found.normal = -ray.direction;  // the end of the span asked for, not a surface
   }
@@ -51,11 +64,18 @@ SurfacePoint Workpiece::surface_at(const Ray& ray, double s, EndTag tag) const {
 
 SurfacePoint Workpiece::surface_point(const Ray& ray, const cutter::SweepContact& contact) const {
   const auto& path = removed_.path();
+  const kinematics::PathBlock& block = path.blocks[path.stretches[contact.stretch].block];
+  const double size = ray.origin.norm() + std::abs(contact.s) + contact.pose.tip.norm() +
+                      removed_.tool(block.tool).body().reach();
+  const double sweep_bound = removed_.accuracy() + rounding(size);
   return {.s = contact.s,
           .point = ray.at(contact.s),
           .normal = -contact.normal,
           .stretch = contact.stretch,
-          .source_line = path.blocks[path.stretches[contact.stretch].block].source_line};
+          .source_line = block.source_line,
+          .t = contact.t,
+          .sweep_bound = sweep_bound,
+          .bound = path.bound + sweep_bound};
 }
 
 std::optional<SurfacePoint> Workpiece::first_surface(const Ray& ray, RaySpan span) const {

@@ -2,7 +2,11 @@
 //
 // Model    : blank minus the union of all swept cutters
 // Units    : mm; frame: workpiece
-// Accuracy : 1 nm normal to the surface for the given ToolPath (tests/cutter/swept_cutter_test.cpp)
+// Accuracy : 1 nm normal to the surface for the given ToolPath (tests/cutter/swept_cutter_test.cpp); each
+//            point says its own bound. Rounding: a point is o + s d, and its distance from a cutter is made of
+//            sums and products of coordinates, way and reach, fewer than 32 on the longest path; each is off
+//            by half of 2.2e-16 of a number below S = |o| + |s| + |tip| + reach, so that all together are
+//            below 32 * 2.2e-16 * S: 4e-12 mm at half a metre
 // Threads  : const member functions may be called from any number of threads
 #pragma once
 
@@ -21,13 +25,16 @@ namespace frustum::stock {
 using cutter::Ray;
 using cutter::RaySpan;
 
-// A point of the workpiece surface and what made it.
+// A point of the workpiece surface, what made it, and how far it may be from the true surface, normal to it.
 struct SurfacePoint {
   double s = 0.0;  // mm along the ray
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();             // unit, out of the material
   std::optional<std::uint32_t> stretch{};  // of the tool path; nothing: the blank's own surface
   std::uint32_t source_line = 0;           // NC line that cut it; 0: the blank
+  double t = 0.0;                          // when in the stretch, 0..1
+  double sweep_bound = 0.0;  // mm, from what this tool path leaves: solution and rounding
+  double bound = 0.0;  // mm, from what the commanded motion leaves: the path's own bound added
 };
 
 class Workpiece {

@@ -19,6 +19,8 @@ using programs::TestPiece;
 
 // Step of the support function's derivative, which is linear in the radius but for rounding.
 constexpr double kRadiusStep = 1e-3;  // mm
+// A surface that leans more than this against what was measured is another face, met at an edge.
+constexpr double kSameFace = 0.9;
 
 // The cutter with a radius larger and smaller by kRadiusStep.
 struct RadiusPair {
@@ -64,7 +66,7 @@ class GainAtPoint {
         radii_(radii),
         workpiece_from_table_(piece.placement.table_from_workpiece().inverse().rotation) {}
 
-  // Motion along the outward normal n of the surface point p that was cut at this moment.
+  // Motion of the surface point p that was cut at this moment, along its outward normal n.
   [[nodiscard]] double operator()(const Parameter& parameter, const PathMoment& moment,
                                   const Vec3& p, const Vec3& n) const {
     const kinematics::ToolPath& path = swept_.path();
@@ -124,10 +126,17 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       const auto contact =
           swept.contact({surface->point + surface->s * n, -n}, surface->s, *surface->stretch);
       const auto moments = cutter::contact_range(swept, contact, surface->point);
+      // The point is asked along the measured normal; what moves is the surface, along its own. The facets of
+      // a program differ from the fitted element by half the angle between them.
+      const double cosine = surface->normal.dot(n);
+      const bool is_same = cosine > kSameFace;
+      const Vec3& own = is_same ? surface->normal : n;
+      const double lengthened = is_same ? 1.0 / cosine : 1.0;
       for (Eigen::Index k = 0; k < columns; ++k) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const PathMoment& moment : moments) {
-          const double g = gain(parameters[static_cast<std::size_t>(k)], moment, surface->point, n);
+          const double g = lengthened * gain(parameters[static_cast<std::size_t>(k)], moment,
+                                             surface->point, own);
           low = std::min(low, g);
           high = std::max(high, g);
         }
