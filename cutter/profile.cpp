@@ -162,7 +162,8 @@ Span torus_span(const ToolRay& ray, double major, double tube, double centre, co
   if (std::isinf(lo) || lo > outer.hi) return kNothing;
   const double hi = end(outer.hi, -1.0);
   if (std::isinf(hi) || hi < lo) return kNothing;
-  return {lo, hi};
+  // Where the limit is met inside the tube, the tube goes on beyond it.
+  return {lo == within.lo ? -kInfinity : lo, hi == within.hi ? kInfinity : hi};
 }
 
 // The lateral surface alone, grown outwards; `within` bounds where it is asked for.
