@@ -359,7 +359,7 @@ class HighestEnd {
     const double dt = b.t - a.t;
     if (depth > 60 || dt * motion_.travel() < kSameMoment) return;
     const double along = std::max(a.plane.along, b.plane.along);
-    const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
+    const double enough = std::max(best_value_, floor_) + search_slack(along);
     const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
                     b.plane.crossing(a.pose, ray_), motion_, dt);
     if (roof.top() <= enough) return;

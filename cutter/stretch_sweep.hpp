@@ -11,6 +11,7 @@
 // Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -34,6 +35,13 @@ struct SweptInterval {
 
 // No error of an end, normal to the surface, is larger than this because the search stops (mm).
 inline constexpr double kSearchTolerance = 4e-10;
+
+// What that makes along a ray whose cosine with the surface's normal is `along`. The surface bends away from
+// a grazing ray: there the tolerance is met much sooner than the cosine says.
+[[nodiscard]] inline double search_slack(double along) {
+  constexpr double kGrazing = 1e-4;
+  return kSearchTolerance / std::max(along, kGrazing);
+}
 
 // Where the ray crosses a plane, and the cosine between them; infinite where it does not.
 struct PlaneCrossing {

@@ -175,9 +175,8 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
     offer(part, swept_intervals(body.parts()[part], motion, ray));
   }
   if (nearest > kSearchTolerance && !body.carved().empty()) {
-    std::vector<SweptInterval> found;
-    append_carved_intervals(body, motion, ray, {}, found);
-    offer(body.parts().size(), found);
+    end.part = static_cast<std::uint32_t>(body.parts().size());
+    end.t = nearest_moment(body, motion, ray, s);
   }
   return contact_of(ray, end);
 }
