@@ -49,6 +49,12 @@ double crossing(const TouchingPlane& plane, const PoseGroup& group, const Ray& r
   return plane.value + std::max(0.0, room) / fall;
 }
 
+// What the tolerance normal to the plane makes along the ray, at any pose of the group.
+double slack_of(const TouchingPlane& plane, const PoseGroup& group) {
+  const double turned = group.axis_shift;
+  return kSearchTolerance / (plane.along + turned * (1.0 + 2.0 * turned));
+}
+
 bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
   const Vec3 offset = ray.origin - group.witness.tip;
   const auto apart = [&](const Vec3& n) { return n.dot(offset) > support(group, part, n); };
@@ -82,13 +88,13 @@ Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
   }
   const TouchingPlane leaving(part, group.witness, ray, *known, true);
   reach.hi = crossing(leaving, group, ray);
-  reach.hi_slack = search_slack(leaving.along);
+  reach.hi_slack = slack_of(leaving, group);
   reach.lo = known->lo;
   double along = leaving.along;
   if (wants_lo(reach)) {
     const TouchingPlane entering(part, group.witness, ray, *known, false);
     reach.lo = -crossing(entering, group, ray);
-    reach.lo_slack = search_slack(entering.along);
+    reach.lo_slack = slack_of(entering, group);
     along = std::min(along, entering.along);
   }
   if (along < kGrazing || group.axis_shift > kMuchTurned) {

@@ -17,6 +17,8 @@ constexpr double kMissedDepth = 0.5e-6;  // mm
 constexpr double kTangentMotion = 1e-9;  // mm
 // Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
 constexpr double kSameMoment = 1e-11;
+// From here on grazing rays are looked for.
+constexpr int kOftenHalved = 6;
 // The body turns by at most this between two samples of its chord.
 constexpr double kTurnPerSample = 0.05;  // rad
 
@@ -99,12 +101,22 @@ class ChordTimes {
 
   // Samples between two chords until neighbours overlap, or show a gap.
   void join(const Sample& a, const Sample& b, int depth) {
-    if (overlap(*a.chord, *b.chord)) return;
-    if (depth > 60 || (b.t - a.t) * motion_.travel() < kSameMoment) return;
+    if (overlap(*a.chord, *b.chord) || motion_.turn() == 0.0) return;
+    if (departure(a, b) < kMissedDepth || depth > 60) return;
     const Sample middle = sample(0.5 * (a.t + b.t));
     refine_between(a, middle, depth + 1);
     samples_.push_back(middle);
     refine_between(middle, b, depth + 1);
+  }
+
+  // A body that does not turn meets the ray from the one chord to the other without a break. One that turns
+  // is never farther than this from it: its points run on arcs, and two of them, on the ray at either moment,
+  // are moved differently.
+  [[nodiscard]] double departure(const Sample& a, const Sample& b) const {
+    const double dt = b.t - a.t;
+    const double apart = std::max(a.chord->lo - b.chord->hi, b.chord->lo - a.chord->hi);
+    return motion_.bend() * dt * dt / 8.0 +
+           0.25 * motion_.turn() * dt * (motion_.travel() * dt + std::max(0.0, apart));
   }
 
   // Between the last moment of a run and a sample without a chord: none but what turning brings back.
@@ -231,20 +243,24 @@ struct RoofSide {
   double overhang = 0.0;  // of that crossing over the chord's end there
 };
 
-// How far the crossing of the plane may leave the straight line between two moments, at most.
+// How far a plane's height over a point, or its crossing of the ray, may leave the straight line between two
+// moments, at most. `away`: from the tip to the point; `run`: way of the point relative to the tip.
 //
 // With n(t) the plane's normal, seen from a point x(t) that runs along the ray as the line says, the distance
 // n.(x - p) has the second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a +
 // lateral b with b across the axis: |a''| = w^2, and the projection of a fixed side bends b by at most
 // 1.6 w^2 and turns n by at most 1.1 w over kTurnPerSample.
-double bulge_of(const RoofSide& side, const StretchMotion& motion, double dt) {
+double bend_of(const StretchMotion& motion, double dt, double away, double run) {
   constexpr double kTurns = 1.1, kBends = 1.9;
   const double turn = motion.turn() * dt;
-  const double bend = kBends * turn * turn;
+  return (kBends * turn * turn * away + 2.0 * kTurns * turn * run) / 8.0;
+}
+
+double bulge_of(const RoofSide& side, const StretchMotion& motion, double dt) {
   const double run = std::abs(side.elsewhere.value - side.plane.value) + motion.travel() * dt;
-  const double away = motion.reach() + side.overhang;
-  const double departure = (bend * away + 2.0 * kTurns * turn * run) / 8.0;
-  const double along = std::min(side.plane.along, side.elsewhere.along) - bend / 8.0;
+  const double departure = bend_of(motion, dt, motion.reach() + side.overhang, run);
+  const double along =
+      std::min(side.plane.along, side.elsewhere.along) - bend_of(motion, dt, 1.0, 0.0);
   return along > 0.0 ? std::max(departure / along, 1e-300) : kInfinity;
 }
 
@@ -359,23 +375,42 @@ class HighestEnd {
     const double dt = b.t - a.t;
     if (depth > 60 || dt * motion_.travel() < kSameMoment) return;
     const double along = std::max(a.plane.along, b.plane.along);
-    const double enough = std::max(best_value_, floor_) + search_slack(along);
+    const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
     const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
                     b.plane.crossing(a.pose, ray_), motion_, dt);
-    if (roof.top() <= enough) return;
+    if (roof.top() <= enough || (depth >= kOftenHalved && surely_no_deeper(a, b))) return;
     const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     Sample middle{.t = t, .pose = motion_.at(t)};
     middle.chord = body_.chord(middle.pose, ray_);
     if (!middle.chord) {
-      // Nearer than that it is within rounding of an end of the run.
-      if (dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+      // Else it is within rounding of the surface, or of an end of the run.
+      if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
       return;
     }
     const Touched m = touched(middle);
     note(m);
     close_in(a, m, depth + 1);
     close_in(m, b, depth + 1);
+  }
+
+  // Whether the place that is the best so far lies, at all times between two samples, above one of the planes
+  // that touch the body at them. Where rays graze, this ends what roofs over the ray cannot.
+  [[nodiscard]] bool surely_no_deeper(const Touched& a, const Touched& b) const {
+    const double best = std::max(best_value_, floor_);
+    const Vec3 point = ray_.at(leaving_ ? best : -best);
+    const double dt = b.t - a.t;
+    const double away = std::max((point - a.pose.tip).norm(), (point - b.pose.tip).norm());
+    const double bend = bend_of(motion_, dt, away, (b.pose.tip - a.pose.tip).norm());
+    const double a0 = a.plane.height(a.pose, point), a1 = a.plane.height(b.pose, point);
+    const double b0 = b.plane.height(a.pose, point), b1 = b.plane.height(b.pose, point);
+    double least = std::max(std::min(a0, a1), std::min(b0, b1));
+    // Where a's falls below b's.
+    const double x = (a0 - b0) / ((a0 - b0) + (b1 - a1));
+    if (x > 0.0 && x < 1.0) {
+      least = std::max(least, std::min({std::max(a0, b0), std::max(a1, b1), a0 + x * (a1 - a0)}));
+    }
+    return least - bend >= -kSearchTolerance;
   }
 
   const Profile& body_;
@@ -421,7 +456,8 @@ TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ra
     : direction(leaving ? 1.0 : -1.0) {
   const double s = leaving ? chord.hi : chord.lo;
   const Vec3 point = ray.at(s);
-  const Facing at = body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point);
+  const Facing at =
+      body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point, direction * ray.direction);
   axial = at.axial;
   lateral = at.lateral;
   side = at.side;
@@ -430,6 +466,12 @@ TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ra
   // A grazing ray leaves the plane nowhere, or by rounding on the wrong side.
   along = std::max(direction * normal.dot(ray.direction), 1e-12);
   offset = normal.dot(point - pose.tip);
+}
+
+double TouchingPlane::height(const ToolPose& pose, const Vec3& point) const {
+  const Vec3 turned = side - side.dot(pose.axis) * pose.axis;
+  const Vec3 n = axial * pose.axis + (lateral / turned.norm()) * turned;
+  return n.dot(point - pose.tip) - offset;
 }
 
 PlaneCrossing TouchingPlane::crossing(const ToolPose& pose, const Ray& ray) const {
@@ -473,6 +515,8 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
     }
   }
   ChordTimes times(body, motion, ray);
+  constexpr int kMostGaps = 64;
+  int gaps = 0;
   for (std::size_t i = 0; i < times.samples().size();) {
     if (!times.samples()[i].chord) {
       ++i;
@@ -488,9 +532,10 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
       const Sample from = times.samples()[next - 1], to = times.samples()[next];
       lo.search(from, to);
       hi.search(from, to);
-      if (lo.gap() || hi.gap()) break;
+      if ((lo.gap() || hi.gap()) && gaps + 1 < kMostGaps) break;
     }
-    if (lo.gap() || hi.gap()) {
+    // A body that turns may slide along the ray within rounding: gaps without end.
+    if ((lo.gap() || hi.gap()) && ++gaps < kMostGaps) {
       times.insert(next - 1, lo.gap() ? *lo.gap() : *hi.gap());
       continue;  // the run is shorter now
     }

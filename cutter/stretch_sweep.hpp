@@ -11,7 +11,6 @@
 // Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -36,13 +35,6 @@ struct SweptInterval {
 // No error of an end, normal to the surface, is larger than this because the search stops (mm).
 inline constexpr double kSearchTolerance = 4e-10;
 
-// What that makes along a ray whose cosine with the surface's normal is `along`. The surface bends away from
-// a grazing ray: there the tolerance is met much sooner than the cosine says.
-[[nodiscard]] inline double search_slack(double along) {
-  constexpr double kGrazing = 1e-4;
-  return kSearchTolerance / std::max(along, kGrazing);
-}
-
 // Where the ray crosses a plane, and the cosine between them; infinite where it does not.
 struct PlaneCrossing {
   double value = 0.0;
@@ -58,6 +50,9 @@ struct TouchingPlane {
   // Where the ray crosses the plane when the body stands at another pose, counted along the ray if leaving,
   // else against it: no end of the body's chord is beyond. Infinite if the ray runs along the plane.
   [[nodiscard]] PlaneCrossing crossing(const ToolPose& pose, const Ray& ray) const;
+
+  // How far the point is beyond the plane when the body stands at another pose.
+  [[nodiscard]] double height(const ToolPose& pose, const Vec3& point) const;
 
   Vec3 normal;       // unit, out of the body, at the pose it was made for
   double value;      // where that pose leaves the ray: s if leaving, else -s
