@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -28,6 +29,7 @@ struct Options {
   std::string job{};
   std::string mesh{};
   std::string picture{};
+  std::string view{};
   std::string removal{};
   std::string point{};
   double pitch = 0.0;
@@ -64,17 +66,36 @@ std::optional<Diagnostic> fault_of(const Options& o) {
   if (!o.picture.empty() && fs::path(o.picture).extension() != ".png") {
     return error("pictures are written as .png, not " + o.picture);
   }
+  if (!o.view.empty() && o.picture.empty()) {
+    return error("a view without a picture", "give --picture OUT.png");
+  }
   if (!o.removal.empty() && fs::path(o.removal).extension() != ".csv") {
     return error("the removal of each block is written as .csv, not " + o.removal);
   }
   return std::nullopt;
 }
 
+// --view AZIMUTH,ELEVATION in degrees.
+Result<report::PictureOptions> picture_options(const std::string& view) {
+  report::PictureOptions options;
+  if (view.empty()) return options;
+  const auto angles = numbers_of(view, 2, "--view");
+  if (!angles) return angles.error();
+  options.azimuth = (*angles)[0];
+  options.elevation = (*angles)[1];
+  if (std::abs(options.azimuth) > 360.0 || std::abs(options.elevation) > 90.0) {
+    return error("--view " + view + " is no direction to look from",
+                 "azimuth about Z from +X within 360 deg, elevation from -90 to 90 deg");
+  }
+  return options;
+}
+
 // Steps of the command; each fills its part of the result, or says what is wrong.
 class Cut {
  public:
-  Cut(const Options& options, const Job& job, const trials::Trial& trial, TrialRun& run)
-      : options_(options), job_(job), trial_(trial), run_(run) {}
+  Cut(const Options& options, const report::PictureOptions& view, const Job& job,
+      const trials::Trial& trial, TrialRun& run)
+      : options_(options), view_(view), job_(job), trial_(trial), run_(run) {}
 
   [[nodiscard]] Result<CutResult> result() {
     if (auto failure = find_moment()) return *failure;
@@ -147,7 +168,8 @@ class Cut {
       if (const auto file = stock::write_mesh(mesh, options_.mesh); !file) return file.error();
     }
     if (!options_.picture.empty()) {
-      const auto file = report::write_picture(options_.picture, picture_of(mesh, job_.piece.plan));
+      const auto file =
+          report::write_picture(options_.picture, picture_of(mesh, job_.piece.plan), view_);
       if (!file) return file.error();
     }
     describe(*meshed);
@@ -211,6 +233,7 @@ class Cut {
   }
 
   const Options& options_;
+  const report::PictureOptions& view_;
   const Job& job_;
   const trials::Trial& trial_;
   TrialRun& run_;
@@ -228,13 +251,15 @@ void tell_collisions(const Job& job, const CutResult& result) {
 
 int cut(Options options) {
   if (const auto fault = fault_of(options)) return refuse({*fault});
+  const auto view = picture_options(options.view);
+  if (!view) return refuse(view.error());
   options.facets.tolerance = Mm{options.facet_tolerance_mm};
   const auto job = load_job(options.job, options.overrides, false);
   if (!job) return refuse(job.error());
   TrialRun run(progress_style(options.quiet || options.json));
   const auto trial = run.trial(*job, false);
   if (!trial) return refuse(trial.error());
-  auto result = Cut(options, *job, *trial, run).result();
+  auto result = Cut(options, *view, *job, *trial, run).result();
   if (!result) return refuse(result.error());
   if (options.gouge_limit_um > 0.0) result->limits.gouge = options.gouge_limit_um / kUmPerMm;
   if (options.excess_limit_um > 0.0) result->limits.excess = options.excess_limit_um / kUmPerMm;
@@ -252,6 +277,8 @@ void add_options(CLI::App& command, Options& o) {
   command.add_option("--mesh", o.mesh,
                      "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
   command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
+  command.add_option("--view", o.view,
+                     "AZIMUTH,ELEVATION the picture is seen from, deg (default: -60,32)");
   command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
       ->check(positive_number());
   command

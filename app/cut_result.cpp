@@ -113,12 +113,14 @@ std::string worst_text(const char* name, const std::optional<stock::WorstPoint>&
 std::string surface_text(const CutResult& result) {
   const CutSurface& s = *result.surface;
   std::string text = fmt::format(
-      "{} vertices, {} triangles, {}\nvolume {:.3f} mm3 of {:.3f}, removed {:.3f}\n"
-      "deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
-      s.vertices, s.triangles,
+      "{} vertices, {} triangles, {}\nvolume {:.3f} mm3 of {:.3f}, removed {:.3f}\n", s.vertices,
+      s.triangles,
       s.measure.is_closed && s.measure.is_manifold ? "closed and manifold" : "NOT closed",
-      s.measure.volume, result.blank_volume, removed_volume(result.blank_volume, s.measure.volume),
-      s.lowest * kUmPerMm, s.highest * kUmPerMm, s.deviations.points);
+      s.measure.volume, result.blank_volume, removed_volume(result.blank_volume, s.measure.volume));
+  if (s.deviations.points > 0) {
+    text += fmt::format("deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
+                        s.lowest * kUmPerMm, s.highest * kUmPerMm, s.deviations.points);
+  }
   if (s.faceted_within) {
     text += fmt::format("facets within {:g} um of the exact surface\n",
                         s.faceted_within->value * kUmPerMm);

@@ -113,6 +113,10 @@ std::string kind_text(stock::CollisionKind kind) {
   return "in material during a feed move";
 }
 
+std::array<float, 3> in_single_precision(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
 }  // namespace
 
 std::string collision_text(const stock::Collision& c) {
@@ -233,15 +237,17 @@ double removed_volume(double blank, double finished) {
 report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
                                   const metrology::InspectionPlan& plan) {
   report::SurfacePicture picture;
-  const auto add = [&](const Vec3& v, const std::optional<double>& deviation) {
-    picture.vertices.push_back(
-        {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
+  const auto add = [&](const Vec3& v, const Vec3& normal, const std::optional<double>& deviation) {
+    picture.vertices.push_back(in_single_precision(v));
+    picture.normals.push_back(in_single_precision(normal));
     if (mesh.deviation.empty()) return;
     picture.deviation.push_back(deviation ? std::optional(static_cast<float>(*deviation))
                                           : std::nullopt);
   };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    add(mesh.vertices[i], mesh.deviation.empty() ? std::nullopt : mesh.deviation[i]);
+    const bool smooth = !mesh.normals.empty() && mesh.kinds[i] == stock::VertexKind::surface;
+    add(mesh.vertices[i], smooth ? mesh.normals[i] : Vec3(Vec3::Zero()),
+        mesh.deviation.empty() ? std::nullopt : mesh.deviation[i]);
   }
   picture.triangles = mesh.triangles;
   if (mesh.deviation.empty()) return picture;
@@ -260,7 +266,7 @@ report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
       if (!own) continue;
       const auto next = static_cast<std::uint32_t>(picture.vertices.size());
       const auto [at, is_new] = split.try_emplace({corner, static_cast<float>(*own)}, next);
-      if (is_new) add(mesh.vertices[corner], own);
+      if (is_new) add(mesh.vertices[corner], Vec3::Zero(), own);
       corner = at->second;
     }
     triangle = corners;

@@ -66,29 +66,39 @@ class CarvedSearch {
     if (begin) found.push_back({*begin, {hi, here.t}});
   }
 
- private:
-  [[nodiscard]] double distance(double s, double t) const {
-    return distance_at(outline_, motion_.at(t), ray_.at(s));
-  }
-
   [[nodiscard]] Nearest nearest(double s) const {
-    // A moment is looked at more closely only if the distance could fall below the least on the way to it.
     const double dt = 1.0 / steps_;
     const double way = motion_.travel() * dt;
     Nearest best;
+    looked_.clear();
     for (int i = 0; i <= steps_;) {
-      const double d = distance(s, i * dt);
-      if (d < best.distance) best = {d, i * dt};
+      const Nearest here{distance(s, i * dt), i * dt};
+      looked_.push_back(here);
+      if (here.distance < best.distance) best = here;
       // Until then it stays above the best that is known.
-      const int skipped = way > 0.0 ? static_cast<int>((d - best.distance) / way) : steps_;
+      const int skipped =
+          way > 0.0 ? static_cast<int>((here.distance - best.distance) / way) : steps_;
       i += std::max(1, skipped);
     }
     if (motion_.travel() == 0.0) return best;
-    const double lo = std::max(0.0, best.t - dt), hi = std::min(1.0, best.t + dt);
-    const auto [t, d] = boost::math::tools::brent_find_minima(
-        [&](double time) { return distance(s, time); }, lo, hi, 40);
-    if (d < best.distance) best = {d, t};
+    // The bottom of every valley that may go deeper than the best.
+    const double may_win = best.distance + way;
+    for (std::size_t k = 0; k < looked_.size(); ++k) {
+      const Nearest& here = looked_[k];
+      if (here.distance > may_win) continue;
+      if (k > 0 && looked_[k - 1].distance <= here.distance) continue;
+      if (k + 1 < looked_.size() && looked_[k + 1].distance < here.distance) continue;
+      const double lo = std::max(0.0, here.t - dt), hi = std::min(1.0, here.t + dt);
+      const auto [t, d] = boost::math::tools::brent_find_minima(
+          [&](double time) { return distance(s, time); }, lo, hi, 40);
+      if (d < best.distance) best = {d, t};
+    }
     return best;
+  }
+
+ private:
+  [[nodiscard]] double distance(double s, double t) const {
+    return distance_at(outline_, motion_.at(t), ray_.at(s));
   }
 
   [[nodiscard]] SweptEnd close_in(double a, Nearest at_a, double b, Nearest at_b) const {
@@ -112,6 +122,7 @@ class CarvedSearch {
   const StretchMotion& motion_;
   const Ray& ray_;
   int steps_ = 1;
+  mutable std::vector<Nearest> looked_{};  // of one call: kept for its memory
 };
 
 }  // namespace
@@ -160,6 +171,10 @@ void append_carved_intervals(const Body& body, const StretchMotion& motion, cons
     if (until > lo) search.walk(lo, until, found);
     lo = then;
   }
+}
+
+double nearest_moment(const Body& body, const StretchMotion& motion, const Ray& ray, double s) {
+  return CarvedSearch(body, motion, ray).nearest(s).t;
 }
 
 }  // namespace frustum::cutter

@@ -6,9 +6,8 @@
 //            At an end the minimum over t is the envelope condition
 // Units    : mm; frame: workpiece
 // Errors   : none
-// Accuracy : ends within 0.1 nm normal to the surface. The minimum over t is sought between moments that are
-//            0.02 mm of motion apart: a body that meets the ray for less than that may be missed by what
-//            its outline bends over that way (10 nm at a radius of 5 mm)
+// Accuracy : ends within 0.1 nm normal to the surface. Valleys of d over t are told apart by moments that are
+//            0.02 mm of motion apart; every valley that may be the deepest is gone down into
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 
@@ -30,5 +29,9 @@ namespace frustum::cutter {
 // Appends what the body covers around its carved parts; `known` is covered anyway and is passed over.
 void append_carved_intervals(const Body& body, const StretchMotion& motion, const Ray& ray,
                              std::span<const Chord> known, std::vector<SweptInterval>& found);
+
+// When the body's surface, or its inside, is nearest to the ray's point at s.
+[[nodiscard]] double nearest_moment(const Body& body, const StretchMotion& motion, const Ray& ray,
+                                    double s);
 
 }  // namespace frustum::cutter

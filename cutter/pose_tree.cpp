@@ -142,7 +142,7 @@ double support(const PoseGroup& group, const Profile& body, const Vec3& normal) 
   const double u_hi = std::min(1.0, u + a.cwiseMax(b).sum());
   // Heights count with the largest n.axis, radii with the one nearest to zero.
   const double nearest = std::clamp(0.0, std::min(u_lo, u_hi), u_hi);
-  return tip + body.support(std::sqrt(1.0 - nearest * nearest), u_hi);
+  return tip + body.support(std::sqrt(std::max(0.0, 1.0 - nearest * nearest)), u_hi);
 }
 
 PoseTree::PoseTree(const ToolPath& path, std::span<const Box> boxes,

@@ -92,7 +92,7 @@ Span cone_span(const ToolRay& ray, double radius, double slope, double z_lo) {
   if (a <= 1e-14 * scale) {
     const double disc = std::max(0.0, b * b - a * c);
     const double q = -(b + std::copysign(std::sqrt(disc), b));
-    if (q == 0.0) return kNothing;
+    if (q == 0.0) return e > 0.0 ? Span{0.0, kInfinity} : Span{-kInfinity, 0.0};  // by the apex
     const double near = c / q;
     const double far = std::abs(a) <= 1e-14 * scale ? std::copysign(kInfinity, q) : q / a;
     // Of the two half-lines outside the roots the one on the cone's own side of its apex.
@@ -162,7 +162,8 @@ Span torus_span(const ToolRay& ray, double major, double tube, double centre, co
   if (std::isinf(lo) || lo > outer.hi) return kNothing;
   const double hi = end(outer.hi, -1.0);
   if (std::isinf(hi) || hi < lo) return kNothing;
-  return {lo, hi};
+  // Where the limit is met inside the tube, the tube goes on beyond it.
+  return {lo == within.lo ? -kInfinity : lo, hi == within.hi ? kInfinity : hi};
 }
 
 // The lateral surface alone, grown outwards; `within` bounds where it is asked for.
@@ -268,11 +269,11 @@ std::optional<Chord> Profile::chord(const ToolPose& pose, const Ray& ray, double
     const auto face = static_cast<ProfileFace>(i);
     if (part.lo < all.lo) {
       all.lo = part.lo;
-      all.lo_face = part.lo == slab.lo && lateral.lo <= slab.lo ? at_slab_lo : face;
+      all.lo_face = part.lo == slab.lo && lateral.lo < slab.lo ? at_slab_lo : face;
     }
     if (part.hi > all.hi) {
       all.hi = part.hi;
-      all.hi_face = part.hi == slab.hi && lateral.hi >= slab.hi ? at_slab_hi : face;
+      all.hi_face = part.hi == slab.hi && lateral.hi > slab.hi ? at_slab_hi : face;
     }
   }
   if (!(all.lo <= all.hi)) return std::nullopt;
@@ -291,7 +292,8 @@ double Profile::support(double across, double u) const {
   return best;
 }
 
-Facing Profile::facing(ProfileFace face, const ToolPose& pose, const Vec3& point) const {
+Facing Profile::facing(ProfileFace face, const ToolPose& pose, const Vec3& point,
+                       const Vec3& towards) const {
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
   const Vec3 across = m - z * pose.axis;
@@ -304,9 +306,17 @@ Facing Profile::facing(ProfileFace face, const ToolPose& pose, const Vec3& point
   const auto index = static_cast<std::size_t>(face);
   const Zone& zone = zones_[index];
   if (zone.kind == ZoneKind::cone) {
-    if (on_axis) return facing;
-    facing.lateral = 1.0 / secants_[index];
-    facing.axial = -zone.slope * facing.lateral;
+    const double lateral = 1.0 / secants_[index], axial = -zone.slope * lateral;
+    if (on_axis) {
+      facing.axial = zone.slope < 0.0 ? 1.0 : -1.0;
+      const double up = towards.dot(pose.axis);
+      const Vec3 sideways = towards - up * pose.axis;
+      const double leaning = sideways.norm();
+      if (!(leaning > 0.0) || lateral * leaning + axial * up <= facing.axial * up) return facing;
+      facing.side = sideways / leaning;
+    }
+    facing.lateral = lateral;
+    facing.axial = axial;
     return facing;
   }
   const double beside = beside_circle(rho, zone.major), above = z - zone.centre;

@@ -73,8 +73,10 @@ class Profile {
   [[nodiscard]] double support(double u) const;
   // The same for a direction of any length: `across` of it normal to the axis, u along.
   [[nodiscard]] double support(double across, double u) const;
-  // Outward normal of a face at a point on it (on the axis of a pointed end: along the axis).
-  [[nodiscard]] Facing facing(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
+  // Outward normal of a face at a point on it. A pointed end has many: that along the axis, or, if it leans
+  // more towards that direction, one of the flank's.
+  [[nodiscard]] Facing facing(ProfileFace face, const ToolPose& pose, const Vec3& point,
+                              const Vec3& towards = Vec3::Zero()) const;
   [[nodiscard]] Vec3 normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const;
   [[nodiscard]] double bottom() const { return bottom_; }
   [[nodiscard]] double height() const { return height_; }

@@ -17,6 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGrazing = 0.02;
 // And where the axes of a group differ by more than this (rad).
 constexpr double kMuchTurned = 0.1;
+// Parts of a cutter that stand on each other touch within this (mm): rounding of their ends.
+constexpr double kTouching = 1e-11;
 
 // Where along the ray a group may cover anything, and what its witness covers for certain.
 struct Reach {
@@ -45,6 +47,12 @@ double crossing(const TouchingPlane& plane, const PoseGroup& group, const Ray& r
                       turned * (1.0 + 2.0 * turned) * group.tip_shift +
                       2.0 * turned * turned * y.norm();
   return plane.value + std::max(0.0, room) / fall;
+}
+
+// What the tolerance normal to the plane makes along the ray, at any pose of the group.
+double slack_of(const TouchingPlane& plane, const PoseGroup& group) {
+  const double turned = group.axis_shift;
+  return kSearchTolerance / (plane.along + turned * (1.0 + 2.0 * turned));
 }
 
 bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
@@ -80,17 +88,19 @@ Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
   }
   const TouchingPlane leaving(part, group.witness, ray, *known, true);
   reach.hi = crossing(leaving, group, ray);
-  reach.hi_slack = kSearchTolerance / leaving.along;
+  reach.hi_slack = slack_of(leaving, group);
   reach.lo = known->lo;
   double along = leaving.along;
   if (wants_lo(reach)) {
     const TouchingPlane entering(part, group.witness, ray, *known, false);
     reach.lo = -crossing(entering, group, ray);
-    reach.lo_slack = kSearchTolerance / entering.along;
+    reach.lo_slack = slack_of(entering, group);
     along = std::min(along, entering.along);
   }
   if (along < kGrazing || group.axis_shift > kMuchTurned) {
     if (const auto grown = part.chord(group.witness, ray, group.shift)) {
+      if (grown->lo > reach.lo) reach.lo_slack = 0.0;
+      if (grown->hi < reach.hi) reach.hi_slack = 0.0;
       reach.lo = std::max(reach.lo, grown->lo);
       reach.hi = std::min(reach.hi, grown->hi);
     }
@@ -240,10 +250,10 @@ class WholeCover {
   void take(const CoverInterval& next) {
     // The intervals that touch it become one with it; a tie keeps the older end.
     auto first = cover_.begin();
-    while (first != cover_.end() && first->hi.s < next.lo.s) ++first;
+    while (first != cover_.end() && first->hi.s < next.lo.s - kTouching) ++first;
     auto last = first;
     CoverInterval joined = next;
-    while (last != cover_.end() && last->lo.s <= next.hi.s) {
+    while (last != cover_.end() && last->lo.s <= next.hi.s + kTouching) {
       if (last->lo.s <= joined.lo.s) joined.lo = last->lo;
       if (last->hi.s >= joined.hi.s) joined.hi = last->hi;
       ++last;

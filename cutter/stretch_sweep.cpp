@@ -15,6 +15,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTangentMotion = 1e-9;  // mm
 // Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
 constexpr double kSameMoment = 1e-11;
+// From here on grazing rays are looked for.
+constexpr int kOftenHalved = 6;
+// A search that needs more than this runs along the surface within rounding.
+constexpr int kMostLooks = 20000;
 // The body turns by at most this between two samples of its chord.
 constexpr double kTurnPerSample = 0.05;  // rad
 
@@ -36,38 +40,11 @@ double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, con
   return normal.dot(ray.origin - pose.tip) - body.support(u);
 }
 
-// A point that runs along the ray while the body turns is seen from the body on a curve: with the turn w, the
-// way v of the tip and x of the point its second derivative is below w^2 reach + 2 w (x + v). That far, an
-// eighth of it, the curve may leave the straight line between two points of the (convex) body.
-double departure(const StretchMotion& motion, double dt, double way_of_point) {
-  const double turn = motion.turn() * dt;
-  return (motion.bend() * dt * dt + 2.0 * turn * (way_of_point + motion.travel() * dt)) / 8.0;
-}
+bool overlap(const Chord& a, const Chord& b) { return a.lo <= b.hi && b.lo <= a.hi; }
 
-// How far apart two chords are along the ray.
-double gap_between(const Chord& a, const Chord& b) {
-  return std::max(0.0, std::max(a.lo, b.lo) - std::min(a.hi, b.hi));
-}
-
-// Whether a ray that meets the body at both moments meets it at all moments between, but for kMissedDepth: so
-// it is where a body shrunk by the departure is met at both, not farther apart.
-bool surely_meets_between(const Profile& body, const StretchMotion& motion, const Ray& ray,
-                          const ToolPose& from, const Chord& at_from, const ToolPose& to,
-                          const Chord& at_to, double dt) {
-  double gap = gap_between(at_from, at_to);
-  for (int tries = 0; tries < 3; ++tries) {
-    const double shrunk = departure(motion, dt, gap);
-    if (tries == 0 && shrunk < kMissedDepth) return true;
-    const auto a = body.chord(from, ray, -shrunk), b = body.chord(to, ray, -shrunk);
-    if (!a || !b) return false;
-    const double wider = gap_between(*a, *b);
-    if (wider <= gap) return true;
-    gap = 1.5 * wider;
-  }
-  return false;
-}
-
-// The times at which the ray meets the body, as runs of samples that all have a chord.
+// Moments at which the ray meets the body, and moments between them at which it does not. Between two
+// neighbours that both meet it the covered places hang together: either their chords overlap, or one body
+// has gone from the one to the other.
 class ChordTimes {
  public:
   ChordTimes(const Profile& body, const StretchMotion& motion, const Ray& ray)
@@ -84,6 +61,18 @@ class ChordTimes {
   // Sorted by time; a sample without a chord parts two runs.
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
 
+  // Adds a moment between sample i and the next, with what lies around it.
+  void insert(std::size_t i, double t) {
+    const std::vector<Sample> after(samples_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                    samples_.end());
+    samples_.resize(i + 1);
+    const Sample middle = sample(t);
+    refine_between(Sample(samples_.back()), middle, 0);
+    samples_.push_back(middle);
+    refine_between(middle, after.front(), 0);
+    samples_.insert(samples_.end(), after.begin(), after.end());
+  }
+
  private:
   [[nodiscard]] Sample sample(double t) const {
     Sample s{.t = t, .pose = motion_.at(t)};
@@ -94,38 +83,46 @@ class ChordTimes {
   // Appends the samples needed between two neighbours: proofs of emptiness, or ends of runs.
   void refine_between(const Sample& a, const Sample& b, int depth) {
     if (a.chord && b.chord) {
-      split_if_it_may_part(a, b, depth);
+      join(a, b, depth);
     } else if (a.chord) {
       const Sample end = end_of_run(a, b);
-      split_if_it_may_part(a, end, depth);
+      join(a, end, depth);
       samples_.push_back(end);
       search_beside_run(end, b);
     } else if (b.chord) {
       const Sample begin = end_of_run(b, a);
       search_beside_run(begin, a);
       samples_.push_back(begin);
-      split_if_it_may_part(begin, b, depth);
+      join(begin, b, depth);
     } else {
       search_empty(a, b);
     }
   }
 
-  // A body that turns may leave the ray and come back.
-  void split_if_it_may_part(const Sample& a, const Sample& b, int depth) {
-    const double dt = b.t - a.t;
-    if (depth > 40 || dt * motion_.travel() < kTangentMotion) return;
-    if (surely_meets_between(body_, motion_, ray_, a.pose, *a.chord, b.pose, *b.chord, dt)) return;
+  // Samples between two chords until neighbours overlap, or show a gap.
+  void join(const Sample& a, const Sample& b, int depth) {
+    if (overlap(*a.chord, *b.chord) || motion_.turn() == 0.0) return;
+    if (departure(a, b) < kMissedDepth || depth > 60) return;
     const Sample middle = sample(0.5 * (a.t + b.t));
     refine_between(a, middle, depth + 1);
     samples_.push_back(middle);
     refine_between(middle, b, depth + 1);
   }
 
+  // A body that does not turn meets the ray from the one chord to the other without a break. One that turns
+  // is never farther than this from it: its points run on arcs, and two of them, on the ray at either moment,
+  // are moved differently.
+  [[nodiscard]] double departure(const Sample& a, const Sample& b) const {
+    const double dt = b.t - a.t;
+    const double apart = std::max(a.chord->lo - b.chord->hi, b.chord->lo - a.chord->hi);
+    return motion_.bend() * dt * dt / 8.0 +
+           0.25 * motion_.turn() * dt * (motion_.travel() * dt + std::max(0.0, apart));
+  }
+
   // Between the last moment of a run and a sample without a chord: none but what turning brings back.
   void search_beside_run(const Sample& run_end, const Sample& outside) {
+    if (motion_.turn() == 0.0) return;
     const double dt = outside.t - run_end.t;
-    // As good as straight, wherever on the body it might come back: no way back.
-    if (departure(motion_, std::abs(dt), 2.0 * motion_.reach()) < kMissedDepth) return;
     const double beyond = run_end.t + std::copysign(2.0 * resolution(), dt);
     if (std::abs(beyond - run_end.t) >= std::abs(dt)) return;
     const Sample gone = sample(beyond);
@@ -239,33 +236,59 @@ class ChordTimes {
   std::vector<Sample> samples_{};
 };
 
+// A plane that touches the body where a chord ends at one moment, and where the ray crosses it at another.
+struct RoofSide {
+  const TouchingPlane& plane;
+  PlaneCrossing elsewhere;
+  double overhang = 0.0;  // of that crossing over the chord's end there
+};
+
+// How far a plane's height over a point, or its crossing of the ray, may leave the straight line between two
+// moments, at most. `away`: from the tip to the point; `run`: way of the point relative to the tip.
+//
+// With n(t) the plane's normal, seen from a point x(t) that runs along the ray as the line says, the distance
+// n.(x - p) has the second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a +
+// lateral b with b across the axis: |a''| = w^2, and the projection of a fixed side bends b by at most
+// 1.6 w^2 and turns n by at most 1.1 w over kTurnPerSample.
+double bend_of(const StretchMotion& motion, double dt, double away, double run) {
+  constexpr double kTurns = 1.1, kBends = 1.9;
+  const double turn = motion.turn() * dt;
+  return (kBends * turn * turn * away + 2.0 * kTurns * turn * run) / 8.0;
+}
+
+double bulge_of(const RoofSide& side, const StretchMotion& motion, double dt) {
+  const double run = std::abs(side.elsewhere.value - side.plane.value) + motion.travel() * dt;
+  const double departure = bend_of(motion, dt, motion.reach() + side.overhang, run);
+  const double along =
+      std::min(side.plane.along, side.elsewhere.along) - bend_of(motion, dt, 1.0, 0.0);
+  return along > 0.0 ? std::max(departure / along, 1e-300) : kInfinity;
+}
+
 // Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it there,
 // moved to the other moment, make straight lines, and turning adds at most 4 bulge x (1 - x).
-//
-// With n(t) the plane's normal, seen from a point that runs along the ray as the line says, the distance
-// n(t).(x(t) - p(t)) has the second derivative n''.(x - p) + 2 n'.(x' - p').
 class Roof {
  public:
-  Roof(const TouchingPlane& a, double a_at_b, const TouchingPlane& b, double b_at_a,
+  Roof(const TouchingPlane& a, PlaneCrossing a_at_b, const TouchingPlane& b, PlaneCrossing b_at_a,
        const StretchMotion& motion, double dt)
-      : a_(a.value), rise_a_(a_at_b - a.value), b_at_a_(b_at_a), rise_b_(b.value - b_at_a) {
-    const bool bounded = std::isfinite(rise_a_) && std::isfinite(rise_b_);
-    if (motion.turn() > 0.0 && bounded) {
-      const double run = std::max(std::abs(rise_a_), std::abs(rise_b_)) + motion.travel() * dt;
-      const double turn = motion.turn() * dt;
-      const double departure = 0.125 * turn * (turn * motion.reach() + 2.0 * run);
-      bulge_ = std::max(departure / std::min(a.along, b.along), bulge_);
+      : a_(a.value),
+        rise_a_(a_at_b.value - a.value),
+        b_at_a_(b_at_a.value),
+        rise_b_(b.value - b_at_a.value) {
+    if (motion.turn() > 0.0) {
+      bulge_a_ = bulge_of({a, a_at_b, std::abs(a_at_b.value - b.value)}, motion, dt);
+      bulge_b_ = bulge_of({b, b_at_a, std::abs(b_at_a.value - a.value)}, motion, dt);
     }
-    if (!(rise_a_ > 0.0)) {
-      top_ = height_on_a(summit(rise_a_));
-    } else if (!(rise_b_ < 0.0)) {
-      top_ = height_on_b(summit(rise_b_));
-    } else if (bounded) {
-      has_ridge_ = true;
-      ridge_ = std::clamp((b_at_a_ - a_) / (rise_a_ - rise_b_), 0.0, 1.0);
-      const double on_a = summit(rise_a_), on_b = summit(rise_b_);
-      top_ = ridge_ < on_b ? height_on_b(on_b) : height_on_a(ridge_ > on_a ? on_a : ridge_);
-    }
+    const bool holds_a = std::isfinite(rise_a_) && std::isfinite(bulge_a_);
+    const bool holds_b = std::isfinite(rise_b_) && std::isfinite(bulge_b_);
+    if (holds_a) top_ = height_on_a(summit(rise_a_, bulge_a_));
+    if (holds_b) top_ = std::min(top_, height_on_b(summit(rise_b_, bulge_b_)));
+    has_ridge_ = holds_a && holds_b && rise_a_ > 0.0 && rise_b_ < 0.0;
+    if (!has_ridge_) return;
+    ridge_ = std::clamp((b_at_a_ - a_) / (rise_a_ - rise_b_), 0.0, 1.0);
+    // Before the ridge a's line is the lower one but for the bulges, after it b's.
+    const double on_a = std::min(ridge_, summit(rise_a_, bulge_a_));
+    const double on_b = std::max(ridge_, summit(rise_b_, bulge_b_));
+    top_ = std::min(top_, std::max(height_on_a(on_a), height_on_b(on_b)));
   }
 
   [[nodiscard]] double top() const { return top_; }
@@ -278,18 +301,20 @@ class Roof {
 
  private:
   // Where a line of that rise, with the bulge on it, is highest.
-  [[nodiscard]] double summit(double rise) const {
-    return std::clamp(0.5 + rise / (8.0 * bulge_), 0.0, 1.0);
+  [[nodiscard]] static double summit(double rise, double bulge) {
+    return std::clamp(0.5 + rise / (8.0 * bulge), 0.0, 1.0);
   }
   [[nodiscard]] double height_on_a(double x) const {
-    return a_ + rise_a_ * x + 4.0 * bulge_ * x * (1.0 - x);
+    return a_ + rise_a_ * x + 4.0 * bulge_a_ * x * (1.0 - x);
   }
   [[nodiscard]] double height_on_b(double x) const {
-    return b_at_a_ + rise_b_ * x + 4.0 * bulge_ * x * (1.0 - x);
+    return b_at_a_ + rise_b_ * x + 4.0 * bulge_b_ * x * (1.0 - x);
   }
 
+  static constexpr double kNoBulge = 1e-300;  // a number that can be divided by
+
   double a_, rise_a_, b_at_a_, rise_b_;
-  double bulge_ = 1e-300;
+  double bulge_a_ = kNoBulge, bulge_b_ = kNoBulge;
   double ridge_ = 0.5;
   bool has_ridge_ = false;
   double top_ = kInfinity;
@@ -304,7 +329,8 @@ class HighestEnd {
 
   void offer(const Sample& sample) { note(touched(sample)); }
 
-  // Looks between two samples with chords; returns the planes that touch the body at both.
+  // Looks between two samples with chords; returns the planes that touch the body at both. Nothing is lost
+  // unless gap() has a value then.
   std::pair<TouchingPlane, TouchingPlane> search(const Sample& from, const Sample& to) {
     const Touched a = touched(from);
     if (floor_ == kInfinity) {
@@ -315,6 +341,9 @@ class HighestEnd {
     close_in(a, b, 0);
     return {a.plane, b.plane};
   }
+
+  // A moment between the samples at which the body does not meet the ray.
+  [[nodiscard]] std::optional<double> gap() const { return gap_; }
 
   [[nodiscard]] SweptEnd best() const {
     return {leaving_ ? best_value_ : -best_value_, best_t_, best_face_};
@@ -349,16 +378,66 @@ class HighestEnd {
     const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
     const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
                     b.plane.crossing(a.pose, ray_), motion_, dt);
-    if (roof.top() <= enough) return;
+    if (roof.top() <= enough || (depth >= kOftenHalved && surely_no_deeper(a, b))) return;
+    if (motion_.turn() == 0.0 && depth >= kOftenHalved) {
+      climb(a.t, b.t);
+      return;
+    }
+    if (++looks_ > kMostLooks) return;
     const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     Sample middle{.t = t, .pose = motion_.at(t)};
     middle.chord = body_.chord(middle.pose, ray_);
-    if (!middle.chord) return;  // within rounding of an end of the run
+    if (!middle.chord) {
+      // Else it is within rounding of the surface, or of an end of the run.
+      if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+      return;
+    }
     const Touched m = touched(middle);
     note(m);
     close_in(a, m, depth + 1);
     close_in(m, b, depth + 1);
+  }
+
+  // Of a body that does not turn the end of the chord is a concave function of time: golden section.
+  void climb(double lo, double hi) {
+    constexpr double kGolden = 0.6180339887498949;
+    const auto look = [&](double t) {
+      Sample at{.t = t, .pose = motion_.at(t)};
+      at.chord = body_.chord(at.pose, ray_);
+      if (!at.chord) return -kInfinity;
+      const Touched end = touched(at);
+      note(end);
+      return end.plane.value;
+    };
+    double x1 = hi - kGolden * (hi - lo), x2 = lo + kGolden * (hi - lo);
+    double v1 = look(x1), v2 = look(x2);
+    while ((hi - lo) * motion_.travel() > kSameMoment && lo < x1 && x1 < x2 && x2 < hi) {
+      if (v1 > v2) {
+        hi = x2, x2 = x1, v2 = v1, x1 = hi - kGolden * (hi - lo), v1 = look(x1);
+      } else {
+        lo = x1, x1 = x2, v1 = v2, x2 = lo + kGolden * (hi - lo), v2 = look(x2);
+      }
+    }
+  }
+
+  // Whether the place that is the best so far lies, at all times between two samples, above one of the planes
+  // that touch the body at them. Where rays graze, this ends what roofs over the ray cannot.
+  [[nodiscard]] bool surely_no_deeper(const Touched& a, const Touched& b) const {
+    const double best = std::max(best_value_, floor_);
+    const Vec3 point = ray_.at(leaving_ ? best : -best);
+    const double dt = b.t - a.t;
+    const double away = std::max((point - a.pose.tip).norm(), (point - b.pose.tip).norm());
+    const double bend = bend_of(motion_, dt, away, (b.pose.tip - a.pose.tip).norm());
+    const double a0 = a.plane.height(a.pose, point), a1 = a.plane.height(b.pose, point);
+    const double b0 = b.plane.height(a.pose, point), b1 = b.plane.height(b.pose, point);
+    double least = std::max(std::min(a0, a1), std::min(b0, b1));
+    // Where a's falls below b's.
+    const double x = (a0 - b0) / ((a0 - b0) + (b1 - a1));
+    if (x > 0.0 && x < 1.0) {
+      least = std::max(least, std::min({std::max(a0, b0), std::max(a1, b1), a0 + x * (a1 - a0)}));
+    }
+    return least - bend >= -kSearchTolerance;
   }
 
   const Profile& body_;
@@ -369,14 +448,33 @@ class HighestEnd {
   double best_value_ = -kInfinity;
   double best_t_ = 0.0;
   ProfileFace best_face_ = kTopFace;
+  std::optional<double> gap_{};
+  int looks_ = 0;
 };
 
 // The known interval that a chord overlaps; one that holds nothing if there is none.
 Chord overlapped(std::span<const Chord> known, const Chord& chord) {
   for (const Chord& k : known) {
-    if (k.lo <= chord.hi && chord.lo <= k.hi) return k;
+    if (overlap(k, chord)) return k;
   }
   return {kInfinity, -kInfinity};
+}
+
+// Both ends of a motion that turns little, where their chords overlap: then all that the ray meets hangs
+// together, whether or not it meets the body all the time.
+struct StretchEnds {
+  Sample from;
+  Sample to;
+};
+std::optional<StretchEnds> ends_that_overlap(const Profile& body, const StretchMotion& motion,
+                                             const Ray& ray) {
+  if (motion.turn() > kTurnPerSample) return std::nullopt;
+  StretchEnds ends{{0.0, motion.at(0.0)}, {1.0, motion.at(1.0)}};
+  ends.from.chord = body.chord(ends.from.pose, ray);
+  if (!ends.from.chord) return std::nullopt;
+  ends.to.chord = body.chord(ends.to.pose, ray);
+  if (!ends.to.chord || !overlap(*ends.from.chord, *ends.to.chord)) return std::nullopt;
+  return ends;
 }
 
 }  // namespace
@@ -386,7 +484,8 @@ TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ra
     : direction(leaving ? 1.0 : -1.0) {
   const double s = leaving ? chord.hi : chord.lo;
   const Vec3 point = ray.at(s);
-  const Facing at = body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point);
+  const Facing at =
+      body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point, direction * ray.direction);
   axial = at.axial;
   lateral = at.lateral;
   side = at.side;
@@ -397,12 +496,18 @@ TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ra
   offset = normal.dot(point - pose.tip);
 }
 
-double TouchingPlane::crossing(const ToolPose& pose, const Ray& ray) const {
+double TouchingPlane::height(const ToolPose& pose, const Vec3& point) const {
+  const Vec3 turned = side - side.dot(pose.axis) * pose.axis;
+  const Vec3 n = axial * pose.axis + (lateral / turned.norm()) * turned;
+  return n.dot(point - pose.tip) - offset;
+}
+
+PlaneCrossing TouchingPlane::crossing(const ToolPose& pose, const Ray& ray) const {
   const Vec3 turned = side - side.dot(pose.axis) * pose.axis;
   const Vec3 n = axial * pose.axis + (lateral / turned.norm()) * turned;
   const double fall = direction * n.dot(ray.direction);
-  if (!(fall > 0.0)) return kInfinity;
-  return (offset - n.dot(ray.origin - pose.tip)) / fall;
+  if (!(fall > 0.0)) return {kInfinity, 0.0};
+  return {(offset - n.dot(ray.origin - pose.tip)) / fall, fall};
 }
 
 bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
@@ -425,51 +530,55 @@ bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, dou
 
 void append_swept_intervals(const Profile& body, const StretchMotion& motion, const Ray& ray,
                             std::span<const Chord> known, std::vector<SweptInterval>& found) {
-  // Nearly always the ray meets the cutter at both ends of a motion that is as good as straight.
-  if (motion.bend() / 8.0 < kMissedDepth) {
-    const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
-    const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
-    const bool meets =
-        a.chord && b.chord &&
-        surely_meets_between(body, motion, ray, a.pose, *a.chord, b.pose, *b.chord, 1.0);
-    if (meets) {
-      const Chord inside = overlapped(known, *a.chord);
-      HighestEnd lo(body, motion, ray, false, -inside.lo);
-      HighestEnd hi(body, motion, ray, true, inside.hi);
-      lo.search(a, b);
-      hi.search(a, b);
+  // Nearly always the ray meets the cutter at both ends of a short motion.
+  if (const auto ends = ends_that_overlap(body, motion, ray)) {
+    const Chord inside = overlapped(known, *ends->from.chord);
+    HighestEnd lo(body, motion, ray, false, -inside.lo);
+    HighestEnd hi(body, motion, ray, true, inside.hi);
+    lo.search(ends->from, ends->to);
+    hi.search(ends->from, ends->to);
+    if (!lo.gap() && !hi.gap()) {
       found.push_back({lo.best(), hi.best()});
       return;
     }
   }
-  const ChordTimes times(body, motion, ray);
-  const std::vector<Sample>& samples = times.samples();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!samples[i].chord) continue;
-    const Chord inside = overlapped(known, *samples[i].chord);
+  ChordTimes times(body, motion, ray);
+  constexpr int kMostGaps = 64;
+  int gaps = 0;
+  for (std::size_t i = 0; i < times.samples().size();) {
+    if (!times.samples()[i].chord) {
+      ++i;
+      continue;
+    }
+    const Chord inside = overlapped(known, *times.samples()[i].chord);
     HighestEnd lo(body, motion, ray, false, -inside.lo);
     HighestEnd hi(body, motion, ray, true, inside.hi);
-    lo.offer(samples[i]);
-    hi.offer(samples[i]);
-    for (; i + 1 < samples.size() && samples[i + 1].chord; ++i) {
-      lo.search(samples[i], samples[i + 1]);
-      hi.search(samples[i], samples[i + 1]);
+    lo.offer(times.samples()[i]);
+    hi.offer(times.samples()[i]);
+    std::size_t next = i + 1;
+    for (; next < times.samples().size() && times.samples()[next].chord; ++next) {
+      const Sample from = times.samples()[next - 1], to = times.samples()[next];
+      lo.search(from, to);
+      hi.search(from, to);
+      if ((lo.gap() || hi.gap()) && gaps + 1 < kMostGaps) break;
+    }
+    // A body that turns may slide along the ray within rounding: gaps without end.
+    if ((lo.gap() || hi.gap()) && ++gaps < kMostGaps) {
+      times.insert(next - 1, lo.gap() ? *lo.gap() : *hi.gap());
+      continue;  // the run is shorter now
     }
     found.push_back({lo.best(), hi.best()});
+    i = next;
   }
 }
 
 std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& motion,
                                   const Ray& ray) {
-  if (motion.bend() / 8.0 >= kMissedDepth) return std::nullopt;
-  const Sample a{0.0, motion.at(0.0), body.chord(motion.at(0.0), ray)};
-  const Sample b{1.0, motion.at(1.0), body.chord(motion.at(1.0), ray)};
-  if (!a.chord || !b.chord) return std::nullopt;
-  if (!surely_meets_between(body, motion, ray, a.pose, *a.chord, b.pose, *b.chord, 1.0)) {
-    return std::nullopt;
-  }
+  const auto ends = ends_that_overlap(body, motion, ray);
+  if (!ends) return std::nullopt;
   HighestEnd hi(body, motion, ray, true, -kInfinity);
-  const auto [from, to] = hi.search(a, b);
+  const auto [from, to] = hi.search(ends->from, ends->to);
+  if (hi.gap()) return std::nullopt;
   return LastExit{hi.best(), from, to};
 }
 

@@ -38,6 +38,12 @@ inline constexpr double kSearchTolerance = 4e-10;
 // normal to its surface (mm).
 inline constexpr double kMissedDepth = 0.5e-6;
 
+// Where the ray crosses a plane, and the cosine between them; infinite where it does not.
+struct PlaneCrossing {
+  double value = 0.0;
+  double along = 0.0;
+};
+
 // The plane that touches the body where the ray leaves it (or enters it), fixed to the body: wherever the
 // body goes it stays on its side of the plane, turned about its axis to any side.
 struct TouchingPlane {
@@ -46,7 +52,10 @@ struct TouchingPlane {
                 bool leaving);
   // Where the ray crosses the plane when the body stands at another pose, counted along the ray if leaving,
   // else against it: no end of the body's chord is beyond. Infinite if the ray runs along the plane.
-  [[nodiscard]] double crossing(const ToolPose& pose, const Ray& ray) const;
+  [[nodiscard]] PlaneCrossing crossing(const ToolPose& pose, const Ray& ray) const;
+
+  // How far the point is beyond the plane when the body stands at another pose.
+  [[nodiscard]] double height(const ToolPose& pose, const Vec3& point) const;
 
   Vec3 normal;       // unit, out of the body, at the pose it was made for
   double value;      // where that pose leaves the ray: s if leaving, else -s
@@ -67,7 +76,7 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
                                                          const Ray& ray);
 
 // Where the ray leaves the sweep last, with the planes that touch the body there as the motion begins and
-// ends. Only if the ray meets the body at both ends of a motion that is as good as straight.
+// ends. Only if the ray meets the body at both ends of a motion that turns little.
 struct LastExit {
   SweptEnd end;
   TouchingPlane at_begin;

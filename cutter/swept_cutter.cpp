@@ -232,6 +232,7 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
   const Stretch& at = path_.stretches[stretch];
   const Body& body = body_of(stretch);
   const StretchMotion motion(path_.from(at), path_.to(at), body.reach());
+  constexpr double kSameEnd = 1e-6;  // mm
   CoverEnd end{.s = s, .stretch = stretch};
   double nearest = std::numeric_limits<double>::infinity();
   const auto offer = [&](std::size_t part, std::span<const SweptInterval> found) {
@@ -248,10 +249,11 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
   for (std::size_t part = 0; part < body.parts().size(); ++part) {
     offer(part, swept_intervals(body.parts()[part], motion, ray));
   }
-  if (nearest > kSearchTolerance && !body.carved().empty()) {
-    std::vector<SweptInterval> found;
-    append_carved_intervals(body, motion, ray, {}, found);
-    offer(body.parts().size(), found);
+  // A carved face, or a ray that grazes: then any end may be the one that rounding has chosen.
+  const double same = body.carved().empty() ? kSameEnd : kSearchTolerance;
+  if (nearest > same) {
+    end.part = static_cast<std::uint32_t>(body.parts().size());
+    end.t = nearest_moment(body, motion, ray, s);
   }
   return contact_of(ray, end);
 }

@@ -33,6 +33,33 @@ Eigen::Vector3f position(const SurfacePicture& picture, std::uint32_t vertex) {
   return Eigen::Map<const Eigen::Vector3f>(picture.vertices[vertex].data());
 }
 
+// Known normals that turn away from the triangle's face belong to another face.
+constexpr float kOwnFace = 0.5F;  // cosine of 60 deg
+
+Eigen::Vector3f known_normal(const SurfacePicture& picture, std::uint32_t vertex,
+                             const Eigen::Vector3f& face) {
+  if (picture.normals.empty()) return Eigen::Vector3f::Zero();
+  const Eigen::Vector3f normal = Eigen::Map<const Eigen::Vector3f>(picture.normals[vertex].data());
+  return normal.dot(face) >= kOwnFace ? normal : Eigen::Vector3f(Eigen::Vector3f::Zero());
+}
+
+// Zero for corners of which nothing is known.
+CornerNormals known_normals(const SurfacePicture& picture, std::size_t t,
+                            const Eigen::Vector3f& face) {
+  CornerNormals normals;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    normals[k] = known_normal(picture, picture.triangles[t][k], face);
+    sum += normals[k];
+  }
+  const float length = sum.norm();
+  if (length == 0.0F) return normals;
+  for (Eigen::Vector3f& normal : normals) {
+    if (normal.isZero()) normal = sum / length;
+  }
+  return normals;
+}
+
 }  // namespace
 
 std::vector<CornerNormals> crease_normals(const SurfacePicture& picture, double crease_angle) {
@@ -52,7 +79,9 @@ std::vector<CornerNormals> crease_normals(const SurfacePicture& picture, double 
   const auto limit = static_cast<float>(std::cos(crease_angle));
   std::vector<CornerNormals> normals(count);
   for (std::size_t t = 0; t < count; ++t) {
+    normals[t] = known_normals(picture, t, face_normals[t]);
     for (std::size_t k = 0; k < 3; ++k) {
+      if (!normals[t][k].isZero()) continue;
       const std::uint32_t vertex = picture.triangles[t][k];
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (std::uint32_t i = fans.first[vertex]; i < fans.first[vertex + 1]; ++i) {

@@ -69,6 +69,19 @@ View fitted_view(const SurfacePicture& picture, const PictureOptions& options, c
   return view;
 }
 
+// Light from above, so that pale parts stand out: a change too slow to be seen as such.
+void paint_background(Image& image) {
+  const LinearColour top = linear_from_srgb({0.835, 0.862, 0.893});
+  const LinearColour bottom = linear_from_srgb({0.985, 0.988, 0.990});
+  for (int y = 0; y < image.height; ++y) {
+    const float share = static_cast<float>(y) / static_cast<float>(image.height - 1);
+    for (int x = 0; x < image.width; ++x) {
+      image.at(x, y) = top;
+      image.blend(x, y, bottom, share);
+    }
+  }
+}
+
 void draw_colour_bar(Image& image, double span) {
   const double unit = image.height / 100.0;
   const int width = std::max(4, static_cast<int>(2.2 * unit));
@@ -131,6 +144,7 @@ Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
                            options.height * options.samples);
 
   Image image(options.width, options.height, {1.0F, 1.0F, 1.0F});
+  paint_background(image);
   cast_ground_shadow(scene, image);
   shade(scene, image);
   if (has_bar) draw_colour_bar(image, scene.deviation_span);

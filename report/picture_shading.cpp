@@ -85,8 +85,8 @@ float light_on(const Vector3f& normal, float openness) {
   const float direct = std::max(0.0F, normal.dot(key));
   const float second = std::max(0.0F, 0.25F + 0.75F * normal.dot(fill));
   const float sky = 0.5F + 0.5F * normal.y();
-  return 0.52F * direct * (0.55F + 0.45F * openness) +
-         openness * (0.26F * second + 0.16F * sky + 0.28F);
+  return 0.50F * direct * (0.55F + 0.45F * openness) +
+         openness * (0.24F * second + 0.14F * sky + 0.24F);
 }
 
 float highlight_on(const Vector3f& normal) {
@@ -215,11 +215,55 @@ bool is_empty(const Scene& scene, int x, int y) {
   return true;
 }
 
+// Where the surface bends or breaks off between neighbouring samples: a line, as in a drawing.
+class EdgeLines {
+ public:
+  explicit EdgeLines(const Scene& scene) : scene_(scene), reach_(std::max(1, scene.samples / 2)) {}
+
+  [[nodiscard]] bool at(int bx, int by) const {
+    const Place here = place(bx, by);
+    return parted(here, place(bx + reach_, by)) || parted(here, place(bx, by + reach_));
+  }
+
+ private:
+  struct Place {
+    int x, y;
+    std::uint32_t triangle;
+    float depth;
+  };
+  [[nodiscard]] Place place(int x, int y) const {
+    if (x >= scene_.buffer.width || y >= scene_.buffer.height) return {x, y, kNoTriangle, 0.0F};
+    const std::size_t k = scene_.buffer.index(x, y);
+    return {x, y, scene_.buffer.triangle[k], scene_.buffer.depth[k]};
+  }
+  [[nodiscard]] bool parted(const Place& a, const Place& b) const {
+    if (a.triangle == b.triangle) return false;
+    if (a.triangle == kNoTriangle || b.triangle == kNoTriangle) return true;
+    const Vector3f na = normal_of(a), nb = normal_of(b);
+    constexpr float kBend = 0.87F;  // cosine of 30 deg
+    if (na.dot(nb) < kBend) return true;
+    // A jump in depth that neither of the faces makes by leaning.
+    const auto lean = [](const Vector3f& n) {
+      return n.head<2>().norm() / std::max(0.05F, std::abs(n.z()));
+    };
+    const float step = static_cast<float>(reach_) / scene_.view.pixels_per_mm;
+    return std::abs(a.depth - b.depth) > step * (4.0F + 2.0F * std::max(lean(na), lean(nb)));
+  }
+  [[nodiscard]] Vector3f normal_of(const Place& p) const {
+    return normal_in_camera(scene_, p.triangle, weights_of(scene_, p.triangle, p.x, p.y));
+  }
+
+  const Scene& scene_;
+  int reach_;  // buffer pixels: half an image pixel to either side
+};
+
 }  // namespace
 
 void shade(const Scene& scene, Image& image) {
   const std::vector<float> open = openness_of(scene, image.width, image.height);
   const ColourTable table(scene.deviation_span);
+  const EdgeLines edges(scene);
+  constexpr float kLineShare = 0.45F;
   const int samples = scene.samples;
   const float share = 1.0F / static_cast<float>(samples * samples);
   for_each_row(image.height, [&](int y) {
@@ -233,8 +277,9 @@ void shade(const Scene& scene, Image& image) {
         const int by = y * samples + s / samples;
         if (scene.buffer.triangle[scene.buffer.index(bx, by)] == kNoTriangle) continue;
         const Surfel surfel = surfel_at(scene, table, bx, by);
-        const float light = light_on(surfel.normal, openness);
-        const float highlight = highlight_on(surfel.normal);
+        const float shade = edges.at(bx, by) ? 1.0F - kLineShare : 1.0F;
+        const float light = shade * light_on(surfel.normal, openness);
+        const float highlight = shade * highlight_on(surfel.normal);
         for (std::size_t k = 0; k < 3; ++k) {
           sum[k] += std::min(1.0F, surfel.colour[k] * light + highlight);
         }

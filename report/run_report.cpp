@@ -19,15 +19,16 @@ std::optional<AxisRange> range_of(const AxisSeries& series) {
 
 bool SurfacePicture::is_valid() const {
   if (!deviation.empty() && deviation.size() != vertices.size()) return false;
-  for (const std::array<float, 3>& vertex : vertices) {
-    if (!std::all_of(vertex.begin(), vertex.end(), [](float x) { return std::isfinite(x); })) {
-      return false;
-    }
-  }
-  return std::all_of(triangles.begin(), triangles.end(), [&](const auto& triangle) {
-    return std::all_of(triangle.begin(), triangle.end(),
-                       [&](std::uint32_t corner) { return corner < vertices.size(); });
-  });
+  if (!normals.empty() && normals.size() != vertices.size()) return false;
+  const auto is_finite = [](const std::array<float, 3>& v) {
+    return std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); });
+  };
+  return std::all_of(vertices.begin(), vertices.end(), is_finite) &&
+         std::all_of(normals.begin(), normals.end(), is_finite) &&
+         std::all_of(triangles.begin(), triangles.end(), [&](const auto& triangle) {
+           return std::all_of(triangle.begin(), triangle.end(),
+                              [&](std::uint32_t corner) { return corner < vertices.size(); });
+         });
 }
 
 bool RunReport::passes() const {

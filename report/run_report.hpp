@@ -64,9 +64,12 @@ struct SurfacePicture {
   // Per vertex, mm, positive where material is left; nothing where no nominal surface is known. Either
   // empty or as long as `vertices`.
   std::vector<std::optional<float>> deviation{};
+  // Per vertex, unit, out of the material, for shading; zero where several faces meet. Empty or as long
+  // as `vertices`.
+  std::vector<std::array<float, 3>> normals{};
 
   [[nodiscard]] bool empty() const { return vertices.empty() || triangles.empty(); }
-  // True when every index and the length of `deviation` fit and every coordinate is finite.
+  // True when every index and the lengths of `deviation` and `normals` fit and every coordinate is finite.
   [[nodiscard]] bool is_valid() const;
 };
 

@@ -12,6 +12,7 @@ constexpr Real kStep = 0.5e-3L;        // mm of motion between neighbouring time
 constexpr Real kIndifferent = 1e-10L;  // mm: a deeper moment by less is not looked for
 constexpr Real kSliding = 0.05L;       // mm
 constexpr Real kEqual = 1e-13L;        // mm
+constexpr Real kHair = 1e-6L;          // of a span of times
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 
 Real cross(Real ar, Real az, Real br, Real bz) { return ar * bz - az * br; }
@@ -189,7 +190,13 @@ struct StandingCutters::Search {
         std::max(std::abs(fm - fa), std::abs(fm - fb)) < kEqual)
       return;
     if (!all.is_convex_ && motion < kStep) {
-      if (fm <= fa && fm <= fb) descend(a, b);
+      // A valley between the ends, or one that begins at the lower of them.
+      const Real hair = kHair * (b - a);
+      if (fm <= fa && fm <= fb) {
+        descend(a, b);
+      } else if (fa < fb ? at(a + hair) < fa : at(b - hair) < fb) {
+        fa < fb ? descend(a, m) : descend(m, b);
+      }
       return;
     }
     if (fa <= fb) {

@@ -1,0 +1,91 @@
+%
+O3 (FLANGE: BOSS, BORE, GROOVE, EIGHT HOLES DRILLED AND COUNTERSUNK, SCALLOPED RIM)
+G21 G90 G17
+(shoulder: rings 13 mm apart, two levels)
+T1 M6
+S4000 M3
+G54 G43 H1
+#2=-5.
+M98 P100
+#2=-10.
+M98 P100
+(bore, by a helix)
+G0 X8 Y0 Z2
+G1 Z0 F1000
+G3 X8 Y0 Z-32 I-8 J0 P8
+G3 X8 Y0 I-8 J0
+G1 X4
+G0 Z30
+(scallops of the rim)
+#1=22.5
+M98 P200 L8
+(holes)
+T2 M6
+S2500 M3
+G54 G43 H2
+#1=0.
+M98 P300 L8
+(countersinks, chamfers of bore and boss)
+T3 M6
+S3000 M3
+G54 G43 H3
+#1=0.
+M98 P400 L8
+G0 X0 Y0 Z5
+G1 Z-5. F600
+G1 X14.
+G3 X14. Y0 I-14. J0
+G1 X0
+G0 Z5
+G0 X50 Y0
+G0 Z-5.
+G1 X35. F600
+G2 X35. Y0 I-35. J0
+G1 X50
+G0 Z5
+(seal groove, lens cutter)
+T4 M6
+S3000 M3
+G54 G43 H4
+G0 X23.5 Y0 Z5
+G1 Z-1.6 F300
+G3 X23.5 Y0 I-23.5 J0 F800
+G0 Z60
+M30
+O100 (the shoulder at depth #2)
+G0 X90 Y0 Z5
+G0 Z#2
+G1 X66 F1500
+G2 X66 Y0 I-66 J0
+G1 X55
+G2 X55 Y0 I-55 J0
+G1 X44
+G2 X44 Y0 I-44 J0
+G1 X60 Y10
+G0 Z5
+M99
+O200 (one scallop)
+#5=COS[#1] #6=SIN[#1]
+G0 X[90*#5] Y[90*#6] Z5
+G0 Z-32
+G1 X[69*#5] Y[69*#6] F1200
+G1 X[90*#5] Y[90*#6]
+G0 Z5
+#1=#1+45.
+M99
+O300 (one hole)
+G0 X[50*COS[#1]] Y[50*SIN[#1]] Z0
+G0 Z-8
+G1 Z-36 F400
+G0 Z5
+#1=#1+45.
+M99
+O400 (one countersink)
+G0 X[50*COS[#1]] Y[50*SIN[#1]] Z0
+G0 Z-8
+G1 Z-16.2 F300
+G4 P200
+G0 Z5
+#1=#1+45.
+M99
+%
