@@ -301,7 +301,13 @@ TEST_P(DegenerateSweepsOracle, CuttersThatTurnByTensOfDegreesInOneBlock) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, DegenerateSweepsOracle, ::testing::ValuesIn([] {
                            std::vector<AnyPath> all;
-                           for (const Kind& kind : cutter_kinds()) all.push_back({&kind});
+                           // Rays that slide along a hollowed body take hours: only when asked for.
+                           const bool hollowed = std::getenv("FRUSTUM_ORACLE_HOLLOWED") != nullptr;
+                           for (const Kind& kind : cutter_kinds()) {
+                             if (hollowed || kind.cutter.body().carved().empty()) {
+                               all.push_back({&kind});
+                             }
+                           }
                            return all;
                          }()),
                          [](const auto& each) { return each.param.kind->name; });
