@@ -17,6 +17,8 @@ constexpr double kTangentMotion = 1e-9;  // mm
 constexpr double kSameMoment = 1e-11;
 // From here on grazing rays are looked for.
 constexpr int kOftenHalved = 6;
+// A search that needs more than this runs along the surface within rounding.
+constexpr int kMostLooks = 20000;
 // The body turns by at most this between two samples of its chord.
 constexpr double kTurnPerSample = 0.05;  // rad
 
@@ -377,6 +379,11 @@ class HighestEnd {
     const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
                     b.plane.crossing(a.pose, ray_), motion_, dt);
     if (roof.top() <= enough || (depth >= kOftenHalved && surely_no_deeper(a, b))) return;
+    if (motion_.turn() == 0.0 && depth >= kOftenHalved) {
+      climb(a.t, b.t);
+      return;
+    }
+    if (++looks_ > kMostLooks) return;
     const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     Sample middle{.t = t, .pose = motion_.at(t)};
@@ -390,6 +397,28 @@ class HighestEnd {
     note(m);
     close_in(a, m, depth + 1);
     close_in(m, b, depth + 1);
+  }
+
+  // Of a body that does not turn the end of the chord is a concave function of time: golden section.
+  void climb(double lo, double hi) {
+    constexpr double kGolden = 0.6180339887498949;
+    const auto look = [&](double t) {
+      Sample at{.t = t, .pose = motion_.at(t)};
+      at.chord = body_.chord(at.pose, ray_);
+      if (!at.chord) return -kInfinity;
+      const Touched end = touched(at);
+      note(end);
+      return end.plane.value;
+    };
+    double x1 = hi - kGolden * (hi - lo), x2 = lo + kGolden * (hi - lo);
+    double v1 = look(x1), v2 = look(x2);
+    while ((hi - lo) * motion_.travel() > kSameMoment && lo < x1 && x1 < x2 && x2 < hi) {
+      if (v1 > v2) {
+        hi = x2, x2 = x1, v2 = v1, x1 = hi - kGolden * (hi - lo), v1 = look(x1);
+      } else {
+        lo = x1, x1 = x2, v1 = v2, x2 = lo + kGolden * (hi - lo), v2 = look(x2);
+      }
+    }
   }
 
   // Whether the place that is the best so far lies, at all times between two samples, above one of the planes
@@ -420,6 +449,7 @@ class HighestEnd {
   double best_t_ = 0.0;
   ProfileFace best_face_ = kTopFace;
   std::optional<double> gap_{};
+  int looks_ = 0;
 };
 
 // The known interval that a chord overlaps; one that holds nothing if there is none.

@@ -96,8 +96,9 @@ double distance_along(const Solid& solid, const Vec3& point, const Vec3& directi
 template <typename Solid>
 double distance_to(const Solid& solid, const SurfacePoint& from) {
   double nearest = distance_along(solid, from.point, from.normal);
-  for (int d = 0; d < 3; ++d) {
-    nearest = std::min(nearest, distance_along(solid, from.point, Vec3::Unit(d)));
+  for (int k = 14; k < 27; ++k) {  // to the faces, edges and corners of a cube
+    const Vec3 direction = Vec3(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1).normalized();
+    nearest = std::min(nearest, distance_along(solid, from.point, direction));
   }
   return nearest;
 }

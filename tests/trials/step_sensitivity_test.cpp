@@ -253,10 +253,10 @@ Comparison closed_forms(const char* squareness, double sign) {
         if (same(mine, paper)) ++c.agreeing;
         const bool nothing = std::abs(mine) < 1e-5 && std::abs(paper) < 1e-5;
         if (nothing) continue;
-        c.rows +=
-            fmt::format("| {}.{} | {} | `{}` | {:.5f} | {:.5f} | {:.5f} | {} |\n", pattern, q.name,
-                        equation, is_squareness ? squareness : symbol.error, mine, independent,
-                        paper, verdict(pattern, q.in_data, symbol.in_data, mine, paper));
+        c.rows += fmt::format("| {}.{} | {} | `{}` | {:.5f} | {:.5f} | {:.5f} | {} |\n", pattern,
+                              q.name, equation, is_squareness ? squareness : symbol.error,
+                              shown(mine), shown(independent), shown(paper),
+                              verdict(pattern, q.in_data, symbol.in_data, mine, paper));
       }
     }
   }

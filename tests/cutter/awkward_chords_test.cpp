@@ -1,0 +1,102 @@
+// Rays that once were answered wrongly, or never: found by proofs of surface points.
+#include <gtest/gtest.h>
+
+#include "cutter/swept_cutter.hpp"
+#include "tests/cutter/cutter_kinds.hpp"
+#include "tests/cutter/random_paths.hpp"
+
+namespace frustum::proof {
+namespace {
+
+using cutter::Ray;
+using cutter::SweptCutter;
+
+SweptCutter sweep(const std::string& kind, kinematics::ToolPath path) {
+  return *SweptCutter::sweep(std::move(path), {{1, kind_named(kind).cutter}});
+}
+
+double distance(const std::string& kind, const kinematics::ToolPose& pose, const Vec3& point) {
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  return kind_named(kind).cutter.body().outline().distance((m - z * pose.axis).norm(), z);
+}
+
+TEST(AwkwardChords, LeaveThroughTheTopAboveAnArc) {
+  // Upwards through the barrel's top face, which moves in its own plane: it is that face that is touched.
+  const Ray up{Vec3(3.0, 0.5, 15.0), Vec3(-0.1, 0.05, 1.0).normalized()};
+  const auto chord = kind_named("barrel").cutter.body().parts()[0].chord({}, up);
+  ASSERT_TRUE(chord);
+  EXPECT_EQ(chord->hi_face, cutter::kTopFace);
+  const auto swept = sweep(
+      "barrel", path_through({{Vec3(-2, 0, 0), Vec3::UnitZ()}, {Vec3(2, 0, 0), Vec3::UnitZ()}}));
+  const IntervalSet covered = swept.along(up, {-50.0, 50.0});
+  ASSERT_EQ(covered.intervals().size(), 1U);
+  EXPECT_NEAR(up.at(covered.intervals()[0].hi).z(), 20.0, 1e-9);
+}
+
+TEST(AwkwardChords, EndOnAHollowedArcToTheLastBit) {
+  Draw draw(19, 31);
+  const auto path = random_path(MotionFamily::dwell, draw);
+  const auto swept = sweep("waisted", path);
+  for (int k = 0; k < 400; ++k) {
+    const Ray ray{draw.point(Vec3(-20, -20, -20), Vec3(20, 20, 20)), draw.direction()};
+    const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
+    for (const Interval& i : covered.intervals()) {
+      EXPECT_NEAR(distance("waisted", path.poses[0], ray.at(i.lo)), 0.0, 1e-7) << k;
+      EXPECT_NEAR(distance("waisted", path.poses[0], ray.at(i.hi)), 0.0, 1e-7) << k;
+    }
+  }
+}
+
+TEST(AwkwardChords, PartWhileTheCutterTurns) {
+  // The ray runs along the top of a cutter that turns: its chord slides from one side to the other and is gone
+  // in between.
+  for (const char* kind : {"barrel", "taper"}) {
+    Draw draw(2, 31);
+    const auto path = random_path(MotionFamily::crossing, draw);
+    Ray ray;
+    for (int k = 0; k <= 3; ++k) {
+      ray = {draw.point(Vec3(-20, -20, -20), Vec3(20, 20, 20)), draw.direction()};
+    }
+    const auto swept = sweep(kind, path);
+    const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
+    for (const auto& stretch : path.stretches) {
+      for (int i = 0; i <= 1000; ++i) {
+        const auto pose = kinematics::between(path.from(stretch), path.to(stretch), i / 1000.0);
+        const auto chord = kind_named(kind).cutter.body().parts()[0].chord(pose, ray);
+        if (!chord || chord->hi - chord->lo < 1e-5) continue;
+        EXPECT_TRUE(covered.covers(chord->lo + 1e-6, chord->hi - 1e-6)) << kind << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(AwkwardChords, GoOnWhereThePartsOfACutterMeet) {
+  Draw draw(26, 31);
+  const auto swept = sweep("measured", random_path(MotionFamily::straight, draw));
+  for (int k = 0; k < 100; ++k) {
+    const Ray ray{draw.point(Vec3(-20, -20, -20), Vec3(20, 20, 20)), draw.direction()};
+    const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
+    for (std::size_t i = 1; i < covered.intervals().size(); ++i) {
+      EXPECT_GT(covered.intervals()[i].lo - covered.intervals()[i - 1].hi, 1e-9);
+    }
+  }
+}
+
+TEST(AwkwardChords, KnowTheNormalThatARimLeaves) {
+  // A flat end leans by 5 degrees against its feed: the rim at the heel cuts the floor, whose normal is up.
+  const double lean = 5.0 * kRadPerDeg;
+  const Vec3 axis(std::sin(lean), 0.0, std::cos(lean));
+  const auto swept = sweep("flat", path_through({{Vec3(-20, 0, 0), axis}, {Vec3(20, 0, 0), axis}}));
+  const auto floor = swept.end_of_void({Vec3(0, 0, 3), -Vec3::UnitZ()}, 0.0, 10.0);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR((floor->normal + Vec3::UnitZ()).norm(), 0.0, 1e-9);
+  // Beside the middle the trough is an ellipse.
+  const auto side = swept.end_of_void({Vec3(0, 4.0, 3), -Vec3::UnitZ()}, 0.0, 10.0);
+  ASSERT_TRUE(side);
+  const double rise = std::sin(lean) * 4.0 / std::sqrt(36.0 - 16.0);
+  EXPECT_NEAR((side->normal - Vec3(0, rise, -1).normalized()).norm(), 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace frustum::proof
