@@ -166,9 +166,10 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
                  "the flutes end below the gauge point");
   }
   if (!spec.holder.empty() && holder_bottom < flutes_end - shortest) {
-    return error(fmt::format("a holder of {:.6g} mm on a tool of {} mm with {:.6g} mm of flutes",
-                             height_of(spec.holder), spec.length.value, flutes_end),
-                 "the holder reaches from the gauge point down to above the flutes; state flute_length");
+    return error(
+        fmt::format("a holder of {:.6g} mm on a tool of {} mm with {:.6g} mm of flutes",
+                    height_of(spec.holder), spec.length.value, flutes_end),
+        "the holder reaches from the gauge point down to above the flutes; state flute_length");
   }
   const bool has_shank = spec.shank_diameter.value > 0.0 || spec.neck_diameter.value > 0.0;
   if (has_shank && holder_bottom > flutes_end + shortest) {

@@ -51,6 +51,6 @@ O900 (hub at s = #3: radius #4, height #5, normal #6 #7, angle about the axis #8
 #7=30*SIN[#3]/#9
 (the lean of the channel against a meridian makes it wider around the axis)
 #10=#4*[0.785398163397448*SIN[#3]+0.277777777777778]/#9
-#8=#1-45*[1-COS[#3]]-0.277777777777778*#3+#2*[25.7142857142857-229.2*SQRT[1+#10*#10]/#4]
+#8=#1-45*[1-COS[#3]]-0.277777777777778*#3+#2*[25.7142857142857-275*SQRT[1+#10*#10]/#4]
 M99
 %
