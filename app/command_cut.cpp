@@ -57,6 +57,10 @@ std::optional<Diagnostic> fault_of(const Options& o) {
                  "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp, --picture OUT.png, "
                  "--removal OUT.csv, --point X,Y,Z or a limit");
   }
+  if (o.polyhedral() && (o.chord > 0.0 || o.decimate > 0.0)) {
+    return error("--chord and --decimate are for the surface that rays find",
+                 "the polyhedral engine's facets follow --facets and --facet-tolerance");
+  }
   if (o.snapshots > 0 && o.mesh.empty()) {
     return error("snapshots need a name", "give --mesh part.ply for part_0001.ply and so on");
   }
@@ -169,11 +173,16 @@ class Cut {
     }
     if (!options_.picture.empty()) {
       const auto file =
-          report::write_picture(options_.picture, picture_of(mesh, job_.piece.plan), view_);
+          report::write_picture(options_.picture, picture_of(mesh, edge_plan()), view_);
       if (!file) return file.error();
     }
     describe(*meshed);
     return std::nullopt;
+  }
+
+  // What tells the deviations of a sharp edge's faces apart: a nominal mesh does not.
+  [[nodiscard]] metrology::InspectionPlan edge_plan() const {
+    return job_.nominal ? metrology::InspectionPlan{} : job_.piece.plan;
   }
 
   void describe(const Meshed& meshed) {

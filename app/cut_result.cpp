@@ -182,8 +182,9 @@ std::string cut_text(const CutResult& result) {
                         result.snapshots.front().file, result.snapshots.back().file);
   }
   if (result.removal) {
-    text += fmt::format("{:.3f} mm3 removed by {} blocks: {}\n", result.removal->volume,
-                        result.removal->blocks, result.removal->file);
+    text += fmt::format("{:.3f} mm3 removed by {} block{}: {}\n", result.removal->volume,
+                        result.removal->blocks, result.removal->blocks == 1 ? "" : "s",
+                        result.removal->file);
   }
   return text;
 }

@@ -262,6 +262,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
              .machine_file = machine_file,
              .piece = std::move(piece),
              .errors = std::move(errors),
+             .nominal = std::move(nominal),
              .cmm = cmm,
              .controller = controller,
              .path_bound = path_bound,

@@ -27,7 +27,7 @@ struct Job {
   std::filesystem::path machine_file{};
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
-  // A shape to compare with where the plan has no features; null: none.
+  // A shape that surfaces are compared with instead of the plan's; null: none.
   std::shared_ptr<const stock::FacetSolid> nominal{};
   metrology::CmmModel cmm{};
   ControllerSettings controller{};

@@ -82,7 +82,7 @@ void judge_edges(stock::SurfaceMesh& mesh, const metrology::InspectionPlan& plan
     const auto normal = UnitVec3::of(across);
     if (!normal) continue;
     for (const std::uint32_t corner : triangle) {
-      if (mesh.deviation[corner] || mesh.kinds[corner] == stock::VertexKind::surface) continue;
+      if (mesh.deviation[corner]) continue;
       mesh.deviation[corner] =
           metrology::deviation_from_nominal(plan, mesh.vertices[corner], *normal);
     }

@@ -178,9 +178,9 @@ std::size_t TomlTable::choice_or(std::string_view key, const std::vector<std::st
 
 double TomlTable::bounded(std::string_view key, double value, Bound bound) const {
   if (bound == Bound::positive && !(value > 0.0)) {
-    fail(key, fmt::format("must be greater than 0, is {}", value));
+    fail(key, fmt::format("must be greater than 0, is {:g}", value));
   } else if (bound == Bound::non_negative && !(value >= 0.0)) {
-    fail(key, fmt::format("must not be negative, is {}", value));
+    fail(key, fmt::format("must not be negative, is {:g}", value));
   }
   return value;
 }
@@ -242,7 +242,8 @@ double TomlTable::scaled(std::string_view key, UnitKind kind, double bare_number
                          Bound bound) const {
   const std::optional<ParsedQuantity> parsed = read_quantity(key);
   if (!parsed) return 1.0;
-  if (parsed->kind == UnitKind::none) return bounded(key, parsed->value * bare_number_scale, bound);
+  // Judged as written.
+  if (parsed->kind == UnitKind::none) return bounded(key, parsed->value, bound) * bare_number_scale;
   if (parsed->kind == kind) return bounded(key, parsed->value, bound);
   fail(key,
        kind == UnitKind::length ? "expected a length, found an angle"

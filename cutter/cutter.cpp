@@ -21,6 +21,8 @@ bool finite(const std::vector<CutterRow>& rows) {
   return true;
 }
 
+constexpr double kLargest = 1e6;  // mm
+
 // Every number of the spec is a number, and not negative where that means nothing.
 std::optional<Diagnostic> wrong_number(const CutterSpec& spec, std::span<const CutterKey> keys) {
   for (const CutterKey& key : keys) {
@@ -34,6 +36,9 @@ std::optional<Diagnostic> wrong_number(const CutterSpec& spec, std::span<const C
     }
     if (!std::isfinite(value)) {
       return error(fmt::format("tool {} is not a number", key.name), "give mm or degrees");
+    }
+    if (std::abs(value) > kLargest) {
+      return error(fmt::format("tool {} {:g} mm", key.name, value), "no tool is that large");
     }
     const bool empty = key.required && value == 0.0 && key.value.index() == 0;
     if (empty || (value < 0.0 && key.bound != Bound::any)) {
@@ -161,9 +166,10 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
                  "the flutes end below the gauge point");
   }
   if (!spec.holder.empty() && holder_bottom < flutes_end - shortest) {
-    return error(fmt::format("a holder of {:.6g} mm on a tool of {} mm with {:.6g} mm of flutes",
-                             height_of(spec.holder), spec.length.value, flutes_end),
-                 "the holder reaches from the gauge point down to above the flutes");
+    return error(
+        fmt::format("a holder of {:.6g} mm on a tool of {} mm with {:.6g} mm of flutes",
+                    height_of(spec.holder), spec.length.value, flutes_end),
+        "the holder reaches from the gauge point down to above the flutes; state flute_length");
   }
   const bool has_shank = spec.shank_diameter.value > 0.0 || spec.neck_diameter.value > 0.0;
   if (has_shank && holder_bottom > flutes_end + shortest) {

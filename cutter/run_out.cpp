@@ -132,8 +132,9 @@ Result<Chain> with_run_out(const Chain& chain, double offset, double tilt) {
   } else {
     const Divided flank = divided_at(ends.flank, offset);
     if (flank.beyond.empty()) {
-      return error(fmt::format("run-out {} mm of a tool that is nowhere wider", offset),
-                   "the run-out at the tip must be smaller than the radius");
+      return error(
+          fmt::format("run-out {:g} mm at the tip of a tool that is nowhere wider", offset),
+          "the run-out at the tip must be smaller than the radius");
     }
     out = dimple(flank.within, offset);
     // A ball's dimple is offset^2 / (2 R) deep: below 10 pm it is an end face.

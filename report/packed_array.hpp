@@ -15,6 +15,4 @@ namespace frustum::report {
 // `stride` > 0 is the number of interleaved columns: 3 for x, y, z.
 [[nodiscard]] std::string packed_array(std::span<const std::uint32_t> values, std::size_t stride);
 
-[[nodiscard]] std::string base64(std::span<const unsigned char> bytes);
-
 }  // namespace frustum::report

@@ -39,10 +39,15 @@ class ColourTable {
   std::array<LinearColour, 2048> colours_{};
 };
 
+// Highlights show how a bare part bends; colours that are read off a scale need them faint.
+constexpr float kMetal = 0.30F;
+constexpr float kPaint = 0.08F;
+
 // Normal and surface colour at a buffer pixel; the normal in camera axes.
 struct Surfel {
   Vector3f normal = Vector3f::UnitZ();
   LinearColour colour{};
+  float gloss = kMetal;
 };
 
 std::array<float, 3> weights_of(const Scene& scene, std::uint32_t t, int x, int y) {
@@ -75,7 +80,7 @@ Surfel surfel_at(const Scene& scene, const ColourTable& table, int x, int y) {
     }
     deviation += weights[k] * *deviations[corners[k]];
   }
-  return {normal, table.of(deviation)};
+  return {normal, table.of(deviation), kPaint};
 }
 
 // Light arriving at a surface with `normal`, 1 for a face turned to the key light.
@@ -92,7 +97,7 @@ float light_on(const Vector3f& normal, float openness) {
 float highlight_on(const Vector3f& normal) {
   static const Vector3f halfway =
       (Vector3f(-0.42F, 0.62F, 0.66F).normalized() + Vector3f::UnitZ()).normalized();
-  return 0.09F * std::pow(std::max(0.0F, normal.dot(halfway)), 28.0F);
+  return std::pow(std::max(0.0F, normal.dot(halfway)), 22.0F);
 }
 
 // Rows are independent: the picture does not depend on the number of threads.
@@ -279,7 +284,7 @@ void shade(const Scene& scene, Image& image) {
         const Surfel surfel = surfel_at(scene, table, bx, by);
         const float shade = edges.at(bx, by) ? 1.0F - kLineShare : 1.0F;
         const float light = shade * light_on(surfel.normal, openness);
-        const float highlight = shade * highlight_on(surfel.normal);
+        const float highlight = shade * surfel.gloss * highlight_on(surfel.normal);
         for (std::size_t k = 0; k < 3; ++k) {
           sum[k] += std::min(1.0F, surfel.colour[k] * light + highlight);
         }

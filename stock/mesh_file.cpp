@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/base64.hpp"
 #include "core/whole_file.hpp"
 #include "stock/zip_archive.hpp"
 
@@ -145,83 +146,64 @@ std::string three_mf_bytes(const SurfaceMesh& mesh) {
                                 ZipEntry{"3D/3dmodel.model", model}});
 }
 
-// One array of a VTP, as it stands in the appended data: its length in bytes, then its numbers.
-class VtpArrays {
- public:
-  // Returns the offset that the XML names.
-  template <typename Fill>
-  std::size_t add(std::size_t bytes, const Fill& fill) {
-    const std::size_t offset = data_.size();
-    data_.reserve(offset + 8 + bytes);
-    put_word(data_, std::uint64_t{bytes});
-    fill(data_);
-    return offset;
-  }
-  [[nodiscard]] const std::string& data() const { return data_; }
-
- private:
-  std::string data_;
-};
+// One array of a VTP: its length in bytes and its numbers, in base64 so that the file is XML.
+template <typename Fill>
+std::string vtp_array(std::string_view type, std::string_view name, int components,
+                      std::size_t bytes, const Fill& fill) {
+  std::string data;
+  data.reserve(8 + bytes);
+  put_word(data, std::uint64_t{bytes});
+  fill(data);
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n"
+      "</DataArray>\n",
+      type, name, components,
+      base64({reinterpret_cast<const unsigned char*>(data.data()), data.size()}));
+}
 
 std::string vtp_bytes(const SurfaceMesh& mesh) {
   const std::size_t n = mesh.vertices.size();
   const std::size_t m = mesh.triangles.size();
-  VtpArrays arrays;
-  const auto points = arrays.add(24 * n, [&](std::string& out) {
-    for (const Vec3& v : mesh.vertices) {
-      for (const double x : v) put(out, x);
-    }
-  });
-  const auto normals = arrays.add(12 * n, [&](std::string& out) {
-    for (std::size_t v = 0; v < n; ++v) {
-      put_floats(out, v < mesh.normals.size() ? mesh.normals[v] : Vec3(Vec3::Zero()));
-    }
-  });
-  const auto deviation = arrays.add(4 * n, [&](std::string& out) {
-    for (std::size_t v = 0; v < n; ++v) {
-      const auto known = v < mesh.deviation.size() ? mesh.deviation[v] : std::nullopt;
-      put(out,
-          known ? static_cast<float>(*known * kUmPerMm) : std::numeric_limits<float>::quiet_NaN());
-    }
-  });
-  const auto kinds = arrays.add(n, [&](std::string& out) {
-    for (std::size_t v = 0; v < n; ++v) {
-      out.push_back(v < mesh.kinds.size() ? static_cast<char>(mesh.kinds[v]) : '\0');
-    }
-  });
-  const auto corners = arrays.add(24 * m, [&](std::string& out) {
-    for (const auto& triangle : mesh.triangles) {
-      for (const std::uint32_t v : triangle) put_word(out, std::uint64_t{v});
-    }
-  });
-  const auto ends = arrays.add(8 * m, [&](std::string& out) {
-    for (std::size_t t = 1; t <= m; ++t) put_word(out, std::uint64_t{3 * t});
-  });
   std::string out = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" "
       "NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
       n, m);
-  const auto array = [&](std::string_view type, std::string_view name, int components,
-                         std::size_t offset) {
-    out += fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
-        "offset=\"{}\"/>\n",
-        type, name, components, offset);
-  };
   out += "<PointData Normals=\"Normals\" Scalars=\"deviation_um\">\n";
-  array("Float32", "Normals", 3, normals);
-  array("Float32", "deviation_um", 1, deviation);
-  array("UInt8", "kind", 1, kinds);
+  out += vtp_array("Float32", "Normals", 3, 12 * n, [&](std::string& data) {
+    for (std::size_t v = 0; v < n; ++v) {
+      put_floats(data, v < mesh.normals.size() ? mesh.normals[v] : Vec3(Vec3::Zero()));
+    }
+  });
+  out += vtp_array("Float32", "deviation_um", 1, 4 * n, [&](std::string& data) {
+    for (std::size_t v = 0; v < n; ++v) {
+      const auto known = v < mesh.deviation.size() ? mesh.deviation[v] : std::nullopt;
+      put(data,
+          known ? static_cast<float>(*known * kUmPerMm) : std::numeric_limits<float>::quiet_NaN());
+    }
+  });
+  out += vtp_array("UInt8", "kind", 1, n, [&](std::string& data) {
+    for (std::size_t v = 0; v < n; ++v) {
+      data.push_back(v < mesh.kinds.size() ? static_cast<char>(mesh.kinds[v]) : '\0');
+    }
+  });
   out += "</PointData>\n<Points>\n";
-  array("Float64", "Points", 3, points);
+  out += vtp_array("Float64", "Points", 3, 24 * n, [&](std::string& data) {
+    for (const Vec3& v : mesh.vertices) {
+      for (const double x : v) put(data, x);
+    }
+  });
   out += "</Points>\n<Polys>\n";
-  array("Int64", "connectivity", 1, corners);
-  array("Int64", "offsets", 1, ends);
-  out += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  out += arrays.data();
-  return out + "\n</AppendedData>\n</VTKFile>\n";
+  out += vtp_array("Int64", "connectivity", 1, 24 * m, [&](std::string& data) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t v : triangle) put_word(data, std::uint64_t{v});
+    }
+  });
+  out += vtp_array("Int64", "offsets", 1, 8 * m, [&](std::string& data) {
+    for (std::size_t t = 1; t <= m; ++t) put_word(data, std::uint64_t{3 * t});
+  });
+  return out + "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 }  // namespace

@@ -19,6 +19,8 @@
 namespace frustum::stock {
 namespace {
 
+constexpr const char* kReadable = "convert the mesh to .stl, .ply or .obj";
+
 constexpr std::size_t kMostVertices = 0xFFFFFFFFU;
 
 Diagnostic at_line(int line, std::string message, std::string hint = {}) {
@@ -476,13 +478,27 @@ Result<SurfaceMesh> parse_ply(std::string_view bytes) {
   return mesh;
 }
 
+// The rest of a line that begins with v: three coordinates, and weights or colours that are not needed.
+Result<Vec3> obj_point(Words& words) {
+  const int line = words.line();
+  Vec3 point;
+  for (double& x : point) {
+    const std::string_view word = words.next_in_line();
+    if (word.empty()) return at_line(line, "a vertex has three coordinates");
+    const auto value = number_of<double>(word);
+    if (!value) return no_number(line, word, "a finite coordinate");
+    x = *value;
+  }
+  return point;
+}
+
 Result<SurfaceMesh> parse_obj(std::string_view text) {
   SurfaceMesh mesh;
   Words words(text);
   std::vector<std::uint32_t> corners;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (word == "v") {
-      const auto point = point_of(words);
+      const auto point = obj_point(words);
       if (!point) return point.error();
       mesh.vertices.push_back(*point);
     } else if (word == "f") {
@@ -512,8 +528,7 @@ Result<SurfaceMesh> parse_obj(std::string_view text) {
 }  // namespace
 
 Result<SurfaceMesh> parse_mesh(std::string_view bytes, MeshFormat format) {
-  Result<SurfaceMesh> mesh = error("3MF and VTP files are written here, not read",
-                                   "convert the mesh to .stl, .ply or .obj");
+  Result<SurfaceMesh> mesh = error("3MF and VTP files are written here, not read", kReadable);
   if (format == MeshFormat::stl) mesh = parse_stl(bytes);
   if (format == MeshFormat::ply) mesh = parse_ply(bytes);
   if (format == MeshFormat::obj) mesh = parse_obj(bytes);
@@ -523,7 +538,11 @@ Result<SurfaceMesh> parse_mesh(std::string_view bytes, MeshFormat format) {
 
 Result<SurfaceMesh> read_mesh(const std::filesystem::path& file) {
   const auto format = mesh_format_of(file);
-  if (!format) return format.error();
+  if (!format) {
+    Diagnostic unknown = format.error().front();
+    unknown.hint = kReadable;
+    return unknown;
+  }
   const auto named = [&](Diagnostic fault) {
     fault.file = file.string();
     return fault;

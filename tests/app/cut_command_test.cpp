@@ -93,12 +93,36 @@ TEST_F(CutCommandSystem, AgreesWithThePolyhedralEngineOrSaysThatItIsMissing) {
   EXPECT_NEAR(doc["volume_mm3"].get<double>(), 89600.0, 31.5);
 }
 
+// A box of 80 x 60 mm whose top is at z; facets face out.
+std::string box_obj(double z) {
+  std::string text;
+  for (const double height : {-20.0, z}) {
+    for (const char* corner : {"-40 -30", "40 -30", "40 30", "-40 30"}) {
+      text += "v " + std::string(corner) + " " + std::to_string(height) + "\n";
+    }
+  }
+  return text + "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+}
+
+TEST_F(CutCommandSystem, HoldsThePartAgainstANominalMesh) {
+  write_plate();
+  std::ofstream(folder_ / "part.obj") << box_obj(-8.1);
+  std::ofstream(folder_ / "plate.toml", std::ios::app) << "nominal = { file = \"part.obj\" }\n";
+  const json doc = cut("--pitch 2 --excess-limit 9000");
+  EXPECT_NEAR(doc["excess"]["deviation_um"].get<double>(), 8100.0, 1e-3);
+  cut("--pitch 2 --excess-limit 8000", 1);
+  std::ofstream(folder_ / "part.obj") << box_obj(-7.5);
+  EXPECT_EQ(cut("--pitch 2 --gouge-limit 400", 1)["gouge"]["line"], 11);
+}
+
 TEST_F(CutCommandSystem, RefusesAndWritesNothing) {
   write_plate();
   for (const char* arguments :
        {"", "--snapshots 3", "--mesh part.xyz", "--removal part.txt", "--picture part.gif",
         "--point 1,2", "--mesh part.ply --engine voxel", "--mesh part.ply --until-line 0",
         "--mesh part.ply --gouge-limit -1", "--mesh part.ply --facets 2",
+        "--mesh part.ply --engine polyhedral --chord 0.1", "--mesh part.ply --view 10,20",
+        "--picture part.png --view 10", "--picture part.png --view 10,91",
         "--removal no/such/folder/part.csv", "--removal part.csv --pitch 1e-4"}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(std::string("cut plate.toml --quiet ") + arguments);

@@ -44,14 +44,6 @@ std::vector<std::uint32_t> unpack(const std::string& text, std::size_t count, st
   return values;
 }
 
-TEST(PackedArray, KnowsBase64) {
-  const std::vector<unsigned char> text = {'f', 'o', 'o', 'b', 'a'};
-  EXPECT_EQ(base64(text), "Zm9vYmE=");
-  EXPECT_EQ(base64(std::span(text).first(4)), "Zm9vYg==");
-  EXPECT_EQ(base64(std::span(text).first(3)), "Zm9v");
-  EXPECT_EQ(base64({}), "");
-}
-
 TEST(PackedArray, ComesBackAsItWent) {
   std::vector<std::uint32_t> values;
   for (std::uint32_t k = 0; k < 999; ++k) values.push_back(k * k * 2654435761U);

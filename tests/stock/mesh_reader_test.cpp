@@ -188,32 +188,46 @@ TEST(ThreeMf, IsAnArchiveOfAModelAndWhatPointsToIt) {
   EXPECT_EQ(bytes, mesh_bytes(tetrahedron(), MeshFormat::three_mf));
 }
 
-TEST(Vtp, NamesWhereItsArraysBegin) {
-  const std::string bytes = mesh_bytes(tetrahedron(), MeshFormat::vtp);
-  const std::size_t data = bytes.find("<AppendedData encoding=\"raw\">\n_") + 31;
+// What base64 says.
+std::string bytes_of(const std::string& text) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t group = 0;
+  unsigned bits = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    group = group << 6U | static_cast<std::uint32_t>(alphabet.find(c));
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes.push_back(static_cast<char>(group >> bits & 255U));
+  }
+  return bytes;
+}
+
+TEST(Vtp, HoldsItsArraysAsText) {
+  const std::string file = mesh_bytes(tetrahedron(), MeshFormat::vtp);
   const auto array = [&](const std::string& name) {
-    const std::size_t at = bytes.find("offset=\"", bytes.find("Name=\"" + name + "\"")) + 8;
-    return data + std::stoul(bytes.substr(at));
+    const std::size_t begin = file.find('\n', file.find("Name=\"" + name + "\"")) + 1;
+    const std::string bytes = bytes_of(file.substr(begin, file.find('\n', begin) - begin));
+    std::uint64_t length = 0;
+    std::memcpy(&length, bytes.data(), 8);
+    EXPECT_EQ(length, bytes.size() - 8) << name;
+    return bytes.substr(8);
   };
-  const auto length = [&](const std::string& name) {
-    std::uint64_t found = 0;
-    std::memcpy(&found, bytes.data() + array(name), 8);
-    return found;
-  };
-  EXPECT_EQ(length("Points"), 4U * 24U);
-  EXPECT_EQ(length("Normals"), 4U * 12U);
-  EXPECT_EQ(length("deviation_um"), 4U * 4U);
-  EXPECT_EQ(length("kind"), 4U);
-  EXPECT_EQ(length("connectivity"), 4U * 24U);
-  EXPECT_EQ(length("offsets"), 4U * 8U);
+  EXPECT_EQ(array("Points").size(), 4U * 24U);
+  EXPECT_EQ(array("Normals").size(), 4U * 12U);
+  EXPECT_EQ(array("deviation_um").size(), 4U * 4U);
+  EXPECT_EQ(array("kind").size(), 4U);
+  EXPECT_EQ(array("connectivity").size(), 4U * 24U);
+  EXPECT_EQ(array("offsets").size(), 4U * 8U);
   double z = 0.0;
-  std::memcpy(&z, bytes.data() + array("Points") + 8 + 11 * 8, 8);
+  std::memcpy(&z, array("Points").data() + 11 * 8, 8);
   EXPECT_EQ(z, 0.25);
   float um = 0.0F;
-  std::memcpy(&um, bytes.data() + array("deviation_um") + 8, 4);
+  std::memcpy(&um, array("deviation_um").data(), 4);
   EXPECT_EQ(um, 1.0F);
   std::int64_t end = 0;
-  std::memcpy(&end, bytes.data() + array("offsets") + 8 + 24, 8);
+  std::memcpy(&end, array("offsets").data() + 24, 8);
   EXPECT_EQ(end, 12);
 }
 

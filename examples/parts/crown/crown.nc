@@ -1,5 +1,5 @@
 %
-O5 (CROWNED BLOCK: HOLLOW END MILL NORMAL TO THE CROWN, BARREL ALONG THE WALLS)
+O5 (CROWNED BLOCK: LENS CUTTER NORMAL TO THE CROWN, BARREL ALONG THE WALLS)
 (crown: cylinder of 150 mm about Y, its top at Z0; walls X40, Y35 with corners of 12 mm)
 G21 G90 G17
 G53 G0 Z500.
@@ -22,9 +22,9 @@ G54 G43 H2
 #5=6.
 G0 X-70 Y0 Z10
 #6=0.
-M98 P110 L5
+M98 P110 L6
 G0 Z60
-(crown, hollow end mill around the cylinder in rows of 1.5 mm)
+(crown, lens cutter around the cylinder in rows of 3 mm)
 G49
 G53 G0 Z500.
 T3 M6
@@ -32,7 +32,7 @@ S5000 M3
 G54 G43.5 H3
 G0 X-90 Y-40 Z60 I0 J0 K1
 #1=-42.
-M98 P200 L57
+M98 P200 L29
 G49
 G53 G0 Z500.
 M30
@@ -65,7 +65,7 @@ M98 P210 L45
 G0 X[170*SIN[#2]] Y#1 Z[170*COS[#2]-150] I[SIN[#2]] J0 K[COS[#2]]
 G0 X0 Y#1 Z40 I0 J0 K1
 G0 X[170*SIN[-22]] Y#1 Z[170*COS[-22]-150] I[SIN[-22]] J0 K[COS[-22]]
-#1=#1+1.5
+#1=#1+3.
 M99
 O210 (one point of a row)
 G1 X[150*SIN[#2]] Y#1 Z[150*COS[#2]-150] I[SIN[#2]] J0 K[COS[#2]] F1500

@@ -1,5 +1,5 @@
 %
-O1 (FREEFORM SURFACE, BALL D12, ROWS 2 MM APART)
+O1 (FREEFORM SURFACE, BALL D12, ROWS 4 MM APART)
 (the surface is z = #5 sin[#3 x] cos[#4 y] - 9, touched at x, y by a ball of radius #6)
 G21 G90 G17
 #3=2.4 #4=2.2 #5=6.5
@@ -14,8 +14,8 @@ G0 Z60
 T2 M6
 S9000 M3
 G54 G43 H2
-#6=6. #7=0 #10=-56. #11=2.
-M98 P200 L57
+#6=6. #7=0 #10=-56. #11=4.
+M98 P200 L29
 G0 Z60
 M30
 O100 (one level row of roughing)
