@@ -12,7 +12,7 @@ namespace {
 using kinematics::Stretch;
 using kinematics::ToolPath;
 
-constexpr std::uint32_t kLeaf = 2;
+constexpr std::uint32_t kLeaf = 4;
 
 // Mean and spread of some vectors.
 class Scatter {

@@ -200,7 +200,7 @@ double zone_support(const Zone& zone, double across, double u) {
   if (zone.kind == ZoneKind::cone) {
     z = u + zone.slope * across > 0.0 ? zone.z_hi : zone.z_lo;
   } else {
-    const double length = std::hypot(across, u);
+    const double length = std::sqrt(across * across + u * u);
     if (length > 0.0) z = std::clamp(zone.centre + zone.radius * u / length, zone.z_lo, zone.z_hi);
   }
   return z * u + radius_at(zone, z) * across;

@@ -7,113 +7,50 @@
 #include <optional>
 
 #include "cutter/carved_sweep.hpp"
+#include "cutter/end_guard.hpp"
+#include "cutter/group_reach.hpp"
 
 namespace frustum::cutter {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Below this cosine between ray and surface the touching planes bound badly; the grown cutter helps.
-constexpr double kGrazing = 0.02;
-// And where the axes of a group differ by more than this (rad).
-constexpr double kMuchTurned = 0.1;
 // Parts of a cutter that stand on each other touch within this (mm): rounding of their ends.
 constexpr double kTouching = 1e-11;
 
-// Where along the ray a group may cover anything, and what its witness covers for certain.
-struct Reach {
-  double lo = kInfinity;
-  double hi = -kInfinity;
-  double lo_slack = 0.0;  // what the tolerance normal to the surface makes along the ray
-  double hi_slack = 0.0;
-
-  [[nodiscard]] bool empty() const { return !(lo <= hi); }
+// What the ends of the cover leave of a group: nothing, nothing of its witness, nothing beyond a place.
+struct Limit {
+  bool holds = false;
+  bool counts_witness = true;
+  double hi = kInfinity;
 };
 
-// Beyond what place along the ray no pose of the group reaches, by the plane that touches the witness.
-//
-// At another pose, tip p + dp and axis a + da, the plane through the contact y (from the tip) has the normal
-// n + dn, dn = axial da - lateral (side.da) a within 2 |da|^2, and lies dn.y - n.dp - dn.dp nearer.
-double crossing(const TouchingPlane& plane, const PoseGroup& group, const Ray& ray) {
-  constexpr double kFarTurned = 0.5;  // the expansion holds below
-  const double turned = group.axis_shift;
-  if (turned == 0.0) return plane.value + farthest_tip(group, plane.normal) / plane.along;
-  if (turned > kFarTurned) return kInfinity;
-  const double fall = plane.along - turned * (1.0 + 2.0 * turned);
-  if (!(fall > 0.0)) return kInfinity;
-  const Vec3 y = ray.at(plane.direction * plane.value) - group.witness.tip;
-  const Vec3 c = plane.lateral * y.dot(group.witness.axis) * plane.side - plane.axial * y;
-  const double room = farthest_tip(group, plane.normal) + farthest_axis(group, c) +
-                      turned * (1.0 + 2.0 * turned) * group.tip_shift +
-                      2.0 * turned * turned * y.norm();
-  return plane.value + std::max(0.0, room) / fall;
-}
+// The planes at the ends that a tool's own sweep has made so far.
+class Guards {
+ public:
+  Guards(const RayQuestion& question, const Body& body) : question_(question), body_(body) {}
 
-// What the tolerance normal to the plane makes along the ray, at any pose of the group.
-double slack_of(const TouchingPlane& plane, const PoseGroup& group) {
-  const double turned = group.axis_shift;
-  return kSearchTolerance / (plane.along + turned * (1.0 + 2.0 * turned));
-}
+  [[nodiscard]] EndGuard at(const CoverEnd& end, bool leaving) const {
+    const auto& stretch = question_.path->stretches[end.stretch];
+    const StretchMotion motion(question_.path->from(stretch), question_.path->to(stretch),
+                               body_.reach());
+    return {body_, question_.ray, {end.s, end.part, end.face, motion.at(end.t)}, leaving};
+  }
 
-bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
-  const Vec3 offset = ray.origin - group.witness.tip;
-  const auto apart = [&](const Vec3& n) { return n.dot(offset) > support(group, part, n); };
-  const Vec3 across = ray.direction.cross(group.witness.axis);
-  const double sine = across.norm();
-  if (sine > 1e-3) {
-    const double side = across.dot(offset) > 0.0 ? 1.0 : -1.0;
-    if (apart(across * (side / sine))) return true;
-  }
-  const Vec3 facing = group.witness.axis - ray.direction.dot(group.witness.axis) * ray.direction;
-  const double length = facing.norm();
-  if (length < 1e-3) return false;
-  const double middle = 0.5 * (part.bottom() + part.height());
-  const double side = facing.dot(offset) > middle * length * length ? 1.0 : -1.0;
-  return apart(facing * (side / length));
-}
+ private:
+  const RayQuestion& question_;
+  const Body& body_;
+};
 
-// Bounds for what the group covers, from a chord of its witness or from the grown witness. `wants_lo` tells
-// from the bound above and the witness's chord whether the bound below matters.
-template <class WantsLo>
-Reach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
-               const std::optional<Chord>& known, const WantsLo& wants_lo) {
-  Reach reach;
-  if (!known) {
-    if (surely_apart(group, part, ray)) return reach;
-    if (const auto grown = part.chord(group.witness, ray, group.shift)) {
-      reach.lo = grown->lo;
-      reach.hi = grown->hi;
-    }
-    return reach;
-  }
-  const TouchingPlane leaving(part, group.witness, ray, *known, true);
-  reach.hi = crossing(leaving, group, ray);
-  reach.hi_slack = slack_of(leaving, group);
-  reach.lo = known->lo;
-  double along = leaving.along;
-  if (wants_lo(reach)) {
-    const TouchingPlane entering(part, group.witness, ray, *known, false);
-    reach.lo = -crossing(entering, group, ray);
-    reach.lo_slack = slack_of(entering, group);
-    along = std::min(along, entering.along);
-  }
-  if (along < kGrazing || group.axis_shift > kMuchTurned) {
-    if (const auto grown = part.chord(group.witness, ray, group.shift)) {
-      if (grown->lo > reach.lo) reach.lo_slack = 0.0;
-      if (grown->hi < reach.hi) reach.hi_slack = 0.0;
-      reach.lo = std::max(reach.lo, grown->lo);
-      reach.hi = std::min(reach.hi, grown->hi);
-    }
-  }
-  return reach;
-}
-
-// The search, for a goal that knows what it still wants:
-//   bool wants(lo, hi, lo_slack, hi_slack)   could this still add anything?
-//   bool puts_aside(group, lo)               not now, since it begins at lo
-//   bool wants_lo(lo, hi)                    does it matter where it begins?
-//   void take(interval)                      covered for certain
-//   span<const Chord> known()                ends of stretches inside these need not be exact
+// The search: what promises most comes first. Its goal knows what it still wants:
+//   Limit limit(group)        what do the ends of the cover, by their planes, leave of the group?
+//   bool holds(motion)        do they leave nothing of this motion?
+//   bool wants(group, reach)  could this still add anything?
+//   bool wants_lo(lo)         does it matter where a group begins whose witness begins there?
+//   double promise(reach)     the more, the sooner it is asked
+//   void take(interval)       covered for certain
+//   span<const Chord> known() ends of stretches inside these need not be exact
+//   int change()              another number whenever the cover has grown
 template <class Goal>
 class Search {
  public:
@@ -123,73 +60,87 @@ class Search {
         goal_(goal),
         parts_(sweep.body->parts()),
         groups_(sweep.tree.groups()),
-        in_box_(question.ray) {}
+        in_box_(question.ray) {
+    open_.reserve(64);
+  }
 
   void run(std::uint32_t group) {
     if (groups_.empty()) return;
-    const Judgement root = judge(group);
-    if (root.wanted) visit(group);
+    consider(group);
+    while (!open_.empty()) {
+      std::ranges::pop_heap(open_, {}, &Candidate::promise);
+      const Candidate next = open_.back();
+      open_.pop_back();
+      if (still_wanted(next)) visit(next.group);
+    }
   }
 
  private:
-  struct Judgement {
-    bool wanted = false;
-    double lo = kInfinity;
-    double hi = -kInfinity;
-    double lo_slack = kInfinity;
-    double hi_slack = kInfinity;
+  struct Candidate {
+    std::uint32_t group = 0;
+    int change = 0;  // of the cover, when it was judged
+    GroupReach reach{};
+    double promise = 0.0;
   };
 
-  Judgement judge(std::uint32_t index) {
+  void consider(std::uint32_t index) {
     const PoseGroup& group = groups_[index];
-    Judgement judged;
-    if (group.earliest >= question_.first_excluded) return judged;
+    if (group.earliest >= question_.first_excluded) return;
     const RaySpan in_box = in_box_.within(group.box, goal_.span());
-    if (!(in_box.lo <= in_box.hi)) return judged;
-    if (goal_.puts_aside(index, in_box.lo)) return judged;
-    const auto wants_lo = [&](const Reach& reach) { return goal_.wants_lo(reach.lo, reach.hi); };
-    const bool counts = group.witness_stretch < question_.first_excluded;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const auto known = parts_[i].chord(group.witness, question_.ray);
-      if (known && counts) {
-        const auto part = static_cast<std::uint32_t>(i);
-        goal_.take({{known->lo, group.witness_stretch, part, 0.0, known->lo_face},
-                    {known->hi, group.witness_stretch, part, 0.0, known->hi_face}});
-      }
-      widen(judged, reach_of(group, parts_[i], question_.ray, known, wants_lo));
+    if (!(in_box.lo <= in_box.hi)) return;
+    GroupReach reach{in_box.lo, in_box.hi};
+    if (!goal_.wants(index, reach)) return;
+    const Limit limit = goal_.limit(group);
+    if (limit.holds) return;
+    // Else so far apart that one pose says nothing about the others.
+    if (limit.counts_witness && group.shift <= sweep_.body->reach()) {
+      reach = reach_by_witness(group, limit.hi == kInfinity);
     }
-    for (const Profile& hull : sweep_.body->carved()) {
-      const auto known = hull.chord(group.witness, question_.ray);
-      widen(judged, reach_of(group, hull, question_.ray, known, wants_lo));
-    }
-    judged.wanted = goal_.wants(index, judged.lo, judged.hi, judged.lo_slack, judged.hi_slack);
-    return judged;
+    reach.hi = std::min(reach.hi, limit.hi);
+    if (!goal_.wants(index, reach)) return;
+    open_.push_back({index, goal_.change(), reach, goal_.promise(reach)});
+    std::ranges::push_heap(open_, {}, &Candidate::promise);
   }
 
-  static void widen(Judgement& judged, const Reach& reach) {
-    if (reach.empty()) return;
-    judged.lo = std::min(judged.lo, reach.lo);
-    judged.hi = std::max(judged.hi, reach.hi);
-    judged.lo_slack = std::min(judged.lo_slack, reach.lo_slack);
-    judged.hi_slack = std::min(judged.hi_slack, reach.hi_slack);
+  // Since it was judged the cover may have grown.
+  bool still_wanted(const Candidate& next) {
+    if (goal_.change() == next.change) return true;
+    return goal_.wants(next.group, next.reach) && !goal_.limit(groups_[next.group]).holds;
+  }
+
+  GroupReach reach_by_witness(const PoseGroup& group, bool wants_hi) {
+    GroupReach reach = kNoReach;
+    const auto widen = [&](const Profile& part, const std::optional<Chord>& known) {
+      const GroupReach more = reach_of(group, part, question_.ray, known,
+                                       {known && goal_.wants_lo(known->lo), wants_hi});
+      reach.lo = std::min(reach.lo, more.lo);
+      reach.hi = std::max(reach.hi, more.hi);
+      reach.lo_slack = std::min(reach.lo_slack, more.lo_slack);
+      reach.hi_slack = std::min(reach.hi_slack, more.hi_slack);
+    };
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      const auto known = parts_[i].chord(group.witness, question_.ray);
+      if (known && group.witness_stretch < question_.first_excluded) {
+        goal_.take({{known->lo, group.witness_stretch, i, 0.0, known->lo_face},
+                    {known->hi, group.witness_stretch, i, 0.0, known->hi_face}});
+      }
+      widen(parts_[i], known);
+    }
+    for (const Profile& hull : sweep_.body->carved()) {
+      widen(hull, hull.chord(group.witness, question_.ray));
+    }
+    return reach;
   }
 
   void visit(std::uint32_t index) {
     const PoseGroup& group = groups_[index];
-    if (group.count > 0) {
-      for (const std::uint32_t stretch :
-           sweep_.tree.stretches().subspan(group.first, group.count)) {
-        if (stretch < question_.first_excluded) solve(stretch);
-      }
+    if (group.count == 0) {
+      consider(index + 1);
+      consider(group.second_child);
       return;
     }
-    const std::array<std::uint32_t, 2> child{index + 1, group.second_child};
-    const std::array<Judgement, 2> judged{judge(child[0]), judge(child[1])};
-    // The one that may reach farther first: it is likely to make the other needless.
-    const bool swap = judged[1].hi - judged[1].lo > judged[0].hi - judged[0].lo;
-    for (const std::size_t k : {swap ? 1U : 0U, swap ? 0U : 1U}) {
-      const Judgement& j = judged[k];
-      if (j.wanted && goal_.wants(child[k], j.lo, j.hi, j.lo_slack, j.hi_slack)) visit(child[k]);
+    for (const std::uint32_t stretch : sweep_.tree.stretches().subspan(group.first, group.count)) {
+      if (stretch < question_.first_excluded) solve(stretch);
     }
   }
 
@@ -197,6 +148,7 @@ class Search {
     const auto& stretch = question_.path->stretches[index];
     const StretchMotion motion(question_.path->from(stretch), question_.path->to(stretch),
                                sweep_.body->reach());
+    if (goal_.holds(motion)) return;
     for (std::size_t i = 0; i <= parts_.size(); ++i) {
       found_.clear();
       if (i < parts_.size()) {
@@ -218,45 +170,68 @@ class Search {
   std::span<const Profile> parts_;
   std::span<const PoseGroup> groups_;
   BoxCrossing in_box_;
+  std::vector<Candidate> open_{};  // a heap by promise
   std::vector<SweptInterval> found_{};
 };
 
 // Everything within the span.
 class WholeCover {
  public:
-  WholeCover(const RaySpan& span, std::vector<CoverInterval>& cover) : span_(span), cover_(cover) {}
+  // `cover` is what other tools cover: their ends have no guards here.
+  WholeCover(const RaySpan& span, const Guards& guards, std::span<const CoverInterval> cover)
+      : span_(span), guards_(guards) {
+    for (const CoverInterval& c : cover) cover_.push_back({c, EndGuard(), EndGuard()});
+  }
+
+  [[nodiscard]] std::vector<CoverInterval> cover() const {
+    std::vector<CoverInterval> cover;
+    for (const Guarded& c : cover_) cover.push_back(c.interval);
+    return cover;
+  }
 
   [[nodiscard]] const RaySpan& span() const { return span_; }
-  [[nodiscard]] static bool puts_aside(std::uint32_t, double) { return false; }
-  [[nodiscard]] static bool wants_lo(double, double) { return true; }
+  [[nodiscard]] static bool wants_lo(double) { return true; }
+  [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi - reach.lo; }
+  [[nodiscard]] int change() const { return change_; }
 
-  [[nodiscard]] bool wants(std::uint32_t, double lo, double hi, double lo_slack,
-                           double hi_slack) const {
-    lo = std::max(lo, span_.lo);
-    hi = std::min(hi, span_.hi);
+  [[nodiscard]] bool wants(std::uint32_t, const GroupReach& reach) const {
+    const double lo = std::max(reach.lo, span_.lo);
+    const double hi = std::min(reach.hi, span_.hi);
     if (!(lo <= hi)) return false;
-    for (const CoverInterval& c : cover_) {
-      if (c.lo.s <= lo + lo_slack && hi - hi_slack <= c.hi.s) return false;
-    }
-    return true;
+    return std::ranges::none_of(cover_, [&](const Guarded& c) {
+      return c.interval.lo.s <= lo + reach.lo_slack && hi - reach.hi_slack <= c.interval.hi.s;
+    });
+  }
+
+  [[nodiscard]] Limit limit(const PoseGroup& group) {
+    return {.holds = between([&](const EndGuard& end) { return end.overreach(group).most <= 0.0; })};
+  }
+  [[nodiscard]] bool holds(const StretchMotion& motion) {
+    return between([&](const EndGuard& end) { return end.holds(motion); });
   }
 
   [[nodiscard]] std::span<const Chord> known() {
     known_.clear();
-    for (const CoverInterval& c : cover_) known_.push_back({c.lo.s, c.hi.s});
+    for (const Guarded& c : cover_) known_.push_back({c.interval.lo.s, c.interval.hi.s});
     return known_;
   }
 
   void take(const CoverInterval& next) {
     // The intervals that touch it become one with it; a tie keeps the older end.
+    ++change_;
     auto first = cover_.begin();
-    while (first != cover_.end() && first->hi.s < next.lo.s - kTouching) ++first;
+    while (first != cover_.end() && first->interval.hi.s < next.lo.s - kTouching) ++first;
     auto last = first;
-    CoverInterval joined = next;
-    while (last != cover_.end() && last->lo.s <= next.hi.s + kTouching) {
-      if (last->lo.s <= joined.lo.s) joined.lo = last->lo;
-      if (last->hi.s >= joined.hi.s) joined.hi = last->hi;
-      ++last;
+    Guarded joined{next, std::nullopt, std::nullopt};
+    for (; last != cover_.end() && last->interval.lo.s <= next.hi.s + kTouching; ++last) {
+      if (last->interval.lo.s <= joined.interval.lo.s) {
+        joined.interval.lo = last->interval.lo;
+        joined.lo = last->lo;
+      }
+      if (last->interval.hi.s >= joined.interval.hi.s) {
+        joined.interval.hi = last->interval.hi;
+        joined.hi = last->hi;
+      }
     }
     if (first == last) {
       cover_.insert(first, joined);
@@ -267,32 +242,59 @@ class WholeCover {
   }
 
  private:
+  struct Guarded {
+    CoverInterval interval{};
+    std::optional<EndGuard> lo{}, hi{};  // made when first asked for
+  };
+  // Whether it lies between the ends of one interval, both of which hold it back.
+  template <class HeldBy>
+  [[nodiscard]] bool between(const HeldBy& held_by) {
+    return std::ranges::any_of(cover_, [&](Guarded& c) {
+      if (c.interval.hi.s < span_.hi) {
+        if (!c.hi) c.hi = guards_.at(c.interval.hi, true);
+        if (!held_by(*c.hi)) return false;
+      }
+      if (c.interval.lo.s <= span_.lo) return true;
+      if (!c.lo) c.lo = guards_.at(c.interval.lo, false);
+      return held_by(*c.lo);
+    });
+  }
+
   RaySpan span_;
-  std::vector<CoverInterval>& cover_;
+  const Guards& guards_;
+  std::vector<Guarded> cover_{};
   std::vector<Chord> known_{};
+  int change_ = 0;
 };
 
 // Only what continues the cover from where the front stands.
 class Front {
  public:
-  Front(const RaySpan& span, double gap, CoverEnd& front) : span_(span), gap_(gap), front_(front) {}
+  Front(const RaySpan& span, const Guards& guards, double gap, CoverEnd& front)
+      : span_(span), guards_(guards), gap_(gap), front_(front) {}
 
   [[nodiscard]] RaySpan span() const { return {front_.s - gap_, span_.hi}; }
 
+  [[nodiscard]] bool wants_lo(double lo) const { return lo > front_.s + gap_; }
+  [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi; }
+  [[nodiscard]] int change() const { return change_; }
+
   // What begins beyond the front is asked again when the front has come there.
-  [[nodiscard]] bool puts_aside(std::uint32_t group, double lo) {
-    if (lo <= front_.s + gap_) return false;
-    deferred_.push_back({lo, group});
-    return true;
+  [[nodiscard]] bool wants(std::uint32_t group, const GroupReach& reach) {
+    if (!(reach.lo <= reach.hi) || reach.hi <= front_.s + reach.hi_slack) return false;
+    if (reach.lo <= front_.s + gap_) return true;
+    deferred_.push_back({reach.lo, group});
+    return false;
   }
 
-  [[nodiscard]] bool wants_lo(double lo, double hi) const {
-    return hi > front_.s && lo > front_.s + gap_;
+  // Whatever a group covers before the front does not matter.
+  [[nodiscard]] Limit limit(const PoseGroup& group) {
+    if (change_ == 0) return {};
+    const Overreach over = guard().overreach(group);
+    return {over.most <= 0.0, over.by_witness, front_.s + over.most};
   }
-
-  [[nodiscard]] bool wants(std::uint32_t group, double lo, double hi, double, double hi_slack) {
-    if (!(lo <= hi) || hi <= front_.s + hi_slack) return false;
-    return !puts_aside(group, lo);
+  [[nodiscard]] bool holds(const StretchMotion& motion) {
+    return change_ > 0 && guard().holds(motion);
   }
 
   [[nodiscard]] std::span<const Chord> known() {
@@ -303,7 +305,8 @@ class Front {
   void take(const CoverInterval& next) {
     if (next.lo.s > front_.s + gap_ || next.hi.s <= front_.s) return;
     front_ = next.hi;
-    moved_ = true;
+    guard_.reset();
+    ++change_;
   }
 
   // A group that the front has come up to since it was put aside.
@@ -317,32 +320,42 @@ class Front {
     return std::nullopt;
   }
 
-  [[nodiscard]] bool moved() const { return moved_; }
+  [[nodiscard]] bool moved() const { return change_ > 0; }
 
  private:
+  [[nodiscard]] const EndGuard& guard() {
+    if (!guard_) guard_ = guards_.at(front_, true);
+    return *guard_;
+  }
+
   struct Deferred {
     double lo;
     std::uint32_t group;
   };
   RaySpan span_;
+  const Guards& guards_;
   double gap_;
   CoverEnd& front_;
+  std::optional<EndGuard> guard_{};  // at the front; made when first asked for
   std::vector<Deferred> deferred_{};
   Chord known_{};
-  bool moved_ = false;
+  int change_ = 0;
 };
 
 }  // namespace
 
 void extend_cover(const RayQuestion& question, const ToolSweep& sweep,
                   std::vector<CoverInterval>& cover) {
-  WholeCover goal(question.span, cover);
+  const Guards guards(question, *sweep.body);
+  WholeCover goal(question.span, guards, cover);
   Search(question, sweep, goal).run(0);
+  cover = goal.cover();
 }
 
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    CoverEnd& front) {
-  Front goal(question.span, gap, front);
+  const Guards guards(question, *sweep.body);
+  Front goal(question.span, guards, gap, front);
   Search search(question, sweep, goal);
   search.run(0);
   while (const auto group = goal.next_deferred()) search.run(*group);

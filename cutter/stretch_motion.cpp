@@ -50,4 +50,14 @@ Vec3 StretchMotion::velocity(const Vec3& point, double t) const {
   return step_ + about.cross(point - from_.tip - t * step_);
 }
 
+// With n(t) the plane's normal, seen from a point x(t) that runs along a line, the distance n.(x - p) has the
+// second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a + lateral b with b across
+// the axis: |a''| = w^2, and the projection of a fixed side bends b by at most 1.6 w^2 and turns n by at most
+// 1.1 w over 0.05 rad.
+double StretchMotion::plane_departure(double dt, double away, double run) const {
+  constexpr double kTurns = 1.1, kBends = 1.9;
+  const double turn = turn_ * dt;
+  return (kBends * turn * turn * away + 2.0 * kTurns * turn * run) / 8.0;
+}
+
 }  // namespace frustum::cutter

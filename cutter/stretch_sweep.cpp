@@ -243,24 +243,11 @@ struct RoofSide {
   double overhang = 0.0;  // of that crossing over the chord's end there
 };
 
-// How far a plane's height over a point, or its crossing of the ray, may leave the straight line between two
-// moments, at most. `away`: from the tip to the point; `run`: way of the point relative to the tip.
-//
-// With n(t) the plane's normal, seen from a point x(t) that runs along the ray as the line says, the distance
-// n.(x - p) has the second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a +
-// lateral b with b across the axis: |a''| = w^2, and the projection of a fixed side bends b by at most
-// 1.6 w^2 and turns n by at most 1.1 w over kTurnPerSample.
-double bend_of(const StretchMotion& motion, double dt, double away, double run) {
-  constexpr double kTurns = 1.1, kBends = 1.9;
-  const double turn = motion.turn() * dt;
-  return (kBends * turn * turn * away + 2.0 * kTurns * turn * run) / 8.0;
-}
-
 double bulge_of(const RoofSide& side, const StretchMotion& motion, double dt) {
   const double run = std::abs(side.elsewhere.value - side.plane.value) + motion.travel() * dt;
-  const double departure = bend_of(motion, dt, motion.reach() + side.overhang, run);
+  const double departure = motion.plane_departure(dt, motion.reach() + side.overhang, run);
   const double along =
-      std::min(side.plane.along, side.elsewhere.along) - bend_of(motion, dt, 1.0, 0.0);
+      std::min(side.plane.along, side.elsewhere.along) - motion.plane_departure(dt, 1.0, 0.0);
   return along > 0.0 ? std::max(departure / along, 1e-300) : kInfinity;
 }
 
@@ -295,8 +282,8 @@ class Roof {
 
   // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet.
   [[nodiscard]] double place_to_look(int depth) const {
-    if (!has_ridge_ || depth % 3 == 2) return 0.5;
-    return depth % 3 == 0 ? rise_a_ / (rise_a_ - rise_b_) : ridge_;
+    if (!has_ridge_ || depth % 4 == 3) return 0.5;
+    return depth % 4 != 2 ? rise_a_ / (rise_a_ - rise_b_) : ridge_;
   }
 
  private:
@@ -327,17 +314,23 @@ class HighestEnd {
              double floor)
       : body_(body), motion_(motion), ray_(ray), leaving_(leaving), floor_(floor) {}
 
-  void offer(const Sample& sample) { note(touched(sample)); }
+  void offer(const Sample& sample) {
+    const Chord& chord = *sample.chord;
+    const double value = leaving_ ? chord.hi : -chord.lo;
+    if (value > best_value_) note(value, sample.t, leaving_ ? chord.hi_face : chord.lo_face);
+  }
 
-  // Looks between two samples with chords; returns the planes that touch the body at both. Nothing is lost
-  // unless gap() has a value then.
-  std::pair<TouchingPlane, TouchingPlane> search(const Sample& from, const Sample& to) {
-    const Touched a = touched(from);
+  // Looks between two samples with chords. Nothing is lost unless gap() has a value then.
+  void search(const Sample& from, const Sample& to) {
     if (floor_ == kInfinity) {
-      note(a);
-      return {a.plane, a.plane};
+      offer(from);
+    } else {
+      close_in(touched(from), touched(to), 0);
     }
-    const Touched b = touched(to);
+  }
+  // The same; returns the planes that touch the body at both.
+  std::pair<TouchingPlane, TouchingPlane> search_with_planes(const Sample& from, const Sample& to) {
+    const Touched a = touched(from), b = touched(to);
     close_in(a, b, 0);
     return {a.plane, b.plane};
   }
@@ -363,10 +356,12 @@ class HighestEnd {
   }
 
   void note(const Touched& end) {
-    if (end.plane.value <= best_value_) return;
-    best_value_ = end.plane.value;
-    best_t_ = end.t;
-    best_face_ = end.face;
+    if (end.plane.value > best_value_) note(end.plane.value, end.t, end.face);
+  }
+  void note(double value, double t, ProfileFace face) {
+    best_value_ = value;
+    best_t_ = t;
+    best_face_ = face;
   }
 
   void close_in(const Touched& a, const Touched& b, int depth) {
@@ -428,7 +423,7 @@ class HighestEnd {
     const Vec3 point = ray_.at(leaving_ ? best : -best);
     const double dt = b.t - a.t;
     const double away = std::max((point - a.pose.tip).norm(), (point - b.pose.tip).norm());
-    const double bend = bend_of(motion_, dt, away, (b.pose.tip - a.pose.tip).norm());
+    const double bend = motion_.plane_departure(dt, away, (b.pose.tip - a.pose.tip).norm());
     const double a0 = a.plane.height(a.pose, point), a1 = a.plane.height(b.pose, point);
     const double b0 = b.plane.height(a.pose, point), b1 = b.plane.height(b.pose, point);
     double least = std::max(std::min(a0, a1), std::min(b0, b1));
@@ -577,7 +572,7 @@ std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& moti
   const auto ends = ends_that_overlap(body, motion, ray);
   if (!ends) return std::nullopt;
   HighestEnd hi(body, motion, ray, true, -kInfinity);
-  const auto [from, to] = hi.search(ends->from, ends->to);
+  const auto [from, to] = hi.search_with_planes(ends->from, ends->to);
   if (hi.gap()) return std::nullopt;
   return LastExit{hi.best(), from, to};
 }

@@ -1,0 +1,66 @@
+// A plane through the end of what is covered, carried along with the cutter: proof that it goes no farther.
+//
+// Model    : where a cutter touches the end of what is covered it has a tangent plane. Another cutter near by
+//            has its own plane of that latitude, turned about its axis towards the end; if the end lies
+//            beyond that plane, and the ray leaves it, then this cutter covers nothing beyond the end. For a
+//            group of poses, or the motion from pose to pose, the plane's distance is bounded
+// Units    : mm; frame: workpiece
+// Errors   : none; false says nothing
+// Accuracy : proofs hold but for kSearchTolerance normal to the surface
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "cutter/body.hpp"
+#include "cutter/pose_tree.hpp"
+#include "cutter/stretch_motion.hpp"
+
+namespace frustum::cutter {
+
+// Which part of a body a cover's end lies on, and where the body stands then.
+struct EndContact {
+  double s = 0.0;  // mm along the ray
+  std::uint32_t part = 0;
+  ProfileFace face = kTopFace;
+  ToolPose pose{};
+};
+
+// How far along the ray a group may cover more than the end, and whether its witness may.
+struct Overreach {
+  double most = std::numeric_limits<double>::infinity();  // mm; not positive: surely nothing
+  bool by_witness = true;
+};
+
+class EndGuard {
+ public:
+  // Holds nothing back: for ends that no convex part makes.
+  EndGuard() = default;
+  // `leaving`: what is covered lies before the end, else behind it.
+  EndGuard(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
+
+  [[nodiscard]] Overreach overreach(const PoseGroup& group) const;
+  // Whether the moving body surely covers nothing beyond the end.
+  [[nodiscard]] bool holds(const StretchMotion& motion) const;
+
+ private:
+  // A unit normal of a standing body, and how far the end is outside of the plane that touches it there.
+  struct Plane {
+    double axial = 0.0, lateral = 0.0;
+    double offset = 0.0;  // from the tip
+    double height = 0.0;
+    Vec3 side = Vec3::Zero();
+  };
+  [[nodiscard]] std::optional<Plane> touching(const ToolPose& pose) const;
+  [[nodiscard]] double support(double lateral, double axial) const;
+  [[nodiscard]] double support_of_round(double lateral, double axial) const;
+
+  const Body* body_ = nullptr;  // null: no proof
+  Vec3 end_ = Vec3::Zero();
+  Vec3 beyond_ = Vec3::Zero();  // unit, along the ray, away from what is covered
+  // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the end.
+  double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
+  const Zone* round_ = nullptr;
+};
+
+}  // namespace frustum::cutter

@@ -1,0 +1,92 @@
+#include "cutter/group_reach.hpp"
+
+#include <algorithm>
+
+#include "cutter/stretch_sweep.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Below this cosine between ray and surface the touching planes bound badly; the grown cutter helps.
+constexpr double kGrazing = 0.02;
+// And where the axes of a group differ by more than this (rad).
+constexpr double kMuchTurned = 0.1;
+
+// Beyond what place along the ray no pose of the group reaches, by the plane that touches the witness.
+//
+// At another pose, tip p + dp and axis a + da, the plane through the contact y (from the tip) has the normal
+// n + dn, dn = axial da - lateral (side.da) a within 2 |da|^2, and lies dn.y - n.dp - dn.dp nearer.
+double crossing(const TouchingPlane& plane, const PoseGroup& group, const Ray& ray) {
+  constexpr double kFarTurned = 0.5;  // the expansion holds below
+  const double turned = group.axis_shift;
+  if (turned == 0.0) return plane.value + farthest_tip(group, plane.normal) / plane.along;
+  if (turned > kFarTurned) return kInfinity;
+  const double fall = plane.along - turned * (1.0 + 2.0 * turned);
+  if (!(fall > 0.0)) return kInfinity;
+  const Vec3 y = ray.at(plane.direction * plane.value) - group.witness.tip;
+  const Vec3 c = plane.lateral * y.dot(group.witness.axis) * plane.side - plane.axial * y;
+  const double room = farthest_tip(group, plane.normal) + farthest_axis(group, c) +
+                      turned * (1.0 + 2.0 * turned) * group.tip_shift +
+                      2.0 * turned * turned * y.norm();
+  return plane.value + std::max(0.0, room) / fall;
+}
+
+// What the tolerance normal to the plane makes along the ray, at any pose of the group.
+double slack_of(const TouchingPlane& plane, const PoseGroup& group) {
+  const double turned = group.axis_shift;
+  return kSearchTolerance / (plane.along + turned * (1.0 + 2.0 * turned));
+}
+
+bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
+  const Vec3 offset = ray.origin - group.witness.tip;
+  const auto apart = [&](const Vec3& n) { return n.dot(offset) > support(group, part, n); };
+  const Vec3 across = ray.direction.cross(group.witness.axis);
+  const double sine = across.norm();
+  if (sine > 1e-3) {
+    const double side = across.dot(offset) > 0.0 ? 1.0 : -1.0;
+    if (apart(across * (side / sine))) return true;
+  }
+  const Vec3 facing = group.witness.axis - ray.direction.dot(group.witness.axis) * ray.direction;
+  const double length = facing.norm();
+  if (length < 1e-3) return false;
+  const double middle = 0.5 * (part.bottom() + part.height());
+  const double side = facing.dot(offset) > middle * length * length ? 1.0 : -1.0;
+  return apart(facing * (side / length));
+}
+
+}  // namespace
+
+GroupReach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
+                    const std::optional<Chord>& known, WantedEnds wanted) {
+  if (!known) {
+    if (surely_apart(group, part, ray)) return kNoReach;
+    const auto grown = part.chord(group.witness, ray, group.shift);
+    return grown ? GroupReach{grown->lo, grown->hi} : kNoReach;
+  }
+  GroupReach reach{-kInfinity, kInfinity};
+  double along = 1.0;
+  if (wanted.hi) {
+    const TouchingPlane leaving(part, group.witness, ray, *known, true);
+    reach.hi = crossing(leaving, group, ray);
+    reach.hi_slack = slack_of(leaving, group);
+    along = leaving.along;
+  }
+  if (wanted.lo) {
+    const TouchingPlane entering(part, group.witness, ray, *known, false);
+    reach.lo = -crossing(entering, group, ray);
+    reach.lo_slack = slack_of(entering, group);
+    along = std::min(along, entering.along);
+  }
+  if (along >= kGrazing && group.axis_shift <= kMuchTurned) return reach;
+  if (const auto grown = part.chord(group.witness, ray, group.shift)) {
+    if (grown->lo > reach.lo) reach.lo_slack = 0.0;
+    if (grown->hi < reach.hi) reach.hi_slack = 0.0;
+    reach.lo = std::max(reach.lo, grown->lo);
+    reach.hi = std::min(reach.hi, grown->hi);
+  }
+  return reach;
+}
+
+}  // namespace frustum::cutter
