@@ -21,18 +21,17 @@ struct Box {
 class BoxCrossing {
  public:
   explicit BoxCrossing(const Ray& ray) : origin_(ray.origin) {
-    for (int k = 0; k < 3; ++k) inverse_[k] = 1.0 / ray.direction[k];
+    // A ray along a face is as good as one that crosses it very far away.
+    constexpr double kAlong = 1e-200;
+    for (int k = 0; k < 3; ++k) {
+      const double d = ray.direction[k];
+      inverse_[k] = std::abs(d) < kAlong ? 1.0 / kAlong : 1.0 / d;
+    }
   }
   // Where within the span the ray may cross the box; lo above hi: nowhere.
   [[nodiscard]] RaySpan within(const Box& box, const RaySpan& span) const {
     double lo = span.lo, hi = span.hi;
     for (int k = 0; k < 3; ++k) {
-      if (std::isinf(inverse_[k])) {
-        if (origin_[k] < box.min[k] - kMargin || origin_[k] > box.max[k] + kMargin) {
-          return {1.0, 0.0};
-        }
-        continue;
-      }
       const double a = (box.min[k] - kMargin - origin_[k]) * inverse_[k];
       const double b = (box.max[k] + kMargin - origin_[k]) * inverse_[k];
       lo = std::max(lo, std::min(a, b));

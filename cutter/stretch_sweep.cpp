@@ -269,7 +269,8 @@ class Roof {
     const bool holds_b = std::isfinite(rise_b_) && std::isfinite(bulge_b_);
     if (holds_a) top_ = height_on_a(summit(rise_a_, bulge_a_));
     if (holds_b) top_ = std::min(top_, height_on_b(summit(rise_b_, bulge_b_)));
-    has_ridge_ = holds_a && holds_b && rise_a_ > 0.0 && rise_b_ < 0.0;
+    holds_ = holds_a && holds_b;
+    has_ridge_ = holds_ && rise_a_ > 0.0 && rise_b_ < 0.0;
     if (!has_ridge_) return;
     ridge_ = std::clamp((b_at_a_ - a_) / (rise_a_ - rise_b_), 0.0, 1.0);
     // Before the ridge a's line is the lower one but for the bulges, after it b's.
@@ -280,10 +281,17 @@ class Roof {
 
   [[nodiscard]] double top() const { return top_; }
 
-  // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet.
+  // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside a top
+  // that is found already: so near that from there on the fall is surely more than the bulge.
   [[nodiscard]] double place_to_look(int depth) const {
-    if (!has_ridge_ || depth % 4 == 3) return 0.5;
-    return depth % 4 != 2 ? rise_a_ / (rise_a_ - rise_b_) : ridge_;
+    if (!holds_ || depth % 4 == 3) return 0.5;
+    if (has_ridge_ && depth % 4 == 2) return ridge_;
+    const bool rises = rise_a_ > 0.0, falls = rise_b_ < 0.0;
+    if (!rises && !falls) return 0.5;
+    const double smooth = rises && falls ? rise_a_ / (rise_a_ - rise_b_) : (rises ? 1.0 : 0.0);
+    const double fall = a_ - (b_at_a_ + rise_b_);
+    const double beside = std::min(0.5, 4.0 * std::max(bulge_a_, bulge_b_) / std::abs(fall));
+    return fall > 0.0 ? std::max(smooth, beside) : std::min(smooth, 1.0 - beside);
   }
 
  private:
@@ -303,6 +311,7 @@ class Roof {
   double a_, rise_a_, b_at_a_, rise_b_;
   double bulge_a_ = kNoBulge, bulge_b_ = kNoBulge;
   double ridge_ = 0.5;
+  bool holds_ = false;
   bool has_ridge_ = false;
   double top_ = kInfinity;
 };

@@ -145,6 +145,11 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
 
 std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point, const Vec3& normal,
                                              double reach) {
+  // Nearly always the way there from outside is free.
+  const Ray inwards{point + reach * normal, -normal};
+  if (const auto met = solid.first_surface(inwards, {0.0, 2.0 * reach})) {
+    return HermiteSample{inwards.at(met->s), met->normal};
+  }
   const Ray ray{point - reach * normal, normal};
   const IntervalSet material = solid.material_along(ray, {0.0, 2.0 * reach});
   const Interval* best = nullptr;
