@@ -126,4 +126,10 @@ double Body::support(double u) const {
   return best;
 }
 
+double Body::distance(const ToolPose& pose, const Vec3& point) const {
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  return outline_.distance((m - z * pose.axis).norm(), z);
+}
+
 }  // namespace frustum::cutter

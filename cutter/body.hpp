@@ -27,6 +27,8 @@ class Body {
 
   // Whether the body, standing at the pose, covers some of the ray between lo and hi.
   [[nodiscard]] bool meets(const ToolPose& pose, const Ray& ray, double lo, double hi) const;
+  // Of the point from the surface of the body at the pose: negative inside.
+  [[nodiscard]] double distance(const ToolPose& pose, const Vec3& point) const;
   // Largest value of x.n over the body (tip at the origin), for a unit direction n with n.axis = u.
   [[nodiscard]] double support(double u) const;
   [[nodiscard]] double height() const { return outline_.height(); }

@@ -204,7 +204,8 @@ class WholeCover {
   }
 
   [[nodiscard]] Limit limit(const PoseGroup& group) {
-    return {.holds = between([&](const EndGuard& end) { return end.overreach(group).most <= 0.0; })};
+    return {.holds =
+                between([&](const EndGuard& end) { return end.overreach(group).most <= 0.0; })};
   }
   [[nodiscard]] bool holds(const StretchMotion& motion) {
     return between([&](const EndGuard& end) { return end.holds(motion); });

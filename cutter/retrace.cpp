@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "cutter/end_guard.hpp"
 #include "cutter/stretch_sweep.hpp"
 
 namespace frustum::cutter {
@@ -14,12 +15,12 @@ namespace {
 
 using kinematics::ToolPath;
 
-// Stretches on each side of the contact that planes are held against.
+// A cutter that stands this far from the contact is outside of the window (mm).
+constexpr double kBeside = 0.1;
+// And so are more stretches than these on each side of it.
 constexpr std::uint32_t kWindow = 40;
-// And how far from its own stretch a contact is followed.
+// How far from its own stretch a contact is followed.
 constexpr std::uint32_t kFollowed = 3;
-// What a plane may cut off beyond the contact, normal to the surface (mm).
-constexpr double kTolerance = kSearchTolerance;
 
 // The stretches in a row, each beginning where the one before ends, in blocks of one tool.
 bool follows(const ToolPath& path, std::uint32_t i) {
@@ -27,27 +28,6 @@ bool follows(const ToolPath& path, std::uint32_t i) {
   const auto& after = path.stretches[i + 1];
   return after.first_pose == before.first_pose + 1 &&
          path.blocks[before.block].tool == path.blocks[after.block].tool;
-}
-
-// Whether the plane, made at the pose before or after poses [first, last), keeps the cutter at all of
-// them and on the ways between off the point x. `departure`: how much less than linear the distance of the
-// plane may be between two poses; the plane's own pose is at least at distance 0.
-bool holds_back(const TouchingPlane& plane, const ToolPath& path, std::size_t first,
-                std::size_t last, const Vec3& x, double departure) {
-  const double enough = plane.offset + std::max(0.0, 4.0 * departure - kTolerance);
-  for (std::size_t i = first; i < last; ++i) {
-    const kinematics::ToolPose& pose = path.poses[i];
-    const Vec3 v = x - pose.tip;
-    const double q = plane.side.dot(pose.axis);
-    const double along = v.dot(pose.axis);
-    // The side made normal to this axis, (side - q axis) / sqrt(1 - q^2); the series for the root falls
-    // short by less than q^6.
-    const double q2 = q * q;
-    const double across = (plane.side.dot(v) - q * along) * (1.0 + q2 * (0.5 + 0.375 * q2));
-    const double distance = plane.axial * along + plane.lateral * across;
-    if (distance - q2 * q2 * q2 * std::abs(across) < enough) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -60,20 +40,22 @@ ContactTrail trail_of(const SweptCutter& nominal, const Ray& ray, double start,
                      .first = contact.stretch,
                      .last = contact.stretch};
   const ToolPath& path = nominal.path();
-  if (!nominal.tool(path.blocks[path.stretches[contact.stretch].block].tool).body().is_convex()) {
-    return trail;
-  }
+  const Body& body = nominal.tool(path.blocks[path.stretches[contact.stretch].block].tool).body();
+  if (!body.is_convex()) return trail;
+  const Vec3 point = ray.at(contact.s);
+  const auto beside = [&](std::uint32_t pose) {
+    return body.distance(path.poses[pose], point) > kBeside;
+  };
   while (trail.first > 0 && contact.stretch - trail.first < kWindow &&
-         follows(path, trail.first - 1)) {
+         follows(path, trail.first - 1) && !beside(path.stretches[trail.first].first_pose)) {
     --trail.first;
   }
   while (trail.last + 1 < path.stretches.size() && trail.last - contact.stretch < kWindow &&
-         follows(path, trail.last)) {
+         follows(path, trail.last) && !beside(path.stretches[trail.last].first_pose + 1)) {
     ++trail.last;
   }
   constexpr double kFar = 1.0;  // mm
-  trail.clearance =
-      std::max(0.0, nominal.clearance(ray.at(contact.s), trail.first, trail.last, kFar));
+  trail.clearance = std::max(0.0, nominal.clearance(point, trail.first, trail.last, kFar));
   return trail;
 }
 
@@ -95,7 +77,9 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
                     old.blocks.size()),
         "contacts are followed only onto a path with the same stretches, blocks and tools");
   }
-  double displacement = 0.0, departure = 0.0;
+  double displacement = 0.0;
+  std::vector<double> departures;
+  departures.reserve(path.stretches.size());
   for (const kinematics::Stretch& stretch : path.stretches) {
     const double reach = nominal.tool(path.blocks[stretch.block].tool).body().reach();
     for (const std::uint32_t i : {stretch.first_pose, stretch.first_pose + 1}) {
@@ -104,21 +88,41 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
       displacement = std::max(displacement, moved);
     }
     const StretchMotion motion(path.from(stretch), path.to(stretch), reach);
-    departure = std::max(departure,
-                         0.125 * motion.turn() * (motion.turn() * reach + 2.0 * motion.travel()));
+    departures.push_back(motion.turn() > 0.0
+                             ? 4.0 * motion.plane_departure(1.0, 2.0 * reach, motion.travel())
+                             : 0.0);
   }
-  return ChangedPath(nominal, std::move(path), displacement, departure);
+  return ChangedPath(nominal, std::move(path), displacement, std::move(departures));
 }
 
 ChangedPath::ChangedPath(const SweptCutter& nominal, ToolPath path, double displacement,
-                         double departure)
+                         std::vector<double> departures)
     : path_(std::move(path)),
       nominal_(nominal),
       displacement_(displacement),
-      departure_(departure) {
+      departures_(std::move(departures)) {
   body_of_block_.reserve(path_.blocks.size());
   for (const auto& block : path_.blocks)
     body_of_block_.push_back(&nominal_.tool(block.tool).body());
+}
+
+// The stretches beside those that were solved, up to the end of the window. The plane that touches the cutter
+// where the two sides part holds the nearest one back; the others stand clear of the end at all their poses.
+bool ChangedPath::holds_back(const TouchingPlane& plane, const EndGuard& end, const Vec3& point,
+                             const Side& side) const {
+  const auto pose_beyond = [&](std::uint32_t stretch) -> const ToolPose& {
+    return path_.poses[path_.stretches[stretch].first_pose + (side.up ? 1U : 0U)];
+  };
+  for (std::uint32_t count = 0, i = side.from; count < side.count; ++count, side.up ? ++i : --i) {
+    const ToolPose& pose = pose_beyond(i);
+    if (count == 0) {
+      if (!(plane.height(pose, point) >= departures_[i])) return false;
+      continue;
+    }
+    const double step = (pose.tip - pose_beyond(side.up ? i - 1 : i + 1).tip).norm();
+    if (!(end.clear_of(pose, step) >= departures_[i])) return false;
+  }
+  return true;
 }
 
 std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const {
@@ -126,35 +130,33 @@ std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const
   const std::uint32_t own = trail.contact.stretch;
   const Body& body = *body_of_block_[path_.stretches[own].block];
   const Profile& part = body.parts().front();
-  const auto pose_before = [&](std::uint32_t i) { return path_.stretches[i].first_pose; };
+  const auto motion_of = [&](std::uint32_t i) {
+    return StretchMotion(path_.from(path_.stretches[i]), path_.to(path_.stretches[i]),
+                         body.reach());
+  };
 
-  // The stretches to solve: more of them on the side where the plane does not hold the others back.
-  std::uint32_t first = own, last = own, best_stretch = own;
-  SweptEnd best{.s = -std::numeric_limits<double>::infinity()};
+  // The stretches to solve: more of them on the side that is not held back.
+  std::uint32_t first = own, last = own;
+  CoverEnd best{.s = -std::numeric_limits<double>::infinity()};
   std::optional<TouchingPlane> left, right;
   const auto solve = [&](std::uint32_t i) {
-    const StretchMotion motion(path_.poses[pose_before(i)], path_.poses[pose_before(i) + 1],
-                               body.reach());
-    const auto exit = last_exit(part, motion, trail.ray);
+    const auto exit = last_exit(part, motion_of(i), trail.ray);
     if (!exit) return false;
-    if (exit->end.s > best.s) {
-      best = exit->end;
-      best_stretch = i;
-    }
+    if (exit->end.s > best.s) best = {exit->end.s, i, 0, exit->end.t, exit->end.face};
     if (i == first) left = exit->at_begin;
     if (i == last) right = exit->at_end;
     return true;
   };
   if (!solve(own)) return std::nullopt;
   for (;;) {
-    const Vec3 x = trail.ray.at(best.s);
-    if (!holds_back(*left, path_, pose_before(trail.first), pose_before(first) - 1, x,
-                    departure_)) {
+    const Vec3 point = trail.ray.at(best.s);
+    const ToolPose pose = motion_of(best.stretch).at(best.t);
+    const EndGuard end(body, trail.ray, {best.s, best.part, best.face, pose}, true);
+    if (!holds_back(*left, end, point, {first - 1, first - trail.first, false})) {
       if (first == trail.first || own - first == kFollowed) return std::nullopt;
       --first;
       if (!solve(first)) return std::nullopt;
-    } else if (!holds_back(*right, path_, pose_before(last) + 2, pose_before(trail.last) + 2, x,
-                           departure_)) {
+    } else if (!holds_back(*right, end, point, {last + 1, trail.last - last, true})) {
       if (last == trail.last || last - own == kFollowed) return std::nullopt;
       ++last;
       if (!solve(last)) return std::nullopt;
@@ -164,14 +166,11 @@ std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const
   }
 
   // The cutter itself must clear the way from the start, and no other stretch may come near.
-  const StretchMotion motion(path_.poses[pose_before(best_stretch)],
-                             path_.poses[pose_before(best_stretch) + 1], body.reach());
-  const ToolPose pose = motion.at(best.t);
-  const auto cleared = part.chord(pose, trail.ray);
+  const StretchMotion motion = motion_of(best.stretch);
+  const auto cleared = part.chord(motion.at(best.t), trail.ray);
   if (!cleared || cleared->lo > trail.start) return std::nullopt;
   if (std::abs(best.s - trail.contact.s) + displacement_ >= trail.clearance) return std::nullopt;
-  const Vec3 normal = part.normal_of(best.face, pose, trail.ray.at(best.s));
-  return SweepContact{best.s, best_stretch, 0, best.face, best.t, pose, normal};
+  return sweep_contact(body, motion, trail.ray, best);
 }
 
 }  // namespace frustum::cutter

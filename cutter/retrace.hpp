@@ -1,10 +1,10 @@
 // A contact found once and followed when the tool path changes a little: the same answer, much faster.
 //
 // Model    : a trail keeps a contact of the nominal path, the stretches around it and the distance to all
-//            others. On a changed path the contact is solved anew in its own stretch or the next ones. The
-//            planes that touch the cutter at both ends of those prove, pose by pose, that nothing else of the
-//            window reaches beyond; the distance proves it for the rest. What cannot be proven is not
-//            answered: then the whole sweep is to be asked
+//            others. On a changed path the contact is solved anew in its own stretch or the next ones. Planes
+//            that touch the cutter prove, pose by pose, that nothing else of the window reaches beyond; the
+//            distance proves it for the rest. What cannot be proven is not answered: then the whole sweep is
+//            to be asked
 // Units    : mm; frame: workpiece
 // Errors   : on() refuses a path with other stretches, blocks or tools than the nominal one
 // Accuracy : that of SweptCutter::end_of_void: 0.02 nm normal to the surface
@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "cutter/end_guard.hpp"
+#include "cutter/stretch_sweep.hpp"
 #include "cutter/swept_cutter.hpp"
 
 namespace frustum::cutter {
@@ -47,15 +49,22 @@ class ChangedPath {
   [[nodiscard]] const kinematics::ToolPath& path() const { return path_; }
 
  private:
+  // Stretches in a row, up or down the path.
+  struct Side {
+    std::uint32_t from = 0, count = 0;
+    bool up = true;
+  };
   ChangedPath(const SweptCutter& nominal, kinematics::ToolPath path, double displacement,
-              double departure);
+              std::vector<double> departures);
+  [[nodiscard]] bool holds_back(const TouchingPlane& plane, const EndGuard& end, const Vec3& point,
+                                const Side& side) const;
 
   kinematics::ToolPath path_;
   SweptCutter nominal_;  // a copy shares its tools
   std::vector<const Body*> body_of_block_{};
   double displacement_;
-  double
-      departure_;  // from straight motion within any stretch, of a plane that goes with a cutter (mm)
+  // Of each stretch: how much less than linear the distance of a plane may be that goes with a cutter (mm).
+  std::vector<double> departures_{};
 };
 
 }  // namespace frustum::cutter

@@ -36,74 +36,41 @@ Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Body& body) {
 
 constexpr double kPassedOver = 1e-9;  // mm
 
-double signed_distance(const Body& body, const ToolPose& pose, const Vec3& point) {
-  const Vec3 m = point - pose.tip;
-  const double z = m.dot(pose.axis);
-  return body.outline().distance((m - z * pose.axis).norm(), z);
-}
+// Least distance between a point and the body moving through it, or `least` if that is less; at most kCoarse
+// too small. No point of the body is faster than the motion says.
+class LeastDistance {
+ public:
+  LeastDistance(const Body& body, const StretchMotion& motion, const Vec3& point, double least)
+      : body_(body), motion_(motion), point_(point), least_(least) {}
 
-// A direction in the meridian through a point: across the axis, and along it.
-struct MeridianNormal {
-  double across, along;
-};
-
-// Outward normals of the outline's pieces that end or pass within rounding of a point on the body.
-std::vector<MeridianNormal> normals_at(const Outline& outline, double r, double z) {
-  constexpr double kNear = 1e-7;  // mm
-  std::vector<MeridianNormal> normals;
-  const auto add = [&](const OutlineSegment& s) {
-    const MeridianPoint along{s.to.r - s.from.r, s.to.z - s.from.z};
-    const double length = std::hypot(along.r, along.z);
-    MeridianNormal n{along.z / length, -along.r / length};
-    double off = (r - s.from.r) * n.across + (z - s.from.z) * n.along;
-    const double share = ((r - s.from.r) * along.r + (z - s.from.z) * along.z) / (length * length);
-    if (s.arc_radius > 0.0) {
-      const double dr = r - s.centre.r, dz = z - s.centre.z, away = std::hypot(dr, dz);
-      if (!(away > 0.0)) return;
-      const double outwards = s.bulges ? 1.0 : -1.0;
-      n = {outwards * dr / away, outwards * dz / away};
-      off = away - s.arc_radius;
-    }
-    const double beyond = kNear / length;
-    if (std::abs(off) <= kNear && share >= -beyond && share <= 1.0 + beyond) normals.push_back(n);
-  };
-  for (const OutlineSegment& s : outline.segments()) add(s);
-  const MeridianPoint rim = outline.segments().back().to;
-  if (rim.r > 0.0) add(line(rim, {0.0, rim.z}));
-  return normals;
-}
-
-// Between the normals of two faces that meet at a rim: across the motion of the rim there, or, if that is
-// outside of them, the nearer of both.
-std::optional<MeridianNormal> rim_normal(const Outline& outline, double r, double z,
-                                         const MeridianNormal& motion) {
-  constexpr double kSmooth = 1e-5;  // rad, where arcs and lines go on into each other
-  const std::vector<MeridianNormal> faces = normals_at(outline, r, z);
-  if (faces.size() != 2) return std::nullopt;
-  const MeridianNormal &a = faces.front(), &b = faces.back();
-  const double kink = a.across * b.along - a.along * b.across;
-  const double speed = std::hypot(motion.across, motion.along);
-  if (!(kink > kSmooth) || !(speed > 0.0)) return std::nullopt;
-  const double side =
-      motion.across * (a.along + b.along) - motion.along * (a.across + b.across) > 0.0 ? 1.0 : -1.0;
-  const MeridianNormal n{-side * motion.along / speed, side * motion.across / speed};
-  if (a.across * n.along - a.along * n.across < 0.0) return a;
-  if (n.across * b.along - n.along * b.across < 0.0) return b;
-  return n;
-}
-
-// Not more than the distance between the point and the sweep from pose to pose.
-double least_distance(const Body& body, const ToolPose& from, const ToolPose& to,
-                      const Vec3& point) {
-  const StretchMotion motion(from, to, body.reach());
-  const int steps = 1 + static_cast<int>(motion.travel() / (0.02 * body.max_radius()));
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= steps; ++k) {
-    least =
-        std::min(least, signed_distance(body, motion.at(static_cast<double>(k) / steps), point));
+  [[nodiscard]] double value() {
+    search(0.0, at(0.0), 1.0, at(1.0));
+    return least_;
   }
-  return least - 0.5 * motion.travel() / steps;
-}
+
+ private:
+  static constexpr double kCoarse = 1e-3;  // mm
+
+  [[nodiscard]] double at(double t) const { return body_.distance(motion_.at(t), point_); }
+
+  void search(double t0, double d0, double t1, double d1) {
+    const double way = motion_.travel() * (t1 - t0);
+    const double bound = 0.5 * (d0 + d1 - way);
+    if (bound >= least_) return;
+    if (way < 2.0 * kCoarse) {
+      least_ = bound;
+      return;
+    }
+    const double middle = 0.5 * (t0 + t1), d = at(middle);
+    search(t0, d0, middle, d);
+    search(middle, d, t1, d1);
+  }
+
+  const Body& body_;
+  const StretchMotion& motion_;
+  const Vec3& point_;
+  double least_;
+};
 
 double accuracy_of(const Body& body) {
   const double convex = 2.0 * kSearchTolerance + kMissedDepth;
@@ -121,6 +88,15 @@ Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tool
       failure.line = static_cast<int>(block.source_line);
       return failure;
     }
+  }
+  for (const Stretch& stretch : path.stretches) {
+    // Which way an axis turns half about is not said by its ends.
+    constexpr double kOpposite = 1e-6;
+    if ((path.from(stretch).axis + path.to(stretch).axis).norm() > kOpposite) continue;
+    Diagnostic failure = error("the tool turns half about between two poses of the path",
+                               "the way there is not told: put a pose between them");
+    failure.line = static_cast<int>(path.blocks[stretch.block].source_line);
+    return failure;
   }
   return SweptCutter(std::move(path), std::move(tools));
 }
@@ -192,22 +168,7 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
 SweepContact SweptCutter::contact_of(const Ray& ray, const CoverEnd& end) const {
   const Stretch& at = path_.stretches[end.stretch];
   const Body& body = body_of(end.stretch);
-  const StretchMotion motion(path_.from(at), path_.to(at), body.reach());
-  const ToolPose pose = motion.at(end.t);
-  const Vec3 point = ray.at(end.s);
-  Vec3 normal = end.part < body.parts().size()
-                    ? body.parts()[end.part].normal_of(end.face, pose, point)
-                    : outline_normal(body.outline(), pose, point);
-  const Vec3 m = point - pose.tip;
-  const double z = m.dot(pose.axis);
-  const Vec3 across = m - z * pose.axis;
-  if (const double r = across.norm(); r > 0.0) {
-    const Vec3 side = across / r;
-    const Vec3 moving = motion.velocity(point, end.t);
-    const auto rim = rim_normal(body.outline(), r, z, {moving.dot(side), moving.dot(pose.axis)});
-    if (rim) normal = rim->across * side + rim->along * pose.axis;
-  }
-  return {end.s, end.stretch, end.part, end.face, end.t, pose, normal};
+  return sweep_contact(body, StretchMotion(path_.from(at), path_.to(at), body.reach()), ray, end);
 }
 
 IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
@@ -272,7 +233,7 @@ double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint3
       const Vec3 beyond =
           (group.box.min - point).cwiseMax(point - group.box.max).cwiseMax(Vec3::Zero());
       if (beyond.norm() >= least) continue;
-      const double distance = signed_distance(*sweep.body, group.witness, point);
+      const double distance = sweep.body->distance(group.witness, point);
       if (distance - group.shift >= least) continue;
       if (group.count == 0) {
         open.push_back(group.second_child);
@@ -282,8 +243,8 @@ double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint3
       for (const std::uint32_t i : sweep.tree.stretches().subspan(group.first, group.count)) {
         if (i >= first && i <= last) continue;
         const Stretch& stretch = path_.stretches[i];
-        least = std::min(
-            least, least_distance(*sweep.body, path_.from(stretch), path_.to(stretch), point));
+        const StretchMotion motion(path_.from(stretch), path_.to(stretch), sweep.body->reach());
+        least = LeastDistance(*sweep.body, motion, point, least).value();
       }
     }
   }

@@ -2,7 +2,8 @@
 //
 // Model    : union over all stretches of a ToolPath of the cutter body moving through it
 // Units    : mm; frame: workpiece
-// Errors   : sweep() refuses a path that uses a tool number without a cutter
+// Errors   : sweep() refuses a path that uses a tool number without a cutter, or turns a tool half about
+//            between two poses
 // Accuracy : interval ends within 1 nm normal to the swept surface for the given path
 // Threads  : const member functions may be called from any number of threads
 #pragma once
@@ -19,22 +20,10 @@
 #include "cutter/cutter.hpp"
 #include "cutter/ray.hpp"
 #include "cutter/ray_search.hpp"
+#include "cutter/sweep_contact.hpp"
 #include "kinematics/tool_path.hpp"
 
 namespace frustum::cutter {
-
-// How a point of the swept surface came about.
-struct SweepContact {
-  double s = 0.0;  // mm along the ray
-  std::uint32_t stretch = 0;
-  std::uint32_t part = 0;       // of the cutter's body
-  ProfileFace face = kTopFace;  // of that part
-  double t = 0.0;               // moment within the stretch, 0..1
-  kinematics::ToolPose pose{};  // of the cutter at that moment
-  // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at an angle,
-  // it lies between theirs, across the motion.
-  Vec3 normal = Vec3::UnitZ();
-};
 
 class SweptCutter {
  public:

@@ -153,6 +153,23 @@ TEST_P(BothCutters, NeverMissesWhatAStandingCutterCovers) {
 INSTANTIATE_TEST_SUITE_P(Shapes, BothCutters, testing::Values(CutterType::flat, CutterType::ball),
                          [](const auto& each) { return to_string(each.param); });
 
+TEST(SweptCutter, HalfTurnsAreRefusedAndNearlyHalfTurnsAreNot) {
+  const std::map<int, Cutter> tools{{1, end_mill(CutterType::ball)}};
+  ToolPath path = path_through({{Vec3::Zero(), Vec3::UnitZ()}, {Vec3::Zero(), -Vec3::UnitZ()}});
+  path.blocks.front().source_line = 7;
+  const auto refused = SweptCutter::sweep(path, tools);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().line, 7);
+  path.poses.back().axis = Vec3(1e-3, 0.0, -1.0).normalized();
+  const auto swept = SweptCutter::sweep(path, tools);
+  ASSERT_TRUE(swept);
+  // Half a disc of flutes: the shaft's upper end passes along +X.
+  const auto cover = swept->along({{0.0, 0.0, 6.0}, Vec3::UnitX()}, {0.0, 100.0});
+  ASSERT_EQ(cover.intervals().size(), 1U);
+  EXPECT_TRUE(std::isfinite(cover.intervals().front().hi));
+  EXPECT_GT(cover.intervals().front().hi, 20.0);
+}
+
 TEST(SweptCutter, CutsASlotThatIsABoxAndTwoHalfCylinders) {
   const SweptCutter slot =
       sweep(CutterType::flat, {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(40, 0, 0), Vec3::UnitZ()}});
