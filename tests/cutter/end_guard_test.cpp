@@ -1,0 +1,114 @@
+#include "cutter/end_guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutter/swept_cutter.hpp"
+#include "tests/cutter/cutter_kinds.hpp"
+#include "tests/cutter/random_paths.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+using kinematics::ToolPath;
+using proof::Draw;
+
+// Many short strokes on a curved way, the axis swaying.
+ToolPath swaying(Draw& draw, int strokes) {
+  const Vec3 feed = draw.direction(), bend = draw.direction();
+  const Vec3 axis = draw.axis(1.0), sway = draw.direction();
+  const double length = draw.decades(0.3, 30.0), lean = draw.decades(1e-3, 0.3);
+  std::vector<ToolPose> poses;
+  for (int i = 0; i <= strokes; ++i) {
+    const double x = static_cast<double>(i) / strokes;
+    poses.push_back({length * (x * feed + 0.3 * x * x * bend),
+                     (axis + lean * std::sin(3.0 * x) * sway).normalized()});
+  }
+  return proof::path_through(poses);
+}
+
+// Of a group and all that is under it.
+std::vector<std::uint32_t> stretches_under(const PoseTree& tree, std::uint32_t index) {
+  const PoseGroup& group = tree.groups()[index];
+  if (group.count > 0) {
+    const auto leaf = tree.stretches().subspan(group.first, group.count);
+    return {leaf.begin(), leaf.end()};
+  }
+  std::vector<std::uint32_t> all = stretches_under(tree, index + 1);
+  const std::vector<std::uint32_t> more = stretches_under(tree, group.second_child);
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+// The farthest that the body covers beyond s = 0 while it moves through a stretch, at 17 moments.
+double farthest(const Body& body, const StretchMotion& motion, const Ray& ray) {
+  double most = -1e9;
+  for (int k = 0; k <= 16; ++k) {
+    for (const Profile& part : body.parts()) {
+      const auto chord = part.chord(motion.at(k / 16.0), ray);
+      if (chord) most = std::max(most, chord->hi);
+    }
+  }
+  return most;
+}
+
+// Every group of random paths, and every stroke, against an end that one of its cutters makes.
+TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
+  int held = 0, bounded = 0, strokes_held = 0;
+  for (const proof::Kind& kind : proof::cutter_kinds()) {
+    const Body& body = kind.cutter.body();
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      Draw draw(seed);
+      const ToolPath path = swaying(draw, 48);
+      const auto swept = SweptCutter::sweep(path, {{1, kind.cutter}});
+      std::vector<Box> boxes;
+      std::vector<std::uint32_t> all;
+      for (std::uint32_t i = 0; i < path.stretches.size(); ++i) {
+        boxes.push_back(swept->box(i));
+        all.push_back(i);
+      }
+      const PoseTree tree(path, boxes, all, body.reach());
+      const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
+      const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
+                    draw.direction()};
+      for (std::uint32_t part = 0; part < body.parts().size(); ++part) {
+        const auto chord = body.parts()[part].chord(stands, ray);
+        if (!chord) continue;
+        const EndGuard guard(body, ray, {chord->hi, part, chord->hi_face, stands}, true);
+        for (std::uint32_t index = 0; index < tree.groups().size(); ++index) {
+          const PoseGroup& group = tree.groups()[index];
+          const Overreach over = guard.overreach(group);
+          if (!std::isfinite(over.most)) continue;
+          double most = -1e9;
+          for (const std::uint32_t i : stretches_under(tree, index)) {
+            const StretchMotion motion(path.from(path.stretches[i]), path.to(path.stretches[i]),
+                                       body.reach());
+            const double beyond = farthest(body, motion, ray) - chord->hi;
+            most = std::max(most, beyond);
+            if (!guard.holds(motion)) continue;
+            ++strokes_held;
+            EXPECT_LE(beyond, 1e-6) << kind.name << ' ' << seed << " stroke " << i;
+          }
+          ++bounded;
+          if (over.most <= 0.0) ++held;
+          EXPECT_LE(most, std::max(0.0, over.most) + 1e-6) << kind.name << ' ' << seed;
+          if (!over.by_witness) {
+            double witness = -1e9;
+            for (const Profile& p : body.parts()) {
+              if (const auto c = p.chord(group.witness, ray)) witness = std::max(witness, c->hi);
+            }
+            EXPECT_LE(witness, chord->hi + 1e-6) << kind.name << ' ' << seed;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(bounded, 500);
+  EXPECT_GT(held, 100);
+  EXPECT_GT(strokes_held, 300);
+}
+
+}  // namespace
+}  // namespace frustum::cutter
