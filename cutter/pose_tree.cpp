@@ -39,8 +39,7 @@ class Builder {
           double reach, std::vector<PoseGroup>& groups)
       : path_(path), boxes_(boxes), order_(order), reach_(reach), groups_(groups) {}
 
-  void build(std::uint32_t first, std::uint32_t count) {
-    const std::uint32_t index = static_cast<std::uint32_t>(groups_.size());
+  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count) {
     Scatter tips, axes;
     const Vec3 centre = from(first).tip;  // keeps the products small
     for (std::uint32_t i = first; i < first + count; ++i) {
@@ -50,7 +49,7 @@ class Builder {
       axes.add(reach_ * to(i).axis);
     }
     const Eigen::SelfAdjointEigenSolver<Mat3> spread(tips.covariance());
-    groups_.push_back(group_of(first, count, spread.eigenvectors()));
+    groups_[index] = group_of(first, count, spread.eigenvectors());
     if (count <= kLeaf) return;
     groups_[index].count = 0;
 
@@ -67,9 +66,11 @@ class Builder {
     std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(key(a), a) < std::pair(key(b), b);
     });
-    build(first, half);
-    groups_[index].second_child = static_cast<std::uint32_t>(groups_.size());
-    build(first + half, count - half);
+    const auto children = static_cast<std::uint32_t>(groups_.size());
+    groups_.resize(groups_.size() + 2);
+    groups_[index].children = children;
+    build(children, first, half);
+    build(children + 1, first + half, count - half);
   }
 
  private:
@@ -150,8 +151,9 @@ PoseTree::PoseTree(const ToolPath& path, std::span<const Box> boxes,
     : stretches_(std::move(stretches)) {
   if (stretches_.empty()) return;
   groups_.reserve(stretches_.size() + 1);
+  groups_.resize(1);
   Builder(path, boxes, stretches_, reach, groups_)
-      .build(0, static_cast<std::uint32_t>(stretches_.size()));
+      .build(0, 0, static_cast<std::uint32_t>(stretches_.size()));
   groups_.shrink_to_fit();
 }
 
@@ -170,8 +172,8 @@ std::vector<std::uint32_t> stretches_near(const PoseTree& tree, const Ray& ray, 
       const auto leaf = tree.stretches().subspan(group.first, group.count);
       found.insert(found.end(), leaf.begin(), leaf.end());
     } else {
-      open.push_back(group.second_child);
-      open.push_back(index + 1);
+      open.push_back(group.children + 1);
+      open.push_back(group.children);
     }
   }
   return found;

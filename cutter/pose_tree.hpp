@@ -6,7 +6,7 @@
 //            what all of the group covers. A group along a surface is flat, so that the bound is tight: far
 //            tighter than a box of the swept volume, which overlaps all its neighbours
 // Units    : mm; frame: workpiece
-// Shape    : a binary tree in depth-first order, up to two stretches a leaf; about 330 bytes a stretch
+// Shape    : a binary tree, siblings side by side, up to four stretches a leaf; about 160 bytes a stretch
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
 #pragma once
@@ -27,11 +27,11 @@ struct PoseGroup {
   Box box{};           // of all that the cutter covers in these stretches
   ToolPose witness{};  // where one of the stretches begins
   std::uint32_t witness_stretch = 0;
-  std::uint32_t earliest = 0;  // the first of the stretches in program order
-  std::uint32_t first = 0;     // a leaf's stretches: PoseTree::stretches(), first and count
-  std::uint32_t count = 0;     // 0: not a leaf; its first child is the next group
-  std::uint32_t second_child = 0;
-  Mat3 frame = Mat3::Identity();                        // columns: directions of the oriented box
+  std::uint32_t earliest = 0;     // the first of the stretches in program order
+  std::uint32_t first = 0;        // a leaf's stretches: PoseTree::stretches(), first and count
+  std::uint32_t count = 0;        // 0: not a leaf
+  std::uint32_t children = 0;     // not of a leaf: the first of two groups, side by side
+  Mat3 frame = Mat3::Identity();  // columns: directions of the oriented box
   Vec3 tip_lo = Vec3::Zero(), tip_hi = Vec3::Zero();    // of tip - witness.tip along them
   Vec3 axis_lo = Vec3::Zero(), axis_hi = Vec3::Zero();  // of axis - witness.axis along them
   double tip_shift = 0.0;                               // no tip is farther from the witness's (mm)

@@ -236,8 +236,8 @@ double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint3
       const double distance = sweep.body->distance(group.witness, point);
       if (distance - group.shift >= least) continue;
       if (group.count == 0) {
-        open.push_back(group.second_child);
-        open.push_back(index + 1);
+        open.push_back(group.children + 1);
+        open.push_back(group.children);
         continue;
       }
       for (const std::uint32_t i : sweep.tree.stretches().subspan(group.first, group.count)) {

@@ -36,8 +36,8 @@ std::vector<std::uint32_t> stretches_under(const PoseTree& tree, std::uint32_t i
     const auto leaf = tree.stretches().subspan(group.first, group.count);
     return {leaf.begin(), leaf.end()};
   }
-  std::vector<std::uint32_t> all = stretches_under(tree, index + 1);
-  const std::vector<std::uint32_t> more = stretches_under(tree, group.second_child);
+  std::vector<std::uint32_t> all = stretches_under(tree, group.children);
+  const std::vector<std::uint32_t> more = stretches_under(tree, group.children + 1);
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
