@@ -92,6 +92,15 @@ TEST_F(CutCommandSystem, CutsTheThreeAxisPartsOfTheExamplesWithoutCollision) {
   }
 }
 
+// At this pitch a vertex of the groove's floor, by the blank's side, has triangles that face as the
+// side does: judged by them it would be a gouge of 250 um.
+TEST_F(CutCommandSystem, JudgesPointsOfASmoothFaceByTheirOwnNormalAlone) {
+  const Outcome done =
+      run("cut '" FRUSTUM_SOURCE_DIR "/examples/cone/job.toml' --gouge-limit 30 --json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NEAR(json::parse(done.out)["gouge"]["deviation_um"].get<double>(), -10.7, 0.1);
+}
+
 TEST_F(CutCommandSystem, FailsWithExitCodeOneOnACollision) {
   write_plate("G0 X-60 Y8");
   const json doc = cut("--mesh a.stl --pitch 2", 1);
