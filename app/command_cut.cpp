@@ -30,6 +30,7 @@ struct Options {
   std::string mesh{};
   std::string picture{};
   std::string view{};
+  std::string size{};
   std::string removal{};
   std::string point{};
   double pitch = 0.0;
@@ -73,23 +74,50 @@ std::optional<Diagnostic> fault_of(const Options& o) {
   if (!o.view.empty() && o.picture.empty()) {
     return error("a view without a picture", "give --picture OUT.png");
   }
+  if (!o.size.empty() && o.picture.empty()) {
+    return error("a size without a picture", "give --picture OUT.png");
+  }
   if (!o.removal.empty() && fs::path(o.removal).extension() != ".csv") {
     return error("the removal of each block is written as .csv, not " + o.removal);
   }
   return std::nullopt;
 }
 
+using Failure = std::optional<Diagnostics>;
+
 // --view AZIMUTH,ELEVATION in degrees.
-Result<report::PictureOptions> picture_options(const std::string& view) {
-  report::PictureOptions options;
-  if (view.empty()) return options;
+Failure look_from(const std::string& view, report::PictureOptions& options) {
   const auto angles = numbers_of(view, 2, "--view");
   if (!angles) return angles.error();
   options.azimuth = (*angles)[0];
   options.elevation = (*angles)[1];
-  if (std::abs(options.azimuth) > 360.0 || std::abs(options.elevation) > 90.0) {
-    return error("--view " + view + " is no direction to look from",
-                 "azimuth about Z from +X within 360 deg, elevation from -90 to 90 deg");
+  if (std::abs(options.azimuth) <= 360.0 && std::abs(options.elevation) <= 90.0) return {};
+  return Diagnostics{error("--view " + view + " is no direction to look from",
+                           "azimuth about Z from +X within 360 deg, elevation from -90 to 90 deg")};
+}
+
+// --size WIDTH,HEIGHT in pixels; which sizes can be drawn is the picture's to say.
+Failure draw_at(const std::string& size, report::PictureOptions& options) {
+  const auto sides = numbers_of(size, 2, "--size");
+  if (!sides) return sides.error();
+  for (const double side : *sides) {
+    if (side != std::floor(side) || std::abs(side) > 1e6) {
+      return Diagnostics{
+          error("--size " + size + " is no size in pixels", "two whole numbers: 1600,1100")};
+    }
+  }
+  options.width = static_cast<int>((*sides)[0]);
+  options.height = static_cast<int>((*sides)[1]);
+  return {};
+}
+
+Result<report::PictureOptions> picture_options(const Options& o) {
+  report::PictureOptions options;
+  if (!o.view.empty()) {
+    if (auto failure = look_from(o.view, options)) return *std::move(failure);
+  }
+  if (!o.size.empty()) {
+    if (auto failure = draw_at(o.size, options)) return *std::move(failure);
   }
   return options;
 }
@@ -118,8 +146,6 @@ class Cut {
   }
 
  private:
-  using Failure = std::optional<Diagnostics>;
-
   [[nodiscard]] const stock::Workpiece& workpiece() const { return *trial_.workpiece; }
   [[nodiscard]] const kinematics::ToolPath& path() const { return workpiece().removed().path(); }
   [[nodiscard]] stock::WorkpieceAt part() const { return {workpiece(), result_.until}; }
@@ -260,7 +286,7 @@ void tell_collisions(const Job& job, const CutResult& result) {
 
 int cut(Options options) {
   if (const auto fault = fault_of(options)) return refuse({*fault});
-  const auto view = picture_options(options.view);
+  const auto view = picture_options(options);
   if (!view) return refuse(view.error());
   options.facets.tolerance = Mm{options.facet_tolerance_mm};
   const auto job = load_job(options.job, options.overrides, false);
@@ -288,6 +314,7 @@ void add_options(CLI::App& command, Options& o) {
   command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
   command.add_option("--view", o.view,
                      "AZIMUTH,ELEVATION the picture is seen from, deg (default: -60,32)");
+  command.add_option("--size", o.size, "WIDTH,HEIGHT of the picture, px (default: 1600,1100)");
   command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
       ->check(positive_number());
   command

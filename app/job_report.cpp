@@ -82,7 +82,8 @@ void judge_edges(stock::SurfaceMesh& mesh, const metrology::InspectionPlan& plan
     const auto normal = UnitVec3::of(across);
     if (!normal) continue;
     for (const std::uint32_t corner : triangle) {
-      if (mesh.deviation[corner]) continue;
+      const bool on_edge = mesh.kinds[corner] != stock::VertexKind::surface;
+      if (!on_edge || mesh.deviation[corner]) continue;
       mesh.deviation[corner] =
           metrology::deviation_from_nominal(plan, mesh.vertices[corner], *normal);
     }

@@ -11,16 +11,23 @@ namespace {
 // feature next to it is usually steeper.
 const double kSameDirection = std::cos(20.0 * kRadPerDeg);
 constexpr double kNear = 1.0;  // mm
+// A face reaches its edges wherever machining errors have moved them.
+constexpr double kEdge = 0.05;  // mm
+
+// Is `away` no farther along a side of a rectangle than half of it?
+bool within(const Vec3& away, const Vec3& side) {
+  const double length = side.norm();
+  return std::abs(away.dot(side)) <= (0.5 * length + kEdge) * length;
+}
 
 bool inside_plane_extent(const PlannedFeature& feature, const Vec3& point) {
   const Vec3 w = point - feature.point;
   if (const auto* r = std::get_if<RadialExtent>(&feature.extent)) {
     const double away = w.cross(unit(feature.axis).vec()).norm();
-    return away >= r->inner && away <= r->outer;
+    return away >= r->inner - kEdge && away <= r->outer + kEdge;
   }
   if (const auto* r = std::get_if<RectangleExtent>(&feature.extent)) {
-    return std::abs(w.dot(r->u)) <= 0.5 * r->u.squaredNorm() &&
-           std::abs(w.dot(r->v)) <= 0.5 * r->v.squaredNorm();
+    return within(w, r->u) && within(w, r->v);
   }
   return true;  // not stated: the whole plane
 }
@@ -33,7 +40,7 @@ bool owns(const PlannedFeature& feature, const Vec3& point) {
     case FeatureKind::cone: {
       const AxialExtent extent = axial_extent(feature);
       const double along = (point - feature.point).dot(unit(feature.axis).vec());
-      return along >= extent.from && along <= extent.to;
+      return along >= extent.from - kEdge && along <= extent.to + kEdge;
     }
     case FeatureKind::circle:
     case FeatureKind::line:

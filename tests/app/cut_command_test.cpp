@@ -67,6 +67,40 @@ TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
   EXPECT_FALSE(fs::exists(folder_ / "film.ply"));
 }
 
+TEST_F(CutCommandSystem, DrawsAtTheSizeThatIsAskedFor) {
+  write_plate();
+  ASSERT_EQ(run("cut plate.toml --pitch 4 --picture a.png --size 96,64").exit_code, 0);
+  // Width and height stand in the file's first block, highest byte first.
+  EXPECT_EQ(read(folder_ / "a.png").substr(16, 8), std::string("\0\0\0\x60\0\0\0\x40", 8));
+  for (const std::string size : {"96", "96,6.5", "96,1e30", "10,10", "nan,64"}) {
+    const Outcome refused = run("cut plate.toml --pitch 4 --picture b.png --size " + size);
+    EXPECT_EQ(refused.exit_code, 2) << size;
+    EXPECT_NE(refused.err.find("size"), std::string::npos) << refused.err;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "b.png"));
+}
+
+// The two five-axis parts take longer; tests/app/post_command_test.cpp plans them.
+TEST_F(CutCommandSystem, CutsTheThreeAxisPartsOfTheExamplesWithoutCollision) {
+  for (const std::string part : {"flange", "freeform", "plate"}) {
+    const Outcome done = run("cut '" FRUSTUM_SOURCE_DIR "/examples/parts/" + part +
+                             "/job.toml' --point 0,0,0 --json");
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const json told = json::parse(done.out);
+    EXPECT_EQ(told["collisions"], 0) << part;
+    EXPECT_EQ(told["finished"], true) << part;
+  }
+}
+
+// At this pitch a vertex of the groove's floor, by the blank's side, has triangles that face as the
+// side does: judged by them it would be a gouge of 250 um.
+TEST_F(CutCommandSystem, JudgesPointsOfASmoothFaceByTheirOwnNormalAlone) {
+  const Outcome done =
+      run("cut '" FRUSTUM_SOURCE_DIR "/examples/cone/job.toml' --gouge-limit 30 --json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NEAR(json::parse(done.out)["gouge"]["deviation_um"].get<double>(), -10.7, 0.1);
+}
+
 TEST_F(CutCommandSystem, FailsWithExitCodeOneOnACollision) {
   write_plate("G0 X-60 Y8");
   const json doc = cut("--mesh a.stl --pitch 2", 1);

@@ -45,6 +45,16 @@ TEST_F(PostCommandSystem, RewritesAConeForEveryController) {
   }
 }
 
+TEST_F(PostCommandSystem, PlansEveryPartOfTheExamples) {
+  for (const std::string part : {"blades", "crown", "flange", "freeform", "plate"}) {
+    const std::string folder = FRUSTUM_SOURCE_DIR "/examples/parts/" + part;
+    const Outcome made = run("post '" + folder + "/" + part + ".nc' --job '" + folder +
+                             "/job.toml' --to linuxcnc --output axes --json -o out.ngc");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_GT(nlohmann::json::parse(made.out)["lines"], 200) << part;
+  }
+}
+
 TEST_F(PostCommandSystem, RefusesWhatItCannotDoAndLeavesFilesAlone) {
   ASSERT_EQ(run(kCoarseCone + "vector").exit_code, 0);
   const std::string before = read(folder_ / "piece/cone.nc");

@@ -29,6 +29,20 @@ TEST(DeviationFromNominal, LeavesOtherSurfacesAlone) {
   EXPECT_FALSE(deviation_from_nominal(plan, {25, 0, 15.5}, Vec3::UnitX()));  // above the cylinder
 }
 
+TEST(DeviationFromNominal, ReachesEdgesThatErrorsHaveMoved) {
+  InspectionPlan plan;
+  plan.features.resize(1);
+  PlannedFeature& face = plan.features.front();
+  face.kind = FeatureKind::plane;
+  const auto at = [&](double x) { return deviation_from_nominal(plan, {x, 0, 0}, Vec3::UnitZ()); };
+  face.extent = RadialExtent{5.0, 20.0};
+  for (const double edge : {4.97, 20.03}) EXPECT_TRUE(at(edge)) << edge;
+  for (const double beside : {4.9, 20.1}) EXPECT_FALSE(at(beside)) << beside;
+  face.extent = RectangleExtent{{40, 0, 0}, {0, 2, 0}};
+  EXPECT_TRUE(at(20.03));
+  EXPECT_FALSE(at(20.1));
+}
+
 TEST(DeviationFromNominal, IsPositiveInsideAHoleWhereMaterialIsLeft) {
   InspectionPlan plan;
   PlannedFeature bore;
