@@ -56,34 +56,13 @@ std::optional<EndGuard::Plane> EndGuard::touching(const ToolPose& pose) const {
     plane.lateral = beside / length;
     plane.axial = above / length;
     plane.offset = support_of_round(plane.lateral, plane.axial);
-    plane.round = length;
   }
-  plane.rho = rho;
   plane.height = plane.lateral * rho + plane.axial * z - plane.offset;
   if (plane.lateral == 0.0) return plane;
   constexpr double kOnAxis = 1e-9;  // mm
   if (rho < kOnAxis) return std::nullopt;
   plane.side = across / rho;
   return plane;
-}
-
-// With the side turned towards the end at every moment the height is a convex function of straight motion:
-// the distance from the axis, or from the circle, has a second derivative of at most step^2 over itself.
-double EndGuard::clear_of(const ToolPose& pose, double step) const {
-  constexpr double kNothing = -std::numeric_limits<double>::infinity();
-  if (body_ == nullptr) return kNothing;
-  const std::optional<Plane> plane = touching(pose);
-  if (!plane) return kNothing;
-  double bend = 0.0;
-  if (plane->lateral > 0.0) {
-    if (!(plane->rho > step)) return kNothing;
-    bend += plane->lateral / (plane->rho - step);
-  }
-  if (plane->round > 0.0) {
-    if (!(plane->round > step)) return kNothing;
-    bend += 1.0 / (plane->round - step);
-  }
-  return plane->height - bend * step * step / 8.0;
 }
 
 // At another pose, tip p + dp and axis a + da, the normal n turns by dn = axial da - lateral (side.da) a

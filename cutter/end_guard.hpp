@@ -40,9 +40,6 @@ class EndGuard {
   EndGuard(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
 
   [[nodiscard]] Overreach overreach(const PoseGroup& group) const;
-  // How far the end is outside of the body at the pose, and at poses around it whose tip is nearer than
-  // `step`, less what the straight line between two such falls short; nothing is known: minus infinite.
-  [[nodiscard]] double clear_of(const ToolPose& pose, double step) const;
   // Whether the moving body surely covers nothing beyond the end.
   [[nodiscard]] bool holds(const StretchMotion& motion) const;
 
@@ -52,8 +49,6 @@ class EndGuard {
     double axial = 0.0, lateral = 0.0;
     double offset = 0.0;  // from the tip
     double height = 0.0;
-    double rho = 0.0;    // of the end, from the axis
-    double round = 0.0;  // and from the circle of a round face; 0: not round
     Vec3 side = Vec3::Zero();
   };
   [[nodiscard]] std::optional<Plane> touching(const ToolPose& pose) const;

@@ -1,7 +1,6 @@
 #include "cutter/ray_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -43,6 +42,7 @@ class Guards {
 };
 
 // The search: what promises most comes first. Its goal knows what it still wants:
+//   RaySpan span()            where on the ray
 //   Limit limit(group)        what do the ends of the cover, by their planes, leave of the group?
 //   bool holds(motion)        do they leave nothing of this motion?
 //   bool wants(group, reach)  could this still add anything?
@@ -96,7 +96,10 @@ class Search {
     if (limit.counts_witness && group.shift <= sweep_.body->reach()) {
       reach = reach_by_witness(group, limit.hi == kInfinity);
     }
-    reach.hi = std::min(reach.hi, limit.hi);
+    if (limit.hi < reach.hi) {
+      reach.hi = limit.hi;
+      reach.hi_slack = 0.0;  // it is in the limit already
+    }
     if (!goal_.wants(index, reach)) return;
     open_.push_back({index, goal_.change(), reach, goal_.promise(reach)});
     std::ranges::push_heap(open_, {}, &Candidate::promise);

@@ -1,12 +1,12 @@
 // What the sweeps of one tool cover of a ray, found from coarse groups of poses to single stretches.
 //
-// Model    : a group whose bound along the ray lies inside what is covered already is left aside; else its
-//            witness, standing still, adds what it covers, and its halves are asked. Near an end of the
-//            cover this comes down to the one or two stretches that make it, and those are solved
+// Model    : groups that cover nothing beyond what is covered already, by their own bounds or by a plane at
+//            an end of the cover, are left aside; of the others the witness, standing still, adds what it
+//            covers, and the halves are asked, what promises most first, down to the stretches themselves
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
-// Accuracy : ends within 0.02 nm normal to the swept surface: kSearchTolerance of the solution and as much
-//            for groups that are left aside
+// Accuracy : ends within twice kSearchTolerance normal to the swept surface, for the solution and for what
+//            is left aside, and within what the stretches themselves allow (SweptCutter::accuracy)
 // Source   : ours
 #pragma once
 

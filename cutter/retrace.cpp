@@ -77,20 +77,25 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
                     old.blocks.size()),
         "contacts are followed only onto a path with the same stretches, blocks and tools");
   }
+  if (const auto fault = half_turn(path)) return *fault;
   double displacement = 0.0;
   std::vector<double> departures;
   departures.reserve(path.stretches.size());
   for (const kinematics::Stretch& stretch : path.stretches) {
     const double reach = nominal.tool(path.blocks[stretch.block].tool).body().reach();
+    const StretchMotion motion(path.from(stretch), path.to(stretch), reach);
+    const StretchMotion before(old.from(stretch), old.to(stretch), reach);
+    // Between the poses the axes turn evenly, which spreads them where the turn is large.
+    const double spread = 1.0 / std::cos(0.5 * std::max(motion.turn(), before.turn()));
     for (const std::uint32_t i : {stretch.first_pose, stretch.first_pose + 1}) {
       const double moved = (path.poses[i].tip - old.poses[i].tip).norm() +
-                           reach * (path.poses[i].axis - old.poses[i].axis).norm();
+                           spread * reach * (path.poses[i].axis - old.poses[i].axis).norm();
       displacement = std::max(displacement, moved);
     }
-    const StretchMotion motion(path.from(stretch), path.to(stretch), reach);
-    departures.push_back(motion.turn() > 0.0
-                             ? 4.0 * motion.plane_departure(1.0, 2.0 * reach, motion.travel())
-                             : 0.0);
+    constexpr double kFarTurned = 0.05;  // plane_departure() holds up to here
+    const double departure = motion.plane_departure(1.0, reach + motion.travel(), motion.travel());
+    departures.push_back(motion.turn() > kFarTurned ? std::numeric_limits<double>::infinity()
+                                                    : 4.0 * departure);
   }
   return ChangedPath(nominal, std::move(path), displacement, std::move(departures));
 }
@@ -107,22 +112,26 @@ ChangedPath::ChangedPath(const SweptCutter& nominal, ToolPath path, double displ
 }
 
 // The stretches beside those that were solved, up to the end of the window. The plane that touches the cutter
-// where the two sides part holds the nearest one back; the others stand clear of the end at all their poses.
+// where the two sides part holds the nearest one back: it touches one end of it, so that its distance, less
+// than linear by at most a quarter of what it is at the other end, stays. The others each have their own plane.
 bool ChangedPath::holds_back(const TouchingPlane& plane, const EndGuard& end, const Vec3& point,
                              const Side& side) const {
   const auto pose_beyond = [&](std::uint32_t stretch) -> const ToolPose& {
     return path_.poses[path_.stretches[stretch].first_pose + (side.up ? 1U : 0U)];
   };
   for (std::uint32_t count = 0, i = side.from; count < side.count; ++count, side.up ? ++i : --i) {
-    const ToolPose& pose = pose_beyond(i);
     if (count == 0) {
-      if (!(plane.height(pose, point) >= departures_[i])) return false;
-      continue;
+      if (!(plane.height(pose_beyond(i), point) >= departures_[i])) return false;
+    } else if (!end.holds(motion_of(i))) {
+      return false;
     }
-    const double step = (pose.tip - pose_beyond(side.up ? i - 1 : i + 1).tip).norm();
-    if (!(end.clear_of(pose, step) >= departures_[i])) return false;
   }
   return true;
+}
+
+StretchMotion ChangedPath::motion_of(std::uint32_t stretch) const {
+  const auto& at = path_.stretches[stretch];
+  return {path_.from(at), path_.to(at), body_of_block_[at.block]->reach()};
 }
 
 std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const {
@@ -130,10 +139,6 @@ std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const
   const std::uint32_t own = trail.contact.stretch;
   const Body& body = *body_of_block_[path_.stretches[own].block];
   const Profile& part = body.parts().front();
-  const auto motion_of = [&](std::uint32_t i) {
-    return StretchMotion(path_.from(path_.stretches[i]), path_.to(path_.stretches[i]),
-                         body.reach());
-  };
 
   // The stretches to solve: more of them on the side that is not held back.
   std::uint32_t first = own, last = own;

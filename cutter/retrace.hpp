@@ -7,7 +7,7 @@
 //            to be asked
 // Units    : mm; frame: workpiece
 // Errors   : on() refuses a path with other stretches, blocks or tools than the nominal one
-// Accuracy : that of SweptCutter::end_of_void: 0.02 nm normal to the surface
+// Accuracy : that of SweptCutter::end_of_void
 // Source   : ours
 #pragma once
 
@@ -42,6 +42,7 @@ class ChangedPath {
                                               kinematics::ToolPath path);
 
   // Where the probe meets the part that this path cuts; nothing: not proven, ask the whole sweep.
+  // Precondition: the trail is one of the nominal path.
   [[nodiscard]] std::optional<SweepContact> follow(const ContactTrail& trail) const;
 
   // No point of a cutter is farther from its nominal place at any pose (mm).
@@ -56,6 +57,7 @@ class ChangedPath {
   };
   ChangedPath(const SweptCutter& nominal, kinematics::ToolPath path, double displacement,
               std::vector<double> departures);
+  [[nodiscard]] StretchMotion motion_of(std::uint32_t stretch) const;
   [[nodiscard]] bool holds_back(const TouchingPlane& plane, const EndGuard& end, const Vec3& point,
                                 const Side& side) const;
 

@@ -25,6 +25,18 @@ double angle(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
+std::optional<Diagnostic> half_turn(const kinematics::ToolPath& path) {
+  constexpr double kOpposite = 1e-6;
+  for (const kinematics::Stretch& stretch : path.stretches) {
+    if ((path.from(stretch).axis + path.to(stretch).axis).norm() > kOpposite) continue;
+    Diagnostic fault = error("the tool turns half about between two poses of the path",
+                             "the way there is not told: put a pose between them");
+    fault.line = static_cast<int>(path.blocks[stretch.block].source_line);
+    return fault;
+  }
+  return std::nullopt;
+}
+
 StretchMotion::StretchMotion(const ToolPose& from, const ToolPose& to, double reach)
     : from_(from),
       to_(to),

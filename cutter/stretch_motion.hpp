@@ -6,11 +6,17 @@
 // Accuracy : the axis is a unit vector within 4e-16
 #pragma once
 
+#include <optional>
+
+#include "core/diagnostic.hpp"
 #include "kinematics/tool_path.hpp"
 
 namespace frustum::cutter {
 
 using kinematics::ToolPose;
+
+// Of a path that turns its tool half about between two poses: which way is not told by them.
+[[nodiscard]] std::optional<Diagnostic> half_turn(const kinematics::ToolPath& path);
 
 class StretchMotion {
  public:

@@ -88,10 +88,10 @@ class ChordTimes {
       const Sample end = end_of_run(a, b);
       join(a, end, depth);
       samples_.push_back(end);
-      search_beside_run(end, b);
+      search_beside_run(end, b, depth);
     } else if (b.chord) {
       const Sample begin = end_of_run(b, a);
-      search_beside_run(begin, a);
+      search_beside_run(begin, a, depth);
       samples_.push_back(begin);
       join(begin, b, depth);
     } else {
@@ -120,18 +120,19 @@ class ChordTimes {
   }
 
   // Between the last moment of a run and a sample without a chord: none but what turning brings back.
-  void search_beside_run(const Sample& run_end, const Sample& outside) {
+  void search_beside_run(const Sample& run_end, const Sample& outside, int depth) {
     if (motion_.turn() == 0.0) return;
     const double dt = outside.t - run_end.t;
     const double beyond = run_end.t + std::copysign(2.0 * resolution(), dt);
     if (std::abs(beyond - run_end.t) >= std::abs(dt)) return;
     const Sample gone = sample(beyond);
-    if (gone.chord) return;
+    // The ray slides along the body, by rounding in and out: so often and no oftener.
+    if (gone.chord && depth > 60) return;
     if (dt > 0.0) {
       samples_.push_back(gone);
-      search_empty(gone, outside);
+      refine_between(gone, outside, depth + 1);
     } else {
-      search_empty(outside, gone);
+      refine_between(outside, gone, depth + 1);
       samples_.push_back(gone);
     }
   }
@@ -516,8 +517,14 @@ PlaneCrossing TouchingPlane::crossing(const ToolPose& pose, const Ray& ray) cons
 
 bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
                   const Ray& ray) {
+  // Between its ends the gap is (1 - t) A + t B or less by 4 t (1 - t) slack: least where that is
+  // A / t + B / (1 - t) = (sqrt A + sqrt B)^2 against 4 slack.
   const auto apart = [&](const Vec3& normal) {
-    return gap_of(normal, body, a, ray) > 0.0 && gap_of(normal, body, b, ray) > slack;
+    const double at_a = gap_of(normal, body, a, ray) + kMissedDepth;
+    const double at_b = gap_of(normal, body, b, ray) + kMissedDepth;
+    if (!(at_a > 0.0 && at_b > 0.0)) return false;
+    const double roots = std::sqrt(at_a) + std::sqrt(at_b);
+    return roots * roots >= 4.0 * slack;
   };
   // The plane between the ray and the axis, and the one that faces an end of the cutter.
   const Vec3 across = ray.direction.cross(a.axis);

@@ -85,8 +85,8 @@ struct LastExit {
 [[nodiscard]] std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& motion,
                                                 const Ray& ray);
 
-// A plane along the ray that has the body, at all of the poses in `poses`, on its other side? True is a
-// proof; false says nothing.
+// A plane along the ray that has the body, on its way from a to b, on its other side but for kMissedDepth?
+// True is a proof; false says nothing. `slack`: by so much the body leaves the straight way between.
 [[nodiscard]] bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b,
                                 double slack, const Ray& ray);
 

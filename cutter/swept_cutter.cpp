@@ -89,15 +89,7 @@ Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tool
       return failure;
     }
   }
-  for (const Stretch& stretch : path.stretches) {
-    // Which way an axis turns half about is not said by its ends.
-    constexpr double kOpposite = 1e-6;
-    if ((path.from(stretch).axis + path.to(stretch).axis).norm() > kOpposite) continue;
-    Diagnostic failure = error("the tool turns half about between two poses of the path",
-                               "the way there is not told: put a pose between them");
-    failure.line = static_cast<int>(path.blocks[stretch.block].source_line);
-    return failure;
-  }
+  if (const auto fault = half_turn(path)) return *fault;
   return SweptCutter(std::move(path), std::move(tools));
 }
 

@@ -4,7 +4,8 @@
 // Units    : mm; frame: workpiece
 // Errors   : sweep() refuses a path that uses a tool number without a cutter, or turns a tool half about
 //            between two poses
-// Accuracy : interval ends within 1 nm normal to the swept surface for the given path
+// Accuracy : interval ends within 1 nm normal to the swept surface for the given path; of hollowed cutters
+//            as carved_sweep.hpp says
 // Threads  : const member functions may be called from any number of threads
 #pragma once
 

@@ -33,11 +33,18 @@ struct SuspectMove {
   Box box{};
 };
 
-// Feeds with the spindle off that follow each other are one move: one report is enough.
+// Feeds of one tool with the spindle off that follow each other are one move: one report is enough. What a
+// block between them cuts would be missing.
 bool continues(const ToolPath& path, const SuspectMove& move, std::uint32_t block) {
   if (move.block == block) return true;
-  const PathBlock& before = path.blocks[path.stretches[move.stretches.back()].block];
-  return before.kind == PathKind::feed && path.blocks[block].kind == PathKind::feed;
+  const std::uint32_t last = path.stretches[move.stretches.back()].block;
+  const PathBlock &before = path.blocks[last], &now = path.blocks[block];
+  if (before.kind != PathKind::feed || now.kind != PathKind::feed) return false;
+  const auto cuts = [](const PathBlock& between) {
+    return between.kind == PathKind::feed && between.spindle_on;
+  };
+  return before.tool == now.tool &&
+         std::none_of(path.blocks.begin() + last, path.blocks.begin() + block, cuts);
 }
 
 std::vector<SuspectMove> suspects(const Workpiece& workpiece) {

@@ -78,6 +78,9 @@ class WorkpieceAt {
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const {
     return workpiece_->surface_at(ray, s, tag);
   }
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(const Ray& ray, RaySpan span) const {
+    return workpiece_->first_surface(ray, span, moment_.stretches);
+  }
   [[nodiscard]] const Workpiece& workpiece() const { return *workpiece_; }
   [[nodiscard]] const Moment& moment() const { return moment_; }
 

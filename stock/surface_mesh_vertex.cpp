@@ -147,7 +147,9 @@ std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point,
                                              double reach) {
   // Nearly always the way there from outside is free.
   const Ray inwards{point + reach * normal, -normal};
-  if (const auto met = solid.first_surface(inwards, {0.0, 2.0 * reach})) {
+  const auto met = solid.first_surface(inwards, {0.0, 2.0 * reach});
+  constexpr double kFacing = 0.5;  // cosine of 60 deg: else something else is in the way
+  if (met && met->normal.dot(normal) > kFacing) {
     return HermiteSample{inwards.at(met->s), met->normal};
   }
   const Ray ray{point - reach * normal, normal};

@@ -2,8 +2,8 @@
 //
 // Model    : blank minus the union of all swept cutters
 // Units    : mm; frame: workpiece
-// Accuracy : 1 nm normal to the surface for the given ToolPath (tests/cutter/swept_cutter_test.cpp); each
-//            point says its own bound. Rounding: a point is o + s d, and its distance from a cutter is made of
+// Accuracy : 1 nm normal to the surface for the given ToolPath and convex cutters (hollowed ones:
+//            cutter/carved_sweep.hpp); each point says its own bound. Rounding: a point is o + s d, and its distance from a cutter is made of
 //            sums and products of coordinates, way and reach, fewer than 32 on the longest path; each is off
 //            by half of 2.2e-16 of a number below S = |o| + |s| + |tip| + reach, so that all together are
 //            below 32 * 2.2e-16 * S: 4e-12 mm at half a metre
@@ -49,7 +49,9 @@ class Workpiece {
   // The surface at an interval end: s and tag as found in material_along() of the same ray.
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const;
   // Where the ray first enters material after span.lo; nothing when it starts inside or meets none.
-  [[nodiscard]] std::optional<SurfacePoint> first_surface(const Ray& ray, RaySpan span) const;
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(
+      const Ray& ray, RaySpan span,
+      std::uint32_t first_excluded_stretch = cutter::SweptCutter::kAll) const;
 
   [[nodiscard]] const Blank& blank() const { return blank_; }
   [[nodiscard]] const cutter::SweptCutter& removed() const { return removed_; }

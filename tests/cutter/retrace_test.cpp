@@ -174,6 +174,58 @@ TEST(RetraceLaws, AHigherPassThatComesDownIsNotMissed) {
   EXPECT_GT(nothing, 10);
 }
 
+Cutter flat_mill(double diameter, double flutes) {
+  return *Cutter::make({.type = CutterType::flat,
+                        .diameter = {diameter},
+                        .length = {flutes},
+                        .flute_length = {flutes}});
+}
+
+// Followed or not: what is told is what the changed path leaves.
+void expect_the_truth(const Cutter& tool, const std::vector<ToolPose>& before,
+                      const std::vector<ToolPose>& after, const Ray& ray, double start) {
+  const std::map<int, Cutter> tools{{1, tool}};
+  const auto nominal = SweptCutter::sweep(proof::path_through(before), tools);
+  const auto whole = SweptCutter::sweep(proof::path_through(after), tools);
+  const auto contact = nominal->end_of_void(ray, start, start + 50.0);
+  ASSERT_TRUE(contact);
+  const auto track = ChangedPath::on(*nominal, proof::path_through(after));
+  const auto met = track->follow(trail_of(*nominal, ray, start, *contact));
+  if (!met) return;
+  EXPECT_NEAR(met->s, whole->end_of_void(ray, start, start + 50.0)->s, kSame);
+}
+
+TEST(RetraceLaws, StrokesOfUnlikeLengthAndTurnAreNotMissed) {
+  const Vec3 up = Vec3::UnitZ();
+  // The floor of the cutter holds one stroke back, its flank would the next.
+  const auto diagonal = [&](double dx) -> std::vector<ToolPose> {
+    return {{{0, 0, 0}, up},
+            {{-0.01, 0, 1.05}, up},
+            {{9.9 + dx, 0, 1.001}, up},
+            {{10.1 + dx, 0, 0}, up}};
+  };
+  expect_the_truth(flat_mill(10, 50), diagonal(0.15), diagonal(0.0),
+                   {{0, 0, 6}, Vec3(1, 0, -1).normalized()}, 3.0 * std::sqrt(2.0));
+  // Turning about the tip: the tip makes no way at all.
+  const auto towards = [](double x, double y) {
+    return ToolPose{{-1, 0, 0}, Vec3(x + 1.0, y, 90.0).normalized()};
+  };
+  const auto turning = [&](double x, double y, double between) -> std::vector<ToolPose> {
+    return {towards(-1, 0), towards(-1.02, 0), towards(-1.04, between), towards(x, y)};
+  };
+  expect_the_truth(flat_mill(2, 100), turning(1.2, -3.4, -0.3), turning(1.2, -2.6, -0.15),
+                   {{-1, 0, 90}, Vec3::UnitX()}, 0.2);
+  // A short stroke, then a long one that comes back to the wall.
+  const auto sagging = [&](double dx) -> std::vector<ToolPose> {
+    return {{{-5, 0, 0}, up},
+            {{-5.01, 0, 0}, up},
+            {{-5.001 + dx, -0.05, 0}, up},
+            {{-4.925 + dx, -1.02, 0}, up}};
+  };
+  expect_the_truth(flat_mill(10, 50), sagging(-0.06), sagging(0.0), {{-4, 0, 5}, Vec3::UnitX()},
+                   1.0);
+}
+
 TEST(Retrace, HollowedCuttersAreNotFollowed) {
   const ToolPath path = over_waves();
   const auto nominal = SweptCutter::sweep(path, {{1, proof::kind_named("hollow").cutter}});

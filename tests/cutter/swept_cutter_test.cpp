@@ -153,6 +153,42 @@ TEST_P(BothCutters, NeverMissesWhatAStandingCutterCovers) {
 INSTANTIATE_TEST_SUITE_P(Shapes, BothCutters, testing::Values(CutterType::flat, CutterType::ball),
                          [](const auto& each) { return to_string(each.param); });
 
+// A thin disc that turns past the ray between two poses that just clear it, by a nanometre.
+TEST(SweptCutterLaws, WhatTurningBringsInBetweenTwoClearPosesIsFound) {
+  constexpr double kRadius = 25.0, kHeight = 1.0, kTurn = 0.0499, kClear = 1e-6;
+  auto disc = Cutter::make({.type = CutterType::flat,
+                            .diameter = {2.0 * kRadius},
+                            .length = {kHeight},
+                            .flute_length = {kHeight}});
+  ASSERT_TRUE(disc);
+  const double wall = kRadius + kClear;
+  const double bend = disc->body().reach() * kTurn * kTurn / 8.0;
+  const double end = wall - (kRadius * std::cos(kTurn) + kHeight * std::sin(kTurn)) - bend - kClear;
+  const std::vector<ToolPose> poses{
+      {Vec3::Zero(), Vec3::UnitZ()},
+      {Vec3(end, 0.0, 0.0), Vec3(std::sin(kTurn), 0.0, std::cos(kTurn))}};
+  const auto swept = SweptCutter::sweep(path_through(poses), {{1, *disc}});
+  ASSERT_TRUE(swept);
+  int found = 0;
+  for (int k = 0; k <= 100; ++k) {
+    const Ray ray{{wall, -30.0, 0.01 * k}, Vec3::UnitY()};
+    double deepest = 0.0;
+    const StretchMotion motion(poses[0], poses[1], disc->body().reach());
+    for (int i = 0; i <= 1000; ++i) {
+      const auto chord = disc->body().parts().front().chord(motion.at(i / 1000.0), ray);
+      if (!chord) continue;
+      const Vec3 middle = ray.at(0.5 * (chord->lo + chord->hi));
+      deepest = std::max(deepest, -disc->body().distance(motion.at(i / 1000.0), middle));
+    }
+    if (swept->along(ray, {0.0, 60.0}).intervals().empty()) {
+      EXPECT_LT(deepest, 1e-6) << k;
+    } else {
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 5);
+}
+
 TEST(SweptCutter, HalfTurnsAreRefusedAndNearlyHalfTurnsAreNot) {
   const std::map<int, Cutter> tools{{1, end_mill(CutterType::ball)}};
   ToolPath path = path_through({{Vec3::Zero(), Vec3::UnitZ()}, {Vec3::Zero(), -Vec3::UnitZ()}});

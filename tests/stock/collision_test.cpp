@@ -33,6 +33,16 @@ std::vector<Collision> of_slot(const std::vector<double>& floors, const NonCutti
   return find_body_collisions(cut(path_through(tips), end_mill(10.0, 6.0)), {body});
 }
 
+TEST(Collision, StandingToolsMayGoBackThroughEachSlotThatTheyHaveCut) {
+  kinematics::ToolPath path = path_through(std::vector<Vec3>{
+      {-70, 0, -5}, {70, 0, -5}, {-70, 0, -5}, {-70, 20, -5}, {70, 20, -5}, {-70, 20, -5}});
+  path.blocks[1].spindle_on = path.blocks[4].spindle_on = false;
+  EXPECT_TRUE(find_collisions(cut(path, end_mill(10.0, 20.0))).empty());
+  // Without the second slot the way back is closed.
+  path.blocks[3].spindle_on = false;
+  EXPECT_FALSE(find_collisions(cut(path, end_mill(10.0, 20.0))).empty());
+}
+
 TEST(BodyCollision, OfAShankInASlotDeeperThanItsFlutes) {
   EXPECT_TRUE(of_slot({-6.0}, kShank).empty());
   const auto found = of_slot({-9.0}, kShank);
