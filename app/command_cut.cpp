@@ -18,6 +18,7 @@
 #include "app/trial_run.hpp"
 #include "core/whole_file.hpp"
 #include "report/picture.hpp"
+#include "stock/decimate_surface.hpp"
 #include "stock/mesh_file.hpp"
 
 namespace frustum::app {
@@ -61,6 +62,11 @@ std::optional<Diagnostic> fault_of(const Options& o) {
   if (o.polyhedral() && (o.chord > 0.0 || o.decimate > 0.0)) {
     return error("--chord and --decimate are for the surface that rays find",
                  "the polyhedral engine's facets follow --facets and --facet-tolerance");
+  }
+  constexpr double kFinest = 1e-6;  // mm: as exact as the surface is
+  if (o.chord > 0.0 && o.chord < kFinest) {
+    return error(fmt::format("--chord {:g} mm is finer than the surface is exact", o.chord),
+                 "give 1e-6 mm or more");
   }
   if (o.snapshots > 0 && o.mesh.empty()) {
     return error("snapshots need a name", "give --mesh part.ply for part_0001.ply and so on");
@@ -130,6 +136,10 @@ class Cut {
       : options_(options), view_(view), job_(job), trial_(trial), run_(run) {}
 
   [[nodiscard]] Result<CutResult> result() {
+    if (options_.limited() && job_.piece.plan.features.empty() && !job_.nominal) {
+      return error("a limit, but nothing that the part is judged by",
+                   "give the job an inspection plan or a [nominal] mesh");
+    }
     if (auto failure = find_moment()) return *failure;
     result_.blank_volume = workpiece().blank().volume();
     for (const stock::Collision& c : trial_.collisions) {
@@ -172,17 +182,23 @@ class Cut {
   struct Meshed {
     stock::SurfaceMesh mesh{};
     std::optional<Mm> bound{};
+    // What is judged where it is not the mesh itself: decimation takes away the vertices of flat faces.
+    std::optional<stock::SurfaceMesh> whole{};
   };
   [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {
     if (!options_.polyhedral()) {
-      auto mesh = finished_surface(job_, part, {options_.pitch, options_.chord, options_.decimate});
+      auto mesh = finished_surface(job_, part, {options_.pitch, options_.chord});
       if (!mesh) return mesh.error();
-      return Meshed{*std::move(mesh), {}};
+      if (options_.decimate <= 0.0) return Meshed{*std::move(mesh), {}, {}};
+      auto fewer = stock::decimate_surface(*mesh, Mm{options_.decimate});
+      if (!fewer) return fewer.error();
+      judge_surface(job_, *fewer);
+      return Meshed{*std::move(fewer), {}, *std::move(mesh)};
     }
     auto faceted = faceted_surface(part, options_.facets);
     if (!faceted) return faceted.error();
     judge_surface(job_, faceted->mesh);
-    return Meshed{std::move(faceted->mesh), faceted->bound};
+    return Meshed{std::move(faceted->mesh), faceted->bound, {}};
   }
 
   Failure write_surfaces() {
@@ -213,15 +229,16 @@ class Cut {
 
   void describe(const Meshed& meshed) {
     const stock::SurfaceMesh& mesh = meshed.mesh;
+    const stock::SurfaceMesh& judged = meshed.whole ? *meshed.whole : mesh;
     // A faceted vertex is looked up where it stands, as far off the exact surface as it may be.
     const Mm near{std::max(1e-3, meshed.bound.value_or(Mm{}).value)};
     CutSurface surface{.vertices = mesh.vertices.size(),
                        .triangles = mesh.triangles.size(),
                        .measure = stock::measure(mesh),
-                       .deviations = stock::worst_deviations(part(), mesh, near),
+                       .deviations = stock::worst_deviations(part(), judged, near),
                        .faceted_within = meshed.bound};
     bool first = true;
-    for (const auto& d : mesh.deviation) {
+    for (const auto& d : judged.deviation) {
       if (!d) continue;
       surface.lowest = first ? *d : std::min(surface.lowest, *d);
       surface.highest = first ? *d : std::max(surface.highest, *d);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "metrology/nominal.hpp"
-#include "stock/decimate_surface.hpp"
 #include "stock/deviation.hpp"
 #include "stock/nominal_mesh.hpp"
 #include "stock/refine_surface.hpp"
@@ -211,7 +210,6 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
     if (!refined) return refined.error();
     mesh = std::move(refined->mesh);
   }
-  if (mesh && request.decimate > 0.0) mesh = stock::decimate_surface(*mesh, Mm{request.decimate});
   if (mesh) judge_surface(job, *mesh);
   return mesh;
 }

@@ -21,9 +21,8 @@ namespace frustum::app {
 void add_proof(report::RunReport& report, const trials::PointProof& proof);
 
 struct SurfaceRequest {
-  double pitch = 0.0;     // mm; 0: what the job says, or the blank's longest side / 120
-  double chord = 0.0;     // mm; 0: not refined
-  double decimate = 0.0;  // mm; 0: not decimated
+  double pitch = 0.0;  // mm; 0: what the job says, or the blank's longest side / 120
+  double chord = 0.0;  // mm; 0: not refined
 };
 // The surface at the part's moment with the deviation of each vertex.
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
