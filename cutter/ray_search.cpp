@@ -314,11 +314,27 @@ class Front {
     return {&known_, 1};
   }
 
+  // What begins beyond the front counts when the front has come there.
   void take(const CoverInterval& next) {
-    if (next.lo.s > front_.s + gap_ || next.hi.s <= front_.s) return;
-    front_ = next.hi;
-    guard_.reset();
-    ++change_;
+    if (next.hi.s <= front_.s) return;
+    if (next.lo.s > front_.s + gap_) {
+      ahead_.push_back(next);
+      return;
+    }
+    move_to(next.hi);
+    for (std::size_t i = 0; i < ahead_.size();) {
+      if (ahead_[i].lo.s > front_.s + gap_) {
+        ++i;
+        continue;
+      }
+      const CoverEnd end = ahead_[i].hi;
+      ahead_[i] = ahead_.back();
+      ahead_.pop_back();
+      if (end.s > front_.s) {
+        move_to(end);
+        i = 0;
+      }
+    }
   }
 
   // A group that the front has come up to since it was put aside.
@@ -340,6 +356,12 @@ class Front {
     return *guard_;
   }
 
+  void move_to(const CoverEnd& end) {
+    front_ = end;
+    guard_.reset();
+    ++change_;
+  }
+
   struct Deferred {
     double lo;
     std::uint32_t group;
@@ -350,6 +372,7 @@ class Front {
   CoverEnd& front_;
   std::optional<EndGuard> guard_{};  // at the front; made when first asked for
   std::vector<Deferred> deferred_{};
+  std::vector<CoverInterval> ahead_{};
   Chord known_{};
   int change_ = 0;
 };
