@@ -73,6 +73,7 @@ Zone zone_of(const OutlineSegment& s) {
 Body::Body(Outline outline) : outline_(std::move(outline)) {
   const std::vector<OutlineSegment> side = outer_side(outline_);
   const double apex = apex_of(outline_);
+  std::vector<Profile> hulls;
   for (std::size_t first = 0; first < side.size();) {
     const bool recessed = side[first].from.z + kStep < apex;
     std::vector<Zone> zones{zone_of(side[first])};
@@ -82,17 +83,19 @@ Body::Body(Outline outline) : outline_(std::move(outline)) {
       zones.push_back(zone_of(side[next++]));
     }
     const bool carved = recessed || is_hollow(side[first]);
-    (carved ? carved_ : parts_).emplace_back(std::move(zones));
+    (carved ? hulls : slabs_).emplace_back(std::move(zones));
     first = next;
   }
+  part_count_ = slabs_.size();
+  slabs_.insert(slabs_.end(), hulls.begin(), hulls.end());
 }
 
 bool Body::meets(const ToolPose& pose, const Ray& ray, double lo, double hi) const {
-  for (const Profile& part : parts_) {
+  for (const Profile& part : parts()) {
     const auto chord = part.chord(pose, ray);
     if (chord && chord->lo < hi && chord->hi > lo) return true;
   }
-  for (const Profile& hull : carved_) {
+  for (const Profile& hull : carved()) {
     const auto within = hull.chord(pose, ray);
     if (!within) continue;
     // The distance changes by at most the way along the ray.
@@ -100,11 +103,9 @@ bool Body::meets(const ToolPose& pose, const Ray& ray, double lo, double hi) con
     double s = std::max(lo, within->lo);
     const double end = std::min(hi, within->hi);
     while (s <= end) {
-      const Vec3 m = ray.at(s) - pose.tip;
-      const double z = m.dot(pose.axis);
-      const double distance = outline_.distance((m - z * pose.axis).norm(), z);
-      if (distance < 0.0) return true;
-      s += std::max(kLeastStep, distance);
+      const double apart = distance(pose, ray.at(s));
+      if (apart < 0.0) return true;
+      s += std::max(kLeastStep, apart);
     }
   }
   return false;

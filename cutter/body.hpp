@@ -1,8 +1,8 @@
 // A body of revolution, cut across its axis into convex parts.
 //
-// Model    : the outline is the truth. parts() are convex and lie inside the body; what of the body is in
-//            none of them (around a hollow end, beside an inside radius) lies in carved(), convex hulls of
-//            slabs that are not convex themselves
+// Model    : the outline is the truth. Each slab is convex: parts() lie inside the body; what of the body is
+//            in none of them (around a hollow end, beside an inside radius) lies in carved(), the convex hulls
+//            of what is not convex itself
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
 // Errors   : make() refuses what Outline::make() refuses
 // Accuracy : faces of parts() lie on the outline within 1e-12 mm
@@ -21,9 +21,11 @@ class Body {
   explicit Body(Outline outline);
 
   [[nodiscard]] const Outline& outline() const { return outline_; }
-  [[nodiscard]] std::span<const Profile> parts() const { return parts_; }
-  [[nodiscard]] std::span<const Profile> carved() const { return carved_; }
-  [[nodiscard]] bool is_convex() const { return parts_.size() == 1 && carved_.empty(); }
+  // The parts, then the carved ones.
+  [[nodiscard]] std::span<const Profile> slabs() const { return slabs_; }
+  [[nodiscard]] std::span<const Profile> parts() const { return slabs().first(part_count_); }
+  [[nodiscard]] std::span<const Profile> carved() const { return slabs().subspan(part_count_); }
+  [[nodiscard]] bool is_convex() const { return slabs_.size() == 1 && part_count_ == 1; }
 
   // Whether the body, standing at the pose, covers some of the ray between lo and hi.
   [[nodiscard]] bool meets(const ToolPose& pose, const Ray& ray, double lo, double hi) const;
@@ -38,8 +40,8 @@ class Body {
 
  private:
   Outline outline_;
-  std::vector<Profile> parts_;
-  std::vector<Profile> carved_;
+  std::vector<Profile> slabs_;
+  std::size_t part_count_ = 0;
 };
 
 }  // namespace frustum::cutter

@@ -18,6 +18,13 @@ struct Box {
   Vec3 max = Vec3::Zero();
 };
 
+[[nodiscard]] inline bool overlap(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+[[nodiscard]] inline Box united(const Box& a, const Box& b) {
+  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+}
+
 class BoxCrossing {
  public:
   explicit BoxCrossing(const Ray& ray) : origin_(ray.origin) {

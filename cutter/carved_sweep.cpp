@@ -10,119 +10,35 @@ namespace frustum::cutter {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Distances below this are on the surface (mm).
-constexpr double kOnSurface = 1e-8;
+// A hull's end that is this near to the body's surface (mm) is on it: above rounding.
+constexpr double kSameSurface = 1e-11;
+// Steps along a ray are no shorter than this (mm): what begins and ends within one enters by half of it.
+constexpr double kLeastStep = 2.0 * kMissedDepth;
+// Where a ray slides along the surface the least step doubles after so many, up to this (mm).
+constexpr int kSlid = 256;
+constexpr double kLongestLeastStep = 1e-4;
 // Moments that are this near (mm of motion) bracket one minimum of the distance.
 constexpr double kSampleMotion = 0.02;
 // Ends are closed in to this along the ray (mm).
 constexpr double kEndTolerance = 1e-11;
 
-double distance_at(const Outline& outline, const ToolPose& pose, const Vec3& point) {
-  const Vec3 m = point - pose.tip;
-  const double z = m.dot(pose.axis);
-  return outline.distance((m - z * pose.axis).norm(), z);
-}
-
-// The least signed distance over the stretch, and when.
-struct Nearest {
-  double distance = kInfinity;
-  double t = 0.0;
-};
-
-class CarvedSearch {
+// How far a walk may go at least, the longer the longer it slides along the surface.
+class LeastStep {
  public:
-  CarvedSearch(const Body& body, const StretchMotion& motion, const Ray& ray)
-      : outline_(body.outline()), motion_(motion), ray_(ray) {
-    steps_ = 1 + static_cast<int>(motion.travel() / kSampleMotion);
-  }
-
-  // Walks from lo to hi and appends the covered pieces.
-  void walk(double lo, double hi, std::vector<SweptInterval>& found) const {
-    double s = lo;
-    Nearest here = nearest(s);
-    std::optional<SweptEnd> begin;
-    if (here.distance < 0.0) begin = SweptEnd{s, here.t};
-    while (s < hi) {
-      const double sure = std::max(std::abs(here.distance), kOnSurface);
-      double next = std::min(hi, s + 1.8 * sure);
-      Nearest there = nearest(next);
-      const bool flips = (there.distance < 0.0) != (here.distance < 0.0);
-      if (!flips && std::abs(there.distance) + sure < next - s) {  // an end may lie between
-        next = std::min(hi, s + sure);
-        there = nearest(next);
-      }
-      if ((there.distance < 0.0) != (here.distance < 0.0)) {
-        const SweptEnd end = close_in(s, here, next, there);
-        if (begin) {
-          found.push_back({*begin, end});
-          begin.reset();
-        } else {
-          begin = end;
-        }
-      }
-      s = next;
-      here = there;
+  // From a place that is so far from the surface.
+  double at(double distance) {
+    if (distance > step_) {
+      step_ = kLeastStep;
+      slid_ = 0;
+    } else if (++slid_ % kSlid == 0) {
+      step_ = std::min(2.0 * step_, kLongestLeastStep);
     }
-    if (begin) found.push_back({*begin, {hi, here.t}});
-  }
-
-  [[nodiscard]] Nearest nearest(double s) const {
-    const double dt = 1.0 / steps_;
-    const double way = motion_.travel() * dt;
-    Nearest best;
-    looked_.clear();
-    for (int i = 0; i <= steps_;) {
-      const Nearest here{distance(s, i * dt), i * dt};
-      looked_.push_back(here);
-      if (here.distance < best.distance) best = here;
-      // Until then it stays above the best that is known.
-      const int skipped =
-          way > 0.0 ? static_cast<int>((here.distance - best.distance) / way) : steps_;
-      i += std::max(1, skipped);
-    }
-    if (motion_.travel() == 0.0) return best;
-    // The bottom of every valley that may go deeper than the best.
-    const double may_win = best.distance + way;
-    for (std::size_t k = 0; k < looked_.size(); ++k) {
-      const Nearest& here = looked_[k];
-      if (here.distance > may_win) continue;
-      if (k > 0 && looked_[k - 1].distance <= here.distance) continue;
-      if (k + 1 < looked_.size() && looked_[k + 1].distance < here.distance) continue;
-      const double lo = std::max(0.0, here.t - dt), hi = std::min(1.0, here.t + dt);
-      const auto [t, d] = boost::math::tools::brent_find_minima(
-          [&](double time) { return distance(s, time); }, lo, hi, 40);
-      if (d < best.distance) best = {d, t};
-    }
-    return best;
+    return step_;
   }
 
  private:
-  [[nodiscard]] double distance(double s, double t) const {
-    return distance_at(outline_, motion_.at(t), ray_.at(s));
-  }
-
-  [[nodiscard]] SweptEnd close_in(double a, Nearest at_a, double b, Nearest at_b) const {
-    for (int i = 0; i < 100 && b - a > kEndTolerance; ++i) {
-      double x = a + (b - a) * at_a.distance / (at_a.distance - at_b.distance);
-      if (i % 3 == 2 || !(x > a && x < b)) x = 0.5 * (a + b);
-      const Nearest at_x = nearest(x);
-      if (at_x.distance == 0.0) return {x, at_x.t};
-      if ((at_x.distance < 0.0) == (at_a.distance < 0.0)) {
-        a = x;
-        at_a = at_x;
-      } else {
-        b = x;
-        at_b = at_x;
-      }
-    }
-    return at_a.distance < 0.0 ? SweptEnd{a, at_a.t} : SweptEnd{b, at_b.t};
-  }
-
-  const Outline& outline_;
-  const StretchMotion& motion_;
-  const Ray& ray_;
-  int steps_ = 1;
-  mutable std::vector<Nearest> looked_{};  // of one call: kept for its memory
+  double step_ = kLeastStep;
+  int slid_ = 0;
 };
 
 }  // namespace
@@ -150,31 +66,105 @@ Vec3 outline_normal(const Outline& outline, const ToolPose& pose, const Vec3& po
   return dr / length * side + dz / length * pose.axis;
 }
 
-void append_carved_intervals(const Body& body, const StretchMotion& motion, const Ray& ray,
-                             std::span<const Chord> known, std::vector<SweptInterval>& found) {
-  double lo = kInfinity, hi = -kInfinity;
-  for (const Profile& hull : body.carved()) {
-    if (const auto all = hull.chord(motion.at(0.5), ray, 0.5 * motion.travel())) {
-      lo = std::min(lo, all->lo);
-      hi = std::max(hi, all->hi);
-    }
-  }
-  const CarvedSearch search(body, motion, ray);
-  while (lo < hi) {
-    // The next stretch of ray that is not known yet.
-    double until = hi, then = hi;
-    for (const Chord& k : known) {
-      if (k.hi <= lo || k.lo >= until) continue;
-      until = std::max(lo, k.lo);
-      then = k.hi;
-    }
-    if (until > lo) search.walk(lo, until, found);
-    lo = then;
-  }
+CarvedSweep::CarvedSweep(const Body& body, const StretchMotion& motion, const Ray& ray)
+    : body_(body),
+      motion_(motion),
+      ray_(ray),
+      steps_(1 + static_cast<int>(motion.travel() / kSampleMotion)) {}
+
+bool CarvedSweep::is_of_body(const SweptEnd& end) const {
+  return std::abs(distance(end.s, end.t)) <= kSameSurface;
 }
 
-double nearest_moment(const Body& body, const StretchMotion& motion, const Ray& ray, double s) {
-  return CarvedSearch(body, motion, ray).nearest(s).t;
+bool CarvedSweep::stands_from(double from, const SweptEnd& end) const {
+  const double towards = end.s > from ? 1.0 : -1.0;
+  const ToolPose pose = motion_.at(end.t);
+  double s = from;
+  while (towards * (end.s - s) > kLeastStep) {
+    const double depth = -body_.distance(pose, ray_.at(s));
+    if (!(depth > 0.1 * kLeastStep)) return false;
+    s += towards * depth;
+  }
+  return true;
+}
+
+void CarvedSweep::walk(double lo, double hi, std::vector<SweptInterval>& found) const {
+  LeastStep least;
+  double s = lo;
+  Nearest here = nearest(s);
+  std::optional<SweptEnd> begin;
+  if (here.distance < 0.0) begin = SweptEnd{s, here.t};
+  while (s < hi) {
+    const double away = std::abs(here.distance);
+    const double sure = std::max(away, least.at(away));
+    double next = std::min(hi, s + 1.8 * sure);
+    Nearest there = nearest(next);
+    const bool flips = (there.distance < 0.0) != (here.distance < 0.0);
+    if (!flips && std::abs(there.distance) + sure < next - s) {  // an end may lie between
+      next = std::min(hi, s + sure);
+      there = nearest(next);
+    }
+    if ((there.distance < 0.0) != (here.distance < 0.0)) {
+      const SweptEnd end = close_in(s, here, next, there);
+      if (begin) {
+        found.push_back({*begin, end});
+        begin.reset();
+      } else {
+        begin = end;
+      }
+    }
+    s = next;
+    here = there;
+  }
+  if (begin) found.push_back({*begin, {hi, here.t}});
+}
+
+CarvedSweep::Nearest CarvedSweep::nearest(double s) const {
+  thread_local std::vector<Nearest> looked;  // kept for its memory
+  looked.clear();
+  const double dt = 1.0 / steps_;
+  const double way = motion_.travel() * dt;
+  Nearest best{kInfinity, 0.0};
+  for (int i = 0; i <= steps_;) {
+    const Nearest here{distance(s, i * dt), i * dt};
+    looked.push_back(here);
+    if (here.distance < best.distance) best = here;
+    // Until then it stays above the best that is known.
+    const int skipped =
+        way > 0.0 ? static_cast<int>((here.distance - best.distance) / way) : steps_;
+    i += std::max(1, skipped);
+  }
+  if (motion_.travel() == 0.0) return best;
+  // The bottom of every valley that may go deeper than the best.
+  const double may_win = best.distance + way;
+  for (std::size_t k = 0; k < looked.size(); ++k) {
+    const Nearest& here = looked[k];
+    if (here.distance > may_win) continue;
+    if (k > 0 && looked[k - 1].distance <= here.distance) continue;
+    if (k + 1 < looked.size() && looked[k + 1].distance < here.distance) continue;
+    const double lo = std::max(0.0, here.t - dt), hi = std::min(1.0, here.t + dt);
+    const auto [t, d] = boost::math::tools::brent_find_minima(
+        [&](double time) { return distance(s, time); }, lo, hi, 40);
+    if (d < best.distance) best = {d, t};
+  }
+  return best;
+}
+
+SweptEnd CarvedSweep::close_in(double a, Nearest at_a, double b, Nearest at_b) const {
+  for (int i = 0; i < 100 && b - a > kEndTolerance; ++i) {
+    double x = a + (b - a) * at_a.distance / (at_a.distance - at_b.distance);
+    if (i % 3 == 2 || !(x > a && x < b)) x = 0.5 * (a + b);
+    const Nearest at_x = nearest(x);
+    if (at_x.distance == 0.0) return {x, at_x.t};
+    if ((at_x.distance < 0.0) == (at_a.distance < 0.0)) {
+      a = x;
+      at_a = at_x;
+    } else {
+      b = x;
+      at_b = at_x;
+    }
+  }
+  return at_a.distance < 0.0 ? SweptEnd{a, at_a.t} : SweptEnd{b, at_b.t};
 }
 
 }  // namespace frustum::cutter

@@ -1,17 +1,19 @@
-// A ray against a cutter that is hollowed out, moving over one stretch of tool path.
+// What a hollowed cutter covers of a ray on one stretch of tool path.
 //
-// Model    : with d(x, t) the signed distance of a point to the body at time t, phi(x) = min over t of d is
-//            below zero exactly where the stretch covers. Along a ray phi changes by at most the way, so
-//            that steps as long as phi never pass an end; where the sign changes the end is closed in on.
-//            At an end the minimum over t is the envelope condition
+// Model    : the sweep of a carved slab's hull is known from stretch_sweep.hpp. Where the hull touches its end
+//            with the body's own surface, that is the body's end too, and often the body standing there covers
+//            all the way up to it. What remains is walked: with d(x, t) the signed distance of a point to the
+//            body at time t, phi(x) = min over t of d is below zero exactly where the stretch covers; along a
+//            ray it changes by at most the way, so that steps as long as phi never pass an end
 // Units    : mm; frame: workpiece
 // Errors   : none
-// Accuracy : ends within 0.1 nm normal to the surface. Valleys of d over t are told apart by moments that are
-//            0.02 mm of motion apart; every valley that may be the deepest is gone down into
+// Accuracy : ends within 0.1 nm normal to the surface of what is seen of phi: valleys of d over t are told
+//            apart by moments that are 0.02 mm of motion apart (carved_accuracy). A piece that the ray enters
+//            by less than kMissedDepth may be missed; where a ray slides along the surface, one of less than
+//            0.1 um
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "cutter/body.hpp"
@@ -20,18 +22,41 @@
 
 namespace frustum::cutter {
 
-// What the Accuracy line says of this body: no end is farther from the sweep, normal to it (mm).
+// No end is farther than this from the sweep of a body with carved slabs, normal to it (mm).
 [[nodiscard]] double carved_accuracy(const Body& body);
 
 // Outward unit normal of the body's surface nearest to a point.
 [[nodiscard]] Vec3 outline_normal(const Outline& outline, const ToolPose& pose, const Vec3& point);
 
-// Appends what the body covers around its carved parts; `known` is covered anyway and is passed over.
-void append_carved_intervals(const Body& body, const StretchMotion& motion, const Ray& ray,
-                             std::span<const Chord> known, std::vector<SweptInterval>& found);
+class CarvedSweep {
+ public:
+  CarvedSweep(const Body& body, const StretchMotion& motion, const Ray& ray);
 
-// When the body's surface, or its inside, is nearest to the ray's point at s.
-[[nodiscard]] double nearest_moment(const Body& body, const StretchMotion& motion, const Ray& ray,
-                                    double s);
+  // Whether a hull touches this end of its sweep with the body's own surface.
+  [[nodiscard]] bool is_of_body(const SweptEnd& end) const;
+  // Whether the body, standing where it touches that end, covers all between it and `from`.
+  [[nodiscard]] bool stands_from(double from, const SweptEnd& end) const;
+  // Appends what is covered between lo and hi.
+  void walk(double lo, double hi, std::vector<SweptInterval>& found) const;
+  // When the body's surface, or its inside, is nearest to the ray's point at s.
+  [[nodiscard]] double nearest_moment(double s) const { return nearest(s).t; }
+
+ private:
+  // The least signed distance over the stretch, and when.
+  struct Nearest {
+    double distance = 0.0;
+    double t = 0.0;
+  };
+  [[nodiscard]] Nearest nearest(double s) const;
+  [[nodiscard]] SweptEnd close_in(double a, Nearest at_a, double b, Nearest at_b) const;
+  [[nodiscard]] double distance(double s, double t) const {
+    return body_.distance(motion_.at(t), ray_.at(s));
+  }
+
+  const Body& body_;
+  const StretchMotion& motion_;
+  const Ray& ray_;
+  int steps_ = 1;
+};
 
 }  // namespace frustum::cutter

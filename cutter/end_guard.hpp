@@ -13,15 +13,16 @@
 #include <optional>
 
 #include "cutter/body.hpp"
+#include "cutter/carried_plane.hpp"
 #include "cutter/pose_tree.hpp"
 #include "cutter/stretch_motion.hpp"
 
 namespace frustum::cutter {
 
-// Which part of a body a cover's end lies on, and where the body stands then.
+// Which slab of a body a cover's end lies on, and where the body stands then.
 struct EndContact {
-  double s = 0.0;  // mm along the ray
-  std::uint32_t part = 0;
+  double s = 0.0;          // mm along the ray
+  std::uint32_t slab = 0;  // as many as there are: none of them, but a hollow
   ProfileFace face = kTopFace;
   ToolPose pose{};
 };
@@ -34,7 +35,7 @@ struct Overreach {
 
 class EndGuard {
  public:
-  // Holds nothing back: for ends that no convex part makes.
+  // Holds nothing back: for ends that no convex slab makes.
   EndGuard() = default;
   // `leaving`: what is covered lies before the end, else behind it.
   EndGuard(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
@@ -44,14 +45,8 @@ class EndGuard {
   [[nodiscard]] bool holds(const StretchMotion& motion) const;
 
  private:
-  // A unit normal of a standing body, and how far the end is outside of the plane that touches it there.
-  struct Plane {
-    double axial = 0.0, lateral = 0.0;
-    double offset = 0.0;  // from the tip
-    double height = 0.0;
-    Vec3 side = Vec3::Zero();
-  };
-  [[nodiscard]] std::optional<Plane> touching(const ToolPose& pose) const;
+  // The plane that touches the body standing there, square to the way to the end.
+  [[nodiscard]] std::optional<CarriedPlane> touching(const ToolPose& pose) const;
   [[nodiscard]] double support(double lateral, double axial) const;
   [[nodiscard]] double support_of_round(double lateral, double axial) const;
 

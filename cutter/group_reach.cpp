@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cutter/stretch_sweep.hpp"
+#include "cutter/touching_plane.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -15,28 +16,16 @@ constexpr double kGrazing = 0.02;
 constexpr double kMuchTurned = 0.1;
 
 // Beyond what place along the ray no pose of the group reaches, by the plane that touches the witness.
-//
-// At another pose, tip p + dp and axis a + da, the plane through the contact y (from the tip) has the normal
-// n + dn, dn = axial da - lateral (side.da) a within 2 |da|^2, and lies dn.y - n.dp - dn.dp nearer.
 double crossing(const TouchingPlane& plane, const PoseGroup& group, const Ray& ray) {
-  constexpr double kFarTurned = 0.5;  // the expansion holds below
-  const double turned = group.axis_shift;
-  if (turned == 0.0) return plane.value + farthest_tip(group, plane.normal) / plane.along;
-  if (turned > kFarTurned) return kInfinity;
-  const double fall = plane.along - turned * (1.0 + 2.0 * turned);
+  const double fall = plane.along - normal_turn(group);
   if (!(fall > 0.0)) return kInfinity;
-  const Vec3 y = ray.at(plane.direction * plane.value) - group.witness.tip;
-  const Vec3 c = plane.lateral * y.dot(group.witness.axis) * plane.side - plane.axial * y;
-  const double room = farthest_tip(group, plane.normal) + farthest_axis(group, c) +
-                      turned * (1.0 + 2.0 * turned) * group.tip_shift +
-                      2.0 * turned * turned * y.norm();
-  return plane.value + std::max(0.0, room) / fall;
+  const Vec3 touched = ray.at(plane.direction * plane.value) - group.witness.tip;
+  return plane.value + std::max(0.0, most_lost(plane, group, touched)) / fall;
 }
 
 // What the tolerance normal to the plane makes along the ray, at any pose of the group.
 double slack_of(const TouchingPlane& plane, const PoseGroup& group) {
-  const double turned = group.axis_shift;
-  return kSearchTolerance / (plane.along + turned * (1.0 + 2.0 * turned));
+  return kSearchTolerance / (plane.along + normal_turn(group));
 }
 
 bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {

@@ -33,16 +33,19 @@ bool faces(const OutlineSegment& s, const MeridianPoint& v) {
   return turn * cross(s.from - s.centre, v) >= 0.0 && turn * cross(v, s.to - s.centre) >= 0.0;
 }
 
+// Asked so often that std::hypot, which also takes numbers beyond 1e154, would be most of the time.
 double distance_to(const OutlineSegment& s, const MeridianPoint& p) {
-  const double to_ends = std::min(length(p - s.from), length(p - s.to));
+  const MeridianPoint a = p - s.from;
   if (is_arc(s)) {
     const MeridianPoint v = p - s.centre;
-    return faces(s, v) ? std::abs(length(v) - s.arc_radius) : to_ends;
+    if (faces(s, v)) return std::abs(std::sqrt(dot(v, v)) - s.arc_radius);
+  } else {
+    const MeridianPoint along = s.to - s.from;
+    const double share = dot(a, along), whole = dot(along, along);
+    if (share > 0.0 && share < whole) return std::abs(cross(along, a)) / std::sqrt(whole);
   }
-  const MeridianPoint along = s.to - s.from;
-  const double share = dot(p - s.from, along);
-  if (share <= 0.0 || share >= dot(along, along)) return to_ends;
-  return std::abs(cross(along, p - s.from)) / length(along);
+  const MeridianPoint b = p - s.to;
+  return std::sqrt(std::min(dot(a, a), dot(b, b)));
 }
 
 // The arc's point straight below, above or beside its centre, when it has one.
@@ -252,7 +255,8 @@ Outline::Outline(std::vector<OutlineSegment> segments)
 double Outline::distance(double r, double z) const {
   const MeridianPoint p{std::abs(r), z};
   const MeridianPoint& rim = segments_.back().to;
-  double nearest = std::hypot(std::max(0.0, p.r - rim.r), p.z - rim.z);
+  const MeridianPoint to_top{std::max(0.0, p.r - rim.r), p.z - rim.z};
+  double nearest = std::sqrt(dot(to_top, to_top));
   bool inside = false;
   for (const OutlineSegment& piece : pieces_) {
     nearest = std::min(nearest, distance_to(piece, p));

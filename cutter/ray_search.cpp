@@ -31,15 +31,28 @@ class Guards {
 
   [[nodiscard]] EndGuard at(const CoverEnd& end, bool leaving) const {
     const auto& stretch = question_.path->stretches[end.stretch];
-    const StretchMotion motion(question_.path->from(stretch), question_.path->to(stretch),
-                               body_.reach());
-    return {body_, question_.ray, {end.s, end.part, end.face, motion.at(end.t)}, leaving};
+    const StretchMotion motion(*question_.path, stretch, body_.reach());
+    return {body_, question_.ray, {end.s, end.slab, end.face, motion.at(end.t)}, leaving};
   }
 
  private:
   const RayQuestion& question_;
   const Body& body_;
 };
+
+// Rays that graze make many pieces of one.
+void join_overlapping(std::vector<SweptInterval>& pieces) {
+  std::ranges::sort(pieces, {}, [](const SweptInterval& p) { return p.lo.s; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    if (pieces[i].lo.s > pieces[last].hi.s) {
+      pieces[++last] = pieces[i];
+    } else if (pieces[i].hi.s > pieces[last].hi.s) {
+      pieces[last].hi = pieces[i].hi;
+    }
+  }
+  if (!pieces.empty()) pieces.resize(last + 1);
+}
 
 // The search: what promises most comes first. Its goal knows what it still wants:
 //   RaySpan span()            where on the ray
@@ -73,6 +86,11 @@ class Search {
       open_.pop_back();
       if (still_wanted(next)) visit(next.group);
     }
+    while (!gaps_.empty()) {
+      const Gap gap = gaps_.back();
+      gaps_.pop_back();
+      if (goal_.wants(gap.group, {gap.lo.s, gap.hi.s})) walk(gap);
+    }
   }
 
  private:
@@ -81,6 +99,13 @@ class Search {
     int change = 0;  // of the cover, when it was judged
     GroupReach reach{};
     double promise = 0.0;
+  };
+  // Between an end of what a carved slab's hull sweeps, or of what was known then, and the next: what of it the
+  // body covers is asked last, when least is left of it. `is_end`: of the body's own sweep.
+  struct Gap {
+    std::uint32_t group = 0, stretch = 0;
+    CoverEnd lo{}, hi{};
+    bool lo_is_end = false, hi_is_end = false;
   };
 
   void consider(std::uint32_t index) {
@@ -151,28 +176,81 @@ class Search {
       return;
     }
     for (const std::uint32_t stretch : sweep_.tree.stretches().subspan(group.first, group.count)) {
-      if (stretch < question_.first_excluded) solve(stretch);
+      if (stretch < question_.first_excluded) solve(index, stretch);
     }
   }
 
-  void solve(std::uint32_t index) {
-    const auto& stretch = question_.path->stretches[index];
-    const StretchMotion motion(question_.path->from(stretch), question_.path->to(stretch),
-                               sweep_.body->reach());
+  [[nodiscard]] StretchMotion motion_of(std::uint32_t stretch) const {
+    return {*question_.path, question_.path->stretches[stretch], sweep_.body->reach()};
+  }
+
+  void solve(std::uint32_t group, std::uint32_t stretch) {
+    const StretchMotion motion = motion_of(stretch);
     if (goal_.holds(motion)) return;
-    for (std::size_t i = 0; i <= parts_.size(); ++i) {
+    const auto slabs = sweep_.body->slabs();
+    for (std::uint32_t i = 0; i < slabs.size(); ++i) {
       found_.clear();
-      if (i < parts_.size()) {
-        append_swept_intervals(parts_[i], motion, question_.ray, goal_.known(), found_);
-      } else if (!sweep_.body->carved().empty()) {
-        append_carved_intervals(*sweep_.body, motion, question_.ray, goal_.known(), found_);
-      }
-      const auto part = static_cast<std::uint32_t>(i);
+      append_swept_intervals(slabs[i], motion, question_.ray, goal_.known(), found_);
+      if (i >= parts_.size()) join_overlapping(found_);
       for (const SweptInterval& f : found_) {
-        goal_.take(
-            {{f.lo.s, index, part, f.lo.t, f.lo.face}, {f.hi.s, index, part, f.hi.t, f.hi.face}});
+        const CoverInterval swept{{f.lo.s, stretch, i, f.lo.t, f.lo.face},
+                                  {f.hi.s, stretch, i, f.hi.t, f.hi.face}};
+        if (i < parts_.size()) {
+          goal_.take(swept);
+        } else {
+          take_of_hull(group, motion, swept);
+        }
       }
     }
+  }
+
+  // Between what is known of a hull's sweep: covered if the body, where it touches an end, stands there.
+  void take_of_hull(std::uint32_t group, const StretchMotion& motion, const CoverInterval& swept) {
+    const CarvedSweep carved(*sweep_.body, motion, question_.ray);
+    Gap gap{group, swept.lo.stretch, swept.lo, swept.hi};
+    const auto close_gap = [&](double hi) {
+      gap.lo_is_end = gap.lo.s == swept.lo.s && carved.is_of_body(swept_end(swept.lo));
+      gap.hi = swept.hi;
+      gap.hi.s = hi;
+      gap.hi_is_end = hi == swept.hi.s && carved.is_of_body(swept_end(swept.hi));
+      const bool covered = (gap.hi_is_end && carved.stands_from(gap.lo.s, swept_end(swept.hi))) ||
+                           (gap.lo_is_end && carved.stands_from(gap.hi.s, swept_end(swept.lo)));
+      (covered ? covered_ : gaps_).push_back(gap);
+    };
+    covered_.clear();
+    for (const Chord& k : goal_.known()) {
+      if (k.hi <= gap.lo.s) continue;
+      if (k.lo >= swept.hi.s) break;
+      if (k.lo > gap.lo.s) close_gap(k.lo);
+      gap.lo.s = k.hi;
+    }
+    if (gap.lo.s < swept.hi.s) close_gap(swept.hi.s);
+    for (const Gap& c : covered_) goal_.take({c.lo, c.hi});
+  }
+
+  [[nodiscard]] static SweptEnd swept_end(const CoverEnd& end) { return {end.s, end.t, end.face}; }
+
+  void walk(const Gap& gap) {
+    const StretchMotion motion = motion_of(gap.stretch);
+    if (goal_.holds(motion)) return;
+    const auto somewhere = static_cast<std::uint32_t>(sweep_.body->slabs().size());
+    const CarvedSweep carved(*sweep_.body, motion, question_.ray);
+    const auto end_at = [&](const SweptEnd& end) -> CoverEnd {
+      constexpr double kSameEnd = 1e-9;  // mm
+      if (gap.lo_is_end && end.s - gap.lo.s < kSameEnd) return gap.lo;
+      if (gap.hi_is_end && gap.hi.s - end.s < kSameEnd) return gap.hi;
+      return {end.s, gap.stretch, somewhere, end.t, end.face};
+    };
+    found_.clear();
+    double lo = gap.lo.s;
+    for (const Chord& k : goal_.known()) {
+      if (k.hi <= lo) continue;
+      if (k.lo >= gap.hi.s) break;
+      if (k.lo > lo) carved.walk(lo, k.lo, found_);
+      lo = k.hi;
+    }
+    if (lo < gap.hi.s) carved.walk(lo, gap.hi.s, found_);
+    for (const SweptInterval& f : found_) goal_.take({end_at(f.lo), end_at(f.hi)});
   }
 
   const RayQuestion& question_;
@@ -183,6 +261,7 @@ class Search {
   BoxCrossing in_box_;
   std::vector<Candidate> open_{};  // a heap by promise
   std::vector<SweptInterval> found_{};
+  std::vector<Gap> gaps_{}, covered_{};
 };
 
 // Everything within the span.

@@ -31,7 +31,7 @@ struct ToolSweep {
 struct CoverEnd {
   double s = 0.0;
   std::uint32_t stretch = 0;
-  std::uint32_t part = 0;  // of the body; as many as it has: where it is carved
+  std::uint32_t slab = 0;  // of the body; as many as it has: in the hollow of one
   double t = 0.0;
   ProfileFace face = kTopFace;
 };

@@ -83,7 +83,7 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
   departures.reserve(path.stretches.size());
   for (const kinematics::Stretch& stretch : path.stretches) {
     const double reach = nominal.tool(path.blocks[stretch.block].tool).body().reach();
-    const StretchMotion motion(path.from(stretch), path.to(stretch), reach);
+    const StretchMotion motion(path, stretch, reach);
     const StretchMotion before(old.from(stretch), old.to(stretch), reach);
     // Between the poses the axes turn evenly, which spreads them where the turn is large.
     const double spread = 1.0 / std::cos(0.5 * std::max(motion.turn(), before.turn()));
@@ -131,7 +131,7 @@ bool ChangedPath::holds_back(const TouchingPlane& plane, const EndGuard& end, co
 
 StretchMotion ChangedPath::motion_of(std::uint32_t stretch) const {
   const auto& at = path_.stretches[stretch];
-  return {path_.from(at), path_.to(at), body_of_block_[at.block]->reach()};
+  return {path_, at, body_of_block_[at.block]->reach()};
 }
 
 std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const {
@@ -156,7 +156,7 @@ std::optional<SweepContact> ChangedPath::follow(const ContactTrail& trail) const
   for (;;) {
     const Vec3 point = trail.ray.at(best.s);
     const ToolPose pose = motion_of(best.stretch).at(best.t);
-    const EndGuard end(body, trail.ray, {best.s, best.part, best.face, pose}, true);
+    const EndGuard end(body, trail.ray, {best.s, best.slab, best.face, pose}, true);
     if (!holds_back(*left, end, point, {first - 1, first - trail.first, false})) {
       if (first == trail.first || own - first == kFollowed) return std::nullopt;
       --first;

@@ -47,6 +47,10 @@ StretchMotion::StretchMotion(const ToolPose& from, const ToolPose& to, double re
       travel_(step_.norm() + reach * turn_),
       bend_(reach * turn_ * turn_) {}
 
+StretchMotion::StretchMotion(const kinematics::ToolPath& path, const kinematics::Stretch& stretch,
+                             double reach)
+    : StretchMotion(path.from(stretch), path.to(stretch), reach) {}
+
 ToolPose StretchMotion::at(double t) const {
   if (t == 0.0) return from_;
   if (t == 1.0) return to_;

@@ -22,6 +22,7 @@ class StretchMotion {
  public:
   // `reach`: no point of the cutter is farther than this from the tip.
   StretchMotion(const ToolPose& from, const ToolPose& to, double reach);
+  StretchMotion(const kinematics::ToolPath& path, const kinematics::Stretch& stretch, double reach);
   [[nodiscard]] ToolPose at(double t) const;
   // How fast a point that goes with the cutter moves (mm a stretch), standing at `point` at time t.
   [[nodiscard]] Vec3 velocity(const Vec3& point, double t) const;

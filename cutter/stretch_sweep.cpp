@@ -1,241 +1,24 @@
 #include "cutter/stretch_sweep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "cutter/chord_times.hpp"
 
 namespace frustum::cutter {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Times where chords begin or end are found to this much motion.
-constexpr double kTangentMotion = 1e-9;  // mm
 // Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
 constexpr double kSameMoment = 1e-11;
 // From here on grazing rays are looked for.
 constexpr int kOftenHalved = 6;
 // A search that needs more than this runs along the surface within rounding.
 constexpr int kMostLooks = 20000;
-// The body turns by at most this between two samples of its chord.
-constexpr double kTurnPerSample = 0.05;  // rad
-
-struct Sample {
-  double t = 0.0;
-  ToolPose pose{};
-  std::optional<Chord> chord{};
-};
-
-// A plane that contains the ray's direction, with unit normal n pointing from the body to the ray.
-struct SeparatingPlane {
-  Vec3 normal;
-  double gap;
-};
-
-// Distance from the body's supporting plane with that normal to the ray; negative: overlapping.
-double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, const Ray& ray) {
-  const double u = std::clamp(normal.dot(pose.axis), -1.0, 1.0);
-  return normal.dot(ray.origin - pose.tip) - body.support(u);
-}
-
-bool overlap(const Chord& a, const Chord& b) { return a.lo <= b.hi && b.lo <= a.hi; }
-
-// Moments at which the ray meets the body, and moments between them at which it does not. Between two
-// neighbours that both meet it the covered places hang together: either their chords overlap, or one body
-// has gone from the one to the other.
-class ChordTimes {
- public:
-  ChordTimes(const Profile& body, const StretchMotion& motion, const Ray& ray)
-      : body_(body), motion_(motion), ray_(ray) {
-    const int steps = static_cast<int>(std::ceil(motion_.turn() / kTurnPerSample));
-    samples_.push_back(sample(0.0));
-    for (int i = 1; i <= std::max(1, steps); ++i) {
-      const Sample next = sample(static_cast<double>(i) / std::max(1, steps));
-      refine_between(Sample(samples_.back()), next, 0);
-      samples_.push_back(next);
-    }
-  }
-
-  // Sorted by time; a sample without a chord parts two runs.
-  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
-
-  // Adds a moment between sample i and the next, with what lies around it.
-  void insert(std::size_t i, double t) {
-    const std::vector<Sample> after(samples_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                    samples_.end());
-    samples_.resize(i + 1);
-    const Sample middle = sample(t);
-    refine_between(Sample(samples_.back()), middle, 0);
-    samples_.push_back(middle);
-    refine_between(middle, after.front(), 0);
-    samples_.insert(samples_.end(), after.begin(), after.end());
-  }
-
- private:
-  [[nodiscard]] Sample sample(double t) const {
-    Sample s{.t = t, .pose = motion_.at(t)};
-    s.chord = body_.chord(s.pose, ray_);
-    return s;
-  }
-
-  // Appends the samples needed between two neighbours: proofs of emptiness, or ends of runs.
-  void refine_between(const Sample& a, const Sample& b, int depth) {
-    if (a.chord && b.chord) {
-      join(a, b, depth);
-    } else if (a.chord) {
-      const Sample end = end_of_run(a, b);
-      join(a, end, depth);
-      samples_.push_back(end);
-      search_beside_run(end, b, depth);
-    } else if (b.chord) {
-      const Sample begin = end_of_run(b, a);
-      search_beside_run(begin, a, depth);
-      samples_.push_back(begin);
-      join(begin, b, depth);
-    } else {
-      search_empty(a, b);
-    }
-  }
-
-  // Samples between two chords until neighbours overlap, or show a gap.
-  void join(const Sample& a, const Sample& b, int depth) {
-    if (overlap(*a.chord, *b.chord) || motion_.turn() == 0.0) return;
-    if (departure(a, b) < kMissedDepth || depth > 60) return;
-    const Sample middle = sample(0.5 * (a.t + b.t));
-    refine_between(a, middle, depth + 1);
-    samples_.push_back(middle);
-    refine_between(middle, b, depth + 1);
-  }
-
-  // A body that does not turn meets the ray from the one chord to the other without a break. One that turns
-  // is never farther than this from it: its points run on arcs, and two of them, on the ray at either moment,
-  // are moved differently.
-  [[nodiscard]] double departure(const Sample& a, const Sample& b) const {
-    const double dt = b.t - a.t;
-    const double apart = std::max(a.chord->lo - b.chord->hi, b.chord->lo - a.chord->hi);
-    return motion_.bend() * dt * dt / 8.0 +
-           0.25 * motion_.turn() * dt * (motion_.travel() * dt + std::max(0.0, apart));
-  }
-
-  // Between the last moment of a run and a sample without a chord: none but what turning brings back.
-  void search_beside_run(const Sample& run_end, const Sample& outside, int depth) {
-    if (motion_.turn() == 0.0) return;
-    const double dt = outside.t - run_end.t;
-    const double beyond = run_end.t + std::copysign(2.0 * resolution(), dt);
-    if (std::abs(beyond - run_end.t) >= std::abs(dt)) return;
-    const Sample gone = sample(beyond);
-    // The ray slides along the body, by rounding in and out: so often and no oftener.
-    if (gone.chord && depth > 60) return;
-    if (dt > 0.0) {
-      samples_.push_back(gone);
-      refine_between(gone, outside, depth + 1);
-    } else {
-      refine_between(outside, gone, depth + 1);
-      samples_.push_back(gone);
-    }
-  }
-
-  [[nodiscard]] double resolution() const {
-    return kTangentMotion / std::max(motion_.travel(), kTangentMotion);
-  }
-
-  // The last time with a chord between `inside` (has one) and `outside` (has none).
-  [[nodiscard]] Sample end_of_run(Sample inside, Sample outside) const {
-    const double tolerance = resolution();
-    while (std::abs(outside.t - inside.t) > tolerance) {
-      const double middle_t = 0.5 * (inside.t + outside.t);
-      if (middle_t == inside.t || middle_t == outside.t) break;
-      const Sample middle = sample(middle_t);
-      (middle.chord ? inside : outside) = middle;
-    }
-    return inside;
-  }
-
-  // Both ends have no chord: proves that there is none between, or finds one.
-  void search_empty(const Sample& a, const Sample& b) {
-    const double span = b.t - a.t;
-    if (0.5 * motion_.travel() * span < kMissedDepth) return;
-    const double slack = motion_.bend() * span * span / 8.0;
-    if (surely_apart(body_, a.pose, b.pose, slack, ray_)) return;
-    const ToolPose middle_pose = motion_.at(0.5 * (a.t + b.t));
-    if (!body_.chord(middle_pose, ray_, 0.5 * motion_.travel() * span)) return;
-
-    // Each separating plane holds until its gap, a nearly linear function of time, runs out.
-    const double holds_after_a = reach_of_plane(a, b, slack);
-    const double holds_before_b = reach_of_plane(b, a, slack);
-    if (holds_after_a >= holds_before_b) return;
-    const Sample middle = sample(0.5 * (holds_after_a + holds_before_b));
-    if (!(middle.t > a.t && middle.t < b.t)) return;
-    refine_between(a, middle, 0);
-    samples_.push_back(middle);
-    refine_between(middle, b, 0);
-  }
-
-  // How far from `start` towards `end` the separating plane found at `start` surely separates.
-  [[nodiscard]] double reach_of_plane(const Sample& start, const Sample& end, double slack) const {
-    const SeparatingPlane plane = separate(start.pose);
-    if (!(plane.gap > -kMissedDepth)) return start.t;
-    const double gap_at_end = gap_of(plane.normal, body_, end.pose, ray_);
-    const double fall = plane.gap + kMissedDepth - slack;
-    const double loss = plane.gap - gap_at_end;
-    if (fall <= 0.0) return start.t;
-    if (loss <= fall) return end.t;
-    return start.t + (end.t - start.t) * fall / loss;
-  }
-
-  // The best of the planes along the ray: maximises the gap over the angle of its normal.
-  [[nodiscard]] SeparatingPlane separate(const ToolPose& pose) const {
-    const Vec3 e1 = perpendicular_to(ray_.direction);
-    const Vec3 e2 = ray_.direction.cross(e1);
-    const auto normal_at = [&](double psi) -> Vec3 {
-      return std::cos(psi) * e1 + std::sin(psi) * e2;
-    };
-    const auto gap_at = [&](double psi) { return gap_of(normal_at(psi), body_, pose, ray_); };
-    constexpr int kCoarse = 12;
-    constexpr double kStep = 2.0 * std::numbers::pi / kCoarse;
-    double best_psi = 0.0;
-    double best_gap = -kInfinity;
-    for (int i = 0; i < kCoarse; ++i) {
-      const double g = gap_at(i * kStep);
-      if (g > best_gap) {
-        best_gap = g;
-        best_psi = i * kStep;
-      }
-    }
-    // Golden section; 40 steps narrow the angle to 1e-8 rad, where the gap is flat within rounding.
-    double lo = best_psi - kStep;
-    double hi = best_psi + kStep;
-    constexpr double kGolden = 0.6180339887498949;
-    double x1 = hi - kGolden * (hi - lo);
-    double x2 = lo + kGolden * (hi - lo);
-    double g1 = gap_at(x1);
-    double g2 = gap_at(x2);
-    for (int i = 0; i < 40; ++i) {
-      if (g1 > g2) {
-        hi = x2;
-        x2 = x1;
-        g2 = g1;
-        x1 = hi - kGolden * (hi - lo);
-        g1 = gap_at(x1);
-      } else {
-        lo = x1;
-        x1 = x2;
-        g1 = g2;
-        x2 = lo + kGolden * (hi - lo);
-        g2 = gap_at(x2);
-      }
-    }
-    const Vec3 normal = normal_at(0.5 * (lo + hi));
-    return {normal, gap_of(normal, body_, pose, ray_)};
-  }
-
-  const Profile& body_;
-  const StretchMotion& motion_;
-  const Ray& ray_;
-  std::vector<Sample> samples_{};
-};
+// No bulge, as a number that can be divided by.
+constexpr double kNoBulge = 1e-300;
 
 // A plane that touches the body where a chord ends at one moment, and where the ray crosses it at another.
 struct RoofSide {
@@ -249,7 +32,7 @@ double bulge_of(const RoofSide& side, const StretchMotion& motion, double dt) {
   const double departure = motion.plane_departure(dt, motion.reach() + side.overhang, run);
   const double along =
       std::min(side.plane.along, side.elsewhere.along) - motion.plane_departure(dt, 1.0, 0.0);
-  return along > 0.0 ? std::max(departure / along, 1e-300) : kInfinity;
+  return along > 0.0 ? std::max(departure / along, kNoBulge) : kInfinity;
 }
 
 // Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it there,
@@ -307,8 +90,6 @@ class Roof {
     return b_at_a_ + rise_b_ * x + 4.0 * bulge_b_ * x * (1.0 - x);
   }
 
-  static constexpr double kNoBulge = 1e-300;  // a number that can be divided by
-
   double a_, rise_a_, b_at_a_, rise_b_;
   double bulge_a_ = kNoBulge, bulge_b_ = kNoBulge;
   double ridge_ = 0.5;
@@ -324,14 +105,14 @@ class HighestEnd {
              double floor)
       : body_(body), motion_(motion), ray_(ray), leaving_(leaving), floor_(floor) {}
 
-  void offer(const Sample& sample) {
+  void offer(const ChordSample& sample) {
     const Chord& chord = *sample.chord;
     const double value = leaving_ ? chord.hi : -chord.lo;
     if (value > best_value_) note(value, sample.t, leaving_ ? chord.hi_face : chord.lo_face);
   }
 
   // Looks between two samples with chords. Nothing is lost unless gap() has a value then.
-  void search(const Sample& from, const Sample& to) {
+  void search(const ChordSample& from, const ChordSample& to) {
     if (floor_ == kInfinity) {
       offer(from);
     } else {
@@ -339,7 +120,8 @@ class HighestEnd {
     }
   }
   // The same; returns the planes that touch the body at both.
-  std::pair<TouchingPlane, TouchingPlane> search_with_planes(const Sample& from, const Sample& to) {
+  std::pair<TouchingPlane, TouchingPlane> search_with_planes(const ChordSample& from,
+                                                             const ChordSample& to) {
     const Touched a = touched(from), b = touched(to);
     close_in(a, b, 0);
     return {a.plane, b.plane};
@@ -360,7 +142,7 @@ class HighestEnd {
     ProfileFace face;
   };
 
-  [[nodiscard]] Touched touched(const Sample& s) const {
+  [[nodiscard]] Touched touched(const ChordSample& s) const {
     return {s.t, s.pose, TouchingPlane(body_, s.pose, ray_, *s.chord, leaving_),
             leaving_ ? s.chord->hi_face : s.chord->lo_face};
   }
@@ -391,7 +173,7 @@ class HighestEnd {
     if (++looks_ > kMostLooks) return;
     const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
-    Sample middle{.t = t, .pose = motion_.at(t)};
+    ChordSample middle{.t = t, .pose = motion_.at(t)};
     middle.chord = body_.chord(middle.pose, ray_);
     if (!middle.chord) {
       // Else it is within rounding of the surface, or of an end of the run.
@@ -408,7 +190,7 @@ class HighestEnd {
   void climb(double lo, double hi) {
     constexpr double kGolden = 0.6180339887498949;
     const auto look = [&](double t) {
-      Sample at{.t = t, .pose = motion_.at(t)};
+      ChordSample at{.t = t, .pose = motion_.at(t)};
       at.chord = body_.chord(at.pose, ray_);
       if (!at.chord) return -kInfinity;
       const Touched end = touched(at);
@@ -468,8 +250,8 @@ Chord overlapped(std::span<const Chord> known, const Chord& chord) {
 // Both ends of a motion that turns little, where their chords overlap: then all that the ray meets hangs
 // together, whether or not it meets the body all the time.
 struct StretchEnds {
-  Sample from;
-  Sample to;
+  ChordSample from;
+  ChordSample to;
 };
 std::optional<StretchEnds> ends_that_overlap(const Profile& body, const StretchMotion& motion,
                                              const Ray& ray) {
@@ -483,61 +265,6 @@ std::optional<StretchEnds> ends_that_overlap(const Profile& body, const StretchM
 }
 
 }  // namespace
-
-TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray,
-                             const Chord& chord, bool leaving)
-    : direction(leaving ? 1.0 : -1.0) {
-  const double s = leaving ? chord.hi : chord.lo;
-  const Vec3 point = ray.at(s);
-  const Facing at =
-      body.facing(leaving ? chord.hi_face : chord.lo_face, pose, point, direction * ray.direction);
-  axial = at.axial;
-  lateral = at.lateral;
-  side = at.side;
-  normal = lateral * side + axial * pose.axis;
-  value = direction * s;
-  // A grazing ray leaves the plane nowhere, or by rounding on the wrong side.
-  along = std::max(direction * normal.dot(ray.direction), 1e-12);
-  offset = normal.dot(point - pose.tip);
-}
-
-double TouchingPlane::height(const ToolPose& pose, const Vec3& point) const {
-  const Vec3 turned = side - side.dot(pose.axis) * pose.axis;
-  const Vec3 n = axial * pose.axis + (lateral / turned.norm()) * turned;
-  return n.dot(point - pose.tip) - offset;
-}
-
-PlaneCrossing TouchingPlane::crossing(const ToolPose& pose, const Ray& ray) const {
-  const Vec3 turned = side - side.dot(pose.axis) * pose.axis;
-  const Vec3 n = axial * pose.axis + (lateral / turned.norm()) * turned;
-  const double fall = direction * n.dot(ray.direction);
-  if (!(fall > 0.0)) return {kInfinity, 0.0};
-  return {(offset - n.dot(ray.origin - pose.tip)) / fall, fall};
-}
-
-bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
-                  const Ray& ray) {
-  // Between its ends the gap is (1 - t) A + t B or less by 4 t (1 - t) slack: least where that is
-  // A / t + B / (1 - t) = (sqrt A + sqrt B)^2 against 4 slack.
-  const auto apart = [&](const Vec3& normal) {
-    const double at_a = gap_of(normal, body, a, ray) + kMissedDepth;
-    const double at_b = gap_of(normal, body, b, ray) + kMissedDepth;
-    if (!(at_a > 0.0 && at_b > 0.0)) return false;
-    const double roots = std::sqrt(at_a) + std::sqrt(at_b);
-    return roots * roots >= 4.0 * slack;
-  };
-  // The plane between the ray and the axis, and the one that faces an end of the cutter.
-  const Vec3 across = ray.direction.cross(a.axis);
-  const double sine = across.norm();
-  if (sine > 1e-3) {
-    const double side = across.dot(ray.origin - a.tip) > 0.0 ? 1.0 : -1.0;
-    if (apart(across * (side / sine))) return true;
-  }
-  const Vec3 facing = a.axis - ray.direction.dot(a.axis) * ray.direction;
-  const double length = facing.norm();
-  if (length < 1e-3) return false;
-  return apart(facing / length) || apart(facing / -length);
-}
 
 void append_swept_intervals(const Profile& body, const StretchMotion& motion, const Ray& ray,
                             std::span<const Chord> known, std::vector<SweptInterval>& found) {
@@ -568,7 +295,7 @@ void append_swept_intervals(const Profile& body, const StretchMotion& motion, co
     hi.offer(times.samples()[i]);
     std::size_t next = i + 1;
     for (; next < times.samples().size() && times.samples()[next].chord; ++next) {
-      const Sample from = times.samples()[next - 1], to = times.samples()[next];
+      const ChordSample from = times.samples()[next - 1], to = times.samples()[next];
       lo.search(from, to);
       hi.search(from, to);
       if ((lo.gap() || hi.gap()) && gaps + 1 < kMostGaps) break;

@@ -18,6 +18,7 @@
 
 #include "cutter/profile.hpp"
 #include "cutter/stretch_motion.hpp"
+#include "cutter/touching_plane.hpp"
 
 namespace frustum::cutter {
 
@@ -38,35 +39,6 @@ inline constexpr double kSearchTolerance = 4e-10;
 // normal to its surface (mm).
 inline constexpr double kMissedDepth = 0.5e-6;
 
-// Where the ray crosses a plane, and the cosine between them; infinite where it does not.
-struct PlaneCrossing {
-  double value = 0.0;
-  double along = 0.0;
-};
-
-// The plane that touches the body where the ray leaves it (or enters it), fixed to the body: wherever the
-// body goes it stays on its side of the plane, turned about its axis to any side.
-struct TouchingPlane {
-  // `leaving`: at chord.hi, else at chord.lo.
-  TouchingPlane(const Profile& body, const ToolPose& pose, const Ray& ray, const Chord& chord,
-                bool leaving);
-  // Where the ray crosses the plane when the body stands at another pose, counted along the ray if leaving,
-  // else against it: no end of the body's chord is beyond. Infinite if the ray runs along the plane.
-  [[nodiscard]] PlaneCrossing crossing(const ToolPose& pose, const Ray& ray) const;
-
-  // How far the point is beyond the plane when the body stands at another pose.
-  [[nodiscard]] double height(const ToolPose& pose, const Vec3& point) const;
-
-  Vec3 normal;       // unit, out of the body, at the pose it was made for
-  double value;      // where that pose leaves the ray: s if leaving, else -s
-  double along;      // cosine between the normal and the direction of counting
-  double axial;      // of the normal along the tool axis
-  double lateral;    // and across it
-  Vec3 side;         // unit, the direction across
-  double offset;     // distance of the plane from the tip
-  double direction;  // of counting: 1 leaving, -1 entering
-};
-
 // Appends the exact intervals, in no particular order, possibly overlapping. An end inside an interval of
 // `known` (what is covered anyway) that the interval overlaps may be left inexact.
 void append_swept_intervals(const Profile& body, const StretchMotion& motion, const Ray& ray,
@@ -84,10 +56,5 @@ struct LastExit {
 };
 [[nodiscard]] std::optional<LastExit> last_exit(const Profile& body, const StretchMotion& motion,
                                                 const Ray& ray);
-
-// A plane along the ray that has the body, on its way from a to b, on its other side but for kMissedDepth?
-// True is a proof; false says nothing. `slack`: by so much the body leaves the straight way between.
-[[nodiscard]] bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b,
-                                double slack, const Ray& ray);
 
 }  // namespace frustum::cutter

@@ -65,8 +65,8 @@ SweepContact sweep_contact(const Body& body, const StretchMotion& motion, const 
                            const CoverEnd& end) {
   const ToolPose pose = motion.at(end.t);
   const Vec3 point = ray.at(end.s);
-  Vec3 normal = end.part < body.parts().size()
-                    ? body.parts()[end.part].normal_of(end.face, pose, point)
+  Vec3 normal = end.slab < body.slabs().size()
+                    ? body.slabs()[end.slab].normal_of(end.face, pose, point)
                     : outline_normal(body.outline(), pose, point);
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
@@ -77,7 +77,7 @@ SweepContact sweep_contact(const Body& body, const StretchMotion& motion, const 
     const auto rim = rim_normal(body.outline(), r, z, {moving.dot(side), moving.dot(pose.axis)});
     if (rim) normal = rim->across * side + rim->along * pose.axis;
   }
-  return {end.s, end.stretch, end.part, end.face, end.t, pose, normal};
+  return {end.s, end.stretch, end.slab, end.face, end.t, pose, normal};
 }
 
 }  // namespace frustum::cutter

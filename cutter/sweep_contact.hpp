@@ -19,8 +19,8 @@ namespace frustum::cutter {
 struct SweepContact {
   double s = 0.0;  // mm along the ray
   std::uint32_t stretch = 0;
-  std::uint32_t part = 0;       // of the cutter's body
-  ProfileFace face = kTopFace;  // of that part
+  std::uint32_t slab = 0;       // of the cutter's body; as many as it has: in the hollow of one
+  ProfileFace face = kTopFace;  // of that slab
   double t = 0.0;               // moment within the stretch, 0..1
   kinematics::ToolPose pose{};  // of the cutter at that moment
   // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at an angle,

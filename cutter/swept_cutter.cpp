@@ -10,29 +10,13 @@
 
 #include "cutter/carved_sweep.hpp"
 #include "cutter/stretch_sweep.hpp"
+#include "cutter/swept_box.hpp"
 
 namespace frustum::cutter {
 namespace {
 
 using kinematics::Stretch;
 using kinematics::ToolPath;
-
-// Box of a capped cylinder around the whole cutter at one pose.
-Box box_at(const ToolPose& pose, const Body& body) {
-  const Vec3 top = pose.tip + body.height() * pose.axis;
-  const Vec3 across =
-      body.max_radius() * (Vec3::Ones() - pose.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-  return {pose.tip.cwiseMin(top) - across, pose.tip.cwiseMax(top) + across};
-}
-
-Box box_of_stretch(const ToolPose& from, const ToolPose& to, const Body& body) {
-  const Box a = box_at(from, body);
-  const Box b = box_at(to, body);
-  // Points of the turning cutter run on arcs: at most bend/8 outside their chords.
-  const double bend = StretchMotion(from, to, body.reach()).bend() / 8.0;
-  const Vec3 grow = Vec3::Constant(bend);
-  return {a.min.cwiseMin(b.min) - grow, a.max.cwiseMax(b.max) + grow};
-}
 
 constexpr double kPassedOver = 1e-9;  // mm
 
@@ -100,8 +84,9 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
   for (const auto& block : path_.blocks) body_of_block_.push_back(&tools_->at(block.tool).body());
   boxes_.reserve(path_.stretches.size());
   for (const Stretch& stretch : path_.stretches) {
-    boxes_.push_back(
-        box_of_stretch(path_.from(stretch), path_.to(stretch), *body_of_block_[stretch.block]));
+    const Body& body = *body_of_block_[stretch.block];
+    boxes_.push_back(swept_box({0.0, body.height(), body.max_radius()},
+                               StretchMotion(path_, stretch, body.reach())));
   }
 
   std::map<int, std::vector<std::uint32_t>> stretches_of_tool;
@@ -160,7 +145,7 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
 SweepContact SweptCutter::contact_of(const Ray& ray, const CoverEnd& end) const {
   const Stretch& at = path_.stretches[end.stretch];
   const Body& body = body_of(end.stretch);
-  return sweep_contact(body, StretchMotion(path_.from(at), path_.to(at), body.reach()), ray, end);
+  return sweep_contact(body, StretchMotion(path_, at, body.reach()), ray, end);
 }
 
 IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_t> stretches,
@@ -169,7 +154,7 @@ IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_
   for (const std::uint32_t i : stretches) {
     const Stretch& stretch = path_.stretches[i];
     const Body& body = body_of(i);
-    const StretchMotion motion(path_.from(stretch), path_.to(stretch), body.reach());
+    const StretchMotion motion(path_, stretch, body.reach());
     const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * body.max_radius()));
     for (int k = 0; k <= steps; ++k) {
       for (const Profile& part : body.parts()) {
@@ -184,29 +169,26 @@ IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_
 SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretch) const {
   const Stretch& at = path_.stretches[stretch];
   const Body& body = body_of(stretch);
-  const StretchMotion motion(path_.from(at), path_.to(at), body.reach());
+  const StretchMotion motion(path_, at, body.reach());
   constexpr double kSameEnd = 1e-6;  // mm
   CoverEnd end{.s = s, .stretch = stretch};
   double nearest = std::numeric_limits<double>::infinity();
-  const auto offer = [&](std::size_t part, std::span<const SweptInterval> found) {
-    for (const SweptInterval& i : found) {
+  const CarvedSweep carved(body, motion, ray);
+  for (std::uint32_t slab = 0; slab < body.slabs().size(); ++slab) {
+    for (const SweptInterval& i : swept_intervals(body.slabs()[slab], motion, ray)) {
       for (const SweptEnd& e : {i.lo, i.hi}) {
         if (std::abs(e.s - s) >= nearest) continue;
+        if (slab >= body.parts().size() && !carved.is_of_body(e)) continue;
         nearest = std::abs(e.s - s);
-        end.part = static_cast<std::uint32_t>(part);
-        end.t = e.t;
-        end.face = e.face;
+        end = {s, stretch, slab, e.t, e.face};
       }
     }
-  };
-  for (std::size_t part = 0; part < body.parts().size(); ++part) {
-    offer(part, swept_intervals(body.parts()[part], motion, ray));
   }
   // A carved face, or a ray that grazes: then any end may be the one that rounding has chosen.
   const double same = body.carved().empty() ? kSameEnd : kSearchTolerance;
   if (nearest > same) {
-    end.part = static_cast<std::uint32_t>(body.parts().size());
-    end.t = nearest_moment(body, motion, ray, s);
+    end.slab = static_cast<std::uint32_t>(body.slabs().size());
+    end.t = carved.nearest_moment(s);
   }
   return contact_of(ray, end);
 }
@@ -235,7 +217,7 @@ double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint3
       for (const std::uint32_t i : sweep.tree.stretches().subspan(group.first, group.count)) {
         if (i >= first && i <= last) continue;
         const Stretch& stretch = path_.stretches[i];
-        const StretchMotion motion(path_.from(stretch), path_.to(stretch), sweep.body->reach());
+        const StretchMotion motion(path_, stretch, sweep.body->reach());
         least = LeastDistance(*sweep.body, motion, point, least).value();
       }
     }

@@ -13,6 +13,7 @@
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
 #include "core/result.hpp"
+#include "cutter/box.hpp"
 #include "cutter/ray.hpp"
 #include "stock/facet_solid.hpp"
 
@@ -48,10 +49,7 @@ struct LoftSlab {
 };
 [[nodiscard]] std::vector<LoftSlab> slabs_of(const LoftShape& shape);
 
-struct BoundingBox {
-  Vec3 min = Vec3::Zero();
-  Vec3 max = Vec3::Zero();
-};
+using BoundingBox = cutter::Box;
 
 class Blank {
  public:

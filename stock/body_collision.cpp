@@ -10,6 +10,7 @@
 
 #include "cutter/pose_tree.hpp"
 #include "cutter/stretch_motion.hpp"
+#include "cutter/swept_box.hpp"
 #include "stock/collision.hpp"
 #include "stock/removal.hpp"
 
@@ -23,7 +24,6 @@ using kinematics::PathBlock;
 using kinematics::PathKind;
 using kinematics::Stretch;
 using kinematics::ToolPath;
-using kinematics::ToolPose;
 
 // One body on one stretch.
 struct Passage {
@@ -31,32 +31,14 @@ struct Passage {
   const NonCuttingBody* body = nullptr;
 };
 
-Box box_at(const ToolPose& pose, const Profile& part) {
-  const Vec3 low = pose.tip + part.bottom() * pose.axis;
-  const Vec3 top = pose.tip + part.height() * pose.axis;
-  const Vec3 across =
-      part.max_radius() * (Vec3::Ones() - pose.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-  return {low.cwiseMin(top) - across, low.cwiseMax(top) + across};
-}
-
-void grow(Box& box, const Box& other) {
-  box = {box.min.cwiseMin(other.min), box.max.cwiseMax(other.max)};
-}
-
-Box box_of(const NonCuttingBody& body, const ToolPose& from, const ToolPose& to) {
-  Box all = box_at(from, body.parts.front());
-  for (const Profile& part : body.parts) {
-    Box box = box_at(from, part);
-    grow(box, box_at(to, part));
-    // Points of a turning body run on arcs: at most bend/8 outside their chords.
-    const double bend = StretchMotion(from, to, part.reach()).bend() / 8.0;
-    grow(all, {box.min - Vec3::Constant(bend), box.max + Vec3::Constant(bend)});
-  }
+Box box_of(const NonCuttingBody& body, const ToolPath& path, const Stretch& stretch) {
+  const auto box_of_part = [&](const Profile& part) {
+    return cutter::swept_box({part.bottom(), part.height(), part.max_radius()},
+                             StretchMotion(path, stretch, part.reach()));
+  };
+  Box all = box_of_part(body.parts.front());
+  for (const Profile& part : body.parts) all = united(all, box_of_part(part));
   return all;
-}
-
-bool overlap(const Box& a, const BoundingBox& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
 // All passages that come near the blank, with a tree for every body to find them by ray.
@@ -85,7 +67,7 @@ class Passages {
     const Stretch& stretch = path_.stretches[p.stretch];
     std::vector<Interval> all;
     for (const Profile& part : p.body->parts) {
-      const StretchMotion motion(path_.from(stretch), path_.to(stretch), part.reach());
+      const StretchMotion motion(path_, stretch, part.reach());
       // All poses of the stretch are within half its way of the middle.
       if (!part.chord(motion.at(0.5), ray, 0.5 * motion.travel())) continue;
       const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * part.max_radius()));
@@ -113,7 +95,7 @@ class Passages {
     for (std::uint32_t i = 0; i < path_.stretches.size(); ++i) {
       const Stretch& stretch = path_.stretches[i];
       if (body.tool != path_.blocks[stretch.block].tool) continue;
-      boxes[i] = box_of(body, path_.from(stretch), path_.to(stretch));
+      boxes[i] = box_of(body, path_, stretch);
       if (overlap(boxes[i], blank)) near_blank.push_back(i);
     }
     if (near_blank.empty()) return;

@@ -22,10 +22,6 @@ using kinematics::Stretch;
 using kinematics::ToolPath;
 using kinematics::ToolPose;
 
-bool overlap(const Box& a, const BoundingBox& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-
 // The stretches of one block that come near the blank.
 struct SuspectMove {
   std::uint32_t block = 0;
@@ -62,7 +58,7 @@ std::vector<SuspectMove> suspects(const Workpiece& workpiece) {
     }
     SuspectMove& move = moves.back();
     move.stretches.push_back(i);
-    move.box = {move.box.min.cwiseMin(box.min), move.box.max.cwiseMax(box.max)};
+    move.box = united(move.box, box);
   }
   for (SuspectMove& move : moves) {
     move.box = {move.box.min.cwiseMax(blank.min), move.box.max.cwiseMin(blank.max)};

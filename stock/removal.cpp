@@ -121,7 +121,7 @@ class MeetingSearch {
                                                const Ray& ray) const {
     const auto& stretch = path_.stretches[i];
     const cutter::Body& body = swept_.tool(path_.blocks[removed.block].tool).body();
-    const StretchMotion motion(path_.from(stretch), path_.to(stretch), body.reach());
+    const StretchMotion motion(path_, stretch, body.reach());
     const auto covers = [&](double t) {
       return body.meets(motion.at(t), ray, removed.piece.lo, removed.piece.hi);
     };
