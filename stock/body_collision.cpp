@@ -168,12 +168,11 @@ Hits hits_of_family(const Workpiece& workpiece, const Timetable& table, const Pa
   return all;
 }
 
-// The depth is the longest overlap along the direction in which the overlap is thinnest.
+// The longest overlap along the direction in which the overlap is thinnest.
 Hits thinnest(const std::array<Hits, 3>& families) {
   Hits all;
   for (const Hits& family : families) {
     for (const auto& [key, hit] : family) {
-      if (hit.length <= kCollisionMargin) continue;
       const auto [at, is_new] = all.emplace(key, hit);
       if (!is_new && hit.length < at->second.length) at->second = hit;
     }
@@ -191,7 +190,7 @@ Collision described(const ToolPath& path, const Key& key, const Longest& hit) {
           .last_line = block.source_line,
           .tool = block.tool,
           .point = hit.point,
-          .depth = hit.length};
+          .depth = hit.length + kCollisionMargin};
 }
 
 double pitch_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bodies) {

@@ -73,7 +73,8 @@ struct Ring {
 };
 
 std::vector<Ring> rings_of(const Profile& body) {
-  const double inset = 2.0 * kCollisionMargin;  // well inside the body that is shrunk by the margin
+  constexpr double kInside = 1e-4;  // mm, of the body that is shrunk by the margin
+  const double inset = kCollisionMargin + kInside;
   const double step = body.max_radius() / 3.0;
   std::vector<Ring> rings;
   const auto add_at = [&](double z) {
@@ -213,7 +214,8 @@ struct Overlap {
   Vec3 point = Vec3::Zero();
 };
 
-// The depth is the longest overlap along the direction in which the overlap is thinnest.
+// The depth is the longest overlap along the direction in which the overlap is thinnest; the margin by which
+// the body was shrunk belongs to it.
 Overlap measured_overlap(const Workpiece& workpiece, const SuspectMove& move,
                          const Suspicion& where, double pitch) {
   const Box& box = where.box;
@@ -248,9 +250,9 @@ Overlap measured_overlap(const Workpiece& workpiece, const SuspectMove& move,
         }
       }
     }
-    if (longest > kCollisionMargin && (worst.depth == 0.0 || longest < worst.depth)) {
-      worst = {longest, at};
-    }
+    if (longest == 0.0) continue;
+    const double depth = longest + kCollisionMargin;
+    if (worst.depth == 0.0 || depth < worst.depth) worst = {depth, at};
   }
   return worst;
 }

@@ -8,10 +8,10 @@
 //            are shrunk by a margin, so that a retract along a finished wall is no collision
 // Units    : mm
 // Errors   : none
-// Accuracy : overlaps of more than the margin (10 um) are found when they hold a ray: a third of the
+// Accuracy : overlaps of more than the margin (10.1 um) are found when they hold a ray: a third of the
 //            cutter's radius between rings and an eighth of a right angle around; a twelfth of the
 //            diameter where it turns; for shanks and holders a quarter of their radius, but not less
-//            than 1/250 of the blank's longest side. Depths are within the same distance
+//            than 1/250 of the blank's longest side. A depth is as exact as the densest of them
 // Threads  : find_collisions() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
@@ -38,7 +38,7 @@ struct Collision {
   std::uint32_t last_line = 0;
   int tool = 0;
   Vec3 point = Vec3::Zero();  // where it is worst
-  double depth = 0.0;         // mm of material, across its thinnest direction
+  double depth = 0.0;         // mm of material, along the axis in which it is thinnest
 };
 
 // A part of a tool that must never meet material: convex parts in the tool's frame.
