@@ -66,7 +66,7 @@ Result<ConeFrustum> cone_of(const Options& o) {
 
 int write_cone(const Options& options) {
   const auto machine_file = find_machine(options.machine, ".");
-  const auto machine = kinematics::Machine::load(machine_file);
+  const auto machine = load_machine(options.machine, ".");
   if (!machine) return refuse(machine.error());
   const auto cone = cone_of(options);
   if (!cone) return refuse(cone.error());

@@ -40,6 +40,7 @@ struct Options {
   std::string engine = "ray";
   PolyhedralFacets facets{};
   double facet_tolerance_mm = 0.01;
+  bool facets_given = false;  // one of both
   double gouge_limit_um = 0.0, excess_limit_um = 0.0;  // 0: none
   JobOverrides overrides{};
   double chord = 0.0, decimate = 0.0;  // mm; 0: not asked for
@@ -62,6 +63,10 @@ std::optional<Diagnostic> fault_of(const Options& o) {
   if (o.polyhedral() && (o.chord > 0.0 || o.decimate > 0.0)) {
     return error("--chord and --decimate are for the surface that rays find",
                  "the polyhedral engine's facets follow --facets and --facet-tolerance");
+  }
+  if (!o.polyhedral() && o.facets_given) {
+    return error("--facets and --facet-tolerance are of the polyhedral engine",
+                 "add --engine polyhedral, or choose --pitch and --chord");
   }
   constexpr double kFinest = 1e-6;  // mm: as exact as the surface is
   if (o.chord > 0.0 && o.chord < kFinest) {
@@ -163,6 +168,14 @@ class Cut {
   Failure find_moment() {
     result_.until = stock::end_of(path());
     if (options_.until_line == 0) return std::nullopt;
+    const std::string& text = job_.piece.program;
+    const auto ends = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
+    const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
+    if (options_.until_line > lines) {
+      return Diagnostics{
+          error(fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
+                "its lines are counted from 1")};
+    }
     const auto moment = stock::after_line(path(), options_.until_line);
     if (!moment) return moment.error();
     result_.finished = moment->stretches == result_.until.stretches;
@@ -311,6 +324,7 @@ int cut(Options options) {
   TrialRun run(progress_style(options.quiet || options.json));
   const auto trial = run.trial(*job, false);
   if (!trial) return refuse(trial.error());
+  print(std::cerr, trial->warnings);
   auto result = Cut(options, *view, *job, *trial, run).result();
   if (!result) return refuse(result.error());
   if (options.gouge_limit_um > 0.0) result->limits.gouge = options.gouge_limit_um / kUmPerMm;
@@ -378,6 +392,9 @@ void add_cut(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("cut", "Cut a job and write the workpiece at any moment");
   add_options(*command, *options);
+  command->parse_complete_callback([command, options] {
+    options->facets_given = command->count("--facets") + command->count("--facet-tolerance") > 0;
+  });
   command->footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
   command->callback([options, &exit_code] { exit_code = cut(*options); });
 }

@@ -206,7 +206,7 @@ std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
 }
 
 int show_design(const Options& o) {
-  const auto machine = kinematics::Machine::load(find_machine(o.machine, "."));
+  const auto machine = load_machine(o.machine, ".");
   if (!machine) return refuse(machine.error());
   Request request(o, *machine);
   const metrology::CmmModel cmm = request.cmm();

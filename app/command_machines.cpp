@@ -76,7 +76,7 @@ ordered_json zero_by_choice(const Machine& machine) {
 }
 
 int list_errors(const Options& options) {
-  const auto machine = Machine::load(find_machine(options.machine, "."));
+  const auto machine = load_machine(options.machine, ".");
   if (!machine) return refuse(machine.error());
   ordered_json axes = ordered_json::array(), names = ordered_json::array();
   const auto error_unit = [](const ErrorName& e) {

@@ -165,7 +165,7 @@ int run_pose(const Options& options) {
     return refuse(
         fmt::format("--tool-length {}: expected a length in mm, 0 or more", options.tool_length));
   }
-  const auto machine = Machine::load(find_machine(options.machine, "."));
+  const auto machine = load_machine(options.machine, ".");
   if (!machine) return refuse(machine.error());
   const auto entries = gather_errors({}, options.errors, std::nullopt, *machine);
   if (!entries) return refuse(entries.error());

@@ -66,7 +66,7 @@ void take_lines(programs::StepPiece& made, const programs::TranslatedPiece& writ
 
 int write_step(const Options& options) {
   const auto machine_file = find_machine(options.machine, ".");
-  const auto machine = kinematics::Machine::load(machine_file);
+  const auto machine = load_machine(options.machine, ".");
   if (!machine) return refuse(machine.error());
   const auto test = test_of(options);
   if (!test) return refuse(test.error());

@@ -153,7 +153,7 @@ Result<Study> study_of(const Options& options) {
   if (options.grid > kMostPoints) {
     return error(fmt::format("--grid {}: at most {} points an axis", options.grid, kMostPoints));
   }
-  auto machine = Machine::load(find_machine(options.machine, "."));
+  auto machine = load_machine(options.machine, ".");
   if (!machine) return machine.error();
   auto entries = read_entries(options.errors);
   if (!entries) return entries.error();

@@ -141,7 +141,7 @@ std::string maker_text(const CutResult& result) {
 bool CutResult::passes() const {
   const bool within = !surface || (!exceeds(surface->deviations.gouge, limits.gouge) &&
                                    !exceeds(surface->deviations.excess, limits.excess));
-  return collisions.empty() && within;
+  return collisions.empty() && within && (!asked_point || maker);
 }
 
 std::string snapshot_index(const std::vector<Snapshot>& snapshots) {

@@ -57,7 +57,7 @@ struct CutResult {
   std::vector<Snapshot> snapshots{};
   std::optional<RemovalTotal> removal{};
 
-  // No collision, and no deviation beyond a limit.
+  // No collision, no deviation beyond a limit, and a surface where one was asked for.
   [[nodiscard]] bool passes() const;
 };
 

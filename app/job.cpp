@@ -240,12 +240,24 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   read_inspection(root, want_plan, piece, cmm, problems);
   check_made_features(root, piece);
   const fs::path machine_file = find_machine(machine_name, document->folder());
-  auto machine = kinematics::Machine::load(machine_file);
+  auto machine = load_machine(machine_name, document->folder());
   if (!machine && !machine_name.empty()) {
-    problems.insert(problems.end(), machine.error().begin(), machine.error().end());
+    for (const Diagnostic& d : machine.error()) {
+      if (d.file.empty()) {
+        root.fail("machine", d.message, d.hint);
+      } else {
+        problems.push_back(d);
+      }
+    }
   }
   std::vector<kinematics::ErrorEntry> errors;
   if (machine) {
+    if (const auto table = root.table_if("errors")) {
+      for (const kinematics::ErrorEntry& e : written_errors.entries) {
+        const auto unknown = kinematics::unknown_error(*machine, e.name);
+        if (unknown && table->has(e.name)) table->fail(e.name, unknown->message, unknown->hint);
+      }
+    }
     auto gathered = gather_errors(std::move(written_errors), overrides.errors, draw, *machine);
     if (gathered) {
       errors = *std::move(gathered);

@@ -1,7 +1,11 @@
 #include "app/machine_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <system_error>
+
+#include "core/spelling.hpp"
 
 namespace frustum::app {
 namespace fs = std::filesystem;
@@ -28,6 +32,16 @@ fs::path find_machine(const std::string& name, const fs::path& folder) {
     if (fs::is_regular_file(candidate, ignored)) return candidate;
   }
   return folder / written;
+}
+
+Result<kinematics::Machine> load_machine(const std::string& name, const fs::path& folder) {
+  const fs::path file = find_machine(name, folder);
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) return kinematics::Machine::load(file);
+  std::vector<std::string> shipped;
+  for (const fs::path& each : shipped_machines()) shipped.push_back(each.stem().string());
+  return error(fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
+               suggestion(fs::path(name).stem().string(), shipped));
 }
 
 std::vector<fs::path> shipped_machines() {

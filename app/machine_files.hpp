@@ -1,16 +1,22 @@
 // Where machine files are: beside the job, in the working folder, or shipped with the program.
-// Units: none. Errors: none here; a file that does not exist is reported by whoever loads it.
+// Units: none. Errors: load_machine names what was asked for, and the shipped machines, or passes on what is
+// wrong in the file.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "core/result.hpp"
+#include "kinematics/machine.hpp"
+
 namespace frustum::app {
 
 // A path (relative to `folder`, else to the working folder), or the name of a shipped machine.
 [[nodiscard]] std::filesystem::path find_machine(const std::string& name,
                                                  const std::filesystem::path& folder);
+[[nodiscard]] Result<kinematics::Machine> load_machine(const std::string& name,
+                                                       const std::filesystem::path& folder);
 // Where shipped machines may lie, best first; error files lie in errors/ under it.
 [[nodiscard]] std::vector<std::filesystem::path> machine_folders();
 // The shipped machine files, by name.

@@ -78,7 +78,7 @@ Result<Workshop> workshop_of(const WorkshopWords& words) {
     if (auto problem = add_offset(text, setup)) return *problem;
   }
   if (!words.machine.empty()) {
-    auto loaded = kinematics::Machine::load(find_machine(words.machine, "."));
+    auto loaded = load_machine(words.machine, ".");
     if (!loaded) return loaded.error();
     machine = *std::move(loaded);
   }

@@ -131,7 +131,17 @@ void TomlTable::fail(std::string_view key, std::string message, std::string hint
     diagnostic.line = place->line;
     diagnostic.column = place->column;
   }
-  state_->diagnostics.push_back(std::move(diagnostic));
+  const bool told = std::ranges::any_of(state_->diagnostics, [&](const Diagnostic& d) {
+    return d.key == diagnostic.key && d.message == diagnostic.message;
+  });
+  if (!told) state_->diagnostics.push_back(std::move(diagnostic));
+}
+
+bool TomlTable::is_sound() const {
+  return std::ranges::none_of(state_->diagnostics, [&](const Diagnostic& d) {
+    const bool here = path_.empty() || d.key == path_ || d.key.starts_with(path_ + '.');
+    return here && d.severity == Severity::error;
+  });
 }
 
 bool TomlTable::has(std::string_view key) const { return find(key, false) != nullptr; }

@@ -84,6 +84,8 @@ class TomlTable {
   // A path in the file, resolved against the folder of the document.
   [[nodiscard]] std::filesystem::path file_path(std::string_view key) const;
 
+  // Whether no error has been noted in this table so far.
+  [[nodiscard]] bool is_sound() const;
   // Notes an error at a key of this table (or at the table itself when the key is absent or empty).
   void fail(std::string_view key, std::string message, std::string hint = {}) const;
 

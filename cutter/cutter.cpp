@@ -151,6 +151,11 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
                              spec.flute_length.value, spec.length.value),
                  "the flutes end below the gauge point");
   }
+  if (std::abs(spec.length_error.value) >= spec.length.value) {
+    return error(fmt::format("length_error {} mm on a tool of {} mm", spec.length_error.value,
+                             spec.length.value),
+                 "an error of a tool's length is a small part of it");
+  }
   auto chain = real_outline(spec);
   if (!chain) return chain.error();
   auto outline = Outline::make(*std::move(chain));

@@ -148,7 +148,13 @@ ToolList read_tools(const TomlTable& tools, ToolList base) {
     }
     const std::optional<CutterSpec> start =
         known == base.end() ? std::nullopt : std::optional(known->second);
-    base.insert_or_assign(*number, read_cutter(table, start));
+    CutterSpec spec = read_cutter(table, start);
+    if (table.is_sound()) {
+      if (const auto made = Cutter::make(spec); !made) {
+        tools.fail(key, made.error().front().message, made.error().front().hint);
+      }
+    }
+    base.insert_or_assign(*number, std::move(spec));
   }
   return base;
 }

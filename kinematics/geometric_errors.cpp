@@ -93,21 +93,8 @@ Result<NamedError> find_error(const Machine& machine, const std::string& name,
   if (const auto alias = machine.aliases().find(name); alias != machine.aliases().end()) {
     return NamedError{alias->second.error, alias->second.scale, alias->second.carries};
   }
-  std::vector<std::string> known;
-  for (const ErrorName& e : machine.error_names()) known.push_back(e.text());
-  for (const auto& [alias, meaning] : machine.aliases()) known.push_back(alias);
+  if (const auto unknown = unknown_error(machine, name)) return *unknown;
   const auto error_name = ErrorName::parse(name);
-  if (!error_name) {
-    return error(fmt::format("unknown error name '{}' for machine {}", name, machine.name()),
-                 nearest_word(name, known)
-                     ? suggestion(name, known)
-                     : fmt::format("'frustum errors {}' lists the names", machine.name()));
-  }
-  if (machine.joint(error_name->axis) == nullptr) {
-    return error(fmt::format("error {}: machine {} ({}) has no axis {}", name, machine.name(),
-                             machine.structure(), to_char(error_name->axis)),
-                 fmt::format("'frustum errors {}' lists the names", machine.name()));
-  }
   if (const auto reason = machine.refused(*error_name, datum)) {
     return error(
         fmt::format("error {}: {}", name, *reason),
@@ -350,6 +337,25 @@ class Resolver {
 };
 
 }  // namespace
+
+std::optional<Diagnostic> unknown_error(const Machine& machine, const std::string& name) {
+  if (machine.aliases().contains(name)) return std::nullopt;
+  const auto error_name = ErrorName::parse(name);
+  const std::string lists = fmt::format("'frustum errors {}' lists the names", machine.name());
+  if (!error_name) {
+    std::vector<std::string> known;
+    for (const ErrorName& e : machine.error_names()) known.push_back(e.text());
+    for (const auto& [alias, meaning] : machine.aliases()) known.push_back(alias);
+    return error(fmt::format("unknown error name '{}' for machine {}", name, machine.name()),
+                 nearest_word(name, known) ? suggestion(name, known) : lists);
+  }
+  if (machine.joint(error_name->axis) == nullptr) {
+    return error(fmt::format("error {}: machine {} ({}) has no axis {}", name, machine.name(),
+                             machine.structure(), to_char(error_name->axis)),
+                 lists);
+  }
+  return std::nullopt;
+}
 
 Result<GeometricErrors> resolve(const Machine& machine, std::span<const ErrorEntry> entries,
                                 const AxisSpans& spans) {

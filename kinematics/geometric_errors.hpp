@@ -85,6 +85,10 @@ class GeometricErrors {
 // Default spans of shapes, by axis; axes not named use their travel.
 using AxisSpans = std::map<AxisLetter, AxisRange>;
 
+// What is wrong with a name that no error of the machine has.
+[[nodiscard]] std::optional<Diagnostic> unknown_error(const Machine& machine,
+                                                      const std::string& name);
+
 // Later entries replace earlier ones of the same error. Amounts that are drawn from distributions must have
 // been drawn before (kinematics/error_draw.hpp).
 [[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine,

@@ -136,7 +136,10 @@ std::optional<Maker> maker_of(const WorkpieceAt& part, const Vec3& point, Mm tol
         if (tag == -1) continue;
         const SurfacePoint surface = part.surface_at(ray, s, tag);
         const double distance = std::abs((s - back) * surface.normal.dot(ray.direction));
-        if (distance > tolerance.value || (best && best->distance <= distance)) continue;
+        // On an edge with the blank's own face the cut has made it.
+        const auto rank = std::pair(!surface.stretch.has_value(), distance);
+        if (distance > tolerance.value) continue;
+        if (best && std::pair(!best->block.has_value(), best->distance) <= rank) continue;
         best = {.source_line = surface.source_line, .distance = distance, .normal = surface.normal};
         if (surface.stretch) best->block = path.stretches[*surface.stretch].block;
       }

@@ -140,6 +140,12 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
   Trial trial;
   trial.operations = std::move(run.operations);
   trial.warnings = std::move(run.warnings);
+  if (execution->path.stretches.empty()) {
+    Diagnostic idle = warning("the program moves no tool: the blank stays as it is",
+                              "check that it is the right file");
+    idle.file = piece.program_file;
+    trial.warnings.push_back(std::move(idle));
+  }
   trial.cycle_time = execution->cycle_time;
   trial.slowed = kinematics::slowed_blocks(execution->path);
 
