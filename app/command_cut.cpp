@@ -40,7 +40,7 @@ struct Options {
   std::string engine = "ray";
   PolyhedralFacets facets{};
   double facet_tolerance_mm = 0.01;
-  bool facets_given = false;  // one of both
+  bool facets_given = false;                           // one of both
   double gouge_limit_um = 0.0, excess_limit_um = 0.0;  // 0: none
   JobOverrides overrides{};
   double chord = 0.0, decimate = 0.0;  // mm; 0: not asked for
@@ -172,9 +172,9 @@ class Cut {
     const auto ends = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
     const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
     if (options_.until_line > lines) {
-      return Diagnostics{
-          error(fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
-                "its lines are counted from 1")};
+      return Diagnostics{error(
+          fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
+          "its lines are counted from 1")};
     }
     const auto moment = stock::after_line(path(), options_.until_line);
     if (!moment) return moment.error();

@@ -1,4 +1,6 @@
 // frustum cut as users and scripts see it: moments, removal, limits, engines, files whole or not at all.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -50,7 +52,9 @@ TEST_F(CutCommandSystem, ShowsThePartAtAnyMoment) {
               96000.0 - 4000.0, 1.0);
   EXPECT_EQ(cut("--point 0,1,-5 --until-line 7")["made_by"]["line"], 7);
   EXPECT_EQ(cut("--point 0,1,-8")["made_by"]["line"], 11);
-  EXPECT_FALSE(cut("--point 0,1,-5")["made_by"]["on_surface"].get<bool>());
+  EXPECT_FALSE(cut("--point 0,1,-5", 1)["made_by"]["on_surface"].get<bool>());
+  // The rim of the slot is an edge of the blank's own face: the slot has made it.
+  EXPECT_EQ(cut("--point 0,5,0")["made_by"]["line"], 7);
 }
 
 TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
@@ -84,7 +88,7 @@ TEST_F(CutCommandSystem, DrawsAtTheSizeThatIsAskedFor) {
 TEST_F(CutCommandSystem, CutsTheThreeAxisPartsOfTheExamplesWithoutCollision) {
   for (const std::string part : {"flange", "freeform", "plate"}) {
     const Outcome done = run("cut '" FRUSTUM_SOURCE_DIR "/examples/parts/" + part +
-                             "/job.toml' --point 0,0,0 --json");
+                             "/job.toml' --removal r.csv --pitch 4 --json");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     const json told = json::parse(done.out);
     EXPECT_EQ(told["collisions"], 0) << part;
@@ -154,16 +158,58 @@ TEST_F(CutCommandSystem, HoldsThePartAgainstANominalMesh) {
       -500.0, 1e-3);
 }
 
+TEST_F(CutCommandSystem, NamesTheKeyOfWhatIsWrongInAJob) {
+  write_plate();
+  const std::string job = read(folder_ / "plate.toml");
+  const auto told = [&](const std::string& from, const std::string& to) {
+    std::string changed = job;
+    changed.replace(changed.find(from), from.size(), to);
+    std::ofstream(folder_ / "wrong.toml") << changed;
+    const Outcome outcome = run("cut wrong.toml --mesh part.ply");
+    EXPECT_EQ(outcome.exit_code, 2) << to;
+    return outcome.err;
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(told("three-axis", "three-axes"),
+              AllOf(HasSubstr("wrong.toml:2:1: error: machine:"), HasSubstr("mean three-axis?")));
+  EXPECT_THAT(told("blank =", "errors.EXXX = \"1 um\"\nblank ="),
+              HasSubstr("wrong.toml:4:8: error: errors.EXXX: unknown error name"));
+  EXPECT_THAT(told("length = 100", "length = 20"),
+              HasSubstr("wrong.toml:5:6: error: tool.1: flute length 30 mm exceeds"));
+  EXPECT_THAT(told("length = 100", "length = 100, length_error = -100"),
+              HasSubstr("tool.1: length_error -100 mm"));
+}
+
+TEST_F(CutCommandSystem, WarnsOfAProgramThatMovesNothing) {
+  write_plate();
+  std::ofstream(folder_ / "plate.nc") << "G21 G90\nM30\n";
+  const Outcome idle = run("cut plate.toml --mesh a.stl --pitch 4");
+  EXPECT_EQ(idle.exit_code, 0);
+  EXPECT_NE(idle.err.find("warning: the program moves no tool"), std::string::npos) << idle.err;
+}
+
 TEST_F(CutCommandSystem, RefusesAndWritesNothing) {
   write_plate();
-  for (const char* arguments :
-       {"", "--snapshots 3", "--mesh part.xyz", "--removal part.txt", "--picture part.gif",
-        "--point 1,2", "--mesh part.ply --engine voxel", "--mesh part.ply --until-line 0",
-        "--mesh part.ply --gouge-limit -1", "--mesh part.ply --gouge-limit 5",
-        "--mesh part.ply --chord 1e-12", "--mesh part.ply --facets 2",
-        "--mesh part.ply --engine polyhedral --chord 0.1", "--mesh part.ply --view 10,20",
-        "--picture part.png --view 10", "--picture part.png --view 10,91",
-        "--removal no/such/folder/part.csv", "--removal part.csv --pitch 1e-4"}) {
+  for (const char* arguments : {"",
+                                "--snapshots 3",
+                                "--mesh part.xyz",
+                                "--removal part.txt",
+                                "--picture part.gif",
+                                "--point 1,2",
+                                "--mesh part.ply --engine voxel",
+                                "--mesh part.ply --until-line 0",
+                                "--mesh part.ply --gouge-limit -1",
+                                "--mesh part.ply --gouge-limit 5",
+                                "--mesh part.ply --chord 1e-12",
+                                "--mesh part.ply --facets 2",
+                                "--mesh part.ply --facets 12",
+                                "--mesh part.ply --until-line 14",
+                                "--mesh part.ply --engine polyhedral --chord 0.1",
+                                "--mesh part.ply --view 10,20",
+                                "--picture part.png --view 10",
+                                "--picture part.png --view 10,91",
+                                "--removal no/such/folder/part.csv",
+                                "--removal part.csv --pitch 1e-4"}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(std::string("cut plate.toml --quiet ") + arguments);
     EXPECT_EQ(outcome.exit_code, 2);

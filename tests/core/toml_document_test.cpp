@@ -148,6 +148,20 @@ TEST(TomlDocument, NamesAnUnknownKeyWithItsPlaceAndTheNearestKnownOne) {
                                              "(hint: did you mean diameter?)"));
 }
 
+TEST(TomlDocument, TellsAFaultOnceAndKnowsWhichTablesAreSound) {
+  const TomlDocument document = parsed("[a]\nx = 1\n[ab]\ny = 1\n[b.c]\nz = 1\n");
+  const TomlTable a = document.root().table("a"), b = document.root().table("b");
+  EXPECT_EQ(a.number("x") + document.root().table("ab").number("y"), 2.0);
+  EXPECT_EQ(b.table("c").number("z"), 1.0);
+  EXPECT_TRUE(a.is_sound());
+  for (int k = 0; k < 2; ++k) document.root().table("ab").fail("y", "is wrong");
+  b.table("c").fail("z", "is wrong");
+  EXPECT_TRUE(a.is_sound());
+  EXPECT_FALSE(b.is_sound());
+  EXPECT_FALSE(document.root().is_sound());
+  EXPECT_EQ(verdict(document).size(), 2U);
+}
+
 TEST(TomlDocument, ListsKnownKeysWhenNoneIsNear) {
   const TomlDocument document = parsed("colour = \"red\"\n");
   EXPECT_EQ(document.root().number_or("height", 1), 1.0);

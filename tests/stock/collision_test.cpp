@@ -126,7 +126,20 @@ TEST(RapidCollision, IsFoundAmongHundredsThatAreNone) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].block, 4U * kBad + 3U);
   EXPECT_EQ(found[0].body, CollisionBody::cutter);
-  EXPECT_NEAR(found[0].depth, 0.03, 0.002);  // less the margin
+  EXPECT_NEAR(found[0].depth, 0.04, 0.002);
+}
+
+TEST(RapidCollision, IsAsDeepAsTheToolIsTooLow) {
+  for (const double depth : {0.011, 0.02, 0.5}) {
+    auto path = path_through(std::vector<Vec3>{{-70, 0, -depth}, {70, 0, -depth}});
+    path.blocks[0].kind = PathKind::rapid;
+    const auto found = find_collisions(cut(path));
+    ASSERT_EQ(found.size(), 1U) << depth;
+    EXPECT_NEAR(found[0].depth, depth, 1e-6);
+  }
+  auto path = path_through(std::vector<Vec3>{{-70, 0, -0.009}, {70, 0, -0.009}});
+  path.blocks[0].kind = PathKind::rapid;
+  EXPECT_TRUE(find_collisions(cut(path)).empty());
 }
 
 }  // namespace
