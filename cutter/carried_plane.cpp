@@ -15,8 +15,7 @@ double most_lost(const CarriedPlane& plane, const PoseGroup& group, const Vec3& 
   const double turned = group.axis_shift;
   if (turned > kFarTurned) return std::numeric_limits<double>::infinity();
   const Vec3& axis = group.witness.axis;
-  const Vec3 n = plane.lateral * plane.side + plane.axial * axis;
-  const double by_tip = farthest_tip(group, n);
+  const double by_tip = farthest_tip(group, plane.normal_square_to(axis));
   if (turned == 0.0) return by_tip;
   const Vec3 c = plane.lateral * y.dot(axis) * plane.side - plane.axial * y;
   return by_tip + farthest_axis(group, c) + normal_turn(group) * group.tip_shift +

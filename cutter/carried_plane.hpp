@@ -17,6 +17,10 @@ struct CarriedPlane {
   double offset = 0.0;                // from the tip
   Vec3 side = Vec3::Zero();           // unit; of no account where lateral is 0
 
+  // Of an axis that `side` is square to.
+  [[nodiscard]] Vec3 normal_square_to(const Vec3& axis) const {
+    return lateral * side + axial * axis;
+  }
   [[nodiscard]] Vec3 normal_at(const Vec3& axis) const {
     if (lateral == 0.0) return axial * axis;
     const Vec3 turned = side - side.dot(axis) * axis;

@@ -66,10 +66,12 @@ Overreach EndGuard::overreach(const PoseGroup& group) const {
   if (body_ == nullptr) return {};
   const std::optional<CarriedPlane> plane = touching(group.witness);
   if (!plane) return {};
-  const double fall = plane->normal_at(group.witness.axis).dot(beyond_) - normal_turn(group);
+  const Vec3 n = plane->normal_square_to(group.witness.axis);
+  const double fall = n.dot(beyond_) - normal_turn(group);
   if (!(fall > 0.0)) return {};
-  const double room = plane->height(group.witness, end_) + kSearchTolerance;
-  return {(most_lost(*plane, group, end_ - group.witness.tip) - room) / fall, room < 0.0};
+  const Vec3 m = end_ - group.witness.tip;
+  const double room = n.dot(m) - plane->offset + kSearchTolerance;
+  return {(most_lost(*plane, group, m) - room) / fall, room < 0.0};
 }
 
 bool EndGuard::holds(const StretchMotion& motion) const {
@@ -83,8 +85,9 @@ bool EndGuard::holds(const StretchMotion& motion) const {
           ? 0.0
           : motion.plane_departure(1.0, std::max((end_ - from.tip).norm(), (end_ - to.tip).norm()),
                                    (to.tip - from.tip).norm());
-  if (!(plane->height(from, end_) + kSearchTolerance >= departure)) return false;
-  if (!(plane->normal_at(from.axis).dot(beyond_) > 1.1 * motion.turn())) return false;
+  const Vec3 n = plane->normal_square_to(from.axis);
+  if (!(n.dot(end_ - from.tip) - plane->offset + kSearchTolerance >= departure)) return false;
+  if (!(n.dot(beyond_) > 1.1 * motion.turn())) return false;
   return plane->height(to, end_) + kSearchTolerance >= departure;
 }
 

@@ -15,7 +15,7 @@ TouchingPlane::TouchingPlane(const Profile& body, const ToolPose& pose, const Ra
   axial = at.axial;
   lateral = at.lateral;
   side = at.side;
-  const Vec3 normal = lateral * side + axial * pose.axis;
+  const Vec3 normal = normal_square_to(pose.axis);
   value = direction * s;
   // A grazing ray leaves the plane nowhere, or by rounding on the wrong side.
   along = std::max(direction * normal.dot(ray.direction), 1e-12);

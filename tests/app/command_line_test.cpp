@@ -86,7 +86,7 @@ TEST_F(CommandLineSystem, RefusesBadInputWithPlaceAndRemedy) {
       {"job.toml", "diameter = 110", "diameter = 0", {"blank.diameter", "greater than 0"}},
       {"job.toml", "e0 = \"0 um\"", "e0 = \"0 urad\"", {"inspection.cmm.e0", "length"}},
       {"job.toml", "cone.nc", "none.nc", {"program.file", "cannot be read"}},
-      {"job.toml", "iwf-bc.toml", "none.toml", {"none.toml", "cannot be read"}},
+      {"job.toml", "iwf-bc.toml", "none.toml", {"machine", "none.toml", "known: ac-probe"}},
       {"cone.plan.toml", "points_per_section", "points_per_sektion", {"points_per_se"}},
       {"cone.plan.toml", "section_radius = 35", "section_radius = 20", {"cone"}},
   };
