@@ -12,14 +12,17 @@ endif()
 
 find_program(FRUSTUM_CCACHE ccache)
 if(FRUSTUM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${FRUSTUM_CCACHE}")
+  # Else ccache does not keep what starts from precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${FRUSTUM_CCACHE}")
 endif()
 
 add_library(frustum_flags INTERFACE)
 target_compile_features(frustum_flags INTERFACE cxx_std_20)
 target_compile_options(
   frustum_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
-                          $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>)
+                          $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>
+                          $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
 # Our own assertions stay on in optimised builds (a wrong part is worse than a slow one); those of the
 # libraries, which sit in inner loops, do not.

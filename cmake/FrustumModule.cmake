@@ -15,5 +15,6 @@ function(frustum_module name)
     frustum_${name}
     PUBLIC ${ROOM_USES}
     PRIVATE $<BUILD_INTERFACE:frustum_flags> ${ROOM_PRIVATE_USES})
+  frustum_precompile(frustum_${name})
   set_property(GLOBAL APPEND PROPERTY FRUSTUM_ROOMS ${name})
 endfunction()

@@ -90,7 +90,7 @@ TEST_P(StandingCuttersOracle, FindEveryEndWithinANanometre) {
   const auto [kind, family] = GetParam();
   constexpr int kRaysOfAPath = 20;
   // Of a body that is not convex, times are taken one by one at half a micrometre where a wall slides along.
-  const int paths = 1 + rays_of_a_case() / kRaysOfAPath / (kind->is_convex ? 1 : 20);
+  const int paths = 1 + rays_of_a_case() / kRaysOfAPath / (kind->is_convex ? 1 : 5);
   Court court;
   for (int p = 0; p < paths; ++p) {
     Draw draw(11, static_cast<std::uint32_t>(p));

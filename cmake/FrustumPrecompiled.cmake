@@ -1,0 +1,41 @@
+# Headers that nearly every file reads, compiled once for the rooms and once for the programs (whose code
+# is position-independent in another way). Every file still includes what it uses: FRUSTUM_PRECOMPILE=OFF
+# builds without them.
+option(FRUSTUM_PRECOMPILE "Compile the headers that nearly every file reads only once" ON)
+
+set(FRUSTUM_COMMON_HEADERS
+    <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath> <filesystem> <functional>
+    <limits> <map> <memory> <numbers> <optional> <span> <sstream> <string> <string_view> <utility>
+    <variant> <vector>)
+set(FRUSTUM_TEST_HEADERS <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h> <rapidcheck/gtest.h>)
+
+# The files of TARGET, a library or a test program, start from them.
+function(frustum_precompile target)
+  if(NOT FRUSTUM_PRECOMPILE)
+    return()
+  endif()
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE)
+    target_precompile_headers(${target} REUSE_FROM frustum_precompiled_test)
+  else()
+    target_precompile_headers(${target} REUSE_FROM frustum_precompiled)
+  endif()
+endfunction()
+
+if(FRUSTUM_PRECOMPILE)
+  set(source "${CMAKE_BINARY_DIR}/precompiled.cpp")
+  file(CONFIGURE OUTPUT "${source}" CONTENT "int main() { return 0; }\n")
+  add_library(frustum_precompiled STATIC "${source}")
+  target_link_libraries(frustum_precompiled PRIVATE frustum_flags Eigen3::Eigen fmt::fmt)
+  target_precompile_headers(frustum_precompiled PRIVATE ${FRUSTUM_COMMON_HEADERS})
+  if(FRUSTUM_BUILD_TESTS)
+    find_package(GTest 1.12 REQUIRED)
+    find_package(rapidcheck REQUIRED)
+    add_executable(frustum_precompiled_test "${source}")
+    target_link_libraries(
+      frustum_precompiled_test PRIVATE frustum_flags Eigen3::Eigen fmt::fmt GTest::gmock GTest::gtest
+                                       rapidcheck rapidcheck_gtest)
+    target_precompile_headers(frustum_precompiled_test PRIVATE ${FRUSTUM_COMMON_HEADERS}
+                                                               ${FRUSTUM_TEST_HEADERS})
+  endif()
+endif()
