@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace frustum::cutter {
@@ -68,6 +69,21 @@ Zone zone_of(const OutlineSegment& s) {
   return torus_zone(s.centre.r, s.arc_radius, s.centre.z, s.from.z, s.to.z);
 }
 
+double finest_hollow_of(const Outline& outline, std::span<const Profile> carved) {
+  double finest = outline.max_radius();
+  const auto offer = [&](double size) {
+    if (size > 0.0) finest = std::min(finest, size);
+  };
+  for (const OutlineSegment& s : outline.segments()) {
+    const auto [low, high] = std::minmax(s.from.z, s.to.z);
+    const bool is_beside = std::ranges::any_of(
+        carved, [&](const Profile& hull) { return low <= hull.height() && high >= hull.bottom(); });
+    if (!is_beside) continue;
+    for (const double size : {s.arc_radius, s.from.r, s.to.r, chord_length(s)}) offer(size);
+  }
+  return finest;
+}
+
 }  // namespace
 
 Body::Body(Outline outline) : outline_(std::move(outline)) {
@@ -88,6 +104,7 @@ Body::Body(Outline outline) : outline_(std::move(outline)) {
   }
   part_count_ = slabs_.size();
   slabs_.insert(slabs_.end(), hulls.begin(), hulls.end());
+  finest_hollow_ = finest_hollow_of(outline_, carved());
 }
 
 bool Body::meets(const ToolPose& pose, const Ray& ray, double lo, double hi) const {
@@ -109,6 +126,36 @@ bool Body::meets(const ToolPose& pose, const Ray& ray, double lo, double hi) con
     }
   }
   return false;
+}
+
+std::vector<Chord> Body::core(const ToolPose& pose, const Ray& ray, double deeper_than) const {
+  std::vector<Chord> found;
+  if (carved().empty()) {
+    for (const Profile& part : parts()) {
+      if (const auto chord = part.chord(pose, ray, -deeper_than)) found.push_back(*chord);
+    }
+    return found;
+  }
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+  for (const Profile& slab : slabs()) {
+    const auto chord = slab.chord(pose, ray);
+    if (!chord) continue;
+    lo = std::min(lo, chord->lo);
+    hi = std::max(hi, chord->hi);
+  }
+  constexpr double kLeastStep = 1e-3;  // mm
+  std::optional<double> begin;
+  for (double s = lo; s <= hi;) {
+    const double over = distance(pose, ray.at(s)) + deeper_than;
+    if (over < 0.0 && !begin) begin = s;
+    if (over >= 0.0 && begin) {
+      found.push_back({*begin, s});
+      begin.reset();
+    }
+    s += std::max(kLeastStep, std::abs(over));
+  }
+  if (begin) found.push_back({*begin, hi});
+  return found;
 }
 
 double Body::support(double u) const {

@@ -8,6 +8,8 @@
 // Accuracy : faces of parts() lie on the outline within 1e-12 mm
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +17,9 @@
 #include "cutter/profile.hpp"
 
 namespace frustum::cutter {
+
+// In place of a slab's index: somewhere about what is hollowed out.
+inline constexpr std::uint32_t kInAHollow = std::numeric_limits<std::uint32_t>::max();
 
 class Body {
  public:
@@ -33,6 +38,12 @@ class Body {
   [[nodiscard]] double distance(const ToolPose& pose, const Vec3& point) const;
   // Largest value of x.n over the body (tip at the origin), for a unit direction n with n.axis = u.
   [[nodiscard]] double support(double u) const;
+  // What of the ray is inside the body, standing at the pose, by more than this; ends within 1 um where it is
+  // hollowed out. For finding collisions.
+  [[nodiscard]] std::vector<Chord> core(const ToolPose& pose, const Ray& ray,
+                                        double deeper_than) const;
+  // The smallest arc, piece or rim radius of the outline beside a carved slab.
+  [[nodiscard]] double finest_hollow() const { return finest_hollow_; }
   [[nodiscard]] double height() const { return outline_.height(); }
   [[nodiscard]] double max_radius() const { return outline_.max_radius(); }
   // No point of the body is farther than this from the tip.
@@ -42,6 +53,7 @@ class Body {
   Outline outline_;
   std::vector<Profile> slabs_;
   std::size_t part_count_ = 0;
+  double finest_hollow_ = 0.0;
 };
 
 }  // namespace frustum::cutter

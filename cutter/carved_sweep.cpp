@@ -1,10 +1,10 @@
 #include "cutter/carved_sweep.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace frustum::cutter {
 namespace {
@@ -17,10 +17,20 @@ constexpr double kLeastStep = 2.0 * kMissedDepth;
 // Where a ray slides along the surface the least step doubles after so many, up to this (mm).
 constexpr int kSlid = 256;
 constexpr double kLongestLeastStep = 1e-4;
-// Moments that are this near (mm of motion) bracket one minimum of the distance.
-constexpr double kSampleMotion = 0.02;
+// Of what is sampled of phi nothing is farther from the truth (mm); and moments that bracket one minimum of the
+// distance are at most, and need not be less than, this much motion apart.
+constexpr double kSampledWithin = 1e-5;
+constexpr double kLongestSample = 0.02, kShortestSample = 1e-4;
+// What is less deep than this (mm) is on the surface: else rounding covers a ray that slides along it.
+constexpr double kOnSurface = 1e-10;
 // Ends are closed in to this along the ray (mm).
 constexpr double kEndTolerance = 1e-11;
+
+// Two valleys that are h apart are told for one: of circles of radius f, h^2 / 8f is lost.
+double sample_motion(const Body& body) {
+  return std::clamp(std::sqrt(8.0 * kSampledWithin * body.finest_hollow()), kShortestSample,
+                    kLongestSample);
+}
 
 // How far a walk may go at least, the longer the longer it slides along the surface.
 class LeastStep {
@@ -44,12 +54,8 @@ class LeastStep {
 }  // namespace
 
 double carved_accuracy(const Body& body) {
-  constexpr double kEnds = 1e-7;  // mm
-  double smallest = body.max_radius();
-  for (const OutlineSegment& s : body.outline().segments()) {
-    if (s.arc_radius > 0.0) smallest = std::min(smallest, s.arc_radius);
-  }
-  return kEnds + kSampleMotion * kSampleMotion / (8.0 * smallest);
+  const double h = sample_motion(body);
+  return kOnSurface + std::min(h, h * h / (8.0 * body.finest_hollow()));
 }
 
 Vec3 outline_normal(const Outline& outline, const ToolPose& pose, const Vec3& point) {
@@ -70,10 +76,16 @@ CarvedSweep::CarvedSweep(const Body& body, const StretchMotion& motion, const Ra
     : body_(body),
       motion_(motion),
       ray_(ray),
-      steps_(1 + static_cast<int>(motion.travel() / kSampleMotion)) {}
+      sample_(sample_motion(body)),
+      steps_(1 + static_cast<int>(motion.travel() / sample_)) {}
+
+// Counted from just below the surface.
+double CarvedSweep::distance(double s, double t) const {
+  return body_.distance(motion_.at(t), ray_.at(s)) + kOnSurface;
+}
 
 bool CarvedSweep::is_of_body(const SweptEnd& end) const {
-  return std::abs(distance(end.s, end.t)) <= kSameSurface;
+  return std::abs(body_.distance(motion_.at(end.t), ray_.at(end.s))) <= kSameSurface;
 }
 
 bool CarvedSweep::stands_from(double from, const SweptEnd& end) const {
@@ -135,6 +147,9 @@ CarvedSweep::Nearest CarvedSweep::nearest(double s) const {
     i += std::max(1, skipped);
   }
   if (motion_.travel() == 0.0) return best;
+  // Far from the surface it is enough to know how far at least.
+  if (best.distance > 4.0 * way) return {best.distance - 0.5 * way, best.t};
+  if (best.distance < -4.0 * way) return best;
   // The bottom of every valley that may go deeper than the best.
   const double may_win = best.distance + way;
   for (std::size_t k = 0; k < looked.size(); ++k) {
@@ -142,12 +157,28 @@ CarvedSweep::Nearest CarvedSweep::nearest(double s) const {
     if (here.distance > may_win) continue;
     if (k > 0 && looked[k - 1].distance <= here.distance) continue;
     if (k + 1 < looked.size() && looked[k + 1].distance < here.distance) continue;
-    const double lo = std::max(0.0, here.t - dt), hi = std::min(1.0, here.t + dt);
-    const auto [t, d] = boost::math::tools::brent_find_minima(
-        [&](double time) { return distance(s, time); }, lo, hi, 40);
-    if (d < best.distance) best = {d, t};
+    const Nearest bottom = lowest(s, std::max(0.0, here.t - dt), std::min(1.0, here.t + dt));
+    if (bottom.distance < best.distance) best = bottom;
   }
   return best;
+}
+
+// Golden section: bottoms may be as sharp as the rims that make them.
+CarvedSweep::Nearest CarvedSweep::lowest(double s, double lo, double hi) const {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kSameMoment = 1e-13;  // mm of motion
+  const auto look = [&](double t) { return Nearest{distance(s, t), t}; };
+  Nearest a = look(hi - kGolden * (hi - lo)), b = look(lo + kGolden * (hi - lo));
+  while ((hi - lo) * motion_.travel() > kSameMoment && lo < a.t && a.t < b.t && b.t < hi) {
+    if (a.distance < b.distance) {
+      hi = b.t;
+      b = std::exchange(a, look(b.t - kGolden * (b.t - lo)));
+    } else {
+      lo = a.t;
+      a = std::exchange(b, look(a.t + kGolden * (hi - a.t)));
+    }
+  }
+  return a.distance < b.distance ? a : b;
 }
 
 SweptEnd CarvedSweep::close_in(double a, Nearest at_a, double b, Nearest at_b) const {

@@ -7,10 +7,10 @@
 //            ray it changes by at most the way, so that steps as long as phi never pass an end
 // Units    : mm; frame: workpiece
 // Errors   : none
-// Accuracy : ends within 0.1 nm normal to the surface of what is seen of phi: valleys of d over t are told
-//            apart by moments that are 0.02 mm of motion apart (carved_accuracy). A piece that the ray enters
-//            by less than kMissedDepth may be missed; where a ray slides along the surface, one of less than
-//            0.1 um
+// Accuracy : ends within 0.1 nm normal to the surface of what is sampled of phi, and that within 10 nm of the
+//            truth (carved_accuracy): valleys of d over t are told apart by samples of the motion, the denser
+//            the smaller the body's features are. A piece that the ray enters by less than kMissedDepth may be
+//            missed; where a ray slides along the surface, one of less than 0.1 um
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 
@@ -48,14 +48,14 @@ class CarvedSweep {
     double t = 0.0;
   };
   [[nodiscard]] Nearest nearest(double s) const;
+  [[nodiscard]] Nearest lowest(double s, double lo, double hi) const;
   [[nodiscard]] SweptEnd close_in(double a, Nearest at_a, double b, Nearest at_b) const;
-  [[nodiscard]] double distance(double s, double t) const {
-    return body_.distance(motion_.at(t), ray_.at(s));
-  }
+  [[nodiscard]] double distance(double s, double t) const;
 
   const Body& body_;
   const StretchMotion& motion_;
   const Ray& ray_;
+  double sample_ = 0.0;  // mm of motion
   int steps_ = 1;
 };
 

@@ -9,7 +9,7 @@ namespace frustum::cutter {
 
 EndGuard::EndGuard(const Body& body, const Ray& ray, const EndContact& end, bool leaving)
     : end_(ray.at(end.s)), beyond_(leaving ? ray.direction : Vec3(-ray.direction)) {
-  if (end.slab >= body.slabs().size()) return;
+  if (end.slab == kInAHollow) return;
   const Profile& slab = body.slabs()[end.slab];
   body_ = &body;
   if (end.face >= 0) {

@@ -22,7 +22,7 @@ namespace frustum::cutter {
 // Which slab of a body a cover's end lies on, and where the body stands then.
 struct EndContact {
   double s = 0.0;          // mm along the ray
-  std::uint32_t slab = 0;  // as many as there are: none of them, but a hollow
+  std::uint32_t slab = 0;  // or kInAHollow
   ProfileFace face = kTopFace;
   ToolPose pose{};
 };

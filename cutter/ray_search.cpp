@@ -233,13 +233,12 @@ class Search {
   void walk(const Gap& gap) {
     const StretchMotion motion = motion_of(gap.stretch);
     if (goal_.holds(motion)) return;
-    const auto somewhere = static_cast<std::uint32_t>(sweep_.body->slabs().size());
     const CarvedSweep carved(*sweep_.body, motion, question_.ray);
     const auto end_at = [&](const SweptEnd& end) -> CoverEnd {
       constexpr double kSameEnd = 1e-9;  // mm
       if (gap.lo_is_end && end.s - gap.lo.s < kSameEnd) return gap.lo;
       if (gap.hi_is_end && gap.hi.s - end.s < kSameEnd) return gap.hi;
-      return {end.s, gap.stretch, somewhere, end.t, end.face};
+      return {end.s, gap.stretch, kInAHollow, end.t, end.face};
     };
     found_.clear();
     double lo = gap.lo.s;

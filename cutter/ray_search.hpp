@@ -31,7 +31,7 @@ struct ToolSweep {
 struct CoverEnd {
   double s = 0.0;
   std::uint32_t stretch = 0;
-  std::uint32_t slab = 0;  // of the body; as many as it has: in the hollow of one
+  std::uint32_t slab = 0;  // of the body, or kInAHollow
   double t = 0.0;
   ProfileFace face = kTopFace;
 };

@@ -65,9 +65,8 @@ SweepContact sweep_contact(const Body& body, const StretchMotion& motion, const 
                            const CoverEnd& end) {
   const ToolPose pose = motion.at(end.t);
   const Vec3 point = ray.at(end.s);
-  Vec3 normal = end.slab < body.slabs().size()
-                    ? body.slabs()[end.slab].normal_of(end.face, pose, point)
-                    : outline_normal(body.outline(), pose, point);
+  Vec3 normal = end.slab != kInAHollow ? body.slabs()[end.slab].normal_of(end.face, pose, point)
+                                       : outline_normal(body.outline(), pose, point);
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
   const Vec3 across = m - z * pose.axis;

@@ -19,7 +19,7 @@ namespace frustum::cutter {
 struct SweepContact {
   double s = 0.0;  // mm along the ray
   std::uint32_t stretch = 0;
-  std::uint32_t slab = 0;       // of the cutter's body; as many as it has: in the hollow of one
+  std::uint32_t slab = 0;       // of the cutter's body, or kInAHollow
   ProfileFace face = kTopFace;  // of that slab
   double t = 0.0;               // moment within the stretch, 0..1
   kinematics::ToolPose pose{};  // of the cutter at that moment

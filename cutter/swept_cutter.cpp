@@ -157,9 +157,8 @@ IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_
     const StretchMotion motion(path_, stretch, body.reach());
     const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * body.max_radius()));
     for (int k = 0; k <= steps; ++k) {
-      for (const Profile& part : body.parts()) {
-        const auto chord = part.chord(motion.at(static_cast<double>(k) / steps), ray, -shrunk_by);
-        if (chord) all.push_back({chord->lo, chord->hi, i, i});
+      for (const Chord& c : body.core(motion.at(static_cast<double>(k) / steps), ray, shrunk_by)) {
+        all.push_back({c.lo, c.hi, i, i});
       }
     }
   }
@@ -187,7 +186,7 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t stretc
   // A carved face, or a ray that grazes: then any end may be the one that rounding has chosen.
   const double same = body.carved().empty() ? kSameEnd : kSearchTolerance;
   if (nearest > same) {
-    end.slab = static_cast<std::uint32_t>(body.slabs().size());
+    end.slab = kInAHollow;
     end.t = carved.nearest_moment(s);
   }
   return contact_of(ray, end);
