@@ -15,8 +15,8 @@ constexpr double kSameSurface = 1e-11;
 // Steps along a ray are no shorter than this (mm): what begins and ends within one enters by half of it.
 constexpr double kLeastStep = 2.0 * kMissedDepth;
 // Where a ray slides along the surface the least step doubles after so many, up to this (mm).
-constexpr int kSlid = 256;
-constexpr double kLongestLeastStep = 1e-4;
+constexpr int kSlid = 64;
+constexpr double kLongestLeastStep = 1e-3;
 // Of what is sampled of phi nothing is farther from the truth (mm); and moments that bracket one minimum of the
 // distance are at most, and need not be less than, this much motion apart.
 constexpr double kSampledWithin = 1e-5;

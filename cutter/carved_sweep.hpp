@@ -10,7 +10,7 @@
 // Accuracy : ends within 0.1 nm normal to the surface of what is sampled of phi, and that within 10 nm of the
 //            truth (carved_accuracy): valleys of d over t are told apart by samples of the motion, the denser
 //            the smaller the body's features are. A piece that the ray enters by less than kMissedDepth may be
-//            missed; where a ray slides along the surface, one of less than 0.1 um
+//            missed; where a ray slides along the surface, one of less than 1 um
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 
