@@ -3,6 +3,8 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <numbers>
+
 #include "stock/removal.hpp"
 #include "tests/stock/milling.hpp"
 
@@ -127,6 +129,30 @@ TEST(RapidCollision, IsFoundAmongHundredsThatAreNone) {
   EXPECT_EQ(found[0].block, 4U * kBad + 3U);
   EXPECT_EQ(found[0].body, CollisionBody::cutter);
   EXPECT_NEAR(found[0].depth, 0.04, 0.002);
+}
+
+// A recess of 0.175 mm in the end, or a cove: what touches first is the rim.
+TEST(RapidCollision, OfAHollowedCutterIsAsDeepAsItsRim) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  using cutter::CutterType;
+  const std::vector<cutter::CutterSpec> specs{
+      {.type = CutterType::flat,
+       .diameter = {10.0},
+       .length = {80.0},
+       .flute_length = {20.0},
+       .end_angle = {2.0 * kDegree}},
+      {.type = CutterType::profile,
+       .length = {60.0},
+       .rows = {{0, 0, 0}, {4, 0, 0}, {6, 4, -4}, {6, 12, 0}}}};
+  for (const cutter::CutterSpec& spec : specs) {
+    for (const double depth : {0.05, 0.5, 5.0}) {
+      auto path = path_through(std::vector<Vec3>{{-70, 0, -depth}, {70, 0, -depth}});
+      path.blocks[0].kind = PathKind::rapid;
+      const auto found = find_collisions(cut(path, cutter::Cutter::make(spec).value()));
+      ASSERT_EQ(found.size(), 1U) << depth;
+      EXPECT_NEAR(found[0].depth, depth, 0.03) << depth;
+    }
+  }
 }
 
 TEST(RapidCollision, IsAsDeepAsTheToolIsTooLow) {
