@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
+
+#include "core/golden_section.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -163,22 +164,12 @@ CarvedSweep::Nearest CarvedSweep::nearest(double s) const {
   return best;
 }
 
-// Golden section: bottoms may be as sharp as the rims that make them.
+// Bottoms may be as sharp as the rims that make them.
 CarvedSweep::Nearest CarvedSweep::lowest(double s, double lo, double hi) const {
-  constexpr double kGolden = 0.6180339887498949;
   constexpr double kSameMoment = 1e-13;  // mm of motion
-  const auto look = [&](double t) { return Nearest{distance(s, t), t}; };
-  Nearest a = look(hi - kGolden * (hi - lo)), b = look(lo + kGolden * (hi - lo));
-  while ((hi - lo) * motion_.travel() > kSameMoment && lo < a.t && a.t < b.t && b.t < hi) {
-    if (a.distance < b.distance) {
-      hi = b.t;
-      b = std::exchange(a, look(b.t - kGolden * (b.t - lo)));
-    } else {
-      lo = a.t;
-      a = std::exchange(b, look(a.t + kGolden * (hi - a.t)));
-    }
-  }
-  return a.distance < b.distance ? a : b;
+  const GoldenBracket bottom = golden_section([&](double t) { return distance(s, t); }, lo, hi,
+                                              kSameMoment / motion_.travel());
+  return {bottom.value, bottom.at};
 }
 
 SweptEnd CarvedSweep::close_in(double a, Nearest at_a, double b, Nearest at_b) const {

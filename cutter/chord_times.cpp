@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/golden_section.hpp"
 #include "cutter/stretch_sweep.hpp"
 
 namespace frustum::cutter {
@@ -70,30 +71,10 @@ SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& r
       best_psi = i * kStep;
     }
   }
-  // Golden section; 40 steps narrow the angle to 1e-8 rad, where the gap is flat within rounding.
-  double lo = best_psi - kStep;
-  double hi = best_psi + kStep;
-  constexpr double kGolden = 0.6180339887498949;
-  double x1 = hi - kGolden * (hi - lo);
-  double x2 = lo + kGolden * (hi - lo);
-  double g1 = gap_at(x1);
-  double g2 = gap_at(x2);
-  for (int i = 0; i < 40; ++i) {
-    if (g1 > g2) {
-      hi = x2;
-      x2 = x1;
-      g2 = g1;
-      x1 = hi - kGolden * (hi - lo);
-      g1 = gap_at(x1);
-    } else {
-      lo = x1;
-      x1 = x2;
-      g1 = g2;
-      x2 = lo + kGolden * (hi - lo);
-      g2 = gap_at(x2);
-    }
-  }
-  const Vec3 normal = normal_at(0.5 * (lo + hi));
+  // 40 steps narrow the angle to 1e-8 rad, where the gap is flat within rounding.
+  const GoldenBracket best = golden_section([&](double psi) { return -gap_at(psi); },
+                                            best_psi - kStep, best_psi + kStep, 0.0, 40);
+  const Vec3 normal = normal_at(best.middle());
   return {normal, gap_of(normal, body, pose, ray)};
 }
 

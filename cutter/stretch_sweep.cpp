@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/golden_section.hpp"
 #include "cutter/chord_times.hpp"
 
 namespace frustum::cutter {
@@ -186,26 +187,17 @@ class HighestEnd {
     close_in(m, b, depth + 1);
   }
 
-  // Of a body that does not turn the end of the chord is a concave function of time: golden section.
+  // Of a body that does not turn the end of the chord is a concave function of time.
   void climb(double lo, double hi) {
-    constexpr double kGolden = 0.6180339887498949;
-    const auto look = [&](double t) {
+    const auto depth = [&](double t) {
       ChordSample at{.t = t, .pose = motion_.at(t)};
       at.chord = body_.chord(at.pose, ray_);
-      if (!at.chord) return -kInfinity;
+      if (!at.chord) return kInfinity;
       const Touched end = touched(at);
       note(end);
-      return end.plane.value;
+      return -end.plane.value;
     };
-    double x1 = hi - kGolden * (hi - lo), x2 = lo + kGolden * (hi - lo);
-    double v1 = look(x1), v2 = look(x2);
-    while ((hi - lo) * motion_.travel() > kSameMoment && lo < x1 && x1 < x2 && x2 < hi) {
-      if (v1 > v2) {
-        hi = x2, x2 = x1, v2 = v1, x1 = hi - kGolden * (hi - lo), v1 = look(x1);
-      } else {
-        lo = x1, x1 = x2, v1 = v2, x2 = lo + kGolden * (hi - lo), v2 = look(x2);
-      }
-    }
+    static_cast<void>(golden_section(depth, lo, hi, kSameMoment / motion_.travel()));
   }
 
   // Whether the place that is the best so far lies, at all times between two samples, above one of the planes

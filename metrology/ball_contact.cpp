@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "core/golden_section.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -29,32 +30,13 @@ class Descent {
   [[nodiscard]] Vec3 centre() const { return start_ - travel_ * approach_.outward.vec(); }
 
   // The part of the travel that no ray has shortened yet, along the arc from a to b.
-  void search_arc(Vec3 a, Vec3 b) {
+  void search_arc(const Vec3& a, const Vec3& b) {
     const auto travel_at = [&](const Vec3& m) {
       return ray(m.normalized()) ? last_ : approach_.clearance + approach_.reach;
     };
-    const double inner = 1.0 / std::numbers::phi;
-    // Golden section: 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then
-    // is exact to rounding.
-    Vec3 left = b + inner * (a - b);
-    Vec3 right = a + inner * (b - a);
-    double at_left = travel_at(left);
-    double at_right = travel_at(right);
-    for (int i = 0; i < 40; ++i) {
-      if (at_left < at_right) {
-        b = right;
-        right = left;
-        at_right = at_left;
-        left = b + inner * (a - b);
-        at_left = travel_at(left);
-      } else {
-        a = left;
-        left = right;
-        at_left = at_right;
-        right = a + inner * (b - a);
-        at_right = travel_at(right);
-      }
-    }
+    // 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then is exact to rounding.
+    static_cast<void>(golden_section([&](double share) { return travel_at(a + share * (b - a)); },
+                                     0.0, 1.0, 0.0, 40));
   }
 
  private:

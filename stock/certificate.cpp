@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/golden_section.hpp"
 #include "cutter/carved_sweep.hpp"
 #include "stock/blank_side.hpp"
 #include "stock/keep_off.hpp"
@@ -158,17 +159,7 @@ double deepest_near(const BodyOutline& body, const ToolPath& path, std::uint32_t
     }
     return here;
   };
-  double lo = walked(-1.0), hi = walked(1.0);
-  constexpr double kGolden = 0.6180339887498949;
-  for (int i = 0; i < 60; ++i) {
-    const double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
-    if (depth(a) < depth(b)) {
-      hi = b;
-    } else {
-      lo = a;
-    }
-  }
-  return 0.5 * (lo + hi);
+  return golden_section(depth, walked(-1.0), walked(1.0), 0.0, 60).middle();
 }
 
 }  // namespace
