@@ -144,17 +144,16 @@ std::vector<Chord> Body::core(const ToolPose& pose, const Ray& ray, double deepe
     hi = std::max(hi, chord->hi);
   }
   constexpr double kLeastStep = 1e-3;  // mm
-  std::optional<double> begin;
+  bool inside = false;
+  double begin = lo;
   for (double s = lo; s <= hi;) {
     const double over = distance(pose, ray.at(s)) + deeper_than;
-    if (over < 0.0 && !begin) begin = s;
-    if (over >= 0.0 && begin) {
-      found.push_back({*begin, s});
-      begin.reset();
-    }
+    if (over < 0.0 && !inside) begin = s;
+    if (over >= 0.0 && inside) found.push_back({begin, s});
+    inside = over < 0.0;
     s += std::max(kLeastStep, std::abs(over));
   }
-  if (begin) found.push_back({*begin, hi});
+  if (inside) found.push_back({begin, hi});
   return found;
 }
 

@@ -207,25 +207,30 @@ class Search {
   // Between what is known of a hull's sweep: covered if the body, where it touches an end, stands there.
   void take_of_hull(std::uint32_t group, const StretchMotion& motion, const CoverInterval& swept) {
     const CarvedSweep carved(*sweep_.body, motion, question_.ray);
-    Gap gap{group, swept.lo.stretch, swept.lo, swept.hi};
-    const auto close_gap = [&](double hi) {
-      gap.lo_is_end = gap.lo.s == swept.lo.s && carved.is_of_body(swept_end(swept.lo));
-      gap.hi = swept.hi;
-      gap.hi.s = hi;
-      gap.hi_is_end = hi == swept.hi.s && carved.is_of_body(swept_end(swept.hi));
-      const bool covered = (gap.hi_is_end && carved.stands_from(gap.lo.s, swept_end(swept.hi))) ||
-                           (gap.lo_is_end && carved.stands_from(gap.hi.s, swept_end(swept.lo)));
-      (covered ? covered_ : gaps_).push_back(gap);
-    };
     covered_.clear();
-    for (const Chord& k : goal_.known()) {
-      if (k.hi <= gap.lo.s) continue;
-      if (k.lo >= swept.hi.s) break;
-      if (k.lo > gap.lo.s) close_gap(k.lo);
-      gap.lo.s = k.hi;
-    }
-    if (gap.lo.s < swept.hi.s) close_gap(swept.hi.s);
+    for_each_unknown(swept.lo.s, swept.hi.s, [&](double lo, double hi) {
+      Gap gap{group, swept.lo.stretch, swept.lo, swept.hi};
+      gap.lo.s = lo;
+      gap.hi.s = hi;
+      gap.lo_is_end = lo == swept.lo.s && carved.is_of_body(swept_end(swept.lo));
+      gap.hi_is_end = hi == swept.hi.s && carved.is_of_body(swept_end(swept.hi));
+      const bool covered = (gap.hi_is_end && carved.stands_from(lo, swept_end(swept.hi))) ||
+                           (gap.lo_is_end && carved.stands_from(hi, swept_end(swept.lo)));
+      (covered ? covered_ : gaps_).push_back(gap);
+    });
     for (const Gap& c : covered_) goal_.take({c.lo, c.hi});
+  }
+
+  // What of lo to hi is not known to be covered, in order. `then` must not take anything.
+  template <class Then>
+  void for_each_unknown(double lo, double hi, const Then& then) {
+    for (const Chord& k : goal_.known()) {
+      if (k.hi <= lo) continue;
+      if (k.lo >= hi) break;
+      if (k.lo > lo) then(lo, k.lo);
+      lo = k.hi;
+    }
+    if (lo < hi) then(lo, hi);
   }
 
   [[nodiscard]] static SweptEnd swept_end(const CoverEnd& end) { return {end.s, end.t, end.face}; }
@@ -241,14 +246,8 @@ class Search {
       return {end.s, gap.stretch, kInAHollow, end.t, end.face};
     };
     found_.clear();
-    double lo = gap.lo.s;
-    for (const Chord& k : goal_.known()) {
-      if (k.hi <= lo) continue;
-      if (k.lo >= gap.hi.s) break;
-      if (k.lo > lo) carved.walk(lo, k.lo, found_);
-      lo = k.hi;
-    }
-    if (lo < gap.hi.s) carved.walk(lo, gap.hi.s, found_);
+    for_each_unknown(gap.lo.s, gap.hi.s,
+                     [&](double lo, double hi) { carved.walk(lo, hi, found_); });
     for (const SweptInterval& f : found_) goal_.take({end_at(f.lo), end_at(f.hi)});
   }
 

@@ -84,7 +84,7 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
   for (const kinematics::Stretch& stretch : path.stretches) {
     const double reach = nominal.tool(path.blocks[stretch.block].tool).body().reach();
     const StretchMotion motion(path, stretch, reach);
-    const StretchMotion before(old.from(stretch), old.to(stretch), reach);
+    const StretchMotion before(old, stretch, reach);
     // Between the poses the axes turn evenly, which spreads them where the turn is large.
     const double spread = 1.0 / std::cos(0.5 * std::max(motion.turn(), before.turn()));
     for (const std::uint32_t i : {stretch.first_pose, stretch.first_pose + 1}) {
@@ -97,18 +97,17 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
     departures.push_back(motion.turn() > kFarTurned ? std::numeric_limits<double>::infinity()
                                                     : 4.0 * departure);
   }
-  return ChangedPath(nominal, std::move(path), displacement, std::move(departures));
+  return ChangedPath(nominal.tools(), std::move(path), displacement, std::move(departures));
 }
 
-ChangedPath::ChangedPath(const SweptCutter& nominal, ToolPath path, double displacement,
-                         std::vector<double> departures)
+ChangedPath::ChangedPath(std::shared_ptr<const std::map<int, Cutter>> tools, ToolPath path,
+                         double displacement, std::vector<double> departures)
     : path_(std::move(path)),
-      nominal_(nominal),
+      tools_(std::move(tools)),
       displacement_(displacement),
       departures_(std::move(departures)) {
   body_of_block_.reserve(path_.blocks.size());
-  for (const auto& block : path_.blocks)
-    body_of_block_.push_back(&nominal_.tool(block.tool).body());
+  for (const auto& block : path_.blocks) body_of_block_.push_back(&tools_->at(block.tool).body());
 }
 
 // The stretches beside those that were solved, up to the end of the window. The plane that touches the cutter

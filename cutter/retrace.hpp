@@ -55,14 +55,14 @@ class ChangedPath {
     std::uint32_t from = 0, count = 0;
     bool up = true;
   };
-  ChangedPath(const SweptCutter& nominal, kinematics::ToolPath path, double displacement,
-              std::vector<double> departures);
+  ChangedPath(std::shared_ptr<const std::map<int, Cutter>> tools, kinematics::ToolPath path,
+              double displacement, std::vector<double> departures);
   [[nodiscard]] StretchMotion motion_of(std::uint32_t stretch) const;
   [[nodiscard]] bool holds_back(const TouchingPlane& plane, const EndGuard& end, const Vec3& point,
                                 const Side& side) const;
 
   kinematics::ToolPath path_;
-  SweptCutter nominal_;  // a copy shares its tools
+  std::shared_ptr<const std::map<int, Cutter>> tools_;  // by tool number: bodies are pointed to
   std::vector<const Body*> body_of_block_{};
   double displacement_;
   // Of each stretch: how much less than linear the distance of a plane may be that goes with a cutter (mm).

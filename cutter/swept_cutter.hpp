@@ -64,6 +64,7 @@ class SweptCutter {
 
   [[nodiscard]] const kinematics::ToolPath& path() const { return path_; }
   [[nodiscard]] const Cutter& tool(int number) const { return tools_->at(number); }
+  [[nodiscard]] std::shared_ptr<const std::map<int, Cutter>> tools() const { return tools_; }
 
  private:
   SweptCutter(kinematics::ToolPath path, std::map<int, Cutter> tools);
