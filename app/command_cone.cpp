@@ -66,7 +66,8 @@ Result<ConeFrustum> cone_of(const Options& o) {
 
 int write_cone(const Options& options) {
   const auto machine_file = find_machine(options.machine, ".");
-  const auto machine = load_machine(options.machine, ".");
+  if (!machine_file) return refuse(machine_file.error());
+  const auto machine = kinematics::Machine::load(*machine_file);
   if (!machine) return refuse(machine.error());
   const auto cone = cone_of(options);
   if (!cone) return refuse(cone.error());
@@ -74,7 +75,7 @@ int write_cone(const Options& options) {
   if (!piece) return refuse(piece.error());
   const auto written = programs::in_dialect(*piece, *parser::dialect_named(options.dialect));
   if (!written) return refuse(written.error());
-  const auto files = programs::write_test_piece(written->piece, machine_file, options.out);
+  const auto files = programs::write_test_piece(written->piece, *machine_file, options.out);
   if (!files) return refuse(files.error());
   for (const auto& file : *files) std::cout << file.string() << '\n';
   return kDone;

@@ -66,7 +66,8 @@ void take_lines(programs::StepPiece& made, const programs::TranslatedPiece& writ
 
 int write_step(const Options& options) {
   const auto machine_file = find_machine(options.machine, ".");
-  const auto machine = load_machine(options.machine, ".");
+  if (!machine_file) return refuse(machine_file.error());
+  const auto machine = kinematics::Machine::load(*machine_file);
   if (!machine) return refuse(machine.error());
   const auto test = test_of(options);
   if (!test) return refuse(test.error());
@@ -75,7 +76,7 @@ int write_step(const Options& options) {
   auto written = programs::in_dialect(made->piece, *parser::dialect_named(options.dialect));
   if (!written) return refuse(written.error());
   take_lines(*made, *written);
-  auto files = programs::write_test_piece(made->piece, machine_file, options.out);
+  auto files = programs::write_test_piece(made->piece, *machine_file, options.out);
   if (!files) return refuse(files.error());
   const auto sheet = report::write_setup_sheet(std::filesystem::path(options.out) / "setup.html",
                                                sheet_of(*test, *made, *machine));

@@ -198,6 +198,27 @@ void override_tool_radius(programs::TestPiece& piece, const JobOverrides& overri
   for (auto& [number, tool] : piece.tools) tool.radius_error = *radius_error;
 }
 
+// The file of the machine that is named.
+std::optional<fs::path> machine_of(const TomlTable& root) {
+  const std::string name = root.text("machine");
+  if (!root.has("machine")) return std::nullopt;  // which text() has told
+  const auto file = find_machine(name, root.folder());
+  if (file) return *file;
+  root.fail("machine", file.error().front().message, file.error().front().hint);
+  return std::nullopt;
+}
+
+// Those that stand in the job itself are told with their place.
+void check_error_names(const TomlTable& root, const kinematics::Machine& machine,
+                       const std::vector<kinematics::ErrorEntry>& entries) {
+  const auto table = root.table_if("errors");
+  if (!table) return;
+  for (const kinematics::ErrorEntry& e : entries) {
+    const auto unknown = kinematics::unknown_error(machine, e.name);
+    if (unknown && table->has(e.name)) table->fail(e.name, unknown->message, unknown->hint);
+  }
+}
+
 }  // namespace
 
 Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool want_plan) {
@@ -208,7 +229,6 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
 
   programs::TestPiece piece;
   piece.title = root.text("title");
-  const std::string machine_name = root.text("machine");
   read_program(root, piece);
   read_setup(root, piece);
   read_blank(root, piece);
@@ -239,25 +259,18 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   metrology::CmmModel cmm;
   read_inspection(root, want_plan, piece, cmm, problems);
   check_made_features(root, piece);
-  const fs::path machine_file = find_machine(machine_name, document->folder());
-  auto machine = load_machine(machine_name, document->folder());
-  if (!machine && !machine_name.empty()) {
-    for (const Diagnostic& d : machine.error()) {
-      if (d.file.empty()) {
-        root.fail("machine", d.message, d.hint);
-      } else {
-        problems.push_back(d);
-      }
+  const auto machine_file = machine_of(root);
+  std::optional<kinematics::Machine> machine;
+  if (machine_file) {
+    if (auto loaded = kinematics::Machine::load(*machine_file)) {
+      machine = *std::move(loaded);
+    } else {
+      problems.insert(problems.end(), loaded.error().begin(), loaded.error().end());
     }
   }
   std::vector<kinematics::ErrorEntry> errors;
   if (machine) {
-    if (const auto table = root.table_if("errors")) {
-      for (const kinematics::ErrorEntry& e : written_errors.entries) {
-        const auto unknown = kinematics::unknown_error(*machine, e.name);
-        if (unknown && table->has(e.name)) table->fail(e.name, unknown->message, unknown->hint);
-      }
-    }
+    check_error_names(root, *machine, written_errors.entries);
     auto gathered = gather_errors(std::move(written_errors), overrides.errors, draw, *machine);
     if (gathered) {
       errors = *std::move(gathered);
@@ -271,7 +284,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   if (has_error(all)) return all;
   return Job{.machine = *std::move(machine),
              .file = file,
-             .machine_file = machine_file,
+             .machine_file = *machine_file,
              .piece = std::move(piece),
              .errors = std::move(errors),
              .nominal = std::move(nominal),

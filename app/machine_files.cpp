@@ -21,7 +21,7 @@ std::vector<fs::path> machine_folders() {
   return folders;
 }
 
-fs::path find_machine(const std::string& name, const fs::path& folder) {
+Result<fs::path> find_machine(const std::string& name, const fs::path& folder) {
   std::error_code ignored;
   const fs::path written = name;
   for (const fs::path& candidate : {folder / written, written}) {
@@ -31,17 +31,16 @@ fs::path find_machine(const std::string& name, const fs::path& folder) {
     const fs::path candidate = shipped / (name + ".toml");
     if (fs::is_regular_file(candidate, ignored)) return candidate;
   }
-  return folder / written;
+  std::vector<std::string> names;
+  for (const fs::path& each : shipped_machines()) names.push_back(each.stem().string());
+  return error(fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
+               suggestion(written.stem().string(), names));
 }
 
 Result<kinematics::Machine> load_machine(const std::string& name, const fs::path& folder) {
-  const fs::path file = find_machine(name, folder);
-  std::error_code ignored;
-  if (fs::is_regular_file(file, ignored)) return kinematics::Machine::load(file);
-  std::vector<std::string> shipped;
-  for (const fs::path& each : shipped_machines()) shipped.push_back(each.stem().string());
-  return error(fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
-               suggestion(fs::path(name).stem().string(), shipped));
+  const auto file = find_machine(name, folder);
+  if (!file) return file.error();
+  return kinematics::Machine::load(*file);
 }
 
 std::vector<fs::path> shipped_machines() {

@@ -1,6 +1,5 @@
 // Where machine files are: beside the job, in the working folder, or shipped with the program.
-// Units: none. Errors: load_machine names what was asked for, and the shipped machines, or passes on what is
-// wrong in the file.
+// Units: none. Errors: a machine that is in none of these places, with the shipped ones that resemble it.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +12,8 @@
 namespace frustum::app {
 
 // A path (relative to `folder`, else to the working folder), or the name of a shipped machine.
-[[nodiscard]] std::filesystem::path find_machine(const std::string& name,
-                                                 const std::filesystem::path& folder);
+[[nodiscard]] Result<std::filesystem::path> find_machine(const std::string& name,
+                                                         const std::filesystem::path& folder);
 [[nodiscard]] Result<kinematics::Machine> load_machine(const std::string& name,
                                                        const std::filesystem::path& folder);
 // Where shipped machines may lie, best first; error files lie in errors/ under it.
