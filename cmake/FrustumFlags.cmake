@@ -21,8 +21,7 @@ add_library(frustum_flags INTERFACE)
 target_compile_features(frustum_flags INTERFACE cxx_std_20)
 target_compile_options(
   frustum_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
-                          $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>
-                          $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+                          $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # Our own assertions stay on in optimised builds (a wrong part is worse than a slow one); those of the
 # libraries, which sit in inner loops, do not.

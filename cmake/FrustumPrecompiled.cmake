@@ -28,6 +28,8 @@ if(FRUSTUM_PRECOMPILE)
   target_compile_options(
     frustum_flags
     INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow;-Wno-restrict;-Wno-maybe-uninitialized>)
+  # So that ccache can keep what starts from them.
+  target_compile_options(frustum_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   set(source "${CMAKE_BINARY_DIR}/precompiled.cpp")
   file(CONFIGURE OUTPUT "${source}" CONTENT "int main() { return 0; }\n")
   add_library(frustum_precompiled STATIC "${source}")
