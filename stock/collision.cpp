@@ -214,8 +214,8 @@ struct Overlap {
   Vec3 point = Vec3::Zero();
 };
 
-// The depth is the longest overlap along the direction in which the overlap is thinnest; the margin by which
-// the body was shrunk belongs to it.
+// The depth is the longest overlap along the direction in which it is thinnest, of those whose rays have met
+// any; the margin by which the body was shrunk belongs to it.
 Overlap measured_overlap(const Workpiece& workpiece, const SuspectMove& move,
                          const Suspicion& where, double pitch) {
   const Box& box = where.box;

@@ -66,7 +66,11 @@ double least_distance(const Body& body, const StretchMotion& motion, const Vec3&
       double lo = std::max(0.0, t - way), hi = std::min(1.0, t + way);
       for (int k = 0; k < 60; ++k) {
         const double a = lo + 0.382 * (hi - lo), b = lo + 0.618 * (hi - lo);
-        (look(a) < look(b) ? hi : lo) = look(a) < look(b) ? b : a;
+        if (look(a) < look(b)) {
+          hi = b;
+        } else {
+          lo = a;
+        }
       }
     }
     t += std::max(way, (d - floor) / motion.travel());
