@@ -1,0 +1,33 @@
+#include "metrology/association.hpp"
+
+#include <algorithm>
+
+namespace frustum::metrology {
+
+std::string_view name_of(Criterion criterion) {
+  return kCriterionNames.at(static_cast<std::size_t>(criterion));
+}
+
+std::optional<Criterion> criterion_named(std::string_view name) {
+  const auto* const found = std::find(kCriterionNames.begin(), kCriterionNames.end(), name);
+  if (found == kCriterionNames.end()) return std::nullopt;
+  return static_cast<Criterion>(found - kCriterionNames.begin());
+}
+
+Result<Association> associate(ElementKind kind, std::span<const Vec3> points,
+                              const AssociationOptions& options) {
+  return associate(name_of(kind), points, options);
+}
+
+Result<Association> associate(std::string_view name, std::span<const Vec3> points,
+                              const AssociationOptions& options) {
+  if (options.criterion != Criterion::least_squares || options.constraints.any() ||
+      !options.weights.empty()) {
+    return error("only unconstrained, unweighted least squares so far");
+  }
+  auto fit = fit_element(name, points);
+  if (!fit) return std::move(fit).error();
+  return Association{std::move(*fit), options.criterion, std::nullopt};
+}
+
+}  // namespace frustum::metrology
