@@ -25,11 +25,16 @@ Sphere algebraic_sphere(const NormalisedPoints& local) {
 }
 
 // A given radius leaves the centre on the side to which the points bend, or on the other when they
-// hardly bend.
-std::vector<Element> starts_near(const Sphere& free, const Constraints& keep) {
+// hardly bend; a ring leaves it on either side of its plane.
+std::vector<Element> starts_near(const Sphere& free, const PrincipalDirections& principal,
+                                 const Constraints& keep) {
   if (!keep.radius) return {free};
-  const double ratio = free.radius > 0.0 ? *keep.radius / free.radius : 1.0;
-  return {Sphere{ratio * free.point, *keep.radius}, Sphere{-ratio * free.point, *keep.radius}};
+  const double radius = *keep.radius;
+  const Vec3 bent = free.radius > 0.0 ? Vec3(radius / free.radius * free.point) : free.point;
+  const double lift = std::sqrt(std::max(radius * radius - principal.spread.squaredNorm(), 0.0));
+  const Vec3 lifted = lift * principal.directions.col(2);
+  return {Sphere{bent, radius}, Sphere{-bent, radius}, Sphere{lifted, radius},
+          Sphere{-lifted, radius}};
 }
 
 }  // namespace
@@ -43,7 +48,7 @@ Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points, const FitOptions& o
                  "probe the sphere also away from that plane");
   }
   const PointBlocks all = PointBlocks::of(*local);
-  const auto starts = starts_near(algebraic_sphere(*local), local->constraints);
+  const auto starts = starts_near(algebraic_sphere(*local), principal, local->constraints);
   auto found = best_minimum(starts, *local, all, kWording);
   if (!found) return std::move(found).error();
   const auto& best = std::get<Sphere>(found->element);

@@ -175,9 +175,9 @@ std::vector<Vec3> wavy(ElementKind kind, Draws& draws) {
   return points;
 }
 
-constexpr ElementKind kAllKinds[] = {ElementKind::line,     ElementKind::plane,
-                                     ElementKind::circle,   ElementKind::sphere,
-                                     ElementKind::cylinder, ElementKind::cone};
+constexpr ElementKind kAllKinds[] = {
+    ElementKind::line,     ElementKind::plane, ElementKind::circle, ElementKind::sphere,
+    ElementKind::cylinder, ElementKind::cone,  ElementKind::torus};
 
 TEST(EveryFit, CommutesWithRigidMotionAndPointOrder) {
   Draws draws(7);
