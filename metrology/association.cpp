@@ -21,11 +21,10 @@ Result<Association> associate(ElementKind kind, std::span<const Vec3> points,
 
 Result<Association> associate(std::string_view name, std::span<const Vec3> points,
                               const AssociationOptions& options) {
-  if (options.criterion != Criterion::least_squares || options.constraints.any() ||
-      !options.weights.empty()) {
-    return error("only unconstrained, unweighted least squares so far");
+  if (options.criterion != Criterion::least_squares) {
+    return error("only least squares so far");
   }
-  auto fit = fit_element(name, points);
+  auto fit = fit_element(name, points, {options.constraints, options.weights});
   if (!fit) return std::move(fit).error();
   return Association{std::move(*fit), options.criterion, std::nullopt};
 }

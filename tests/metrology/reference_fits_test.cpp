@@ -20,7 +20,7 @@ using synthetic::off_axis;
 
 // Ours: a sloppy solver (finite differences, no centring) misses by 1e-7 to 1e-5 mm.
 constexpr double kMm = 1e-9;
-constexpr double kRad = 1e-10;
+constexpr double kRad = 1e-11;
 
 std::filesystem::path folder() {
   const char* named = std::getenv("FRUSTUM_REFERENCE_FITS");  // NOLINT(concurrency-mt-unsafe)
