@@ -30,6 +30,7 @@ ordered_json parameters_of(const metrology::Element& element) {
         ordered_json p{{"point", numbers(e.point)}};
         if constexpr (requires { e.axis; }) p["axis"] = numbers(e.axis);
         if constexpr (requires { e.radius; }) p["radius"] = e.radius;
+        if constexpr (requires { e.tube_radius; }) p["tube_radius"] = e.tube_radius;
         if constexpr (requires { e.half_angle; }) p["half_angle"] = e.half_angle;
         return p;
       },
@@ -78,9 +79,10 @@ void add_fit(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("fit", "One element fitted to points");
   command
       ->add_option("element", options->element,
-                   "line, plane, circle, circle2d, sphere, cylinder or cone")
+                   "line, line2d, plane, circle, circle2d, sphere, cylinder, cone or torus")
       ->required()
-      ->check(CLI::IsMember({"line", "plane", "circle", "circle2d", "sphere", "cylinder", "cone"}));
+      ->check(CLI::IsMember({"line", "line2d", "plane", "circle", "circle2d", "sphere", "cylinder",
+                             "cone", "torus"}));
   command->add_option("points", options->points, "CSV or columns x y z, mm")->required();
   command->add_option("--criterion", options->criterion, "ls: least squares")
       ->check(CLI::IsMember({"ls"}));

@@ -70,6 +70,10 @@ double residual(const Cone& cone, const Vec3& point) {
   const AxialPlace at = place(cone.point, cone.axis, point);
   return at.away * std::cos(cone.half_angle) - at.along * std::sin(cone.half_angle) - cone.radius;
 }
+double residual(const Torus& torus, const Vec3& point) {
+  const AxialPlace at = place(torus.point, torus.axis, point);
+  return std::hypot(at.away - torus.radius, at.along) - torus.tube_radius;
+}
 double residual(const Element& element, const Vec3& point) {
   return std::visit([&](const auto& e) { return residual(e, point); }, element);
 }
@@ -83,6 +87,11 @@ Vec3 outward_normal(const Element& element, const Vec3& point) {
             return std::cos(e.half_angle) * place(e.point, e.axis, point).outward -
                    std::sin(e.half_angle) * e.axis.vec();
           },
+          [&](const Torus& e) -> Vec3 {
+            const AxialPlace at = place(e.point, e.axis, point);
+            const Vec3 from_middle = (at.away - e.radius) * at.outward + at.along * e.axis.vec();
+            return UnitVec3::of(from_middle).value_or(e.axis);
+          },
           [&](const auto& e) -> Vec3 { return place(e.point, e.axis, point).outward; },
       },
       element);
@@ -93,6 +102,10 @@ Element offset(const Element& element, double distance) {
                         [](const Line& e) -> Element { return e; },
                         [&](const Plane& e) -> Element {
                           return Plane{e.point + distance * e.axis.vec(), e.axis};
+                        },
+                        [&](Torus e) -> Element {
+                          e.tube_radius += distance;
+                          return e;
                         },
                         [&](auto e) -> Element {
                           e.radius += distance;

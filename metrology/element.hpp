@@ -2,7 +2,8 @@
 //
 // Model    : signed distance of a point from the element; outside (away from the axis or centre, on
 //            the side of a plane's axis) is positive; for a line the distance, never negative; for
-//            a circle the distance in the plane of the circle
+//            a circle the distance in the plane of the circle, for a torus the distance from its
+//            tube
 // Units    : mm, rad
 // Shape    : one point a call; values without allocation
 // Errors   : none; where a direction is not defined (a point on the axis) any unit vector is
@@ -58,12 +59,19 @@ struct Cone {
   [[nodiscard]] Vec3 apex() const;
 };
 
-using Element = std::variant<Line, Plane, Circle, Sphere, Cylinder, Cone>;
+struct Torus {
+  Vec3 point = Vec3::Zero();      // centre
+  UnitVec3 axis = UnitVec3::z();  // of revolution
+  double radius = 1.0;            // mm, of the circle in the middle of the tube
+  double tube_radius = 0.25;      // mm
+};
+
+using Element = std::variant<Line, Plane, Circle, Sphere, Cylinder, Cone, Torus>;
 
 // Same order as the alternatives of Element.
-enum class ElementKind { line, plane, circle, sphere, cylinder, cone };
-inline constexpr std::array<std::string_view, 6> kElementNames{"line",   "plane",    "circle",
-                                                               "sphere", "cylinder", "cone"};
+enum class ElementKind { line, plane, circle, sphere, cylinder, cone, torus };
+inline constexpr std::array<std::string_view, 7> kElementNames{
+    "line", "plane", "circle", "sphere", "cylinder", "cone", "torus"};
 [[nodiscard]] ElementKind kind_of(const Element& element);
 [[nodiscard]] std::string_view name_of(ElementKind kind);
 
@@ -73,12 +81,14 @@ inline constexpr std::array<std::string_view, 6> kElementNames{"line",   "plane"
 [[nodiscard]] double residual(const Sphere& sphere, const Vec3& point);
 [[nodiscard]] double residual(const Cylinder& cylinder, const Vec3& point);
 [[nodiscard]] double residual(const Cone& cone, const Vec3& point);
+[[nodiscard]] double residual(const Torus& torus, const Vec3& point);
 [[nodiscard]] double residual(const Element& element, const Vec3& point);
 
 // Unit normal of the element nearest to `point`: the direction in which `residual` grows.
 [[nodiscard]] Vec3 outward_normal(const Element& element, const Vec3& point);
 
-// The parallel element, `distance` outward: cone and cylinder grow, a plane moves along its axis.
+// The parallel element, `distance` outward: cone and cylinder grow, so does the tube of a torus; a
+// plane moves along its axis.
 // Lines have no outside and stay.
 [[nodiscard]] Element offset(const Element& element, double distance);
 

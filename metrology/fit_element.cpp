@@ -29,6 +29,8 @@ Result<Fit<Element>> fit_element(ElementKind kind, std::span<const Vec3> points)
       return widened(fit_sphere(points));
     case ElementKind::cylinder:
       return widened(fit_cylinder(points));
+    case ElementKind::torus:
+      return error("no fit of a torus yet");
     case ElementKind::cone:
       break;
   }

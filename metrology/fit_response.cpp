@@ -20,6 +20,7 @@ std::vector<ElementChange> changes_of(const Element& element) {
       return {shift_u, shift_v, tilt_u, tilt_v, radius, half_angle};
     case ElementKind::line:
     case ElementKind::sphere:
+    case ElementKind::torus:
       break;
   }
   return {};

@@ -162,6 +162,14 @@ std::vector<Vec3> wavy(ElementKind kind, Draws& draws) {
       points =
           revolution({0, 0, 0}, z, 0, 25, 4, 30, 5.0, 0.3, [](double a) { return 20.0 + 0.6 * a; });
       break;
+    case ElementKind::torus:
+      for (int i = 0; i < 120; ++i) {
+        const double turn = 0.3 + 0.04 * i;
+        const double roll = 2.4 * i;
+        const double away = 20.0 + 6.0 * std::cos(roll);
+        points.emplace_back(away * std::cos(turn), away * std::sin(turn), 6.0 * std::sin(roll));
+      }
+      break;
   }
   for (Vec3& p : points) p += 0.02 * Vec3(draws.gauss(), draws.gauss(), draws.gauss());
   return points;
