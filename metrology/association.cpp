@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "metrology/extreme_association.hpp"
+
 namespace frustum::metrology {
 
 std::string_view name_of(Criterion criterion) {
@@ -21,8 +23,10 @@ Result<Association> associate(ElementKind kind, std::span<const Vec3> points,
 
 Result<Association> associate(std::string_view name, std::span<const Vec3> points,
                               const AssociationOptions& options) {
-  if (options.criterion != Criterion::least_squares || options.constraints.any() ||
-      !options.weights.empty()) {
+  if (options.criterion != Criterion::least_squares) {
+    return extreme_association(name, points, options);
+  }
+  if (options.constraints.any() || !options.weights.empty()) {
     return error("only unconstrained, unweighted least squares so far");
   }
   auto fit = fit_element(name, points);
