@@ -120,12 +120,6 @@ std::vector<PlacedElement> elsewhere(const ExtremeKind& kind, const NormalisedPo
   return starts;
 }
 
-int restarts_for(const ExtremeKind& kind, std::size_t points) {
-  // Few points bend the zone's width into many valleys; plane and line in it have hardly any.
-  const int base = static_cast<int>(2 * kind.free.size());
-  return points < 30 ? 3 * base : base;
-}
-
 struct Task {
   const ExtremeKind& kind;
   Sought what;
@@ -139,7 +133,6 @@ ExtremeFound searched(const Task& task, const Element& start) {
   search.kind = &task.kind;
   search.problem = problem_of(task.kind, task.what, task.options.constraints);
   search.start = placed(task.kind, start, task.across);
-  search.restarts = restarts_for(task.kind, task.local.points.size());
   if (task.what == Sought::zone) {
     search.elsewhere = elsewhere(task.kind, task.local, task.options.constraints);
   } else {

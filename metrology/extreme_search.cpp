@@ -88,8 +88,12 @@ class Contest {
                                                : std::numeric_limits<double>::infinity();
     MinimaxSolution solution = minimax_near(search_.problem, framed, at, working_, worth);
     best_.iterations += solution.iterations;
+    differ_ = differ_ || (solution.level > worth && best_.solution.proven);
     if (!solution.proven || !plausible(search_, solution.at)) return;
-    if (best_.solution.proven && solution.level >= best_.solution.level - 1e-15) return;
+    if (best_.solution.proven) {
+      differ_ = differ_ || std::abs(solution.level - best_.solution.level) > 1e-13;
+      if (solution.level >= best_.solution.level - 1e-15) return;
+    }
     best_.placed = {frame, solution.at};
     best_.solution = std::move(solution);
   }
@@ -101,10 +105,12 @@ class Contest {
     const Eigen::VectorXd values = distances(search_.problem.surface, at, framed);
     working_ = first_working_set(values);
     enter(frame, framed, at);
-    const EvenSteps steps = even_steps(search_.problem, at, framed);
+    const SurfaceSteps steps = even_steps(search_.problem, at, framed);
     const double spread = 0.5 * (values.maxCoeff() - values.minCoeff());
     constexpr std::array kScales{1.0, 3.0, 0.3, 10.0};
-    for (int i = 0; i < search_.restarts; ++i) {
+    const int unknowns = static_cast<int>(steps.cols());
+    // Where all starts lead to one minimum a few of them tell; where there are several, many are needed.
+    for (int i = 0; i < (differ_ ? 6 : 1) * (unknowns + 2); ++i) {
       const double scale = kScales[static_cast<std::size_t>(i) % kScales.size()] * spread;
       SurfaceParameters step = steps * (scale * filling(i + 1, steps.cols()));
       const double far = std::max(step.segment<2>(kTiltX).cwiseAbs().maxCoeff(),
@@ -122,6 +128,7 @@ class Contest {
   std::span<const Vec3> points_;
   std::vector<std::size_t> working_{};
   ExtremeFound best_{};
+  bool differ_ = false;  // starts led to minima that are not the same
 };
 
 }  // namespace

@@ -22,7 +22,6 @@ struct ExtremeSearch {
   MinimaxProblem problem{};
   PlacedElement start{};
   std::vector<PlacedElement> elsewhere{};
-  int restarts = 10;
   // Tilts beyond this of the start's frame belong to another element: 0.5 for those that are inscribed.
   double most_tilt = 1e6;
 };

@@ -20,19 +20,27 @@ struct Inequality {
 
 class DualSimplex {
  public:
-  DualSimplex(const Eigen::VectorXd& values, const Gradients& gradients, Sides sides, double reach)
+  DualSimplex(const Eigen::VectorXd& values, const Gradients& gradients, Sides sides,
+              const Eigen::VectorXd& reach)
       : values_(values), gradients_(gradients), sides_(sides), reach_(reach) {}
 
   LinearMinimax solve() {
     start();
+    invert();
     const int most = 40 * static_cast<int>(unknowns() + 1);
     for (int i = 0; i < most; ++i) {
-      refresh();
+      point_ = inverse_ * limits_;
+      multipliers_ = -inverse_.row(unknowns()).transpose();
       if (!point_.allFinite()) return {};
       const auto [violator, by] = worst();
       // Rounding of sums of eight products of order one.
-      if (by <= 2e-15 * std::max(1.0, std::abs(level()))) return report();
-      if (!exchange(violator)) return {};
+      if (by <= 2e-15 * std::max(1.0, std::abs(level()))) {
+        if (is_exact_) return report();
+        invert();
+      } else if (!exchange(violator)) {
+        if (is_exact_) return {};
+        invert();
+      }
     }
     return {};
   }
@@ -53,7 +61,7 @@ class DualSimplex {
     return normal;
   }
   [[nodiscard]] double limit_of(const Inequality& q) const {
-    return is_box(q) ? reach_ : -q.sign * values_[q.row];
+    return is_box(q) ? reach_[q.row - values_.size()] : -q.sign * values_[q.row];
   }
 
   // The highest function and the faces of the box that it leans on: their multipliers are not negative.
@@ -71,17 +79,17 @@ class DualSimplex {
     }
   }
 
-  void refresh() {
+  // From the rows themselves: exchanges only update it, and lose digits.
+  void invert() {
     const Eigen::Index size = unknowns() + 1;
     SmallSquare rows(size, size);
-    Small limits(size);
+    limits_.resize(size);
     for (Eigen::Index i = 0; i < size; ++i) {
       rows.row(i) = normal_of(basis_[static_cast<std::size_t>(i)]).transpose();
-      limits[i] = limit_of(basis_[static_cast<std::size_t>(i)]);
+      limits_[i] = limit_of(basis_[static_cast<std::size_t>(i)]);
     }
     inverse_ = rows.partialPivLu().inverse();
-    point_ = inverse_ * limits;
-    multipliers_ = -inverse_.row(unknowns()).transpose();
+    is_exact_ = true;
   }
 
   [[nodiscard]] std::pair<Inequality, double> worst() const {
@@ -100,7 +108,7 @@ class DualSimplex {
       if (sides_.low) consider({i, -1.0}, -value - level());
     }
     for (Eigen::Index j = 0; j < unknowns(); ++j) {
-      consider({values_.size() + j, t[j] > 0.0 ? 1.0 : -1.0}, std::abs(t[j]) - reach_);
+      consider({values_.size() + j, t[j] > 0.0 ? 1.0 : -1.0}, std::abs(t[j]) - reach_[j]);
     }
     return {violator, by};
   }
@@ -122,6 +130,12 @@ class DualSimplex {
     }
     if (leaving < 0) return false;
     basis_[static_cast<std::size_t>(leaving)] = entering;
+    limits_[leaving] = limit_of(entering);
+    Small change = share;
+    change[leaving] -= 1.0;
+    const Small column = inverse_.col(leaving) / share[leaving];
+    inverse_ -= column * change.transpose();
+    is_exact_ = false;
     return true;
   }
 
@@ -147,9 +161,11 @@ class DualSimplex {
   const Eigen::VectorXd& values_;
   const Gradients& gradients_;
   Sides sides_;
-  double reach_;
+  const Eigen::VectorXd& reach_;
   std::vector<Inequality> basis_{};
   SmallSquare inverse_{};
+  Small limits_{};
+  bool is_exact_ = false;
   Small point_{};
   Small multipliers_{};
 };
@@ -157,7 +173,7 @@ class DualSimplex {
 }  // namespace
 
 LinearMinimax linear_minimax(const Eigen::VectorXd& values, const Gradients& gradients, Sides sides,
-                             double reach) {
+                             const Eigen::VectorXd& reach) {
   return DualSimplex(values, gradients, sides, reach).solve();
 }
 

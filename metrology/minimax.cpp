@@ -19,10 +19,11 @@ class Descent {
     const double spread = values_.maxCoeff() - values_.minCoeff();
     // The first steps may change distances by as much as they differ.
     reach_ = std::max(spread, 1e-6);
+    measure_bends();
   }
 
   MinimaxSolution run() {
-    constexpr int kMost = 120;
+    constexpr int kMost = 40;
     for (int i = 0; i < kMost && std::isfinite(level_); ++i) {
       ++iterations_;
       if (!step()) break;
@@ -40,9 +41,27 @@ class Descent {
     gradients_ = slopes(problem_.surface, at_, points_) * basis_;
   }
 
+  // How much distances bend along each step: what is left of them at the ends of the first box.
+  void measure_bends() {
+    bend_ = Eigen::VectorXd::Zero(basis_.cols());
+    for (Eigen::Index j = 0; j < basis_.cols(); ++j) {
+      const SurfaceParameters whole = reach_ * basis_.col(j);
+      const double share = bounded_share(whole);
+      const SurfaceParameters step = share * whole;
+      const Eigen::VectorXd left = distances(problem_.surface, at_ + step, points_) +
+                                   distances(problem_.surface, at_ - step, points_) - 2.0 * values_;
+      bend_[j] = left.cwiseAbs().maxCoeff() / (share * share * reach_ * reach_);
+    }
+  }
+
+  // Steps that neither in first nor in second order change distances by more than the reach.
+  [[nodiscard]] Eigen::VectorXd box() const {
+    return (2.0 * reach_ / bend_.array().max(2.0 / reach_)).sqrt().min(reach_);
+  }
+
   // False when nothing is left to gain.
   bool step() {
-    const LinearMinimax linear = linear_minimax(values_, gradients_, problem_.sides, reach_);
+    const LinearMinimax linear = linear_minimax(values_, gradients_, problem_.sides, box());
     if (!linear.solved) return shrink();
     active_ = linear.active;
     const double promised = level_ - linear.level;
@@ -59,7 +78,7 @@ class Descent {
           if (other.level < best.level) {
             best = std::move(other);
             by_curvature = true;
-            reach_ = std::max(reach_, newton->cwiseAbs().maxCoeff());
+            reach_ = std::max(reach_, newton->cwiseAbs().minCoeff());
           }
         }
       }
@@ -107,12 +126,13 @@ class Descent {
 
   const MinimaxProblem& problem_;
   std::span<const Vec3> points_;
-  EvenSteps basis_;
+  SurfaceSteps basis_;
   SurfaceParameters at_ = SurfaceParameters::Zero();
   Eigen::VectorXd values_{};
   Gradients gradients_{};
   double level_ = 0.0;
   double reach_ = 1.0;
+  Eigen::VectorXd bend_{};
   std::vector<ActiveRow> active_{};
   int iterations_ = 0;
 };
@@ -158,8 +178,8 @@ double level_of(const Eigen::VectorXd& distances, Sides sides) {
   return sides.low ? std::max(high, -distances.minCoeff()) : high;
 }
 
-EvenSteps even_steps(const MinimaxProblem& problem, const SurfaceParameters& at,
-                     std::span<const Vec3> points) {
+SurfaceSteps even_steps(const MinimaxProblem& problem, const SurfaceParameters& at,
+                        std::span<const Vec3> points) {
   Eigen::MatrixXd rows = slopes(problem.surface, at, points) * problem.allowed;
   rows /= std::sqrt(static_cast<double>(points.size()));
   const Eigen::Index unknowns = rows.cols();

@@ -24,9 +24,7 @@ namespace frustum::metrology {
 struct MinimaxProblem {
   Surface surface = Surface::straight;
   Sides sides{};
-  Eigen::Matrix<double, kSurfaceParameters, Eigen::Dynamic, 0, kSurfaceParameters,
-                kSurfaceParameters>
-      allowed{};
+  SurfaceSteps allowed{};
 };
 
 struct MinimaxSolution {
@@ -43,10 +41,8 @@ struct MinimaxSolution {
 [[nodiscard]] double level_of(const Eigen::VectorXd& distances, Sides sides);
 
 // Steps of `allowed` that change distances by one, root mean square, and independently of each other.
-using EvenSteps = Eigen::Matrix<double, kSurfaceParameters, Eigen::Dynamic, 0, kSurfaceParameters,
-                                kSurfaceParameters>;
-[[nodiscard]] EvenSteps even_steps(const MinimaxProblem& problem, const SurfaceParameters& at,
-                                   std::span<const Vec3> points);
+[[nodiscard]] SurfaceSteps even_steps(const MinimaxProblem& problem, const SurfaceParameters& at,
+                                      std::span<const Vec3> points);
 
 // All points at once: for few of them.
 [[nodiscard]] MinimaxSolution minimax_near(const MinimaxProblem& problem,

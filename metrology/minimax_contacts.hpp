@@ -21,7 +21,7 @@ namespace frustum::metrology {
 // In steps of `basis`.
 [[nodiscard]] std::optional<Eigen::VectorXd> contact_step(const MinimaxProblem& problem,
                                                           std::span<const Vec3> points,
-                                                          const EvenSteps& basis,
+                                                          const SurfaceSteps& basis,
                                                           const SurfaceParameters& at,
                                                           const std::vector<ActiveRow>& contacts);
 
@@ -29,7 +29,7 @@ namespace frustum::metrology {
 // proof.
 [[nodiscard]] MinimaxSolution settled_on_contacts(const MinimaxProblem& problem,
                                                   std::span<const Vec3> points,
-                                                  const EvenSteps& basis,
+                                                  const SurfaceSteps& basis,
                                                   const SurfaceParameters& at, double level,
                                                   const std::vector<ActiveRow>& contacts);
 

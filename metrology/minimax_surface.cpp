@@ -1,5 +1,6 @@
 #include "metrology/minimax_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frustum::metrology {
@@ -96,6 +97,26 @@ Row row_of(Surface surface, const Axis& axis, const SurfaceParameters& at, doubl
   return row;
 }
 
+Row slope(Surface surface, const SurfaceParameters& at, const Vec3& x) {
+  return row_of(surface, Axis(at), at, std::cos(at[kShape]), std::sin(at[kShape]), x);
+}
+
+double bend_radius(Surface surface, const SurfaceParameters& at, const Vec3& x) {
+  const Axis axis(at);
+  const Place place(axis, x);
+  switch (surface) {
+    case Surface::plane:
+      return 1.0;
+    case Surface::sphere:
+      return (x - axis.point).norm();
+    case Surface::straight:
+      return place.away;
+    case Surface::ring:
+      break;
+  }
+  return std::min(place.away, std::hypot(place.away - at[kShape], place.along));
+}
+
 }  // namespace
 
 double distance(Surface surface, const SurfaceParameters& at, const Vec3& point) {
@@ -125,20 +146,18 @@ SurfaceSlopes slopes(Surface surface, const SurfaceParameters& at, std::span<con
   return all;
 }
 
-Eigen::Matrix<double, kSurfaceParameters, kSurfaceParameters> curvature(Surface surface,
-                                                                        const SurfaceParameters& at,
-                                                                        const Vec3& point) {
-  // Central differences of exact slopes: 1e-10, which only sets how fast Newton steps shrink.
-  constexpr double kStep = 1e-5;
-  Eigen::Matrix<double, kSurfaceParameters, kSurfaceParameters> second;
-  const std::span<const Vec3> one(&point, 1);
-  for (int i = 0; i < kSurfaceParameters; ++i) {
-    SurfaceParameters high = at;
-    SurfaceParameters low = at;
-    high[i] += kStep;
-    low[i] -= kStep;
-    second.row(i) =
-        (slopes(surface, high, one).row(0) - slopes(surface, low, one).row(0)) / (2.0 * kStep);
+SurfaceCurvature curvature(Surface surface, const SurfaceParameters& at, const Vec3& point,
+                           const SurfaceSteps& steps) {
+  // Central differences of exact slopes: 1e-10, which only sets how fast Newton steps shrink. Slopes turn
+  // within the distance from the centre, axis or ring: next to nothing for a line's own points.
+  const double reach = 1e-5 * std::min(1.0, bend_radius(surface, at, point));
+  SurfaceCurvature second = SurfaceCurvature::Zero(steps.cols(), steps.cols());
+  if (!(reach > 0.0)) return second;
+  for (Eigen::Index i = 0; i < steps.cols(); ++i) {
+    const double share = reach / steps.col(i).norm();
+    const SurfaceParameters step = share * steps.col(i);
+    const Row change = slope(surface, at + step, point) - slope(surface, at - step, point);
+    second.row(i) = (change * steps) / (2.0 * share);
   }
   return 0.5 * (second + second.transpose());
 }

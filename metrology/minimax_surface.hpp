@@ -43,9 +43,14 @@ using SurfaceSlopes = Eigen::Matrix<double, Eigen::Dynamic, kSurfaceParameters, 
 // One row a point: the derivatives of its distance by the parameters.
 [[nodiscard]] SurfaceSlopes slopes(Surface surface, const SurfaceParameters& at,
                                    std::span<const Vec3> points);
-// Second derivatives of the distance of one point.
-[[nodiscard]] Eigen::Matrix<double, kSurfaceParameters, kSurfaceParameters> curvature(
-    Surface surface, const SurfaceParameters& at, const Vec3& point);
+// Directions in which parameters move together, one a column.
+using SurfaceSteps = Eigen::Matrix<double, kSurfaceParameters, Eigen::Dynamic, 0,
+                                   kSurfaceParameters, kSurfaceParameters>;
+using SurfaceCurvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                       kSurfaceParameters, kSurfaceParameters>;
+// Second derivatives of the distance of one point along the steps.
+[[nodiscard]] SurfaceCurvature curvature(Surface surface, const SurfaceParameters& at,
+                                         const Vec3& point, const SurfaceSteps& steps);
 
 [[nodiscard]] Vec3 axis_direction(const SurfaceParameters& at);
 
