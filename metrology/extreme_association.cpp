@@ -141,24 +141,33 @@ ExtremeFound searched(const Task& task, const Element& start) {
   return best_extreme(search, task.local.points);
 }
 
-// Points that lie on the element to rounding: no zone is narrower by more than the width itself.
-ExtremeFound exact(const Task& task, const Element& start) {
+// The element as it is: all there is to say where nothing can move, or where points lie on it to rounding.
+ExtremeFound as_it_stands(const Task& task, const Element& start) {
+  const MinimaxProblem problem = problem_of(task.kind, task.what, task.options.constraints);
   ExtremeFound found;
   found.placed = placed(task.kind, start, task.across);
   const Pose frame_from_local = found.placed.local_from_frame.inverse();
+  std::vector<Vec3> framed;
+  for (const Vec3& p : task.local.points) framed.push_back(frame_from_local.point(p));
+  const Eigen::VectorXd values = distances(problem.surface, found.placed.at, framed);
   Eigen::Index high = 0;
   Eigen::Index low = 0;
-  Eigen::VectorXd values(static_cast<Eigen::Index>(task.local.points.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    values[i] = distance(task.kind.surface, found.placed.at,
-                         frame_from_local.point(task.local.points[static_cast<std::size_t>(i)]));
+  const double top = values.maxCoeff(&high);
+  const double bottom = -values.minCoeff(&low);
+  MinimaxSolution& solution = found.solution;
+  solution.at = found.placed.at;
+  solution.level = level_of(values, problem.sides);
+  solution.proven = true;
+  if (problem.allowed.cols() > 0) {
+    // No zone is narrower by more than its width.
+    solution.gap = solution.level;
+    solution.contacts = {{high, 1.0, 0.5}, {low, -1.0, 0.5}};
+    if (!problem.sides.low) solution.contacts = {{high, 1.0, 1.0}};
+  } else if (problem.sides.high && (top >= bottom || !problem.sides.low)) {
+    solution.contacts = {{high, 1.0, 1.0}};
+  } else {
+    solution.contacts = {{low, -1.0, 1.0}};
   }
-  found.solution.at = found.placed.at;
-  found.solution.level = std::max(values.maxCoeff(&high), -values.minCoeff(&low));
-  found.solution.contacts = {{high, 1.0, 0.5}, {low, -1.0, 0.5}};
-  if (!task.kind.has_sides) found.solution.contacts = {{high, 1.0, 1.0}};
-  found.solution.gap = found.solution.level;
-  found.solution.proven = true;
   return found;
 }
 
@@ -285,15 +294,14 @@ Result<Association> extreme_association(std::string_view name, std::span<const V
   }
   const Task task{*kind, *what, options, *local, across};
   const Element local_start = to_local(*local, *start);
-  if (*what == Sought::zone) {
-    ExtremeFound at_once = exact(task, local_start);
-    // Coordinates of the size of the part are rounded to 1e-16 of it.
-    if (at_once.solution.level < 4e-15) return finished(task, at_once);
-  }
-  ExtremeFound found = searched(task, local_start);
-  if (!found.solution.proven && *what == Sought::zone) {
-    ExtremeFound at_once = exact(task, local_start);
-    if (2.0 * at_once.solution.level <= kGap) found = std::move(at_once);
+  ExtremeFound found = as_it_stands(task, local_start);
+  const bool is_zone = *what == Sought::zone;
+  const double start_width = 2.0 * found.solution.level;
+  // Coordinates of the size of the part are rounded to 1e-16 of it.
+  const bool is_exact = is_zone && start_width < 8e-15;
+  if (found.solution.gap > 0.0 && !is_exact) {
+    ExtremeFound best = searched(task, local_start);
+    if (best.solution.proven || !is_zone || start_width > kGap) found = std::move(best);
   }
   if (!found.solution.proven || 2.0 * found.solution.gap > kGap) return unproven(task);
   return finished(task, found);
