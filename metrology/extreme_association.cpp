@@ -211,6 +211,13 @@ Element outside(const Element& middle, const Vec3& outward, const Vec3& across, 
               line.axis};
 }
 
+// As residual(); of a line in a plane with the sign of its left side, seen from the tip of the normal.
+double signed_residual(const Task& task, const Element& element, const Vec3& point) {
+  if (task.kind.name != "line2d") return residual(element, point);
+  const Line& line = std::get<Line>(element);
+  return (point - line.point).dot(task.across.cross(line.axis.vec()));
+}
+
 Association finished(const Task& task, const ExtremeFound& found) {
   PlacedElement at = found.placed;
   take_size(task, at, found.solution.level);
@@ -225,7 +232,7 @@ Association finished(const Task& task, const ExtremeFound& found) {
   double highest = -std::numeric_limits<double>::infinity();
   double lowest = -highest;
   for (const Vec3& p : task.local.points) {
-    const double d = residual(element, p) * task.local.scale;
+    const double d = signed_residual(task, element, p) * task.local.scale;
     result.fit.residuals.push_back(d);
     squares += d * d;
     highest = std::max(highest, d);
@@ -235,10 +242,9 @@ Association finished(const Task& task, const ExtremeFound& found) {
   result.fit.form =
       task.what == Sought::zone ? 2.0 * found.solution.level * task.local.scale : highest - lowest;
   result.fit.element = from_local(task.local, element);
-  const auto parameters = task.kind.surface == Surface::straight && !task.kind.has_sides ? 4
-                          : std::holds_alternative<Circle>(element)
-                              ? 6
-                              : static_cast<Eigen::Index>(task.kind.free.size());
+  // A circle in space has those of its plane too.
+  const bool has_plane = std::holds_alternative<Circle>(element);
+  const auto parameters = has_plane ? 6 : static_cast<Eigen::Index>(task.kind.free.size());
   result.fit.cofactor = Eigen::MatrixXd::Zero(parameters, parameters);
   result.fit.covariance = result.fit.cofactor;
   result.fit.iterations = found.iterations;

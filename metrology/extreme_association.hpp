@@ -7,6 +7,7 @@
 //                (an axis within half a radian); points that leave it open on one side have none
 //              outside material of plane and line: the middle of the zone moved to its outer bound, axis of
 //                the plane along `outward`
+//              line in a plane: residuals have a sign, positive on its left seen from the tip of the normal
 //              circle: the plane is that of least squares, then as in the plane
 //            Local minima are compared by restarts, so the result is proven near itself and the best of those
 // Units    : mm, rad

@@ -72,15 +72,9 @@ class Descent {
     bool by_curvature = false;
     if (linear.at_bound) {
       if (const auto newton = contact_step(problem_, points_, basis_, at_, active_)) {
-        const SurfaceParameters moved = basis_ * *newton;
-        if (bounded_share(moved) == 1.0) {
-          Trial other = trial(at_ + moved);
-          if (other.level < best.level) {
-            best = std::move(other);
-            by_curvature = true;
-            reach_ = std::max(reach_, newton->cwiseAbs().minCoeff());
-          }
-        }
+        Trial other = along_contacts(*newton);
+        by_curvature = other.level < best.level;
+        if (by_curvature) best = std::move(other);
       }
     }
     const double gain = level_ - best.level;
@@ -114,6 +108,18 @@ class Descent {
     t.level = level_of(t.values, problem_.sides);
     if (!std::isfinite(t.level)) t.level = std::numeric_limits<double>::infinity();
     return t;
+  }
+
+  // As much of a step that keeps the contacts as the other points allow.
+  [[nodiscard]] Trial along_contacts(const Eigen::VectorXd& step) const {
+    const SurfaceParameters whole = basis_ * step;
+    double share = bounded_share(whole);
+    Trial best = trial(at_ + share * whole);
+    for (int i = 0; i < 6 && !(best.level < level_); ++i) {
+      share *= 0.4;
+      best = trial(at_ + share * whole);
+    }
+    return best;
   }
 
   // Beyond a third of a radian or the size of the part the linear model means nothing.

@@ -109,8 +109,12 @@ std::optional<Eigen::VectorXd> contact_step(const MinimaxProblem& problem,
                                             const SurfaceParameters& at,
                                             const std::vector<ActiveRow>& contacts) {
   if (contacts.empty()) return std::nullopt;
-  const Linearised here = linearised(problem, points, basis, at, contacts);
-  if (least_bend(here) < 0.0) return std::nullopt;
+  Linearised here = linearised(problem, points, basis, at, contacts);
+  // Where the Lagrangian bends downward, a Hessian that bends upward still tells a way down.
+  const double lack = 1e-3 - least_bend(here);
+  if (lack > 1e-3) {
+    here.hessian.diagonal().array() += 2.0 * lack * here.hessian.cwiseAbs().maxCoeff();
+  }
   return newton(here);
 }
 

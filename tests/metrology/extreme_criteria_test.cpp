@@ -161,6 +161,11 @@ TEST(OutsideMaterial, ALineInAPlaneTouchesFromTheSideItIsTold) {
     const Vec3 up = across.z() * side > 0.0 ? across : Vec3(-across);
     const auto [low, high] =
         extent(points, [&](const Vec3& p) { return (p - line.point).dot(up); });
+    // Residuals are positive on the left of the line, seen against y.
+    const double left = UnitVec3::y().vec().cross(line.axis.vec()).dot(up) > 0.0 ? 1.0 : -1.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NEAR(left * found.fit.residuals[i], (points[i] - line.point).dot(up), kMm);
+    }
     EXPECT_NEAR(high, 0.0, kMm);
     EXPECT_NEAR(low, -width, kMm);
   }
