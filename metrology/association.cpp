@@ -26,10 +26,7 @@ Result<Association> associate(std::string_view name, std::span<const Vec3> point
   if (options.criterion != Criterion::least_squares) {
     return extreme_association(name, points, options);
   }
-  if (options.constraints.any() || !options.weights.empty()) {
-    return error("only unconstrained, unweighted least squares so far");
-  }
-  auto fit = fit_element(name, points);
+  auto fit = fit_element(name, points, {options.constraints, options.weights});
   if (!fit) return std::move(fit).error();
   return Association{std::move(*fit), options.criterion, std::nullopt};
 }

@@ -42,20 +42,6 @@ inline constexpr std::array<std::string_view, 5> kCriterionNames{"ls", "mz", "mi
 [[nodiscard]] std::string_view name_of(Criterion criterion);
 [[nodiscard]] std::optional<Criterion> criterion_named(std::string_view name);
 
-// What the element must keep. An absent member leaves it free; a member that the kind lacks is refused.
-struct Constraints {
-  std::optional<UnitVec3> parallel_to{};       // its axis (a plane's normal), either sense
-  std::optional<UnitVec3> perpendicular_to{};  // its axis stays perpendicular to this
-  std::optional<Line> axis{};                  // its axis is this line: round kinds only
-  std::optional<double> radius{};              // mm, as in the element
-  std::optional<double> tube_radius{};         // mm, torus
-  std::optional<double> half_angle{};          // rad, cone
-
-  [[nodiscard]] bool any() const {
-    return parallel_to || perpendicular_to || axis || radius || tube_radius || half_angle;
-  }
-};
-
 struct AssociationOptions {
   Criterion criterion = Criterion::least_squares;
   Constraints constraints{};

@@ -91,46 +91,70 @@ Ranked ranked(const Moments& moments, const Vec3& axis, RoundKind kind) {
 
 }  // namespace
 
-std::vector<AxisCandidate> axis_candidates(const NormalisedPoints& local, RoundKind kind,
-                                           std::size_t most) {
-  const Moments moments = moments_of(local.points);
-  std::vector<Ranked> all;
-  const PrincipalDirections principal = principal_directions(local);
+AxisSearch::AxisSearch(const NormalisedPoints& local, const PrincipalDirections& principal)
+    : keep_(local.constraints),
+      principal_(principal.directions),
+      moments_(moments_of(local.points)) {}
+
+std::vector<Vec3> AxisSearch::directions() const {
+  std::vector<Vec3> all;
+  if (keep_.perpendicular_to) {
+    constexpr int kTurns = 36;  // 5 deg apart
+    const auto [u, v] = tangents(*keep_.perpendicular_to);
+    for (int i = 0; i < kTurns; ++i) {
+      const double turn = std::numbers::pi * i / kTurns;
+      all.emplace_back(std::cos(turn) * u + std::sin(turn) * v);
+    }
+    return all;
+  }
   constexpr int kDirections = 200;  // about 10 deg apart
   for (int i = 0; i < kDirections; ++i) {
     const double z = (i + 0.5) / kDirections;
     const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0)) * i;  // the golden angle
     const double r = std::sqrt(1.0 - z * z);
-    all.push_back(
-        ranked(moments, Vec3(r * std::cos(turn), r * std::sin(turn), z).normalized(), kind));
+    all.emplace_back(Vec3(r * std::cos(turn), r * std::sin(turn), z).normalized());
+  }
+  return all;
+}
+
+std::vector<AxisCandidate> AxisSearch::likeliest(RoundKind kind) const {
+  if (keep_.axis) return {ranked(moments_, keep_.axis->axis, kind).candidate};
+  if (keep_.parallel_to) return {ranked(moments_, *keep_.parallel_to, kind).candidate};
+  std::vector<Ranked> all;
+  for (int i = 0; i < 3; ++i) {
+    Vec3 axis = principal_.col(i);
+    if (keep_.perpendicular_to) {
+      const Vec3& d = keep_.perpendicular_to->vec();
+      const auto lying = UnitVec3::of(axis - axis.dot(d) * d);
+      if (!lying) continue;
+      axis = *lying;
+    }
+    all.push_back(ranked(moments_, axis, kind));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
   std::vector<AxisCandidate> chosen;
-  chosen.reserve(most + 3);
-  const double apart = std::cos(12.0 * kRadPerDeg);  // wider than the grid, so neighbours are one
+  for (const Ranked& r : all) chosen.push_back(r.candidate);
+  return chosen;
+}
+
+std::vector<AxisCandidate> AxisSearch::candidates(RoundKind kind, std::size_t most) const {
   // The principal directions whatever their rank: a flat or a slender part shows its axis there.
-  for (int i = 0; i < 3; ++i) {
-    chosen.push_back(ranked(moments, principal.directions.col(i), kind).candidate);
-  }
+  std::vector<AxisCandidate> chosen = likeliest(kind);
+  if (keep_.axis || keep_.parallel_to) return chosen;
+  std::vector<Ranked> all;
+  for (const Vec3& axis : directions()) all.push_back(ranked(moments_, axis, kind));
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
+  const double apart = std::cos(12.0 * kRadPerDeg);  // wider than the grid, so neighbours are one
   for (const Ranked& r : all) {
-    if (chosen.size() == most || !std::isfinite(r.cost)) break;
+    if (chosen.size() >= most || !std::isfinite(r.cost)) break;
     const bool fresh = std::none_of(chosen.begin(), chosen.end(), [&](const AxisCandidate& c) {
       return std::abs(c.axis.dot(r.candidate.axis)) > apart;
     });
     if (fresh) chosen.push_back(r.candidate);
   }
   return chosen;
-}
-
-std::vector<Vec3> thinned(std::span<const Vec3> points, std::size_t most) {
-  if (points.size() <= most) return {points.begin(), points.end()};
-  std::vector<Vec3> few;
-  for (std::size_t i = 0; i < most; ++i) {
-    const double at = std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0);
-    few.push_back(points[static_cast<std::size_t>(at * static_cast<double>(points.size()))]);
-  }
-  return few;
 }
 
 }  // namespace frustum::metrology

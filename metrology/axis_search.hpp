@@ -3,9 +3,10 @@
 // Model    : for a given axis a, |x|^2 - (a.x)^2 (cylinder) or |x|^2 (cone) is a linear function of
 //            few monomials of x. Its least-squares residual needs only the moments of the points up
 //            to degree four, so a direction costs the same for any number of points. 200 directions
-//            over the half sphere and the principal directions are ranked
+//            over the half sphere and the principal directions are ranked, or those that constraints
+//            leave
 // Units    : local frame of size one
-// Shape    : at most `most` candidates, at least 12 deg apart
+// Shape    : at most `most` and the principal directions, at least 12 deg apart
 // Errors   : none
 // Accuracy : starting values only
 // Source   : ours
@@ -27,10 +28,20 @@ struct AxisCandidate {
 
 enum class RoundKind { cylinder, cone };
 
-[[nodiscard]] std::vector<AxisCandidate> axis_candidates(const NormalisedPoints& local,
-                                                         RoundKind kind, std::size_t most);
+class AxisSearch {
+ public:
+  AxisSearch(const NormalisedPoints& local, const PrincipalDirections& principal);
 
-// About `most` of the points, spread over the whole sequence without a common stride.
-[[nodiscard]] std::vector<Vec3> thinned(std::span<const Vec3> points, std::size_t most);
+  // The principal directions, or the one that the constraints give, each with its best point.
+  [[nodiscard]] std::vector<AxisCandidate> likeliest(RoundKind kind) const;
+  [[nodiscard]] std::vector<AxisCandidate> candidates(RoundKind kind, std::size_t most) const;
+
+ private:
+  [[nodiscard]] std::vector<Vec3> directions() const;
+
+  Constraints keep_;
+  Mat3 principal_;
+  Eigen::Matrix<double, 10, 10> moments_;
+};
 
 }  // namespace frustum::metrology

@@ -9,8 +9,10 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
-#include "metrology/association.hpp"
+#include "core/diagnostic.hpp"
+#include "metrology/constraints.hpp"
 #include "metrology/element_model.hpp"
 
 namespace frustum::metrology {

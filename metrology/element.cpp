@@ -51,6 +51,12 @@ std::string_view name_of(ElementKind kind) {
   return kElementNames.at(static_cast<std::size_t>(kind));
 }
 
+Element element_of(ElementKind kind) {
+  static const std::array<Element, 7> kAll{Line{},     Plane{}, Circle{}, Sphere{},
+                                           Cylinder{}, Cone{},  Torus{}};
+  return kAll.at(static_cast<std::size_t>(kind));
+}
+
 double residual(const Line& line, const Vec3& point) {
   return place(line.point, line.axis, point).away;
 }

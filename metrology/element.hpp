@@ -74,6 +74,8 @@ inline constexpr std::array<std::string_view, 7> kElementNames{
     "line", "plane", "circle", "sphere", "cylinder", "cone", "torus"};
 [[nodiscard]] ElementKind kind_of(const Element& element);
 [[nodiscard]] std::string_view name_of(ElementKind kind);
+// The one of its defaults.
+[[nodiscard]] Element element_of(ElementKind kind);
 
 [[nodiscard]] double residual(const Line& line, const Vec3& point);
 [[nodiscard]] double residual(const Plane& plane, const Vec3& point);

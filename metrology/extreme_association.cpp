@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "metrology/axis_search.hpp"
-#include "metrology/constraint_steps.hpp"
 #include "metrology/extreme_search.hpp"
 
 namespace frustum::metrology {
@@ -111,8 +110,9 @@ std::vector<PlacedElement> elsewhere(const ExtremeKind& kind, const NormalisedPo
   if (constraints.any() || (!is_cone && kind.name != "cylinder")) return {};
   std::vector<PlacedElement> starts;
   constexpr std::size_t kMost = 6;
+  const AxisSearch search(local, principal_directions(local));
   for (const AxisCandidate& c :
-       axis_candidates(local, is_cone ? RoundKind::cone : RoundKind::cylinder, kMost)) {
+       search.candidates(is_cone ? RoundKind::cone : RoundKind::cylinder, kMost)) {
     const auto axis = UnitVec3::of(c.axis);
     if (!axis) continue;
     starts.push_back(placed(kind, Cylinder{c.point, *axis, c.radius}, Vec3::UnitY()));
@@ -263,21 +263,6 @@ Diagnostic unproven(const Task& task) {
                "probe more of the surface, or use 'ls'");
 }
 
-// Least squares under the same constraints is where the search begins.
-Result<Element> least_squares_start(const ExtremeKind& kind, std::span<const Vec3> points,
-                                    const Constraints& constraints, const Vec3& across) {
-  if (kind.name == "line2d") {
-    std::vector<Vec3> flat(points.begin(), points.end());
-    for (Vec3& p : flat) p -= (p - points.front()).dot(across) * across;
-    auto fit = fit_line(flat);
-    if (!fit) return std::move(fit).error();
-    return constrained(fit->element, constraints);
-  }
-  auto fit = fit_element(kind.name, points);
-  if (!fit) return std::move(fit).error();
-  return constrained(fit->element, constraints);
-}
-
 }  // namespace
 
 Result<Association> extreme_association(std::string_view name, std::span<const Vec3> points,
@@ -290,16 +275,16 @@ Result<Association> extreme_association(std::string_view name, std::span<const V
   const bool in_plane = kind->name == "line2d" || kind->name == "circle2d";
   const Vec3 across = in_plane ? coordinate_normal(points)
                                : options.constraints.perpendicular_to.value_or(UnitVec3::y()).vec();
-  auto start = least_squares_start(*kind, points, options.constraints, across);
+  // Least squares under the same constraints is where the search begins.
+  auto start = fit_element(name, points, {options.constraints, {}});
   if (!start) return std::move(start).error();
-  if (auto problem = refused(options.constraints, kind_of(*start), name)) return *problem;
-  auto local = normalise(points, name, 1);
+  auto local = normalise(points, {kind_of(start->element), name, 1}, {});
   if (!local) return std::move(local).error();
   if (in_plane) {
     for (Vec3& p : local->points) p -= p.dot(across) * across;
   }
   const Task task{*kind, *what, options, *local, across};
-  const Element local_start = to_local(*local, *start);
+  const Element local_start = to_local(*local, start->element);
   ExtremeFound found = as_it_stands(task, local_start);
   const bool is_zone = *what == Sought::zone;
   const double start_width = 2.0 * found.solution.level;

@@ -1,73 +1,56 @@
-#include <fmt/format.h>
-
+#include <Eigen/QR>
 #include <array>
+#include <cmath>
 
-#include "metrology/gauss_newton.hpp"
 #include "metrology/least_squares.hpp"
-#include "metrology/normalised_points.hpp"
+#include "metrology/round_fit.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-struct SphereModel {
-  static constexpr int kParameters = 4;
-  Vec3 centre = Vec3::Zero();
-  double radius = 1.0;
-
-  void linearise(std::span<const Vec3> points, Linearised<4>& out) const {
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      const Vec3 w = points[k] - centre;
-      const double away = w.norm();
-      const Vec3 e = away > 0.0 ? Vec3(w / away) : Vec3(Vec3::UnitX());
-      out.residuals[i] = away - radius;
-      out.jacobian.row(i) << -e.transpose(), -1.0;
-    }
-  }
-  [[nodiscard]] SphereModel moved(const Eigen::Vector4d& step) const {
-    return {centre + step.head<3>(), radius + step[3]};
-  }
-};
+constexpr Wording kWording{"sphere", "probe a larger part of the sphere"};
 
 // Algebraic sphere: linear in centre and radius^2 - centre^2.
-SphereModel algebraic_sphere(const std::vector<Vec3>& points) {
-  Eigen::MatrixX4d rows(static_cast<Eigen::Index>(points.size()), 4);
+Sphere algebraic_sphere(const NormalisedPoints& local) {
+  Eigen::MatrixX4d rows(static_cast<Eigen::Index>(local.points.size()), 4);
   Eigen::VectorXd right(rows.rows());
-  for (std::size_t k = 0; k < points.size(); ++k) {
+  for (std::size_t k = 0; k < local.points.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    rows.row(i) << 2.0 * points[k].transpose(), 1.0;
-    right[i] = points[k].squaredNorm();
+    const double root = std::sqrt(local.weight(k));
+    rows.row(i) << 2.0 * root * local.points[k].transpose(), root;
+    right[i] = root * local.points[k].squaredNorm();
   }
   const Eigen::Vector4d s = rows.colPivHouseholderQr().solve(right);
   return {s.head<3>(), std::sqrt(std::max(s[3] + s.head<3>().squaredNorm(), 0.0))};
 }
 
+// A given radius leaves the centre on the side to which the points bend, or on the other when they
+// hardly bend.
+std::vector<Element> starts_near(const Sphere& free, const Constraints& keep) {
+  if (!keep.radius) return {free};
+  const double ratio = free.radius > 0.0 ? *keep.radius / free.radius : 1.0;
+  return {Sphere{ratio * free.point, *keep.radius}, Sphere{-ratio * free.point, *keep.radius}};
+}
+
 }  // namespace
 
-Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points) {
-  auto local = normalise(points, "sphere", 4);
+Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points, const FitOptions& options) {
+  auto local = normalise(points, {ElementKind::sphere, kWording.what, 4}, options);
   if (!local) return std::move(local).error();
   const PrincipalDirections principal = principal_directions(*local);
-  if (principal.spread[2] < kFlat * principal.spread[0]) {
+  if (principal.spread[2] < kFlat * principal.spread[0] && !local->constraints.radius) {
     return error("degenerate points for a sphere: they lie in one plane",
                  "probe the sphere also away from that plane");
   }
-  GaussNewton<SphereModel> solver(algebraic_sphere(local->points), local->points);
-  solver.descend(100);
-  const Minimum<SphereModel> found = solver.settle();
-  if (!found.well_posed) {
-    return error("degenerate points for a sphere: they do not tell centre and radius",
-                 "probe a larger part of the sphere");
-  }
-  if (!found.converged) {
-    return error(fmt::format("the sphere fit did not converge in {} steps", found.iterations),
-                 "check that the points lie near a sphere");
-  }
+  const PointBlocks all = PointBlocks::of(*local);
+  const auto starts = starts_near(algebraic_sphere(*local), local->constraints);
+  auto found = best_minimum(starts, *local, all, kWording);
+  if (!found) return std::move(found).error();
+  const auto& best = std::get<Sphere>(found->element);
   constexpr std::array kIsAngle{false, false, false, false};
-  return completed(*local,
-                   Sphere{local->back(found.model.centre), found.model.radius * local->scale},
-                   found.residuals, found.cofactor, kIsAngle,
-                   static_cast<double>(points.size()) - 4.0, found.iterations);
+  return completed(*local, Sphere{local->back(best.point), best.radius * local->scale},
+                   {found->residuals, found->cofactor, kIsAngle, redundancy(*local, *found),
+                    found->iterations, found->condition});
 }
 
 }  // namespace frustum::metrology

@@ -1,70 +1,55 @@
-// The road of cylinder and cone fits from candidate axes to the one minimum.
+// The road of fits from starting elements to the one minimum.
 //
 // Model    : every start descends on a thinned set, the best few on all points; the lowest settles
 // Units    : local frame of size one
-// Shape    : any Model of gauss_newton.hpp with `bool plausible() const`
+// Shape    : the kinds of gauss_newton.hpp; all starts of one kind
 // Errors   : no plausible minimum; not well posed; not converged
 // Accuracy : that of gauss_newton.hpp
 // Source   : ours
 #pragma once
 
-#include <fmt/format.h>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
-#include <algorithm>
-
+#include "core/result.hpp"
 #include "metrology/axis_search.hpp"
 #include "metrology/gauss_newton.hpp"
 #include "metrology/normalised_points.hpp"
 
 namespace frustum::metrology {
 
+// How to speak to the user about points that do not tell an element.
+struct Wording {
+  std::string_view what;
+  std::string_view remedy;
+};
+
+// This many points tell the right valley, and their moments the axes.
+inline constexpr std::size_t kSearched = 160;
 inline constexpr std::size_t kAxisCandidates = 10;
 
-template <typename Model>
-[[nodiscard]] Result<Minimum<Model>> best_minimum(const std::vector<Model>& starts,
-                                                  const NormalisedPoints& local,
-                                                  std::string_view what) {
-  // 80 points tell the right valley; twelve steps go far enough down to compare.
-  const std::vector<Vec3> few = thinned(local.points, 80);
-  std::vector<std::pair<double, Model>> ranked;
-  for (const Model& start : starts) {
-    GaussNewton<Model> solver(start, few);
-    solver.descend(12);
-    if (solver.model().plausible()) ranked.emplace_back(solver.cost(), solver.model());
-  }
-  const auto by_cost = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::stable_sort(ranked.begin(), ranked.end(), by_cost);
-  std::vector<std::pair<double, GaussNewton<Model>>> finalists;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i) {
-    GaussNewton<Model> solver(ranked[i].second, local.points);
-    solver.descend(100);
-    if (solver.model().plausible()) finalists.emplace_back(solver.cost(), std::move(solver));
-  }
-  if (finalists.empty()) {
-    return error(fmt::format("degenerate points for a {}: none fits them", what),
-                 "check that the points lie near one");
-  }
-  auto best = std::min_element(finalists.begin(), finalists.end(), by_cost);
-  Minimum<Model> found = best->second.settle();
-  if (!found.well_posed || !found.model.plausible()) {
-    return error(
-        fmt::format("degenerate points for a {}: they do not tell all of its parameters", what),
-        "probe at two or more heights and around more of the circumference");
-  }
-  if (!found.converged) {
-    return error(fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
-                 fmt::format("check that the points lie near a {}", what));
-  }
-  return found;
-}
+// From an element in the right valley.
+[[nodiscard]] Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
+                                      const Constraints& constraints, const Wording& wording);
 
-// Refuses points in one plane: a plane cuts cones and cylinders in curves that fit many of them.
-[[nodiscard]] inline std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
-                                                        std::string_view what) {
-  const PrincipalDirections principal = principal_directions(local);
-  if (principal.spread[2] > kFlat * principal.spread[0]) return std::nullopt;
-  return error(fmt::format("degenerate points for a {}: they lie in one plane", what),
-               "probe at two or more heights along the axis");
-}
+[[nodiscard]] Result<Minimum> best_minimum(const std::vector<Element>& starts,
+                                           const NormalisedPoints& local, const PointBlocks& all,
+                                           const Wording& wording);
+
+// The minimum below the likeliest of few starts, when it is so low that there is nothing to search for:
+// residuals a thousandth of the least spread of the points bend no surface into another.
+[[nodiscard]] std::optional<GaussNewton> at_once(const std::vector<Element>& starts,
+                                                 const NormalisedPoints& local,
+                                                 const PointBlocks& all, double least_spread);
+
+[[nodiscard]] double redundancy(const NormalisedPoints& local, const Minimum& found);
+
+// Refuses points in one plane: a plane cuts cones, cylinders and tori in curves that fit many of them,
+// unless their axis is given.
+[[nodiscard]] std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
+                                                 const PrincipalDirections& principal,
+                                                 std::string_view what);
 
 }  // namespace frustum::metrology

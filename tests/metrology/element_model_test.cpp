@@ -93,7 +93,9 @@ TEST(ConstraintStepsLaws, EveryAllowedStepKeepsTheConstraints) {
         EXPECT_LT((point_of(kept) - point_of(e)).norm(), 1e-13) << name_of(kind) << set;
         EXPECT_LT(synthetic::line_angle(*axis_of(kept), *axis_of(e)), 1e-14)
             << name_of(kind) << set;
-        if (keep.half_angle) EXPECT_EQ(std::get<Cone>(e).half_angle, 0.4);
+        if (keep.half_angle) {
+          EXPECT_EQ(std::get<Cone>(e).half_angle, 0.4);
+        }
       }
     }
   }
