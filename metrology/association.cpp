@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "metrology/extreme_association.hpp"
+
 namespace frustum::metrology {
 
 std::string_view name_of(Criterion criterion) {
@@ -22,7 +24,7 @@ Result<Association> associate(ElementKind kind, std::span<const Vec3> points,
 Result<Association> associate(std::string_view name, std::span<const Vec3> points,
                               const AssociationOptions& options) {
   if (options.criterion != Criterion::least_squares) {
-    return error("only least squares so far");
+    return extreme_association(name, points, options);
   }
   auto fit = fit_element(name, points, {options.constraints, options.weights});
   if (!fit) return std::move(fit).error();
