@@ -5,44 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.hpp"
 #include "core/spelling.hpp"
 #include "metrology/ball_contact.hpp"
+#include "metrology/cmm_errors.hpp"
 #include "metrology/evaluation.hpp"
 #include "metrology/strategy.hpp"
 
 namespace frustum::metrology {
 namespace {
-
-// The machine's errors of one measurement.
-class ErrorField {
- public:
-  explicit ErrorField(const CmmModel& cmm) : cmm_(cmm) {
-    if (!cmm.length_per_error) return;
-    const double deviation = 0.5e-3 / *cmm.length_per_error;  // mm per um to relative
-    const RandomKey key{.seed = cmm.seed, .draw = cmm.draw, .purpose = RandomPurpose::cmm_scale};
-    const auto term = [&](std::uint64_t index) { return deviation * normal(key, index); };
-    linear_ << term(0), term(3), term(4),  //
-        0.0, term(1), term(5),             //
-        0.0, 0.0, term(2);
-  }
-
-  [[nodiscard]] Vec3 measured(const Vec3& centre, const Vec3& approach, std::size_t feature,
-                              std::size_t point) const {
-    Vec3 seen = centre + linear_ * centre;
-    if (cmm_.e0_mm > 0.0) {
-      const RandomKey key{
-          .seed = cmm_.seed, .draw = cmm_.draw, .purpose = RandomPurpose::cmm_point};
-      const std::uint64_t index = (static_cast<std::uint64_t>(feature) << 32U) | point;
-      seen += 0.5 * cmm_.e0_mm * normal(key, index) * approach;
-    }
-    return seen;
-  }
-
- private:
-  const CmmModel& cmm_;
-  Mat3 linear_ = Mat3::Zero();
-};
 
 Diagnostic missed(const PlannedFeature& feature, std::size_t index, const PlannedPoint& planned,
                   ContactState state, const ProbeSettings& probe) {
@@ -63,7 +33,7 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
 
 Result<FittedFeature> probed(const InspectionPlan& plan, std::size_t index,
                              const Pose& workpiece_from_datum, const SurfaceProbeRef& part,
-                             const ErrorField& errors) {
+                             const CmmErrors& errors) {
   const PlannedFeature& feature = plan.features[index];
   const double ball_radius = 0.5 * plan.probe.ball_diameter;
   std::vector<Vec3> centres;
@@ -76,17 +46,18 @@ Result<FittedFeature> probed(const InspectionPlan& plan, std::size_t index,
     if (contact.state != ContactState::contact) {
       return missed(feature, centres.size(), planned, contact.state, plan.probe);
     }
-    centres.push_back(errors.measured(contact.centre, approach.outward, index, centres.size()));
+    centres.push_back(errors.measured(
+        {contact.centre, approach.outward, point_index(index, centres.size()), planned.scanned}));
     sections.push_back(planned.section);
   }
-  return fit_feature(feature, centres, sections, ball_radius);
+  return fit_feature(feature, centres, sections, errors.ball_radius(ball_radius));
 }
 
 // In the order of the plan; empty for a plan without datum system.
 Result<std::vector<FittedFeature>> probed_datum_features(const InspectionPlan& plan,
                                                          const Pose& workpiece_from_datum,
                                                          const SurfaceProbeRef& part,
-                                                         const ErrorField& errors) {
+                                                         const CmmErrors& errors) {
   std::vector<FittedFeature> features;
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (!is_datum_feature(plan, plan.features[i])) continue;
@@ -112,17 +83,9 @@ std::vector<std::string> names_of(const InspectionPlan& plan) {
 
 }  // namespace
 
-CmmModel read_cmm_model(const TomlTable& table) {
-  CmmModel cmm;
-  cmm.e0_mm = table.length_or("e0", {}, Bound::non_negative).value;
-  if (table.has("l_per_um")) cmm.length_per_error = table.number("l_per_um", Bound::positive);
-  cmm.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Bound::non_negative));
-  return cmm;
-}
-
 Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm) {
   if (Diagnostics faults = check(plan); has_error(faults)) return faults;
-  const ErrorField errors(cmm);
+  const CmmErrors errors(cmm);
   Pose workpiece_from_datum;
   auto datum_features = probed_datum_features(plan, workpiece_from_datum, part, errors);
   // A part that lies askew is aligned first and measured then, as on a real machine: three rounds

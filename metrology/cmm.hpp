@@ -15,32 +15,17 @@
 // Source   : ISO 10360-2 for the form of E; Bossoni 2010, appendix A.4 for the datum system
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/result.hpp"
-#include "core/toml_document.hpp"
+#include "metrology/cmm_model.hpp"
 #include "metrology/inspection_plan.hpp"
 #include "metrology/measurement.hpp"
 #include "metrology/surface_probe.hpp"
 
 namespace frustum::metrology {
-
-// E = e0 + L / length_per_error. The default is an ideal machine: no error at all.
-struct CmmModel {
-  double e0_mm = 0.0;
-  // mm of length per um of error; absent: no scale errors
-  std::optional<double> length_per_error{};
-  std::uint64_t seed = 0;
-  std::uint32_t draw = 0;  // another measurement on the same machine
-};
-
-// Reads { e0 = "0.5 um", l_per_um = 600, seed = 1 } of a job file; all keys are optional. Mistakes
-// are noted in the table's document.
-[[nodiscard]] CmmModel read_cmm_model(const TomlTable& table);
 
 [[nodiscard]] Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part,
                                           const CmmModel& cmm = {});

@@ -17,6 +17,8 @@ ElementKind element_kind(FeatureKind kind) {
       return ElementKind::cone;
     case FeatureKind::circle:
       return ElementKind::circle;
+    case FeatureKind::sphere:
+      return ElementKind::sphere;
     case FeatureKind::line:
       break;
   }
@@ -73,9 +75,12 @@ Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vect
   FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
                         {},       fit->form,
                         fit->rms, std::move(fit->cofactor)};
-  const Vec3 axis = axis_of(centre_element)->vec();
-  const Vec3 line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
-  if (auto* line = std::get_if<Line>(&feature.element)) line->point -= ball_radius * line_normal;
+  Vec3 line_normal = Vec3::Zero();
+  if (auto* line = std::get_if<Line>(&feature.element)) {
+    const Vec3 axis = line->axis;
+    line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
+    line->point -= ball_radius * line_normal;
+  }
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Vec3 normal = planned.kind == FeatureKind::line
                             ? line_normal

@@ -20,16 +20,25 @@
 
 namespace frustum::metrology {
 
+// Where a touch is taken to lie: from the centre of the ball toward the fitted surface, or against the
+// approach, which leaves the cosine error where the surface is turned from its planned normal.
+enum class Compensation { fitted, approach };
+
 struct ProbeSettings {
   double ball_diameter = 3.0;  // mm
   double clearance = 2.0;      // mm: the approach starts so far off the nominal surface
   double reach = 2.0;          // mm: how far past the nominal surface it searches
+  Compensation compensation = Compensation::fitted;
 
   bool operator==(const ProbeSettings&) const = default;
 };
 
-enum class FeatureKind { plane, cylinder, cone, circle, line };
+enum class FeatureKind { plane, cylinder, cone, circle, line, sphere };
 enum class Side { outside, inside };  // a boss, probed from without; a hole, probed from within
+
+// Strategies take a number of points or, where `pitch` is greater than 0, a distance between points: the
+// number is 0 then, and so many points are taken that they lie no farther apart. `scan`: the ball
+// stays in contact from point to point, with a scanning probe's noise.
 
 // Circles around the axis of a cylinder, cone or circle.
 struct SectionStrategy {
@@ -37,6 +46,8 @@ struct SectionStrategy {
   int points_per_section = 36;
   double start_angle = 0.0;  // rad, right-handed about the axis from the zero direction
   double sweep = 2.0 * std::numbers::pi;  // rad; a full turn does not repeat its first point
+  double pitch = 0.0;                     // mm along the circle
+  bool scan = false;
 
   bool operator==(const SectionStrategy&) const = default;
 };
@@ -46,6 +57,8 @@ struct RingStrategy {
   int points_per_ring = 12;
   double start_angle = 0.0;               // rad
   double sweep = 2.0 * std::numbers::pi;  // rad
+  double pitch = 0.0;                     // mm along the ring
+  bool scan = false;
 
   bool operator==(const RingStrategy&) const = default;
 };
@@ -53,8 +66,10 @@ struct RingStrategy {
 struct GridStrategy {
   Vec3 u = Vec3::UnitX();  // mm, the whole side
   Vec3 v = Vec3::UnitY();
-  int columns = 3;  // along u
-  int rows = 3;     // along v
+  int columns = 3;     // along u
+  int rows = 3;        // along v
+  double pitch = 0.0;  // mm along u
+  bool scan = false;
 
   bool operator==(const GridStrategy&) const = default;
 };
@@ -63,10 +78,49 @@ struct LineStrategy {
   double from = 0.0;  // mm along the axis from `point`
   double to = 1.0;
   int points = 10;
+  double pitch = 0.0;  // mm
+  bool scan = false;
 
   bool operator==(const LineStrategy&) const = default;
 };
-using Strategy = std::variant<SectionStrategy, RingStrategy, GridStrategy, LineStrategy>;
+// Straight lines of a cylinder or cone, at equal angles; a line is a section.
+struct GeneratrixStrategy {
+  int generatrices = 4;
+  double from = 0.0;  // mm along the axis from `point`
+  double to = 1.0;
+  int points = 10;                        // on each
+  double start_angle = 0.0;               // rad
+  double sweep = 2.0 * std::numbers::pi;  // rad
+  double pitch = 0.0;                     // mm along the axis
+  bool scan = false;
+
+  bool operator==(const GeneratrixStrategy&) const = default;
+};
+// A helix on a cylinder or cone, from one height to the other; one section.
+struct SpiralStrategy {
+  double from = 0.0;  // mm along the axis from `point`
+  double to = 1.0;
+  double turns = 3.0;        // negative: left-handed
+  int points = 100;          // both ends included
+  double start_angle = 0.0;  // rad
+  double pitch = 0.0;        // mm along the helix, on its larger end
+  bool scan = false;
+
+  bool operator==(const SpiralStrategy&) const = default;
+};
+// Circles of latitude about the axis of a sphere, at equal steps of the angle from the axis; a circle is
+// a section. The default is the pattern of 25 points of ISO 10360-5.
+struct SphereStrategy {
+  std::vector<int> points{1, 4, 8, 4, 8};  // of each circle
+  double polar_from = 0.0;                 // rad from the axis
+  double polar_to = 0.5 * std::numbers::pi;
+  double start_angle = 0.0;               // rad, of the first circle
+  double twist = std::numbers::pi / 8.0;  // rad: each circle is turned by it against the one before
+
+  bool operator==(const SphereStrategy&) const = default;
+};
+using Strategy = std::variant<SectionStrategy, RingStrategy, GridStrategy, LineStrategy,
+                              GeneratrixStrategy, SpiralStrategy, SphereStrategy>;
 
 // How far the feature's surface reaches; deviation maps and orientation zones use it.
 struct AxialExtent {
@@ -94,11 +148,12 @@ struct PlannedFeature {
   std::string name{};
   FeatureKind kind = FeatureKind::plane;
   // Nominal geometry in the workpiece frame. Directions are kept as written, of any length.
-  Vec3 point = Vec3::Zero();    // on the axis, on the plane, centre of the circle
-  Vec3 axis = Vec3::UnitZ();    // plane: outward normal; cone: toward growing radius
-  double radius = 0.0;          // mm: cylinder, circle; cone: section radius, see below
-  double half_angle = 0.0;      // rad: cone
-  Side side = Side::outside;    // cylinder, cone, circle
+  Vec3 point = Vec3::Zero();  // on the axis, on the plane, centre of the circle or sphere
+  Vec3 axis =
+      Vec3::UnitZ();        // plane: outward normal; cone: toward growing radius; sphere: its pole
+  double radius = 0.0;      // mm: cylinder, circle, sphere; cone: section radius, see below
+  double half_angle = 0.0;  // rad: cone
+  Side side = Side::outside;    // cylinder, cone, circle, sphere
   Vec3 normal = Vec3::UnitX();  // line: outward normal of the surface it lies on
   // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of
   // X.

@@ -42,6 +42,8 @@ bool owns(const PlannedFeature& feature, const Vec3& point) {
       const double along = (point - feature.point).dot(unit(feature.axis).vec());
       return along >= extent.from - kEdge && along <= extent.to + kEdge;
     }
+    case FeatureKind::sphere:
+      return true;
     case FeatureKind::circle:
     case FeatureKind::line:
       break;
@@ -63,6 +65,8 @@ Element nominal_element(const PlannedFeature& feature) {
                   feature.half_angle};
     case FeatureKind::circle:
       return Circle{feature.point, axis, feature.radius};
+    case FeatureKind::sphere:
+      return Sphere{feature.point, feature.radius};
     case FeatureKind::line:
       break;
   }
@@ -70,8 +74,7 @@ Element nominal_element(const PlannedFeature& feature) {
 }
 
 double material_sign(const PlannedFeature& feature) {
-  const bool round = feature.kind == FeatureKind::cylinder || feature.kind == FeatureKind::cone ||
-                     feature.kind == FeatureKind::circle;
+  const bool round = feature.kind != FeatureKind::plane && feature.kind != FeatureKind::line;
   return round && feature.side == Side::inside ? -1.0 : 1.0;
 }
 
