@@ -11,7 +11,7 @@ namespace frustum::metrology {
 namespace {
 
 // Of the limit e0 + L/k the field keeps to this share; drift between measurements has the rest of L/k.
-constexpr double kFieldShare = 0.85;
+constexpr double kFieldShare = 0.9;
 constexpr double kDriftShare = 0.1;  // half width
 // So many standard deviations the noise of a length (two points) may reach before it passes the limit.
 constexpr double kNoiseReach = 4.5;
@@ -104,7 +104,7 @@ CmmErrors::CmmErrors(const CmmModel& cmm)
     const UnitVec3 pole = cmm_.stylus.value_or(Stylus{}).direction;
     const double systematic = worst_of_two(form_, pole, qualified(form_, pole, {}, 0.0));
     probing_share_ = systematic + kNoiseReach * std::sqrt(2.0) * probe_.repeatability;
-    const double left = std::max(0.95 * cmm_.e0_mm - probing_share_, kLeastShare * cmm_.e0_mm);
+    const double left = std::max(cmm_.e0_mm - probing_share_, kLeastShare * cmm_.e0_mm);
     geometry_ = GeometryField(cmm_.seed, cmm_.travel, {left, kFieldShare * slope_of(cmm_)});
   }
   start_measurement();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/random.hpp"
 #include "core/units.hpp"
 #include "metrology/cmm_errors.hpp"
 
@@ -114,7 +116,11 @@ ProbeErrors probe_errors(const CmmModel& cmm) {
   if (cmm.kind == CmmKind::linear) return {};
   // The sphere's form is about twice lobe and ball form, and the noise of 25 points four deviations.
   const double limit = probing_limit(cmm);
-  return {.lobe = 0.2 * limit,
+  // A lobe lies anywhere.
+  const RandomKey key{.seed = cmm.seed, .purpose = RandomPurpose::cmm_probe};
+  constexpr std::uint64_t kLobe = 1000;  // past the indices of the ball
+  return {.lobe = 0.25 * limit,
+          .lobe_phase = 2.0 * std::numbers::pi * uniform(key, kLobe),
           .ball_form = 0.05 * limit,
           .repeatability = 0.04 * limit,
           .scan_noise = 0.04 * limit};

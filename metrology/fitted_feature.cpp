@@ -110,6 +110,7 @@ MeasuredFeature summary(const FittedFeature& feature) {
   out.points = feature.points;
   out.form = feature.form;
   out.rms = feature.rms;
+  out.compensation_difference = feature.compensation_difference;
   std::visit(
       [&](const auto& e) {
         out.parameters["point"] = numbers(e.point);
