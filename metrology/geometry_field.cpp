@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/random.hpp"
 #include "metrology/legendre.hpp"
@@ -9,22 +10,7 @@
 namespace frustum::metrology {
 namespace {
 
-// Directions of the lengths: along the axes, the face diagonals and the space diagonals, in shares of
-// the travels.
-constexpr std::array<std::array<double, 3>, 13> kWays{{{1, 0, 0},
-                                                       {0, 1, 0},
-                                                       {0, 0, 1},
-                                                       {1, 1, 0},
-                                                       {1, -1, 0},
-                                                       {1, 0, 1},
-                                                       {1, 0, -1},
-                                                       {0, 1, 1},
-                                                       {0, 1, -1},
-                                                       {1, 1, 1},
-                                                       {-1, 1, 1},
-                                                       {1, -1, 1},
-                                                       {1, 1, -1}}};
-constexpr int kStations = 13;  // on each; 78 lengths between them
+constexpr int kStations = 5;  // along each axis, both ends included
 
 }  // namespace
 
@@ -34,7 +20,8 @@ GeometryField::GeometryField(std::uint64_t seed, const Vec3& travel, const Lengt
   is_zero_ = false;
   draw(seed);
   const RandomKey key{.seed = seed, .purpose = RandomPurpose::cmm_geometry};
-  const double share = 0.8 + 0.2 * uniform(key, 0);
+  // Between the points of the lattice a length may err a few percent more.
+  const double share = 0.85 + 0.1 * uniform(key, 0);
   scale(share / worst_ratio(limit));
 }
 
@@ -105,19 +92,24 @@ bool GeometryField::reaches(const Vec3& position) const {
 }
 
 double GeometryField::worst_ratio(const LengthLimit& limit) const {
-  double worst = 0.0;
-  for (const auto& way : kWays) {
-    const Vec3 end = half_travel_.cwiseProduct(Vec3(way[0], way[1], way[2]));
-    const Vec3 along = end.normalized();
-    std::array<double, kStations> places{};
-    std::array<double, kStations> errors{};
-    for (std::size_t i = 0; i < kStations; ++i) {
-      const double share = 2.0 * static_cast<double>(i) / (kStations - 1) - 1.0;
-      places[i] = share * end.norm();
-      errors[i] = at(share * end).dot(along);
-      for (std::size_t j = 0; j < i; ++j) {
-        worst = std::max(worst, std::abs(errors[i] - errors[j]) / limit.of(places[i] - places[j]));
+  std::vector<Vec3> places;
+  std::vector<Vec3> errors;
+  const auto station = [](int i) { return 2.0 * i / (kStations - 1) - 1.0; };
+  for (int i = 0; i < kStations; ++i) {
+    for (int j = 0; j < kStations; ++j) {
+      for (int k = 0; k < kStations; ++k) {
+        places.push_back(half_travel_.cwiseProduct(Vec3(station(i), station(j), station(k))));
+        errors.push_back(at(places.back()));
       }
+    }
+  }
+  double worst = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 apart = places[i] - places[j];
+      const double length = apart.norm();
+      const double error = (errors[i] - errors[j]).dot(apart) / length;
+      worst = std::max(worst, std::abs(error) / limit.of(length));
     }
   }
   return worst;
