@@ -20,8 +20,6 @@ class FeatureCheck {
       : plan_(plan), feature_(plan.features[index]), index_(index), fault_(fault) {}
 
   void run() const {
-    const bool round = feature_.kind == FeatureKind::cylinder ||
-                       feature_.kind == FeatureKind::cone || feature_.kind == FeatureKind::circle;
     if (!feature_.point.allFinite()) wrong("point", "must be three finite numbers");
     if (!UnitVec3::of(feature_.axis)) {
       wrong("axis", "must be a direction, is [0, 0, 0]");
@@ -30,7 +28,7 @@ class FeatureCheck {
     if (feature_.zero && !UnitVec3::of(feature_.zero->cross(feature_.axis))) {
       wrong("zero", "the direction where angles start must not lie along the axis");
     }
-    if (round) round_geometry();
+    if (is_round(feature_.kind)) round_geometry();
     if (feature_.kind == FeatureKind::line && !UnitVec3::of(feature_.normal.cross(feature_.axis))) {
       wrong("normal", "must point away from the surface, across the axis of the line");
     }
@@ -66,6 +64,10 @@ class FeatureCheck {
   void extent() const {
     if (std::holds_alternative<std::monostate>(feature_.extent)) return;
     const bool plane = feature_.kind == FeatureKind::plane;
+    if (feature_.kind == FeatureKind::point || feature_.kind == FeatureKind::sphere) {
+      wrong("extent", fmt::format("a {} has none", name_of(feature_.kind)));
+      return;
+    }
     const auto* axial = std::get_if<AxialExtent>(&feature_.extent);
     const auto* radial = std::get_if<RadialExtent>(&feature_.extent);
     const auto* rectangle = std::get_if<RectangleExtent>(&feature_.extent);
@@ -103,6 +105,10 @@ class FeatureCheck {
   }
 
   void strategy() const {
+    if (feature_.kind == FeatureKind::point) {
+      if (feature_.strategy != single_touch()) wrong("strategy", "a point is touched once");
+      return;
+    }
     const bool sections = std::holds_alternative<SectionStrategy>(feature_.strategy);
     const bool line = std::holds_alternative<LineStrategy>(feature_.strategy);
     const bool wants_sections =
@@ -135,8 +141,12 @@ class FeatureCheck {
       wrong("strategy", fmt::format("a {} needs {} or more different sections, planned are {}",
                                     name_of(feature_.kind), least, s.sections.size()));
     }
-    if (feature_.kind != FeatureKind::cone) return;
     for (const double along : s.sections) {
+      if (feature_.kind == FeatureKind::sphere && !(std::abs(along) < feature_.radius)) {
+        wrong("strategy", fmt::format("the section at {} mm lies beyond the pole", along),
+              "sections count from the centre toward the pole");
+      }
+      if (feature_.kind != FeatureKind::cone) continue;
       const double radius = feature_.radius + along * std::tan(feature_.half_angle);
       if (!(radius > 0.0)) {
         wrong("strategy", fmt::format("the section at {} mm lies beyond the apex", along),

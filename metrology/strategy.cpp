@@ -29,6 +29,10 @@ class PointMaker {
     const double sign = material_sign(feature_);
     for (std::size_t section = 0; section < s.sections.size(); ++section) {
       const double along = s.sections[section];
+      if (feature_.kind == FeatureKind::sphere) {
+        add_latitude(s, section, sign);
+        continue;
+      }
       const double radius = feature_.radius + along * growth;
       for (int i = 0; i < s.points_per_section; ++i) {
         const Vec3 e = direction(angle_of(i, s.points_per_section, s.start_angle, s.sweep));
@@ -71,6 +75,15 @@ class PointMaker {
  private:
   [[nodiscard]] Vec3 direction(double angle) const {
     return std::cos(angle) * u_ + std::sin(angle) * v_;
+  }
+  void add_latitude(const SectionStrategy& s, std::size_t section, double sign) {
+    const double along = s.sections[section];
+    const double radius = std::sqrt(feature_.radius * feature_.radius - along * along);
+    for (int i = 0; i < s.points_per_section; ++i) {
+      const Vec3 e = direction(angle_of(i, s.points_per_section, s.start_angle, s.sweep));
+      const Vec3 from_centre = along * axis_.vec() + radius * e;
+      add(feature_.point + from_centre, sign * from_centre.normalized(), section);
+    }
   }
   void add(const Vec3& point, const Vec3& normal, std::size_t section) {
     points_.push_back({point, normal, section});
