@@ -33,14 +33,15 @@ struct ProbeSettings {
   bool operator==(const ProbeSettings&) const = default;
 };
 
-enum class FeatureKind { plane, cylinder, cone, circle, line, sphere };
+// A point is one touch on a surface, whose normal is its `axis`; it has no strategy.
+enum class FeatureKind { plane, cylinder, cone, circle, line, sphere, point };
 enum class Side { outside, inside };  // a boss, probed from without; a hole, probed from within
 
 // Strategies take a number of points or, where `pitch` is greater than 0, a distance between points: the
 // number is 0 then, and so many points are taken that they lie no farther apart. `scan`: the ball
 // stays in contact from point to point, with a scanning probe's noise.
 
-// Circles around the axis of a cylinder, cone or circle.
+// Circles around the axis of a cylinder, cone or circle; circles of latitude of a sphere.
 struct SectionStrategy {
   std::vector<double> sections{0.0};  // mm along the axis from `point`
   int points_per_section = 36;
@@ -148,11 +149,11 @@ struct PlannedFeature {
   std::string name{};
   FeatureKind kind = FeatureKind::plane;
   // Nominal geometry in the workpiece frame. Directions are kept as written, of any length.
-  Vec3 point = Vec3::Zero();  // on the axis, on the plane, centre of the circle or sphere
-  Vec3 axis =
-      Vec3::UnitZ();        // plane: outward normal; cone: toward growing radius; sphere: its pole
-  double radius = 0.0;      // mm: cylinder, circle, sphere; cone: section radius, see below
-  double half_angle = 0.0;  // rad: cone
+  Vec3 point = Vec3::Zero();    // on the axis, on the plane, centre of the circle
+  Vec3 axis = Vec3::UnitZ();    // plane, point: outward normal; cone: toward growing radius;
+                                // sphere: toward the pole
+  double radius = 0.0;          // mm: cylinder, circle, sphere; cone: section radius, see below
+  double half_angle = 0.0;      // rad: cone
   Side side = Side::outside;    // cylinder, cone, circle, sphere
   Vec3 normal = Vec3::UnitX();  // line: outward normal of the surface it lies on
   // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of
@@ -238,6 +239,10 @@ struct InspectionPlan {
 };
 
 [[nodiscard]] std::string_view name_of(FeatureKind kind);
+// Cylinder, cone, circle, sphere: what has a radius, and material within or around.
+[[nodiscard]] bool is_round(FeatureKind kind);
+// What a point of a plan is probed by: the one touch at its place.
+[[nodiscard]] Strategy single_touch();
 [[nodiscard]] std::string_view name_of(CharacteristicKind kind);
 // line_distance, line_angle: two lines against each other, along or about a direction.
 [[nodiscard]] bool compares_lines(CharacteristicKind kind);

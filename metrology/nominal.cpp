@@ -46,9 +46,10 @@ bool owns(const PlannedFeature& feature, const Vec3& point) {
       return true;
     case FeatureKind::circle:
     case FeatureKind::line:
+    case FeatureKind::point:
       break;
   }
-  return false;  // curves own no surface
+  return false;  // curves and points own no surface
 }
 
 }  // namespace
@@ -57,6 +58,7 @@ Element nominal_element(const PlannedFeature& feature) {
   const UnitVec3 axis = unit(feature.axis);
   switch (feature.kind) {
     case FeatureKind::plane:
+    case FeatureKind::point:
       return Plane{feature.point, axis};
     case FeatureKind::cylinder:
       return Cylinder{feature.point, axis, feature.radius};
@@ -74,8 +76,7 @@ Element nominal_element(const PlannedFeature& feature) {
 }
 
 double material_sign(const PlannedFeature& feature) {
-  const bool round = feature.kind != FeatureKind::plane && feature.kind != FeatureKind::line;
-  return round && feature.side == Side::inside ? -1.0 : 1.0;
+  return is_round(feature.kind) && feature.side == Side::inside ? -1.0 : 1.0;
 }
 
 std::optional<double> deviation_from_nominal(const InspectionPlan& plan, const Vec3& point,

@@ -19,7 +19,6 @@ class FeatureCheck {
       : plan_(plan), feature_(plan.features[index]), index_(index), fault_(fault) {}
 
   void run() const {
-    const bool round = feature_.kind != FeatureKind::plane && feature_.kind != FeatureKind::line;
     if (!feature_.point.allFinite()) wrong("point", "must be three finite numbers");
     if (!UnitVec3::of(feature_.axis)) {
       wrong("axis", "must be a direction, is [0, 0, 0]");
@@ -28,7 +27,7 @@ class FeatureCheck {
     if (feature_.zero && !UnitVec3::of(feature_.zero->cross(feature_.axis))) {
       wrong("zero", "the direction where angles start must not lie along the axis");
     }
-    if (round) round_geometry();
+    if (is_round(feature_.kind)) round_geometry();
     if (feature_.kind == FeatureKind::line && !UnitVec3::of(feature_.normal.cross(feature_.axis))) {
       wrong("normal", "must point away from the surface, across the axis of the line");
     }
@@ -64,12 +63,14 @@ class FeatureCheck {
   void extent() const {
     if (std::holds_alternative<std::monostate>(feature_.extent)) return;
     const bool plane = feature_.kind == FeatureKind::plane;
+    if (feature_.kind == FeatureKind::point || feature_.kind == FeatureKind::sphere) {
+      wrong("extent", fmt::format("a {} has none", name_of(feature_.kind)));
+      return;
+    }
     const auto* axial = std::get_if<AxialExtent>(&feature_.extent);
     const auto* radial = std::get_if<RadialExtent>(&feature_.extent);
     const auto* rectangle = std::get_if<RectangleExtent>(&feature_.extent);
-    if (feature_.kind == FeatureKind::sphere) {
-      wrong("extent", "a sphere has no extent", "leave it out");
-    } else if (plane == (axial != nullptr)) {
+    if (plane == (axial != nullptr)) {
       wrong("extent", fmt::format("this extent does not suit a {}", name_of(feature_.kind)),
             "plane: inner and outer, or u and v; others: from and to");
     } else if (axial != nullptr && !(axial->from < axial->to)) {

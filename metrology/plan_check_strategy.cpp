@@ -19,10 +19,14 @@ class StrategyCheck {
       : feature_(plan.features[index]), index_(index), fault_(fault) {}
 
   void run() const {
+    if (feature_.kind == FeatureKind::point) {
+      if (feature_.strategy != single_touch()) wrong("a point is touched once");
+      return;
+    }
     if (!has_suitable_strategy()) {
       wrong(fmt::format("this strategy does not suit a {}", name_of(feature_.kind)),
-            "plane: rings or grid; line: from, to, points; sphere: points of each circle; circle: "
-            "sections; others: sections, generatrices or turns");
+            "plane: rings or grid; line: from, to, points; sphere: points of each circle, or "
+            "sections; circle: sections; others: sections, generatrices or turns");
       return;
     }
     std::visit([this](const auto& s) { counts(s); }, feature_.strategy);
@@ -43,7 +47,9 @@ class StrategyCheck {
       case FeatureKind::line:
         return is_one_of(std::type_identity<LineStrategy>{});
       case FeatureKind::sphere:
-        return is_one_of(std::type_identity<SphereStrategy>{});
+        return is_one_of(std::type_identity<SphereStrategy>{},
+                         std::type_identity<SectionStrategy>{});
+      case FeatureKind::point:
       case FeatureKind::circle:
         return is_one_of(std::type_identity<SectionStrategy>{});
       case FeatureKind::cylinder:
@@ -68,16 +74,21 @@ class StrategyCheck {
     }
   }
 
-  // Both ends of generatrices and spirals; a cone must not end there.
+  // Both ends of generatrices and spirals.
   void ends(double from, double to) const {
     if (!std::isfinite(from) || !std::isfinite(to) || from == to) {
       wrong(fmt::format("from = {} and to = {} must be different heights", from, to));
     }
-    before_apex(from);
-    before_apex(to);
+    on_surface(from);
+    on_surface(to);
   }
 
-  void before_apex(double along) const {
+  // A cone ends at its apex, a sphere at its poles.
+  void on_surface(double along) const {
+    if (feature_.kind == FeatureKind::sphere && !(std::abs(along) < feature_.radius)) {
+      wrong(fmt::format("the section at {} mm lies beyond the pole", along),
+            "sections count from the centre toward the pole");
+    }
     if (feature_.kind == FeatureKind::cone && !(section_radius(feature_, along) > 0.0)) {
       wrong(fmt::format("the section at {} mm lies beyond the apex", along),
             "sections count from point toward growing radius");
@@ -105,7 +116,7 @@ class StrategyCheck {
     }
     double longest = 0.0;
     for (const double along : s.sections) {
-      before_apex(along);
+      on_surface(along);
       longest = std::max(longest, std::abs(s.sweep) * section_radius(feature_, along));
     }
     spacing("points_per_section", s.points_per_section, s, longest);

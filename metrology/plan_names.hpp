@@ -9,8 +9,8 @@
 
 namespace frustum::metrology {
 
-inline constexpr std::array<std::string_view, 6> kFeatureNames{"plane",  "cylinder", "cone",
-                                                               "circle", "line",     "sphere"};
+inline constexpr std::array<std::string_view, 7> kFeatureNames{
+    "plane", "cylinder", "cone", "circle", "line", "sphere", "point"};
 inline constexpr std::array<std::string_view, 2> kSideNames{"outside", "inside"};
 inline constexpr std::array<std::string_view, 2> kCompensationNames{"fitted", "approach"};
 inline constexpr std::array<std::string_view, 2> kAlignmentNames{"datum", "plan"};

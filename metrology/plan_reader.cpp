@@ -96,7 +96,7 @@ Strategy read_strategy(const TomlTable& table, FeatureKind kind) {
     read_spacing(table, "points", s.points, s);
     return s;
   }
-  if (kind == FeatureKind::sphere) return read_sphere_strategy(table);
+  if (kind == FeatureKind::sphere && !table.has("sections")) return read_sphere_strategy(table);
   if (kind != FeatureKind::plane) return read_round_strategy(table);
   if (table.has("u") || table.has("v")) {
     GridStrategy s{table.vector("u"), table.vector("v")};
@@ -127,20 +127,24 @@ PlannedFeature read_feature(const TomlTable& table) {
   f.name = table.text("name");
   f.kind = static_cast<FeatureKind>(table.choice("kind", words(kFeatureNames)));
   f.point = table.vector("point");
-  // A sphere's axis only turns its points.
-  f.axis = f.kind == FeatureKind::sphere ? table.vector_or("axis", f.axis) : table.vector("axis");
-  if (f.kind == FeatureKind::cylinder || f.kind == FeatureKind::circle ||
-      f.kind == FeatureKind::sphere) {
+  // A sphere needs a pole only to say where its sections lie.
+  f.axis =
+      f.kind == FeatureKind::sphere ? table.vector_or("axis", Vec3::UnitZ()) : table.vector("axis");
+  if (is_round(f.kind) && f.kind != FeatureKind::cone) {
     f.radius = table.length("radius", Bound::positive).value;
   }
   if (f.kind == FeatureKind::cone) {
     f.radius = table.length("section_radius", Bound::positive).value;
     f.half_angle = table.angle("half_angle", Bound::positive).value;
   }
+  if (f.kind == FeatureKind::point) {
+    f.strategy = single_touch();
+    return f;
+  }
   if (f.kind == FeatureKind::line) {
     f.normal = table.vector("normal");
   } else {
-    if (f.kind != FeatureKind::plane) {
+    if (is_round(f.kind)) {
       f.side = static_cast<Side>(table.choice_or("side", words(kSideNames), 0));
     }
     if (table.has("zero")) f.zero = table.vector("zero");

@@ -115,12 +115,14 @@ std::string text_of(const RectangleExtent& e) {
   return fmt::format("{{ u = {}, v = {} }}", vector(e.u), vector(e.v));
 }
 
-constexpr std::array<std::string_view, 6> kAxisMeaning{"outward normal",
-                                                       "along the axis",
-                                                       "along the axis, toward growing radius",
-                                                       "normal of the circle's plane",
-                                                       "along the line",
-                                                       "toward the first circle of points"};
+constexpr std::array<std::string_view, kFeatureNames.size()> kAxisMeaning{
+    "outward normal",
+    "along the axis",
+    "along the axis, toward growing radius",
+    "normal of the circle's plane",
+    "along the line",
+    "toward the pole",
+    "outward normal"};
 
 std::string text_of(const PlannedFeature& f) {
   std::string out = "\n[[feature]]\n";
@@ -133,18 +135,18 @@ std::string text_of(const PlannedFeature& f) {
   line("kind", toml_text(name_of(f.kind)));
   line("point", vector(f.point));
   line("axis", vector(f.axis), kAxisMeaning.at(static_cast<std::size_t>(f.kind)));
-  if (f.kind == FeatureKind::cylinder || f.kind == FeatureKind::circle ||
-      f.kind == FeatureKind::sphere) {
+  if (is_round(f.kind) && f.kind != FeatureKind::cone) {
     line("radius", fmt::format("{}", f.radius));
   }
   if (f.kind == FeatureKind::cone) {
     line("section_radius", fmt::format("{}", f.radius), "across the axis, in the section at point");
     line("half_angle", angle(f.half_angle));
   }
+  if (f.kind == FeatureKind::point) return out;
   if (f.kind == FeatureKind::line) {
     line("normal", vector(f.normal), "outward normal of the surface it lies on");
   } else {
-    if (f.kind != FeatureKind::plane) {
+    if (is_round(f.kind)) {
       line("side", toml_text(kSideNames.at(static_cast<std::size_t>(f.side))),
            f.side == Side::outside ? "a boss" : "a hole");
     }

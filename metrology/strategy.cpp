@@ -129,8 +129,13 @@ class PointMaker {
   static int on_line(int points, double pitch, double length, int least = 2) {
     return pitch > 0.0 ? points_for(length, pitch, false, least) : points;
   }
-  // A point of a cylinder, cone or circle.
+  // A point of a cylinder, cone, circle or sphere.
   void add_round(double along, double angle, std::size_t section) {
+    if (feature_.kind == FeatureKind::sphere) {
+      const Vec3 out = along * axis_.vec() + section_radius(feature_, along) * direction(angle);
+      add(feature_.point + out, material_sign(feature_) * out.normalized(), section);
+      return;
+    }
     const double growth = feature_.kind == FeatureKind::cone ? std::tan(feature_.half_angle) : 0.0;
     const Vec3 e = direction(angle);
     const Vec3 normal = (e - growth * axis_.vec()).normalized();
@@ -184,8 +189,13 @@ std::size_t section_count(const PlannedFeature& feature) {
 }
 
 double section_radius(const PlannedFeature& feature, double along) {
-  return feature.kind == FeatureKind::cone ? feature.radius + along * std::tan(feature.half_angle)
-                                           : feature.radius;
+  if (feature.kind == FeatureKind::cone) {
+    return feature.radius + along * std::tan(feature.half_angle);
+  }
+  if (feature.kind == FeatureKind::sphere) {
+    return std::sqrt(std::max(feature.radius * feature.radius - along * along, 0.0));
+  }
+  return feature.radius;
 }
 
 double spiral_length(const PlannedFeature& feature, const SpiralStrategy& s) {

@@ -23,7 +23,7 @@ struct PlannedPoint {
 [[nodiscard]] std::vector<PlannedPoint> planned_points(const PlannedFeature& feature);
 [[nodiscard]] std::size_t section_count(const PlannedFeature& feature);
 
-// Radius across the axis of a cylinder, cone or circle, `along` mm from its point.
+// Radius across the axis of a cylinder, cone, circle or sphere, `along` mm from its point.
 [[nodiscard]] double section_radius(const PlannedFeature& feature, double along);
 // mm; on its larger end all the way.
 [[nodiscard]] double spiral_length(const PlannedFeature& feature, const SpiralStrategy& s);
