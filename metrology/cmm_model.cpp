@@ -92,6 +92,14 @@ void read_field(const TomlTable& table, CmmModel& cmm) {
   }
 }
 
+void refuse_field_keys(const TomlTable& table) {
+  for (const char* key : {"p_form", "travel", "position"}) {
+    if (table.has(key)) {
+      table.fail(key, "belongs to a machine with a field", "write model = \"field\"");
+    }
+  }
+}
+
 // A probe that breaks the statement alone leaves no machine to draw.
 void check_budget(const TomlTable& table, const CmmModel& cmm) {
   if (cmm.kind != CmmKind::field || !(cmm.e0_mm > 0.0) || !table.is_sound()) return;
@@ -132,7 +140,11 @@ CmmModel read_cmm_model(const TomlTable& table) {
   if (table.has("l_per_um")) cmm.length_per_error = table.number("l_per_um", Bound::positive);
   cmm.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Bound::non_negative));
   cmm.kind = static_cast<CmmKind>(table.choice_or("model", {"linear", "field"}, 0));
-  if (cmm.kind == CmmKind::field) read_field(table, cmm);
+  if (cmm.kind == CmmKind::field) {
+    read_field(table, cmm);
+  } else {
+    refuse_field_keys(table);
+  }
   if (const auto stylus = table.table_if("stylus")) cmm.stylus = read_stylus(*stylus);
   if (const auto probe = table.table_if("probe")) {
     cmm.probe = read_probe(*probe, probe_errors(cmm));

@@ -95,18 +95,16 @@ class StrategyCheck {
     }
   }
 
-  void sweep(double angle, int count) const {
+  void sweep(double angle, int count, std::string_view what = "points on a circle") const {
     // A hair over a full turn is rounding in the file.
     if (!(std::abs(angle) > 0.0) || std::abs(angle) > 2.0 * std::numbers::pi + 1e-9) {
       wrong(fmt::format("sweep must lie within one turn, is {:.6g} deg", angle * kDegPerRad));
     }
-    if (count != 0 && count < 3) {
-      wrong(fmt::format("at least 3 points on a circle, planned are {}", count));
-    }
+    if (count < 3) wrong(fmt::format("at least 3 {}, planned are {}", what, count));
   }
 
   void counts(const SectionStrategy& s) const {
-    sweep(s.sweep, s.points_per_section);
+    sweep(s.sweep, s.pitch > 0.0 ? 3 : s.points_per_section);
     const std::size_t least = feature_.kind == FeatureKind::circle ? 1 : 2;
     const bool distinct =
         std::set<double>(s.sections.begin(), s.sections.end()).size() == s.sections.size();
@@ -122,7 +120,7 @@ class StrategyCheck {
     spacing("points_per_section", s.points_per_section, s, longest);
   }
   void counts(const RingStrategy& s) const {
-    sweep(s.sweep, s.points_per_ring);
+    sweep(s.sweep, s.pitch > 0.0 ? 3 : s.points_per_ring);
     if (s.rings.empty() ||
         std::any_of(s.rings.begin(), s.rings.end(), [](double r) { return !(r > 0.0); })) {
       wrong("rings must be one or more radii greater than 0");
@@ -148,7 +146,7 @@ class StrategyCheck {
     spacing("points", s.points, s, std::abs(s.to - s.from));
   }
   void counts(const GeneratrixStrategy& s) const {
-    sweep(s.sweep, std::max(s.generatrices, 1));
+    sweep(s.sweep, s.generatrices, "generatrices");
     ends(s.from, s.to);
     if (s.pitch == 0.0 && s.points < 2) {
       wrong(fmt::format("at least 2 points on a line, planned are {}", s.points));
