@@ -37,6 +37,7 @@ void add_parse(CLI::App& program, int& exit_code);
 void add_post(CLI::App& program, int& exit_code);
 void add_pose(CLI::App& program, int& exit_code);
 void add_cut(CLI::App& program, int& exit_code);
+void add_cmm(CLI::App& program, int& exit_code);
 void add_measure(CLI::App& program, int& exit_code);
 void add_diff(CLI::App& program, int& exit_code);
 void add_compensate(CLI::App& program, int& exit_code);

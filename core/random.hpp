@@ -16,7 +16,14 @@ enum class RandomPurpose : std::uint32_t {
   cmm_point = 1,
   cmm_scale = 2,
   test_data = 3,
-  error_amount = 4
+  error_amount = 4,
+  cmm_geometry = 11,
+  cmm_probe = 12,
+  cmm_repeat = 13,
+  cmm_scan = 14,
+  cmm_qualification = 15,
+  cmm_drift = 16,
+  cmm_thermal = 17
 };
 
 struct RandomKey {

@@ -5,50 +5,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.hpp"
 #include "core/spelling.hpp"
 #include "metrology/ball_contact.hpp"
+#include "metrology/cmm_errors.hpp"
 #include "metrology/evaluation.hpp"
 #include "metrology/strategy.hpp"
+#include "metrology/stylus_collision.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-// The machine's errors of one measurement.
-class ErrorField {
- public:
-  explicit ErrorField(const CmmModel& cmm) : cmm_(cmm) {
-    if (!cmm.length_per_error) return;
-    const double deviation = 0.5e-3 / *cmm.length_per_error;  // mm per um to relative
-    const RandomKey key{.seed = cmm.seed, .draw = cmm.draw, .purpose = RandomPurpose::cmm_scale};
-    const auto term = [&](std::uint64_t index) { return deviation * normal(key, index); };
-    linear_ << term(0), term(3), term(4),  //
-        0.0, term(1), term(5),             //
-        0.0, 0.0, term(2);
-  }
-
-  [[nodiscard]] Vec3 measured(const Vec3& centre, const Vec3& approach, std::size_t feature,
-                              std::size_t point) const {
-    Vec3 seen = centre + linear_ * centre;
-    if (cmm_.e0_mm > 0.0) {
-      const RandomKey key{
-          .seed = cmm_.seed, .draw = cmm_.draw, .purpose = RandomPurpose::cmm_point};
-      const std::uint64_t index = (static_cast<std::uint64_t>(feature) << 32U) | point;
-      seen += 0.5 * cmm_.e0_mm * normal(key, index) * approach;
-    }
-    return seen;
-  }
-
- private:
-  const CmmModel& cmm_;
-  Mat3 linear_ = Mat3::Zero();
-};
+std::string place_of(const PlannedFeature& feature, std::size_t index,
+                     const PlannedPoint& planned) {
+  return fmt::format("feature '{}', point {} at [{:.3f}, {:.3f}, {:.3f}]", feature.name, index + 1,
+                     planned.point.x(), planned.point.y(), planned.point.z());
+}
 
 Diagnostic missed(const PlannedFeature& feature, std::size_t index, const PlannedPoint& planned,
                   ContactState state, const ProbeSettings& probe) {
-  const std::string place =
-      fmt::format("feature '{}', point {} at [{:.3f}, {:.3f}, {:.3f}]", feature.name, index + 1,
-                  planned.point.x(), planned.point.y(), planned.point.z());
+  const std::string place = place_of(feature, index, planned);
   if (state == ContactState::starts_inside) {
     return error(fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
                              "surface",
@@ -61,41 +36,94 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
       "check the nominal geometry and the blank, or enlarge probe.reach");
 }
 
-Result<FittedFeature> probed(const InspectionPlan& plan, std::size_t index,
-                             const Pose& workpiece_from_datum, const SurfaceProbeRef& part,
-                             const ErrorField& errors) {
-  const PlannedFeature& feature = plan.features[index];
-  const double ball_radius = 0.5 * plan.probe.ball_diameter;
-  std::vector<Vec3> centres;
-  std::vector<std::size_t> sections;
-  for (const PlannedPoint& planned : planned_points(feature)) {
-    const BallApproach approach{workpiece_from_datum.point(planned.point),
-                                unit(workpiece_from_datum.direction(planned.normal)), ball_radius,
-                                plan.probe.clearance, plan.probe.reach};
-    const BallContact contact = touch_with_ball(part, approach);
-    if (contact.state != ContactState::contact) {
-      return missed(feature, centres.size(), planned, contact.state, plan.probe);
-    }
-    centres.push_back(errors.measured(contact.centre, approach.outward, index, centres.size()));
-    sections.push_back(planned.section);
-  }
-  return fit_feature(feature, centres, sections, ball_radius);
-}
+// One measurement of a part: its features, and what the stylus ran into.
+class Probing {
+ public:
+  Probing(const InspectionPlan& plan, const SurfaceProbeRef& part, const CmmModel& cmm)
+      : plan_(plan),
+        part_(part),
+        stylus_(cmm.stylus),
+        errors_(cmm),
+        ball_radius_(0.5 * plan.probe.ball_diameter),
+        collisions_(plan.features.size()) {}
 
-// In the order of the plan; empty for a plan without datum system.
-Result<std::vector<FittedFeature>> probed_datum_features(const InspectionPlan& plan,
-                                                         const Pose& workpiece_from_datum,
-                                                         const SurfaceProbeRef& part,
-                                                         const ErrorField& errors) {
-  std::vector<FittedFeature> features;
-  for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (!is_datum_feature(plan, plan.features[i])) continue;
-    auto feature = probed(plan, i, workpiece_from_datum, part, errors);
-    if (!feature) return std::move(feature).error();
-    features.push_back(std::move(*feature));
+  Result<FittedFeature> feature(std::size_t index, const Pose& workpiece_from_datum) {
+    const PlannedFeature& feature = plan_.features[index];
+    std::vector<Vec3> centres;
+    std::vector<Vec3> outward;
+    std::vector<std::size_t> sections;
+    StylusFaults faults;
+    for (const PlannedPoint& planned : planned_points(feature)) {
+      const BallApproach approach{workpiece_from_datum.point(planned.point),
+                                  unit(workpiece_from_datum.direction(planned.normal)),
+                                  ball_radius_, plan_.probe.clearance, plan_.probe.reach};
+      const BallContact contact = touch_with_ball(part_, approach);
+      if (contact.state != ContactState::contact) {
+        return missed(feature, centres.size(), planned, contact.state, plan_.probe);
+      }
+      if (!errors_.reaches(contact.centre)) {
+        return error(fmt::format("{} lies beyond the machine's travel",
+                                 place_of(feature, centres.size(), planned)),
+                     "enlarge the cmm's travel, or move its position");
+      }
+      if (stylus_) {
+        faults.note(stylus_fault(part_, *stylus_, approach, contact.centre), centres.size());
+      }
+      centres.push_back(errors_.measured(
+          {contact.centre, approach.outward, point_index(index, centres.size()), planned.scanned}));
+      outward.push_back(approach.outward);
+      sections.push_back(planned.section);
+    }
+    collisions_[index] = faults.warning_for(feature.name, centres.size());
+    return fitted(feature, std::move(centres), outward, sections);
   }
-  return features;
-}
+
+  // In the order of the plan; empty for a plan without datum system.
+  Result<std::vector<FittedFeature>> datum_features(const Pose& workpiece_from_datum) {
+    std::vector<FittedFeature> features;
+    for (std::size_t i = 0; i < plan_.features.size(); ++i) {
+      if (!is_datum_feature(plan_, plan_.features[i])) continue;
+      auto found = feature(i, workpiece_from_datum);
+      if (!found) return std::move(found).error();
+      features.push_back(std::move(*found));
+    }
+    return features;
+  }
+
+  // Of each feature as it was probed last.
+  [[nodiscard]] Diagnostics collisions() const {
+    Diagnostics all;
+    for (const auto& collision : collisions_) {
+      if (collision) all.push_back(*collision);
+    }
+    return all;
+  }
+
+ private:
+  Result<FittedFeature> fitted(const PlannedFeature& feature, std::vector<Vec3> centres,
+                               const std::vector<Vec3>& outward,
+                               const std::vector<std::size_t>& sections) const {
+    const double radius = errors_.ball_radius(ball_radius_);
+    const bool by_approach = plan_.probe.compensation == Compensation::approach;
+    if (by_approach) {
+      for (std::size_t i = 0; i < centres.size(); ++i) centres[i] -= radius * outward[i];
+    }
+    auto fit = fit_feature(feature, centres, sections, by_approach ? 0.0 : radius);
+    if (!fit) return fit;
+    for (std::size_t i = 0; i < outward.size(); ++i) {
+      const double apart = radius * (1.0 - outward[i].dot(fit->points[i].normal));
+      fit->compensation_difference = std::max(fit->compensation_difference, apart);
+    }
+    return fit;
+  }
+
+  const InspectionPlan& plan_;
+  const SurfaceProbeRef& part_;
+  const std::optional<Stylus>& stylus_;
+  CmmErrors errors_;
+  double ball_radius_;
+  std::vector<std::optional<Diagnostic>> collisions_;
+};
 
 // True when probing along the planned lines would show: an oblique section of radius r is out of
 // round by r t^2 / 2, which is 0.25 nm for 50 mm and 1e-4 rad.
@@ -112,19 +140,16 @@ std::vector<std::string> names_of(const InspectionPlan& plan) {
 
 }  // namespace
 
-CmmModel read_cmm_model(const TomlTable& table) {
-  CmmModel cmm;
-  cmm.e0_mm = table.length_or("e0", {}, Bound::non_negative).value;
-  if (table.has("l_per_um")) cmm.length_per_error = table.number("l_per_um", Bound::positive);
-  cmm.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Bound::non_negative));
-  return cmm;
-}
-
 Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm) {
   if (Diagnostics faults = check(plan); has_error(faults)) return faults;
-  const ErrorField errors(cmm);
+  if (cmm.stylus && cmm.stylus->diameter >= plan.probe.ball_diameter) {
+    return error(fmt::format("a shank of {} mm behind a ball of {} mm touches before it",
+                             cmm.stylus->diameter, plan.probe.ball_diameter),
+                 "state a thinner cmm.stylus or a larger probe.ball_diameter");
+  }
+  Probing probing(plan, part, cmm);
   Pose workpiece_from_datum;
-  auto datum_features = probed_datum_features(plan, workpiece_from_datum, part, errors);
+  auto datum_features = probing.datum_features(workpiece_from_datum);
   // A part that lies askew is aligned first and measured then, as on a real machine: three rounds
   // bring an error of 1 deg below rounding.
   for (int round = 0; datum_features && round < 3; ++round) {
@@ -133,7 +158,7 @@ Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, co
     const bool askew = lies_askew(workpiece_from_datum.inverse() * *found);
     workpiece_from_datum = *found;
     if (!askew) break;
-    datum_features = probed_datum_features(plan, workpiece_from_datum, part, errors);
+    datum_features = probing.datum_features(workpiece_from_datum);
   }
   if (!datum_features) return std::move(datum_features).error();
   std::vector<FittedFeature> features;
@@ -143,11 +168,15 @@ Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, co
       features.push_back(std::move(*next_datum++));
       continue;
     }
-    auto feature = probed(plan, i, workpiece_from_datum, part, errors);
+    auto feature = probing.feature(i, workpiece_from_datum);
     if (!feature) return std::move(feature).error();
     features.push_back(std::move(*feature));
   }
-  return evaluated(plan, std::move(features), cmm);
+  auto measurement = evaluated(plan, std::move(features), cmm);
+  if (measurement) {
+    for (Diagnostic& d : probing.collisions()) measurement->diagnostics.push_back(std::move(d));
+  }
+  return measurement;
 }
 
 Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const FeaturePoints> features,

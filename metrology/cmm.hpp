@@ -1,46 +1,31 @@
 // Virtual coordinate measuring machine: probes a part by an inspection plan and evaluates it.
 //
 // Model    : a ball approaches each planned point along the nominal normal; its centre at contact
-//            is x + r n(x) on the approach line. Measurement errors are added to the centre: noise
-//            along the approach, standard deviation e0/2, and one linear field per measurement
-//            (three scale factors and three squareness terms, standard deviation 1/(2 k) each) as
-//            in E = e0 + L/k. Elements are fitted to ball centres and offset by the ball radius
-//            along the fitted normal. Datum features are probed first, again where the part lies
-//            askew, and the others are approached in the frame they give
+//            is x + r n(x) on the approach line. The machine's errors are added to the centre
+//            (cmm_errors.hpp). Elements are fitted to ball centres and offset by the qualified ball
+//            radius along the fitted normal, or to centres less the radius against the approach, as
+//            the plan's probe says. Datum features are probed first, again where the part lies askew,
+//            and the others are approached in the frame they give
 // Units    : mm, rad; everything in the workpiece frame of the plan
 // Shape    : one pass over all planned points; a pure function, safe to call from many threads
 // Errors   : a plan that cannot be measured (see inspection_plan.hpp), a point that meets no
-//            surface or starts inside material, a fit that fails; each names the feature
+//            surface, starts inside material or lies beyond the travels, a fit that fails; each names
+//            the feature. A stylus that runs into the part is a warning in the measurement
 // Accuracy : ball centre 1e-9 mm on smooth surfaces (tests/metrology/cmm_test.cpp)
-// Source   : ISO 10360-2 for the form of E; Bossoni 2010, appendix A.4 for the datum system
+// Source   : Bossoni 2010, appendix A.4 for the datum system
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/result.hpp"
-#include "core/toml_document.hpp"
+#include "metrology/cmm_model.hpp"
 #include "metrology/inspection_plan.hpp"
 #include "metrology/measurement.hpp"
 #include "metrology/surface_probe.hpp"
 
 namespace frustum::metrology {
-
-// E = e0 + L / length_per_error. The default is an ideal machine: no error at all.
-struct CmmModel {
-  double e0_mm = 0.0;
-  // mm of length per um of error; absent: no scale errors
-  std::optional<double> length_per_error{};
-  std::uint64_t seed = 0;
-  std::uint32_t draw = 0;  // another measurement on the same machine
-};
-
-// Reads { e0 = "0.5 um", l_per_um = 600, seed = 1 } of a job file; all keys are optional. Mistakes
-// are noted in the table's document.
-[[nodiscard]] CmmModel read_cmm_model(const TomlTable& table);
 
 [[nodiscard]] Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part,
                                           const CmmModel& cmm = {});

@@ -2,25 +2,47 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "metrology/nominal.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-ElementKind element_kind(FeatureKind kind) {
-  switch (kind) {
-    case FeatureKind::plane:
-      return ElementKind::plane;
-    case FeatureKind::cylinder:
-      return ElementKind::cylinder;
-    case FeatureKind::cone:
-      return ElementKind::cone;
-    case FeatureKind::circle:
-      return ElementKind::circle;
-    case FeatureKind::line:
-      break;
+// In the order of FeatureKind.
+constexpr std::array kElements{ElementKind::plane,  ElementKind::cylinder, ElementKind::cone,
+                               ElementKind::circle, ElementKind::line,     ElementKind::sphere,
+                               ElementKind::plane};
+
+// One touch tells a place along the planned normal and nothing else: a plane that keeps the planned
+// normal, through the mean of what was touched.
+Result<Fit<Element>> fit_touches(const PlannedFeature& planned, std::span<const Vec3> centres) {
+  if (centres.empty()) return error("no point given, 1 needed");
+  const UnitVec3 normal = unit(planned.axis);
+  const double count = static_cast<double>(centres.size());
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : centres) mean += p / count;
+  if (!mean.allFinite()) return error("a coordinate is not a finite number");
+  Fit<Element> fit;
+  fit.element = Plane{mean, normal};
+  for (const Vec3& p : centres) {
+    fit.residuals.push_back((p - mean).dot(normal.vec()));
+    fit.rms += fit.residuals.back() * fit.residuals.back() / count;
   }
-  return ElementKind::line;
+  fit.rms = std::sqrt(fit.rms);
+  const auto [low, high] = std::minmax_element(fit.residuals.begin(), fit.residuals.end());
+  fit.form = *high - *low;
+  fit.cofactor = Mat3::Zero();  // shift and tilts of a plane; the tilts are planned
+  fit.cofactor(0, 0) = 1.0 / count;
+  fit.covariance = Mat3::Zero();
+  return fit;
+}
+
+Result<Fit<Element>> fit_planned(const PlannedFeature& planned, std::span<const Vec3> centres) {
+  if (planned.kind == FeatureKind::point) return fit_touches(planned, centres);
+  return fit_element(kElements.at(static_cast<std::size_t>(planned.kind)), centres);
 }
 
 Element agreeing(Element element, const Vec3& direction) {
@@ -54,7 +76,7 @@ std::vector<Vec3> FittedFeature::all_points() const {
 
 Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vector<Vec3>& centres,
                                   const std::vector<std::size_t>& sections, double ball_radius) {
-  auto fit = fit_element(element_kind(planned.kind), centres);
+  auto fit = fit_planned(planned, centres);
   if (!fit) {
     Diagnostics failure = std::move(fit).error();
     for (Diagnostic& d : failure) {
@@ -73,9 +95,12 @@ Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vect
   FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
                         {},       fit->form,
                         fit->rms, std::move(fit->cofactor)};
-  const Vec3 axis = axis_of(centre_element)->vec();
-  const Vec3 line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
-  if (auto* line = std::get_if<Line>(&feature.element)) line->point -= ball_radius * line_normal;
+  Vec3 line_normal = Vec3::Zero();
+  if (auto* line = std::get_if<Line>(&feature.element)) {
+    const Vec3 axis = line->axis;
+    line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
+    line->point -= ball_radius * line_normal;
+  }
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Vec3 normal = planned.kind == FeatureKind::line
                             ? line_normal
@@ -105,6 +130,7 @@ MeasuredFeature summary(const FittedFeature& feature) {
   out.points = feature.points;
   out.form = feature.form;
   out.rms = feature.rms;
+  out.compensation_difference = feature.compensation_difference;
   std::visit(
       [&](const auto& e) {
         out.parameters["point"] = numbers(e.point);

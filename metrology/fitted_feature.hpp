@@ -24,7 +24,8 @@ struct FittedFeature {
   std::vector<MeasuredPoint> points{};
   double form = 0.0;
   double rms = 0.0;
-  Eigen::MatrixXd cofactor{};  // as least_squares.hpp
+  Eigen::MatrixXd cofactor{};            // as least_squares.hpp
+  double compensation_difference = 0.0;  // as MeasuredFeature
 
   [[nodiscard]] std::vector<Vec3> section(std::size_t index) const;
   [[nodiscard]] std::vector<Vec3> all_points() const;

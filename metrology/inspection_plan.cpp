@@ -7,6 +7,12 @@ namespace frustum::metrology {
 std::string_view name_of(FeatureKind kind) {
   return kFeatureNames.at(static_cast<std::size_t>(kind));
 }
+bool is_round(FeatureKind kind) {
+  return kind == FeatureKind::cylinder || kind == FeatureKind::cone ||
+         kind == FeatureKind::circle || kind == FeatureKind::sphere;
+}
+Strategy single_touch() { return RingStrategy{{0.0}, 1, 0.0, 2.0 * std::numbers::pi}; }
+
 std::string_view name_of(CharacteristicKind kind) {
   return kCharacteristicNames.at(static_cast<std::size_t>(kind));
 }

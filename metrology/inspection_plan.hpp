@@ -20,23 +20,35 @@
 
 namespace frustum::metrology {
 
+// Where a touch is taken to lie: from the centre of the ball toward the fitted surface, or against the
+// approach, which leaves the cosine error where the surface is turned from its planned normal.
+enum class Compensation { fitted, approach };
+
 struct ProbeSettings {
   double ball_diameter = 3.0;  // mm
   double clearance = 2.0;      // mm: the approach starts so far off the nominal surface
   double reach = 2.0;          // mm: how far past the nominal surface it searches
+  Compensation compensation = Compensation::fitted;
 
   bool operator==(const ProbeSettings&) const = default;
 };
 
-enum class FeatureKind { plane, cylinder, cone, circle, line };
+// A point is one touch on a surface, whose normal is its `axis`; it has no strategy.
+enum class FeatureKind { plane, cylinder, cone, circle, line, sphere, point };
 enum class Side { outside, inside };  // a boss, probed from without; a hole, probed from within
 
-// Circles around the axis of a cylinder, cone or circle.
+// Strategies take a number of points or, where `pitch` is greater than 0, a distance between points: the
+// number is 0 then, and so many points are taken that they lie no farther apart. `scan`: the ball
+// stays in contact from point to point, with a scanning probe's noise.
+
+// Circles around the axis of a cylinder, cone or circle; circles of latitude of a sphere.
 struct SectionStrategy {
   std::vector<double> sections{0.0};  // mm along the axis from `point`
   int points_per_section = 36;
   double start_angle = 0.0;  // rad, right-handed about the axis from the zero direction
   double sweep = 2.0 * std::numbers::pi;  // rad; a full turn does not repeat its first point
+  double pitch = 0.0;                     // mm along the circle
+  bool scan = false;
 
   bool operator==(const SectionStrategy&) const = default;
 };
@@ -46,6 +58,8 @@ struct RingStrategy {
   int points_per_ring = 12;
   double start_angle = 0.0;               // rad
   double sweep = 2.0 * std::numbers::pi;  // rad
+  double pitch = 0.0;                     // mm along the ring
+  bool scan = false;
 
   bool operator==(const RingStrategy&) const = default;
 };
@@ -53,8 +67,10 @@ struct RingStrategy {
 struct GridStrategy {
   Vec3 u = Vec3::UnitX();  // mm, the whole side
   Vec3 v = Vec3::UnitY();
-  int columns = 3;  // along u
-  int rows = 3;     // along v
+  int columns = 3;     // along u
+  int rows = 3;        // along v
+  double pitch = 0.0;  // mm along u
+  bool scan = false;
 
   bool operator==(const GridStrategy&) const = default;
 };
@@ -63,10 +79,49 @@ struct LineStrategy {
   double from = 0.0;  // mm along the axis from `point`
   double to = 1.0;
   int points = 10;
+  double pitch = 0.0;  // mm
+  bool scan = false;
 
   bool operator==(const LineStrategy&) const = default;
 };
-using Strategy = std::variant<SectionStrategy, RingStrategy, GridStrategy, LineStrategy>;
+// Straight lines of a cylinder or cone, at equal angles; a line is a section.
+struct GeneratrixStrategy {
+  int generatrices = 4;
+  double from = 0.0;  // mm along the axis from `point`
+  double to = 1.0;
+  int points = 10;                        // on each
+  double start_angle = 0.0;               // rad
+  double sweep = 2.0 * std::numbers::pi;  // rad
+  double pitch = 0.0;                     // mm along the axis
+  bool scan = false;
+
+  bool operator==(const GeneratrixStrategy&) const = default;
+};
+// A helix on a cylinder or cone, from one height to the other; one section.
+struct SpiralStrategy {
+  double from = 0.0;  // mm along the axis from `point`
+  double to = 1.0;
+  double turns = 3.0;        // negative: left-handed
+  int points = 100;          // both ends included
+  double start_angle = 0.0;  // rad
+  double pitch = 0.0;        // mm along the helix, on its larger end
+  bool scan = false;
+
+  bool operator==(const SpiralStrategy&) const = default;
+};
+// Circles of latitude about the axis of a sphere, at equal steps of the angle from the axis; a circle is
+// a section. The default is the pattern of 25 points of ISO 10360-5.
+struct SphereStrategy {
+  std::vector<int> points{1, 4, 8, 4, 8};  // of each circle
+  double polar_from = 0.0;                 // rad from the axis
+  double polar_to = 0.5 * std::numbers::pi;
+  double start_angle = 0.0;               // rad, of the first circle
+  double twist = std::numbers::pi / 8.0;  // rad: each circle is turned by it against the one before
+
+  bool operator==(const SphereStrategy&) const = default;
+};
+using Strategy = std::variant<SectionStrategy, RingStrategy, GridStrategy, LineStrategy,
+                              GeneratrixStrategy, SpiralStrategy, SphereStrategy>;
 
 // How far the feature's surface reaches; deviation maps and orientation zones use it.
 struct AxialExtent {
@@ -95,10 +150,11 @@ struct PlannedFeature {
   FeatureKind kind = FeatureKind::plane;
   // Nominal geometry in the workpiece frame. Directions are kept as written, of any length.
   Vec3 point = Vec3::Zero();    // on the axis, on the plane, centre of the circle
-  Vec3 axis = Vec3::UnitZ();    // plane: outward normal; cone: toward growing radius
-  double radius = 0.0;          // mm: cylinder, circle; cone: section radius, see below
+  Vec3 axis = Vec3::UnitZ();    // plane, point: outward normal; cone: toward growing radius;
+                                // sphere: toward the pole
+  double radius = 0.0;          // mm: cylinder, circle, sphere; cone: section radius, see below
   double half_angle = 0.0;      // rad: cone
-  Side side = Side::outside;    // cylinder, cone, circle
+  Side side = Side::outside;    // cylinder, cone, circle, sphere
   Vec3 normal = Vec3::UnitX();  // line: outward normal of the surface it lies on
   // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of
   // X.
@@ -183,6 +239,10 @@ struct InspectionPlan {
 };
 
 [[nodiscard]] std::string_view name_of(FeatureKind kind);
+// Cylinder, cone, circle, sphere: what has a radius, and material within or around.
+[[nodiscard]] bool is_round(FeatureKind kind);
+// What a point of a plan is probed by: the one touch at its place.
+[[nodiscard]] Strategy single_touch();
 [[nodiscard]] std::string_view name_of(CharacteristicKind kind);
 // line_distance, line_angle: two lines against each other, along or about a direction.
 [[nodiscard]] bool compares_lines(CharacteristicKind kind);

@@ -35,6 +35,9 @@ struct MeasuredFeature {
   std::map<std::string, std::vector<double>> parameters{};
   double form = 0.0;  // mm, peak to valley of the residuals
   double rms = 0.0;   // mm
+  // mm: how far the two ways to compensate the ball set a point apart at most, along the normal; only
+  // the virtual CMM knows its approaches.
+  double compensation_difference = 0.0;
 };
 
 // A measured line as compared with another one, for plots: what its surface lacks or has too much.

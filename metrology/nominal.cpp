@@ -42,11 +42,14 @@ bool owns(const PlannedFeature& feature, const Vec3& point) {
       const double along = (point - feature.point).dot(unit(feature.axis).vec());
       return along >= extent.from - kEdge && along <= extent.to + kEdge;
     }
+    case FeatureKind::sphere:
+      return true;
     case FeatureKind::circle:
     case FeatureKind::line:
+    case FeatureKind::point:
       break;
   }
-  return false;  // curves own no surface
+  return false;  // curves and points own no surface
 }
 
 }  // namespace
@@ -55,6 +58,7 @@ Element nominal_element(const PlannedFeature& feature) {
   const UnitVec3 axis = unit(feature.axis);
   switch (feature.kind) {
     case FeatureKind::plane:
+    case FeatureKind::point:
       return Plane{feature.point, axis};
     case FeatureKind::cylinder:
       return Cylinder{feature.point, axis, feature.radius};
@@ -63,6 +67,8 @@ Element nominal_element(const PlannedFeature& feature) {
                   feature.half_angle};
     case FeatureKind::circle:
       return Circle{feature.point, axis, feature.radius};
+    case FeatureKind::sphere:
+      return Sphere{feature.point, feature.radius};
     case FeatureKind::line:
       break;
   }
@@ -70,9 +76,7 @@ Element nominal_element(const PlannedFeature& feature) {
 }
 
 double material_sign(const PlannedFeature& feature) {
-  const bool round = feature.kind == FeatureKind::cylinder || feature.kind == FeatureKind::cone ||
-                     feature.kind == FeatureKind::circle;
-  return round && feature.side == Side::inside ? -1.0 : 1.0;
+  return is_round(feature.kind) && feature.side == Side::inside ? -1.0 : 1.0;
 }
 
 std::optional<double> deviation_from_nominal(const InspectionPlan& plan, const Vec3& point,

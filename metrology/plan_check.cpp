@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/spelling.hpp"
 #include "metrology/element.hpp"
@@ -20,8 +19,6 @@ class FeatureCheck {
       : plan_(plan), feature_(plan.features[index]), index_(index), fault_(fault) {}
 
   void run() const {
-    const bool round = feature_.kind == FeatureKind::cylinder ||
-                       feature_.kind == FeatureKind::cone || feature_.kind == FeatureKind::circle;
     if (!feature_.point.allFinite()) wrong("point", "must be three finite numbers");
     if (!UnitVec3::of(feature_.axis)) {
       wrong("axis", "must be a direction, is [0, 0, 0]");
@@ -30,12 +27,12 @@ class FeatureCheck {
     if (feature_.zero && !UnitVec3::of(feature_.zero->cross(feature_.axis))) {
       wrong("zero", "the direction where angles start must not lie along the axis");
     }
-    if (round) round_geometry();
+    if (is_round(feature_.kind)) round_geometry();
     if (feature_.kind == FeatureKind::line && !UnitVec3::of(feature_.normal.cross(feature_.axis))) {
       wrong("normal", "must point away from the surface, across the axis of the line");
     }
     extent();
-    strategy();
+    check_strategy(plan_, index_, fault_);
   }
 
  private:
@@ -66,6 +63,10 @@ class FeatureCheck {
   void extent() const {
     if (std::holds_alternative<std::monostate>(feature_.extent)) return;
     const bool plane = feature_.kind == FeatureKind::plane;
+    if (feature_.kind == FeatureKind::point || feature_.kind == FeatureKind::sphere) {
+      wrong("extent", fmt::format("a {} has none", name_of(feature_.kind)));
+      return;
+    }
     const auto* axial = std::get_if<AxialExtent>(&feature_.extent);
     const auto* radial = std::get_if<RadialExtent>(&feature_.extent);
     const auto* rectangle = std::get_if<RectangleExtent>(&feature_.extent);
@@ -78,90 +79,14 @@ class FeatureCheck {
       wrong("extent", fmt::format("inner = {} must be less than outer = {}, neither negative",
                                   radial->inner, radial->outer));
     } else if (rectangle != nullptr) {
-      in_plane("extent", rectangle->u, rectangle->v);
+      if (const auto fault = fault_of_sides(feature_, rectangle->u, rectangle->v)) {
+        wrong("extent", fault->first, fault->second);
+      }
       // 1e-6 of the sides: a rectangle to the last um over a metre.
       if (std::abs(rectangle->u.dot(rectangle->v)) >
           1e-6 * rectangle->u.norm() * rectangle->v.norm()) {
         wrong("extent", "u and v must be perpendicular to each other");
       }
-    }
-  }
-
-  void in_plane(std::string_view key, const Vec3& u, const Vec3& v) const {
-    const UnitVec3 axis = unit(feature_.axis);
-    if (!UnitVec3::of(u.cross(v))) {
-      wrong(key, "u and v must span an area");
-      return;
-    }
-    for (const Vec3& side : {u, v}) {
-      // As above: what points are planned off the plane would be a systematic error.
-      if (std::abs(side.dot(axis.vec())) > 1e-6 * side.norm()) {
-        wrong(key, "u and v must lie in the plane", "make both perpendicular to axis");
-        return;
-      }
-    }
-  }
-
-  void strategy() const {
-    const bool sections = std::holds_alternative<SectionStrategy>(feature_.strategy);
-    const bool line = std::holds_alternative<LineStrategy>(feature_.strategy);
-    const bool wants_sections =
-        feature_.kind != FeatureKind::plane && feature_.kind != FeatureKind::line;
-    if (sections != wants_sections || line != (feature_.kind == FeatureKind::line)) {
-      wrong("strategy", fmt::format("this strategy does not suit a {}", name_of(feature_.kind)),
-            "plane: rings or grid; line: from, to, points; others: sections");
-      return;
-    }
-    std::visit([this](const auto& s) { counts(s); }, feature_.strategy);
-  }
-
-  void sweep(double angle, int count) const {
-    // A hair over a full turn is rounding in the file.
-    if (!(std::abs(angle) > 0.0) || std::abs(angle) > 2.0 * std::numbers::pi + 1e-9) {
-      wrong("strategy",
-            fmt::format("sweep must lie within one turn, is {:.6g} deg", angle * kDegPerRad));
-    }
-    if (count < 3) {
-      wrong("strategy", fmt::format("at least 3 points on a circle, planned are {}", count));
-    }
-  }
-
-  void counts(const SectionStrategy& s) const {
-    sweep(s.sweep, s.points_per_section);
-    const std::size_t least = feature_.kind == FeatureKind::circle ? 1 : 2;
-    const bool distinct =
-        std::set<double>(s.sections.begin(), s.sections.end()).size() == s.sections.size();
-    if (s.sections.size() < least || !distinct) {
-      wrong("strategy", fmt::format("a {} needs {} or more different sections, planned are {}",
-                                    name_of(feature_.kind), least, s.sections.size()));
-    }
-    if (feature_.kind != FeatureKind::cone) return;
-    for (const double along : s.sections) {
-      const double radius = feature_.radius + along * std::tan(feature_.half_angle);
-      if (!(radius > 0.0)) {
-        wrong("strategy", fmt::format("the section at {} mm lies beyond the apex", along),
-              "sections count from point toward growing radius");
-      }
-    }
-  }
-  void counts(const RingStrategy& s) const {
-    sweep(s.sweep, s.points_per_ring);
-    if (s.rings.empty() ||
-        std::any_of(s.rings.begin(), s.rings.end(), [](double r) { return !(r > 0.0); })) {
-      wrong("strategy", "rings must be one or more radii greater than 0");
-    }
-  }
-  void counts(const GridStrategy& s) const {
-    if (s.columns < 2 || s.rows < 2) {
-      wrong("strategy",
-            fmt::format("a grid needs 2 columns and 2 rows or more, planned are {} and {}",
-                        s.columns, s.rows));
-    }
-    in_plane("strategy", s.u, s.v);
-  }
-  void counts(const LineStrategy& s) const {
-    if (s.points < 2 || s.from == s.to) {
-      wrong("strategy", "a line needs 2 or more points at different places");
     }
   }
 

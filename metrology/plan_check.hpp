@@ -5,8 +5,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "metrology/inspection_plan.hpp"
 
@@ -36,5 +38,11 @@ void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault&
 // `first` and `second` are the two lines named, of the kind line.
 void check_line_pair(const InspectionPlan& plan, std::size_t index, const PlannedFeature& first,
                      const PlannedFeature& second, const PlanFault& fault);
+
+// A feature's strategy (plan_check_strategy.cpp). Its axis is a direction.
+void check_strategy(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);
+// Message and hint when the sides u and v do not span an area in the feature's plane.
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> fault_of_sides(
+    const PlannedFeature& feature, const Vec3& u, const Vec3& v);
 
 }  // namespace frustum::metrology

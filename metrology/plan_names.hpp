@@ -9,9 +9,10 @@
 
 namespace frustum::metrology {
 
-inline constexpr std::array<std::string_view, 5> kFeatureNames{"plane", "cylinder", "cone",
-                                                               "circle", "line"};
+inline constexpr std::array<std::string_view, 7> kFeatureNames{
+    "plane", "cylinder", "cone", "circle", "line", "sphere", "point"};
 inline constexpr std::array<std::string_view, 2> kSideNames{"outside", "inside"};
+inline constexpr std::array<std::string_view, 2> kCompensationNames{"fitted", "approach"};
 inline constexpr std::array<std::string_view, 2> kAlignmentNames{"datum", "plan"};
 inline constexpr std::array<std::string_view, 13> kCharacteristicNames{
     "roundness",    "cylindricity",  "cone_form",     "equivalent_cone_form", "flatness",

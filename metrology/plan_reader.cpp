@@ -24,28 +24,90 @@ int count(const TomlTable& table, std::string_view key) {
 
 constexpr Rad kTurn{2.0 * std::numbers::pi};
 
-Strategy read_strategy(const TomlTable& table, FeatureKind kind) {
-  if (kind == FeatureKind::line) {
-    return LineStrategy{table.length("from").value, table.length("to").value,
-                        count(table, "points")};
+// The key `points` or, instead of it, `pitch`; and whether it is a scan.
+template <typename S>
+void read_spacing(const TomlTable& table, std::string_view points, int& number, S& s) {
+  number = 0;
+  if (table.has("pitch")) {
+    s.pitch = table.length("pitch", Bound::positive).value;
+    if (table.has(points)) {
+      table.fail("pitch", fmt::format("{} and pitch exclude each other", points));
+      static_cast<void>(count(table, points));
+    }
+  } else {
+    number = count(table, points);
   }
-  if (kind != FeatureKind::plane) {
-    SectionStrategy s;
-    s.sections = table.numbers("sections");
-    s.points_per_section = count(table, "points_per_section");
-    s.start_angle = table.angle_or("start_angle", {}).value;
-    s.sweep = table.angle_or("sweep", kTurn).value;
+  s.scan = table.boolean_or("scan", false);
+}
+
+template <typename S>
+void read_sweep(const TomlTable& table, S& s) {
+  s.start_angle = table.angle_or("start_angle", {}).value;
+  s.sweep = table.angle_or("sweep", kTurn).value;
+}
+
+SphereStrategy read_sphere_strategy(const TomlTable& table) {
+  SphereStrategy s;
+  s.points.clear();
+  for (const double value : table.numbers("points")) {
+    if (!(value >= 1.0 && value <= 1e6) || value != std::floor(value)) {
+      table.fail("points",
+                 fmt::format("a number of points is a whole number from 1, found {}", value));
+      break;
+    }
+    s.points.push_back(static_cast<int>(value));
+  }
+  s.polar_from = table.angle_or("polar_from", Rad{s.polar_from}).value;
+  s.polar_to = table.angle_or("polar_to", Rad{s.polar_to}).value;
+  s.start_angle = table.angle_or("start_angle", {}).value;
+  s.twist = table.angle_or("twist", Rad{s.twist}).value;
+  return s;
+}
+
+Strategy read_round_strategy(const TomlTable& table) {
+  if (table.has("generatrices")) {
+    GeneratrixStrategy s;
+    s.generatrices = count(table, "generatrices");
+    s.from = table.length("from").value;
+    s.to = table.length("to").value;
+    read_spacing(table, "points", s.points, s);
+    read_sweep(table, s);
     return s;
   }
+  if (table.has("turns")) {
+    SpiralStrategy s;
+    s.from = table.length("from").value;
+    s.to = table.length("to").value;
+    s.turns = table.number("turns");
+    read_spacing(table, "points", s.points, s);
+    s.start_angle = table.angle_or("start_angle", {}).value;
+    return s;
+  }
+  SectionStrategy s;
+  s.sections = table.numbers("sections");
+  read_spacing(table, "points_per_section", s.points_per_section, s);
+  read_sweep(table, s);
+  return s;
+}
+
+Strategy read_strategy(const TomlTable& table, FeatureKind kind) {
+  if (kind == FeatureKind::line) {
+    LineStrategy s{table.length("from").value, table.length("to").value};
+    read_spacing(table, "points", s.points, s);
+    return s;
+  }
+  if (kind == FeatureKind::sphere && !table.has("sections")) return read_sphere_strategy(table);
+  if (kind != FeatureKind::plane) return read_round_strategy(table);
   if (table.has("u") || table.has("v")) {
-    return GridStrategy{table.vector("u"), table.vector("v"), count(table, "columns"),
-                        count(table, "rows")};
+    GridStrategy s{table.vector("u"), table.vector("v")};
+    read_spacing(table, "columns", s.columns, s);
+    s.rows = count(table, "rows");
+    return s;
   }
   RingStrategy s;
   s.rings = table.numbers("rings");
-  s.points_per_ring = count(table, "points_per_ring");
-  s.start_angle = table.angle_or("start_angle", {}).value;
-  s.sweep = table.angle_or("sweep", kTurn).value;
+  read_spacing(table, "points_per_ring", s.points_per_ring, s);
+  read_sweep(table, s);
   return s;
 }
 
@@ -65,18 +127,24 @@ PlannedFeature read_feature(const TomlTable& table) {
   f.name = table.text("name");
   f.kind = static_cast<FeatureKind>(table.choice("kind", words(kFeatureNames)));
   f.point = table.vector("point");
-  f.axis = table.vector("axis");
-  if (f.kind == FeatureKind::cylinder || f.kind == FeatureKind::circle) {
+  // A sphere needs a pole only to say where its sections lie.
+  f.axis =
+      f.kind == FeatureKind::sphere ? table.vector_or("axis", Vec3::UnitZ()) : table.vector("axis");
+  if (is_round(f.kind) && f.kind != FeatureKind::cone) {
     f.radius = table.length("radius", Bound::positive).value;
   }
   if (f.kind == FeatureKind::cone) {
     f.radius = table.length("section_radius", Bound::positive).value;
     f.half_angle = table.angle("half_angle", Bound::positive).value;
   }
+  if (f.kind == FeatureKind::point) {
+    f.strategy = single_touch();
+    return f;
+  }
   if (f.kind == FeatureKind::line) {
     f.normal = table.vector("normal");
   } else {
-    if (f.kind != FeatureKind::plane) {
+    if (is_round(f.kind)) {
       f.side = static_cast<Side>(table.choice_or("side", words(kSideNames), 0));
     }
     if (table.has("zero")) f.zero = table.vector("zero");
@@ -152,6 +220,8 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
   plan.probe.clearance =
       probe.length_or("clearance", {plan.probe.clearance}, Bound::positive).value;
   plan.probe.reach = probe.length_or("reach", {plan.probe.reach}, Bound::positive).value;
+  plan.probe.compensation =
+      static_cast<Compensation>(probe.choice_or("compensation", words(kCompensationNames), 0));
   const auto datum = root.table_if("datum");
   if (datum) {
     plan.datum = DatumSystem{datum->text("primary"), datum->text("secondary"),

@@ -61,22 +61,47 @@ std::string toml_text(std::string_view text) {
 
 std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
+// "points = 12", or "pitch = 0.5", and "scan = true".
+template <typename S>
+std::string spacing(std::string_view points, int number, const S& s) {
+  return (s.pitch > 0.0 ? fmt::format("pitch = {}", s.pitch)
+                        : fmt::format("{} = {}", points, number)) +
+         (s.scan ? ", scan = true" : "");
+}
+
+template <typename S>
+std::string sweep(const S& s) {
+  return fmt::format("start_angle = {}, sweep = {}", angle(s.start_angle), angle(s.sweep));
+}
+
 std::string text_of(const SectionStrategy& s) {
-  return fmt::format("{{ sections = [{}], points_per_section = {}, start_angle = {}, sweep = {} }}",
-                     fmt::join(s.sections, ", "), s.points_per_section, angle(s.start_angle),
-                     angle(s.sweep));
+  return fmt::format("{{ sections = [{}], {}, {} }}", fmt::join(s.sections, ", "),
+                     spacing("points_per_section", s.points_per_section, s), sweep(s));
 }
 std::string text_of(const RingStrategy& s) {
-  return fmt::format("{{ rings = [{}], points_per_ring = {}, start_angle = {}, sweep = {} }}",
-                     fmt::join(s.rings, ", "), s.points_per_ring, angle(s.start_angle),
-                     angle(s.sweep));
+  return fmt::format("{{ rings = [{}], {}, {} }}", fmt::join(s.rings, ", "),
+                     spacing("points_per_ring", s.points_per_ring, s), sweep(s));
 }
 std::string text_of(const GridStrategy& s) {
-  return fmt::format("{{ u = {}, v = {}, columns = {}, rows = {} }}", vector(s.u), vector(s.v),
-                     s.columns, s.rows);
+  return fmt::format("{{ u = {}, v = {}, {}, rows = {} }}", vector(s.u), vector(s.v),
+                     spacing("columns", s.columns, s), s.rows);
 }
 std::string text_of(const LineStrategy& s) {
-  return fmt::format("{{ from = {}, to = {}, points = {} }}", s.from, s.to, s.points);
+  return fmt::format("{{ from = {}, to = {}, {} }}", s.from, s.to, spacing("points", s.points, s));
+}
+std::string text_of(const GeneratrixStrategy& s) {
+  return fmt::format("{{ generatrices = {}, from = {}, to = {}, {}, {} }}", s.generatrices, s.from,
+                     s.to, spacing("points", s.points, s), sweep(s));
+}
+std::string text_of(const SpiralStrategy& s) {
+  return fmt::format("{{ from = {}, to = {}, turns = {}, {}, start_angle = {} }}", s.from, s.to,
+                     s.turns, spacing("points", s.points, s), angle(s.start_angle));
+}
+std::string text_of(const SphereStrategy& s) {
+  return fmt::format(
+      "{{ points = [{}], polar_from = {}, polar_to = {}, start_angle = {}, twist = {} }}",
+      fmt::join(s.points, ", "), angle(s.polar_from), angle(s.polar_to), angle(s.start_angle),
+      angle(s.twist));
 }
 
 std::string text_of(const std::monostate&) { return {}; }
@@ -90,9 +115,14 @@ std::string text_of(const RectangleExtent& e) {
   return fmt::format("{{ u = {}, v = {} }}", vector(e.u), vector(e.v));
 }
 
-constexpr std::array<std::string_view, 5> kAxisMeaning{
-    "outward normal", "along the axis", "along the axis, toward growing radius",
-    "normal of the circle's plane", "along the line"};
+constexpr std::array<std::string_view, kFeatureNames.size()> kAxisMeaning{
+    "outward normal",
+    "along the axis",
+    "along the axis, toward growing radius",
+    "normal of the circle's plane",
+    "along the line",
+    "toward the pole",
+    "outward normal"};
 
 std::string text_of(const PlannedFeature& f) {
   std::string out = "\n[[feature]]\n";
@@ -105,17 +135,18 @@ std::string text_of(const PlannedFeature& f) {
   line("kind", toml_text(name_of(f.kind)));
   line("point", vector(f.point));
   line("axis", vector(f.axis), kAxisMeaning.at(static_cast<std::size_t>(f.kind)));
-  if (f.kind == FeatureKind::cylinder || f.kind == FeatureKind::circle) {
+  if (is_round(f.kind) && f.kind != FeatureKind::cone) {
     line("radius", fmt::format("{}", f.radius));
   }
   if (f.kind == FeatureKind::cone) {
     line("section_radius", fmt::format("{}", f.radius), "across the axis, in the section at point");
     line("half_angle", angle(f.half_angle));
   }
+  if (f.kind == FeatureKind::point) return out;
   if (f.kind == FeatureKind::line) {
     line("normal", vector(f.normal), "outward normal of the surface it lies on");
   } else {
-    if (f.kind != FeatureKind::plane) {
+    if (is_round(f.kind)) {
       line("side", toml_text(kSideNames.at(static_cast<std::size_t>(f.side))),
            f.side == Side::outside ? "a boss" : "a hole");
     }
@@ -173,6 +204,11 @@ std::string to_toml(const InspectionPlan& plan) {
   out += fmt::format("clearance = {}  # mm, where the approach starts\n", plan.probe.clearance);
   out += fmt::format("reach = {}  # mm, how far past the nominal surface it searches\n",
                      plan.probe.reach);
+  if (plan.probe.compensation != Compensation::fitted) {
+    out += fmt::format(
+        "compensation = {}  # surface points: centres less the radius against the approach\n",
+        toml_text(kCompensationNames.at(static_cast<std::size_t>(plan.probe.compensation))));
+  }
   if (plan.datum) {
     out += "\n[datum]\n";
     out += fmt::format("primary = {}  # Z: its outward normal\n", toml_text(plan.datum->primary));

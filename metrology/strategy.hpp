@@ -18,9 +18,15 @@ struct PlannedPoint {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();  // unit, out of the material
   std::size_t section = 0;
+  bool scanned = false;
 };
 [[nodiscard]] std::vector<PlannedPoint> planned_points(const PlannedFeature& feature);
 [[nodiscard]] std::size_t section_count(const PlannedFeature& feature);
+
+// Radius across the axis of a cylinder, cone, circle or sphere, `along` mm from its point.
+[[nodiscard]] double section_radius(const PlannedFeature& feature, double along);
+// mm; on its larger end all the way.
+[[nodiscard]] double spiral_length(const PlannedFeature& feature, const SpiralStrategy& s);
 
 // Unit vector perpendicular to the axis where angles about it start.
 [[nodiscard]] Vec3 zero_direction(const PlannedFeature& feature);

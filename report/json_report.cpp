@@ -40,6 +40,7 @@ Json feature_json(const metrology::MeasuredFeature& feature) {
   json["parameters"] = std::move(parameters);
   json["form"] = {{"value_um", number(feature.form * kUmPerMm)},
                   {"rms_um", number(feature.rms * kUmPerMm)}};
+  json["compensation_difference_um"] = number(feature.compensation_difference * kUmPerMm);
   return json;
 }
 

@@ -40,6 +40,19 @@ TEST(InspectionPlan, ReadsBackWhatItWrites) {
   bore.side = Side::inside;
   bore.zero = Vec3(1, 2, 3);
   plan.features.push_back(bore);
+  PlannedFeature ball;
+  ball.name = "ball";
+  ball.kind = FeatureKind::sphere;
+  ball.axis = {0, 1, 1};
+  ball.radius = 12.5;
+  ball.strategy = SectionStrategy{{-5.0, 0.0, 7.0}, 8};
+  plan.features.push_back(ball);
+  PlannedFeature stop;
+  stop.name = "stop";
+  stop.kind = FeatureKind::point;
+  stop.point = {1, 2, 3};
+  stop.strategy = single_touch();
+  plan.features.push_back(stop);
   plan.characteristics.push_back(
       {"straight", CharacteristicKind::straightness, {"generatrix"}, {}, 0.001});
   const std::string text = to_toml(plan);

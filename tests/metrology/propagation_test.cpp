@@ -14,7 +14,7 @@ namespace {
 
 using K = CharacteristicKind;
 
-constexpr CmmModel kCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
+const CmmModel kCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
 
 // The step part with everything that may correlate: shared lines and floors, a leaning wall as
 // reference, no frame at all, the flatness of a floor.
