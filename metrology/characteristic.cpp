@@ -8,22 +8,14 @@
 #include "metrology/line_comparison.hpp"
 #include "metrology/strategy.hpp"
 #include "metrology/uncertainty.hpp"
+#include "metrology/zone.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-double angle_of(const Vec3& w, const AngleFrame& frame) {
-  const double angle = std::atan2(w.dot(frame.axis.vec().cross(frame.zero)), w.dot(frame.zero));
-  return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
-}
-
 double peak_to_valley(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
-}
-
-AngleFrame angle_frame(const FittedFeature& feature) {
-  return {unit(feature.planned->axis), zero_direction(*feature.planned)};
 }
 
 // Everything a characteristic is made of, in mm and rad.
@@ -76,7 +68,7 @@ class Evaluation {
         return lines();
       case CharacteristicKind::radius:
         return size(1.0);
-      case CharacteristicKind::diameter:
+      default:
         break;
     }
     return size(2.0);
@@ -182,6 +174,8 @@ class Evaluation {
       radius = cone->section_radius(along);
     } else if (const auto* cylinder = std::get_if<Cylinder>(&feature.element)) {
       radius = cylinder->radius;
+    } else if (const auto* sphere = std::get_if<Sphere>(&feature.element)) {
+      radius = sphere->radius;
     } else {
       radius = std::get<Circle>(feature.element).radius;
     }
@@ -198,6 +192,44 @@ class Evaluation {
   double line_uncertainty_;
   PointUncertainty u_;
 };
+
+// How a zone is found; nothing for what Evaluation finds.
+using ZoneOf = Result<Zone> (*)(const Toleranced&);
+ZoneOf zone_of(const PlannedCharacteristic& planned, const FittedFeature& feature) {
+  const bool plain = planned.criterion == Criterion::least_squares && !planned.parameter &&
+                     !planned.filter && planned.harmonics == 0;
+  switch (planned.kind) {
+    case CharacteristicKind::roundness:
+    case CharacteristicKind::cylindricity:
+    case CharacteristicKind::cone_form:
+    case CharacteristicKind::flatness:
+      return plain ? nullptr : form_zone;
+    case CharacteristicKind::straightness:
+      return plain && feature.planned->kind == FeatureKind::line ? nullptr : form_zone;
+    case CharacteristicKind::axis_straightness:
+      return form_zone;
+    case CharacteristicKind::perpendicularity: {
+      const bool as_ever = plain && planned.features.size() == 2 &&
+                           planned.datum_criterion == Criterion::least_squares;
+      return as_ever ? nullptr : orientation_zone;
+    }
+    case CharacteristicKind::parallelism:
+    case CharacteristicKind::angularity:
+      return orientation_zone;
+    case CharacteristicKind::position:
+    case CharacteristicKind::coaxiality:
+    case CharacteristicKind::symmetry:
+      return location_zone;
+    case CharacteristicKind::circular_run_out:
+    case CharacteristicKind::total_run_out:
+      return run_out_zone;
+    case CharacteristicKind::line_profile:
+    case CharacteristicKind::surface_profile:
+      return profile_zone;
+    default:
+      return nullptr;
+  }
+}
 
 struct Unit {
   std::string_view name;
@@ -289,7 +321,18 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     }
     chosen.push_back(&*found);
   }
-  auto value = Evaluation(planned, std::move(chosen), in_datum, cmm, line_uncertainty)();
+  std::vector<Harmonic> harmonics;
+  const auto evaluated = [&]() -> Result<Value> {
+    const ZoneOf zone_finder = zone_of(planned, *chosen.front());
+    if (zone_finder == nullptr) {
+      return Evaluation(planned, chosen, in_datum, cmm, line_uncertainty)();
+    }
+    auto zone = zone_finder({planned, chosen, point_uncertainty(cmm)});
+    if (!zone) return std::move(zone).error();
+    harmonics = std::move(zone->harmonics);
+    return Value{zone->value, zone->uncertainty, {}, std::move(zone->profile), {}};
+  };
+  auto value = evaluated();
   if (!value) {
     Diagnostics failure = std::move(value).error();
     for (Diagnostic& d : failure) {
@@ -311,6 +354,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.plot_angle = std::move(value->profile.angle);
   result.plot_deviation = std::move(value->profile.deviation);
   result.profiles = std::move(value->lines);
+  result.harmonics = std::move(harmonics);
   return result;
 }
 

@@ -7,36 +7,12 @@
 #include <map>
 
 #include "metrology/characteristic.hpp"
-#include "metrology/datum.hpp"
+#include "metrology/datum_system.hpp"
 #include "metrology/influence.hpp"
-#include "metrology/nominal.hpp"
 #include "metrology/workpiece_frame.hpp"
 
 namespace frustum::metrology {
 namespace {
-
-// The datum frame from elements that `element_of` finds by feature name (null when there is none).
-template <typename ElementOf>
-Result<Pose> frame_of(const DatumSystem& datum, const Vec3& clocking, const ElementOf& element_of) {
-  const std::vector<std::string> names =
-      datum.tertiary.empty() ? std::vector{datum.primary, datum.secondary}
-                             : std::vector{datum.primary, datum.secondary, datum.tertiary};
-  std::vector<Element> elements;
-  for (const std::string& name : names) {
-    const std::optional<Element> element = element_of(name);
-    if (!element) {
-      return error(fmt::format("datum feature '{}' has no points", name),
-                   "measure it, or set alignment = \"plan\"");
-    }
-    elements.push_back(*element);
-  }
-  DatumElements parts;
-  parts.primary = std::get<Plane>(elements[0]);
-  parts.secondary = {point_of(elements[1]), *axis_of(elements[1])};
-  if (elements.size() == 3) parts.tertiary = std::get<Plane>(elements[2]);
-  parts.clocking = clocking;
-  return datum_frame(parts);
-}
 
 // The frames that characteristics ask for, each found once.
 class Frames {
@@ -77,45 +53,30 @@ bool uses_datum(const InspectionPlan& plan) {
 }
 
 bool is_datum_feature(const InspectionPlan& plan, const PlannedFeature& feature) {
-  return uses_datum(plan) &&
-         (feature.name == plan.datum->primary || feature.name == plan.datum->secondary ||
-          feature.name == plan.datum->tertiary);
+  if (!uses_datum(plan)) return false;
+  const std::vector<std::string> names = features_of(*plan.datum);
+  return std::find(names.begin(), names.end(), feature.name) != names.end();
 }
 
 Result<Pose> alignment_of(const InspectionPlan& plan, std::span<const FittedFeature> features) {
   if (!uses_datum(plan)) return Pose{};
-  const PlannedFeature* primary = find_feature(plan, plan.datum->primary);
-  // Without a tertiary the workpiece's Y is laid into the plane, or X where Y stands nearly upright
-  // on it (within 26 deg, cosine 0.9). The nominal plane decides, for both frames.
-  const Vec3 clocking = primary != nullptr && std::abs(unit(primary->axis).vec().y()) > 0.9
-                            ? Vec3(Vec3::UnitX())
-                            : Vec3(Vec3::UnitY());
-  const auto nominal =
-      frame_of(*plan.datum, clocking, [&](const std::string& name) -> std::optional<Element> {
-        const PlannedFeature* feature = find_feature(plan, name);
-        if (feature == nullptr) return std::nullopt;
-        return nominal_element(*feature);
-      });
-  if (!nominal) return nominal.error();
-  const auto measured =
-      frame_of(*plan.datum, clocking, [&](const std::string& name) -> std::optional<Element> {
-        for (const FittedFeature& f : features) {
-          if (f.planned->name == name) return f.element;
-        }
-        return std::nullopt;
-      });
-  if (!measured) return measured.error();
-  return *measured * nominal->inverse();
+  return found_datum(*plan.datum, features).transform([](FoundDatum&& found) {
+    return found.workpiece_from_datum;
+  });
 }
 
 Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeature> features,
                               const CmmModel& cmm) {
-  const auto workpiece_from_datum = alignment_of(plan, features);
-  if (!workpiece_from_datum) return workpiece_from_datum.error();
   Measurement measurement;
   measurement.title = plan.title;
-  measurement.workpiece_from_datum = *workpiece_from_datum;
-  const Pose datum_from_workpiece = workpiece_from_datum->inverse();
+  if (uses_datum(plan)) {
+    auto found = found_datum(*plan.datum, features);
+    if (!found) return std::move(found).error();
+    measurement.workpiece_from_datum = found->workpiece_from_datum;
+    measurement.datums = std::move(found->datums);
+    measurement.free_degrees = std::move(found->free_degrees);
+  }
+  const Pose datum_from_workpiece = measurement.workpiece_from_datum.inverse();
   std::vector<FittedFeature> in_datum;
   for (const FittedFeature& feature : features) {
     in_datum.push_back(transformed(datum_from_workpiece, feature));

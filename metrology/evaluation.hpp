@@ -5,7 +5,7 @@
 //            frame of the nominal ones, so it is the identity for a perfect part
 // Units    : mm, rad
 // Shape    : all features of a plan
-// Errors   : those of datum.hpp and characteristic.hpp; a datum feature without points
+// Errors   : those of datum_system.hpp and characteristic.hpp; a datum feature without points
 // Accuracy : that of the fits
 // Source   : Bossoni 2010, appendix A.4
 #pragma once

@@ -7,6 +7,7 @@
 //          feature and impossible strategy with file, line and key path
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "core/pose.hpp"
 #include "core/result.hpp"
+#include "metrology/association.hpp"
 
 namespace frustum::metrology {
 
@@ -168,16 +170,24 @@ struct PlannedFeature {
 // through `point`. Files call it section_radius. (A fitted Cone holds the orthogonal distance
 // instead.)
 
-// Z = outward normal of the primary plane; origin = axis of the secondary pierced with it; Y =
-// trace of the tertiary plane (a groove face) in the primary plane. Without a tertiary the plan's
-// own clocking stays.
+// By order of precedence: each datum takes the degrees of freedom that those before it left
+// (datum_system.hpp). Or, when best_fit names features, all of them at once: the planned geometry laid
+// into their points by least squares.
 struct DatumSystem {
   std::string primary{};
-  std::string secondary{};
-  std::string tertiary{};  // may be empty
+  std::string secondary{};  // may be empty, as may
+  std::string tertiary{};
+  // How a plane stands for its points: least_squares, or outside_material as it would touch a table.
+  Criterion criterion = Criterion::least_squares;
+  std::vector<std::string> best_fit{};
+  // Degrees that a best fit leaves as planned: of kDegreeNames.
+  std::vector<std::string> locked{};
 
   bool operator==(const DatumSystem&) const = default;
 };
+// Shift along and rotation about the axes of the workpiece frame.
+inline constexpr std::array<std::string_view, 6> kDegreeNames{"TX", "TY", "TZ", "RX", "RY", "RZ"};
+
 // A workpiece frame of its own for characteristics that name it. Z = outward normal of the
 // least-squares plane through all points of `planes`; X = along `line`, laid into that plane; the
 // origin keeps the planned height over that plane and the planned distance from the line. Seen from
@@ -211,6 +221,31 @@ enum class CharacteristicKind {
   // `point` of the first
   line_angle,  // features = [first, second], lines: angle of the second minus that of the first,
                // right-handed about `direction`, minus the planned one
+  // Zones of ISO 1101, defined in docs/characteristics.md. Where one feature is named instead of two
+  // or more, the datum is the plan's datum system.
+  axis_straightness,  // of the centres of the sections
+  parallelism,        // features = [toleranced, datum]
+  angularity,         // features = [toleranced, datum]
+  position,           // against its true position in the datum system or frame
+  coaxiality,         // features = [toleranced, datum, ...]: several datums make one common axis
+  symmetry,           // features = [toleranced, datum], either of them also a pair of faces
+  circular_run_out,   // features = [toleranced, datum, ...]: each section for itself
+  total_run_out,      // features = [toleranced, datum, ...]: the whole surface
+  line_profile,       // each section against the planned surface
+  surface_profile,    // all points of one feature or several against the planned surfaces
+};
+
+// Of a form: peak to valley, highest peak, deepest valley, root mean square (RONt, RONp, RONv, RONq).
+enum class FormParameter { t, p, v, q };
+
+// The undulations that count: cut-offs of Gaussian filters (gaussian_filter.hpp). 0: none there.
+struct ProfileFilter {
+  double upr = 0.0;          // closed profiles: more undulations per revolution are taken away
+  double upr_from = 0.0;     // and so are fewer than these
+  double cutoff = 0.0;       // mm, open profiles: shorter waves are taken away
+  double cutoff_long = 0.0;  // mm: and so are longer ones
+
+  bool operator==(const ProfileFilter&) const = default;
 };
 
 struct PlannedCharacteristic {
@@ -220,8 +255,16 @@ struct PlannedCharacteristic {
       features{};  // one; two for perpendicularity; one or two for concentricity
   std::vector<std::size_t> sections{};  // first = 0; empty: first (and last, for concentricity)
   double tolerance = 0.0;               // mm or rad: limit of the value, or of |value - nominal|
-  std::string frame{};                  // line kinds: evaluated in this frame; empty: as all others
+  std::string frame{};                  // evaluated in this frame; empty: as all others
   Vec3 direction = Vec3::Zero();        // line kinds: measured along it, or the angle about it
+  // How the toleranced element stands for its points: mz for the zone itself, mi and mc for fits.
+  Criterion criterion = Criterion::least_squares;
+  // Datums of orientation, coaxiality, symmetry and run-out: least_squares or outside_material.
+  Criterion datum_criterion = Criterion::least_squares;
+  std::optional<FormParameter> parameter{};  // of forms; absent: peak to valley
+  std::optional<ProfileFilter> filter{};     // roundness, straightness, circular run-out
+  int harmonics = 0;      // highest that is reported of a roundness or circular run-out
+  bool floating = false;  // profiles: the planned geometry is laid into the points first
 
   bool operator==(const PlannedCharacteristic&) const = default;
 };

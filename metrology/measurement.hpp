@@ -49,6 +49,13 @@ struct LineProfile {
   double fit_slope = 0.0;           // rad (mm per mm)
 };
 
+// amplitude cos(order angle - phase)
+struct Harmonic {
+  int order = 0;           // undulations per revolution
+  double amplitude = 0.0;  // mm
+  double phase = 0.0;      // rad
+};
+
 struct CharacteristicResult {
   std::string name{};
   std::string kind{};
@@ -65,6 +72,7 @@ struct CharacteristicResult {
   std::vector<double> plot_angle{};
   std::vector<double> plot_deviation{};
   std::vector<LineProfile> profiles{};  // of characteristics that compare lines: first, second
+  std::vector<Harmonic> harmonics{};    // of the plotted deviations, where the plan asks for them
 };
 
 // In mm or rad, from the unit of a characteristic: "um", "mm", "deg", "urad". Any other text means
@@ -74,10 +82,18 @@ struct CharacteristicResult {
 // Whether that is rad.
 [[nodiscard]] bool is_angle(const CharacteristicResult& characteristic);
 
+// The degrees of freedom of the workpiece that one datum took: of kDegreeNames.
+struct DatumShare {
+  std::string feature{};
+  std::vector<std::string> degrees{};
+};
+
 struct Measurement {
   std::string title{};
   // Where the datum system sits in the workpiece frame of the plan: workpiece_from_datum.
   Pose workpiece_from_datum{};
+  std::vector<DatumShare> datums{};         // in order of precedence
+  std::vector<std::string> free_degrees{};  // that no datum took: they stay as planned
   std::vector<MeasuredFeature> features{};
   std::vector<CharacteristicResult> characteristics{};
   Diagnostics diagnostics{};

@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/spelling.hpp"
+#include "metrology/datum_system.hpp"
 #include "metrology/element.hpp"
 #include "metrology/strategy.hpp"
 
@@ -108,120 +110,86 @@ std::string listed(const FeatureKinds& kinds) {
   return fmt::format("{}", fmt::join(names, " or "));
 }
 
+// Datums by order of precedence: each must take a degree of freedom.
+void check_precedence(const InspectionPlan& plan, const PlanFault& fault) {
+  using enum FeatureKind;
+  const DatumSystem& datum = *plan.datum;
+  constexpr std::array<std::string_view, 3> kKeys{"primary", "secondary", "tertiary"};
+  const std::array<const std::string*, 3> names{&datum.primary, &datum.secondary, &datum.tertiary};
+  bool sound = true;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto wrong = [&](std::string message, std::string hint) {
+      sound = false;
+      fault(PlanPart::datum, 0, kKeys[i], std::move(message), std::move(hint));
+    };
+    if (names[i]->empty()) {
+      if (i == 0) wrong("must not be empty", "name a feature, or write best_fit");
+      if (i == 1 && !datum.tertiary.empty()) wrong("a tertiary datum needs a secondary one", "");
+      continue;
+    }
+    const PlannedFeature* feature = suitable(
+        plan, *names[i], {plane, cylinder, cone, circle, line, sphere, point}, "a datum", wrong);
+    if (feature != nullptr && !UnitVec3::of(feature->axis)) sound = false;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (*names[j] == *names[i]) wrong(fmt::format("'{}' is named twice", *names[i]), "");
+    }
+  }
+  if (!sound) return;
+  const std::vector<DatumShare> shares = planned_shares(plan, datum);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (!shares[i].degrees.empty()) continue;
+    fault(PlanPart::datum, 0, kKeys[i],
+          fmt::format("'{}' takes no degree of freedom that the datums before it left",
+                      shares[i].feature),
+          "leave it out, or choose a feature that lies across them");
+  }
+}
+
+void check_best_fit(const InspectionPlan& plan, const PlanFault& fault) {
+  const DatumSystem& datum = *plan.datum;
+  const auto wrong = [&](std::string_view key, std::string message, std::string hint = {}) {
+    fault(PlanPart::datum, 0, key, std::move(message), std::move(hint));
+  };
+  if (!datum.primary.empty() || !datum.secondary.empty() || !datum.tertiary.empty()) {
+    wrong("best_fit", "excludes primary, secondary and tertiary");
+  }
+  if (datum.criterion != Criterion::least_squares) {
+    wrong("criterion", "a best fit is one of least squares", "leave it out");
+  }
+  for (std::size_t i = 0; i < datum.best_fit.size(); ++i) {
+    const std::string& name = datum.best_fit[i];
+    if (find_feature(plan, name) == nullptr) {
+      wrong("best_fit", fmt::format("the plan has no feature '{}'", name),
+            suggestion(name, feature_names(plan)));
+    }
+    if (std::find(datum.best_fit.begin(), datum.best_fit.begin() + static_cast<std::ptrdiff_t>(i),
+                  name) != datum.best_fit.begin() + static_cast<std::ptrdiff_t>(i)) {
+      wrong("best_fit", fmt::format("'{}' is named twice", name));
+    }
+  }
+}
+
 void check_datum(const InspectionPlan& plan, const PlanFault& fault) {
   const DatumSystem& datum = *plan.datum;
-  const auto named = [&](std::string_view key, const std::string& name, const FeatureKinds& kinds) {
-    return suitable(plan, name, kinds, fmt::format("the {} datum", key),
-                    [&](std::string message, std::string hint) {
-                      fault(PlanPart::datum, 0, key, std::move(message), std::move(hint));
-                    });
-  };
-  const PlannedFeature* primary = named("primary", datum.primary, {FeatureKind::plane});
-  const PlannedFeature* secondary =
-      named("secondary", datum.secondary, {FeatureKind::cylinder, FeatureKind::cone});
-  const PlannedFeature* tertiary = nullptr;
-  if (!datum.tertiary.empty()) tertiary = named("tertiary", datum.tertiary, {FeatureKind::plane});
-  if (primary == nullptr || !UnitVec3::of(primary->axis)) return;
-  const UnitVec3 z = unit(primary->axis);
-  if (secondary != nullptr && UnitVec3::of(secondary->axis) &&
-      std::abs(z.vec().dot(unit(secondary->axis).vec())) < kSlack) {
-    fault(PlanPart::datum, 0, "secondary", "its axis does not pierce the primary plane", "");
-  }
-  if (tertiary != nullptr && UnitVec3::of(tertiary->axis) &&
-      z.vec().cross(unit(tertiary->axis).vec()).norm() < kSlack) {
-    fault(PlanPart::datum, 0, "tertiary", "it is parallel to the primary plane", "");
-  }
-}
-
-FeatureKinds kinds_for(CharacteristicKind kind) {
-  using enum FeatureKind;
-  switch (kind) {
-    case CharacteristicKind::cylindricity:
-      return {cylinder};
-    case CharacteristicKind::cone_form:
-    case CharacteristicKind::equivalent_cone_form:
-    case CharacteristicKind::half_angle:
-      return {cone};
-    case CharacteristicKind::flatness:
-      return {plane};
-    case CharacteristicKind::straightness:
-    case CharacteristicKind::line_distance:
-    case CharacteristicKind::line_angle:
-      return {line};
-    case CharacteristicKind::concentricity:
-      return {cylinder, cone};
-    case CharacteristicKind::perpendicularity:
-      return {plane, cylinder, cone};
-    case CharacteristicKind::roundness:
-    case CharacteristicKind::radius:
-    case CharacteristicKind::diameter:
-      break;
-  }
-  return {cylinder, cone, circle};
-}
-
-void check_characteristic(const InspectionPlan& plan, std::size_t index, const PlanFault& fault) {
-  const PlannedCharacteristic& c = plan.characteristics[index];
   const auto wrong = [&](std::string_view key, std::string message, std::string hint = {}) {
-    fault(PlanPart::characteristic, index, key, std::move(message), std::move(hint));
+    fault(PlanPart::datum, 0, key, std::move(message), std::move(hint));
   };
-  if (c.name.empty()) wrong("name", "must not be empty");
-  for (std::size_t i = 0; i < index; ++i) {
-    if (plan.characteristics[i].name == c.name) {
-      wrong("name", fmt::format("'{}' names two characteristics", c.name));
+  if (datum.criterion != Criterion::least_squares &&
+      datum.criterion != Criterion::outside_material) {
+    wrong("criterion", "a datum is associated by \"ls\" or \"om\"");
+  }
+  for (const std::string& degree : datum.locked) {
+    if (std::find(kDegreeNames.begin(), kDegreeNames.end(), degree) == kDegreeNames.end()) {
+      wrong("locked", fmt::format("'{}' is not a degree of freedom", degree),
+            "TX, TY, TZ: shifts along the axes of the workpiece; RX, RY, RZ: rotations about them");
     }
   }
-  if (!(c.tolerance > 0.0)) wrong("tolerance", "must be greater than 0");
-  const bool lines = compares_lines(c.kind);
-  const bool pair = lines || c.kind == CharacteristicKind::perpendicularity;
-  const bool maybe_pair = c.kind == CharacteristicKind::concentricity;
-  if (c.features.empty() || (pair && c.features.size() != 2) || c.features.size() > 2 ||
-      (!pair && !maybe_pair && c.features.size() != 1)) {
-    wrong("features", fmt::format("a {} takes {}, named are {}", name_of(c.kind),
-                                  lines        ? "two lines: first, second"
-                                  : pair       ? "two features: toleranced, datum"
-                                  : maybe_pair ? "one feature or two"
-                                               : "one feature",
-                                  c.features.size()));
+  if (!datum.best_fit.empty()) {
+    check_best_fit(plan, fault);
     return;
   }
-  std::vector<const PlannedFeature*> features;
-  for (const std::string& name : c.features) {
-    features.push_back(suitable(plan, name, kinds_for(c.kind), fmt::format("a {}", name_of(c.kind)),
-                                [&](std::string message, std::string hint) {
-                                  wrong(c.features.size() == 1 ? "feature" : "features",
-                                        std::move(message), std::move(hint));
-                                }));
-    if (features.back() == nullptr) return;
-  }
-  if (lines) {
-    check_line_pair(plan, index, *features[0], *features[1], fault);
-  } else {
-    const std::string only = "only line_distance and line_angle take one";
-    if (!c.frame.empty()) wrong("frame", fmt::format("not for a {}", name_of(c.kind)), only);
-    if (c.direction != Vec3::Zero()) {
-      wrong("direction", fmt::format("not for a {}", name_of(c.kind)), only);
-    }
-  }
-  const std::size_t most = maybe_pair ? 2 : 1;
-  const bool takes_sections = maybe_pair || c.kind == CharacteristicKind::roundness ||
-                              c.kind == CharacteristicKind::equivalent_cone_form;
-  if (!takes_sections && !c.sections.empty()) {
-    wrong("section", fmt::format("a {} concerns the whole feature", name_of(c.kind)));
-  } else if (!c.sections.empty() && c.sections.size() != most) {
-    wrong("sections", fmt::format("a {} takes {} section{}, named are {}", name_of(c.kind), most,
-                                  most == 1 ? "" : "s", c.sections.size()));
-  } else {
-    for (std::size_t i = 0; i < c.sections.size(); ++i) {
-      const PlannedFeature& feature = *features[std::min(i, features.size() - 1)];
-      if (c.sections[i] >= section_count(feature)) {
-        wrong(most == 1 ? "section" : "sections",
-              fmt::format("'{}' has {} sections, there is no section {}", feature.name,
-                          section_count(feature), c.sections[i]),
-              "the first section is 0");
-      }
-    }
-  }
+  if (!datum.locked.empty()) wrong("locked", "only a best_fit has locked degrees");
+  check_precedence(plan, fault);
 }
 
 std::string key_path(PlanPart part, std::size_t index, std::string_view key) {

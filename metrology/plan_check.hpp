@@ -33,6 +33,10 @@ using FeatureKinds = std::vector<FeatureKind>;
     const InspectionPlan& plan, const std::string& name, const FeatureKinds& kinds,
     std::string_view purpose, const std::function<void(std::string, std::string)>& fault);
 
+// A characteristic: its features, and whether it takes the keys it has
+// (plan_check_characteristic.cpp).
+void check_characteristic(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);
+
 // Frames and characteristics that compare lines (plan_check_lines.cpp).
 void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);
 // `first` and `second` are the two lines named, of the kind line.

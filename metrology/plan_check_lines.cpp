@@ -90,11 +90,6 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
   const auto wrong = [&](std::string_view key, std::string message, std::string hint = {}) {
     fault(PlanPart::characteristic, index, key, std::move(message), std::move(hint));
   };
-  if (!c.frame.empty() && find_frame(plan, c.frame) == nullptr) {
-    std::vector<std::string> names;
-    for (const PlannedFrame& frame : plan.frames) names.push_back(frame.name);
-    wrong("frame", fmt::format("the plan has no frame '{}'", c.frame), suggestion(c.frame, names));
-  }
   if (&first == &second) wrong("features", fmt::format("'{}' is named twice", first.name));
   if (!UnitVec3::of(c.direction)) {
     wrong("direction", "must be a direction, three finite numbers, not all zero");

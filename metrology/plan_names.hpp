@@ -14,9 +14,19 @@ inline constexpr std::array<std::string_view, 7> kFeatureNames{
 inline constexpr std::array<std::string_view, 2> kSideNames{"outside", "inside"};
 inline constexpr std::array<std::string_view, 2> kCompensationNames{"fitted", "approach"};
 inline constexpr std::array<std::string_view, 2> kAlignmentNames{"datum", "plan"};
-inline constexpr std::array<std::string_view, 13> kCharacteristicNames{
-    "roundness",    "cylindricity",  "cone_form",     "equivalent_cone_form", "flatness",
-    "straightness", "half_angle",    "concentricity", "perpendicularity",     "radius",
-    "diameter",     "line_distance", "line_angle"};
+inline constexpr std::array<std::string_view, 23> kCharacteristicNames{
+    "roundness",        "cylindricity",
+    "cone_form",        "equivalent_cone_form",
+    "flatness",         "straightness",
+    "half_angle",       "concentricity",
+    "perpendicularity", "radius",
+    "diameter",         "line_distance",
+    "line_angle",       "axis_straightness",
+    "parallelism",      "angularity",
+    "position",         "coaxiality",
+    "symmetry",         "circular_run_out",
+    "total_run_out",    "line_profile",
+    "surface_profile"};
+inline constexpr std::array<std::string_view, 4> kParameterNames{"t", "p", "v", "q"};
 
 }  // namespace frustum::metrology

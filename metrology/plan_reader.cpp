@@ -182,6 +182,19 @@ std::vector<std::size_t> read_sections(const TomlTable& table) {
   return sections;
 }
 
+Criterion read_criterion(const TomlTable& table, std::string_view key) {
+  return static_cast<Criterion>(table.choice_or(key, words(kCriterionNames), 0));
+}
+
+ProfileFilter read_filter(const TomlTable& table) {
+  ProfileFilter filter;
+  filter.upr = table.number_or("upr", 0.0, Bound::positive);
+  filter.upr_from = table.number_or("upr_from", 0.0, Bound::positive);
+  filter.cutoff = table.length_or("cutoff", {}, Bound::positive).value;
+  filter.cutoff_long = table.length_or("cutoff_long", {}, Bound::positive).value;
+  return filter;
+}
+
 PlannedCharacteristic read_characteristic(const TomlTable& table) {
   PlannedCharacteristic c;
   c.name = table.text("name");
@@ -198,7 +211,33 @@ PlannedCharacteristic read_characteristic(const TomlTable& table) {
     if (c.frame.empty()) table.fail("frame", "must not be empty", "leave it out for none");
   }
   if (compares_lines(c.kind) || table.has("direction")) c.direction = table.vector("direction");
+  c.criterion = read_criterion(table, "criterion");
+  c.datum_criterion = read_criterion(table, "datum_criterion");
+  if (table.has("parameter")) {
+    c.parameter = static_cast<FormParameter>(table.choice("parameter", words(kParameterNames)));
+  }
+  if (const auto filter = table.table_if("filter")) c.filter = read_filter(*filter);
+  if (table.has("harmonics")) c.harmonics = count(table, "harmonics");
+  c.floating = table.boolean_or("floating", false);
   return c;
+}
+
+// `best_fit` = "all" names no features: the plan's are filled in when they are known.
+DatumSystem read_datum(const TomlTable& table) {
+  DatumSystem datum;
+  const bool best_fit = table.has("best_fit");
+  if (table.is_array("best_fit")) {
+    datum.best_fit = table.texts_or("best_fit", {});
+    if (datum.best_fit.empty()) table.fail("best_fit", "name one feature or more, or \"all\"");
+  } else if (best_fit && table.text("best_fit") != "all") {
+    table.fail("best_fit", "must be a list of features or \"all\"");
+  }
+  datum.primary = best_fit ? table.text_or("primary", "") : table.text("primary");
+  datum.secondary = table.text_or("secondary", "");
+  datum.tertiary = table.text_or("tertiary", "");
+  datum.criterion = read_criterion(table, "criterion");
+  datum.locked = table.texts_or("locked", {});
+  return datum;
 }
 
 PlannedFrame read_frame(const TomlTable& table) {
@@ -223,14 +262,15 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
   plan.probe.compensation =
       static_cast<Compensation>(probe.choice_or("compensation", words(kCompensationNames), 0));
   const auto datum = root.table_if("datum");
-  if (datum) {
-    plan.datum = DatumSystem{datum->text("primary"), datum->text("secondary"),
-                             datum->text_or("tertiary", "")};
-  }
+  if (datum) plan.datum = read_datum(*datum);
   const std::vector<TomlTable> frames = root.tables("frame");
   for (const TomlTable& table : frames) plan.frames.push_back(read_frame(table));
   const std::vector<TomlTable> features = root.tables("feature");
   for (const TomlTable& table : features) plan.features.push_back(read_feature(table));
+  if (datum && datum->has("best_fit") && plan.datum->best_fit.empty()) {
+    for (const PlannedFeature& feature : plan.features)
+      plan.datum->best_fit.push_back(feature.name);
+  }
   const std::vector<TomlTable> characteristics = root.tables("characteristic");
   for (const TomlTable& table : characteristics) {
     plan.characteristics.push_back(read_characteristic(table));

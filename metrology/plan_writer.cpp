@@ -172,6 +172,72 @@ std::string text_of(const PlannedFrame& f) {
       toml_text(f.name), fmt::join(toml_texts(f.planes), ", "), toml_text(f.line));
 }
 
+std::string text_of(const InspectionPlan& plan, const DatumSystem& datum) {
+  std::string out = "\n[datum]\n";
+  // What a plane and an axis across it give can be said in a word.
+  const auto is = [&](const std::string& name, FeatureKind kind) {
+    const PlannedFeature* feature = find_feature(plan, name);
+    return feature != nullptr && feature->kind == kind;
+  };
+  const bool plane_and_axis =
+      is(datum.primary, FeatureKind::plane) &&
+      (is(datum.secondary, FeatureKind::cylinder) || is(datum.secondary, FeatureKind::cone));
+  const auto line = [&](std::string_view key, const std::string& name, std::string_view comment) {
+    if (name.empty()) return;
+    out += fmt::format("{} = {}", key, toml_text(name));
+    if (plane_and_axis && !comment.empty()) out += fmt::format("  # {}", comment);
+    out += '\n';
+  };
+  line("primary", datum.primary, "Z: its outward normal");
+  line("secondary", datum.secondary, "origin: its axis pierced with the primary");
+  line("tertiary", datum.tertiary,
+       is(datum.tertiary, FeatureKind::plane) ? "Y: its trace in the primary" : "");
+  if (datum.criterion != Criterion::least_squares) {
+    out += fmt::format("criterion = {}\n", toml_text(name_of(datum.criterion)));
+  }
+  if (!datum.best_fit.empty()) {
+    out += fmt::format("best_fit = [{}]  # all at once, least squares\n",
+                       fmt::join(toml_texts(datum.best_fit), ", "));
+  }
+  if (!datum.locked.empty()) {
+    out += fmt::format("locked = [{}]  # as planned\n", fmt::join(toml_texts(datum.locked), ", "));
+  }
+  return out;
+}
+
+std::string text_of(const ProfileFilter& filter) {
+  std::vector<std::string> parts;
+  const auto part = [&](std::string_view key, double value, bool is_length) {
+    if (value == 0.0) return;
+    parts.push_back(is_length ? fmt::format("{} = \"{} mm\"", key, value)
+                              : fmt::format("{} = {}", key, value));
+  };
+  part("upr", filter.upr, false);
+  part("upr_from", filter.upr_from, false);
+  part("cutoff", filter.cutoff, true);
+  part("cutoff_long", filter.cutoff_long, true);
+  return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+}
+
+// The keys that say how a value is found, where they are not the usual ones.
+std::string text_of_evaluation(const PlannedCharacteristic& c) {
+  std::string out;
+  if (c.criterion != Criterion::least_squares) {
+    out += fmt::format("criterion = {}\n", toml_text(name_of(c.criterion)));
+  }
+  if (c.datum_criterion != Criterion::least_squares) {
+    out += fmt::format("datum_criterion = {}\n", toml_text(name_of(c.datum_criterion)));
+  }
+  if (c.parameter) {
+    out += fmt::format("parameter = {}\n",
+                       toml_text(kParameterNames.at(static_cast<std::size_t>(*c.parameter))));
+  }
+  if (c.filter) out += fmt::format("filter = {}\n", text_of(*c.filter));
+  if (c.harmonics > 0) out += fmt::format("harmonics = {}\n", c.harmonics);
+  if (c.floating) out += "floating = true\n";
+  return out;
+}
+
 std::string text_of(const PlannedCharacteristic& c) {
   const std::vector<std::string> names = toml_texts(c.features);
   std::string out = fmt::format("\n[[characteristic]]\nname = {}\nkind = {}\n", toml_text(c.name),
@@ -188,6 +254,7 @@ std::string text_of(const PlannedCharacteristic& c) {
                        is_angle(c.kind) ? "right-handed about it, second less first"
                                         : "measured along it, second less first");
   }
+  out += text_of_evaluation(c);
   return out + fmt::format("tolerance = {}\n", tolerance(c));
 }
 
@@ -209,16 +276,7 @@ std::string to_toml(const InspectionPlan& plan) {
         "compensation = {}  # surface points: centres less the radius against the approach\n",
         toml_text(kCompensationNames.at(static_cast<std::size_t>(plan.probe.compensation))));
   }
-  if (plan.datum) {
-    out += "\n[datum]\n";
-    out += fmt::format("primary = {}  # Z: its outward normal\n", toml_text(plan.datum->primary));
-    out += fmt::format("secondary = {}  # origin: its axis pierced with the primary\n",
-                       toml_text(plan.datum->secondary));
-    if (!plan.datum->tertiary.empty()) {
-      out += fmt::format("tertiary = {}  # Y: its trace in the primary\n",
-                         toml_text(plan.datum->tertiary));
-    }
-  }
+  if (plan.datum) out += text_of(plan, *plan.datum);
   for (const PlannedFrame& frame : plan.frames) out += text_of(frame);
   for (const PlannedFeature& feature : plan.features) out += text_of(feature);
   for (const PlannedCharacteristic& c : plan.characteristics) out += text_of(c);

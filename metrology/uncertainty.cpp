@@ -54,6 +54,9 @@ double radius_uncertainty(const PointUncertainty& u, const FittedFeature& featur
   } else if (const auto* circle = std::get_if<Circle>(&feature.element)) {
     variance = feature.cofactor(2, 2);
     radius = circle->radius;
+  } else if (const auto* sphere = std::get_if<Sphere>(&feature.element)) {
+    variance = feature.cofactor(3, 3);
+    radius = sphere->radius;
   }
   return std::sqrt(square(u.probing) * variance + 0.5 * square(u.scale * radius));
 }

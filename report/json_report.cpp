@@ -54,6 +54,12 @@ Json profile_json(const metrology::LineProfile& profile) {
           {"fit_slope_urad", number(profile.fit_slope * kUradPerRad)}};
 }
 
+Json harmonic_json(const metrology::Harmonic& harmonic) {
+  return {{"undulations", harmonic.order},
+          {"amplitude_um", number(harmonic.amplitude * kUmPerMm)},
+          {"phase_deg", number(harmonic.phase * kDegPerRad)}};
+}
+
 Json characteristic_json(const metrology::CharacteristicResult& characteristic) {
   Json json;
   json["name"] = characteristic.name;
@@ -70,6 +76,24 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   if (!characteristic.profiles.empty()) {
     json["profiles"] = array_of(characteristic.profiles, profile_json);
   }
+  if (!characteristic.harmonics.empty()) {
+    json["harmonics"] = array_of(characteristic.harmonics, harmonic_json);
+  }
+  return json;
+}
+
+Json datum_json(const metrology::Measurement& measurement) {
+  const Pose& pose = measurement.workpiece_from_datum;
+  Json json;
+  json["origin_mm"] = vector({pose.translation.x(), pose.translation.y(), pose.translation.z()});
+  json["axes"] = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    json["axes"].push_back(vector({pose.rotation(0, k), pose.rotation(1, k), pose.rotation(2, k)}));
+  }
+  json["datums"] = array_of(measurement.datums, [](const metrology::DatumShare& share) {
+    return Json{{"feature", share.feature}, {"degrees", share.degrees}};
+  });
+  json["free_degrees"] = measurement.free_degrees;
   return json;
 }
 
@@ -119,6 +143,8 @@ std::string json_report(const RunReport& report) {
   json["program"] = report.program;
   json["features"] = array_of(report.measurement.features, feature_json);
   json["characteristics"] = array_of(report.measurement.characteristics, characteristic_json);
+  // Where the measured part sits in its workpiece frame.
+  if (!report.measurement.datums.empty()) json["datum_system"] = datum_json(report.measurement);
   json["timing"] = timing_json(report.timings);
   if (report.cycle_time) {
     json["cycle_time_s"] = number(*report.cycle_time);

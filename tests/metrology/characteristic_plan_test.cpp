@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include "metrology/inspection_plan.hpp"
+#include "test_part.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+using K = CharacteristicKind;
+
+PlannedCharacteristic of(K kind, std::vector<std::string> features) {
+  PlannedCharacteristic c;
+  c.name = "new";
+  c.kind = kind;
+  c.features = std::move(features);
+  c.tolerance = 0.01;
+  return c;
+}
+
+// Key and message of the first fault of the small cone part with one more characteristic.
+std::string fault(const PlannedCharacteristic& c) {
+  InspectionPlan plan = test_part::plan();
+  plan.characteristics = {c};
+  const Diagnostics found = check(plan);
+  return found.empty() ? "" : found.front().key + ": " + found.front().message;
+}
+std::string datum_fault(const DatumSystem& datum) {
+  InspectionPlan plan = test_part::plan();
+  plan.datum = datum;
+  const Diagnostics found = check(plan);
+  return found.empty() ? "" : found.front().key + ": " + found.front().message;
+}
+
+TEST(CharacteristicPlan, ReadsBackEveryKey) {
+  InspectionPlan plan = test_part::plan();
+  PlannedCharacteristic round = of(K::roundness, {"C"});
+  round.criterion = Criterion::minimum_zone;
+  round.parameter = FormParameter::p;
+  round.filter = ProfileFilter{50.0, 2.5, 0.0, 0.0};
+  round.harmonics = 15;
+  PlannedCharacteristic straight = of(K::straightness, {"C"});
+  straight.name = "straight";
+  straight.filter = ProfileFilter{0.0, 0.0, 0.1 + 0.2, 8.0};
+  PlannedCharacteristic run_out = of(K::circular_run_out, {"cone", "C"});
+  run_out.name = "run-out";
+  run_out.datum_criterion = Criterion::outside_material;
+  PlannedCharacteristic profile = of(K::surface_profile, {"cone", "C", "A"});
+  profile.name = "profile";
+  profile.floating = true;
+  plan.characteristics.insert(plan.characteristics.end(), {round, straight, run_out, profile});
+  for (const DatumSystem& datum :
+       {*plan.datum, DatumSystem{"A", "", "", Criterion::outside_material},
+        DatumSystem{"", "", "", Criterion::least_squares, {"A", "C"}, {"RZ", "TX"}}}) {
+    plan.datum = datum;
+    const std::string text = to_toml(plan);
+    const auto read = parse_plan(text);
+    ASSERT_TRUE(read) << to_string(read.error().front()) << '\n' << text;
+    EXPECT_EQ(*read, plan) << text;
+    EXPECT_EQ(to_toml(*read), text);
+  }
+}
+
+TEST(CharacteristicPlan, FitsAllFeaturesAtOnce) {
+  std::string text = to_toml(test_part::plan());
+  const std::size_t from = text.find("primary");
+  text.replace(from, text.find("[[feature]]") - from, "best_fit = \"all\"\n");
+  const auto plan = parse_plan(text);
+  ASSERT_TRUE(plan) << to_string(plan.error().front());
+  EXPECT_EQ(plan->datum->best_fit, (std::vector<std::string>{"A", "C", "groove", "cone"}));
+}
+
+TEST(CharacteristicPlan, TellsWhatACharacteristicDoesNotTake) {
+  const std::string at = "characteristic[1].";
+  EXPECT_EQ(
+      fault(of(K::parallelism, {"A", "C", "cone"})),
+      at + "features: a parallelism takes one feature, or two: toleranced, datum, named are 3");
+  EXPECT_EQ(fault(of(K::parallelism, {"A", "C"})),
+            at + "features: 'A' and 'C' must be planned parallel, they are 90 deg apart");
+  EXPECT_EQ(fault(of(K::circular_run_out, {"C"})),
+            at + "features: a circular_run_out takes two features or more: toleranced, datum, ..., "
+                 "named are 1");
+  EXPECT_EQ(
+      fault(of(K::circular_run_out, {"C", "A"})),
+      at + "features: the datum of a circular_run_out needs a cylinder or cone, 'A' is a plane");
+  EXPECT_EQ(fault(of(K::circular_run_out, {"groove", "C"})),
+            at + "features: the circular_run_out of 'groove' needs rings, its strategy has none");
+  EXPECT_EQ(fault(of(K::total_run_out, {"C", "C"})), at + "features: 'C' is named twice");
+  EXPECT_EQ(fault(of(K::symmetry, {"A", "C", "groove"})),
+            at + "features: a pair of faces is two planes");
+
+  PlannedCharacteristic c = of(K::flatness, {"A"});
+  c.criterion = Criterion::maximum_inscribed;
+  EXPECT_EQ(fault(c), at + "criterion: a flatness is not evaluated by \"mi\"");
+  c = of(K::position, {"A"});
+  c.criterion = Criterion::maximum_inscribed;
+  EXPECT_EQ(fault(c), at + "criterion: a plane has no inscribed or circumscribed element");
+  c = of(K::parallelism, {"cone"});
+  c.datum_criterion = Criterion::outside_material;
+  EXPECT_EQ(fault(c), at + "datum_criterion: this parallelism names no datum");
+  c = of(K::diameter, {"C"});
+  c.parameter = FormParameter::p;
+  EXPECT_EQ(fault(c), at + "parameter: a diameter has no parameters t, p, v, q");
+  c = of(K::flatness, {"A"});
+  c.harmonics = 3;
+  EXPECT_EQ(fault(c), at + "harmonics: a flatness has no undulations per revolution");
+  c = of(K::position, {"C"});
+  c.floating = true;
+  EXPECT_EQ(fault(c), at + "floating: not for a position");
+  c = of(K::position, {"C"});
+  c.frame = "R";
+  EXPECT_EQ(fault(c), at + "frame: the plan has no frame 'R'");
+  c = of(K::roundness, {"C"});
+  c.frame = "R";
+  EXPECT_EQ(fault(c), at + "frame: not for a roundness");
+}
+
+TEST(CharacteristicPlan, TellsWhichFiltersMakeSense) {
+  const auto filtered = [](K kind, const ProfileFilter& filter) {
+    PlannedCharacteristic c = of(kind, {"C"});
+    c.filter = filter;
+    return fault(c);
+  };
+  const std::string at = "characteristic[1].filter: ";
+  EXPECT_EQ(filtered(K::roundness, {15.0, 2.0, 0.0, 0.0}), "");
+  EXPECT_EQ(filtered(K::straightness, {0.0, 0.0, 0.8, 0.0}), "");
+  EXPECT_EQ(filtered(K::roundness, {0.0, 0.0, 0.8, 0.0}),
+            at + "a roundness is filtered by upr or upr_from, or both");
+  EXPECT_EQ(filtered(K::straightness, {15.0, 0.0, 0.0, 0.0}),
+            at + "a straightness is filtered by cutoff or cutoff_long, or both");
+  EXPECT_EQ(filtered(K::roundness, {}), at + "a roundness is filtered by upr or upr_from, or both");
+  EXPECT_EQ(filtered(K::roundness, {15.0, 50.0, 0.0, 0.0}),
+            at + "upr_from = 50 must be less than upr = 15");
+  EXPECT_EQ(filtered(K::straightness, {0.0, 0.0, 8.0, 0.8}),
+            at + "cutoff = 8 mm must be less than cutoff_long = 0.8 mm");
+  EXPECT_EQ(filtered(K::cylindricity, {15.0, 0.0, 0.0, 0.0}),
+            at + "a cylindricity is not filtered");
+}
+
+TEST(CharacteristicPlan, TellsWhichDatumSystemsMakeSense) {
+  EXPECT_EQ(datum_fault({"C", "A", "groove"}), "");
+  EXPECT_EQ(datum_fault({"A", "", ""}), "");
+  EXPECT_EQ(datum_fault({"A", "", "C"}), "datum.secondary: a tertiary datum needs a secondary one");
+  EXPECT_EQ(datum_fault({"A", "A", ""}), "datum.secondary: 'A' is named twice");
+  EXPECT_EQ(datum_fault({"C", "cone", "groove"}), "");  // the cone stops along the axis
+  EXPECT_EQ(datum_fault({"cone", "C", ""}),
+            "datum.secondary: 'C' takes no degree of freedom that the datums before it left");
+  EXPECT_EQ(datum_fault({"A", "C", "", Criterion::minimum_zone}),
+            "datum.criterion: a datum is associated by \"ls\" or \"om\"");
+  DatumSystem fit;
+  fit.best_fit = {"A", "B"};
+  EXPECT_EQ(datum_fault(fit), "datum.best_fit: the plan has no feature 'B'");
+  fit.best_fit = {"A"};
+  fit.locked = {"RW"};
+  EXPECT_EQ(datum_fault(fit), "datum.locked: 'RW' is not a degree of freedom");
+  fit.locked = {};
+  fit.primary = "A";
+  EXPECT_EQ(datum_fault(fit), "datum.best_fit: excludes primary, secondary and tertiary");
+  EXPECT_EQ(datum_fault({"A", "C", "", Criterion::least_squares, {}, {"RZ"}}),
+            "datum.locked: only a best_fit has locked degrees");
+}
+
+TEST(CharacteristicPlan, TellsWhereInTheFile) {
+  const auto complaint = [](const std::string& last) {
+    const auto plan = parse_plan(to_toml(test_part::plan()) + last, "p.toml");
+    return plan ? "" : to_string(plan.error().front());
+  };
+  const std::string head =
+      "[[characteristic]]\nname = \"n\"\nkind = \"roundness\"\n"
+      "feature = \"C\"\ntolerance = \"1 um\"\n";
+  EXPECT_EQ(complaint(head + "filter = { upr = 50 }\ncriterion = \"mz\"\n"), "");
+  EXPECT_NE(complaint(head + "filter = { urp = 50 }\n").find("filter.urp: unknown key"),
+            std::string::npos);
+  EXPECT_NE(complaint(head + "criterion = \"mx\"\n").find("criterion: 'mx' is not one"),
+            std::string::npos);
+  EXPECT_NE(complaint(head + "filter = { cutoff = \"8 deg\" }\n").find("filter.cutoff"),
+            std::string::npos);
+  EXPECT_NE(complaint(head + "parameter = \"z\"\n").find("parameter: 'z' is not one"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frustum::metrology
