@@ -64,7 +64,8 @@ int main(int argc, char** argv) {
   std::vector<Vec3> points;  // mm, in any frame
   for (int i = 0; i < 30; ++i) {
     const double turn = 0.7 * i;
-    points.emplace_back(5.0 * std::cos(turn), 5.0 * std::sin(turn), 0.5 * i);
+    const double radius = 5.0 + 0.001 * std::cos(3.0 * turn);  // three lobes of 1 um
+    points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0.5 * i);
   }
   const auto fitted = metrology::associate(metrology::ElementKind::cylinder, points);
   if (!fitted) return refuse(fitted.error());
