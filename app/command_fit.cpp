@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -107,18 +106,6 @@ ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-// Of the normal equations in parameters that each have unit variance, so that mm and rad compare: 1 when the
-// points tell all of them apart, large when two can make up for each other.
-std::optional<double> condition_of(const Eigen::MatrixXd& cofactor) {
-  if (cofactor.rows() == 0 || !(cofactor.diagonal().array() > 0.0).all()) return std::nullopt;
-  const Eigen::VectorXd scale = cofactor.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      scale.asDiagonal() * cofactor * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  const double least = solver.eigenvalues().minCoeff();
-  if (!(least > 0.0)) return std::nullopt;
-  return solver.eigenvalues().maxCoeff() / least;
-}
-
 ordered_json certificate_json(const metrology::Certificate& certificate) {
   ordered_json contacts = ordered_json::array();
   for (const metrology::Contact& c : certificate.contacts) {
@@ -128,6 +115,12 @@ ordered_json certificate_json(const metrology::Certificate& certificate) {
   return {{"contacts", std::move(contacts)},
           {"imbalance", certificate.imbalance},
           {"gap", certificate.gap}};
+}
+
+// Of fits that tell how well their points determine the parameters.
+template <typename Fit>
+void add_condition(ordered_json& json, const Fit& fit) {
+  if constexpr (requires { fit.condition; }) json["condition"] = fit.condition;
 }
 
 std::string fit_json(const Options& o, const Association& found) {
@@ -140,7 +133,7 @@ std::string fit_json(const Options& o, const Association& found) {
                     {"residuals", fit.residuals},
                     {"covariance", matrix_json(fit.covariance)},
                     {"iterations", fit.iterations}};
-  if (const auto condition = condition_of(fit.cofactor)) json["condition"] = *condition;
+  add_condition(json, fit);
   if (found.certificate) json["certificate"] = certificate_json(*found.certificate);
   return json.dump(2) + '\n';
 }

@@ -74,6 +74,8 @@ void add_characteristic(Suite& suite, const CharacteristicResult& c) {
       return suite.pass(c.name);
     case Outcome::fail:
       return suite.fail(c.name, "out of tolerance", shortfall(c));
+    case Outcome::uncertain:
+      return suite.fail(c.name, "uncertain", shortfall(c));
     case Outcome::not_measured:
       return suite.error(c.name, "not measured", "the value is not a finite number");
   }

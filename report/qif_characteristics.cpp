@@ -37,14 +37,16 @@ constexpr std::array kKinds{KindRow{"roundness", "Circularity", Zone::none},
                             KindRow{"sphericity", "Sphericity", Zone::none},
                             KindRow{"flatness", "Flatness", Zone::none},
                             KindRow{"straightness", "Straightness", Zone::diameter},
+                            KindRow{"axis_straightness", "Straightness", Zone::diameter},
                             KindRow{"parallelism", "Parallelism", Zone::orientation},
+                            KindRow{"angularity", "Angularity", Zone::orientation},
                             KindRow{"perpendicularity", "Perpendicularity", Zone::orientation},
                             KindRow{"position", "Position", Zone::position},
                             KindRow{"concentricity", "Concentricity", Zone::diameter},
                             KindRow{"coaxiality", "Coaxiality", Zone::diameter},
                             KindRow{"symmetry", "Symmetry", Zone::none},
-                            KindRow{"circular_runout", "CircularRunout", Zone::none},
-                            KindRow{"total_runout", "TotalRunout", Zone::none},
+                            KindRow{"circular_run_out", "CircularRunout", Zone::none},
+                            KindRow{"total_run_out", "TotalRunout", Zone::none},
                             KindRow{"line_profile", "LineProfile", Zone::none},
                             KindRow{"surface_profile", "SurfaceProfile", Zone::none},
                             KindRow{"half_angle", "Angle", Zone::limits},
@@ -108,8 +110,20 @@ void add_definition(xml_node node, const KindRow& row, const CharacteristicResul
   if (row.zone == Zone::diameter || row.zone == Zone::position) add_zone(node, "DiametricalZone");
 }
 
+// Between the planned axes of the first two features, deg; 0 where there are none.
+double planned_angle(const InspectionPlan& plan, const PlannedCharacteristic* planned) {
+  if (planned == nullptr || planned->features.size() < 2) return 0.0;
+  const metrology::PlannedFeature* first = find_feature(plan, planned->features[0]);
+  const metrology::PlannedFeature* second = find_feature(plan, planned->features[1]);
+  if (first == nullptr || second == nullptr) return 0.0;
+  return std::atan2(first->axis.cross(second->axis).norm(),
+                    std::abs(first->axis.dot(second->axis))) *
+         kDegPerRad;
+}
+
 void add_nominal(xml_node node, const KindRow& row, const CharacteristicResult& result,
-                 const PlannedCharacteristic* planned) {
+                 const InspectionPlan& plan, const PlannedCharacteristic* planned) {
+  if (row.kind == "angularity") add_number(node, "Angle", planned_angle(plan, planned));
   if (row.zone != Zone::limits && row.zone != Zone::between) return;
   if (result.nominal) {
     add_number(node, "TargetValue", document_value(*result.nominal, result));
@@ -132,7 +146,8 @@ void add_feature_ids(xml_node node, const char* name, const PlannedCharacteristi
 }
 
 std::string_view status_of(const CharacteristicResult& result) {
-  constexpr std::array<std::string_view, 3> kStatus{"PASS", "FAIL", "NOT_ANALYZED"};
+  constexpr std::array<std::string_view, 4> kStatus{"PASS", "FAIL", "INDETERMINATE",
+                                                    "NOT_ANALYZED"};
   return kStatus.at(static_cast<std::size_t>(outcome_of(result)));
 }
 
@@ -156,7 +171,7 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
                    orientation_zone(plan, planned));
     const xml_node nominal_node = add_identified(nominals, name_of(row, "Nominal"), nominal);
     add_reference(nominal_node, "CharacteristicDefinitionId", definition);
-    add_nominal(nominal_node, row, result, planned);
+    add_nominal(nominal_node, row, result, plan, planned);
     const xml_node item_node = add_identified(items, name_of(row, "Item"), item);
     add_text(item_node, "Name", result.name);
     add_feature_ids(item_node, "FeatureItemIds", planned, features.items);
@@ -181,8 +196,7 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     add_text(add(node, "Status"), "CharacteristicStatusEnum", status_of(result));
     add_reference(node, "CharacteristicItemId", items.at(result.name));
     add_feature_ids(node, "FeatureMeasurementIds", planned, features.measurements);
-    add_text(add(node, "SubstituteFeatureAlgorithm"), "SubstituteFeatureAlgorithmEnum",
-             "LEASTSQUARES");
+    add_algorithm(node, metrology::Criterion::least_squares);
     if (!std::isfinite(result.value)) continue;
     const double standard = 0.5 * document_value(result.expanded_uncertainty, result);
     xml_node value = add_number(node, "Value", document_value(result.value, result));

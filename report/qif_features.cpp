@@ -223,8 +223,7 @@ void add_measured_features(xml_node results, const InspectionPlan& plan,
       close_list(list);
       add_points(point_sets, feature, points);
     }
-    add_text(add(node, "SubstituteFeatureAlgorithm"), "SubstituteFeatureAlgorithmEnum",
-             "LEASTSQUARES");
+    add_algorithm(node, metrology::Criterion::least_squares);
     row->measured(node, *planned, Measured(feature));
     features.measurements[feature.name] = id;
   }

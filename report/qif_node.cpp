@@ -1,6 +1,6 @@
 #include "report/qif_node.hpp"
 
-#include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "report/exact_decimal.hpp"
@@ -36,6 +36,13 @@ pugi::xml_node add_identified(pugi::xml_node parent, const std::string& name, in
   pugi::xml_node node = add(parent, name);
   node.append_attribute("id") = id;
   return node;
+}
+
+void add_algorithm(pugi::xml_node parent, metrology::Criterion criterion) {
+  constexpr std::array<std::string_view, 5> kNames{"LEASTSQUARES", "MINMAX", "MAXINSCRIBED",
+                                                   "MINCIRCUMSCRIBED", "ONESIDED"};
+  add_text(add(parent, "SubstituteFeatureAlgorithm"), "SubstituteFeatureAlgorithmEnum",
+           kNames.at(static_cast<std::size_t>(criterion)));
 }
 
 void close_list(pugi::xml_node list) {

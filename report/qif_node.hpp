@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/pose.hpp"
+#include "metrology/association.hpp"
 
 namespace frustum::report::qif {
 
@@ -29,6 +30,9 @@ pugi::xml_node add_vector(pugi::xml_node parent, const std::string& name, const 
 pugi::xml_node add_reference(pugi::xml_node parent, const std::string& name, int id);
 // <name id="..">
 pugi::xml_node add_identified(pugi::xml_node parent, const std::string& name, int id);
+
+// <SubstituteFeatureAlgorithm>
+void add_algorithm(pugi::xml_node parent, metrology::Criterion criterion);
 
 // States in the attribute n how many elements the list holds; an empty list is taken out.
 void close_list(pugi::xml_node list);

@@ -11,7 +11,7 @@ Outcome outcome_of(const metrology::CharacteristicResult& characteristic) {
 }
 
 std::string_view name_of(Outcome outcome) {
-  constexpr std::array<std::string_view, 3> kNames{"pass", "fail", "not measured"};
+  constexpr std::array<std::string_view, 4> kNames{"pass", "fail", "uncertain", "not measured"};
   return kNames.at(static_cast<std::size_t>(outcome));
 }
 

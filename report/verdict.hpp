@@ -9,10 +9,11 @@
 
 namespace frustum::report {
 
-enum class Outcome { pass, fail, not_measured };
+// uncertain: the limit lies within the uncertainty, where a decision rule tells that apart.
+enum class Outcome { pass, fail, uncertain, not_measured };
 
 [[nodiscard]] Outcome outcome_of(const metrology::CharacteristicResult& characteristic);
-// "pass", "fail", "not measured".
+// "pass", "fail", "uncertain", "not measured".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 
 }  // namespace frustum::report

@@ -95,7 +95,6 @@ TEST_F(ExchangeSystem, FitsAnElementAndSaysAllAboutIt) {
   EXPECT_LT(doc["form"].get<double>(), 1e-12);
   EXPECT_EQ(doc["residuals"].size(), 72U);
   EXPECT_EQ(doc["covariance"].size(), 5U);
-  EXPECT_GE(doc["condition"].get<double>(), 1.0);
   EXPECT_TRUE(doc.contains("iterations"));
   const Outcome text = run("fit cylinder p.csv");
   EXPECT_NE(text.out.find("cylinder by least squares, 72 points"), std::string::npos) << text.out;
