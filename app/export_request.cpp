@@ -3,12 +3,26 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "app/console.hpp"
 #include "core/whole_file.hpp"
 #include "report/export_file.hpp"
 
 namespace frustum::app {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Folders on the way are made.
+Result<fs::path> write_file(const fs::path& file, const std::string& bytes) {
+  if (file.has_parent_path()) {
+    const auto folder = output_folder(file.parent_path());
+    if (!folder) return folder.error();
+  }
+  return write_whole_file(file, bytes);
+}
+
+}  // namespace
 
 void add_export_option(CLI::App& command, std::vector<std::string>& files) {
   command.add_option("--export", files,
@@ -44,7 +58,7 @@ Diagnostics write_exports(const std::vector<fs::path>& files, report::RunReport&
   for (const fs::path& file : files) {
     const auto format = report::export_format(file);
     if (!format) return format.error();
-    const auto written = write_whole_file(file, report::exported(*format, report, plan));
+    const auto written = write_file(file, report::exported(*format, report, plan));
     if (!written) return written.error();
     report.files.push_back(file.string());
   }
@@ -59,7 +73,7 @@ void write_failed_exports(const std::vector<fs::path>& files, const Diagnostics&
   for (const fs::path& file : files) {
     const auto format = report::export_format(file);
     if (!format || *format != report::ExportFormat::junit) continue;
-    const auto written = write_whole_file(file, report::exported(*format, failed, plan));
+    const auto written = write_file(file, report::exported(*format, failed, plan));
     if (!written) print(std::cerr, written.error());
   }
 }

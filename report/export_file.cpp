@@ -33,6 +33,14 @@ std::string lower_extension(const fs::path& file) {
   return extension;
 }
 
+// The folder that the file, or folders on the way to it, would be made in.
+fs::path existing_ancestor(const fs::path& file) {
+  std::error_code ignored;
+  fs::path folder = file.parent_path();
+  while (!folder.empty() && !fs::exists(folder, ignored)) folder = folder.parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
 }  // namespace
 
 Result<ExportFormat> export_format(const fs::path& file) {
@@ -49,14 +57,14 @@ Result<ExportFormat> export_format(const fs::path& file) {
 Diagnostics export_faults(const fs::path& file) {
   const auto format = export_format(file);
   if (!format) return format.error();
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) return {cannot_write(file, "it is a folder")};
+  const fs::path folder = existing_ancestor(file);
   if (!fs::is_directory(folder, ignored)) {
-    return {cannot_write(file, "its folder does not exist")};
+    return {cannot_write(file, fmt::format("{} is not a folder", folder.string()))};
   }
   if (access(folder.c_str(), W_OK) != 0) {
-    return {cannot_write(file, "its folder may not be written to")};
+    return {cannot_write(file, fmt::format("{} may not be written to", folder.string()))};
   }
   return {};
 }

@@ -1,8 +1,8 @@
 // A measurement in the format that a file's extension names.
 //
 // .qif (QIF 3.0), .csv, .json, .xml and .junit.xml (JUnit), .dfq (Q-DAS); upper or lower case.
-// Units: as each format says. Errors: an extension that names no format, with those known; a folder that is
-// not there.
+// Units: as each format says. Errors: an extension that names no format, with those known; a place
+// that cannot be written to.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@ namespace frustum::report {
 enum class ExportFormat { qif, csv, json, junit, dfq };
 
 [[nodiscard]] Result<ExportFormat> export_format(const std::filesystem::path& file);
-// Whether the file could be written, found out before the long work: its folder is there and it is no folder
-// itself.
+// Why the file could not be written, found out before the long work. Folders that are not there yet are no
+// reason.
 [[nodiscard]] Diagnostics export_faults(const std::filesystem::path& file);
 
 [[nodiscard]] std::string exported(ExportFormat format, const RunReport& report,

@@ -150,17 +150,18 @@ TEST_F(ExchangeSystem, RefusesResultFilesBeforeTheWork) {
   write("p.csv", tube_points());
   const std::string measure = "measure --plan tube.plan.toml --points p.csv --export ";
   expect_refusal(measure + "t.pdf --export ok.csv", {"t.pdf", "known: .qif .csv .json .xml .dfq"});
-  expect_refusal(measure + "nowhere/t.qif", {"nowhere/t.qif", "folder does not exist"});
+  expect_refusal(measure + "p.csv/t.qif", {"p.csv/t.qif", "p.csv is not a folder"});
   EXPECT_FALSE(fs::exists(folder_ / "ok.csv"));
   // A job names the key.
   const Outcome made = run("program cone --machine iwf-bc --out piece --chord-tolerance 1");
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  replace_in("piece/job.toml", "report = true", "report = false\nexport = [\"a.qif\", \"b.doc\"]");
+  replace_in("piece/job.toml", "report = true",
+             "report = false\nexport = [\"x/a.qif\", \"b.doc\"]");
   expect_refusal("run piece/job.toml --out result", {"job.toml:", "output.export", "b.doc"});
   EXPECT_FALSE(fs::exists(folder_ / "result"));
   replace_in("piece/job.toml", "b.doc", "b.junit.xml");
   EXPECT_NE(run("run piece/job.toml --out result --quiet").exit_code, 2);
-  EXPECT_TRUE(fs::exists(folder_ / "piece/a.qif"));
+  EXPECT_TRUE(fs::exists(folder_ / "piece/x/a.qif"));
   EXPECT_TRUE(fs::exists(folder_ / "piece/b.junit.xml"));
 }
 

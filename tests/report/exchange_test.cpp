@@ -1,6 +1,7 @@
 // The formats for tables, continuous integration and statistics.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 #include <pugixml.hpp>
 
@@ -125,7 +126,11 @@ TEST(ExportFile, GoesByTheExtension) {
 TEST(ExportFile, FindsOutBeforehandWhatCannotBeWritten) {
   EXPECT_TRUE(export_faults(testing::TempDir() + "a.qif").empty());
   EXPECT_TRUE(export_faults("a.qif").empty());
-  EXPECT_FALSE(export_faults(testing::TempDir() + "no-such-folder/a.qif").empty());
+  EXPECT_TRUE(export_faults(testing::TempDir() + "not-yet/there/a.qif").empty());
+  const std::string file = testing::TempDir() + "frustum_no_folder";
+  std::ofstream(file) << 1;
+  EXPECT_FALSE(export_faults(file + "/a.qif").empty());
+  EXPECT_FALSE(export_faults(testing::TempDir()).empty());
   EXPECT_FALSE(export_faults("a").empty());
 }
 
