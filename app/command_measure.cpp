@@ -1,30 +1,45 @@
-// frustum measure: the virtual CMM on a job's part, or the evaluation of real CMM points.
+// frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM points.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "app/console.hpp"
+#include "app/export_request.hpp"
 #include "app/job.hpp"
 #include "app/job_report.hpp"
+#include "app/mesh_probe.hpp"
 #include "app/trial_run.hpp"
+#include "app/unit_option.hpp"
 #include "metrology/point_file.hpp"
+#include "metrology/point_scale.hpp"
 #include "report/json_report.hpp"
 #include "report/terminal_report.hpp"
 
 namespace frustum::app {
 namespace {
 
+using metrology::InspectionPlan;
+using metrology::LengthUnit;
+
 struct Options {
   std::string job{};
   std::string plan{};
   std::string points{};
+  std::string mesh{};
+  std::string unit{};
+  std::vector<std::string> exports{};
   JobOverrides overrides{};
   bool ball_centres = false;
   bool json = false;
   bool quiet = false;
 };
+using Files = std::vector<std::filesystem::path>;
 
-int print_report(const report::RunReport& report, const Options& options) {
+int print_report(report::RunReport& report, const InspectionPlan& plan, const Files& exports,
+                 const Options& options) {
+  if (const Diagnostics faults = write_exports(exports, report, plan); !faults.empty()) {
+    return refuse(faults);
+  }
   if (options.json) {
     std::cout << report::json_report(report);
   } else if (!options.quiet) {
@@ -36,37 +51,67 @@ int print_report(const report::RunReport& report, const Options& options) {
 int measure_job(const Options& options) {
   const auto job = load_job(options.job, options.overrides, true);
   if (!job) return refuse(job.error());
+  const auto exports = checked_exports(options.exports, job->exports);
+  if (!exports) return refuse(exports.error());
   TrialRun run(progress_style(options.quiet || options.json));
   const auto trial = run.trial(*job);
-  if (!trial) return refuse(trial.error());
+  if (!trial) {
+    write_failed_exports(*exports, trial.error(), job->piece.plan);
+    return refuse(trial.error());
+  }
   report::RunReport report = report_of(*job, *trial);
   report.timings = run.timings();
-  return print_report(report, options);
+  return print_report(report, job->piece.plan, *exports, options);
 }
 
-int evaluate_points(const Options& options) {
-  const auto plan = metrology::load_plan(options.plan);
-  if (!plan) return refuse(plan.error());
-  const auto points = metrology::read_feature_points(options.points);
-  if (!points) return refuse(points.error());
+Result<metrology::Measurement> evaluated_points(const Options& options, const InspectionPlan& plan,
+                                                const std::optional<LengthUnit>& unit) {
+  const auto points = metrology::read_feature_points(options.points, unit);
+  if (!points) return points.error();
+  if (auto fault = metrology::scale_fault(plan, *points)) {
+    fault->file = options.points;
+    return *std::move(fault);
+  }
   const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
                                             : metrology::PointMeaning::surface;
-  const auto measurement = metrology::evaluate(*plan, *points, meaning);
-  if (!measurement) return refuse(measurement.error());
+  return metrology::evaluate(plan, *points, meaning);
+}
+
+Result<metrology::Measurement> probed_mesh(const Options& options, const InspectionPlan& plan,
+                                           const std::optional<LengthUnit>& unit) {
+  const auto probe = read_mesh_probe(options.mesh, unit, plan);
+  if (!probe) return probe.error();
+  return metrology::measure(plan, *probe);
+}
+
+int measure_by_plan(const Options& options) {
+  const auto plan = metrology::load_plan(options.plan);
+  if (!plan) return refuse(plan.error());
+  const auto unit = unit_of(options.unit);
+  if (!unit) return refuse(unit.error());
+  const auto exports = checked_exports(options.exports);
+  if (!exports) return refuse(exports.error());
+  auto measurement = options.mesh.empty() ? evaluated_points(options, *plan, *unit)
+                                          : probed_mesh(options, *plan, *unit);
+  if (!measurement) {
+    write_failed_exports(*exports, measurement.error(), *plan);
+    return refuse(measurement.error());
+  }
   report::RunReport report;
   report.title = plan->title;
-  report.measurement = *measurement;
-  return print_report(report, options);
+  report.measurement = *std::move(measurement);
+  return print_report(report, *plan, *exports, options);
 }
 
 int measure(const Options& options) {
-  const bool points = !options.plan.empty() || !options.points.empty();
-  if (points == !options.job.empty() || options.plan.empty() != options.points.empty()) {
-    return refuse(
-        "give either a job file, or --plan and --points",
-        "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv");
-  }
-  return points ? evaluate_points(options) : measure_job(options);
+  const int sources = int{!options.points.empty()} + int{!options.mesh.empty()};
+  const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
+  const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
+  if (by_plan) return measure_by_plan(options);
+  if (by_job) return measure_job(options);
+  return refuse("give either a job file, or --plan and --points, or --plan and --mesh",
+                "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv | "
+                "frustum measure --plan PLAN.toml --mesh SCAN.stl");
 }
 
 }  // namespace
@@ -74,17 +119,26 @@ int measure(const Options& options) {
 void add_measure(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "measure", "Measure a job's part on the virtual CMM, or evaluate points of a real CMM");
+      "measure",
+      "Measure a job's part or a mesh on the virtual CMM, or evaluate points of a real CMM");
   command->add_option("job", options->job, "Job file");
-  command->add_option("--plan", options->plan, "Inspection plan for --points");
-  command->add_option("--points", options->points, "CSV with feature,section,x,y,z (mm)");
+  command->add_option("--plan", options->plan, "Inspection plan for --points or --mesh");
+  command->add_option("--points", options->points,
+                      "CSV with feature,section,x,y,z, or columns x y z or a PLY for a plan of one "
+                      "feature; mm unless the file states a unit");
+  command->add_option("--mesh", options->mesh,
+                      "STL, PLY or OBJ that is probed like a part, in the plan's frame");
+  add_unit_option(*command, options->unit);
   command->add_flag("--ball-centres", options->ball_centres,
                     "The points are centres of the probe ball, not surface points");
   add_error_options(*command, options->overrides.errors);
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
+  add_export_option(*command, options->exports);
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
   command->add_flag("--quiet", options->quiet, "No progress, no summary");
-  command->footer("Example: frustum measure --plan cone.plan.toml --points out/points.csv");
+  command->footer(
+      "Example: frustum measure --plan cone.plan.toml --points out/points.csv --export part.qif "
+      "--export part.junit.xml");
   command->callback([options, &exit_code] { exit_code = measure(*options); });
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/console.hpp"
+#include "app/export_request.hpp"
 #include "app/job.hpp"
 #include "app/job_report.hpp"
 #include "app/trial_run.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct Options {
   std::string job{};
   std::string out{};
+  std::vector<std::string> exports{};
   JobOverrides overrides{};
   bool json = false;
   bool quiet = false;
@@ -52,9 +54,14 @@ std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job
 int run_job(const Options& options) {
   const auto job = load_job(options.job, options.overrides, true);
   if (!job) return refuse(job.error());
+  const auto exports = checked_exports(options.exports, job->exports);
+  if (!exports) return refuse(exports.error());
   TrialRun run(progress_style(options.quiet || options.json));
   auto trial = run.trial(*job);
-  if (!trial) return refuse(trial.error());
+  if (!trial) {
+    write_failed_exports(*exports, trial.error(), job->piece.plan);
+    return refuse(trial.error());
+  }
   report::RunReport report = report_of(*job, *trial);
   run.begin("prove points");
   add_proof(report, trials::prove_points(*trial->workpiece, trial->measurement));
@@ -70,6 +77,10 @@ int run_job(const Options& options) {
   run.end();
   report.timings = run.timings();
   if (const auto failure = write_files(report, *job, folder_of(options))) return refuse(*failure);
+  if (const Diagnostics faults = write_exports(*exports, report, job->piece.plan);
+      !faults.empty()) {
+    return refuse(faults);
+  }
   if (options.json) {
     std::cout << report::json_report(report);
   } else if (!options.quiet) {
@@ -91,6 +102,7 @@ void add_run(CLI::App& program, int& exit_code) {
   add_error_options(*command, options->overrides.errors);
   command->add_option("--tool-radius-error", options->overrides.tool_radius_error,
                       "Of every tool, with unit, for example 2um");
+  add_export_option(*command, options->exports);
   command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
   command->add_flag("--quiet", options->quiet, "No progress, no summary");
   command->footer("Example: frustum run job.toml --out out --error EX0C=10um");

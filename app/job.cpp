@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/export_request.hpp"
 #include "app/machine_files.hpp"
 #include "app/mesh_input.hpp"
 #include "core/spelling.hpp"
@@ -245,9 +246,11 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   const std::optional<ErrorDraw> draw = read_draw(root);
   double mesh_pitch = 0.0;
   bool report = true;
+  std::vector<fs::path> exports;
   if (const auto output = root.table_if("output")) {
     report = output->boolean_or("report", true);
     mesh_pitch = output->length_or("mesh_pitch", {}, Bound::positive).value;
+    exports = read_exports(*output);
   }
   double path_bound = 1e-5;
   if (const auto accuracy = root.table_if("accuracy")) {
@@ -292,7 +295,8 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
              .controller = controller,
              .path_bound = path_bound,
              .mesh_pitch = mesh_pitch,
-             .report = report};
+             .report = report,
+             .exports = std::move(exports)};
 }
 
 }  // namespace frustum::app

@@ -34,6 +34,7 @@ struct Job {
   double path_bound = 1e-5;  // mm
   double mesh_pitch = 0.0;   // mm; 0: chosen by the size of the blank
   bool report = true;
+  std::vector<std::filesystem::path> exports{};  // results in other formats
 };
 
 // What the command line may change in a job.

@@ -11,6 +11,7 @@ find_package(Boost 1.74 REQUIRED)             # Boost::headers
 find_package(CLI11 REQUIRED)                  # CLI11::CLI11
 find_package(PNG 1.6 REQUIRED)                # PNG::PNG
 find_package(ZLIB REQUIRED)                   # ZLIB::ZLIB
+find_package(pugixml 1.12 REQUIRED)            # pugixml::pugixml
 find_package(OpenMesh CONFIG REQUIRED)        # OpenMeshCore
 find_path(FRUSTUM_RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 

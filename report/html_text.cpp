@@ -23,30 +23,41 @@ std::size_t sequence_length(std::string_view text) {
 
 }  // namespace
 
-std::string html_text(std::string_view text) {
-  std::string html;
-  html.reserve(text.size());
+std::string readable_text(std::string_view text) {
+  std::string readable;
+  readable.reserve(text.size());
   while (!text.empty()) {
     const std::size_t length = sequence_length(text);
     const char first = text.front();
     if (length == 0) {
-      html += "\xEF\xBF\xBD";
-    } else if (first == '&') {
-      html += "&amp;";
-    } else if (first == '<') {
-      html += "&lt;";
-    } else if (first == '>') {
-      html += "&gt;";
-    } else if (first == '"') {
-      html += "&quot;";
-    } else if (first == '\'') {
-      html += "&#39;";
+      readable += "\xEF\xBF\xBD";
     } else if (length == 1 && (static_cast<unsigned char>(first) < 0x20U || first == '\x7f')) {
-      html += ' ';
+      readable += ' ';
     } else {
-      html += text.substr(0, length);
+      readable += text.substr(0, length);
     }
     text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return readable;
+}
+
+std::string html_text(std::string_view text) {
+  std::string html;
+  html.reserve(text.size());
+  for (const char c : readable_text(text)) {
+    if (c == '&') {
+      html += "&amp;";
+    } else if (c == '<') {
+      html += "&lt;";
+    } else if (c == '>') {
+      html += "&gt;";
+    } else if (c == '"') {
+      html += "&quot;";
+    } else if (c == '\'') {
+      html += "&#39;";
+    } else {
+      html += c;
+    }
   }
   return html;
 }

@@ -8,6 +8,9 @@
 
 namespace frustum::report {
 
+// UTF-8 without control characters, for writers that make references of & < > themselves.
+[[nodiscard]] std::string readable_text(std::string_view text);
+
 // For element content and quoted attributes: & < > " ' are written as references.
 [[nodiscard]] std::string html_text(std::string_view text);
 

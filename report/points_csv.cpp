@@ -2,21 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "report/csv_field.hpp"
+
 namespace frustum::report {
-namespace {
-
-// A name with a separator, quote or line end is quoted as RFC 4180 says.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-}  // namespace
 
 std::string points_csv(const metrology::Measurement& measurement) {
   std::string csv = "feature,section,x,y,z\n";

@@ -53,12 +53,6 @@ struct View {
   }
 };
 
-struct Crossing {
-  double s = 0.0;
-  bool enters = false;
-  EndTag facet = -1;
-};
-
 // Whether the line of the ray passes the box, grown by `spare`.
 bool line_meets(const Vec3& min, const Vec3& max, const Ray& ray, double spare) {
   double lo = -std::numeric_limits<double>::infinity();
@@ -159,7 +153,7 @@ std::uint32_t FacetSolid::build(std::uint32_t first, std::uint32_t last,
   return here;
 }
 
-IntervalSet FacetSolid::along(const Ray& ray, RaySpan span) const {
+std::vector<FacetSolid::Crossing> FacetSolid::crossings(const Ray& ray) const {
   if (nodes_.empty()) return {};
   const View view(ray);
   // Corners are projected with errors far below this; so no facet that they make the ray meet is
@@ -204,10 +198,23 @@ IntervalSet FacetSolid::along(const Ray& ray, RaySpan span) const {
     // Where two solids touch, enter before leaving: no gap of no width.
     return std::tuple(x.s, !x.enters, x.facet) < std::tuple(y.s, !y.enters, y.facet);
   });
+  return met;
+}
+
+std::optional<FacetSolid::Entry> FacetSolid::first_entry(const Ray& ray, RaySpan span) const {
+  for (const Crossing& crossing : crossings(ray)) {
+    if (crossing.s < span.lo || normal(crossing.facet).isZero()) continue;
+    if (crossing.s > span.hi || !crossing.enters) return std::nullopt;
+    return Entry{crossing.s, crossing.facet};
+  }
+  return std::nullopt;
+}
+
+IntervalSet FacetSolid::along(const Ray& ray, RaySpan span) const {
   std::vector<Interval> material;
   int inside = 0;
   Interval run;
-  for (const Crossing& crossing : met) {
+  for (const Crossing& crossing : crossings(ray)) {
     const int before = inside;
     inside += crossing.enters ? 1 : -1;
     if (before == 0 && inside == 1) {

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,14 @@ class FacetSolid {
 
   // Material between span.lo and span.hi; an end's tag is its facet, -1 at the ends of the span.
   [[nodiscard]] IntervalSet along(const cutter::Ray& ray, cutter::RaySpan span) const;
+  // Where the ray first meets a facet within the span, if it meets it from outside; it asks no more of the
+  // mesh than facets that are counter-clockwise seen from outside, so a scan with open borders will do.
+  struct Entry {
+    double s = 0.0;
+    EndTag facet = -1;
+  };
+  [[nodiscard]] std::optional<Entry> first_entry(const cutter::Ray& ray,
+                                                 cutter::RaySpan span) const;
   [[nodiscard]] bool contains(const Vec3& point) const;
   // Outward and unit; zero for a facet without area.
   [[nodiscard]] Vec3 normal(EndTag facet) const;
@@ -58,6 +67,14 @@ class FacetSolid {
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }
 
  private:
+  struct Crossing {
+    double s = 0.0;
+    bool enters = false;
+    EndTag facet = -1;
+  };
+  // In the order of the ray; where two solids touch, enter before leaving.
+  [[nodiscard]] std::vector<Crossing> crossings(const cutter::Ray& ray) const;
+
   // Boxes in depth-first order: the left child follows its parent.
   struct Node {
     Vec3 min = Vec3::Zero(), max = Vec3::Zero();

@@ -29,5 +29,10 @@ TEST(Documents, RelativeLinksPointToFilesThatExist) {
   }
 }
 
+TEST(Documents, TheApiPageShowsTheExampleThatIsCompiled) {
+  EXPECT_NE(text_of("docs/cpp-api.md").find(text_of("examples/api/measure_pin.cpp")),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace frustum::house

@@ -1,6 +1,15 @@
 #include "metrology/point_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "metrology/ply_points.hpp"
+#include "metrology/point_scale.hpp"
+#include "metrology/strategy.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -54,6 +63,148 @@ TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
       complaint("feature,section,x,y,z\nA,1.5,1,2,3\n"),
       "p.csv:2:3: error: '1.5' is not a section (hint: sections are whole numbers, the first is "
       "0)");
+}
+
+TEST(PointFile, HonoursTheUnitThatAFileStates) {
+  for (const char* text : {"# unit: inch\n1 2 3\n", "# Units = IN\n1,2,3\n", "# inch\n1 2 3\n",
+                           "x [inch],y [inch],z [inch]\n1,2,3\n", "x_in,y_in,z_in\n1,2,3\n",
+                           "x (inches),y,z\n1,2,3 # no comment is too late\n"}) {
+    const auto points = parse_feature_points(text);
+    ASSERT_TRUE(points) << text << to_string(points.error().front());
+    EXPECT_LT((points->front().points.front() - Vec3(25.4, 50.8, 76.2)).norm(), 1e-13) << text;
+  }
+  const auto um = parse_feature_points("x [\u00b5m],y,z\n1000,0,0\n");
+  ASSERT_TRUE(um);
+  EXPECT_EQ(um->front().points.front(), Vec3(1, 0, 0));
+  // What the caller knows counts where the file says nothing, and only there.
+  const auto inch = length_unit("inch");
+  EXPECT_EQ(parse_feature_points("10 0 0\n", {}, inch)->front().points.front(), Vec3(254, 0, 0));
+  EXPECT_EQ(parse_feature_points("# mm\n10 0 0\n", {}, inch)->front().points.front(),
+            Vec3(10, 0, 0));
+}
+
+TEST(PointFile, RefusesUnitsThatItCannotHonour) {
+  EXPECT_EQ(complaint("# unit: furlong\n1 2 3\n"),
+            "p.csv:1:1: error: 'furlong' is not a unit of length (hint: write unit: mm, um, nm, "
+            "cm, m or inch)");
+  EXPECT_EQ(complaint("x [deg],y,z\n1,2,3\n"),
+            "p.csv:1:1: error: 'deg' is not a unit for column 'x' (hint: mm, um, nm, cm, m or "
+            "inch)");
+  EXPECT_EQ(complaint("x [mm],y [inch],z\n1,2,3\n"),
+            "p.csv:1:8: error: the unit is inch here, mm before (hint: a file has one unit)");
+  EXPECT_EQ(complaint("1 2 3\n# unit: um\n4 5 6\n"),
+            "p.csv:2:1: error: the unit um stands behind points (hint: state it before the first "
+            "point)");
+}
+
+TEST(PointFile, ReadsQuotedNamesAndByteOrderMarks) {
+  const auto points = parse_feature_points(
+      "\xef\xbb\xbf"
+      "feature,x,y,z\r\n\"bore, \"\"upper\"\" #1\",1,2,3\r\n");
+  ASSERT_TRUE(points) << to_string(points.error().front());
+  EXPECT_EQ(points->front().feature, "bore, \"upper\" #1");
+}
+
+TEST(PointFile, KeepsWeightsForFitsAndRefusesThemForPlans) {
+  const std::string file = testing::TempDir() + "frustum_weights.csv";
+  std::ofstream(file) << "x,y,z,weight\n1,2,3,0.5\n4,5,6,2\n";
+  const auto cloud = read_point_cloud(file);
+  ASSERT_TRUE(cloud) << to_string(cloud.error().front());
+  EXPECT_EQ(cloud->weights, (std::vector<double>{0.5, 2.0}));
+  EXPECT_EQ(cloud->points[1], Vec3(4, 5, 6));
+  EXPECT_FALSE(read_feature_points(file));
+  EXPECT_EQ(complaint("x,y,z,weight\n1,2,3,-1\n"),
+            "p.csv:2:7: error: '-1' is not a weight (hint: weights are 0 or more)");
+}
+
+// The number as bytes of one order or the other.
+template <typename T>
+std::string raw(T value, bool big) {
+  std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+  if (big) std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+TEST(PlyPoints, ReadsTextAndBothByteOrders) {
+  const std::vector<Vec3> expected{{1.5, -2.0, 3.25}, {4.0, 5.0, -6.5}};
+  const std::string text =
+      "ply\nformat ascii 1.0\ncomment made by hand\nelement note 2\nproperty list uchar int "
+      "word\nelement vertex 2\nproperty float x\nproperty uchar red\nproperty double z\n"
+      "property float y\nend_header\n2 7 8\n0\n1.5 255 3.25 -2\n4 0 -6.5 5\n";
+  const auto read = parse_ply_points(text);
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  EXPECT_EQ(read->points, expected);
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                        "_endian 1.0\ncomment units: inch\nelement note 1\nproperty list uchar "
+                        "short word\nelement vertex 2\nproperty double x\nproperty float32 y\n"
+                        "property int8 flag\nproperty double z\nend_header\n";
+    bytes += raw<std::uint8_t>(2, big) + raw<std::int16_t>(7, big) + raw<std::int16_t>(8, big);
+    for (const Vec3& p : expected) {
+      bytes += raw(p.x(), big) + raw(static_cast<float>(p.y()), big) + raw<std::int8_t>(-1, big) +
+               raw(p.z(), big);
+    }
+    const auto binary = parse_ply_points(bytes);
+    ASSERT_TRUE(binary) << to_string(binary.error().front());
+    EXPECT_EQ(binary->points, expected) << big;
+    EXPECT_EQ(binary->unit, length_unit("inch"));
+    // Cut anywhere within the vertices, it is refused.
+    for (std::size_t cut = 1; cut < 42; cut += 5) {
+      EXPECT_FALSE(parse_ply_points(bytes.substr(0, bytes.size() - cut))) << cut;
+    }
+  }
+}
+
+TEST(PlyPoints, NamesWhatIsWrong) {
+  const auto fault = [](const std::string& rest) {
+    const auto read = parse_ply_points("ply\nformat ascii 1.0\n" + rest);
+    if (read) return std::string();
+    return fmt::format("{}: {}", read.error().front().line, read.error().front().message);
+  };
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
+  EXPECT_NE(fault("element vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n")
+                .find("no property z"),
+            std::string::npos);
+  EXPECT_NE(
+      fault("element vertex 1\n" + xyz + "1 nan 2\n").find("8: vertex 1 of the PLY is not finite"),
+      std::string::npos);
+  EXPECT_NE(fault("element vertex 1\n" + xyz + "1 a 2\n").find("8: vertex 1 of 1 holds"),
+            std::string::npos);
+  EXPECT_NE(fault("element vertex 2\n" + xyz + "1 2 3\n").find("ends within vertex 2 of 2"),
+            std::string::npos);
+  EXPECT_NE(fault("element vertex 1\nproperty quad x\n").find("'quad' is no type"),
+            std::string::npos);
+  EXPECT_NE(fault("comment unit: cubit\n").find("'cubit' is not a unit"), std::string::npos);
+  EXPECT_NE(fault("element face 0\nend_header\n").find("has no vertices"), std::string::npos);
+}
+
+TEST(PointScale, TellsUnitsFromParts) {
+  InspectionPlan plan;
+  PlannedFeature bore;
+  bore.name = "bore";
+  bore.kind = FeatureKind::cylinder;
+  bore.radius = 20.0;
+  bore.strategy = SectionStrategy{.sections = {0.0, 30.0}};
+  plan.features = {bore};
+  const auto fault = [&](double factor) {
+    FeaturePoints measured{"bore", {}, {}};
+    for (const PlannedPoint& p : planned_points(bore)) {
+      measured.points.push_back(factor * p.point + Vec3(500, 0, 0));
+    }
+    const auto found = scale_fault(plan, std::vector{measured});
+    return found ? to_string(*found) : "";
+  };
+  for (const double honest : {1.0, 0.3, 0.12, 3.0, 9.0}) EXPECT_EQ(fault(honest), "") << honest;
+  EXPECT_NE(fault(1.0 / 25.4).find("look like inch (hint: state the unit with --unit inch"),
+            std::string::npos)
+      << fault(1.0 / 25.4);
+  EXPECT_NE(fault(1e-3).find("look like m ("), std::string::npos);
+  EXPECT_NE(fault(1.1e3).find("look like um"), std::string::npos);
+  EXPECT_NE(fault(25.4).find("its numbers look like inches"), std::string::npos);
+  const std::vector<Vec3> scan{{-30, -30, -5}, {30, 30, 40}};
+  EXPECT_FALSE(scale_fault(plan, scan));
+  const std::vector<Vec3> small{{-3, -3, -1}, {3, 3, 4}};
+  EXPECT_TRUE(scale_fault(plan, small));
 }
 
 }  // namespace

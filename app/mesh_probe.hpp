@@ -1,0 +1,39 @@
+// A mesh that is probed like a part: a scan, or another program's model.
+//
+// Model    : the first facet that the probe meets from outside, with the facet's own normal; borders may be
+//            open, as scans have them
+// Units    : mm
+// Shape    : facets counter-clockwise seen from outside
+// Errors   : a file that cannot be read, a mesh whose size does not suit the plan
+// Accuracy : that of the mesh: between corners its facets leave a surface of radius R by length^2 / (8 R)
+// Source   : ours
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/result.hpp"
+#include "metrology/inspection_plan.hpp"
+#include "metrology/length_unit.hpp"
+#include "metrology/surface_probe.hpp"
+#include "stock/facet_solid.hpp"
+
+namespace frustum::app {
+
+class MeshProbe {
+ public:
+  explicit MeshProbe(stock::FacetSolid solid) : solid_(std::move(solid)) {}
+
+  [[nodiscard]] std::optional<metrology::Touch> touch(const Vec3& start, const UnitVec3& direction,
+                                                      double length_mm) const;
+
+ private:
+  stock::FacetSolid solid_;
+};
+
+// STL, PLY or OBJ in mm, or in `unit`.
+[[nodiscard]] Result<MeshProbe> read_mesh_probe(const std::filesystem::path& file,
+                                                const std::optional<metrology::LengthUnit>& unit,
+                                                const metrology::InspectionPlan& plan);
+
+}  // namespace frustum::app

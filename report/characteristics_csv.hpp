@@ -1,0 +1,19 @@
+// The characteristics as CSV, one line each.
+//
+// Columns: name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict; several
+// features are separated by blanks. Units: value to expanded_uncertainty in `unit` (um, mm, deg, urad), all
+// digits, never an exponent; expanded_uncertainty with k = 2. Errors: none; a number that is not finite is
+// left empty, a characteristic without nominal too.
+#pragma once
+
+#include <string>
+
+#include "metrology/inspection_plan.hpp"
+#include "metrology/measurement.hpp"
+
+namespace frustum::report {
+
+[[nodiscard]] std::string characteristics_csv(const metrology::Measurement& measurement,
+                                              const metrology::InspectionPlan& plan);
+
+}  // namespace frustum::report

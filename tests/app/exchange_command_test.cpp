@@ -1,0 +1,206 @@
+// What goes in and out of the metrology commands: point files, meshes, units, result files.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/app/command_line.hpp"
+
+namespace frustum {
+namespace {
+
+using nlohmann::json;
+
+class ExchangeSystem : public CommandLine {
+ protected:
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(folder_ / file, std::ios::binary) << text;
+  }
+
+  static constexpr double kRadius = 20.0;
+
+  // Points on a tube of radius 20 along Z, every number divided by `unit`.
+  static std::string tube_points(double unit = 1.0, const char* header = "") {
+    std::string text = header;
+    for (int i = 0; i < 72; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / 24.0;
+      text += fmt::format("{:.17g},{:.17g},{:.17g}\n", kRadius * std::cos(turn) / unit,
+                          kRadius * std::sin(turn) / unit, (5.0 + 10.0 * (i / 24)) / unit);
+    }
+    return text;
+  }
+
+  // A scan of the tube: facets without lids, so its borders are open.
+  static std::string tube_scan(double unit = 1.0) {
+    constexpr int kSteps = 720;
+    std::string text = "solid tube\n";
+    const auto corner = [&](int step, double z) {
+      const double turn = 2.0 * std::numbers::pi * (step % kSteps) / kSteps;
+      return fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", kRadius * std::cos(turn) / unit,
+                         kRadius * std::sin(turn) / unit, z / unit);
+    };
+    const auto facet = [&](const std::string& corners) {
+      text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n";
+    };
+    for (int k = 0; k < kSteps; ++k) {
+      facet(corner(k, 0) + corner(k + 1, 0) + corner(k + 1, 30));
+      facet(corner(k, 0) + corner(k + 1, 30) + corner(k, 30));
+    }
+    return text + "endsolid tube\n";
+  }
+
+  void write_plan(const std::string& tolerance = "10 um") const {
+    write("tube.plan.toml", R"(title = "Tube"
+alignment = "plan"
+[[feature]]
+name = "tube"
+kind = "cylinder"
+point = [0, 0, 5]
+axis = [0, 0, 1]
+radius = 20
+side = "outside"
+strategy = { sections = [0, 10, 20], points_per_section = 24 }
+[[characteristic]]
+name = "tube.diameter"
+kind = "diameter"
+feature = "tube"
+tolerance = ")" + tolerance + R"("
+[[characteristic]]
+name = "tube.form"
+kind = "cylindricity"
+feature = "tube"
+tolerance = "2 um"
+)");
+  }
+
+  void expect_refusal(const std::string& arguments, const std::vector<std::string>& words) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos)
+          << "'" << word << "' in: " << outcome.err;
+    }
+  }
+};
+
+TEST_F(ExchangeSystem, FitsAnElementAndSaysAllAboutIt) {
+  write("p.csv", tube_points());
+  const Outcome outcome = run("fit cylinder p.csv --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json doc = json::parse(outcome.out);
+  EXPECT_EQ(doc["element"], "cylinder");
+  EXPECT_EQ(doc["criterion"], "ls");
+  EXPECT_NEAR(doc["parameters"]["radius"].get<double>(), kRadius, 1e-12);
+  EXPECT_LT(doc["form"].get<double>(), 1e-12);
+  EXPECT_EQ(doc["residuals"].size(), 72U);
+  EXPECT_EQ(doc["covariance"].size(), 5U);
+  EXPECT_TRUE(doc.contains("iterations"));
+  const Outcome text = run("fit cylinder p.csv");
+  EXPECT_NE(text.out.find("cylinder by least squares, 72 points"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("radius      20.000000000 mm"), std::string::npos) << text.out;
+  EXPECT_NE(run("fit --help").out.find("Example: frustum fit"), std::string::npos);
+}
+
+TEST_F(ExchangeSystem, FitsInTheUnitOfTheFile) {
+  write("inch.csv", tube_points(25.4, "x [inch],y [inch],z [inch]\n"));
+  write("bare.csv", tube_points(25.4));
+  for (const char* arguments :
+       {"fit cylinder inch.csv --json", "fit cylinder bare.csv --unit in --json"}) {
+    const Outcome outcome = run(arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NEAR(json::parse(outcome.out)["parameters"]["radius"].get<double>(), kRadius, 1e-12);
+  }
+}
+
+TEST_F(ExchangeSystem, RefusesFitsThatCannotBe) {
+  write("p.csv", tube_points());
+  write("nan.csv", "1 2 3\n4 nan 6\n");
+  write("two.csv", "1 2 3\n4 5 6\n");
+  write("cut.ply",
+        "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n1 2 3\n");
+  expect_refusal("fit cylinder nan.csv", {"nan.csv:2:3", "'nan' is not a finite number"});
+  expect_refusal("fit plane two.csv", {"two.csv", "3 points"});
+  expect_refusal("fit plane cut.ply", {"cut.ply", "ends within vertex 2 of 9"});
+  expect_refusal("fit cylinder p.csv --axis 0,0,0", {"--axis 0,0,0", "not a direction"});
+  expect_refusal("fit cylinder p.csv --perpendicular-to 1,2", {"--perpendicular-to"});
+  expect_refusal("fit cylinder p.csv --unit furlong", {"--unit furlong", "inch"});
+  expect_refusal("fit cylinder p.csv --radius nan", {"--radius"});
+  expect_refusal("fit cylinder p.csv --criterion best", {"--criterion", "mz"});
+  expect_refusal("fit pyramid p.csv", {"torus"});
+}
+
+TEST_F(ExchangeSystem, WritesResultsInEveryFormatThatIsAskedFor) {
+  write_plan();
+  write("p.csv", tube_points());
+  const Outcome outcome = run(
+      "measure --plan tube.plan.toml --points p.csv --quiet --export t.qif --export t.csv --export "
+      "t.junit.xml --export t.dfq --export t.JSON");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(read(folder_ / "t.qif").find("<CylinderFeatureMeasurement"), std::string::npos);
+  EXPECT_NE(read(folder_ / "t.csv").find("\ntube.diameter,diameter,tube,"), std::string::npos);
+  EXPECT_NE(read(folder_ / "t.junit.xml").find("tests=\"2\" failures=\"0\""), std::string::npos);
+  EXPECT_EQ(read(folder_ / "t.dfq").rfind("K0100 2\n", 0), 0U);
+  EXPECT_EQ(json::parse(read(folder_ / "t.JSON"))["status"], "pass");
+}
+
+TEST_F(ExchangeSystem, RefusesResultFilesBeforeTheWork) {
+  write_plan();
+  write("p.csv", tube_points());
+  const std::string measure = "measure --plan tube.plan.toml --points p.csv --export ";
+  expect_refusal(measure + "t.pdf --export ok.csv", {"t.pdf", "known: .qif .csv .json .xml .dfq"});
+  expect_refusal(measure + "p.csv/t.qif", {"p.csv/t.qif", "p.csv is not a folder"});
+  EXPECT_FALSE(fs::exists(folder_ / "ok.csv"));
+  // A job names the key.
+  const Outcome made = run("program cone --machine iwf-bc --out piece --chord-tolerance 1");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  replace_in("piece/job.toml", "report = true",
+             "report = false\nexport = [\"x/a.qif\", \"b.doc\"]");
+  expect_refusal("run piece/job.toml --out result", {"job.toml:", "output.export", "b.doc"});
+  EXPECT_FALSE(fs::exists(folder_ / "result"));
+  replace_in("piece/job.toml", "b.doc", "b.junit.xml");
+  EXPECT_NE(run("run piece/job.toml --out result --quiet").exit_code, 2);
+  EXPECT_TRUE(fs::exists(folder_ / "piece/x/a.qif"));
+  EXPECT_TRUE(fs::exists(folder_ / "piece/b.junit.xml"));
+}
+
+TEST_F(ExchangeSystem, TellsCiOfMeasurementsThatCouldNotBeMade) {
+  write_plan();
+  write("p.csv", "1,2,3\n4,5,6\n");
+  const Outcome outcome =
+      run("measure --plan tube.plan.toml --points p.csv --export t.xml --export t.qif");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(read(folder_ / "t.xml").find("tests=\"2\" failures=\"0\" errors=\"2\""),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "t.qif"));
+}
+
+TEST_F(ExchangeSystem, MeasuresAScanLikeAPart) {
+  write_plan();
+  write("tube.stl", tube_scan());
+  const Outcome outcome = run("measure --plan tube.plan.toml --mesh tube.stl --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json doc = json::parse(outcome.out);
+  // 720 facets leave the tube by 0.19 um.
+  EXPECT_NEAR(doc["characteristics"][0]["value"].get<double>(), 2.0 * kRadius, 5e-4);
+  EXPECT_LT(doc["characteristics"][1]["value"].get<double>(), 0.25);
+}
+
+TEST_F(ExchangeSystem, FindsOutUnitsThatNobodyStated) {
+  write_plan();
+  write("inch.csv", tube_points(25.4));
+  write("metre.csv", tube_points(1000.0));
+  write("inch.stl", tube_scan(25.4));
+  const std::string measure = "measure --plan tube.plan.toml ";
+  expect_refusal(measure + "--points inch.csv", {"inch.csv", "look like inch", "--unit inch"});
+  expect_refusal(measure + "--points metre.csv", {"metre.csv", "look like m "});
+  expect_refusal(measure + "--mesh inch.stl", {"inch.stl", "look like inch"});
+  EXPECT_EQ(run(measure + "--points inch.csv --unit inch").exit_code, 0);
+  EXPECT_EQ(run(measure + "--mesh inch.stl --unit inch").exit_code, 0);
+  expect_refusal(measure + "--mesh inch.stl --points inch.csv", {"--mesh SCAN.stl"});
+  expect_refusal(measure + "--mesh none.stl", {"none.stl"});
+}
+
+}  // namespace
+}  // namespace frustum

@@ -1,0 +1,138 @@
+// The formats for tables, continuous integration and statistics.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <pugixml.hpp>
+
+#include "report/export_file.hpp"
+#include "tests/report/sample_report.hpp"
+
+namespace frustum::report {
+namespace {
+
+metrology::InspectionPlan plan_of(const RunReport& report) {
+  metrology::InspectionPlan plan;
+  for (const auto& c : report.measurement.characteristics) {
+    metrology::PlannedCharacteristic planned;
+    planned.name = c.name;
+    planned.features = {"cone", "A, upper"};
+    plan.characteristics.push_back(planned);
+  }
+  return plan;
+}
+
+TEST(CharacteristicsCsv, WritesOneLineEach) {
+  const RunReport report = small_report();
+  EXPECT_EQ(
+      exported(ExportFormat::csv, report, plan_of(report)),
+      "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict\n"
+      "cone.form,cone_form,\"cone A, upper\",12.3456,,12.3456,10,0.4,um,fail\n"
+      "cone.half_angle,half_angle,\"cone A, upper\",45.00123,45,0.0012299999999996203,0.01718,"
+      "0.0006872,deg,pass\n");
+}
+
+TEST(CharacteristicsCsv, LeavesEmptyWhatIsNoNumber) {
+  RunReport report = small_report();
+  report.measurement.characteristics.resize(1);
+  report.measurement.characteristics[0].value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(exported(ExportFormat::csv, report, {})
+                .find("\ncone.form,cone_form,,,,,10,0.4,um,not measured\n"),
+            std::string::npos);
+}
+
+pugi::xml_document junit(const RunReport& report, const metrology::InspectionPlan& plan) {
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(exported(ExportFormat::junit, report, plan).c_str()));
+  return document;
+}
+
+TEST(JunitReport, MakesATestOfEachCharacteristic) {
+  RunReport report = small_report();
+  report.collisions.clear();
+  const auto document = junit(report, plan_of(report));
+  const pugi::xml_node suite = document.child("testsuites").child("testsuite");
+  for (const pugi::xml_node node : {document.child("testsuites"), suite}) {
+    EXPECT_EQ(node.attribute("tests").as_int(), 2);
+    EXPECT_EQ(node.attribute("failures").as_int(), 1);
+    EXPECT_EQ(node.attribute("errors").as_int(), 0);
+  }
+  const pugi::xml_node form = suite.first_child();
+  EXPECT_STREQ(form.attribute("name").value(), "cone.form");
+  EXPECT_STREQ(form.attribute("classname").value(), "Small part");
+  EXPECT_STREQ(form.attribute("time").value(), "0");
+  EXPECT_STREQ(form.child("failure").attribute("message").value(),
+               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (k = 2)");
+  const pugi::xml_node angle = form.next_sibling();
+  EXPECT_STREQ(angle.attribute("name").value(), "cone.half_angle");
+  EXPECT_FALSE(angle.first_child());
+}
+
+TEST(JunitReport, TellsErrorsFromFailures) {
+  RunReport report = small_report();
+  metrology::InspectionPlan plan = plan_of(report);
+  // Measured, but to no number; a collision besides.
+  report.measurement.characteristics[0].value = std::numeric_limits<double>::infinity();
+  auto document = junit(report, plan);
+  auto suite = document.child("testsuites").child("testsuite");
+  EXPECT_EQ(suite.attribute("errors").as_int(), 2);
+  EXPECT_EQ(suite.attribute("failures").as_int(), 0);
+  EXPECT_TRUE(suite.first_child().child("error"));
+  EXPECT_STREQ(suite.last_child().attribute("name").value(), "run");
+  // Nothing measured at all: each planned characteristic says why.
+  RunReport failed;
+  failed.title = "Small part";
+  failed.diagnostics = {error("feature 'cone': the plan misses the part")};
+  document = junit(failed, plan);
+  suite = document.child("testsuites").child("testsuite");
+  EXPECT_EQ(suite.attribute("tests").as_int(), 2);
+  EXPECT_EQ(suite.attribute("errors").as_int(), 2);
+  EXPECT_NE(std::string(suite.first_child().child("error").attribute("message").value())
+                .find("the plan misses the part"),
+            std::string::npos);
+}
+
+TEST(DfqReport, WritesKFieldsAndOneSetOfValues) {
+  RunReport report = small_report();
+  report.title = "K\u00f6nus 45\u00b0, 3 \u00b5m";
+  report.measurement.characteristics[0].value = 1e-9;
+  report.measurement.characteristics.push_back(report.measurement.characteristics[0]);
+  report.measurement.characteristics[2].value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(exported(ExportFormat::dfq, report, {}),
+            "K0100 3\n"
+            "K1001 K?nus 45deg, 3 um\nK1002 K?nus 45deg, 3 um\n"
+            "K2001/1 1\nK2002/1 cone.form\nK2022/1 4\nK2101/1 0.0000\nK2111/1 10.0000\nK2142/1 um\n"
+            "K2001/2 2\nK2002/2 cone.half_angle\nK2022/2 8\nK2101/2 45.00000000\n"
+            "K2110/2 44.98282000\nK2111/2 45.01718000\nK2142/2 deg\n"
+            "K2001/3 3\nK2002/3 cone.form\nK2022/3 4\nK2101/3 0.0000\nK2111/3 10.0000\nK2142/3 um\n"
+            "K0001/1 0.0000\nK0002/1 0\nK0001/2 45.00123000\nK0002/2 0\n"
+            "K0001/3 0.0000\nK0002/3 255\n");
+}
+
+TEST(ExportFile, GoesByTheExtension) {
+  EXPECT_EQ(*export_format("a.qif"), ExportFormat::qif);
+  EXPECT_EQ(*export_format("b/a.QIF"), ExportFormat::qif);
+  EXPECT_EQ(*export_format("a.junit.xml"), ExportFormat::junit);
+  EXPECT_EQ(*export_format("a.csv"), ExportFormat::csv);
+  EXPECT_EQ(*export_format("a.dfq"), ExportFormat::dfq);
+  EXPECT_EQ(*export_format("a.json"), ExportFormat::json);
+  const auto unknown = export_format("a.pdf");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(to_string(unknown.error().front()),
+            "error: a.pdf: '.pdf' names no format of results (hint: known: .qif .csv .json .xml "
+            ".dfq (.xml is JUnit))");
+}
+
+TEST(ExportFile, FindsOutBeforehandWhatCannotBeWritten) {
+  EXPECT_TRUE(export_faults(testing::TempDir() + "a.qif").empty());
+  EXPECT_TRUE(export_faults("a.qif").empty());
+  EXPECT_TRUE(export_faults(testing::TempDir() + "not-yet/there/a.qif").empty());
+  const std::string file = testing::TempDir() + "frustum_no_folder";
+  std::ofstream(file) << 1;
+  EXPECT_FALSE(export_faults(file + "/a.qif").empty());
+  EXPECT_FALSE(export_faults(testing::TempDir()).empty());
+  EXPECT_FALSE(export_faults("a").empty());
+}
+
+}  // namespace
+}  // namespace frustum::report
