@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,6 +40,21 @@ Result<UnitVec3> normal_across(const NormalisedPoints& local, const UnitVec3& al
   if (principal.spread[0] < kFlat) return on_a_line(what);
   if (alike(principal.spread[1], principal.spread[0])) return no_plane(what);
   return canonical(along.vec().cross(principal.directions.col(0)));
+}
+
+// From the principal directions, which tell the tilts of slender sets too.
+Eigen::MatrixXd free_cofactor(const NormalisedPoints& local, const UnitVec3& normal) {
+  const PrincipalDirections principal = principal_directions(local);
+  const auto [u, v] = tangents(normal);
+  Eigen::MatrixXd cofactor = Eigen::MatrixXd::Zero(3, 3);
+  cofactor(0, 0) = 1.0 / local.all_weights();
+  for (int k = 0; k < 2; ++k) {
+    const Vec3 direction = principal.directions.col(k);
+    const Eigen::Vector2d across(direction.dot(u), direction.dot(v));
+    const double variance = 1.0 / (local.all_weights() * principal.spread[k] * principal.spread[k]);
+    cofactor.bottomRightCorner<2, 2>() += variance * across * across.transpose();
+  }
+  return cofactor;
 }
 
 }  // namespace
@@ -81,7 +97,9 @@ Result<Fit<Plane>> fit_plane(std::span<const Vec3> points, const FitOptions& opt
   }
   const StepBasis basis = allowed_steps(Plane{Vec3::Zero(), *normal}, local->constraints);
   const Eigen::MatrixXd free = basis.transpose() * information * basis;
-  const Eigen::MatrixXd cofactor = basis * free.inverse() * basis.transpose();
+  const Eigen::MatrixXd cofactor = free.rows() == 3
+                                       ? free_cofactor(*local, *normal)
+                                       : Eigen::MatrixXd(basis * free.inverse() * basis.transpose());
   constexpr std::array kIsAngle{false, true, true};
   const double redundancy = static_cast<double>(local->count()) - static_cast<double>(free.rows());
   return completed(*local, Plane{local->centre, *normal},

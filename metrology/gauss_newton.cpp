@@ -56,7 +56,8 @@ Minimum GaussNewton::settle() {
     accept(trial, gram_of(trial, *points_));
     ++iterations_;
     // Steps shrink by a constant factor: the next one would be rounding.
-    result.converged = length < 1e-9 && length * (length / previous) < 1e-16;
+    result.converged =
+        length < 1e-9 && std::isfinite(previous) && length * (length / previous) < 1e-16;
     previous = length;
   }
   report(result);

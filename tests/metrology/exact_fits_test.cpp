@@ -251,6 +251,7 @@ double slope(const Fit<Element>& fit, const std::vector<Vec3>& points) {
     jacobian.row(i) = at.gradient.transpose();
     r[i] = at.residual;
   }
+  farthest += (point_of(fit.element) - centre).norm();  // centres of huge radii
   const double rounding = 1e-9 * farthest * std::sqrt(static_cast<double>(n));
   double most = 0.0;
   for (Eigen::Index k = 0; k < width; ++k) {
