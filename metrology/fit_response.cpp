@@ -18,9 +18,10 @@ std::vector<ElementChange> changes_of(const Element& element) {
       return {shift_u, shift_v, tilt_u, tilt_v, radius};
     case ElementKind::cone:
       return {shift_u, shift_v, tilt_u, tilt_v, radius, half_angle};
-    case ElementKind::line:
     case ElementKind::sphere:
-    case ElementKind::torus:
+      return {shift_u, shift_v, lift, radius};
+    case ElementKind::line:
+    case ElementKind::torus:  // no plan has one
       break;
   }
   return {};
@@ -45,6 +46,11 @@ Element varied(Element element, ElementChange change, double by) {
           if constexpr (requires { e.half_angle; }) {
             if (change == half_angle) e.half_angle += by;
           }
+        } else {  // a sphere
+          if (change == shift_u) e.point.x() += by;
+          if (change == shift_v) e.point.y() += by;
+          if (change == lift) e.point.z() += by;
+          if (change == radius) e.radius += by;
         }
       },
       element);
@@ -59,6 +65,8 @@ double step_of(ElementChange change) {
 
 FitResponse fit_response(const FittedFeature& feature) {
   FitResponse response{changes_of(feature.element), {}};
+  // One touch does not turn its plane.
+  if (feature.planned->kind == FeatureKind::point) response.changes = {ElementChange::lift};
   Eigen::MatrixXd jacobian(feature.points.size(), response.changes.size());
   for (Eigen::Index k = 0; k < jacobian.cols(); ++k) {
     const ElementChange change = response.changes[static_cast<std::size_t>(k)];

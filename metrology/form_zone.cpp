@@ -121,6 +121,11 @@ Result<Zone> straightness_zone(const Toleranced& what) {
 Result<Zone> axis_straightness_zone(const Toleranced& what) {
   const auto centres = median_line(*what.features.front());
   if (!centres) return centres.error();
+  if (centres->size() < 3) {
+    return error(fmt::format("'{}' has two sections, and two centres are always straight",
+                             what.features.front()->planned->name),
+                 "measure three sections or more");
+  }
   const auto line = associate(ElementKind::line, *centres, {.criterion = what.planned.criterion});
   if (!line) return line.error();
   double farthest = 0.0;

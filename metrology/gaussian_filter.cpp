@@ -115,6 +115,11 @@ Result<std::vector<double>> open_waviness(std::span<const double> place,
 Result<std::vector<double>> closed_waviness(std::span<const double> angle,
                                             std::span<const double> deviation, double undulations) {
   if (angle.size() < 2) return error("too few points to filter: 2 needed");
+  if (!(undulations >= 1.0)) {
+    return error(fmt::format("a closed profile has no cut-off at {:.3g} undulations per revolution",
+                             undulations),
+                 "1 or more");
+  }
   std::vector<double> within;  // one turn
   for (const double a : angle) within.push_back(a - kTurn * std::floor(a / kTurn));
   Samples s = sorted(std::move(within), deviation);

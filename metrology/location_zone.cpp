@@ -126,8 +126,12 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
   if (const auto* axis = std::get_if<Line>(&*target)) {
     // The plane through the axis that lies nearest to the toleranced one.
     const Vec3 along = axis->axis;
-    const Vec3 normal = median.axis.vec() - median.axis.vec().dot(along) * along;
-    target = Target{Plane{axis->point, unit(normal)}};
+    const auto normal = UnitVec3::of(median.axis.vec() - median.axis.vec().dot(along) * along);
+    if (!normal) {
+      return error("the datum axis stands upright on the faces",
+                   "choose an axis that lies along them");
+    }
+    target = Target{Plane{axis->point, *normal}};
   }
   const Vec3 normal = median.axis;
   const Vec3 wanted = direction_of(*target);

@@ -29,7 +29,8 @@ Wanted wanted(const Vec3& actual, const Vec3& planned, const Vec3& datum,
   const double sine = planned.cross(planned_datum).norm();
   if (sine < kPlanned)
     return {actual.dot(datum) < 0.0 ? Vec3(-datum) : datum, Freedom::none, datum};
-  const Vec3 off = (actual - actual.dot(datum) * datum).normalized();
+  const auto across = UnitVec3::of(actual - actual.dot(datum) * datum);
+  const Vec3 off = across ? across->vec() : perpendicular_to(datum);
   if (std::abs(cosine) < kPlanned) return {off, Freedom::about_datum, datum, true};
   return {cosine * datum + sine * off, Freedom::about_datum, datum};
 }

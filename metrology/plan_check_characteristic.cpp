@@ -290,6 +290,8 @@ class CharacteristicCheck {
                                                      : "upr or upr_from, or both"));
     } else if (!(f.upr >= 0.0 && f.upr_from >= 0.0 && f.cutoff >= 0.0 && f.cutoff_long >= 0.0)) {
       wrong("filter", "cut-offs must be greater than 0");
+    } else if ((f.upr > 0.0 && f.upr < 1.0) || (f.upr_from > 0.0 && f.upr_from < 1.0)) {
+      wrong("filter", "a closed profile has at least 1 undulation per revolution");
     } else if (f.upr > 0.0 && !(f.upr_from < f.upr)) {
       wrong("filter", fmt::format("upr_from = {} must be less than upr = {}", f.upr_from, f.upr));
     } else if (f.cutoff_long > 0.0 && !(f.cutoff < f.cutoff_long)) {

@@ -130,6 +130,8 @@ TEST(CharacteristicPlan, TellsWhichFiltersMakeSense) {
   EXPECT_EQ(filtered(K::roundness, {}), at + "a roundness is filtered by upr or upr_from, or both");
   EXPECT_EQ(filtered(K::roundness, {15.0, 50.0, 0.0, 0.0}),
             at + "upr_from = 50 must be less than upr = 15");
+  EXPECT_EQ(filtered(K::roundness, {15.0, 0.01, 0.0, 0.0}),
+            at + "a closed profile has at least 1 undulation per revolution");
   EXPECT_EQ(filtered(K::straightness, {0.0, 0.0, 8.0, 0.8}),
             at + "cutoff = 8 mm must be less than cutoff_long = 0.8 mm");
   EXPECT_EQ(filtered(K::cylindricity, {15.0, 0.0, 0.0, 0.0}),
