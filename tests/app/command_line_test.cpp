@@ -120,6 +120,10 @@ TEST_F(CommandLineSystem, WritesAndMeasuresAStepPatternPiece) {
   EXPECT_EQ(doc["characteristics"][0]["name"], "1-a.dL");
   EXPECT_NEAR(doc["characteristics"][0]["value"].get<double>(), 10.0, 0.01);  // 2 dy_CA
   EXPECT_NEAR(doc["characteristics"][4]["value"].get<double>(), 0.0, 0.01);   // dL0
+  // One step cuts a face whole: it is displaced, not bent.
+  for (const auto& feature : doc["features"]) {
+    EXPECT_LT(feature["form"]["value_um"].get<double>(), 0.02) << feature["name"];
+  }
   // A loft that is no body is refused where it stands.
   fs::remove_all(folder_ / "result");
   replace_in("piece/job.toml", "[180.4, 57.8, 62]", "[170.4, 57.8, 62]");
@@ -164,6 +168,30 @@ TEST_F(CommandLineSystem, RefusesBadArguments) {
     EXPECT_FALSE(outcome.err.empty()) << arguments;
     EXPECT_FALSE(fs::exists(folder_ / "p")) << arguments;
   }
+}
+
+TEST_F(CommandLineSystem, TestsItsOwnCmm) {
+  write_piece();
+  const Outcome ideal = run("cmm piece/job.toml");
+  EXPECT_EQ(ideal.exit_code, 0) << ideal.err;
+  EXPECT_NE(ideal.out.find("105 lengths (ISO 10360-2): passed"), std::string::npos) << ideal.out;
+  const std::string text = read(folder_ / "piece/job.toml");
+  const auto at = text.find("cmm  = {");
+  ASSERT_NE(at, std::string::npos);
+  const std::string line = text.substr(at, text.find('\n', at) - at);
+  replace_in("piece/job.toml", line, "cmm = { model = \"field\", e0 = \"2 um\", l_per_um = 300 }");
+  const Outcome many = run("cmm piece/job.toml --seeds 5");
+  EXPECT_EQ(many.exit_code, 0) << many.err;
+  EXPECT_TRUE(many.out.starts_with("5 machines: 5 passed")) << many.out;
+  // The statement covers 20 degC.
+  replace_in("piece/job.toml", "l_per_um = 300", "l_per_um = 300, temperature = { part = 30 }");
+  const Outcome warm = run("cmm piece/job.toml");
+  EXPECT_EQ(warm.exit_code, 1);
+  EXPECT_NE(warm.out.find("exceeded"), std::string::npos) << warm.out;
+  replace_in("piece/job.toml", "part = 30", "parts = 30");
+  const Outcome misspelt = run("cmm piece/job.toml");
+  EXPECT_EQ(misspelt.exit_code, 2);
+  EXPECT_NE(misspelt.err.find("did you mean part?"), std::string::npos) << misspelt.err;
 }
 
 TEST_F(CommandLineSystem, TakesErrorsFromFilesAndDrawsThem) {

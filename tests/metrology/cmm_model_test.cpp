@@ -8,6 +8,7 @@
 #include "metrology/cmm.hpp"
 #include "metrology/cmm_errors.hpp"
 #include "metrology/stylus_collision.hpp"
+#include "step_part.hpp"
 #include "synthetic.hpp"
 #include "test_part.hpp"
 
@@ -278,6 +279,30 @@ TEST(VirtualCmm, ErrorFreePartHasNoFormByAnyStrategy) {
   EXPECT_LT(value_of(m, "cone.form"), 0.02);
   EXPECT_LT(value_of(m, "A.flatness"), 0.02);
   EXPECT_NEAR(value_of(m, "cylinder.diameter"), 50.0, 1e-9);
+}
+
+TEST(VirtualCmm, ErrorFreeStepsAndSpheresHaveNoForm) {
+  const auto steps = measure(step_part::plan(), step_part::part());
+  ASSERT_TRUE(steps);
+  for (const MeasuredFeature& f : steps->features) EXPECT_LT(f.form, 1e-9) << f.name;
+  const test_part::ImplicitBody socket{
+      [](const Vec3& x) { return std::max(8.0 - (x - Vec3(1, 2, 3)).norm(), x.norm() - 20.0); },
+      {}};
+  InspectionPlan p;
+  PlannedFeature sphere;
+  sphere.name = "socket";
+  sphere.kind = FeatureKind::sphere;
+  sphere.side = Side::inside;
+  sphere.point = Vec3(1.0, 2.0, 3.1);  // off its place: fitted all the same
+  sphere.radius = 8.0;
+  sphere.strategy = SphereStrategy{};
+  p.features = {sphere};
+  const auto m = measure(p, socket);
+  ASSERT_TRUE(m) << to_string(m.error().front());
+  EXPECT_LT(m->features[0].form, 1e-9);
+  EXPECT_NEAR(m->features[0].parameters.at("radius")[0], 8.0, 1e-9);
+  EXPECT_NEAR(m->features[0].parameters.at("point")[2], 3.0, 1e-9);
+  EXPECT_GT(m->features[0].compensation_difference, 1e-4);  // mm: 0.1 mm across a radius of 8 mm
 }
 
 TEST(VirtualCmm, RefusesPointsBeyondItsTravel) {
