@@ -187,11 +187,7 @@ class Evaluation {
     // theirs are parallel.
     const double length = extent(unit(datum.planned->axis));
     const Vec3 tilt = length * (alike ? Vec3(a.dot(b), 0.0, 0.0) : Vec3(a.cross(b)));
-    return {tilt.norm(),
-            perpendicularity_uncertainty(u_, toleranced, datum, length),
-            {},
-            {},
-            {},
+    return {tilt.norm(),    perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}, {},
             vector_of(tilt)};
   }
 
@@ -337,7 +333,6 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   constexpr double kCoverage = 2.0;  // 95 % of a normal distribution
   result.expanded_uncertainty = kCoverage * value->uncertainty * unit.per_internal;
   result.pass = std::abs(value->value - value->nominal.value_or(0.0)) <= planned.tolerance;
-  result.verdict = result.pass ? Verdict::pass : Verdict::fail;
   result.plot_angle = std::move(value->profile.angle);
   result.plot_deviation = std::move(value->profile.deviation);
   result.profiles = std::move(value->lines);

@@ -78,7 +78,7 @@ Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> f
   const double sign = material_sign(planned);
   FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
                         {},       fit.form,
-                        fit.rms, std::move(fit.cofactor)};
+                        fit.rms,  std::move(fit.cofactor)};
   const Vec3 axis = axis_of(centre_element)->vec();
   const Vec3 line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
   if (auto* line = std::get_if<Line>(&feature.element)) line->point -= ball_radius * line_normal;

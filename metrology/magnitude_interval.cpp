@@ -12,13 +12,11 @@ namespace {
 // More places than this are thinned: solving eigenvalues of more would take seconds.
 constexpr std::size_t kMostPlaces = 240;
 
-// How many waves a form may be made of, and how sure a single one can be beforehand.
+// How many waves a form may be made of, and how likely a single one can be beforehand.
 constexpr std::array<double, 6> kModeCounts{0.1, 0.3, 1.0, 3.0, 10.0, 1e9};
-constexpr double kMostLikely = 0.999;
+constexpr double kMostLikely = 0.5;
 
-Eigen::Index per_place(MagnitudeKind kind) {
-  return kind == MagnitudeKind::twice_largest ? 3 : 1;
-}
+Eigen::Index per_place(MagnitudeKind kind) { return kind == MagnitudeKind::twice_largest ? 3 : 1; }
 
 double size_of(MagnitudeKind kind, const Eigen::VectorXd& parts) {
   return metrology::size_of(kind, std::span(parts.data(), static_cast<std::size_t>(parts.size())));
@@ -26,7 +24,8 @@ double size_of(MagnitudeKind kind, const Eigen::VectorXd& parts) {
 
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& noise) {
   const Eigen::MatrixXd centred = noise.colwise() - noise.rowwise().mean();
-  return centred * centred.transpose() / static_cast<double>(std::max<Eigen::Index>(noise.cols() - 1, 1));
+  return centred * centred.transpose() /
+         static_cast<double>(std::max<Eigen::Index>(noise.cols() - 1, 1));
 }
 
 // How alike a rough surface is at the places: its modes are waves, the long ones first. Parts of one place
@@ -51,7 +50,8 @@ Eigen::MatrixXd likeness(std::span<const Vec3> places, Eigen::Index parts) {
 // is left of draws that differ by chance would mix the waves.
 Eigen::VectorXd without_chance(const Eigen::VectorXd& variances, Eigen::Index draws) {
   const double middle = variances[variances.size() / 2];
-  const double spread = std::sqrt(static_cast<double>(variances.size()) / static_cast<double>(draws));
+  const double spread =
+      std::sqrt(static_cast<double>(variances.size()) / static_cast<double>(draws));
   // Edges of the eigenvalues of sampled covariances (Marchenko, Pastur), and a tenth beyond.
   const double low = spread < 1.0 ? middle * (1.0 - spread) * (1.0 - spread) / 1.1 : 0.0;
   const double high = middle * (1.0 + spread) * (1.0 + spread) * 1.1;
@@ -91,17 +91,16 @@ ShapeEstimate::ShapeEstimate(MagnitudeKind kind, std::span<const Vec3> places,
   const Eigen::MatrixXd some = noise(chosen_, Eigen::all);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance_of(some));
   const Eigen::VectorXd& variances = eigen.eigenvalues();
-  // What the fit took out of the residuals is rounding, 1e-6 of the other deviations at most.
+  // What the fit took out of the residuals is left in second order, 1e-3 of the other deviations at most.
   Eigen::Index first = 0;
-  while (first < variances.size() && !(variances[first] > 1e-10 * variances.tail(1)[0])) ++first;
+  while (first < variances.size() && !(variances[first] > 1e-6 * variances.tail(1)[0])) ++first;
   const Eigen::Index rank = variances.size() - first;
   if (rank == 0) return;
   const Eigen::MatrixXd basis = eigen.eigenvectors().rightCols(rank);
-  const Eigen::VectorXd deviation =
-      without_chance(variances.tail(rank), noise.cols()).cwiseSqrt();
+  const Eigen::VectorXd deviation = without_chance(variances.tail(rank), noise.cols()).cwiseSqrt();
   const Eigen::MatrixXd whiten = deviation.cwiseInverse().asDiagonal() * basis.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> surface(
-      whiten * likeness(few, parts) * whiten.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> surface(whiten * likeness(few, parts) *
+                                                               whiten.transpose());
   const Eigen::MatrixXd modes = surface.eigenvectors().rowwise().reverse();
   to_modes_ = modes.transpose() * whiten;
   from_modes_ = basis * deviation.asDiagonal() * modes;
@@ -141,23 +140,27 @@ Eigen::VectorXd ShapeEstimate::smoothed(const Eigen::VectorXd& parts) const {
   double best = -HUGE_VAL;
   for (const double count : kModeCounts) {
     // A form is made of few waves, of long ones rather than of short ones.
-    const Eigen::ArrayXd odds_before = (count / order).min(kMostLikely);
-    for (double variance = 1.0; variance < 1e9; variance *= 2.0) {
+    const Eigen::ArrayXd before = (count / order).min(kMostLikely);
+    for (double variance = 1.0; variance < 1e9; variance *= 4.0) {
       const double gain = variance / (1.0 + variance);
-      const Eigen::ArrayXd ratio = odds_before / (1.0 - odds_before) / std::sqrt(1.0 + variance) *
+      const Eigen::ArrayXd ratio = before / (1.0 - before) / std::sqrt(1.0 + variance) *
                                    (0.5 * gain * squares).min(600.0).exp();
-      const double fit = ((1.0 - odds_before) * (1.0 + ratio)).log().sum();
+      const double fit = ((1.0 - before) * (1.0 + ratio)).log().sum();
       const double weight = std::exp(std::min(fit - best, 0.0));
       const double rescale = fit > best ? std::exp(best - fit) : 1.0;
       best = std::max(best, fit);
       if (weight < 1e-9) continue;
-      kept = rescale * kept + weight * gain * ratio / (1.0 + ratio);
+      kept = rescale * kept + weight * ratio / (1.0 + ratio);
       total = rescale * total + weight;
     }
   }
   // What no noise reaches is known.
   Eigen::VectorXd out = some - from_modes_ * seen;
-  out += from_modes_ * (kept / total * seen.array()).matrix();
+  // Waves that are more likely there than not, or the likeliest one: the rest would be ripples, whose peaks
+  // take from what noise adds to flat ones.
+  kept /= total;
+  const double least = std::min(0.5, kept.maxCoeff());
+  out += from_modes_ * (kept >= least).select(seen.array(), 0.0).matrix();
   return out(nearest_);
 }
 
@@ -182,9 +185,9 @@ std::vector<double> SizeUnderNoise::sizes(double truth) const {
   Eigen::VectorXd parts(shape_.size());
   for (Eigen::Index i = 0; i < noise_.cols(); ++i) {
     parts = truth * shape_ + noise_.col(i);
-    all[static_cast<std::size_t>(i)] =
-        kind_ == MagnitudeKind::peak_to_valley ? parts.maxCoeff() - parts.minCoeff()
-                                               : size_of(kind_, parts);
+    all[static_cast<std::size_t>(i)] = kind_ == MagnitudeKind::peak_to_valley
+                                           ? parts.maxCoeff() - parts.minCoeff()
+                                           : size_of(kind_, parts);
   }
   return all;
 }

@@ -7,15 +7,16 @@
 //            all t that answer yes. a1 + a2 = 5 %; their split is that of the likelihood ratio for a normal
 //            value with a limit at 0, shifted as the mean of size(t s + noise) is from that of noise alone:
 //            a1 = 0 at t = 0, 2.5 % far from it. So the interval is never empty and holds a true 0 in
-//            exactly 95 %. s is the measured parts with the noise smoothed out of them: the mean of what
-//            random surfaces of several wavelengths say of them, each weighted by how well it explains the
-//            parts with noise of the known covariance
+//            exactly 95 %. s is the measured parts with the noise taken out of them: of the waves that a
+//            rough surface is made of (the modes of exp(-distance/size), where noise has the variance 1
+//            each) those are kept that are more likely there than not. How many there are and how high is
+//            weighed by how well it explains all of them; long waves are likelier than short ones
 // Units    : as the parts
 // Shape    : parts in rows, draws of the noise in columns
 // Errors   : none; noise that is zero gives the measured size itself
 // Accuracy : coverage 93 % to 97 % for forms of 0 to 10 times the noise (tests/metrology/coverage_test.cpp)
 // Source   : Feldman, Cousins 1998 (ordering); Chuang, Lai 2000 (inversion of tests along an estimated shape);
-//            Rasmussen, Williams 2006, sections 2.2 and 5.4 (smoothing and its weights)
+//            Johnstone, Silverman 2004 (which waves are there)
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +27,7 @@
 
 namespace frustum::metrology {
 
-// Smooths the noise out of parts.
+// Takes the noise out of parts.
 class ShapeEstimate {
  public:
   // `noise`: a column a draw, at least a few times as many as parts.

@@ -23,11 +23,16 @@ std::string_view name_of(Verdict verdict) {
   return kVerdictNames.at(static_cast<std::size_t>(verdict));
 }
 
+Verdict CharacteristicResult::verdict() const {
+  if (pass) return Verdict::pass;
+  return uncertain ? Verdict::uncertain : Verdict::fail;
+}
+
 Verdict Measurement::verdict() const {
   Verdict worst = Verdict::pass;
   for (const CharacteristicResult& c : characteristics) {
-    if (c.verdict == Verdict::fail) return Verdict::fail;
-    if (c.verdict == Verdict::uncertain) worst = Verdict::uncertain;
+    if (c.verdict() == Verdict::fail) return Verdict::fail;
+    if (c.verdict() == Verdict::uncertain) worst = Verdict::uncertain;
   }
   return worst;
 }

@@ -73,8 +73,9 @@ struct CharacteristicResult {
   double tolerance = 0.0;             // in `unit`: limit of the value, or of |value - nominal|
   double expanded_uncertainty = 0.0;  // k = 2, in `unit`
   std::optional<SimulatedUncertainty> simulated{};  // where the plan asks for it
-  Verdict verdict = Verdict::fail;
-  bool pass = false;  // verdict == Verdict::pass
+  bool pass = false;
+  bool uncertain = false;  // not passed for the uncertainty alone
+  [[nodiscard]] Verdict verdict() const;
   // The deviations that made the value, for plots: angle about the axis (rad) against deviation
   // (mm).
   std::vector<double> plot_angle{};
