@@ -160,6 +160,10 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
   }
   if (plan) {
     piece.plan = *std::move(plan);
+    if (const auto how = inspection->table_if("uncertainty")) {
+      piece.plan.monte_carlo = metrology::read_monte_carlo(*how);
+    }
+    if (inspection->has("decision")) piece.plan.decision = metrology::read_decision(*inspection);
   } else {
     problems.insert(problems.end(), plan.error().begin(), plan.error().end());
   }
