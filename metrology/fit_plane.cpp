@@ -97,9 +97,9 @@ Result<Fit<Plane>> fit_plane(std::span<const Vec3> points, const FitOptions& opt
   }
   const StepBasis basis = allowed_steps(Plane{Vec3::Zero(), *normal}, local->constraints);
   const Eigen::MatrixXd free = basis.transpose() * information * basis;
-  const Eigen::MatrixXd cofactor = free.rows() == 3
-                                       ? free_cofactor(*local, *normal)
-                                       : Eigen::MatrixXd(basis * free.inverse() * basis.transpose());
+  const Eigen::MatrixXd cofactor =
+      free.rows() == 3 ? free_cofactor(*local, *normal)
+                       : Eigen::MatrixXd(basis * free.inverse() * basis.transpose());
   constexpr std::array kIsAngle{false, true, true};
   const double redundancy = static_cast<double>(local->count()) - static_cast<double>(free.rows());
   return completed(*local, Plane{local->centre, *normal},

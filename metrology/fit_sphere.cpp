@@ -24,17 +24,14 @@ Sphere algebraic_sphere(const NormalisedPoints& local) {
   return {s.head<3>(), std::sqrt(std::max(s[3] + s.head<3>().squaredNorm(), 0.0))};
 }
 
-// A given radius leaves the centre on the side to which the points bend, or on the other when they
-// hardly bend; a ring leaves it on either side of its plane.
+// A given radius leaves the centre on either side of the points, along their least spread.
 std::vector<Element> starts_near(const Sphere& free, const PrincipalDirections& principal,
                                  const Constraints& keep) {
   if (!keep.radius) return {free};
   const double radius = *keep.radius;
-  const Vec3 bent = free.radius > 0.0 ? Vec3(radius / free.radius * free.point) : free.point;
   const double lift = std::sqrt(std::max(radius * radius - principal.spread.squaredNorm(), 0.0));
   const Vec3 lifted = lift * principal.directions.col(2);
-  return {Sphere{bent, radius}, Sphere{-bent, radius}, Sphere{lifted, radius},
-          Sphere{-lifted, radius}};
+  return {Sphere{lifted, radius}, Sphere{-lifted, radius}};
 }
 
 }  // namespace

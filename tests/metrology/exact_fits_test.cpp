@@ -235,8 +235,8 @@ std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   return points;
 }
 
-// Largest cosine between the residuals and a column of the Jacobian, beyond what rounding of the
-// coordinates makes of it.
+// Largest cosine between the residuals and a column of the Jacobian, beyond the 1e-10 of the part that
+// the fits promise: a millionth of `spared`.
 double slope(const Fit<Element>& fit, const std::vector<Vec3>& points) {
   Vec3 centre = Vec3::Zero();
   double farthest = 0.0;
@@ -252,12 +252,12 @@ double slope(const Fit<Element>& fit, const std::vector<Vec3>& points) {
     r[i] = at.residual;
   }
   farthest += (point_of(fit.element) - centre).norm();  // centres of huge radii
-  const double rounding = 1e-9 * farthest * std::sqrt(static_cast<double>(n));
+  const double spared = 1e-4 * farthest * std::sqrt(static_cast<double>(n));
   double most = 0.0;
   for (Eigen::Index k = 0; k < width; ++k) {
     const double length = jacobian.col(k).norm();
     if (length > 0.0) {
-      most = std::max(most, std::abs(jacobian.col(k).dot(r)) / length / (r.norm() + rounding));
+      most = std::max(most, std::abs(jacobian.col(k).dot(r)) / length / (r.norm() + spared));
     }
   }
   return most;
