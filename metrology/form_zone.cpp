@@ -118,6 +118,13 @@ Result<Zone> straightness_zone(const Toleranced& what) {
   return zone;
 }
 
+// The narrowest zone of three centres that lie nearly on a line: the height over their longest side.
+double lowest_height(const std::vector<Vec3>& c) {
+  const double longest =
+      std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+  return (c[1] - c[0]).cross(c[2] - c[0]).norm() / longest;
+}
+
 Result<Zone> axis_straightness_zone(const Toleranced& what) {
   const auto centres = median_line(*what.features.front());
   if (!centres) return centres.error();
@@ -126,11 +133,15 @@ Result<Zone> axis_straightness_zone(const Toleranced& what) {
                              what.features.front()->planned->name),
                  "measure three sections or more");
   }
+  const double uncertainty = straightness_uncertainty(what.u);
+  if (centres->size() == 3 && what.planned.criterion == Criterion::minimum_zone) {
+    return Zone{lowest_height(*centres), uncertainty, {}, {}};
+  }
   const auto line = associate(ElementKind::line, *centres, {.criterion = what.planned.criterion});
   if (!line) return line.error();
   double farthest = 0.0;
   for (const Vec3& p : *centres) farthest = std::max(farthest, residual(line->fit.element, p));
-  return Zone{2.0 * farthest, straightness_uncertainty(what.u), {}, {}};
+  return Zone{2.0 * farthest, uncertainty, {}, {}};
 }
 
 // The circle of the profile, its deviations filtered, associated anew by the criterion.
