@@ -37,8 +37,8 @@ int test_many(CmmModel cmm, std::uint64_t seeds) {
   }
   std::ranges::sort(shares);
   std::cout << fmt::format(
-      "{} machines: {} passed; the worst of 105 lengths uses {:.0f} % of its limit, the median "
-      "{:.0f} %, the worst machine {:.0f} %\n",
+      "{} machines: {} passed; of its limit the worst of 105 lengths uses {:.0f} % on the best "
+      "machine, {:.0f} % on the median one, {:.0f} % on the worst\n",
       seeds, seeds - failed.size(), 100.0 * shares.front(), 100.0 * shares[shares.size() / 2],
       100.0 * shares.back());
   if (failed.empty()) return kDone;

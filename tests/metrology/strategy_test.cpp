@@ -93,11 +93,11 @@ TEST(Strategy, KeepsToItsPitch) {
   // An arc of 2 rad, 40 mm: 80 steps and both ends.
   EXPECT_EQ(planned_points(round(cylinder, SectionStrategy{{0.0}, 0, 0.0, 2.0, 0.5})).size(), 81U);
   const auto rows =
-      planned_points(round(cylinder, GeneratrixStrategy{2, 0.0, 1.1, 0, 0.0, 1.0, 0.1, true}));
-  EXPECT_EQ(rows.size(), 24U);  // 1.1 / 0.1 is 11 but for rounding
+      planned_points(round(cylinder, GeneratrixStrategy{3, 0.0, 2.1, 0, 0.0, 1.0, 0.3, true}));
+  EXPECT_EQ(rows.size(), 24U);  // 2.1 / 0.3 is 7 but for rounding
   EXPECT_TRUE(rows.front().scanned);
-  for (std::size_t i = 1; i < 12; ++i) {
-    EXPECT_NEAR((rows[i].point - rows[i - 1].point).norm(), 0.1, 1e-12);
+  for (std::size_t i = 1; i < 8; ++i) {
+    EXPECT_NEAR((rows[i].point - rows[i - 1].point).norm(), 0.3, 1e-12);
   }
   const auto spiral =
       planned_points(round(cone, SpiralStrategy{-5.0, 5.0, 3.0, 0, 0.0, 0.25, true}));
