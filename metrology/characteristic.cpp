@@ -33,6 +33,7 @@ struct Value {
   std::optional<double> nominal{};
   RoundProfile profile{};
   std::vector<LineProfile> lines{};
+  Magnitude magnitude{};  // what the value is the size of
 };
 
 class Evaluation {
@@ -48,17 +49,21 @@ class Evaluation {
   [[nodiscard]] Result<Value> operator()() const {
     const FittedFeature& feature = *features_.front();
     switch (planned_.kind) {
-      case CharacteristicKind::roundness:
-        return round(roundness(at_one_height(feature, section(0), *axis_of(feature.element)),
-                               angle_frame(feature)));
-      case CharacteristicKind::equivalent_cone_form:
-        return round(equivalent_cone_form(feature.section(section(0)), feature.planned->half_angle,
-                                          -unit(feature.planned->axis), angle_frame(feature)));
+      case CharacteristicKind::roundness: {
+        const auto points = at_one_height(feature, section(0), *axis_of(feature.element));
+        return round(roundness(points, angle_frame(feature)), points);
+      }
+      case CharacteristicKind::equivalent_cone_form: {
+        const auto points = feature.section(section(0));
+        return round(equivalent_cone_form(points, feature.planned->half_angle,
+                                          -unit(feature.planned->axis), angle_frame(feature)),
+                     points);
+      }
       case CharacteristicKind::cylindricity:
       case CharacteristicKind::cone_form:
         return surface_form();
       case CharacteristicKind::flatness:
-        return Value{feature.form, form_uncertainty(u_, 0.0), {}, {}, {}};
+        return Value{feature.form, form_uncertainty(u_, 0.0), {}, {}, {}, residuals(feature)};
       case CharacteristicKind::straightness:
         return straightness();
       case CharacteristicKind::half_angle:
@@ -89,15 +94,24 @@ class Evaluation {
     return i == 0 ? 0 : section_count(*features_.back()->planned) - 1;
   }
 
-  [[nodiscard]] Result<Value> round(Result<RoundProfile> profile) const {
+  [[nodiscard]] Result<Value> round(Result<RoundProfile> profile, std::vector<Vec3> points) const {
     if (!profile) return std::move(profile).error();
     const double r = features_.front()->planned->radius;
-    return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile), {}};
+    Magnitude magnitude{MagnitudeKind::peak_to_valley, profile->deviation, std::move(points)};
+    return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile), {},
+                 std::move(magnitude)};
+  }
+
+  [[nodiscard]] static Magnitude residuals(const FittedFeature& feature) {
+    Magnitude magnitude{MagnitudeKind::peak_to_valley, {}, feature.all_points()};
+    for (const MeasuredPoint& p : feature.points) magnitude.parts.push_back(p.deviation);
+    return magnitude;
   }
 
   [[nodiscard]] Value surface_form() const {
     const FittedFeature& feature = *features_.front();
-    Value v{feature.form, form_uncertainty(u_, feature.planned->radius), {}, {}, {}};
+    Value v{feature.form,      form_uncertainty(u_, feature.planned->radius), {}, {}, {},
+            residuals(feature)};
     for (const MeasuredPoint& p : feature.points) {
       v.profile.angle.push_back(
           angle_of(p.point - point_of(feature.element), angle_frame(feature)));
@@ -106,13 +120,21 @@ class Evaluation {
     return v;
   }
 
+  [[nodiscard]] static Magnitude vector_of(const Vec3& v) {
+    return {MagnitudeKind::length, {v.x(), v.y(), v.z()}, {}};
+  }
+
   [[nodiscard]] Value straightness() const {
     const FittedFeature& feature = *features_.front();
-    double farthest = 0.0;
-    for (const MeasuredPoint& p : feature.points) {
-      farthest = std::max(farthest, residual(feature.element, p.point));
+    const Vec3 axis = *axis_of(feature.element);
+    Magnitude off{MagnitudeKind::twice_largest, {}, feature.all_points()};
+    for (const Vec3& p : off.places) {
+      const Vec3 from = p - point_of(feature.element);
+      const Vec3 across = from - from.dot(axis) * axis;
+      off.parts.insert(off.parts.end(), across.begin(), across.end());
     }
-    return {2.0 * farthest, straightness_uncertainty(u_), {}, {}, {}};
+    const double value = size_of(off.kind, off.parts);
+    return {value, straightness_uncertainty(u_), {}, {}, {}, std::move(off)};
   }
 
   [[nodiscard]] Result<Value> concentricity() const {
@@ -124,11 +146,13 @@ class Evaluation {
     const auto second = fit_circle(at_one_height(*features_.back(), section(1), axis));
     if (!second) return second.error();
     const Vec3 apart = second->element.point - first->element.point;
-    return Value{2.0 * apart.cross(axis).norm(),
+    const Vec3 offset = 2.0 * apart.cross(axis);
+    return Value{offset.norm(),
                  concentricity_uncertainty(u_, *first, *second, *features_.front()),
                  {},
                  {},
-                 {}};
+                 {},
+                 vector_of(offset)};
   }
 
   // Length of the toleranced feature over which it may tilt.
@@ -161,9 +185,10 @@ class Evaluation {
                        std::holds_alternative<Plane>(datum.element);
     // Two planes or two axes are perpendicular when their directions are; a plane and an axis when
     // theirs are parallel.
-    const double tilt = alike ? std::abs(a.dot(b)) : a.cross(b).norm();
     const double length = extent(unit(datum.planned->axis));
-    return {length * tilt, perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}, {}};
+    const Vec3 tilt = length * (alike ? Vec3(a.dot(b), 0.0, 0.0) : Vec3(a.cross(b)));
+    return {tilt.norm(),    perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}, {},
+            vector_of(tilt)};
   }
 
   [[nodiscard]] Result<Value> lines() const {
@@ -311,6 +336,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.plot_angle = std::move(value->profile.angle);
   result.plot_deviation = std::move(value->profile.deviation);
   result.profiles = std::move(value->lines);
+  result.magnitude = std::move(value->magnitude);
   return result;
 }
 

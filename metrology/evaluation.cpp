@@ -8,7 +8,9 @@
 
 #include "metrology/characteristic.hpp"
 #include "metrology/datum.hpp"
+#include "metrology/decision_rule.hpp"
 #include "metrology/influence.hpp"
+#include "metrology/monte_carlo_uncertainty.hpp"
 #include "metrology/nominal.hpp"
 #include "metrology/workpiece_frame.hpp"
 
@@ -110,6 +112,23 @@ Result<Pose> alignment_of(const InspectionPlan& plan, std::span<const FittedFeat
 
 Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeature> features,
                               const CmmModel& cmm) {
+  auto measurement = evaluated_values(plan, features, cmm);
+  if (!measurement) return measurement;
+  const PointUncertainty u = point_uncertainty(cmm);
+  if (plan.monte_carlo && (u.probing > 0.0 || u.scale > 0.0)) {
+    const auto simulated = simulated_uncertainties(
+        plan, features, error_draws(cmm, plan.monte_carlo->seed), *plan.monte_carlo);
+    if (!simulated) return simulated.error();
+    for (std::size_t i = 0; i < simulated->size(); ++i) {
+      measurement->characteristics[i].simulated = (*simulated)[i];
+    }
+  }
+  decide(*measurement, plan.decision);
+  return measurement;
+}
+
+Result<Measurement> evaluated_values(const InspectionPlan& plan,
+                                     std::vector<FittedFeature> features, const CmmModel& cmm) {
   const auto workpiece_from_datum = alignment_of(plan, features);
   if (!workpiece_from_datum) return workpiece_from_datum.error();
   Measurement measurement;

@@ -27,9 +27,14 @@ namespace frustum::metrology {
 [[nodiscard]] Result<Pose> alignment_of(const InspectionPlan& plan,
                                         std::span<const FittedFeature> features);
 
-// `features` are in the workpiece frame.
+// `features` are in the workpiece frame. With uncertainties by simulation and verdicts by the rule that the
+// plan asks for.
 [[nodiscard]] Result<Measurement> evaluated(const InspectionPlan& plan,
                                             std::vector<FittedFeature> features,
                                             const CmmModel& cmm);
+// Without them.
+[[nodiscard]] Result<Measurement> evaluated_values(const InspectionPlan& plan,
+                                                   std::vector<FittedFeature> features,
+                                                   const CmmModel& cmm);
 
 }  // namespace frustum::metrology

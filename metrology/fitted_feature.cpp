@@ -62,17 +62,23 @@ Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vect
     }
     return failure;
   }
-  if (const auto* cone = std::get_if<Cone>(&fit->element);
+  return feature_from(planned, std::move(*fit), centres, sections, ball_radius);
+}
+
+Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> fit,
+                                   const std::vector<Vec3>& centres,
+                                   const std::vector<std::size_t>& sections, double ball_radius) {
+  if (const auto* cone = std::get_if<Cone>(&fit.element);
       cone != nullptr && cone->axis.vec().dot(planned.axis) < 0.0) {
     return error(
         fmt::format("feature '{}': the measured cone opens against the planned axis", planned.name),
         "the axis of a cone points toward the growing radius");
   }
-  const Element centre_element = agreeing(fit->element, planned.axis);
+  const Element centre_element = agreeing(fit.element, planned.axis);
   const double sign = material_sign(planned);
   FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
-                        {},       fit->form,
-                        fit->rms, std::move(fit->cofactor)};
+                        {},       fit.form,
+                        fit.rms,  std::move(fit.cofactor)};
   const Vec3 axis = axis_of(centre_element)->vec();
   const Vec3 line_normal = (planned.normal - planned.normal.dot(axis) * axis).normalized();
   if (auto* line = std::get_if<Line>(&feature.element)) line->point -= ball_radius * line_normal;
@@ -83,7 +89,7 @@ Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vect
     feature.points.push_back({centres[i] - ball_radius * normal, normal,
                               planned.kind == FeatureKind::line
                                   ? (centres[i] - point_of(centre_element)).dot(line_normal)
-                                  : sign * fit->residuals[i],
+                                  : sign * fit.residuals[i],
                               sections[i]});
   }
   return feature;

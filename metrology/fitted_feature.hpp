@@ -36,6 +36,12 @@ struct FittedFeature {
                                                 const std::vector<std::size_t>& sections,
                                                 double ball_radius);
 
+// The same from a fit to the centres that is there already.
+[[nodiscard]] Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> fit,
+                                                 const std::vector<Vec3>& centres,
+                                                 const std::vector<std::size_t>& sections,
+                                                 double ball_radius);
+
 [[nodiscard]] FittedFeature transformed(const Pose& to_from, FittedFeature feature);
 
 // What a report says about it.

@@ -17,6 +17,8 @@
 
 #include "core/pose.hpp"
 #include "core/result.hpp"
+#include "metrology/decision_rule.hpp"
+#include "metrology/monte_carlo_settings.hpp"
 
 namespace frustum::metrology {
 
@@ -175,6 +177,8 @@ struct InspectionPlan {
   ProbeSettings probe{};
   Alignment alignment = Alignment::datum;
   std::optional<DatumSystem> datum{};
+  std::optional<MonteCarloSettings> monte_carlo{};  // absent: linear propagation alone
+  DecisionRule decision = DecisionRule::simple;
   std::vector<PlannedFrame> frames{};
   std::vector<PlannedFeature> features{};
   std::vector<PlannedCharacteristic> characteristics{};

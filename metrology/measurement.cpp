@@ -19,6 +19,24 @@ bool is_angle(const CharacteristicResult& characteristic) {
   return characteristic.unit == "urad" || characteristic.unit == "deg";
 }
 
+std::string_view name_of(Verdict verdict) {
+  return kVerdictNames.at(static_cast<std::size_t>(verdict));
+}
+
+Verdict CharacteristicResult::verdict() const {
+  if (pass) return Verdict::pass;
+  return uncertain ? Verdict::uncertain : Verdict::fail;
+}
+
+Verdict Measurement::verdict() const {
+  Verdict worst = Verdict::pass;
+  for (const CharacteristicResult& c : characteristics) {
+    if (c.verdict() == Verdict::fail) return Verdict::fail;
+    if (c.verdict() == Verdict::uncertain) worst = Verdict::uncertain;
+  }
+  return worst;
+}
+
 std::optional<std::size_t> Measurement::find(std::string_view characteristic) const {
   for (std::size_t i = 0; i < characteristics.size(); ++i) {
     if (characteristics[i].name == characteristic) return i;

@@ -7,6 +7,7 @@
 // Errors : none
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/pose.hpp"
+#include "metrology/magnitude.hpp"
 
 namespace frustum::metrology {
 
@@ -46,6 +48,20 @@ struct LineProfile {
   double fit_slope = 0.0;           // rad (mm per mm)
 };
 
+// ISO 14253-1 knows the third: within the uncertainty of the limit.
+enum class Verdict { pass, fail, uncertain };
+inline constexpr std::array<std::string_view, 3> kVerdictNames{"pass", "fail", "uncertain"};
+[[nodiscard]] std::string_view name_of(Verdict verdict);
+
+// What a Monte Carlo simulation of the measuring errors says, in the unit of its characteristic.
+struct SimulatedUncertainty {
+  double low = 0.0;  // of the interval that holds the true value in 95 % of measurements
+  double high = 0.0;
+  double standard = 0.0;
+  std::size_t draws = 0;
+  bool stable = false;  // to the digits asked for, or as exact as that without noise
+};
+
 struct CharacteristicResult {
   std::string name{};
   std::string kind{};
@@ -56,12 +72,16 @@ struct CharacteristicResult {
   std::optional<double> nominal{};
   double tolerance = 0.0;             // in `unit`: limit of the value, or of |value - nominal|
   double expanded_uncertainty = 0.0;  // k = 2, in `unit`
+  std::optional<SimulatedUncertainty> simulated{};  // where the plan asks for it
   bool pass = false;
+  bool uncertain = false;  // not passed for the uncertainty alone
+  [[nodiscard]] Verdict verdict() const;
   // The deviations that made the value, for plots: angle about the axis (rad) against deviation
   // (mm).
   std::vector<double> plot_angle{};
   std::vector<double> plot_deviation{};
   std::vector<LineProfile> profiles{};  // of characteristics that compare lines: first, second
+  Magnitude magnitude{};  // what the value is the size of; kind none for values of either sign
 };
 
 // In mm or rad, from the unit of a characteristic: "um", "mm", "deg", "urad". Any other text means
@@ -85,6 +105,8 @@ struct Measurement {
     }
     return true;
   }
+  // fail when one fails, else uncertain when one is.
+  [[nodiscard]] Verdict verdict() const;
   // Place in `characteristics`.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view characteristic) const;
 };

@@ -147,6 +147,8 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
   InspectionPlan plan;
   plan.title = root.text_or("title", "");
   plan.alignment = static_cast<Alignment>(root.choice_or("alignment", words(kAlignmentNames), 0));
+  plan.decision = read_decision(root);
+  if (const auto how = root.table_if("uncertainty")) plan.monte_carlo = read_monte_carlo(*how);
   const TomlTable probe = root.table("probe");
   plan.probe.ball_diameter = probe.length("ball_diameter", Bound::positive).value;
   plan.probe.clearance =

@@ -168,6 +168,11 @@ std::string to_toml(const InspectionPlan& plan) {
   out += fmt::format("title = {}\n", toml_text(plan.title));
   out += fmt::format("alignment = {}  # datum: results in the datum system; plan: as probed\n",
                      toml_text(kAlignmentNames.at(static_cast<std::size_t>(plan.alignment))));
+  if (plan.decision != DecisionRule::simple) {
+    out += fmt::format("decision = {}\n",
+                       toml_text(kDecisionNames.at(static_cast<std::size_t>(plan.decision))));
+  }
+  if (plan.monte_carlo) out += fmt::format("uncertainty = {}\n", to_toml(*plan.monte_carlo));
   out += "\n[probe]\n";
   out += fmt::format("ball_diameter = {}  # mm\n", plan.probe.ball_diameter);
   out += fmt::format("clearance = {}  # mm, where the approach starts\n", plan.probe.clearance);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -57,9 +58,14 @@ std::string with_unit(const std::string& number, std::string_view unit) {
   return shown + "\u202f" + symbol;
 }
 
-std::string verdict_mark(bool pass) {
-  return fmt::format("<span class=\"mark {}\">{}</span>", pass ? "pass" : "fail",
-                     pass ? "Pass" : "Fail");
+std::string_view capital(metrology::Verdict verdict) {
+  constexpr std::array<std::string_view, 3> kWords{"Pass", "Fail", "Uncertain"};
+  return kWords.at(static_cast<std::size_t>(verdict));
+}
+
+std::string verdict_mark(metrology::Verdict verdict) {
+  return fmt::format("<span class=\"mark {}\">{}</span>", metrology::name_of(verdict),
+                     capital(verdict));
 }
 
 std::string fact(std::string_view name, const std::string& value) {
@@ -83,12 +89,12 @@ std::string head_html(const RunReport& report) {
     tools += fmt::format("{}T{} {}", tools.empty() ? "" : "<br>", tool.number,
                          html_text(tool.description));
   }
-  const bool pass = report.passes();
+  const metrology::Verdict verdict = report.verdict();
   const std::string title = html_text(report.title.empty() ? "Untitled run" : report.title);
   std::string html = "<header><p class=\"brand\"><b>Frustum</b> Measurement report</p>\n";
   html +=
       fmt::format("<div class=\"top\"><h1>{}</h1><p class=\"verdict {}\"><b>{}</b>{}</p></div>\n",
-                  title, pass ? "pass" : "fail", pass ? "Pass" : "Fail", reason);
+                  title, metrology::name_of(verdict), capital(verdict), reason);
   html += "<dl class=\"facts\">";
   html += fact("Machine", html_text(report.machine));
   html += fact("Structure",
@@ -108,7 +114,7 @@ std::string used_cell(const Characteristic& characteristic) {
   return fmt::format(
       "<span class=\"used\"><span class=\"bar\"><i class=\"{}\" style=\"width:{:.0f}%\"></i></span>"
       "{}\u202f%</span>",
-      characteristic.pass ? "pass" : "fail", 100.0 * std::min(*used, 1.0),
+      metrology::name_of(characteristic.verdict()), 100.0 * std::min(*used, 1.0),
       fixed_text(100.0 * *used, 0));
 }
 
@@ -119,9 +125,13 @@ std::string characteristics_html(const RunReport& report) {
       all.begin(), all.end(), [](const Characteristic& c) { return !nominal_text(c).empty(); });
   std::vector<std::string> headings{"Characteristic", ">Value"};
   if (nominals) headings.emplace_back(">Nominal");
-  for (const char* heading : {">Tolerance", ">U (k = 2)", ">Used", "Verdict"}) {
-    headings.emplace_back(heading);
-  }
+  const bool intervals = std::any_of(
+      all.begin(), all.end(), [](const Characteristic& c) { return c.simulated.has_value(); });
+  headings.emplace_back(">Tolerance");
+  headings.emplace_back(">U (k = 2)");
+  if (intervals) headings.emplace_back(">95\u202f% interval");
+  headings.emplace_back(">Used");
+  headings.emplace_back("Verdict");
   Table table(headings);
   for (const Characteristic& c : all) {
     const std::string kind =
@@ -133,15 +143,20 @@ std::string characteristics_html(const RunReport& report) {
     }
     cells.push_back((c.nominal ? "± " : "") + with_unit(value_text(c.tolerance, c.unit), c.unit));
     cells.push_back(with_unit(uncertainty_text(c.expanded_uncertainty), c.unit));
+    if (intervals) cells.push_back(c.simulated ? with_unit(interval_text(c), c.unit) : "");
     cells.push_back(used_cell(c));
-    cells.push_back(verdict_mark(c.pass));
+    cells.push_back(verdict_mark(c.verdict()));
     table.row(cells);
   }
   return section("characteristics", "Characteristics",
                  table.html() +
                      "<p class=\"note\">U is the expanded measurement uncertainty (k = 2). Used: "
                      "share of the tolerance taken by the value, or by its distance from the "
-                     "nominal where there is one.</p>\n");
+                     "nominal where there is one." +
+                     (intervals ? " The interval holds the true value in 95\u202f% of measurements "
+                                  "(Monte Carlo)."
+                                : std::string()) +
+                     "</p>\n");
 }
 
 std::string form_html(const RunReport& report) {

@@ -62,6 +62,13 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   json["tolerance"] = number(characteristic.tolerance);
   json["expanded_uncertainty"] = number(characteristic.expanded_uncertainty);
   json["pass"] = characteristic.pass;
+  json["verdict"] = metrology::name_of(characteristic.verdict());
+  if (const auto& simulated = characteristic.simulated) {
+    json["interval"] = {number(simulated->low), number(simulated->high)};
+    json["standard_uncertainty"] = number(simulated->standard);
+    json["draws"] = simulated->draws;
+    json["stable"] = simulated->stable;
+  }
   json["nominal"] = number(characteristic.nominal);
   json["deviation"] = number(deviation_of(characteristic));
   json["tolerance_used"] = number(used_share(characteristic));
@@ -112,7 +119,7 @@ Json timing_json(const std::vector<Timing>& timings) {
 std::string json_report(const RunReport& report) {
   Json json;
   json["title"] = report.title;
-  json["status"] = report.passes() ? "pass" : "fail";
+  json["status"] = metrology::name_of(report.verdict());
   json["machine"] = report.machine;
   json["structure"] = report.structure;
   json["program"] = report.program;

@@ -53,6 +53,12 @@ std::string uncertainty_text(double value) {
   return fixed_text(value, std::clamp(1 - exponent, 0, 9));
 }
 
+std::string interval_text(const metrology::CharacteristicResult& characteristic) {
+  if (!characteristic.simulated) return "";
+  return value_text(characteristic.simulated->low, characteristic.unit) + " .. " +
+         value_text(characteristic.simulated->high, characteristic.unit);
+}
+
 std::string unit_symbol(std::string_view unit) {
   if (unit == "um") return "µm";
   if (unit == "urad") return "µrad";

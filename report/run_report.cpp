@@ -36,4 +36,11 @@ bool RunReport::passes() const {
          !has_error(measurement.diagnostics);
 }
 
+metrology::Verdict RunReport::verdict() const {
+  if (passes()) return metrology::Verdict::pass;
+  const bool is_sound =
+      collisions.empty() && !has_error(diagnostics) && !has_error(measurement.diagnostics);
+  return is_sound ? measurement.verdict() : metrology::Verdict::fail;
+}
+
 }  // namespace frustum::report

@@ -140,6 +140,8 @@ struct RunReport {
 
   // Every characteristic within its tolerance, no collision, no diagnostic of Severity::error.
   [[nodiscard]] bool passes() const;
+  // uncertain when nothing else is wrong than characteristics too near their limits.
+  [[nodiscard]] metrology::Verdict verdict() const;
 };
 
 }  // namespace frustum::report

@@ -79,7 +79,9 @@ class Page {
   }
 
   [[nodiscard]] std::string bold(const std::string& content) const { return coded("1", content); }
-  [[nodiscard]] std::string verdict(bool pass) const {
+  [[nodiscard]] std::string verdict(metrology::Verdict verdict) const {
+    if (verdict == metrology::Verdict::uncertain) return coded("1;33", "UNCERTAIN");
+    const bool pass = verdict == metrology::Verdict::pass;
     return coded(pass ? "1;32" : "1;31", pass ? "PASS" : "FAIL");
   }
 
@@ -97,7 +99,7 @@ void write_head(Page& page, const RunReport& report) {
   const std::string title = printable(report.title.empty() ? "Untitled run" : report.title);
   const std::size_t used = columns_of(title) + 4;
   const std::string gap(page.width() > used ? page.width() - used : 2, ' ');
-  page.line(page.bold(title) + gap + page.verdict(report.passes()));
+  page.line(page.bold(title) + gap + page.verdict(report.verdict()));
   const std::string structure = report.structure.empty() ? "" : " [" + report.structure + "]";
   if (!report.machine.empty()) page.labelled("Machine    ", report.machine + structure);
   if (!report.program.empty()) page.labelled("Program    ", report.program);
@@ -134,14 +136,20 @@ void write_characteristics(Page& page, const RunReport& report) {
   const bool has_nominal = std::any_of(characteristics.begin(), characteristics.end(),
                                        [](const auto& c) { return !nominal_text(c).empty(); });
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (k=2)", "Used", "Verdict"});
+  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (k=2)", "95 % interval",
+                  "Used", "Verdict"});
   for (const metrology::CharacteristicResult& c : characteristics) {
     const std::optional<double> used = used_share(c);
     const std::string plus_minus = c.nominal ? "+-" : "";
     rows.push_back({printable(c.name), result_text(c) + " " + c.unit, nominal_text(c),
                     plus_minus + value_text(c.tolerance, c.unit),
-                    uncertainty_text(c.expanded_uncertainty),
+                    uncertainty_text(c.expanded_uncertainty), interval_text(c),
                     used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});
+  }
+  const bool has_interval = std::any_of(characteristics.begin(), characteristics.end(),
+                                        [](const auto& c) { return c.simulated.has_value(); });
+  if (!has_interval) {
+    for (auto& row : rows) row.erase(row.begin() + 5);
   }
   if (!has_nominal) {
     for (auto& row : rows) row.erase(row.begin() + 2);
@@ -160,7 +168,7 @@ void write_characteristics(Page& page, const RunReport& report) {
       page.line(page.bold(text + "  Verdict"));
       page.line(std::string(columns_of(text) + 9, '-'));
     } else {
-      page.line(text + "  " + page.verdict(characteristics[r - 1].pass));
+      page.line(text + "  " + page.verdict(characteristics[r - 1].verdict()));
     }
   }
 }
