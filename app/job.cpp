@@ -151,6 +151,9 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
       want_plan ? root.table("inspection") : root.table_if("inspection");
   if (!inspection) return;
   if (const auto cmm = inspection->table_if("cmm")) cmm_model = metrology::read_cmm_model(*cmm);
+  const auto uncertainty = inspection->table_if("uncertainty");
+  const auto monte_carlo = uncertainty ? metrology::read_monte_carlo(*uncertainty) : std::nullopt;
+  const metrology::DecisionRule decision = metrology::read_decision(*inspection);
   if (!inspection->has("plan") && !want_plan) return;
   if (inspection->text("plan").empty()) return;
   auto plan = metrology::load_plan(inspection->file_path("plan"));
@@ -160,10 +163,8 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
   }
   if (plan) {
     piece.plan = *std::move(plan);
-    if (const auto how = inspection->table_if("uncertainty")) {
-      piece.plan.monte_carlo = metrology::read_monte_carlo(*how);
-    }
-    if (inspection->has("decision")) piece.plan.decision = metrology::read_decision(*inspection);
+    if (uncertainty) piece.plan.monte_carlo = monte_carlo;
+    if (inspection->has("decision")) piece.plan.decision = decision;
   } else {
     problems.insert(problems.end(), plan.error().begin(), plan.error().end());
   }

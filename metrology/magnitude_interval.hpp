@@ -14,7 +14,8 @@
 // Units    : as the parts
 // Shape    : parts in rows, draws of the noise in columns
 // Errors   : none; noise that is zero gives the measured size itself
-// Accuracy : coverage 93 % to 97 % for forms of 0 to 10 times the noise (tests/metrology/coverage_test.cpp)
+// Accuracy : coverage 95 % for no form, 93 % to 97 % for most others; 89 % at worst, of a cone whose lobes are
+//            5 times the noise (docs/uncertainty.md, tests/metrology/coverage_test.cpp)
 // Source   : Feldman, Cousins 1998 (ordering); Chuang, Lai 2000 (inversion of tests along an estimated shape);
 //            Johnstone, Silverman 2004 (which waves are there)
 #pragma once

@@ -110,8 +110,8 @@ void expect_coverage(const char* title, const InspectionPlan& plan, const Part& 
   for (std::size_t c = 0; c < held.size(); ++c) {
     const CharacteristicResult& truth = exact->characteristics[c];
     const double share = static_cast<double>(held[c]) / kMeasurements;
-    std::printf("  %-24s %9.4f %-4s %.2f %%\n", truth.name.c_str(), truth.value,
-                truth.unit.c_str(), 100.0 * share);
+    std::printf("  %-24s %9.4f %-4s %.2f %%\n", truth.name.c_str(), truth.value, truth.unit.c_str(),
+                100.0 * share);
     EXPECT_GE(share, 0.93) << title << ": " << truth.name;
     EXPECT_LE(share, 0.97) << title << ": " << truth.name;
   }
@@ -137,8 +137,7 @@ TEST(CoverageReference, HoldsTheTruthOfAConeWithoutFormErrors) {
 }
 
 TEST(CoverageReference, HoldsTheTruthOfAConeWithFormErrors) {
-  expect_coverage("lobes 2 um, noise 1 um", test_part::plan(), test_part::part(flaws(2.0)),
-                  kNoise);
+  expect_coverage("lobes 2 um, noise 1 um", test_part::plan(), test_part::part(flaws(2.0)), kNoise);
   if (!is_all()) return;
   const CmmModel fine{.e0_mm = 0.0006, .length_per_error = 600.0};
   for (const double um : {0.5, 1.0, 5.0}) {

@@ -26,7 +26,7 @@ Measurement measured(InspectionPlan plan, const CmmModel& cmm, std::size_t draws
 TEST(Refit, AgreesWithTheSearchFromScratch) {
   synthetic::Draws draws(31);
   for (const std::size_t which : {std::size_t{1}, std::size_t{3}}) {  // cylinder, cone
-    const PlannedFeature& planned = test_part::plan().features[which];
+    const PlannedFeature planned = test_part::plan().features[which];
     const Pose lie{rotation_about(draws.direction(), 0.01), draws.place(0.3)};
     std::vector<Vec3> points;
     std::vector<std::size_t> sections;
@@ -60,8 +60,7 @@ TEST(MonteCarlo, AgreesWithLinearPropagationWhereThatHolds) {
     EXPECT_NEAR((c.simulated->high - c.simulated->low) / (2.0 * 1.96 * c.simulated->standard), 1.0,
                 0.03)
         << name;
-    EXPECT_NEAR(c.simulated->high + c.simulated->low, 2.0 * c.value,
-                0.1 * c.expanded_uncertainty)
+    EXPECT_NEAR(c.simulated->high + c.simulated->low, 2.0 * c.value, 0.1 * c.expanded_uncertainty)
         << name;
   }
   // A true form of 8 um, seen larger for the noise.
@@ -130,12 +129,25 @@ TEST(MagnitudeInterval, SplitsTheTailsByTheLikelihoodRatio) {
   EXPECT_NEAR(tails_near_zero(0.0, 0.95).low, 0.0, 1e-12);
   EXPECT_NEAR(tails_near_zero(0.0, 0.95).high, 0.05, 1e-9);
   EXPECT_NEAR(tails_near_zero(8.0, 0.95).low, 0.025, 1e-9);
-  // Feldman, Cousins 1998, table X: a measured mean of 1.0 has the upper limit 2.96, one of 3.0 the interval
-  // 1.08 to 4.96. So a mean of 2.96 accepts from 1.0 and one of 1.08 up to 3.0.
-  const Tails upper = tails_near_zero(2.96, 0.95);
-  EXPECT_NEAR(upper.low, 0.5 * std::erfc((2.96 - 1.0) / std::sqrt(2.0)), 0.001);
-  const Tails lower = tails_near_zero(1.08, 0.95);
-  EXPECT_NEAR(lower.high, 0.5 * std::erfc((3.0 - 1.08) / std::sqrt(2.0)), 0.001);
+  // Feldman, Cousins 1998, table X: a measured mean of 1.0 has the upper limit 2.96, so a true mean of 2.96
+  // accepts from 1.0 on.
+  EXPECT_NEAR(tails_near_zero(2.96, 0.95).low, 0.5 * std::erfc(1.96 / std::sqrt(2.0)), 0.001);
+  // Where the lower end is negative its best mean is 0: equal likelihood ratios at both ends.
+  const Tails tails = tails_near_zero(0.5, 0.95);
+  EXPECT_NEAR(tails.low + tails.high, 0.05, 1e-12);
+  const auto end = [](double tail) {  // a normal value is beyond it with that probability
+    double below = 0.0;
+    double above = 10.0;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (below + above);
+      (0.5 * std::erfc(middle / std::sqrt(2.0)) > tail ? below : above) = middle;
+    }
+    return below;
+  };
+  const double low = 0.5 - end(tails.low);
+  const double high = 0.5 + end(tails.high);
+  ASSERT_LT(low, 0.0);
+  EXPECT_NEAR(low * 0.5 - 0.5 * 0.5 * 0.5, -0.5 * (high - 0.5) * (high - 0.5), 1e-6);
 }
 
 TEST(MagnitudeInterval, IsTheMeasuredSizeWithoutNoise) {
