@@ -53,6 +53,10 @@ class ExchangeSystem : public CommandLine {
   void write_plan(const std::string& tolerance = "10 um") const {
     write("tube.plan.toml", R"(title = "Tube"
 alignment = "plan"
+[probe]
+ball_diameter = 2
+clearance = 2
+reach = 2
 [[feature]]
 name = "tube"
 kind = "cylinder"
@@ -121,7 +125,7 @@ TEST_F(ExchangeSystem, RefusesFitsThatCannotBe) {
         "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
         "property float z\nend_header\n1 2 3\n");
   expect_refusal("fit cylinder nan.csv", {"nan.csv:2:3", "'nan' is not a finite number"});
-  expect_refusal("fit plane two.csv", {"two.csv", "3 points"});
+  expect_refusal("fit plane two.csv", {"two.csv", "too few points"});
   expect_refusal("fit plane cut.ply", {"cut.ply", "ends within vertex 2 of 9"});
   expect_refusal("fit cylinder p.csv --axis 0,0,0", {"--axis 0,0,0", "not a direction"});
   expect_refusal("fit cylinder p.csv --perpendicular-to 1,2", {"--perpendicular-to"});

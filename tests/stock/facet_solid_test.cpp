@@ -133,5 +133,17 @@ TEST(FacetSolid, OfNothingIsVoid) {
   EXPECT_EQ(nothing.volume(), 0.0);
 }
 
+// A square sheet in z = 0 that faces up: no body, as a scan is none.
+TEST(FacetSolid, MeetsOpenSheetsFromOutsideOnly) {
+  const FacetSolid sheet({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const auto entry = sheet.first_entry({Vec3(1, 2, 5), -Vec3::UnitZ()}, {0.0, 6.0});
+  ASSERT_TRUE(entry);
+  EXPECT_DOUBLE_EQ(entry->s, 5.0);
+  EXPECT_EQ(sheet.normal(entry->facet), Vec3(Vec3::UnitZ()));
+  EXPECT_FALSE(sheet.first_entry({Vec3(1, 2, 5), -Vec3::UnitZ()}, {0.0, 4.0}));  // out of reach
+  EXPECT_FALSE(sheet.first_entry({Vec3(1, 2, -5), Vec3::UnitZ()}, {0.0, 6.0}));  // from behind
+  EXPECT_FALSE(sheet.first_entry({Vec3(5, 2, 5), -Vec3::UnitZ()}, {0.0, 6.0}));  // beside it
+}
+
 }  // namespace
 }  // namespace frustum::stock
