@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "metrology/cmm_errors.hpp"
 #include "metrology/evaluation.hpp"
 #include "metrology/magnitude_interval.hpp"
 #include "metrology/refit.hpp"
@@ -114,12 +115,27 @@ class Tally {
   std::vector<Estimate> blocks_{};
 };
 
+// Every draw is another machine that keeps the same statement: which one has measured, nobody knows.
+ErrorDraws drawn_machines(const CmmModel& cmm, std::uint64_t seed) {
+  return [cmm, seed](std::uint32_t draw) -> MeasuringErrors {
+    CmmModel other = cmm;
+    other.seed = seed + draw;
+    return [machine = CmmErrors(other)](const Vec3& centre, const Vec3& approach,
+                                        std::size_t feature, std::size_t point) -> Vec3 {
+      const double misjudged = machine.ball_radius(0.0);
+      return machine.measured({centre, unit(approach), point_index(feature, point)}) -
+             misjudged * approach;
+    };
+  };
+}
+
 }  // namespace
 
 ErrorDraws error_draws(const CmmModel& cmm, std::uint64_t seed) {
   const PointUncertainty u = point_uncertainty(cmm);
   // The seeds of measurements are small numbers; this keeps clear of them.
   const std::uint64_t own = seed ^ 0x6a09e667f3bcc908U;
+  if (cmm.kind == CmmKind::field) return drawn_machines(cmm, own);
   return [u, own](std::uint32_t draw) -> MeasuringErrors {
     const RandomKey points{.seed = own, .draw = draw, .purpose = RandomPurpose::cmm_point};
     const RandomKey scales{.seed = own, .draw = draw, .purpose = RandomPurpose::cmm_scale};

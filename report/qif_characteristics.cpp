@@ -196,7 +196,7 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     add_text(add(node, "Status"), "CharacteristicStatusEnum", status_of(result));
     add_reference(node, "CharacteristicItemId", items.at(result.name));
     add_feature_ids(node, "FeatureMeasurementIds", planned, features.measurements);
-    add_algorithm(node, metrology::Criterion::least_squares);
+    if (planned != nullptr) add_algorithm(node, planned->criterion);
     if (!std::isfinite(result.value)) continue;
     const double standard = 0.5 * document_value(result.expanded_uncertainty, result);
     xml_node value = add_number(node, "Value", document_value(result.value, result));

@@ -223,7 +223,7 @@ void add_measured_features(xml_node results, const InspectionPlan& plan,
       close_list(list);
       add_points(point_sets, feature, points);
     }
-    add_algorithm(node, metrology::Criterion::least_squares);
+    add_algorithm(node, metrology::Criterion::least_squares);  // what `parameters` are of
     row->measured(node, *planned, Measured(feature));
     features.measurements[feature.name] = id;
   }

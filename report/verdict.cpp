@@ -7,6 +7,7 @@ namespace frustum::report {
 
 Outcome outcome_of(const metrology::CharacteristicResult& characteristic) {
   if (!std::isfinite(characteristic.value)) return Outcome::not_measured;
+  if (characteristic.verdict() == metrology::Verdict::uncertain) return Outcome::uncertain;
   return characteristic.pass ? Outcome::pass : Outcome::fail;
 }
 

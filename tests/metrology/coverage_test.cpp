@@ -119,8 +119,8 @@ void expect_coverage(const char* title, const InspectionPlan& plan, const Part& 
 
 bool is_all() { return std::getenv("FRUSTUM_COVERAGE") != nullptr; }
 
-constexpr CmmModel kNoise{.e0_mm = 0.002};
-constexpr CmmModel kNoiseAndField{.e0_mm = 0.002, .length_per_error = 300.0};
+const CmmModel kNoise{.e0_mm = 0.002};
+const CmmModel kNoiseAndField{.e0_mm = 0.002, .length_per_error = 300.0};
 
 test_part::Flaws flaws(double um) {
   return {.lobe = 1e-3 * um,

@@ -14,7 +14,7 @@
 namespace frustum::metrology {
 namespace {
 
-constexpr CmmModel kCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
+const CmmModel kCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
 
 Measurement measured(InspectionPlan plan, const CmmModel& cmm, std::size_t draws) {
   plan.monte_carlo = MonteCarloSettings{.draws = draws};
