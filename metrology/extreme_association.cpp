@@ -68,8 +68,11 @@ Vec3 coordinate_normal(std::span<const Vec3> points) {
   return Vec3::UnitZ();
 }
 
-// The tolerance of a proof: 1e-9 mm on a part of 100 mm.
-constexpr double kGap = 1e-11;
+// Of a proof, on the local part: 1e-9 mm, but no less than that on a part of 100 mm and no more than on one of
+// 1 mm.
+double tolerance(const NormalisedPoints& local) {
+  return std::clamp(1e-9 / local.scale, 1e-11, 1e-9);
+}
 
 bool is_fixed(int parameter, const ExtremeKind& kind, Sought what, const Constraints& c) {
   const bool is_torus = kind.surface == Surface::ring;
@@ -132,6 +135,7 @@ ExtremeFound searched(const Task& task, const Element& start) {
   ExtremeSearch search;
   search.kind = &task.kind;
   search.problem = problem_of(task.kind, task.what, task.options.constraints);
+  search.problem.tolerance = 0.5 * tolerance(task.local);
   search.start = placed(task.kind, start, task.across);
   if (task.what == Sought::zone) {
     search.elsewhere = elsewhere(task.kind, task.local, task.options.constraints);
@@ -292,9 +296,10 @@ Result<Association> extreme_association(std::string_view name, std::span<const V
   const bool is_exact = is_zone && start_width < 8e-15;
   if (found.solution.gap > 0.0 && !is_exact) {
     ExtremeFound best = searched(task, local_start);
-    if (best.solution.proven || !is_zone || start_width > kGap) found = std::move(best);
+    if (best.solution.proven || !is_zone || start_width > tolerance(*local))
+      found = std::move(best);
   }
-  if (!found.solution.proven || 2.0 * found.solution.gap > kGap) return unproven(task);
+  if (!found.solution.proven || 2.0 * found.solution.gap > tolerance(*local)) return unproven(task);
   return finished(task, found);
 }
 

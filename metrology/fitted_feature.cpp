@@ -100,7 +100,7 @@ Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> f
   const double sign = material_sign(planned);
   FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
                         {},       fit.form,
-                        fit.rms, std::move(fit.cofactor)};
+                        fit.rms,  std::move(fit.cofactor)};
   Vec3 line_normal = Vec3::Zero();
   if (auto* line = std::get_if<Line>(&feature.element)) {
     const Vec3 axis = line->axis;

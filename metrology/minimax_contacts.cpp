@@ -17,12 +17,10 @@ struct Linearised {
 
 Linearised linearised(const MinimaxProblem& problem, std::span<const Vec3> points,
                       const SurfaceSteps& basis, const SurfaceParameters& at,
-                      const std::vector<ActiveRow>& contacts) {
+                      const std::vector<ActiveRow>& contacts, bool bends) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
   Linearised out{Eigen::MatrixXd(count, basis.cols()), Eigen::VectorXd(count),
                  Eigen::MatrixXd::Zero(basis.cols(), basis.cols()), Eigen::VectorXd(count)};
-  // As many contacts as unknowns and level hold the element without curvature.
-  const bool bends = count <= basis.cols();
   for (Eigen::Index i = 0; i < count; ++i) {
     const ActiveRow& contact = contacts[static_cast<std::size_t>(i)];
     const Vec3& point = points[static_cast<std::size_t>(contact.row)];
@@ -35,6 +33,14 @@ Linearised linearised(const MinimaxProblem& problem, std::span<const Vec3> point
     }
   }
   return out;
+}
+
+Linearised linearised(const MinimaxProblem& problem, std::span<const Vec3> points,
+                      const SurfaceSteps& basis, const SurfaceParameters& at,
+                      const std::vector<ActiveRow>& contacts) {
+  // As many contacts as unknowns and level hold the element without curvature.
+  const bool bends = static_cast<Eigen::Index>(contacts.size()) <= basis.cols();
+  return linearised(problem, points, basis, at, contacts, bends);
 }
 
 // Least eigenvalue of the Hessian along the directions that no contact feels, in units of its size.
@@ -70,17 +76,14 @@ std::optional<Eigen::VectorXd> newton(const Linearised& at) {
   return solution.head(unknowns);
 }
 
-// Multipliers that balance the gradients best and add up to one.
+// Multipliers that balance the gradients best and add up to one; the shortest such vector, which ties share.
 Eigen::VectorXd balanced(const Eigen::MatrixXd& rows) {
   Eigen::MatrixXd matrix(rows.cols() + 1, rows.rows());
   matrix << rows.transpose(), Eigen::RowVectorXd::Ones(rows.rows());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.cols() + 1);
   right[rows.cols()] = 1.0;
-  return matrix.colPivHouseholderQr().solve(right);
+  return matrix.completeOrthogonalDecomposition().solve(right);
 }
-
-// 1e-9 mm on a part of 100 mm: what is farther from a minimum is none.
-constexpr double kProof = 5e-12;
 
 void certify(const MinimaxProblem& problem, std::span<const Vec3> points, const SurfaceSteps& basis,
              MinimaxSolution& found) {
@@ -94,12 +97,49 @@ void certify(const MinimaxProblem& problem, std::span<const Vec3> points, const 
   const Linearised plain = linearised(problem, points, problem.allowed, found.at, found.contacts);
   found.imbalance = (plain.rows.transpose() * here.multipliers).norm();
   found.gap = std::max(0.0, found.level - here.multipliers.dot(here.values)) + found.imbalance;
-  if (!(found.gap <= kProof)) found.proven = false;
+  if (!(found.gap <= problem.tolerance)) found.proven = false;
   if (found.proven && here.rows.rows() <= here.rows.cols()) {
     here = linearised(problem, points, basis, found.at, found.contacts);
     // Differences of slopes carry ten digits; a bend nearer to none holds nothing and loses nothing.
     found.proven = least_bend(here) > -1e-7;
   }
+}
+
+// Where distances tie, the contacts that a linear programme picks among them may carry nothing, and leave free
+// what the others hold. All that tie, those taken out that would have to pull, prove it together.
+void certify_ties(const MinimaxProblem& problem, std::span<const Vec3> points,
+                  const SurfaceSteps& basis, MinimaxSolution& found) {
+  const Eigen::VectorXd values = distances(problem.surface, found.at, points);
+  std::vector<ActiveRow> ties;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    for (const double sign : {1.0, -1.0}) {
+      const bool counts = sign > 0.0 ? problem.sides.high : problem.sides.low;
+      if (counts && sign * values[i] > found.level - problem.tolerance) ties.push_back({i, sign});
+    }
+  }
+  constexpr double kNothing = 1e-9;  // of a sum of one
+  Eigen::VectorXd multipliers;
+  for (bool all_push = false; !all_push && !ties.empty();) {
+    multipliers = balanced(linearised(problem, points, basis, found.at, ties, false).rows);
+    std::vector<ActiveRow> pushing;
+    for (std::size_t i = 0; i < ties.size(); ++i) {
+      ties[i].multiplier = multipliers[static_cast<Eigen::Index>(i)];
+      if (ties[i].multiplier > kNothing) pushing.push_back(ties[i]);
+    }
+    all_push = pushing.size() == ties.size();
+    ties = std::move(pushing);
+  }
+  if (ties.empty()) return;
+  MinimaxSolution tied = found;
+  tied.contacts = std::move(ties);
+  const Linearised plain =
+      linearised(problem, points, problem.allowed, found.at, tied.contacts, false);
+  tied.imbalance = (plain.rows.transpose() * multipliers).norm();
+  tied.gap = std::max(0.0, found.level - multipliers.dot(plain.values)) + tied.imbalance;
+  if (!(tied.gap <= problem.tolerance)) return;
+  tied.proven =
+      least_bend(linearised(problem, points, basis, found.at, tied.contacts, true)) > -1e-7;
+  if (tied.proven) found = std::move(tied);
 }
 
 }  // namespace
@@ -145,6 +185,7 @@ MinimaxSolution settled_on_contacts(const MinimaxProblem& problem, std::span<con
     if (length < 1e-16) break;
   }
   certify(problem, points, basis, found);
+  if (!found.proven) certify_ties(problem, points, basis, found);
   return found;
 }
 

@@ -4,7 +4,7 @@
 //            the Hessian of sum lambda_i s_i d_i. They prove a minimum when all lambda_i > 0, the gradients
 //            balance, sum lambda_i s_i grad d_i = 0, and H bends upward along what the contacts leave free
 // Units    : local frame of size one, rad
-// Shape    : at most unknowns + 1 contacts
+// Shape    : at most unknowns + 1 contacts, or all that tie
 // Errors   : no step where the equations are singular; where H bends downward it is made to bend upward
 // Accuracy : contacts agree to 1e-15
 // Source   : Nocedal, Wright, Numerical Optimization, theorem 12.6 and section 18.1
