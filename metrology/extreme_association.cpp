@@ -135,7 +135,7 @@ ExtremeFound searched(const Task& task, const Element& start) {
   ExtremeSearch search;
   search.kind = &task.kind;
   search.problem = problem_of(task.kind, task.what, task.options.constraints);
-  search.problem.tolerance = 0.5 * tolerance(task.local);
+  search.problem.tie = 0.5 * tolerance(task.local);
   search.start = placed(task.kind, start, task.across);
   if (task.what == Sought::zone) {
     search.elsewhere = elsewhere(task.kind, task.local, task.options.constraints);

@@ -25,8 +25,8 @@ struct MinimaxProblem {
   Surface surface = Surface::straight;
   Sides sides{};
   SurfaceSteps allowed{};
-  // What is farther from a minimum is none, and distances nearer than this tie: 1e-9 mm on a part of 100 mm.
-  double tolerance = 5e-12;
+  // Distances that differ by less tie: they prove a minimum together, to within this.
+  double tie = 5e-12;
 };
 
 struct MinimaxSolution {

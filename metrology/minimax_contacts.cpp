@@ -85,6 +85,9 @@ Eigen::VectorXd balanced(const Eigen::MatrixXd& rows) {
   return matrix.completeOrthogonalDecomposition().solve(right);
 }
 
+// 1e-9 mm on a part of 100 mm: what is farther from a minimum is none.
+constexpr double kProof = 5e-12;
+
 void certify(const MinimaxProblem& problem, std::span<const Vec3> points, const SurfaceSteps& basis,
              MinimaxSolution& found) {
   Linearised here = linearised(problem, points, basis, found.at, found.contacts);
@@ -97,7 +100,7 @@ void certify(const MinimaxProblem& problem, std::span<const Vec3> points, const 
   const Linearised plain = linearised(problem, points, problem.allowed, found.at, found.contacts);
   found.imbalance = (plain.rows.transpose() * here.multipliers).norm();
   found.gap = std::max(0.0, found.level - here.multipliers.dot(here.values)) + found.imbalance;
-  if (!(found.gap <= problem.tolerance)) found.proven = false;
+  if (!(found.gap <= kProof)) found.proven = false;
   if (found.proven && here.rows.rows() <= here.rows.cols()) {
     here = linearised(problem, points, basis, found.at, found.contacts);
     // Differences of slopes carry ten digits; a bend nearer to none holds nothing and loses nothing.
@@ -114,7 +117,7 @@ void certify_ties(const MinimaxProblem& problem, std::span<const Vec3> points,
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     for (const double sign : {1.0, -1.0}) {
       const bool counts = sign > 0.0 ? problem.sides.high : problem.sides.low;
-      if (counts && sign * values[i] > found.level - problem.tolerance) ties.push_back({i, sign});
+      if (counts && sign * values[i] > found.level - problem.tie) ties.push_back({i, sign});
     }
   }
   constexpr double kNothing = 1e-9;  // of a sum of one
@@ -136,7 +139,7 @@ void certify_ties(const MinimaxProblem& problem, std::span<const Vec3> points,
       linearised(problem, points, problem.allowed, found.at, tied.contacts, false);
   tied.imbalance = (plain.rows.transpose() * multipliers).norm();
   tied.gap = std::max(0.0, found.level - multipliers.dot(plain.values)) + tied.imbalance;
-  if (!(tied.gap <= problem.tolerance)) return;
+  if (!(tied.gap <= problem.tie)) return;
   tied.proven =
       least_bend(linearised(problem, points, basis, found.at, tied.contacts, true)) > -1e-7;
   if (tied.proven) found = std::move(tied);
