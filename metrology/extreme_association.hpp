@@ -14,7 +14,8 @@
 // Shape    : points as many as least squares needs; residuals from the element returned; cofactor and
 //            covariance are zero, of the size of least_squares.hpp, as contacts tell no scatter
 // Errors   : those of least squares, a criterion that the kind does not have, weights, a size that is kept and
-//            sought at once, no direction out of the material, nothing proven within 1e-9 mm (1e-11 of parts beyond 100 mm)
+//            sought at once, no direction out of the material, nothing proven within 1e-9 mm (of parts beyond
+//            100 mm within 1e-11 of them)
 // Accuracy : 1e-9 mm for parts of 100 mm; Certificate::gap says how near
 // Source   : ISO 5459, ISO 12181-1; Anthony et al. 1996 (contacts that prove a zone)
 #pragma once
