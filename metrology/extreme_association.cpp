@@ -53,9 +53,23 @@ std::optional<Diagnostic> contradiction(const ExtremeKind& kind, Sought what,
   const bool one_sided = options.criterion == Criterion::outside_material && !kind.has_size;
   if (one_sided && !(options.outward && UnitVec3::of(*options.outward))) {
     return error(fmt::format("the side of the {} that is free of material is not given", kind.name),
-                 "give the direction out of the material");
+                 "give the direction out of the material (fit: --outward)");
   }
   return std::nullopt;
+}
+
+// The direction out of the material must tell the sides of the element apart.
+std::optional<Diagnostic> sideways(const ExtremeKind& kind, const Element& element,
+                                   const Vec3& across, const AssociationOptions& options) {
+  if (options.criterion != Criterion::outside_material || kind.has_size) return std::nullopt;
+  const Vec3 axis = *axis_of(element);
+  const Vec3 normal = std::holds_alternative<Plane>(element) ? axis : across.cross(axis);
+  // Nearer than 6 deg to the element it is a slip, and form would choose the side.
+  constexpr double kLeast = 0.1;
+  if (std::abs(normal.dot(options.outward->normalized())) >= kLeast) return std::nullopt;
+  return error(fmt::format("the direction out of the material lies along the {}", kind.name),
+               fmt::format("give one nearer to its normal, which is +-({:.4g}, {:.4g}, {:.4g})",
+                           normal.x(), normal.y(), normal.z()));
 }
 
 // Normal of the coordinate plane of circle2d and line2d, as fit_circle_2d() chooses it.
@@ -282,6 +296,7 @@ Result<Association> extreme_association(std::string_view name, std::span<const V
   // Least squares under the same constraints is where the search begins.
   auto start = fit_element(name, points, {options.constraints, {}});
   if (!start) return std::move(start).error();
+  if (auto problem = sideways(*kind, start->element, across, options)) return *problem;
   auto local = normalise(points, {kind_of(start->element), name, 1}, {});
   if (!local) return std::move(local).error();
   if (in_plane) {

@@ -51,7 +51,8 @@ class Tally {
             measured.magnitude.parts.data(),
             static_cast<Eigen::Index>(measured.magnitude.parts.size()))),
         value_(measured.value),
-        per_mm_(1.0 / internal_value(1.0, measured.unit)) {}
+        per_mm_(1.0 / internal_value(1.0, measured.unit)),
+        size_(value_ / per_mm_) {}
 
   void begin() {
     values_.clear();
@@ -63,7 +64,8 @@ class Tally {
       noise_.col(static_cast<Eigen::Index>(values_.size())) =
           Eigen::Map<const Eigen::VectorXd>(parts.data(), parts_.size()) - parts_;
     }
-    values_.push_back(drawn.value);
+    // What errors add to the measured value is what they have added to the true one: they count the other way.
+    values_.push_back(2.0 * value_ - drawn.value);
   }
   void end() {
     if (kind_ == MagnitudeKind::none) {
@@ -71,8 +73,10 @@ class Tally {
       return;
     }
     // The first block tells the shape for all.
+    if (blocks_.empty()) take_bias();
+    noise_.colwise() -= bias_;
     if (blocks_.empty()) shape_ = ShapeEstimate(kind_, places_, noise_)(parts_);
-    const SizeInterval found = SizeUnderNoise(kind_, noise_, shape_).interval(value_ / per_mm_);
+    const SizeInterval found = SizeUnderNoise(kind_, noise_, shape_).interval(size_);
     blocks_.push_back({per_mm_ * found.low, per_mm_ * found.high, per_mm_ * found.standard});
   }
 
@@ -91,6 +95,19 @@ class Tally {
   }
 
  private:
+  // What all draws share, such as the lobes of a probe or a part that is warm: the parts are corrected for it.
+  void take_bias() {
+    constexpr double kSure = 5.0;  // standard deviations of a mean
+    const auto count = static_cast<double>(noise_.cols());
+    bias_ = noise_.rowwise().mean();
+    const Eigen::VectorXd deviation =
+        ((noise_.colwise() - bias_).rowwise().squaredNorm() / (count * (count - 1.0))).cwiseSqrt();
+    bias_ = (bias_.array().abs() > kSure * deviation.array()).select(bias_, 0.0);
+    if (bias_.isZero(0.0)) return;
+    parts_ -= bias_;
+    size_ = metrology::size_of(kind_, {parts_.data(), static_cast<std::size_t>(parts_.size())});
+  }
+
   [[nodiscard]] double mean(double Estimate::*of) const {
     double sum = 0.0;
     for (const Estimate& block : blocks_) sum += block.*of;
@@ -109,13 +126,16 @@ class Tally {
   Eigen::VectorXd parts_;
   double value_;
   double per_mm_;
+  double size_;             // mm, of magnitudes
+  Eigen::VectorXd bias_{};  // of their parts
   Eigen::MatrixXd noise_{};
   Eigen::VectorXd shape_{};
   std::vector<double> values_{};
   std::vector<Estimate> blocks_{};
 };
 
-// Every draw is another machine that keeps the same statement: which one has measured, nobody knows.
+// Beyond noise and a linear field: every draw is another machine of the same kind, with the probe and in the
+// temperature that are stated.
 ErrorDraws drawn_machines(const CmmModel& cmm, std::uint64_t seed) {
   return [cmm, seed](std::uint32_t draw) -> MeasuringErrors {
     CmmModel other = cmm;
@@ -135,7 +155,7 @@ ErrorDraws error_draws(const CmmModel& cmm, std::uint64_t seed) {
   const PointUncertainty u = point_uncertainty(cmm);
   // The seeds of measurements are small numbers; this keeps clear of them.
   const std::uint64_t own = seed ^ 0x6a09e667f3bcc908U;
-  if (cmm.kind == CmmKind::field) return drawn_machines(cmm, own);
+  if (cmm.kind == CmmKind::field || cmm.probe || cmm.temperature) return drawn_machines(cmm, own);
   return [u, own](std::uint32_t draw) -> MeasuringErrors {
     const RandomKey points{.seed = own, .draw = draw, .purpose = RandomPurpose::cmm_point};
     const RandomKey scales{.seed = own, .draw = draw, .purpose = RandomPurpose::cmm_scale};

@@ -21,13 +21,12 @@ Vec3 spread_direction(int index, int count) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-// Cantilever of a round shank.
+}  // namespace
+
 double bending(double force, const Stylus& stylus) {
   const double moment_of_area = kPi * std::pow(stylus.diameter, 4) / 64.0;
   return force * std::pow(stylus.length, 3) / (3.0 * stylus.modulus * moment_of_area);
 }
-
-}  // namespace
 
 ProbeForm::ProbeForm(const ProbeErrors& errors, const Stylus& stylus, std::uint64_t seed)
     : errors_(errors), pole_(stylus.direction) {

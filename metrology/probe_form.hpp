@@ -20,6 +20,9 @@
 
 namespace frustum::metrology {
 
+// mm: of the ball across the stylus under a force (N); a cantilever of a round shank.
+[[nodiscard]] double bending(double force, const Stylus& stylus);
+
 class ProbeForm {
  public:
   ProbeForm() = default;  // no errors

@@ -2,6 +2,8 @@
 //
 // Model    : every point has the standard deviation p = e0/2 along its normal; the machine's linear
 //            field has three scale and three squareness terms of standard deviation s = 1/(2 k).
+//            A probe that is stated beside a linear field adds its mean squares to p^2; temperatures add twice
+//            the variance of the growth of all lengths to s^2, and what is not compensated counts whole
 //            With the cofactors Q of the fits:
 //              form (peak to valley)  u^2 = 2 p^2 + 3 (s r)^2: two points count; an ellipse
 //              straightness           u^2 = 4 p^2: twice one point

@@ -29,12 +29,14 @@ std::string features_of(const metrology::InspectionPlan& plan, const std::string
 std::string characteristics_csv(const metrology::Measurement& measurement,
                                 const metrology::InspectionPlan& plan) {
   std::string csv =
-      "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict\n";
+      "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict,"
+      "interval_low,interval_high\n";
   for (const metrology::CharacteristicResult& c : measurement.characteristics) {
     csv += csv_field(c.name) + ',' + c.kind + ',' + csv_field(features_of(plan, c.name)) + ',' +
            number(c.value) + ',' + number(c.nominal) + ',' + number(deviation_of(c)) + ',' +
            number(c.tolerance) + ',' + number(c.expanded_uncertainty) + ',' + c.unit + ',' +
-           std::string(name_of(outcome_of(c))) + '\n';
+           std::string(name_of(outcome_of(c))) + ',' +
+           (c.simulated ? number(c.simulated->low) + ',' + number(c.simulated->high) : ",") + '\n';
   }
   return csv;
 }

@@ -63,9 +63,10 @@ class Suite {
 std::string shortfall(const CharacteristicResult& c) {
   std::string text = fmt::format("value {} {}", result_text(c), c.unit);
   if (const std::string nominal = nominal_text(c); !nominal.empty()) text += ", nominal " + nominal;
-  return text + fmt::format(", tolerance {}, expanded uncertainty {} (k = 2)",
-                            value_text(c.tolerance, c.unit),
-                            uncertainty_text(c.expanded_uncertainty));
+  text += fmt::format(", tolerance {}, expanded uncertainty {} (k = 2)",
+                      value_text(c.tolerance, c.unit), uncertainty_text(c.expanded_uncertainty));
+  if (c.simulated) text += fmt::format(", 95 % interval {}", interval_text(c));
+  return text;
 }
 
 void add_characteristic(Suite& suite, const CharacteristicResult& c) {

@@ -26,10 +26,11 @@ TEST(CharacteristicsCsv, WritesOneLineEach) {
   const RunReport report = small_report();
   EXPECT_EQ(
       exported(ExportFormat::csv, report, plan_of(report)),
-      "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict\n"
-      "cone.form,cone_form,\"cone A, upper\",12.3456,,12.3456,10,0.4,um,fail\n"
+      "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict,"
+      "interval_low,interval_high\n"
+      "cone.form,cone_form,\"cone A, upper\",12.3456,,12.3456,10,0.4,um,fail,,\n"
       "cone.half_angle,half_angle,\"cone A, upper\",45.00123,45,0.0012299999999996203,0.01718,"
-      "0.0006872,deg,pass\n");
+      "0.0006872,deg,pass,,\n");
 }
 
 TEST(CharacteristicsCsv, LeavesEmptyWhatIsNoNumber) {
@@ -37,7 +38,7 @@ TEST(CharacteristicsCsv, LeavesEmptyWhatIsNoNumber) {
   report.measurement.characteristics.resize(1);
   report.measurement.characteristics[0].value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(exported(ExportFormat::csv, report, {})
-                .find("\ncone.form,cone_form,,,,,10,0.4,um,not measured\n"),
+                .find("\ncone.form,cone_form,,,,,10,0.4,um,not measured,,\n"),
             std::string::npos);
 }
 
