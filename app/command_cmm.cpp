@@ -8,7 +8,7 @@
 
 #include "app/console.hpp"
 #include "app/job.hpp"
-#include "metrology/acceptance_test.hpp"
+#include "metrology/probing/acceptance_test.hpp"
 
 namespace frustum::app {
 namespace {

@@ -12,8 +12,8 @@
 #include "app/number_check.hpp"
 #include "app/unit_option.hpp"
 #include "core/units.hpp"
-#include "metrology/association.hpp"
-#include "metrology/point_file.hpp"
+#include "metrology/fit/association.hpp"
+#include "metrology/points/point_file.hpp"
 
 namespace frustum::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "app/mesh_probe.hpp"
 #include "app/trial_run.hpp"
 #include "app/unit_option.hpp"
-#include "metrology/point_file.hpp"
-#include "metrology/point_scale.hpp"
+#include "metrology/points/point_file.hpp"
+#include "metrology/points/point_scale.hpp"
 #include "report/json_report.hpp"
 #include "report/terminal_report.hpp"
 

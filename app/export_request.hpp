@@ -10,7 +10,7 @@
 
 #include "core/result.hpp"
 #include "core/toml_document.hpp"
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "report/run_report.hpp"
 
 namespace CLI {

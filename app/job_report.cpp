@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "metrology/nominal.hpp"
+#include "metrology/plan/nominal.hpp"
 #include "stock/deviation.hpp"
 #include "stock/nominal_mesh.hpp"
 #include "stock/refine_surface.hpp"

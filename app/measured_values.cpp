@@ -8,8 +8,8 @@
 
 #include "core/spelling.hpp"
 #include "core/toml_document.hpp"
-#include "metrology/characteristic.hpp"
-#include "metrology/point_file.hpp"
+#include "metrology/characteristic/characteristic.hpp"
+#include "metrology/points/point_file.hpp"
 
 namespace frustum::app {
 namespace {

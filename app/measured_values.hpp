@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "app/study.hpp"
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 
 namespace frustum::app {
 

@@ -1,6 +1,6 @@
 #include "app/mesh_probe.hpp"
 
-#include "metrology/point_scale.hpp"
+#include "metrology/points/point_scale.hpp"
 #include "stock/mesh_reader.hpp"
 
 namespace frustum::app {

@@ -13,9 +13,9 @@
 #include <optional>
 
 #include "core/result.hpp"
-#include "metrology/inspection_plan.hpp"
-#include "metrology/length_unit.hpp"
-#include "metrology/surface_probe.hpp"
+#include "metrology/plan/inspection_plan.hpp"
+#include "metrology/points/length_unit.hpp"
+#include "metrology/probing/surface_probe.hpp"
 #include "stock/facet_solid.hpp"
 
 namespace frustum::app {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "metrology/length_unit.hpp"
+#include "metrology/points/length_unit.hpp"
 
 namespace CLI {
 class App;

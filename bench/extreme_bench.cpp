@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "metrology/association.hpp"
-#include "metrology/extreme_association.hpp"
+#include "metrology/fit/association.hpp"
+#include "metrology/fit/extreme_association.hpp"
 
 namespace frustum::metrology {
 namespace {

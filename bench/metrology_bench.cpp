@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "metrology/least_squares.hpp"
+#include "metrology/fit/least_squares.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "calibration/repeatability.hpp"
-#include "metrology/propagation.hpp"
+#include "metrology/uncertainty/propagation.hpp"
 
 namespace frustum::calibration {
 namespace {

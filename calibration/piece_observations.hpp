@@ -2,7 +2,7 @@
 //
 // Model    : rows of all pieces one after the other; several parts of one piece are pooled
 //            (repeatability.hpp); a row's variance is the stated one, else that of the measuring machine
-//            propagated through the plan (metrology/propagation.hpp), whose correlations are kept between
+//            propagated through the plan (metrology/uncertainty/propagation.hpp), whose correlations are kept between
 //            rows without a stated one
 // Units    : mm, rad
 // Shape    : rows: the measured characteristics of each piece; columns: the unknowns

@@ -14,7 +14,7 @@
 
 #include "calibration/piece_observations.hpp"
 #include "calibration/step_recipes.hpp"
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 
 namespace frustum::calibration {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
-#include "metrology/ball_contact.hpp"
-#include "metrology/cmm_errors.hpp"
-#include "metrology/evaluation.hpp"
-#include "metrology/strategy.hpp"
-#include "metrology/stylus_collision.hpp"
+#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/plan/strategy.hpp"
+#include "metrology/probing/ball_contact.hpp"
+#include "metrology/probing/cmm_errors.hpp"
+#include "metrology/probing/stylus_collision.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "metrology/cmm_model.hpp"
-#include "metrology/inspection_plan.hpp"
 #include "metrology/measurement.hpp"
-#include "metrology/surface_probe.hpp"
+#include "metrology/plan/inspection_plan.hpp"
+#include "metrology/probing/cmm_model.hpp"
+#include "metrology/probing/surface_probe.hpp"
 
 namespace frustum::metrology {
 

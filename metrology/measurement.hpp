@@ -16,7 +16,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/pose.hpp"
-#include "metrology/magnitude.hpp"
+#include "metrology/uncertainty/magnitude.hpp"
 
 namespace frustum::metrology {
 

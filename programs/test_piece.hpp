@@ -10,7 +10,7 @@
 
 #include "cutter/cutter.hpp"
 #include "kinematics/controller.hpp"
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "parser/dialect.hpp"
 #include "stock/blank.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "metrology/inspection_plan.hpp"
 #include "metrology/measurement.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 
 namespace frustum::report {
 

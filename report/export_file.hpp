@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "report/run_report.hpp"
 
 namespace frustum::report {

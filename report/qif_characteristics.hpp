@@ -8,8 +8,8 @@
 #include <map>
 #include <string>
 
-#include "metrology/inspection_plan.hpp"
 #include "metrology/measurement.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "report/qif_features.hpp"
 #include "report/qif_node.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/units.hpp"
-#include "metrology/strategy.hpp"
+#include "metrology/plan/strategy.hpp"
 #include "report/exact_decimal.hpp"
 
 namespace frustum::report::qif {

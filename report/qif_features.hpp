@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "metrology/inspection_plan.hpp"
 #include "metrology/measurement.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "report/qif_node.hpp"
 
 namespace frustum::report::qif {

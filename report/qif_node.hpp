@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/pose.hpp"
-#include "metrology/association.hpp"
+#include "metrology/fit/association.hpp"
 
 namespace frustum::report::qif {
 

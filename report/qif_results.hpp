@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "report/run_report.hpp"
 
 namespace frustum::report {

@@ -1,6 +1,6 @@
 #include "trials/sensitivity.hpp"
 
-#include "metrology/characteristic.hpp"
+#include "metrology/characteristic/characteristic.hpp"
 #include "metrology/cmm.hpp"
 #include "trials/surface_gain.hpp"
 #include "trials/trial.hpp"

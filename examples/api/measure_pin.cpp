@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "metrology/association.hpp"
 #include "metrology/cmm.hpp"
+#include "metrology/fit/association.hpp"
 #include "report/qif_results.hpp"
 
 namespace metrology = frustum::metrology;

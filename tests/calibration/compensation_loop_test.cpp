@@ -8,7 +8,7 @@
 #include "calibration/piece_observations.hpp"
 #include "calibration/refinement.hpp"
 #include "core/random.hpp"
-#include "metrology/characteristic.hpp"
+#include "metrology/characteristic/characteristic.hpp"
 #include "programs/cone_frustum.hpp"
 #include "programs/step_pattern.hpp"
 #include "trials/trial.hpp"

@@ -90,6 +90,25 @@ TEST(Architecture, IncludesPointDownTheTower) {
   }
 }
 
+// Within metrology/ the fits know no plan, and the probes no characteristic.
+TEST(Architecture, FoldersOfMetrologyPointDown) {
+  const std::map<std::string, std::set<std::string>> may_include{
+      {"fit", {"fit"}},
+      {"probing", {"probing", "plan", "fit"}},
+      {"points", {"points", "plan", "cmm.hpp"}},
+  };
+  for (const auto& [folder, below] : may_include) {
+    const std::string prefix = "metrology/";
+    for (const std::string& file : files_of(prefix + folder, {".cpp", ".hpp"})) {
+      for (const Include& include : includes_of(file)) {
+        if (!include.quoted || room_of(include.target) != "metrology") continue;
+        EXPECT_TRUE(below.contains(room_of(include.target.substr(prefix.size()))))
+            << file << ":" << include.line << ": " << folder << "/ may not include " << include.target;
+      }
+    }
+  }
+}
+
 TEST(Architecture, ProjectIncludesStartWithARoomAndExist) {
   for (const auto& [room, floor] : floors()) {
     for (const std::string& file : sources_of(room)) {

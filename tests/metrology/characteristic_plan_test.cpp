@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "test_part.hpp"
 
 namespace frustum::metrology {

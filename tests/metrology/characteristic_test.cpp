@@ -1,4 +1,4 @@
-#include "metrology/characteristic.hpp"
+#include "metrology/characteristic/characteristic.hpp"
 
 #include <gtest/gtest.h>
 

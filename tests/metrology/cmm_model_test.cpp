@@ -1,13 +1,13 @@
-#include "metrology/cmm_model.hpp"
+#include "metrology/probing/cmm_model.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "metrology/acceptance_test.hpp"
 #include "metrology/cmm.hpp"
-#include "metrology/cmm_errors.hpp"
-#include "metrology/stylus_collision.hpp"
+#include "metrology/probing/acceptance_test.hpp"
+#include "metrology/probing/cmm_errors.hpp"
+#include "metrology/probing/stylus_collision.hpp"
 #include "step_part.hpp"
 #include "synthetic.hpp"
 #include "test_part.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "metrology/ball_contact.hpp"
+#include "metrology/probing/ball_contact.hpp"
 #include "synthetic.hpp"
 #include "test_part.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "metrology/association.hpp"
-#include "metrology/constraint_steps.hpp"
+#include "metrology/fit/association.hpp"
+#include "metrology/fit/constraint_steps.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

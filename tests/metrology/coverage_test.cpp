@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "metrology/evaluation.hpp"
-#include "metrology/magnitude_interval.hpp"
-#include "metrology/monte_carlo_uncertainty.hpp"
+#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/uncertainty/magnitude_interval.hpp"
+#include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
 #include "step_part.hpp"
 #include "test_part.hpp"
 

@@ -1,4 +1,4 @@
-#include "metrology/datum_system.hpp"
+#include "metrology/characteristic/datum_system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "measured_feature.hpp"
 #include "metrology/cmm.hpp"
-#include "metrology/nominal.hpp"
+#include "metrology/plan/nominal.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

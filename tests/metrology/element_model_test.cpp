@@ -1,8 +1,8 @@
-#include "metrology/element_model.hpp"
+#include "metrology/fit/element_model.hpp"
 
 #include <gtest/gtest.h>
 
-#include "metrology/constraint_steps.hpp"
+#include "metrology/fit/constraint_steps.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "metrology/element_model.hpp"
-#include "metrology/least_squares.hpp"
+#include "metrology/fit/element_model.hpp"
+#include "metrology/fit/least_squares.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

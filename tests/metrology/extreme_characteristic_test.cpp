@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "measured_feature.hpp"
-#include "metrology/characteristic.hpp"
-#include "metrology/datum_system.hpp"
+#include "metrology/characteristic/characteristic.hpp"
+#include "metrology/characteristic/datum_system.hpp"
 
 namespace frustum::metrology {
 namespace {

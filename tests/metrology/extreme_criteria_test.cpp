@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "metrology/association.hpp"
-#include "metrology/extreme_association.hpp"
+#include "metrology/fit/association.hpp"
+#include "metrology/fit/extreme_association.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

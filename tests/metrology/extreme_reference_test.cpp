@@ -9,7 +9,7 @@
 #include <fstream>
 #include <ostream>
 
-#include "metrology/association.hpp"
+#include "metrology/fit/association.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -1,4 +1,4 @@
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 
 #include <gtest/gtest.h>
 

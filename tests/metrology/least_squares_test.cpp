@@ -1,4 +1,4 @@
-#include "metrology/least_squares.hpp"
+#include "metrology/fit/least_squares.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "metrology/inspection_plan.hpp"
+#include "metrology/plan/inspection_plan.hpp"
 #include "step_part.hpp"
 #include "synthetic.hpp"
 

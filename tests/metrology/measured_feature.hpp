@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "metrology/fitted_feature.hpp"
-#include "metrology/strategy.hpp"
+#include "metrology/characteristic/fitted_feature.hpp"
+#include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology::measured {
 

@@ -1,12 +1,12 @@
-#include "metrology/monte_carlo_uncertainty.hpp"
+#include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "metrology/decision_rule.hpp"
-#include "metrology/magnitude_interval.hpp"
-#include "metrology/refit.hpp"
+#include "metrology/uncertainty/magnitude_interval.hpp"
+#include "metrology/uncertainty/refit.hpp"
 #include "step_part.hpp"
 #include "synthetic.hpp"
 #include "test_part.hpp"

@@ -1,8 +1,8 @@
-#include "metrology/nominal.hpp"
+#include "metrology/plan/nominal.hpp"
 
 #include <gtest/gtest.h>
 
-#include "metrology/strategy.hpp"
+#include "metrology/plan/strategy.hpp"
 #include "test_part.hpp"
 
 namespace frustum::metrology {

@@ -1,4 +1,4 @@
-#include "metrology/point_file.hpp"
+#include "metrology/points/point_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "metrology/ply_points.hpp"
-#include "metrology/point_scale.hpp"
-#include "metrology/strategy.hpp"
+#include "metrology/plan/strategy.hpp"
+#include "metrology/points/ply_points.hpp"
+#include "metrology/points/point_scale.hpp"
 
 namespace frustum::metrology {
 namespace {

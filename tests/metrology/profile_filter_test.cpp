@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "metrology/gaussian_filter.hpp"
-#include "metrology/harmonics.hpp"
+#include "metrology/characteristic/gaussian_filter.hpp"
+#include "metrology/characteristic/harmonics.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

@@ -1,11 +1,11 @@
-#include "metrology/propagation.hpp"
+#include "metrology/uncertainty/propagation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "metrology/influence.hpp"
+#include "metrology/uncertainty/influence.hpp"
 #include "step_part.hpp"
 #include "test_part.hpp"
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "metrology/least_squares.hpp"
+#include "metrology/fit/least_squares.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "metrology/cmm.hpp"
-#include "metrology/inspection_plan.hpp"
-#include "metrology/strategy.hpp"
-#include "metrology/surface_probe.hpp"
+#include "metrology/plan/inspection_plan.hpp"
+#include "metrology/plan/strategy.hpp"
+#include "metrology/probing/surface_probe.hpp"
 
 namespace frustum::metrology::step_part {
 

@@ -1,9 +1,9 @@
-#include "metrology/strategy.hpp"
+#include "metrology/plan/strategy.hpp"
 
 #include <gtest/gtest.h>
 
 #include "metrology/cmm.hpp"
-#include "metrology/nominal.hpp"
+#include "metrology/plan/nominal.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "metrology/element.hpp"
+#include "metrology/fit/element.hpp"
 
 namespace frustum::metrology::synthetic {
 

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <functional>
 
-#include "metrology/inspection_plan.hpp"
-#include "metrology/surface_probe.hpp"
+#include "metrology/plan/inspection_plan.hpp"
+#include "metrology/probing/surface_probe.hpp"
 
 namespace frustum::metrology::test_part {
 

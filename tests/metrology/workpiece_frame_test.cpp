@@ -1,4 +1,4 @@
-#include "metrology/workpiece_frame.hpp"
+#include "metrology/characteristic/workpiece_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "measured_feature.hpp"
-#include "metrology/characteristic.hpp"
+#include "metrology/characteristic/characteristic.hpp"
 
 namespace frustum::metrology {
 namespace {

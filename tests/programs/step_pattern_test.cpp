@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "metrology/strategy.hpp"
+#include "metrology/plan/strategy.hpp"
 #include "parser/interpreter.hpp"
 #include "programs/step_pattern.hpp"
 #include "trials/trial.hpp"

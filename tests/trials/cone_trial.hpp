@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "metrology/characteristic.hpp"
+#include "metrology/characteristic/characteristic.hpp"
 #include "programs/cone_frustum.hpp"
 #include "trials/tip_trace.hpp"
 #include "trials/trial.hpp"

@@ -1,0 +1,49 @@
+#include "metrology/characteristic/datum_element.hpp"
+
+#include <fmt/format.h>
+
+#include "metrology/plan/nominal.hpp"
+
+namespace frustum::metrology {
+Result<Association> associated(const FittedFeature& feature, Criterion criterion,
+                               const Constraints& constraints) {
+  const PlannedFeature& planned = *feature.planned;
+  AssociationOptions options;
+  options.criterion = criterion;
+  options.constraints = constraints;
+  if (criterion == Criterion::outside_material) {
+    options.is_hole = planned.side == Side::inside;
+    if (planned.kind == FeatureKind::plane) options.outward = axis_of(feature.element)->vec();
+    if (planned.kind == FeatureKind::line) options.outward = planned.normal;
+  }
+  auto association = associate(kind_of(feature.element), feature.all_points(), options);
+  if (!association) {
+    Diagnostics failure = std::move(association).error();
+    for (Diagnostic& d : failure) {
+      d.message = fmt::format("feature '{}': {}", planned.name, d.message);
+    }
+    return failure;
+  }
+  if (const UnitVec3* axis = axis_of(feature.element)) {
+    // Residuals of a plane follow its normal.
+    const bool turned = axis->vec().dot(axis_of(association->fit.element)->vec()) < 0.0;
+    association->fit.element = agreeing(association->fit.element, *axis);
+    if (turned && planned.kind == FeatureKind::plane) {
+      for (double& r : association->fit.residuals) r = -r;
+    }
+  }
+  return association;
+}
+
+Result<Element> datum_element(const FittedFeature& feature, Criterion criterion,
+                              const Constraints& constraints) {
+  // One touch has nothing to choose.
+  if (criterion == Criterion::least_squares || feature.planned->kind == FeatureKind::point) {
+    return feature.element;
+  }
+  auto association = associated(feature, criterion, constraints);
+  if (!association) return std::move(association).error();
+  return association->fit.element;
+}
+
+}  // namespace frustum::metrology

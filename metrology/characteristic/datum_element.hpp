@@ -1,0 +1,25 @@
+// The ideal element that stands for a measured feature by a criterion of the plan's choice.
+//
+// Model    : least_squares is the element that the feature was fitted with; others are associated
+//            with its points anew (association.hpp). outside_material knows the plan's normal of a
+//            plane or line and the side of a hole. Axes agree with the plan
+// Units    : mm, rad
+// Shape    : one feature
+// Errors   : those of the association, with the feature's name
+// Accuracy : that of the association
+// Source   : ISO 5459, ISO 1101:2017
+#pragma once
+
+#include "core/result.hpp"
+#include "metrology/characteristic/fitted_feature.hpp"
+#include "metrology/fit/association.hpp"
+
+namespace frustum::metrology {
+
+// `constraints` count for criteria other than least_squares.
+[[nodiscard]] Result<Association> associated(const FittedFeature& feature, Criterion criterion,
+                                             const Constraints& constraints = {});
+[[nodiscard]] Result<Element> datum_element(const FittedFeature& feature, Criterion criterion,
+                                            const Constraints& constraints = {});
+
+}  // namespace frustum::metrology

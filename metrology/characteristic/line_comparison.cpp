@@ -1,0 +1,68 @@
+#include "metrology/characteristic/line_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "metrology/characteristic/slid_line.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// What one line adds to the comparison.
+struct Read {
+  LineProfile profile{};
+  double turned = 0.0;  // rad, angle of the measured line less that of the planned one
+};
+
+Result<Read> read(const FittedFeature& feature, const LineAxes& axes, double origin) {
+  const PlannedFeature& planned = *feature.planned;
+  const Vec3& place = planned.point;
+  const double slope = planned.axis.dot(axes.across) / planned.axis.dot(axes.along);
+  std::vector<PlaceOnLine> places =
+      slid(feature.points, axes, planned.normal, place.dot(axes.height));
+  Read out;
+  out.profile.feature = planned.name;
+  for (PlaceOnLine& p : places) {
+    p.across -= place.dot(axes.across) + slope * (p.along - place.dot(axes.along));
+    p.along -= origin;
+    out.profile.position.push_back(p.along);
+    out.profile.deviation.push_back(p.across);
+  }
+  const auto fit = straight_line(places);
+  if (!fit) {
+    Diagnostics failure = fit.error();
+    for (Diagnostic& d : failure) {
+      d.message = fmt::format("feature '{}': {}", planned.name, d.message);
+    }
+    return failure;
+  }
+  out.profile.fit_offset = fit->offset;
+  out.profile.fit_slope = fit->slope;
+  out.turned = std::atan(slope + fit->slope) - std::atan(slope);
+  return out;
+}
+
+}  // namespace
+
+Result<LineComparison> compare_lines(const PlannedCharacteristic& planned,
+                                     const FittedFeature& first, const FittedFeature& second) {
+  const auto axes = line_axes(planned.kind, first.planned->axis, planned.direction);
+  if (!axes) {
+    return error("the direction lies along the lines", "choose one across them");
+  }
+  const double origin = first.planned->point.dot(axes->along);
+  auto a = read(first, *axes, origin);
+  if (!a) return std::move(a).error();
+  auto b = read(second, *axes, origin);
+  if (!b) return std::move(b).error();
+  LineComparison out;
+  out.value = planned.kind == CharacteristicKind::line_angle
+                  ? b->turned - a->turned
+                  : b->profile.fit_offset - a->profile.fit_offset;
+  out.profiles = {std::move(a->profile), std::move(b->profile)};
+  return out;
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "metrology/characteristic/zone.hpp"
+#include "metrology/fit/best_fit.hpp"
+#include "metrology/plan/nominal.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// A line of a plan lies on a surface that its normal tells.
+Element planned_surface(const PlannedFeature& planned) {
+  if (planned.kind != FeatureKind::line) return nominal_element(planned);
+  const Vec3 axis = unit(planned.axis);
+  return Plane{planned.point, unit(planned.normal - planned.normal.dot(axis) * axis)};
+}
+
+struct Surface {
+  const FittedFeature* feature = nullptr;
+  Element planned{};
+  std::vector<Vec3> points{};
+};
+
+// Out of the material, feature after feature.
+Result<std::vector<double>> deviations(const std::vector<Surface>& surfaces, bool floating) {
+  Pose measured_from_planned;
+  if (floating) {
+    std::vector<PointOnElement> all;
+    for (const Surface& s : surfaces) {
+      for (const Vec3& p : s.points) all.push_back({p, &s.planned});
+    }
+    const auto fit = best_fit(all);
+    if (!fit) return fit.error();
+    measured_from_planned = fit->measured_from_planned;
+  }
+  const Pose planned_from_measured = measured_from_planned.inverse();
+  std::vector<double> found;
+  for (const Surface& s : surfaces) {
+    const double sign = material_sign(*s.feature->planned);
+    for (const Vec3& p : s.points) {
+      found.push_back(sign * residual(s.planned, planned_from_measured.point(p)));
+    }
+  }
+  return found;
+}
+
+double twice_largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return 2.0 * most;
+}
+
+RoundProfile plotted(const FittedFeature& feature, const std::vector<Vec3>& points,
+                     std::vector<double> deviation) {
+  RoundProfile profile;
+  const AngleFrame frame = angle_frame(feature);
+  for (const Vec3& p : points) profile.angle.push_back(angle_of(p - feature.planned->point, frame));
+  profile.deviation = std::move(deviation);
+  return profile;
+}
+
+Result<Zone> line_profile(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  std::set<std::size_t> sections(what.planned.sections.begin(), what.planned.sections.end());
+  if (sections.empty()) {
+    for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
+  }
+  Zone worst;
+  bool is_first = true;
+  for (const std::size_t section : sections) {
+    const std::vector<Vec3> points = feature.section(section);
+    if (points.empty()) return error("a section without points", "measure it");
+    auto found =
+        deviations({{&feature, planned_surface(*feature.planned), points}}, what.planned.floating);
+    if (!found) return std::move(found).error();
+    const double value = twice_largest(*found);
+    if (!is_first && value <= worst.value) continue;
+    is_first = false;
+    worst.value = value;
+    worst.profile = {};
+    if (is_round(feature.planned->kind)) {
+      worst.profile = plotted(feature, points, std::move(*found));
+    }
+  }
+  return worst;
+}
+
+Result<Zone> surface_profile(const Toleranced& what) {
+  std::vector<Surface> surfaces;
+  for (const FittedFeature* feature : what.features) {
+    surfaces.push_back({feature, planned_surface(*feature->planned), feature->all_points()});
+  }
+  auto found = deviations(surfaces, what.planned.floating);
+  if (!found) return std::move(found).error();
+  Zone zone;
+  zone.value = twice_largest(*found);
+  const FittedFeature& first = *what.features.front();
+  if (surfaces.size() == 1 && is_round(first.planned->kind)) {
+    zone.profile = plotted(first, surfaces.front().points, std::move(*found));
+  }
+  return zone;
+}
+
+}  // namespace
+
+Result<Zone> profile_zone(const Toleranced& what) {
+  auto zone = what.planned.kind == CharacteristicKind::line_profile ? line_profile(what)
+                                                                    : surface_profile(what);
+  if (!zone) return zone;
+  double reach = 0.0;
+  for (const MeasuredPoint& p : what.features.front()->points) {
+    reach = std::max(reach, p.point.norm());
+  }
+  zone->uncertainty = 2.0 * std::hypot(what.u.probing, what.u.scale * reach);
+  return zone;
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "metrology/characteristic/gaussian_filter.hpp"
+#include "metrology/characteristic/harmonics.hpp"
+#include "metrology/characteristic/zone.hpp"
+#include "metrology/plan/strategy.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// The feature as it turns about the datum axis.
+class Turning {
+ public:
+  Turning(const FittedFeature& feature, const Line& axis)
+      : feature_(feature), axis_(std::get<Line>(agreeing(axis, unit(feature.planned->axis)))) {
+    const Vec3 along = axis_.axis;
+    const Vec3 zero = zero_direction(*feature.planned);
+    frame_ = {axis_.axis, (zero - zero.dot(along) * along).normalized()};
+  }
+
+  // What an indicator reads that touches across the planned surface.
+  [[nodiscard]] double reading(const Vec3& p) const {
+    const Vec3 w = p - axis_.point;
+    const double along = w.dot(axis_.axis.vec());
+    const double radius = w.cross(axis_.axis.vec()).norm();
+    if (feature_.planned->kind == FeatureKind::plane) return along;
+    if (feature_.planned->kind != FeatureKind::cone) return radius;
+    const double angle = feature_.planned->half_angle;
+    return radius * std::cos(angle) - along * std::sin(angle);
+  }
+
+  [[nodiscard]] RoundProfile read(const std::vector<Vec3>& points) const {
+    RoundProfile profile;
+    double mean = 0.0;
+    for (const Vec3& p : points) {
+      profile.angle.push_back(angle_of(p - axis_.point, frame_));
+      profile.deviation.push_back(reading(p));
+      mean += profile.deviation.back() / static_cast<double>(points.size());
+    }
+    for (double& d : profile.deviation) d -= mean;
+    return profile;
+  }
+
+  [[nodiscard]] std::vector<Vec3> section(std::size_t index) const {
+    if (feature_.planned->kind == FeatureKind::plane) return feature_.section(index);
+    return at_one_height(feature_, index, axis_.axis);
+  }
+
+ private:
+  const FittedFeature& feature_;
+  Line axis_;
+  AngleFrame frame_{};
+};
+
+std::set<std::size_t> sections_of(const Toleranced& what) {
+  if (!what.planned.sections.empty()) return {what.planned.sections.front()};
+  std::set<std::size_t> all;
+  for (const MeasuredPoint& p : what.features.front()->points) all.insert(p.section);
+  return all;
+}
+
+Result<Zone> of_section(const Toleranced& what, RoundProfile profile) {
+  if (profile.deviation.size() < 2) {
+    return error("a section with fewer than 2 points", "measure at least two points of it");
+  }
+  Zone zone;
+  if (what.planned.filter) {
+    auto kept = closed_band(*what.planned.filter, profile.angle, profile.deviation);
+    if (!kept) return std::move(kept).error();
+    profile.deviation = std::move(*kept);
+  }
+  if (what.planned.harmonics > 0) {
+    auto waves = harmonics(profile.angle, profile.deviation, what.planned.harmonics);
+    if (!waves) return std::move(waves).error();
+    zone.harmonics = std::move(*waves);
+  }
+  profile.peak_to_valley = form_parameter(FormParameter::t, profile.deviation);
+  zone.value = profile.peak_to_valley;
+  zone.profile = std::move(profile);
+  return zone;
+}
+
+}  // namespace
+
+Result<Zone> run_out_zone(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  const std::span<const FittedFeature* const> datums = std::span(what.features).subspan(1);
+  const auto axis = common_axis(datums, what.planned.datum_criterion);
+  if (!axis) return axis.error();
+  const Turning turning(feature, *axis);
+  Zone worst;
+  if (what.planned.kind == CharacteristicKind::total_run_out) {
+    auto whole = of_section(what, turning.read(feature.all_points()));
+    if (!whole) return whole;
+    worst = std::move(*whole);
+  } else {
+    for (const std::size_t section : sections_of(what)) {
+      auto zone = of_section(what, turning.read(turning.section(section)));
+      if (!zone) return zone;
+      if (worst.profile.angle.empty() || zone->value > worst.value) worst = std::move(*zone);
+    }
+  }
+  const double away = (point_of(feature.element) - axis->point).norm();
+  worst.uncertainty = std::hypot(form_uncertainty(what.u, feature.planned->radius),
+                                 place_uncertainty(what.u, *datums.front(), away));
+  return worst;
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,36 @@
+// The planned geometry laid into measured points: rigid best fit.
+//
+// Model    : the pose P that makes sum d_i^2 least, d_i = distance of P^-1 x_i from the planned element
+//            of point i; degrees of freedom that the elements do not tell, and those that are locked,
+//            keep their planned value: no shift along and no rotation about their axis
+// Units    : mm, rad
+// Shape    : any number of points on any elements
+// Errors   : no points; not converged (points far from the planned geometry)
+// Accuracy : the step at the end is below 1e-13 of the size of the part
+//            (tests/metrology/datum_system_test.cpp)
+// Source   : Gauss-Newton on the six small motions
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/result.hpp"
+#include "metrology/fit/element.hpp"
+
+namespace frustum::metrology {
+
+struct PointOnElement {
+  Vec3 point = Vec3::Zero();         // measured
+  const Element* planned = nullptr;  // outlives the call
+};
+
+struct BestFit {
+  Pose measured_from_planned{};
+  std::array<bool, 6>
+      is_told{};  // shifts along x, y, z, rotations about them: free ones that points tell
+};
+// `locked`: degrees to leave alone, in the same order.
+[[nodiscard]] Result<BestFit> best_fit(std::span<const PointOnElement> points,
+                                       const std::array<bool, 6>& locked = {});
+
+}  // namespace frustum::metrology

@@ -1,0 +1,122 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "metrology/fit/element_rows.hpp"
+#include "metrology/fit/least_squares.hpp"
+#include "metrology/fit/plausibility.hpp"
+#include "metrology/fit/round_fit.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+constexpr Wording kWording{"torus", "probe more of the ring and more of its tube"};
+
+Torus kept(const Torus& start, const Constraints& keep) {
+  return std::get<Torus>(constrained(Element(start), keep));
+}
+
+// The ring and its tube for a given axis: the circle through (away, along) of the points.
+Torus around(const AxisCandidate& candidate, const NormalisedPoints& few) {
+  Eigen::Matrix3d normal = 1e-12 * Eigen::Matrix3d::Identity();
+  Vec3 right = Vec3::Zero();
+  for (const Vec3& p : few.points) {
+    const Vec3 w = p - candidate.point;
+    const double along = w.dot(candidate.axis);
+    const double away = (w - along * candidate.axis).norm();
+    const Vec3 monomials(2.0 * away, 2.0 * along, 1.0);
+    normal += monomials * monomials.transpose();
+    right += (away * away + along * along) * monomials;
+  }
+  const Vec3 s = normal.ldlt().solve(right);
+  const double tube = std::sqrt(std::max(s[2] + s[0] * s[0] + s[1] * s[1], 1e-12));
+  // A thicker tube would cut itself.
+  const double radius = std::max(std::abs(s[0]), 1.1 * tube);
+  return kept({candidate.point + s[1] * candidate.axis, unit(candidate.axis), radius, tube},
+              few.constraints);
+}
+
+// A bent tube: the middle of a cylinder's sections as a parabola along it, from its residuals.
+Torus bent(const Cylinder& tube, const NormalisedPoints& few) {
+  using Row7 = Eigen::Matrix<double, 7, 1>;
+  Eigen::Matrix<double, 7, 7> normal = 1e-9 * Eigen::Matrix<double, 7, 7>::Identity();
+  Row7 right = Row7::Zero();
+  for (const Vec3& p : few.points) {
+    const auto at = row<double>(tube, p.x(), p.y(), p.z());
+    const double along = (p - tube.point).dot(tube.axis.vec());
+    const Eigen::Vector2d e(-at.gradient[0], -at.gradient[1]);
+    Row7 monomials;
+    monomials << e, along * e, along * along * e, 1.0;
+    normal += monomials * monomials.transpose();
+    right += at.residual * monomials;
+  }
+  const Row7 s = normal.ldlt().solve(right);
+  const auto [u, v] = tangents(tube.axis);
+  const auto across = [&](int i) -> Vec3 { return s[i] * u + s[i + 1] * v; };
+  const UnitVec3 along = unit(tube.axis.vec() + across(2));
+  const Vec3 bend = across(4) - across(4).dot(along.vec()) * along.vec();
+  const UnitVec3 inward = UnitVec3::of(bend).value_or(unit(perpendicular_to(along)));
+  const double thick = std::max(tube.radius + s[6], 1e-3);
+  const double radius = std::clamp(0.5 / std::max(bend.norm(), 1e-4), 1.1 * thick, 1e4);
+  return kept({tube.point + across(0) + radius * inward.vec(),
+               unit(along.vec().cross(inward.vec())), radius, thick},
+              few.constraints);
+}
+
+std::vector<Element> bent_tubes(const AxisSearch& search, const NormalisedPoints& few) {
+  const PointBlocks points = PointBlocks::of(few);
+  const Constraints free;
+  std::vector<std::pair<double, Element>> tubes;
+  for (const AxisCandidate& c : search.candidates(RoundKind::cylinder, kAxisCandidates)) {
+    GaussNewton solver(Cylinder{c.point, unit(c.axis), c.radius}, points, free);
+    solver.descend(12, 1e-3);
+    if (!implausible(solver.element())) tubes.emplace_back(solver.cost(), solver.element());
+  }
+  std::stable_sort(tubes.begin(), tubes.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Element> starts;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, tubes.size()); ++i) {
+    starts.push_back(bent(std::get<Cylinder>(tubes[i].second), few));
+  }
+  return starts;
+}
+
+}  // namespace
+
+Result<Fit<Torus>> fit_torus(std::span<const Vec3> points, const FitOptions& options) {
+  auto local = normalise(points, {ElementKind::torus, kWording.what, 7}, options);
+  if (!local) return std::move(local).error();
+  const PrincipalDirections principal = principal_directions(*local);
+  if (auto flat = coplanar(*local, principal, kWording.what)) return *flat;
+  const PointBlocks all = PointBlocks::of(*local);
+  const NormalisedPoints few = thinned(*local, kSearched);
+  const AxisSearch search(few, principal);
+  const auto ring = [&](const AxisCandidate& c) { return around(c, few); };
+  const auto solve = [&]() -> Result<Minimum> {
+    std::vector<Element> starts = starts_from(search.likeliest(RoundKind::cylinder), ring);
+    auto direct = at_once(starts, *local, all, principal.spread[2]);
+    if (direct) return settled(std::move(*direct), all, local->constraints, kWording);
+    // The axis of the ring is no axis of a tube: its search keeps no direction.
+    NormalisedPoints unbound = few;
+    unbound.constraints = {};
+    std::vector<Element> more = bent_tubes(AxisSearch(unbound, principal), few);
+    starts.insert(starts.end(), more.begin(), more.end());
+    for (const RoundKind kind : {RoundKind::cylinder, RoundKind::cone}) {
+      more = starts_from(search.candidates(kind, kAxisCandidates), ring);
+      starts.insert(starts.end(), more.begin(), more.end());
+    }
+    return best_minimum(starts, *local, all, kWording);
+  };
+  auto found = solve();
+  if (!found) return std::move(found).error();
+  const auto& best = std::get<Torus>(found->element);
+  constexpr std::array kIsAngle{false, false, false, true, true, false, false};
+  return completed(*local,
+                   Torus{local->back(best.point), best.axis, best.radius * local->scale,
+                         best.tube_radius * local->scale},
+                   {found->residuals, found->cofactor, kIsAngle, redundancy(*local, *found),
+                    found->iterations, found->condition});
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,126 @@
+#include "metrology/fit/round_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrology/fit/plausibility.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// Below this gain the cost no longer tells good steps from bad ones; settle() takes over.
+constexpr double kLastGain = 1e-8;
+// 80 points tell the right valley.
+constexpr std::size_t kFew = 80;
+
+// An axis without a sense of its own gets the one that equal data always get.
+Element in_one_sense(const Element& element) {
+  return std::visit(
+      [](auto e) -> Element {
+        if constexpr (
+            requires { e.axis; } && !requires { e.half_angle; }) {
+          e.axis = canonical(e.axis);
+        }
+        return e;
+      },
+      element);
+}
+
+}  // namespace
+
+Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
+                        const Constraints& constraints, const Wording& wording) {
+  const Element turned = in_one_sense(solver.element());
+  const UnitVec3* axis = axis_of(turned);
+  if (axis != nullptr && axis->vec().dot(axis_of(solver.element())->vec()) < 0.0) {
+    solver = GaussNewton(turned, points, constraints);
+  }
+  Minimum found = solver.settle();
+  const std::string_view what = wording.what;
+  if (!found.well_posed) {
+    return error(
+        fmt::format("degenerate points for a {}: they do not tell all of its parameters", what),
+        std::string(wording.remedy));
+  }
+  if (!found.converged) {
+    return error(fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
+                 fmt::format("the points lie far from any {}", what));
+  }
+  if (auto reason = implausible(found.element)) {
+    return error(fmt::format("degenerate points for a {}: {}", what, *reason),
+                 std::string(wording.remedy));
+  }
+  return found;
+}
+
+Result<Minimum> best_minimum(const std::vector<Element>& starts, const NormalisedPoints& local,
+                             const PointBlocks& all, const Wording& wording) {
+  const PointBlocks few = PointBlocks::of(thinned(local, kFew));
+  const Constraints& keep = local.constraints;
+  std::vector<std::pair<double, Element>> ranked;
+  std::optional<std::string> reason;  // why a descent led nowhere
+  for (const Element& start : starts) {
+    GaussNewton solver(start, few, keep);
+    solver.descend(12, kLastGain);  // far enough down to compare
+    if (auto astray = implausible(solver.element())) {
+      reason = std::move(astray);
+    } else if (std::isfinite(solver.cost())) {
+      ranked.emplace_back(solver.cost(), solver.element());
+    }
+  }
+  const auto by_cost = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(ranked.begin(), ranked.end(), by_cost);
+  std::vector<std::pair<double, GaussNewton>> finalists;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i) {
+    GaussNewton solver(ranked[i].second, all, keep);
+    solver.descend(100, kLastGain);
+    if (auto astray = implausible(solver.element())) {
+      reason = std::move(astray);
+    } else {
+      finalists.emplace_back(solver.cost(), std::move(solver));
+    }
+  }
+  if (finalists.empty()) {
+    return error(fmt::format("degenerate points for a {}: {}", wording.what,
+                             reason.value_or("none fits them")),
+                 fmt::format("check that the points lie near a {}", wording.what));
+  }
+  const auto best = std::min_element(finalists.begin(), finalists.end(), by_cost);
+  return settled(best->second, all, keep, wording);
+}
+
+std::optional<GaussNewton> at_once(const std::vector<Element>& starts,
+                                   const NormalisedPoints& local, const PointBlocks& all,
+                                   double least_spread) {
+  const PointBlocks few = PointBlocks::of(thinned(local, kFew));
+  const double enough = 1e-6 * least_spread * least_spread;
+  for (const Element& start : starts) {
+    GaussNewton solver(start, few, local.constraints);
+    solver.descend(12, 1e-2);
+    if (implausible(solver.element()) ||
+        !(solver.cost() < enough * static_cast<double>(few.count))) {
+      continue;
+    }
+    GaussNewton whole(solver.element(), all, local.constraints);
+    if (whole.cost() < enough * static_cast<double>(all.count)) return whole;
+  }
+  return std::nullopt;
+}
+
+double redundancy(const NormalisedPoints& local, const Minimum& found) {
+  return static_cast<double>(local.count()) - static_cast<double>(found.free_parameters);
+}
+
+std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
+                                   const PrincipalDirections& principal, std::string_view what) {
+  if (local.constraints.parallel_to || local.constraints.axis ||
+      principal.spread[2] > kFlat * principal.spread[0]) {
+    return std::nullopt;
+  }
+  return error(fmt::format("degenerate points for a {}: they lie in one plane", what),
+               "probe at two or more heights along the axis");
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,65 @@
+// The road of fits from starting elements to the one minimum.
+//
+// Model    : every start descends on a thinned set, the best few on all points; the lowest settles
+// Units    : local frame of size one
+// Shape    : the kinds of gauss_newton.hpp; all starts of one kind
+// Errors   : no plausible minimum; not well posed; not converged
+// Accuracy : that of gauss_newton.hpp
+// Source   : ours
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+#include "metrology/fit/axis_search.hpp"
+#include "metrology/fit/gauss_newton.hpp"
+#include "metrology/fit/normalised_points.hpp"
+
+namespace frustum::metrology {
+
+// How to speak to the user about points that do not tell an element.
+struct Wording {
+  std::string_view what;
+  std::string_view remedy;
+};
+
+// This many points tell the right valley, and their moments the axes.
+inline constexpr std::size_t kSearched = 160;
+inline constexpr std::size_t kAxisCandidates = 10;
+
+// One start a candidate: what start(candidate) makes of it.
+template <typename Start>
+[[nodiscard]] std::vector<Element> starts_from(const std::vector<AxisCandidate>& candidates,
+                                               const Start& start) {
+  std::vector<Element> starts;
+  starts.reserve(candidates.size());
+  for (const AxisCandidate& c : candidates) starts.push_back(start(c));
+  return starts;
+}
+
+// From an element in the right valley.
+[[nodiscard]] Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
+                                      const Constraints& constraints, const Wording& wording);
+
+[[nodiscard]] Result<Minimum> best_minimum(const std::vector<Element>& starts,
+                                           const NormalisedPoints& local, const PointBlocks& all,
+                                           const Wording& wording);
+
+// The minimum below the likeliest of few starts, when it is so low that there is nothing to search for:
+// residuals a thousandth of the least spread of the points bend no surface into another.
+[[nodiscard]] std::optional<GaussNewton> at_once(const std::vector<Element>& starts,
+                                                 const NormalisedPoints& local,
+                                                 const PointBlocks& all, double least_spread);
+
+[[nodiscard]] double redundancy(const NormalisedPoints& local, const Minimum& found);
+
+// Refuses points in one plane: a plane cuts cones, cylinders and tori in curves that fit many of them,
+// unless their axis is given.
+[[nodiscard]] std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
+                                                 const PrincipalDirections& principal,
+                                                 std::string_view what);
+
+}  // namespace frustum::metrology

@@ -1,0 +1,88 @@
+#include "metrology/probing/ball_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/golden_section.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+class Descent {
+ public:
+  Descent(const SurfaceProbeRef& part, const BallApproach& approach)
+      : part_(part),
+        approach_(approach),
+        start_(approach.target +
+               (approach.ball_radius + approach.clearance) * approach.outward.vec()) {}
+
+  // How far the centre travels until the ball's point in direction -m meets the surface.
+  std::optional<Touch> ray(const Vec3& m) {
+    const Vec3 from = start_ - approach_.ball_radius * m;
+    auto touch = part_.touch(from, -approach_.outward, approach_.clearance + approach_.reach);
+    if (!touch) return std::nullopt;
+    last_ = (from - touch->point).dot(approach_.outward.vec());
+    travel_ = std::min(travel_, last_);
+    return touch;
+  }
+  [[nodiscard]] double last() const { return last_; }
+  [[nodiscard]] Vec3 centre() const { return start_ - travel_ * approach_.outward.vec(); }
+
+  // The part of the travel that no ray has shortened yet, along the arc from a to b.
+  void search_arc(const Vec3& a, const Vec3& b) {
+    const auto travel_at = [&](const Vec3& m) {
+      return ray(m.normalized()) ? last_ : approach_.clearance + approach_.reach;
+    };
+    // 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then is exact to rounding.
+    static_cast<void>(golden_section([&](double share) { return travel_at(a + share * (b - a)); },
+                                     0.0, 1.0, 0.0, 40));
+  }
+
+ private:
+  const SurfaceProbeRef& part_;
+  const BallApproach& approach_;
+  Vec3 start_;
+  double last_ = 0.0;
+  double travel_ = HUGE_VAL;
+};
+
+// The ray from farther out tells a start inside the material from a surface out of reach.
+ContactState why_missed(const SurfaceProbeRef& part, const BallApproach& approach) {
+  constexpr double kFarther = 1000.0;  // mm: outside any part that fits a machine
+  const Vec3 start = approach.target + (approach.clearance + kFarther) * approach.outward.vec();
+  return part.touch(start, -approach.outward, kFarther) ? ContactState::starts_inside
+                                                        : ContactState::no_surface;
+}
+
+}  // namespace
+
+BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& approach) {
+  Descent descent(part, approach);
+  // A direction off by d changes the centre by r d^2: the bound keeps that below 1e-12 mm.
+  const double close = std::sqrt(1e-12 / approach.ball_radius);
+  std::array<Vec3, 3> trail{approach.outward, approach.outward, approach.outward};
+  constexpr int kMost = 30;  // extrapolation every third step makes it two or three rounds
+  for (int i = 0; i < kMost; ++i) {
+    const auto touch = descent.ray(trail[2]);
+    if (!touch) {
+      if (i == 0) return {why_missed(part, approach), Vec3::Zero()};
+      break;  // a shifted ray left the part: the ball rests on its edge
+    }
+    const Vec3 next = touch->normal;
+    if ((next - trail[2]).norm() < close) {
+      return {ContactState::contact, descent.centre()};
+    }
+    trail = {trail[1], trail[2], next};
+    if (i % 3 != 2) continue;
+    // Linear convergence has a constant ratio; sum the rest of the series.
+    const Vec3 before = trail[1] - trail[0];
+    const Vec3 after = trail[2] - trail[1];
+    const double ratio = after.dot(before) / std::max(before.squaredNorm(), 1e-300);
+    if (std::abs(ratio) < 0.98) trail[2] = (trail[2] + ratio / (1.0 - ratio) * after).normalized();
+  }
+  descent.search_arc(trail[1], trail[2]);
+  return {ContactState::contact, descent.centre()};
+}
+
+}  // namespace frustum::metrology

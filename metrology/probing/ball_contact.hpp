@@ -1,0 +1,38 @@
+// Where a probe ball comes to rest on a surface.
+//
+// Model    : the centre c on the approach line is at contact when c = x + r n(x) for a surface
+//            point x. A ray shifted by -r m meets the surface at a point that the ball with that
+//            centre touches in direction m; m is iterated to n(x). Every ray gives a bound, since
+//            the ball cannot pass the point it met: the farthest one counts
+// Units    : mm
+// Shape    : 3 to 8 rays on smooth surfaces, some 60 at an edge
+// Errors   : no_surface, starts_inside
+// Accuracy : 1e-12 mm on smooth surfaces (second order in the direction); across an edge the bound
+//            along the arc between its two normals. Of two separate contacts, as deep in a groove,
+//            one is found
+// Source   : ours
+#pragma once
+
+#include "metrology/probing/surface_probe.hpp"
+
+namespace frustum::metrology {
+
+struct BallApproach {
+  Vec3 target = Vec3::Zero();        // nominal surface point
+  UnitVec3 outward = UnitVec3::z();  // nominal normal; the ball moves against it
+  double ball_radius = 1.5;
+  double clearance = 2.0;  // between ball and nominal surface at the start
+  double reach = 2.0;      // past the nominal surface
+};
+
+enum class ContactState { contact, no_surface, starts_inside };
+
+struct BallContact {
+  ContactState state = ContactState::no_surface;
+  Vec3 centre = Vec3::Zero();  // of the ball; only with ContactState::contact
+};
+
+[[nodiscard]] BallContact touch_with_ball(const SurfaceProbeRef& part,
+                                          const BallApproach& approach);
+
+}  // namespace frustum::metrology
