@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -115,17 +116,19 @@ TEST(ErrorDraws, OfAFieldKeepItsStatement) {
   EXPECT_GT(worst_of(CmmKind::linear), 1.0);
 }
 
-// Only the cylinder, with what is asked of it.
-InspectionPlan cylinder_plan() {
+// One feature of the part, with what is asked of it.
+InspectionPlan plan_of(std::size_t feature, const std::vector<std::string>& characteristics) {
   InspectionPlan plan = test_part::plan();
   plan.alignment = Alignment::plan;
   plan.datum.reset();
-  plan.features = {plan.features[1]};
-  std::erase_if(plan.characteristics, [](const PlannedCharacteristic& c) {
-    return c.name != "cylinder.diameter" && c.name != "cylinder.roundness";
+  plan.features = {plan.features[feature]};
+  std::erase_if(plan.characteristics, [&](const PlannedCharacteristic& c) {
+    return std::find(characteristics.begin(), characteristics.end(), c.name) ==
+           characteristics.end();
   });
   return plan;
 }
+InspectionPlan cylinder_plan() { return plan_of(1, {"cylinder.diameter", "cylinder.roundness"}); }
 
 TEST(MonteCarlo, ErrorsThatAlwaysPointOneWayAreTakenOffTheValue) {
   const InspectionPlan plan = cylinder_plan();
@@ -174,6 +177,29 @@ TEST(MonteCarlo, ALobedProbeIsNotTakenForTheFormOfThePart) {
   ASSERT_TRUE(form.simulated);
   EXPECT_LT(form.simulated->low, 0.2);
   EXPECT_LT(form.simulated->high, 1.0);
+}
+
+// Lobes of the probe in the valleys of the part's: it looks round, and is known not to be.
+TEST(MonteCarlo, AFormThatTheProbeHidesIsFoundAgain) {
+  InspectionPlan plan = plan_of(3, {"cone.form"});
+  const auto part = test_part::part({.lobe = 0.0013});
+  const auto truth = measure(plan, part);
+  ASSERT_TRUE(truth) << to_string(truth.error().front());
+  const double real = named(*truth, "cone.form").value;
+  EXPECT_NEAR(real, 2.6, 0.01);
+  plan.monte_carlo = MonteCarloSettings{.draws = 2000};
+  CmmModel cmm{.e0_mm = 0.0002, .seed = 3};
+  // On the cone the touch leans by 30 deg, which leaves 0.65 of the lobes.
+  cmm.probe = ProbeErrors{.lobe = 0.002, .lobe_phase = 30.0 * kRadPerDeg};
+  const auto seen = measure(plan, part, cmm);
+  ASSERT_TRUE(seen) << to_string(seen.error().front());
+  const CharacteristicResult& form = named(*seen, "cone.form");
+  EXPECT_LT(form.value, 1.0);
+  ASSERT_TRUE(form.simulated);
+  EXPECT_LT(form.simulated->low, real);
+  EXPECT_GT(form.simulated->high, real);
+  EXPECT_GT(form.simulated->low, real - 0.5);
+  EXPECT_LT(form.simulated->high, real + 0.5);
 }
 
 TEST(MonteCarlo, AWarmPartIsTakenForWhatItIsAt20Degrees) {
