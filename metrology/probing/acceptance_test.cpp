@@ -172,7 +172,8 @@ std::string to_text(const AcceptanceReport& report) {
   const double share = report.worst_length_share();
   out += fmt::format("{} lengths (ISO 10360-2): {}, {}\n", report.lengths.size(),
                      report.lengths_pass() ? "passed" : "failed",
-                     std::isfinite(share)
+                     share == 0.0 ? "without errors"
+                     : std::isfinite(share)
                          ? fmt::format("the worst uses {:.0f} % of its limit", 100.0 * share)
                          : "with errors where the limit is 0: state e0, or l_per_um");
   out += fmt::format(

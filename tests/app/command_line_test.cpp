@@ -197,6 +197,9 @@ TEST_F(CommandLineSystem, TestsItsOwnCmm) {
   EXPECT_NE(several.out.find("uses more than any share (the limit is 0) on the best machine"),
             std::string::npos)
       << several.out;
+  EXPECT_NE(several.out.find("3 failed on the sphere of 25 points; the first that failed has seed"),
+            std::string::npos)
+      << several.out;
   replace_in("piece/job.toml", "part = 30", "parts = 30");
   const Outcome misspelt = run("cmm piece/job.toml");
   EXPECT_EQ(misspelt.exit_code, 2);

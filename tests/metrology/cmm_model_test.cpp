@@ -78,6 +78,7 @@ TEST(AcceptanceLaws, StatesNoShareOfALimitOfZero) {
   EXPECT_NE(text.find("failed, with errors where the limit is 0"), std::string::npos) << text;
   EXPECT_EQ(text.find('%'), std::string::npos) << text;
   EXPECT_EQ(acceptance_test({}).worst_length_share(), 0.0);
+  EXPECT_NE(to_text(acceptance_test({})).find("passed, without errors"), std::string::npos);
 }
 
 TEST(GeometryFieldLaws, KeepsItsLimitAnywhereAndVariesSlowly) {
