@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/cmm_option.hpp"
 #include "app/console.hpp"
 #include "app/export_request.hpp"
 #include "app/job.hpp"
@@ -12,12 +13,14 @@
 #include "app/unit_option.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/points/point_scale.hpp"
+#include "metrology/uncertainty/uncertainty.hpp"
 #include "report/json_report.hpp"
 #include "report/terminal_report.hpp"
 
 namespace frustum::app {
 namespace {
 
+using metrology::CmmModel;
 using metrology::InspectionPlan;
 using metrology::LengthUnit;
 
@@ -27,6 +30,7 @@ struct Options {
   std::string points{};
   std::string mesh{};
   std::string unit{};
+  CmmWords cmm{};
   std::vector<std::string> exports{};
   JobOverrides overrides{};
   bool ball_centres = false;
@@ -65,7 +69,8 @@ int measure_job(const Options& options) {
 }
 
 Result<metrology::Measurement> evaluated_points(const Options& options, const InspectionPlan& plan,
-                                                const std::optional<LengthUnit>& unit) {
+                                                const std::optional<LengthUnit>& unit,
+                                                const CmmModel& cmm) {
   const auto points = metrology::read_feature_points(options.points, unit);
   if (!points) return points.error();
   if (auto fault = metrology::scale_fault(plan, *points)) {
@@ -74,14 +79,30 @@ Result<metrology::Measurement> evaluated_points(const Options& options, const In
   }
   const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
                                             : metrology::PointMeaning::surface;
-  return metrology::evaluate(plan, *points, meaning);
+  auto measurement = metrology::evaluate(plan, *points, meaning, cmm);
+  if (measurement && metrology::point_uncertainty(cmm).is_zero()) {
+    Diagnostic unknown =
+        warning("nothing is known of the machine that measured these points: uncertainties are 0",
+                "state its accuracy with --e0 \"1.8 um\" --l-per-um 350, or --cmm FILE");
+    unknown.severity = Severity::note;
+    measurement->diagnostics.push_back(std::move(unknown));
+  }
+  return measurement;
 }
 
 Result<metrology::Measurement> probed_mesh(const Options& options, const InspectionPlan& plan,
-                                           const std::optional<LengthUnit>& unit) {
+                                           const std::optional<LengthUnit>& unit,
+                                           const CmmModel& cmm) {
   const auto probe = read_mesh_probe(options.mesh, unit, plan);
   if (!probe) return probe.error();
-  return metrology::measure(plan, *probe);
+  auto measurement = metrology::measure(plan, *probe, cmm);
+  if (measurement) return measurement;
+  Diagnostics faults = measurement.error();
+  if (auto facing = probe->facing_fault(plan)) faults.insert(faults.begin(), *std::move(facing));
+  for (Diagnostic& d : faults) {
+    if (d.file.empty()) d.file = options.mesh;
+  }
+  return faults;
 }
 
 int measure_by_plan(const Options& options) {
@@ -89,10 +110,12 @@ int measure_by_plan(const Options& options) {
   if (!plan) return refuse(plan.error());
   const auto unit = unit_of(options.unit);
   if (!unit) return refuse(unit.error());
+  const auto cmm = cmm_of(options.cmm);
+  if (!cmm) return refuse(cmm.error());
   const auto exports = checked_exports(options.exports);
   if (!exports) return refuse(exports.error());
-  auto measurement = options.mesh.empty() ? evaluated_points(options, *plan, *unit)
-                                          : probed_mesh(options, *plan, *unit);
+  auto measurement = options.mesh.empty() ? evaluated_points(options, *plan, *unit, *cmm)
+                                          : probed_mesh(options, *plan, *unit, *cmm);
   if (!measurement) {
     write_failed_exports(*exports, measurement.error(), *plan);
     return refuse(measurement.error());
@@ -108,6 +131,10 @@ int measure(const Options& options) {
   const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
   const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
   if (by_plan) return measure_by_plan(options);
+  if (by_job && options.cmm.any()) {
+    return refuse("--e0, --l-per-um and --cmm go with --points or --mesh",
+                  "a job states its machine in [inspection.cmm]");
+  }
   if (by_job) return measure_job(options);
   return refuse("give either a job file, or --plan and --points, or --plan and --mesh",
                 "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv | "
@@ -129,6 +156,7 @@ void add_measure(CLI::App& program, int& exit_code) {
   command->add_option("--mesh", options->mesh,
                       "STL, PLY or OBJ that is probed like a part, in the plan's frame");
   add_unit_option(*command, options->unit);
+  add_cmm_options(*command, options->cmm);
   command->add_flag("--ball-centres", options->ball_centres,
                     "The points are centres of the probe ball, not surface points");
   add_error_options(*command, options->overrides.errors);

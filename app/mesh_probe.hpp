@@ -3,8 +3,10 @@
 // Model    : the first facet that the probe meets from outside, with the facet's own normal; borders may be
 //            open, as scans have them
 // Units    : mm
-// Shape    : facets counter-clockwise seen from outside
-// Errors   : a file that cannot be read, a mesh whose size does not suit the plan
+// Shape    : facets counter-clockwise seen from outside; corners that differ by rounding are made one
+//            (stock/weld_mesh.hpp)
+// Errors   : a file that cannot be read, a mesh whose size does not suit the plan, facets that are met from
+//            behind
 // Accuracy : that of the mesh: between corners its facets leave a surface of radius R by length^2 / (8 R)
 // Source   : ours
 #pragma once
@@ -26,6 +28,8 @@ class MeshProbe {
 
   [[nodiscard]] std::optional<metrology::Touch> touch(const Vec3& start, const UnitVec3& direction,
                                                       double length_mm) const;
+  // Why the points of the plan miss the mesh, when they meet facets that face away from them.
+  [[nodiscard]] std::optional<Diagnostic> facing_fault(const metrology::InspectionPlan& plan) const;
 
  private:
   stock::FacetSolid solid_;

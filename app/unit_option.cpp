@@ -7,7 +7,8 @@
 namespace frustum::app {
 
 void add_unit_option(CLI::App& command, std::string& text) {
-  command.add_option("--unit", text, "Of a file that states none: mm, um, nm, cm, m or inch (mm)");
+  command.add_option("--unit", text,
+                     "Of a file that states no other: mm, um, nm, cm, m or inch (mm)");
 }
 
 Result<std::optional<metrology::LengthUnit>> unit_of(const std::string& text) {

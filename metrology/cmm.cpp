@@ -33,7 +33,7 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
   return error(
       fmt::format("{}: the plan misses the part: no surface within {} mm past the nominal one",
                   place, probe.reach),
-      "check the nominal geometry and the blank, or enlarge probe.reach");
+      "check the nominal geometry and the blank or mesh, or enlarge probe.reach");
 }
 
 // One measurement of a part: its features, and what the stylus ran into.
@@ -132,10 +132,25 @@ bool lies_askew(const Pose& planned_from_found) {
          planned_from_found.translation.norm() > 0.01;
 }
 
-std::vector<std::string> names_of(const InspectionPlan& plan) {
+Diagnostic at(const FeaturePoints& points, Diagnostic d) {
+  d.file = points.file;
+  d.line = points.line;
+  return d;
+}
+
+// Points of a feature that the plan does not have.
+Diagnostic unknown_feature(const InspectionPlan& plan, const FeaturePoints& points) {
+  if (points.feature.empty()) {
+    return at(points, error("the points name no feature, and the plan has several",
+                            "begin the file with the header feature,section,x,y,z"));
+  }
   std::vector<std::string> names;
   for (const PlannedFeature& feature : plan.features) names.push_back(feature.name);
-  return names;
+  const auto meant = nearest_word(points.feature, names);
+  return at(points, error(fmt::format("the plan has no feature '{}'", points.feature),
+                          fmt::format("{}the plan has {}",
+                                      meant ? "did you mean " + *meant + "? " : std::string(),
+                                      fmt::join(names, ", "))));
 }
 
 }  // namespace
@@ -189,20 +204,18 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
     const bool nameless = points.feature.empty() && plan.features.size() == 1;
     const PlannedFeature* feature =
         nameless ? &plan.features.front() : find_feature(plan, points.feature);
-    if (feature == nullptr) {
-      return points.feature.empty()
-                 ? error("the points name no feature, and the plan has several",
-                         "begin the file with the header feature,section,x,y,z")
-                 : error(fmt::format("the plan has no feature '{}'", points.feature),
-                         suggestion(points.feature, names_of(plan)));
-    }
+    if (feature == nullptr) return unknown_feature(plan, points);
     std::vector<std::size_t> sections = points.sections;
     if (sections.size() != points.points.size()) {
       sections.clear();
       for (const Vec3& p : points.points) sections.push_back(nearest_section(*feature, p));
     }
     auto fit = fit_feature(*feature, points.points, sections, ball_radius);
-    if (!fit) return std::move(fit).error();
+    if (!fit) {
+      Diagnostics faults = std::move(fit).error();
+      for (Diagnostic& d : faults) d = at(points, std::move(d));
+      return faults;
+    }
     fitted.push_back(std::move(*fit));
   }
   auto measurement = evaluated(plan, std::move(fitted), cmm);

@@ -35,6 +35,9 @@ struct FeaturePoints {
   std::string feature{};
   std::vector<Vec3> points{};           // mm, in any frame near the workpiece frame of the plan
   std::vector<std::size_t> sections{};  // one each (first = 0); empty: the nearest planned section
+  // Where the first of them stands, for diagnostics; empty and 0 when that is no line of a file.
+  std::string file{};
+  int line = 0;
 };
 enum class PointMeaning { surface, ball_centre };
 

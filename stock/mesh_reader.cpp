@@ -547,8 +547,12 @@ Result<SurfaceMesh> read_mesh(const std::filesystem::path& file) {
     fault.file = file.string();
     return fault;
   };
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) {
+    return named(error("this is a directory, not a mesh", "name one of the files in it"));
+  }
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) return named(error("the mesh cannot be read"));
+  if (!in) return named(error("the mesh cannot be read", "check the path and permissions"));
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   auto mesh = parse_mesh(bytes, *format);
   if (!mesh) return named(mesh.error().front());

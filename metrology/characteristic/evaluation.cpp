@@ -48,6 +48,24 @@ std::vector<FittedFeature> named(const PlannedCharacteristic& planned, const Pos
   return chosen;
 }
 
+constexpr std::string_view kStateAccuracy =
+    "state its accuracy: inspection.cmm of a job, or --e0 and --l-per-um of frustum measure";
+
+// iso14253 decides by the uncertainty: without one it is no stricter than simple.
+std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
+  std::string names;
+  std::size_t count = 0;
+  for (const CharacteristicResult& c : measurement.characteristics) {
+    if (c.simulated || c.expanded_uncertainty > 0.0) continue;
+    ++count;
+    names += (names.empty() ? "'" : ", '") + c.name + "'";
+  }
+  if (count == 0) return std::nullopt;
+  if (count == measurement.characteristics.size()) names = "all characteristics";
+  return warning(fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", names),
+                 std::string(kStateAccuracy));
+}
+
 }  // namespace
 
 bool uses_datum(const InspectionPlan& plan) {
@@ -71,8 +89,11 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
                               const CmmModel& cmm) {
   auto measurement = evaluated_values(plan, features, cmm);
   if (!measurement) return measurement;
-  const PointUncertainty u = point_uncertainty(cmm);
-  if (plan.monte_carlo && (u.probing > 0.0 || u.scale > 0.0)) {
+  if (plan.monte_carlo && point_uncertainty(cmm).is_zero()) {
+    measurement->diagnostics.push_back(
+        warning("uncertainty: nothing was simulated, because the CMM is said to have no errors",
+                std::string(kStateAccuracy)));
+  } else if (plan.monte_carlo) {
     const auto simulated = simulated_uncertainties(
         plan, features, error_draws(cmm, plan.monte_carlo->seed), *plan.monte_carlo);
     if (!simulated) return simulated.error();
@@ -81,6 +102,11 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
     }
   }
   decide(*measurement, plan.decision);
+  if (plan.decision == DecisionRule::iso14253) {
+    if (auto undecided = without_uncertainty(*measurement)) {
+      measurement->diagnostics.push_back(*std::move(undecided));
+    }
+  }
   return measurement;
 }
 
@@ -104,10 +130,9 @@ Result<Measurement> evaluated_values(const InspectionPlan& plan,
   Frames frames(plan, features);
   Influence influence(plan, features);
   const PointUncertainty u = point_uncertainty(cmm);
-  const bool is_ideal = u.probing == 0.0 && u.scale == 0.0;
   // Standard, mm or rad; a characteristic that cannot be evaluated says why elsewhere.
   const auto line_uncertainty = [&](const PlannedCharacteristic& planned) {
-    if (is_ideal || !compares_lines(planned.kind)) return 0.0;
+    if (u.is_zero() || !compares_lines(planned.kind)) return 0.0;
     const auto gradient = influence.of(planned);
     return gradient && *gradient ? std::sqrt(variance(**gradient, influence.of_field(), u)) : 0.0;
   };

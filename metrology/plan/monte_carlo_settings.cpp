@@ -6,7 +6,14 @@ namespace frustum::metrology {
 
 std::optional<MonteCarloSettings> read_monte_carlo(const TomlTable& table) {
   MonteCarloSettings settings;
-  const bool is_linear = table.choice("method", {"monte_carlo", "linear"}) == 1;
+  if (table.choice("method", {"monte_carlo", "linear"}) == 1) {
+    for (const char* key : {"draws", "digits", "seed"}) {
+      if (!table.has(key)) continue;
+      table.fail(key, "belongs to method = \"monte_carlo\": linear propagation draws nothing",
+                 "leave it out, or write method = \"monte_carlo\"");
+    }
+    return std::nullopt;
+  }
   if (table.is_number("draws")) {
     const std::int64_t draws = table.integer("draws", Bound::positive);
     // Ten million draws of a plan take the better part of an hour.
@@ -21,7 +28,6 @@ std::optional<MonteCarloSettings> read_monte_carlo(const TomlTable& table) {
   if (digits > 2) table.fail("digits", fmt::format("must be 1 or 2, is {}", digits));
   settings.digits = static_cast<int>(digits == 1 ? 1 : 2);
   settings.seed = static_cast<std::uint64_t>(table.integer_or("seed", 1, Bound::non_negative));
-  if (is_linear) return std::nullopt;
   return settings;
 }
 

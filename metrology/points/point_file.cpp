@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "core/spelling.hpp"
 #include "metrology/points/ply_points.hpp"
@@ -74,6 +74,11 @@ std::optional<double> number_in(std::string_view text) {
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+Diagnostic unlike_units(const LengthUnit& stated, const LengthUnit& asked) {
+  return error(fmt::format("the file states the unit {}, --unit says {}", stated.name, asked.name),
+               "leave --unit out, or correct the file");
 }
 
 struct FoundPoints {
@@ -144,6 +149,9 @@ class PointReader {
       return fault(column, fmt::format("the unit is {} here, {} before", unit.name, unit_->name),
                    "a file has one unit");
     }
+    if (default_unit_ && *default_unit_ != unit) {
+      return placed(unlike_units(unit, *default_unit_), column);
+    }
     unit_ = unit;
     return std::nullopt;
   }
@@ -164,6 +172,7 @@ class PointReader {
   }
 
   Problem header(const std::vector<Word>& words) {
+    stated_above_ = unit_.has_value();
     const std::vector<std::string> known{"feature", "section", "x", "y", "z", "weight"};
     columns_.clear();
     for (const Word& word : words) {
@@ -185,7 +194,24 @@ class PointReader {
                      "a point needs x, y and z");
       }
     }
-    return std::nullopt;
+    return partly_stated(words);
+  }
+
+  // A unit at some coordinates only, which is not the one that the others have anyway.
+  [[nodiscard]] Problem partly_stated(const std::vector<Word>& words) const {
+    const LengthUnit others = default_unit_.value_or(LengthUnit{"mm", 1.0});
+    if (stated_above_ || !unit_ || *unit_ == others) return std::nullopt;
+    const Word* with = nullptr;
+    const Word* without = nullptr;
+    for (const Word& word : words) {
+      const Heading heading = heading_of(word.text);
+      if (heading.name.size() == 1) (heading.unit.empty() ? without : with) = &word;
+    }
+    if (with == nullptr || without == nullptr) return std::nullopt;
+    return fault(without->column,
+                 fmt::format("'{}' states a unit, '{}' does not", with->text, without->text),
+                 fmt::format("state the unit at each of x, y and z, or once above: # unit: {}",
+                             unit_->name));
   }
 
   Problem unit_of_column(const Heading& heading, const Word& word) {
@@ -239,7 +265,7 @@ class PointReader {
     auto place = std::find_if(found_.begin(), found_.end(),
                               [&](const FoundPoints& f) { return f.feature.feature == feature; });
     if (place == found_.end()) {
-      found_.push_back({{std::string(feature), {}, {}}, {}});
+      found_.push_back({{std::string(feature), {}, {}, file_, line_}, {}});
       place = found_.end() - 1;
     }
     place->feature.points.push_back(mm() * point);
@@ -261,6 +287,7 @@ class PointReader {
   std::string file_;
   std::optional<LengthUnit> default_unit_;
   std::optional<LengthUnit> unit_;  // as the file says
+  bool stated_above_ = false;       // of the header
   int line_ = 0;
   std::vector<std::string> columns_{"x", "y", "z"};
   std::optional<double> count_;
@@ -273,27 +300,33 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
   auto ply = parse_ply_points(bytes);
   Diagnostics problems = ply ? Diagnostics() : ply.error();
   if (ply && ply->points.empty()) problems.push_back(error("the file holds no points"));
+  if (ply && ply->unit && unit && *ply->unit != *unit) {
+    problems.push_back(unlike_units(*ply->unit, *unit));
+  }
   for (Diagnostic& d : problems) d.file = file.string();
   if (!problems.empty()) return problems;
   const double mm = ply->unit ? ply->unit->mm : unit ? unit->mm : 1.0;
   for (Vec3& point : ply->points) point *= mm;
-  return std::vector<FoundPoints>{{{"", std::move(ply->points), {}}, {}}};
+  return std::vector<FoundPoints>{{{"", std::move(ply->points), {}, file.string(), 0}, {}}};
 }
 
 Result<std::vector<FoundPoints>> read_file(const std::filesystem::path& file,
                                            const std::optional<LengthUnit>& unit) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || !text) {
-    Diagnostic d = error("the file cannot be read", "check the path and permissions");
+  const auto refused = [&](std::string message, std::string hint) {
+    Diagnostic d = error(std::move(message), std::move(hint));
     d.file = file.string();
     return d;
+  };
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) {
+    return refused("this is a directory, not a file of points", "name one of the files in it");
   }
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) return refused("the file cannot be read", "check the path and permissions");
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".ply" ? parse_ply(text.str(), file, unit)
-                             : PointReader(file, unit).read(text.str());
+  return extension == ".ply" ? parse_ply(text, file, unit) : PointReader(file, unit).read(text);
 }
 
 Result<std::vector<FeaturePoints>> without_weights(Result<std::vector<FoundPoints>> found,

@@ -5,9 +5,10 @@
 //       out); names with a comma in quotes as RFC 4180 says; comments from # to the end of the line; blank
 //       lines. PLY (by the extension .ply): the vertices, text or binary.
 // Units  : mm, unless the file says otherwise: a comment "# unit: inch" before the first point, a heading
-//          "x [inch]", or the caller who knows. Points come out in mm
+//          "x [inch]" at each of x, y and z, or the caller who knows. Points come out in mm
 // Errors : wrong number of columns, text where a number belongs, NaN or infinity, a count that does not fit,
-//          an unknown unit or two that contradict each other, an empty file: each with file, line and column
+//          an unknown unit, two that contradict each other (the caller's counts) or one that holds for some
+//          coordinates only, an empty file, a directory: each with file, line and column
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,7 @@ struct PointCloud {
   std::vector<Vec3> points{};     // mm
   std::vector<double> weights{};  // one a point, or none at all
 };
-// All points of a file in order, whatever feature they name. `unit`: of a file that states none.
+// All points of a file in order, whatever feature they name. `unit`: of a file that states no other.
 [[nodiscard]] Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
                                                   const std::optional<LengthUnit>& unit = {});
 [[nodiscard]] Result<std::vector<Vec3>> read_points(const std::filesystem::path& file);

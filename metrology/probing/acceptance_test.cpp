@@ -141,7 +141,8 @@ bool AcceptanceReport::probing_passes() const {
 double AcceptanceReport::worst_length_share() const {
   double worst = 0.0;
   for (const TestedLength& l : lengths) {
-    if (l.limit > 0.0) worst = std::max(worst, std::abs(l.error) / l.limit);
+    const double least = l.limit > 0.0 ? 0.0 : kRounding;  // no machine keeps a limit of 0 exactly
+    if (std::abs(l.error) > least) worst = std::max(worst, std::abs(l.error) / l.limit);
   }
   return worst;
 }
@@ -168,9 +169,13 @@ std::string to_text(const AcceptanceReport& report) {
                        worst->length, worst->error * kUmPerMm, worst->limit * kUmPerMm,
                        within(worst->error, worst->limit) ? "" : "  exceeded");
   }
-  out += fmt::format("{} lengths (ISO 10360-2): {}, the worst uses {:.0f} % of its limit\n",
-                     report.lengths.size(), report.lengths_pass() ? "passed" : "failed",
-                     100.0 * report.worst_length_share());
+  const double share = report.worst_length_share();
+  out += fmt::format("{} lengths (ISO 10360-2): {}, {}\n", report.lengths.size(),
+                     report.lengths_pass() ? "passed" : "failed",
+                     share == 0.0 ? "without errors"
+                     : std::isfinite(share)
+                         ? fmt::format("the worst uses {:.0f} % of its limit", 100.0 * share)
+                         : "with errors where the limit is 0: state e0, or l_per_um");
   out += fmt::format(
       "sphere of 25 points (ISO 10360-5): {}, form {:.3f} um, size {:.3f} um, limit {:.3f} um\n",
       report.probing_passes() ? "passed" : "failed", report.probing_form * kUmPerMm,

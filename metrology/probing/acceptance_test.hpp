@@ -36,7 +36,7 @@ struct AcceptanceReport {
   [[nodiscard]] bool lengths_pass() const;
   [[nodiscard]] bool probing_passes() const;
   [[nodiscard]] bool passes() const { return lengths_pass() && probing_passes(); }
-  // Largest |error| / limit; 0 for a machine without errors.
+  // Largest |error| / limit; 0 for a machine without errors, infinite for errors where the limit is 0.
   [[nodiscard]] double worst_length_share() const;
 };
 

@@ -15,6 +15,8 @@ constexpr double kFieldShare = 0.9;
 constexpr double kDriftShare = 0.1;  // half width
 // So many standard deviations the noise of a length (two points) may reach before it passes the limit.
 constexpr double kNoiseReach = 4.5;
+// The highest and the lowest of 25 points lie farther apart once in a thousand times.
+constexpr double kNoiseSpread = 6.0;
 // A field is left this share of e0 even where the probe takes it all.
 constexpr double kLeastShare = 0.05;
 
@@ -29,16 +31,21 @@ std::vector<PlannedPoint> reference_sphere(const UnitVec3& pole) {
   return planned_points(sphere);
 }
 
-// How much larger than real the ball comes out of the reference sphere.
-double qualified(const ProbeForm& form, const UnitVec3& pole, const RandomKey& key, double noise) {
+// The reference sphere as the probe sees it.
+Result<Fit<Sphere>> seen_sphere(const ProbeForm& form, const UnitVec3& pole, const RandomKey& key,
+                                double noise) {
   std::vector<Vec3> points;
   for (const PlannedPoint& p : reference_sphere(pole)) {
     const double shift =
         form.outward_shift(p.normal) + (noise > 0.0 ? noise * normal(key, points.size()) : 0.0);
     points.push_back(p.point + shift * p.normal);
   }
-  const auto fit = fit_sphere(points);
-  return fit ? fit->element.radius - kReferenceRadius : 0.0;
+  return fit_sphere(points);
+}
+
+// How much larger than real the ball comes out of it.
+double qualified(const Result<Fit<Sphere>>& seen) {
+  return seen ? seen->element.radius - kReferenceRadius : 0.0;
 }
 
 // The most that two opposite touches add to a length, over the directions of the 25 points.
@@ -102,8 +109,10 @@ CmmErrors::CmmErrors(const CmmModel& cmm)
     : cmm_(cmm), probe_(probe_errors(cmm)), form_(probe_, cmm.stylus.value_or(Stylus{}), cmm.seed) {
   if (cmm_.kind == CmmKind::field) {
     const UnitVec3 pole = cmm_.stylus.value_or(Stylus{}).direction;
-    const double systematic = worst_of_two(form_, pole, qualified(form_, pole, {}, 0.0));
+    const auto sphere = seen_sphere(form_, pole, {}, 0.0);
+    const double systematic = worst_of_two(form_, pole, qualified(sphere));
     probing_share_ = systematic + kNoiseReach * std::sqrt(2.0) * probe_.repeatability;
+    form_share_ = (sphere ? sphere->form : 0.0) + kNoiseSpread * probe_.repeatability;
     const double left = std::max(cmm_.e0_mm - probing_share_, kLeastShare * cmm_.e0_mm);
     geometry_ = GeometryField(cmm_.seed, cmm_.travel, {left, kFieldShare * slope_of(cmm_)});
   }
@@ -125,8 +134,8 @@ void CmmErrors::start_measurement() {
   qualified_ = 0.0;
   if (probe_ == ProbeErrors{}) return;
   const RandomKey key{cmm_.seed, cmm_.draw, RandomPurpose::cmm_qualification};
-  qualified_ =
-      qualified(form_, cmm_.stylus.value_or(Stylus{}).direction, key, probe_.repeatability);
+  qualified_ = qualified(
+      seen_sphere(form_, cmm_.stylus.value_or(Stylus{}).direction, key, probe_.repeatability));
 }
 
 Vec3 CmmErrors::systematic(const ProbedCentre& p) const {

@@ -45,6 +45,8 @@ class CmmErrors {
   [[nodiscard]] bool reaches(const Vec3& centre) const;
   // mm: what the probe takes of e0 at worst, noise included; the field has the rest.
   [[nodiscard]] double probing_share() const { return probing_share_; }
+  // mm: what the probe takes of p_form, noise included; the rest is the field's.
+  [[nodiscard]] double form_share() const { return form_share_; }
 
  private:
   void start_measurement();
@@ -55,6 +57,7 @@ class CmmErrors {
   ProbeForm form_;
   GeometryField geometry_;
   double probing_share_ = 0.0;
+  double form_share_ = 0.0;
   // Of this draw:
   double qualified_ = 0.0;
   Mat3 linear_ = Mat3::Zero();

@@ -102,13 +102,24 @@ void refuse_field_keys(const TomlTable& table) {
 
 // A probe that breaks the statement alone leaves no machine to draw.
 void check_budget(const TomlTable& table, const CmmModel& cmm) {
-  if (cmm.kind != CmmKind::field || !(cmm.e0_mm > 0.0) || !table.is_sound()) return;
-  const double share = CmmErrors(cmm).probing_share();
-  if (share <= 0.9 * cmm.e0_mm) return;
-  table.fail("probe",
-             fmt::format("the probe alone may cost a length {:.3g} um, e0 is {:.3g} um",
-                         share * kUmPerMm, cmm.e0_mm * kUmPerMm),
-             "state smaller probe errors, a shorter stylus, or a larger e0");
+  if (cmm.kind != CmmKind::field || !table.is_sound()) return;
+  const CmmErrors errors(cmm);
+  constexpr double kRounding = 1e-11;  // mm, of a fitted sphere: what an ideal probe is off by
+  const char* key = table.has("probe") ? "probe" : "p_form";
+  if (errors.probing_share() > 0.9 * cmm.e0_mm + kRounding) {
+    table.fail(key,
+               fmt::format("the probe alone may cost a length {:.3g} um, e0 is {:.3g} um",
+                           errors.probing_share() * kUmPerMm, cmm.e0_mm * kUmPerMm),
+               "state smaller probe errors, a shorter stylus, or a larger e0");
+  }
+  if (errors.form_share() > probing_limit(cmm) + kRounding) {
+    table.fail(key,
+               fmt::format("the probe alone makes a form of {:.3g} um of the 25-point sphere, {} "
+                           "is {:.3g} um",
+                           errors.form_share() * kUmPerMm, table.has("p_form") ? "p_form" : "e0",
+                           probing_limit(cmm) * kUmPerMm),
+               "state smaller probe errors, a shorter stylus, or a larger p_form");
+  }
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ namespace frustum::metrology {
 struct PointUncertainty {
   double probing = 0.0;  // mm, p above
   double scale = 0.0;    // relative, s above
+
+  // Of a machine that has no errors, or of which nothing is known.
+  [[nodiscard]] bool is_zero() const { return probing == 0.0 && scale == 0.0; }
 };
 [[nodiscard]] PointUncertainty point_uncertainty(const CmmModel& cmm);
 

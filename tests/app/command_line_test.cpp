@@ -188,6 +188,18 @@ TEST_F(CommandLineSystem, TestsItsOwnCmm) {
   const Outcome warm = run("cmm piece/job.toml");
   EXPECT_EQ(warm.exit_code, 1);
   EXPECT_NE(warm.out.find("exceeded"), std::string::npos) << warm.out;
+  replace_in("piece/job.toml", "e0 = \"2 um\", l_per_um = 300, ", "");
+  const Outcome none = run("cmm piece/job.toml");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.out.find("failed, with errors where the limit is 0"), std::string::npos)
+      << none.out;
+  const Outcome several = run("cmm piece/job.toml --seeds 3");
+  EXPECT_NE(several.out.find("uses more than any share (the limit is 0) on the best machine"),
+            std::string::npos)
+      << several.out;
+  EXPECT_NE(several.out.find("3 failed on the sphere of 25 points; the first that failed has seed"),
+            std::string::npos)
+      << several.out;
   replace_in("piece/job.toml", "part = 30", "parts = 30");
   const Outcome misspelt = run("cmm piece/job.toml");
   EXPECT_EQ(misspelt.exit_code, 2);

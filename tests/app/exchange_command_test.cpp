@@ -32,13 +32,15 @@ class ExchangeSystem : public CommandLine {
   }
 
   // A scan of the tube: facets without lids, so its borders are open.
-  static std::string tube_scan(double unit = 1.0) {
+  static std::string tube_scan(double unit = 1.0, double rounding = 0.0) {
     constexpr int kSteps = 720;
     std::string text = "solid tube\n";
+    int corners_written = 0;
     const auto corner = [&](int step, double z) {
       const double turn = 2.0 * std::numbers::pi * (step % kSteps) / kSteps;
-      return fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", kRadius * std::cos(turn) / unit,
-                         kRadius * std::sin(turn) / unit, z / unit);
+      const double off = rounding * ((7 * corners_written++) % 11 - 5) / 5.0;
+      return fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", kRadius * std::cos(turn) / unit + off,
+                         kRadius * std::sin(turn) / unit - off, z / unit);
     };
     const auto facet = [&](const std::string& corners) {
       text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n";
@@ -189,6 +191,123 @@ TEST_F(ExchangeSystem, MeasuresAScanLikeAPart) {
   // 720 facets leave the tube by 0.19 um.
   EXPECT_NEAR(doc["characteristics"][0]["value"].get<double>(), 2.0 * kRadius, 5e-4);
   EXPECT_LT(doc["characteristics"][1]["value"].get<double>(), 0.25);
+}
+
+TEST_F(ExchangeSystem, MeasuresAScanWhoseSeamsAreRounded) {
+  write_plan();
+  write("tube.stl", tube_scan());
+  const Outcome whole = run("measure --plan tube.plan.toml --mesh tube.stl --json");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  // Every facet has its corners a little elsewhere; the points lie on seams.
+  for (const double rounding : {3.6e-15, 1e-12, 1e-9}) {
+    write("loose.stl", tube_scan(1.0, rounding));
+    const Outcome loose = run("measure --plan tube.plan.toml --mesh loose.stl --json");
+    ASSERT_EQ(loose.exit_code, 0) << rounding << loose.err;
+    for (const int i : {0, 1}) {
+      EXPECT_NEAR(json::parse(loose.out)["characteristics"][i]["value"].get<double>(),
+                  json::parse(whole.out)["characteristics"][i]["value"].get<double>(), 1e-5);
+    }
+  }
+}
+
+TEST_F(ExchangeSystem, SaysThatAMeshIsInsideOut) {
+  write_plan();
+  std::string text = tube_scan();
+  // Each facet's first corner comes last but one.
+  std::string turned;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at) + 1;
+    const std::string line = text.substr(at, end - at);
+    if (line.starts_with("vertex") && turned.ends_with("outer loop\n")) {
+      const std::size_t next = text.find('\n', end) + 1;
+      turned += text.substr(end, next - end) + line;
+      at = next;
+    } else {
+      turned += line;
+      at = end;
+    }
+  }
+  write("tube.stl", turned);
+  expect_refusal(
+      "measure --plan tube.plan.toml --mesh tube.stl",
+      {"tube.stl: error: 72 of the plan's 72 points meet facets of the mesh from behind, "
+       "first of all feature 'tube' at [20.000, 0.000, 5.000]",
+       "the mesh is inside out"});
+}
+
+TEST_F(ExchangeSystem, StatesTheAccuracyOfTheMachineThatMeasured) {
+  write_plan();
+  write("p.csv", tube_points());
+  const std::string points = "measure --plan tube.plan.toml --points p.csv --json ";
+  const auto uncertainty = [&](const std::string& arguments) {
+    const Outcome outcome = run(arguments);
+    EXPECT_NE(outcome.exit_code, 2) << outcome.err;
+    return json::parse(outcome.out)["characteristics"][0]["expanded_uncertainty"].get<double>();
+  };
+  const Outcome bare = run(points);
+  EXPECT_NE(bare.out.find("nothing is known of the machine that measured these points"),
+            std::string::npos)
+      << bare.out;
+  EXPECT_EQ(uncertainty(points), 0.0);
+  const double stated = uncertainty(points + "--e0 '2 um' --l-per-um 300");
+  EXPECT_GT(stated, 1e-5);
+  EXPECT_EQ(run(points + "--e0 '2 um'").out.find("nothing is known"), std::string::npos);
+  write("cmm.toml", "e0 = \"2 um\"\nl_per_um = 300\n");
+  EXPECT_EQ(uncertainty(points + "--cmm cmm.toml"), stated);
+  const Outcome made = run("program cone --machine iwf-bc --out piece");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string job = read(folder_ / "piece/job.toml");
+  const auto line = job.find("cmm  = {");
+  ASSERT_NE(line, std::string::npos);
+  replace_in("piece/job.toml", job.substr(line, job.find('\n', line) - line),
+             "cmm = { e0 = \"2 um\", l_per_um = 300 }");
+  EXPECT_EQ(uncertainty(points + "--cmm piece/job.toml"), stated);
+  // The same machine probes a mesh: with its errors, not only with its uncertainties.
+  write("tube.stl", tube_scan());
+  const std::string mesh = "measure --plan tube.plan.toml --mesh tube.stl --json ";
+  EXPECT_EQ(uncertainty(mesh), 0.0);
+  EXPECT_GT(uncertainty(mesh + "--cmm cmm.toml"), 1e-5);
+  const auto form = [&](const std::string& arguments) {
+    return json::parse(run(arguments).out)["characteristics"][1]["value"].get<double>();
+  };
+  EXPECT_LT(form(mesh), 0.25);
+  EXPECT_GT(form(mesh + "--cmm cmm.toml"), 1.0);
+  // Conformity proven by an uncertainty of nothing is told.
+  replace_in("tube.plan.toml", "title", "decision = \"iso14253\"\ntitle");
+  EXPECT_NE(run(points).out.find("goes by an uncertainty of 0 for all characteristics"),
+            std::string::npos);
+  EXPECT_EQ(run(points + "--e0 '2 um'").out.find("goes by an uncertainty of 0"), std::string::npos);
+}
+
+TEST_F(ExchangeSystem, RefusesAccuraciesThatCannotBe) {
+  write_plan();
+  write("p.csv", tube_points());
+  write("cmm.toml", "e0 = \"2 um\"\nl_per_mm = 300\n");
+  const std::string points = "measure --plan tube.plan.toml --points p.csv ";
+  expect_refusal(points + "--e0 2urad", {"2urad"});
+  expect_refusal(points + "--e0=-1um", {"--e0 -1um", "0 or more"});
+  expect_refusal(points + "--l-per-um 0", {"--l-per-um"});
+  expect_refusal(points + "--cmm cmm.toml", {"cmm.toml:2:1", "l_per_um"});
+  expect_refusal(points + "--cmm none.toml", {"none.toml"});
+  expect_refusal(points + "--cmm cmm.toml --e0 2um", {"--cmm together with --e0"});
+  write("job.toml", "[inspection]\nplan = \"tube.plan.toml\"\n");
+  expect_refusal(points + "--cmm job.toml", {"job.toml: error: inspection.cmm", "states no CMM"});
+  expect_refusal("measure job.toml --e0 2um", {"go with --points or --mesh"});
+}
+
+TEST_F(ExchangeSystem, NamesFileLineAndFeatureOfPointsThatThePlanDoesNotKnow) {
+  write_plan();
+  write("p.csv", "feature,x,y,z\n\ntub,20,0,5\n");
+  expect_refusal(
+      "measure --plan tube.plan.toml --points p.csv",
+      {"p.csv:3: error: the plan has no feature 'tub'", "did you mean tube? the plan has tube"});
+  fs::create_directories(folder_ / "points");
+  expect_refusal("measure --plan tube.plan.toml --points points", {"points: error", "a directory"});
+  expect_refusal("fit plane points", {"points: error", "a directory"});
+  expect_refusal("measure --plan tube.plan.toml --mesh points.stl", {"points.stl"});
+  write("inch.csv", tube_points(25.4, "x [inch],y [inch],z [inch]\n"));
+  expect_refusal("fit cylinder inch.csv --unit mm", {"inch.csv:1:1", "states the unit inch", "mm"});
+  EXPECT_EQ(run("fit cylinder inch.csv --unit in").exit_code, 0);
 }
 
 TEST_F(ExchangeSystem, FindsOutUnitsThatNobodyStated) {

@@ -68,6 +68,19 @@ TEST(AcceptanceLaws, FailsAMachineThatIsWorseThanItSays) {
   EXPECT_LT(ideal.probing_form, 1e-11);
 }
 
+TEST(AcceptanceLaws, StatesNoShareOfALimitOfZero) {
+  CmmModel warm;
+  warm.temperature = ThermalState{.part = 30.0};
+  const AcceptanceReport report = acceptance_test(warm);
+  EXPECT_FALSE(report.lengths_pass());
+  EXPECT_EQ(report.worst_length_share(), HUGE_VAL);
+  const std::string text = to_text(report);
+  EXPECT_NE(text.find("failed, with errors where the limit is 0"), std::string::npos) << text;
+  EXPECT_EQ(text.find('%'), std::string::npos) << text;
+  EXPECT_EQ(acceptance_test({}).worst_length_share(), 0.0);
+  EXPECT_NE(to_text(acceptance_test({})).find("passed, without errors"), std::string::npos);
+}
+
 TEST(GeometryFieldLaws, KeepsItsLimitAnywhereAndVariesSlowly) {
   const Vec3 travel(700, 1000, 600);
   const LengthLimit limit{0.0015, 0.9e-3 / 300.0};
@@ -371,6 +384,20 @@ TEST(CmmModel, NamesWhatIsImpossible) {
       "for 11.5e-6 1/K)");
   EXPECT_EQ(complaint("model = \"field\"\ntravel = [500, 0, 400]\n"),
             "job.toml:2:1: error: travel: must be three lengths greater than 0");
+  EXPECT_EQ(
+      complaint("model = \"field\"\ne0 = \"4 um\"\np_form = \"1 um\"\n[probe]\nlobe = \"1 um\"\n"
+                "ball_form = 0\nrepeatability = 0\n"),
+      "job.toml:4:2: error: probe: the probe alone makes a form of 1.76 um of the 25-point "
+      "sphere, p_form is 1 um (hint: state smaller probe errors, a shorter stylus, or a larger "
+      "p_form)");
+  // Without p_form, e0 is its limit; a machine of no error has no probe of its own.
+  EXPECT_NE(complaint("model = \"field\"\ne0 = \"1 um\"\n[probe]\nlobe = \"0.9 um\"\n")
+                .find("25-point sphere, e0 is 1 um"),
+            std::string::npos);
+  EXPECT_EQ(complaint("model = \"field\"\n"), "");
+  EXPECT_NE(complaint("model = \"field\"\nl_per_um = 300\n[probe]\nrepeatability = \"1 um\"\n")
+                .find("e0 is 0 um"),
+            std::string::npos);
   EXPECT_EQ(
       complaint("model = \"field\"\ne0 = \"1 um\"\n[probe]\nrepeatability = \"0.5 um\"\n"),
       "job.toml:3:2: error: probe: the probe alone may cost a length 3.28 um, e0 is 1 um (hint: "

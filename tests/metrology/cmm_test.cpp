@@ -179,7 +179,7 @@ TEST(VirtualCmm, ExplainsAPlanThatMissesThePart) {
       to_string(high.error().front()),
       "error: feature 'cone', point 1 at [33.649, 0.000, 26.000]: the plan misses the part: no "
       "surface within 2 mm past the nominal one (hint: check the nominal geometry and the "
-      "blank, or enlarge probe.reach)");
+      "blank or mesh, or enlarge probe.reach)");
   p.features[3].radius = 12.0;
   const auto deep = measure(p, part());
   ASSERT_FALSE(deep);
@@ -231,8 +231,37 @@ TEST(RealPoints, EvaluateLikeTheVirtualOnes) {
   EXPECT_EQ(evaluate(plan(), points).error().front().message,
             "characteristic 'cone.equivalent_form': feature 'cone' has no points");
   points.front().feature = "a";
+  points.front().file = "p.csv";
+  points.front().line = 12;
   EXPECT_EQ(to_string(evaluate(plan(), points).error().front()),
-            "error: the plan has no feature 'a' (hint: did you mean A?)");
+            "p.csv:12: error: the plan has no feature 'a' (hint: did you mean A? the plan has A, "
+            "C, groove, cone)");
+  points.front().feature = "A";
+  points.front().points.resize(2);
+  const auto few = evaluate(plan(), points);
+  ASSERT_FALSE(few);
+  EXPECT_EQ(few.error().front().file, "p.csv");
+}
+
+TEST(RealPoints, SayWhereAnUncertaintyOfZeroDecides) {
+  InspectionPlan p = plan();
+  const auto remarks = [&](const CmmModel& cmm) {
+    const auto m = measure(p, part(), cmm);
+    std::string text;
+    for (const Diagnostic& d : m->diagnostics) text += to_string(d) + "\n";
+    return text;
+  };
+  EXPECT_EQ(remarks({}), "");
+  p.decision = DecisionRule::iso14253;
+  EXPECT_NE(remarks({}).find("warning: decision = \"iso14253\" goes by an uncertainty of 0 for all "
+                             "characteristics (hint: state its accuracy"),
+            std::string::npos)
+      << remarks({});
+  EXPECT_EQ(remarks({.e0_mm = 0.001}), "");
+  p.decision = DecisionRule::simple;
+  p.monte_carlo = MonteCarloSettings{.draws = 2000};
+  EXPECT_NE(remarks({}).find("warning: uncertainty: nothing was simulated"), std::string::npos)
+      << remarks({});
 }
 
 TEST(CmmModel, ReadsTheKeysOfAJob) {

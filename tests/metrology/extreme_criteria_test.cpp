@@ -172,6 +172,32 @@ TEST(OutsideMaterial, ALineInAPlaneTouchesFromTheSideItIsTold) {
   }
 }
 
+// Along the element, form alone would choose the side.
+TEST(OutsideMaterial, RefusesADirectionThatLiesAlongTheElement) {
+  const std::vector<Vec3> plate = rough_plate(5);
+  std::vector<Vec3> line;
+  for (int i = 0; i < 12; ++i) line.emplace_back(i, 5.0, 0.1 * ((i * 5) % 7));
+  const auto by = [](const Vec3& outward) {
+    return AssociationOptions{.criterion = Criterion::outside_material, .outward = outward};
+  };
+  for (const Vec3& sideways : {Vec3(1, 0, 0), Vec3(0, -3, 0), Vec3(1, 1, 0.08)}) {
+    const auto found = associate("plane", plate, by(sideways));
+    ASSERT_FALSE(found) << sideways.transpose();
+    EXPECT_EQ(found.error().front().message,
+              "the direction out of the material lies along the plane");
+    EXPECT_NE(found.error().front().hint.find("nearer to its normal, which is +-("),
+              std::string::npos);
+  }
+  EXPECT_TRUE(associate("plane", plate, by(Vec3(1.0, 0.0, 0.2))));
+  const auto along = associate("line2d", line, by(Vec3::UnitX()));
+  ASSERT_FALSE(along);
+  EXPECT_EQ(along.error().front().message,
+            "the direction out of the material lies along the line2d");
+  EXPECT_TRUE(associate("line2d", line, by(Vec3(1.0, 0.0, 0.3))));
+  // A boss is outside itself, whatever the direction.
+  EXPECT_TRUE(associate("cylinder", rough_cylinder(7, 0.01), by(Vec3::UnitZ())));
+}
+
 class ExtremeLaws : public testing::TestWithParam<Criterion> {};
 
 TEST_P(ExtremeLaws, MotionsOrdersScalesAndDoublesOfPointsDoNotMatter) {

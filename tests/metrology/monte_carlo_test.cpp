@@ -122,6 +122,15 @@ TEST(MonteCarlo, ReadsAndWritesItsSettings) {
             std::string::npos);
   EXPECT_NE(refusal("uncertainty = { method = \"monte_carlo\", draw = 3 }").find("draws"),
             std::string::npos);
+  for (const char* key : {"draws = 4000", "digits = 2", "seed = 3"}) {
+    const std::string told =
+        refusal("uncertainty = { method = \"linear\", " + std::string(key) + " }");
+    const std::string name(key, std::string_view(key).find(' '));
+    EXPECT_NE(told.find("uncertainty." + name + ": belongs to method = \"monte_carlo\""),
+              std::string::npos)
+        << told;
+  }
+  EXPECT_EQ(refusal("uncertainty = { method = \"linear\" }"), "");
   EXPECT_NE(refusal("decision = \"iso\"").find("iso14253"), std::string::npos);
 }
 

@@ -68,19 +68,22 @@ TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
 TEST(PointFile, HonoursTheUnitThatAFileStates) {
   for (const char* text : {"# unit: inch\n1 2 3\n", "# Units = IN\n1,2,3\n", "# inch\n1 2 3\n",
                            "x [inch],y [inch],z [inch]\n1,2,3\n", "x_in,y_in,z_in\n1,2,3\n",
-                           "x (inches),y,z\n1,2,3 # no comment is too late\n"}) {
+                           "x (inches),y_in,z_in\n1,2,3 # no comment is too late\n",
+                           "# unit: inch\nx [inch],y,z\n1,2,3\n"}) {
     const auto points = parse_feature_points(text);
     ASSERT_TRUE(points) << text << to_string(points.error().front());
     EXPECT_LT((points->front().points.front() - Vec3(25.4, 50.8, 76.2)).norm(), 1e-13) << text;
   }
-  const auto um = parse_feature_points("x [\u00b5m],y,z\n1000,0,0\n");
+  const auto um = parse_feature_points("x [\u00b5m],y [um],z_um\n1000,0,0\n");
   ASSERT_TRUE(um);
   EXPECT_EQ(um->front().points.front(), Vec3(1, 0, 0));
   // What the caller knows counts where the file says nothing, and only there.
   const auto inch = length_unit("inch");
   EXPECT_EQ(parse_feature_points("10 0 0\n", {}, inch)->front().points.front(), Vec3(254, 0, 0));
-  EXPECT_EQ(parse_feature_points("# mm\n10 0 0\n", {}, inch)->front().points.front(),
-            Vec3(10, 0, 0));
+  EXPECT_EQ(parse_feature_points("# inch\n10 0 0\n", {}, inch)->front().points.front(),
+            Vec3(254, 0, 0));
+  // The unit that the other columns have anyway.
+  EXPECT_EQ(parse_feature_points("x_mm,y,z\n1,2,3\n")->front().points.front(), Vec3(1, 2, 3));
 }
 
 TEST(PointFile, RefusesUnitsThatItCannotHonour) {
@@ -92,9 +95,38 @@ TEST(PointFile, RefusesUnitsThatItCannotHonour) {
             "inch)");
   EXPECT_EQ(complaint("x [mm],y [inch],z\n1,2,3\n"),
             "p.csv:1:8: error: the unit is inch here, mm before (hint: a file has one unit)");
+  EXPECT_EQ(complaint("x_um,y,z\n1,2,3\n"),
+            "p.csv:1:8: error: 'x_um' states a unit, 'z' does not (hint: state the unit at each of "
+            "x, y and z, or once above: # unit: um)");
+  const auto said = parse_feature_points("# mm\n10 0 0\n", "p.csv", length_unit("inch"));
+  ASSERT_FALSE(said);
+  EXPECT_EQ(to_string(said.error().front()),
+            "p.csv:1:1: error: the file states the unit mm, --unit says inch (hint: leave --unit "
+            "out, or correct the file)");
   EXPECT_EQ(complaint("1 2 3\n# unit: um\n4 5 6\n"),
             "p.csv:2:1: error: the unit um stands behind points (hint: state it before the first "
             "point)");
+}
+
+TEST(PointFile, TellsEmptyFilesFromDirectoriesAndFromNone) {
+  const std::string folder = testing::TempDir();
+  const std::string empty = folder + "frustum_empty.csv";
+  std::ofstream(empty).close();
+  const auto message = [](const std::string& file) {
+    const auto points = read_feature_points(file);
+    return points ? std::string() : points.error().front().message;
+  };
+  EXPECT_EQ(message(empty), "the file holds no points");
+  EXPECT_EQ(message(folder), "this is a directory, not a file of points");
+  EXPECT_EQ(message(folder + "frustum_none.csv"), "the file cannot be read");
+}
+
+TEST(PointFile, KnowsWhereEachFeatureBegins) {
+  const auto points = parse_feature_points("feature,x,y,z\nA,1,2,3\nA,4,5,6\n\nB,1,2,3\n", "p.csv");
+  ASSERT_TRUE(points);
+  EXPECT_EQ(points->at(1).file, "p.csv");
+  EXPECT_EQ(points->at(0).line, 2);
+  EXPECT_EQ(points->at(1).line, 5);
 }
 
 TEST(PointFile, ReadsQuotedNamesAndByteOrderMarks) {

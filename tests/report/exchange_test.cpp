@@ -33,6 +33,25 @@ TEST(CharacteristicsCsv, WritesOneLineEach) {
       "0.0006872,deg,pass,,\n");
 }
 
+// With intervals that their expanded uncertainties do not tell.
+RunReport simulated_report() {
+  RunReport report = small_report();
+  report.collisions.clear();
+  for (auto& c : report.measurement.characteristics) {
+    c.simulated = metrology::SimulatedUncertainty{
+        .low = 11.5, .high = 15.25, .standard = 0.125, .draws = 2000};
+  }
+  return report;
+}
+
+TEST(CharacteristicsCsv, WritesTheSimulatedInterval) {
+  const RunReport report = simulated_report();
+  const std::string csv = exported(ExportFormat::csv, report, {});
+  EXPECT_NE(csv.find("\ncone.form,cone_form,,12.3456,,12.3456,10,0.4,um,fail,11.5,15.25\n"),
+            std::string::npos)
+      << csv;
+}
+
 TEST(CharacteristicsCsv, LeavesEmptyWhatIsNoNumber) {
   RunReport report = small_report();
   report.measurement.characteristics.resize(1);
@@ -67,6 +86,15 @@ TEST(JunitReport, MakesATestOfEachCharacteristic) {
   const pugi::xml_node angle = form.next_sibling();
   EXPECT_STREQ(angle.attribute("name").value(), "cone.half_angle");
   EXPECT_FALSE(angle.first_child());
+}
+
+TEST(JunitReport, TellsTheSimulatedInterval) {
+  const RunReport report = simulated_report();
+  const auto document = junit(report, plan_of(report));
+  const pugi::xml_node form = document.child("testsuites").child("testsuite").first_child();
+  EXPECT_STREQ(form.child("failure").attribute("message").value(),
+               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (k = 2), 95 % "
+               "interval 11.500 .. 15.250");
 }
 
 TEST(JunitReport, TellsErrorsFromFailures) {

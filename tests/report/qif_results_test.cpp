@@ -342,6 +342,23 @@ TEST(QifResults, HoldsTheNumbersInItsUnits) {
             "FAIL");
 }
 
+TEST(QifResults, StatesTheSimulatedUncertaintyWhereThereIsOne) {
+  Case c = measured_part();
+  for (auto& result : c.report.measurement.characteristics) {
+    result.simulated = metrology::SimulatedUncertainty{.low = 1, .high = 2, .standard = 0.75};
+  }
+  const auto document = parsed(qif_results(c.report, c.plan));
+  const auto uncertainty = [&](const char* measurement) {
+    const xml_node node =
+        document.find_node([&](xml_node n) { return std::string(n.name()) == measurement; });
+    return node.child("Value").attribute("combinedUncertainty").as_double();
+  };
+  // From um, urad and deg to the document's mm and deg.
+  EXPECT_DOUBLE_EQ(uncertainty("ConicityCharacteristicMeasurement"), 0.75e-3);
+  EXPECT_DOUBLE_EQ(uncertainty("AngleBetweenCharacteristicMeasurement"), 0.75e-6 * kDegPerRad);
+  EXPECT_DOUBLE_EQ(uncertainty("AngleCharacteristicMeasurement"), 0.75);
+}
+
 TEST(QifResults, IsNamedByItsContent) {
   Case c = measured_part();
   const std::string text = qif_results(c.report, c.plan);
