@@ -93,8 +93,8 @@ void GaussNewton::settle_by_bend(Minimum& result) {
     // 1e-10 of the part is what the fits promise; a weak bend makes more of the rounding of gradients.
     const ElementStep weakness =
         bend.frame.colwise().squaredNorm().transpose().cwiseQuotient(bends);
-    const double rounding = std::clamp(
-        2e-16 * static_cast<double>(points_->count) * weakness.maxCoeff(), 1e-10, 1e-8);
+    const double rounding =
+        std::clamp(2e-16 * static_cast<double>(points_->count) * weakness.maxCoeff(), 1e-10, 1e-8);
     if (hollow && (length < 1e-15 || (length < rounding && length > 0.7 * previous))) {
       result.converged = true;
       return;
