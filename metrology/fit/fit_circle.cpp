@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "metrology/fit/constraint_steps.hpp"
+#include "metrology/fit/kept_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/plane_through.hpp"
 #include "metrology/fit/round_fit.hpp"
@@ -44,6 +46,19 @@ std::vector<Element> starts_near(const Circle& free, const Constraints& keep) {
   return starts;
 }
 
+Result<Minimum> solve(const NormalisedPoints& local, const UnitVec3& normal) {
+  const Constraints& keep = local.constraints;
+  const PointBlocks all = PointBlocks::of(local);
+  std::vector<Element> starts = starts_near(algebraic_circle(local, normal), keep);
+  if (!keep.radius || keep.axis) return best_minimum(starts, local, all, kWording);
+  auto direct = at_once(starts, local, all, principal_directions(local).spread[1]);
+  if (direct) return settled(std::move(*direct), all, keep, kWording);
+  for (const Vec3& centre : circle_centres(thinned(local, kSearched), normal, *keep.radius, 8)) {
+    starts.push_back(Circle{centre, normal, *keep.radius});
+  }
+  return best_minimum(starts, local, all, kWording);
+}
+
 // A circle in a coordinate plane has its normal already.
 std::optional<Diagnostic> elsewhere(const Constraints& keep, const UnitVec3& normal) {
   const auto parallel = [&](const UnitVec3& d) {
@@ -78,9 +93,8 @@ PlaneInformation plane_information(const NormalisedPoints& local, const UnitVec3
 
 Result<Fit<Circle>> circle_in(const NormalisedPoints& local, const UnitVec3& normal,
                               bool free_plane) {
-  const PointBlocks all = PointBlocks::of(local);
-  const auto starts = starts_near(algebraic_circle(local, normal), local.constraints);
-  auto found = best_minimum(starts, local, all, kWording);
+  auto found = solved(
+      local, [&](const NormalisedPoints& some) { return solve(some, normal); }, kWording.what);
   if (!found) return std::move(found).error();
   const auto& best = std::get<Circle>(found->element);
   // Within its plane, which goes through the centroid of the points.

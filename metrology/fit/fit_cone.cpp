@@ -1,6 +1,6 @@
 #include <Eigen/Eigenvalues>
-#include <array>
-#include <numbers>
+#include <algorithm>
+#include <cmath>
 
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/round_fit.hpp"
@@ -29,8 +29,8 @@ Cone start_on(const AxisCandidate& candidate, const NormalisedPoints& few) {
   Cone start;
   start.point = candidate.point;
   // Away from the cylinder and the plane, where the angle would have nothing to hold on to.
-  start.half_angle =
-      std::clamp(std::atan2(std::abs(generatrix.y()), std::abs(generatrix.x())), 0.02, 1.55);
+  const double seen = std::atan2(std::abs(generatrix.y()), std::abs(generatrix.x()));
+  start.half_angle = few.constraints.half_angle.value_or(std::clamp(seen, 0.02, 1.55));
   const bool opens_back = generatrix.x() * generatrix.y() < 0.0;
   start.axis = unit(opens_back ? Vec3(-candidate.axis) : candidate.axis);
   start.radius = mean.y() * std::cos(start.half_angle) -
@@ -38,36 +38,32 @@ Cone start_on(const AxisCandidate& candidate, const NormalisedPoints& few) {
   return std::get<Cone>(constrained(start, few.constraints));
 }
 
+std::vector<Element> started(const std::vector<AxisCandidate>& candidates,
+                             const AxialPoints& points) {
+  return starts_from(candidates, [&](const AxisCandidate& c) { return start_on(c, points.few); });
+}
+
+std::vector<Element> likeliest(const AxialPoints& points) {
+  return started(points.axes.likeliest(RoundKind::cone), points);
+}
+
+std::vector<Element> searched(const AxialPoints& points) {
+  std::vector<Element> starts;
+  for (const RoundKind kind : {RoundKind::cone, RoundKind::cylinder}) {
+    const auto more = started(points.axes.candidates(kind, kAxisCandidates), points);
+    starts.insert(starts.end(), more.begin(), more.end());
+  }
+  return starts;
+}
+
+Result<Minimum> solve(const NormalisedPoints& local) {
+  return axial_minimum(local, kWording, likeliest, searched);
+}
+
 }  // namespace
 
 Result<Fit<Cone>> fit_cone(std::span<const Vec3> points, const FitOptions& options) {
-  auto local = normalise(points, {ElementKind::cone, kWording.what, 6}, options);
-  if (!local) return std::move(local).error();
-  const PrincipalDirections principal = principal_directions(*local);
-  if (auto flat = coplanar(*local, principal, kWording.what)) return *flat;
-  const PointBlocks all = PointBlocks::of(*local);
-  const NormalisedPoints few = thinned(*local, kSearched);
-  const AxisSearch search(few, principal);
-  const auto start = [&](const AxisCandidate& c) { return start_on(c, few); };
-  const auto solve = [&]() -> Result<Minimum> {
-    const auto likeliest = starts_from(search.likeliest(RoundKind::cone), start);
-    auto direct = at_once(likeliest, *local, all, principal.spread[2]);
-    if (direct) return settled(std::move(*direct), all, local->constraints, kWording);
-    std::vector<Element> starts;
-    for (const RoundKind kind : {RoundKind::cone, RoundKind::cylinder}) {
-      const auto more = starts_from(search.candidates(kind, kAxisCandidates), start);
-      starts.insert(starts.end(), more.begin(), more.end());
-    }
-    return best_minimum(starts, *local, all, kWording);
-  };
-  auto found = solve();
-  if (!found) return std::move(found).error();
-  const auto& best = std::get<Cone>(found->element);
-  constexpr std::array kIsAngle{false, false, true, true, false, true};
-  return completed(
-      *local, Cone{local->back(best.point), best.axis, best.radius * local->scale, best.half_angle},
-      {found->residuals, found->cofactor, kIsAngle, redundancy(*local, *found), found->iterations,
-       found->condition});
+  return round_fit<Cone>(points, options, {ElementKind::cone, kWording.what, 6}, solve);
 }
 
 }  // namespace frustum::metrology

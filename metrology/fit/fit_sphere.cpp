@@ -1,7 +1,8 @@
 #include <Eigen/QR>
-#include <array>
+#include <algorithm>
 #include <cmath>
 
+#include "metrology/fit/kept_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/round_fit.hpp"
 
@@ -25,34 +26,38 @@ Sphere algebraic_sphere(const NormalisedPoints& local) {
 }
 
 // A given radius leaves the centre on either side of the points, along their least spread.
-std::vector<Element> starts_near(const Sphere& free, const PrincipalDirections& principal,
-                                 const Constraints& keep) {
-  if (!keep.radius) return {free};
-  const double radius = *keep.radius;
+std::vector<Element> likeliest(const NormalisedPoints& local,
+                               const PrincipalDirections& principal) {
+  if (!local.constraints.radius) return {algebraic_sphere(local)};
+  const double radius = *local.constraints.radius;
   const double lift = std::sqrt(std::max(radius * radius - principal.spread.squaredNorm(), 0.0));
   const Vec3 lifted = lift * principal.directions.col(2);
-  return {Sphere{lifted, radius}, Sphere{-lifted, radius}};
+  return {Sphere{lifted, radius}, Sphere{-lifted, radius},
+          Sphere{algebraic_sphere(local).point, radius}};
+}
+
+Result<Minimum> solve(const NormalisedPoints& local) {
+  const PrincipalDirections principal = principal_directions(local);
+  const std::optional<double>& radius = local.constraints.radius;
+  if (principal.spread[2] < kFlat * principal.spread[0] && !radius) {
+    return error("degenerate points for a sphere: they lie in one plane",
+                 "probe the sphere also away from that plane");
+  }
+  const PointBlocks all = PointBlocks::of(local);
+  std::vector<Element> starts = likeliest(local, principal);
+  if (!radius) return best_minimum(starts, local, all, kWording);
+  auto direct = at_once(starts, local, all, principal.spread[2]);
+  if (direct) return settled(std::move(*direct), all, local.constraints, kWording);
+  for (const Vec3& centre : sphere_centres(thinned(local, kSearched), *radius, 8)) {
+    starts.push_back(Sphere{centre, *radius});
+  }
+  return best_minimum(starts, local, all, kWording);
 }
 
 }  // namespace
 
 Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points, const FitOptions& options) {
-  auto local = normalise(points, {ElementKind::sphere, kWording.what, 4}, options);
-  if (!local) return std::move(local).error();
-  const PrincipalDirections principal = principal_directions(*local);
-  if (principal.spread[2] < kFlat * principal.spread[0] && !local->constraints.radius) {
-    return error("degenerate points for a sphere: they lie in one plane",
-                 "probe the sphere also away from that plane");
-  }
-  const PointBlocks all = PointBlocks::of(*local);
-  const auto starts = starts_near(algebraic_sphere(*local), principal, local->constraints);
-  auto found = best_minimum(starts, *local, all, kWording);
-  if (!found) return std::move(found).error();
-  const auto& best = std::get<Sphere>(found->element);
-  constexpr std::array kIsAngle{false, false, false, false};
-  return completed(*local, Sphere{local->back(best.point), best.radius * local->scale},
-                   {found->residuals, found->cofactor, kIsAngle, redundancy(*local, *found),
-                    found->iterations, found->condition});
+  return round_fit<Sphere>(points, options, {ElementKind::sphere, kWording.what, 4}, solve);
 }
 
 }  // namespace frustum::metrology

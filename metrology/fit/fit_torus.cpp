@@ -1,6 +1,5 @@
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "metrology/fit/element_rows.hpp"
@@ -82,41 +81,37 @@ std::vector<Element> bent_tubes(const AxisSearch& search, const NormalisedPoints
   return starts;
 }
 
+std::vector<Element> rings(const std::vector<AxisCandidate>& candidates,
+                           const AxialPoints& points) {
+  return starts_from(candidates, [&](const AxisCandidate& c) { return around(c, points.few); });
+}
+
+std::vector<Element> likeliest(const AxialPoints& points) {
+  return rings(points.axes.likeliest(RoundKind::cylinder), points);
+}
+
+std::vector<Element> searched(const AxialPoints& points) {
+  std::vector<Element> starts = likeliest(points);
+  // The axis of the ring is no axis of a tube: its search keeps no direction.
+  NormalisedPoints unbound = points.few;
+  unbound.constraints = {};
+  std::vector<Element> more = bent_tubes(AxisSearch(unbound, points.principal), points.few);
+  starts.insert(starts.end(), more.begin(), more.end());
+  for (const RoundKind kind : {RoundKind::cylinder, RoundKind::cone}) {
+    more = rings(points.axes.candidates(kind, kAxisCandidates), points);
+    starts.insert(starts.end(), more.begin(), more.end());
+  }
+  return starts;
+}
+
+Result<Minimum> solve(const NormalisedPoints& local) {
+  return axial_minimum(local, kWording, likeliest, searched);
+}
+
 }  // namespace
 
 Result<Fit<Torus>> fit_torus(std::span<const Vec3> points, const FitOptions& options) {
-  auto local = normalise(points, {ElementKind::torus, kWording.what, 7}, options);
-  if (!local) return std::move(local).error();
-  const PrincipalDirections principal = principal_directions(*local);
-  if (auto flat = coplanar(*local, principal, kWording.what)) return *flat;
-  const PointBlocks all = PointBlocks::of(*local);
-  const NormalisedPoints few = thinned(*local, kSearched);
-  const AxisSearch search(few, principal);
-  const auto ring = [&](const AxisCandidate& c) { return around(c, few); };
-  const auto solve = [&]() -> Result<Minimum> {
-    std::vector<Element> starts = starts_from(search.likeliest(RoundKind::cylinder), ring);
-    auto direct = at_once(starts, *local, all, principal.spread[2]);
-    if (direct) return settled(std::move(*direct), all, local->constraints, kWording);
-    // The axis of the ring is no axis of a tube: its search keeps no direction.
-    NormalisedPoints unbound = few;
-    unbound.constraints = {};
-    std::vector<Element> more = bent_tubes(AxisSearch(unbound, principal), few);
-    starts.insert(starts.end(), more.begin(), more.end());
-    for (const RoundKind kind : {RoundKind::cylinder, RoundKind::cone}) {
-      more = starts_from(search.candidates(kind, kAxisCandidates), ring);
-      starts.insert(starts.end(), more.begin(), more.end());
-    }
-    return best_minimum(starts, *local, all, kWording);
-  };
-  auto found = solve();
-  if (!found) return std::move(found).error();
-  const auto& best = std::get<Torus>(found->element);
-  constexpr std::array kIsAngle{false, false, false, true, true, false, false};
-  return completed(*local,
-                   Torus{local->back(best.point), best.axis, best.radius * local->scale,
-                         best.tube_radius * local->scale},
-                   {found->residuals, found->cofactor, kIsAngle, redundancy(*local, *found),
-                    found->iterations, found->condition});
+  return round_fit<Torus>(points, options, {ElementKind::torus, kWording.what, 7}, solve);
 }
 
 }  // namespace frustum::metrology

@@ -40,28 +40,45 @@ void GaussNewton::descend(int most, double least_gain) {
 Minimum GaussNewton::settle() {
   Minimum result;
   result.condition = condition();
+  result.well_posed = true;
   const bool by_factors = !(result.condition < kGoodCondition);
+  const bool bent = may_bend_down(result.condition);
+  const Element start = element_;
+  // Steps by factors keep digits that second derivatives do not have: they go first.
+  if (by_factors || !bent) {
+    result.converged = converged_by_full_steps(by_factors);
+  }
+  if (!result.converged || (by_factors && bent && bends_down())) {
+    const Element astray = element_;
+    if (!result.converged) accept(start, gram_of(start, *points_));
+    settle_by_bend(result);
+    // What the points do not tell shows where full steps ran to.
+    if (by_factors && !result.converged) accept(astray, gram_of(astray, *points_));
+    result.condition = condition();
+  }
+  report(result);
+  return result;
+}
+
+bool GaussNewton::converged_by_full_steps(bool by_factors) {
   double previous = std::numeric_limits<double>::infinity();
-  constexpr int kMost = 300;  // large residuals make convergence linear: 300 steps of rate 0.9
-  for (int i = 0; i < kMost && std::isfinite(cost()) && !result.converged; ++i) {
+  // Large residuals make convergence linear: 300 steps of rate 0.9. Newton's steps take over sooner.
+  const int most = by_factors ? 300 : 40;
+  for (int i = 0; i < most && std::isfinite(cost()); ++i) {
     const ElementStep full = by_factors ? step_by_factors() : step(0.0);
     const double length = full.norm();
-    if (!std::isfinite(length)) break;
+    if (!std::isfinite(length)) return false;
     // 1e-10 of the part is what the fits promise; steps that small which stop shrinking are rounding.
-    if (length < 1e-15 || (length < 1e-10 && length > 0.7 * previous)) {
-      result.converged = true;
-      break;
-    }
+    if (length < 1e-15 || (length < 1e-10 && length > 0.7 * previous)) return true;
     const Element trial = moved_by(full);
     accept(trial, gram_of(trial, *points_));
     ++iterations_;
     // Steps shrink by a constant factor: the next one would be rounding.
-    result.converged =
-        length < 1e-9 && std::isfinite(previous) && length * (length / previous) < 1e-16;
+    if (length < 1e-9 && std::isfinite(previous) && length * (length / previous) < 1e-16)
+      return true;
     previous = length;
   }
-  report(result);
-  return result;
+  return false;
 }
 
 Element GaussNewton::moved_by(const ElementStep& free) const {
@@ -159,7 +176,7 @@ void GaussNewton::report(Minimum& result) const {
   }
   const Eigen::Index parameters = gram_.rows() - 1;
   result.cofactor = Eigen::MatrixXd::Zero(parameters, parameters);
-  result.well_posed = std::isfinite(cost());
+  result.well_posed = result.well_posed && std::isfinite(cost());
   if (!result.well_posed || right_.size() == 0) return;
   const Square scaled = root_of_cofactor(result);
   Eigen::MatrixXd root = length_.cwiseInverse().asDiagonal() * scaled;

@@ -3,13 +3,15 @@
 // Model    : minimise sum w_i d_i^2 over the steps that the constraints allow. A step comes from the
 //            normal equations, as long as their condition leaves its direction good digits; else from
 //            the QR factors of the Jacobian. What the steps converge to is exact either way: where the
-//            gradient of the residuals as computed is zero
+//            gradient of the residuals as computed is zero. Where residuals are so large that such a
+//            place may be a saddle or a maximum, Newton's steps with the second derivatives
+//            (curvature.hpp) lead on to a minimum
 // Units    : local frame of size one (normalised_points.hpp), rad
 // Shape    : circle, sphere, cylinder, cone, torus (planes and lines have closed forms); no allocation in
 //            a descent
 // Errors   : Minimum::converged and Minimum::well_posed tell; the caller words the diagnostic
 // Accuracy : the last step is below 1e-10 of the size of the part, typically 1e-15
-// Source   : Nocedal, Wright, Numerical Optimization, sections 10.2 and 10.3
+// Source   : Nocedal, Wright, Numerical Optimization, sections 3.4, 10.2 and 10.3
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +31,8 @@ struct Minimum {
   int free_parameters = 0;
   double condition = 1.0;
   bool converged = false;
-  bool well_posed = false;  // the points tell every free parameter
+  bool well_posed =
+      false;  // the points tell every free parameter: the sum of squares bends up in all
 };
 
 class GaussNewton {
@@ -43,12 +46,19 @@ class GaussNewton {
   // Steps that lower the cost, at most `most`; stops when they lower it by less than `least_gain` of
   // it.
   void descend(int most, double least_gain);
-  // Full steps until they no longer shrink.
+  // Full steps until they no longer shrink, at a minimum.
   [[nodiscard]] Minimum settle();
 
  private:
   using Square =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostParameters, kMostParameters>;
+
+  // Directions in which the sum of squares bends on its own, and how it does.
+  struct Bend {
+    Square frame{};  // columns: steps of the free parameters that change the residuals by 1
+    ElementStep curvature{};  // least first; 1 where residuals do not bend
+    ElementStep downhill{};   // minus the first derivatives
+  };
 
   [[nodiscard]] Element moved_by(const ElementStep& free) const;
   void accept(const Element& element, const ElementGram& gram);
@@ -57,6 +67,14 @@ class GaussNewton {
   [[nodiscard]] ElementStep step_by_factors() const;
   [[nodiscard]] Eigen::MatrixXd rows() const;
   [[nodiscard]] double condition() const;
+  [[nodiscard]] bool converged_by_full_steps(bool by_factors);
+  // gauss_newton_bend.cpp
+  [[nodiscard]] bool may_bend_down(double condition) const;
+  [[nodiscard]] bool bends_down() const;
+  [[nodiscard]] Bend bend() const;
+  [[nodiscard]] bool lowered_by(const ElementStep& step);
+  [[nodiscard]] bool left_along(const ElementStep& direction);
+  void settle_by_bend(Minimum& result);
   [[nodiscard]] Square root_of_cofactor(Minimum& result) const;
   void report(Minimum& result) const;
 

@@ -1,14 +1,15 @@
 // Orthogonal-distance fits (Gaussian association) of the elements, without starting values.
 //
 // Model    : minimise sum w_i d_i^2, d_i = residual(element, x_i) of element.hpp, over the elements
-//            that keep the constraints. A 3D circle is fitted as plane first, then as circle in the
-//            projection, as the NIST reference pairs define it
+//            that keep the constraints: a minimum also where these contradict the points, and of circles
+//            of a given radius the least of all. A 3D circle is fitted as plane first, then as circle in
+//            the projection, as the NIST reference pairs define it
 // Units    : mm, rad; all points in one frame
 // Shape    : n >= 2 (line), 3 (plane, circle), 4 (sphere), 5 (cylinder), 6 (cone), 7 (torus) points;
 //            constraints spare a point for each parameter that they fix
 // Errors   : too few points, not finite, degenerate (points that do not tell the element), not
-//            converged, constraints that the kind lacks, weights that are none; each a Diagnostic that
-//            says why
+//            converged, constraints that the kind lacks or that contradict the points so that no element
+//            is best, weights that are none; each a Diagnostic that says why
 // Accuracy : 1e-9 mm, 1e-11 rad on the NIST pairs (tests/metrology/reference_fits_test.cpp); exact
 //            data is recovered to 1e-10 mm (tests/metrology/least_squares_test.cpp)
 // Source   : Shakarji 1998, J. Res. NIST 103(6), sections 3 and 4 (models and parameters)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "metrology/fit/plausibility.hpp"
+#include "metrology/fit/unmet_constraints.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -28,6 +29,24 @@ Element in_one_sense(const Element& element) {
       element);
 }
 
+// In one plane, unless the axis is given.
+std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
+                                   const PrincipalDirections& principal, std::string_view what) {
+  if (local.constraints.parallel_to || local.constraints.axis ||
+      principal.spread[2] > kFlat * principal.spread[0]) {
+    return std::nullopt;
+  }
+  return error(fmt::format("degenerate points for a {}: they lie in one plane", what),
+               "probe at two or more heights along the axis");
+}
+
+Constraints in_mm(Constraints keep, const NormalisedPoints& local) {
+  if (keep.axis) keep.axis->point = local.back(keep.axis->point);
+  if (keep.radius) *keep.radius *= local.scale;
+  if (keep.tube_radius) *keep.tube_radius *= local.scale;
+  return keep;
+}
+
 }  // namespace
 
 Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
@@ -46,7 +65,9 @@ Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
   }
   if (!found.converged) {
     return error(fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
-                 fmt::format("the points lie far from any {}", what));
+                 constraints.any()
+                     ? fmt::format("check the points, and what the {} is to keep", what)
+                     : fmt::format("the points lie far from any {}", what));
   }
   if (auto reason = implausible(found.element)) {
     return error(fmt::format("degenerate points for a {}: {}", what, *reason),
@@ -113,14 +134,46 @@ double redundancy(const NormalisedPoints& local, const Minimum& found) {
   return static_cast<double>(local.count()) - static_cast<double>(found.free_parameters);
 }
 
-std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
-                                   const PrincipalDirections& principal, std::string_view what) {
-  if (local.constraints.parallel_to || local.constraints.axis ||
-      principal.spread[2] > kFlat * principal.spread[0]) {
-    return std::nullopt;
-  }
-  return error(fmt::format("degenerate points for a {}: they lie in one plane", what),
-               "probe at two or more heights along the axis");
+Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
+                              AxialStarts likeliest, AxialStarts all) {
+  const PrincipalDirections principal = principal_directions(local);
+  if (auto flat = coplanar(local, principal, wording.what)) return *flat;
+  const NormalisedPoints few = thinned(local, kSearched);
+  const AxialPoints points{local, principal, few, AxisSearch(few, principal)};
+  const PointBlocks blocks = PointBlocks::of(local);
+  auto direct = at_once(likeliest(points), local, blocks, principal.spread[2]);
+  return direct ? settled(std::move(*direct), blocks, local.constraints, wording)
+                : best_minimum(all(points), local, blocks, wording);
+}
+
+Result<Minimum> solved(const NormalisedPoints& local, const Solve& solve, std::string_view what) {
+  auto found = solve(local);
+  if (found || !local.constraints.any()) return found;
+  NormalisedPoints free = local;
+  free.constraints = {};
+  const auto without = solve(free);
+  if (!without) return found;
+  const Constraints keep = in_mm(local.constraints, local);
+  if (auto told = unmet(keep, in_mm(without->element, local), what)) return *told;
+  return found;
+}
+
+Element in_mm(const Element& element, const NormalisedPoints& local) {
+  return std::visit(
+      [&](auto e) -> Element {
+        e.point = local.back(e.point);
+        if constexpr (requires { e.radius; }) e.radius *= local.scale;
+        if constexpr (requires { e.tube_radius; }) e.tube_radius *= local.scale;
+        return e;
+      },
+      element);
+}
+
+std::array<bool, kMostParameters> angles_of(ElementKind kind) {
+  std::array<bool, kMostParameters> angles{};
+  const std::span<const Parameter> parameters = parameters_of(kind);
+  std::transform(parameters.begin(), parameters.end(), angles.begin(), is_angle);
+  return angles;
 }
 
 }  // namespace frustum::metrology

@@ -8,6 +8,8 @@
 // Source   : ours
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -56,10 +58,42 @@ template <typename Start>
 
 [[nodiscard]] double redundancy(const NormalisedPoints& local, const Minimum& found);
 
-// Refuses points in one plane: a plane cuts cones, cylinders and tori in curves that fit many of them,
-// unless their axis is given.
-[[nodiscard]] std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
-                                                 const PrincipalDirections& principal,
-                                                 std::string_view what);
+// What the fits along an axis start from.
+struct AxialPoints {
+  const NormalisedPoints& local;
+  PrincipalDirections principal{};
+  NormalisedPoints few{};  // kSearched of them
+  AxisSearch axes;
+};
+using AxialStarts = std::vector<Element> (*)(const AxialPoints& points);
+
+// The minimum below the likeliest starts, when they fit at once, or below the best of all. Refuses points
+// in one plane: a plane cuts cones, cylinders and tori in curves that fit many of them, unless their axis
+// is given.
+[[nodiscard]] Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
+                                            AxialStarts likeliest, AxialStarts all);
+
+// What `solve` finds; where it finds nothing, and would without the constraints, what they contradict.
+using Solve = std::function<Result<Minimum>(const NormalisedPoints& local)>;
+[[nodiscard]] Result<Minimum> solved(const NormalisedPoints& local, const Solve& solve,
+                                     std::string_view what);
+
+// In mm, in the frame of the points.
+[[nodiscard]] Element in_mm(const Element& element, const NormalisedPoints& local);
+[[nodiscard]] std::array<bool, kMostParameters> angles_of(ElementKind kind);
+
+// The whole fit of an element whose covariance is that of its parameters.
+template <typename E>
+[[nodiscard]] Result<Fit<E>> round_fit(std::span<const Vec3> points, const FitOptions& options,
+                                       const Needed& needed, const Solve& solve) {
+  auto local = normalise(points, needed, options);
+  if (!local) return std::move(local).error();
+  auto found = solved(*local, solve, needed.what);
+  if (!found) return std::move(found).error();
+  const auto is_angle = angles_of(needed.kind);
+  return completed(*local, std::get<E>(in_mm(found->element, *local)),
+                   {found->residuals, found->cofactor, is_angle, redundancy(*local, *found),
+                    found->iterations, found->condition});
+}
 
 }  // namespace frustum::metrology

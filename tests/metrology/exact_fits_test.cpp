@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "metrology/fit/constraint_steps.hpp"
 #include "metrology/fit/element_model.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "synthetic.hpp"
@@ -235,20 +236,23 @@ std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   return points;
 }
 
-// Largest cosine between the residuals and a column of the Jacobian, beyond the 1e-10 of the part that
-// the fits promise: a millionth of `spared`.
-double slope(const Fit<Element>& fit, const std::vector<Vec3>& points) {
+// Largest cosine between the residuals and a column of the Jacobian, of steps that the constraints allow,
+// beyond the 1e-10 of the part that the fits promise: a millionth of `spared`. Of parameters that change
+// residuals by less than `weakest` of what they move, only the second derivatives tell.
+double slope(const Fit<Element>& fit, const std::vector<Vec3>& points, const Constraints& keep = {},
+             double weakest = 0.0) {
   Vec3 centre = Vec3::Zero();
   double farthest = 0.0;
   for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
   for (const Vec3& p : points) farthest = std::max(farthest, (p - centre).norm() + p.norm());
   const auto n = static_cast<Eigen::Index>(points.size());
-  const auto width = static_cast<Eigen::Index>(parameters_of(kind_of(fit.element)).size());
+  const StepBasis basis = allowed_steps(fit.element, keep);
+  const Eigen::Index width = basis.cols();
   Eigen::MatrixXd jacobian(n, width);
   Eigen::VectorXd r(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LinearisedPoint at = linearised(fit.element, points[static_cast<std::size_t>(i)]);
-    jacobian.row(i) = at.gradient.transpose();
+    jacobian.row(i) = at.gradient.transpose() * basis;
     r[i] = at.residual;
   }
   farthest += (point_of(fit.element) - centre).norm();  // centres of huge radii
@@ -256,7 +260,12 @@ double slope(const Fit<Element>& fit, const std::vector<Vec3>& points) {
   double most = 0.0;
   for (Eigen::Index k = 0; k < width; ++k) {
     const double length = jacobian.col(k).norm();
-    if (length > 0.0) {
+    Eigen::Index parameter = 0;
+    basis.col(k).cwiseAbs().maxCoeff(&parameter);
+    const bool turns =
+        is_angle(parameters_of(kind_of(fit.element))[static_cast<std::size_t>(parameter)]);
+    const double moves = (turns ? farthest : 1.0) * std::sqrt(static_cast<double>(n));
+    if (length > weakest * moves) {
       most = std::max(most, std::abs(jacobian.col(k).dot(r)) / length / (r.norm() + spared));
     }
   }
@@ -297,6 +306,65 @@ TEST_P(RandomPointsLaws, GetAStationaryElementOrAReason) {
   RecordProperty("fitted", fitted);
   RecordProperty("steepest_in_1e-9", std::to_string(steepest * 1e9));
 }
+
+// Sizes near and far from those of the points, directions that are any.
+Constraints any_constraints(ElementKind kind, const std::vector<Vec3>& points, Draws& draws) {
+  double size = 0.0;
+  for (const Vec3& p : points) size = std::max(size, (p - points[0]).norm());
+  const auto length = [&] { return size * std::exp2(draws.between(-4.0, 4.0)); };
+  const bool round = kind != ElementKind::line && kind != ElementKind::plane;
+  const bool has_radius = round && kind != ElementKind::cone;
+  Constraints keep;
+  const double sort = draws.between(0.0, 1.0);
+  if (kind != ElementKind::sphere) {
+    if (sort < 0.25) keep.parallel_to = draws.direction();
+    if (sort > 0.75) keep.perpendicular_to = draws.direction();
+    const bool has_axis = round && sort > 0.4 && sort < 0.5;
+    if (has_axis) keep.axis = Line{points[0], draws.direction()};
+  }
+  const bool sized = sort > 0.2 && sort < 0.9;
+  if (has_radius && (sized || kind == ElementKind::sphere)) keep.radius = length();
+  if (kind == ElementKind::torus && sized && sort < 0.7) {
+    keep.tube_radius = draws.between(0.01, 0.99) * *keep.radius;
+  }
+  if (kind == ElementKind::cone && sized) keep.half_angle = draws.between(0.01, 1.56);
+  return keep;
+}
+
+class RandomConstraintsLaws : public testing::TestWithParam<ElementKind> {};
+
+TEST_P(RandomConstraintsLaws, GetAStationaryElementThatKeepsThemOrAReason) {
+  const ElementKind kind = GetParam();
+  Draws draws(177 + name_of(kind).size());
+  int fitted = 0;
+  const int sets = random_sets();
+  for (int set = 0; set < sets; ++set) {
+    const std::vector<Vec3> points = anything(draws, 4);
+    const Constraints keep = any_constraints(kind, points, draws);
+    const auto fit = fit_element(kind, points, {.constraints = keep});
+    if (!fit) {
+      EXPECT_FALSE(fit.error().front().message.empty());
+      continue;
+    }
+    ++fitted;
+    ASSERT_TRUE(std::isfinite(fit->form) && std::isfinite(fit->rms)) << set;
+    ASSERT_TRUE(fit->covariance.allFinite() && fit->cofactor.allFinite()) << set;
+    ASSERT_TRUE(point_of(fit->element).allFinite()) << set;
+    ASSERT_TRUE(std::isfinite(fit->condition)) << set;
+    const Element kept = constrained(fit->element, keep);
+    EXPECT_LT(difference(kept, fit->element).rad, 1e-12) << set;
+    if (kind == ElementKind::line) continue;  // points deviate in two directions from it
+    EXPECT_LT(slope(*fit, points, keep, 1e-6), 1e-6) << set << " condition " << fit->condition;
+  }
+  EXPECT_GT(fitted, sets / 50);
+  RecordProperty("fitted", fitted);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllKinds, RandomConstraintsLaws,
+                         testing::Values(ElementKind::line, ElementKind::plane, ElementKind::circle,
+                                         ElementKind::sphere, ElementKind::cylinder,
+                                         ElementKind::cone, ElementKind::torus),
+                         [](const auto& named) { return std::string(name_of(named.param)); });
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, RandomPointsLaws, testing::ValuesIn(kNames),
                          [](const auto& named) { return std::string(named.param); });

@@ -205,6 +205,116 @@ TEST(EveryFit, CommutesWithRigidMotionAndPointOrder) {
   }
 }
 
+constexpr std::string_view kEveryName[] = {"line",   "line2d",   "plane", "circle", "circle2d",
+                                           "sphere", "cylinder", "cone",  "torus"};
+
+std::vector<Vec3> wavy(std::string_view name, Draws& draws) {
+  if (name == "line2d") {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 30; ++i) points.emplace_back(i, 0.3 * i + 0.02 * draws.gauss(), 0.0);
+    return points;
+  }
+  const auto* const kind = std::find(kElementNames.begin(), kElementNames.end(), name);
+  if (kind == kElementNames.end()) return wavy(ElementKind::circle, draws);
+  return wavy(static_cast<ElementKind>(kind - kElementNames.begin()), draws);
+}
+
+// Which rows of the covariance are angles, in the order of least_squares.hpp.
+std::vector<bool> angles(std::string_view name) {
+  if (name == "line2d") return {false, true};
+  if (name == "line") return {false, false, true, true};
+  if (name == "plane") return {false, true, true};
+  if (name.starts_with("circle")) return {false, false, false, false, true, true};
+  if (name == "sphere") return {false, false, false, false};
+  if (name == "cylinder") return {false, false, true, true, false};
+  if (name == "cone") return {false, false, true, true, false, true};
+  return {false, false, false, true, true, false, false};
+}
+
+std::vector<double> sizes(const Element& element) {
+  return std::visit(
+      [](const auto& e) {
+        std::vector<double> all;
+        if constexpr (requires { e.radius; }) all.push_back(e.radius);
+        if constexpr (requires { e.tube_radius; }) all.push_back(e.tube_radius);
+        return all;
+      },
+      element);
+}
+
+// The same part in another unit is the same element in that unit.
+TEST(EveryFit, CommutesWithUniformScale) {
+  Draws draws(11);
+  for (const std::string_view name : kEveryName) {
+    const std::vector<bool> angle = angles(name);
+    for (const double scale : {1e-3, 1.0 / 25.4, 3.7, 1e4}) {
+      const std::vector<Vec3> points = wavy(name, draws);
+      std::vector<Vec3> scaled;
+      for (const Vec3& p : points) scaled.emplace_back(scale * p);
+      const auto here = fit_element(name, points);
+      const auto there = fit_element(name, scaled);
+      ASSERT_TRUE(here) << name << ' ' << first_message(here.error());
+      ASSERT_TRUE(there) << name << ' ' << first_message(there.error());
+      const std::string where = std::string(name) + " times " + std::to_string(scale);
+      EXPECT_LT((point_of(there->element) / scale - point_of(here->element)).norm(), 1e-9) << where;
+      if (axis_of(here->element) != nullptr) {
+        EXPECT_LT((axis_of(there->element)->vec() - axis_of(here->element)->vec()).norm(), 1e-10)
+            << where;
+      }
+      const std::vector<double> expected = sizes(here->element);
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(sizes(there->element)[i] / scale, expected[i], 1e-9) << where;
+      }
+      EXPECT_NEAR(there->form / scale, here->form, 1e-9) << where;
+      EXPECT_NEAR(there->rms / scale, here->rms, 1e-10) << where;
+      // In units of the part.
+      Eigen::MatrixXd covariance = there->covariance;
+      ASSERT_EQ(static_cast<std::size_t>(covariance.rows()), angle.size()) << where;
+      for (std::size_t i = 0; i < angle.size(); ++i) {
+        if (angle[i]) continue;
+        covariance.row(static_cast<Eigen::Index>(i)) /= scale;
+        covariance.col(static_cast<Eigen::Index>(i)) /= scale;
+      }
+      EXPECT_LT((covariance - here->covariance).norm(), 1e-7 * here->covariance.norm()) << where;
+    }
+  }
+}
+
+// Every point twice: the same element, half the cofactor, and a scatter of one point counted anew.
+TEST(EveryFit, StaysWhenEveryPointIsRepeated) {
+  Draws draws(12);
+  for (const std::string_view name : kEveryName) {
+    for (int set = 0; set < 8; ++set) {
+      const std::vector<Vec3> points = wavy(name, draws);
+      std::vector<Vec3> twice = points;
+      twice.insert(twice.end(), points.begin(), points.end());
+      const auto once = fit_element(name, points);
+      const auto again = fit_element(name, twice);
+      ASSERT_TRUE(once) << name << ' ' << first_message(once.error());
+      ASSERT_TRUE(again) << name << ' ' << first_message(again.error());
+      EXPECT_LT((point_of(again->element) - point_of(once->element)).norm(), 1e-9) << name;
+      if (axis_of(once->element) != nullptr) {
+        EXPECT_LT(line_angle(*axis_of(again->element), *axis_of(once->element)), 1e-10) << name;
+      }
+      for (std::size_t i = 0; i < sizes(once->element).size(); ++i) {
+        EXPECT_NEAR(sizes(again->element)[i], sizes(once->element)[i], 1e-9) << name;
+      }
+      EXPECT_NEAR(again->form, once->form, 1e-9) << name;
+      EXPECT_NEAR(again->rms, once->rms, 1e-10) << name;
+      EXPECT_LT((2.0 * again->cofactor - once->cofactor).norm(), 1e-7 * once->cofactor.norm())
+          << name;
+      // A line deviates in two directions from four parameters; plane and circle scatter about three.
+      const double equations = (name == "line" ? 2.0 : 1.0) * static_cast<double>(points.size());
+      const double parameters =
+          name.starts_with("circle") ? 3.0 : static_cast<double>(once->covariance.rows());
+      const double ratio = (equations - parameters) / (2.0 * equations - parameters);
+      EXPECT_LT((again->covariance - ratio * once->covariance).norm(),
+                1e-7 * once->covariance.norm())
+          << name;
+    }
+  }
+}
+
 // At a least-squares solution no small change of any parameter lowers the sum of squares.
 TEST(EveryFit, IsStationaryAndItsResidualsAreThoseOfTheElement) {
   Draws draws(8);
