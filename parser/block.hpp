@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "parser/expression.hpp"
+#include "parser/flow.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::parser {
@@ -71,6 +72,7 @@ struct Block {
   std::vector<Word> words{};
   std::vector<Assignment> assignments{};
   std::vector<Comment> comments{};
+  std::optional<FlowStatement> flow{};
   std::vector<ExpressionStep> steps{};
   std::vector<std::string> names{};
   // Where the lines after the first begin, counted in bytes, when the block goes over several.
@@ -78,7 +80,7 @@ struct Block {
 
   [[nodiscard]] bool empty() const {
     return !tape_mark && !number && !program && words.empty() && assignments.empty() &&
-           comments.empty();
+           comments.empty() && !flow;
   }
   // Line and column of a byte of the block, counted from 1 over all its lines.
   [[nodiscard]] SourcePlace place_of(std::uint32_t column) const {

@@ -233,7 +233,15 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
   return Done{};
 }
 
+Result<double> BlockExecutor::value_of(const Block& block, ExpressionRange range) {
+  block_ = &block;
+  auto value = evaluate({block.steps, block.names, parameters_}, range);
+  if (!value) return in_this_block(value.error().front());
+  return value;
+}
+
 void BlockExecutor::report_comments(const Block& block) {
+  block_ = &block;
   for (const Comment& comment : block.comments) {
     if (comment.event != nullptr) {
       emit(comment.column, Event{comment.event, comment.text});

@@ -43,10 +43,15 @@ using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram
 
 class BlockExecutor {
  public:
-  BlockExecutor(Dialect dialect, const MotionSink& sink) : rules_(rules_of(dialect)), sink_(sink) {}
+  BlockExecutor(Dialect dialect, const MotionSink& sink)
+      : rules_(rules_of(dialect)), sink_(sink), parameters_(rules_.parameters) {}
 
   [[nodiscard]] Result<Flow> execute(const Block& block);
+  void report_comments(const Block& block);
+  // The value of one of the block's expressions.
+  [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
   [[nodiscard]] const ModalState& state() const { return state_; }
+  [[nodiscard]] Parameters& parameters() { return parameters_; }
 
  private:
   struct Done {};
@@ -69,7 +74,6 @@ class BlockExecutor {
 
   // Doing.
   [[nodiscard]] Outcome set_parameters(const Block& block);
-  void report_comments(const Block& block);
   void report_events(const BlockWords& words);
   [[nodiscard]] Outcome set_feed(const BlockWords& words);
   [[nodiscard]] Outcome set_tool(const BlockWords& words);

@@ -94,13 +94,16 @@ constexpr std::array kPlainDwell{DwellWord{'P', DwellUnit::seconds}};
 constexpr std::array kCldataDwell{DwellWord{'P', DwellUnit::seconds},
                                   DwellWord{'S', DwellUnit::revolutions}};
 
+constexpr std::array<std::string_view, 2> kLinuxcncFiles{"{}.ngc", "{}.nc"};
+
 const std::array<DialectRules, kDialects.size()> kRules{
     DialectRules{Dialect::fanuc, "IJK", "I J K", "switch it on with G43.4 or G43.5", kFanucDwell,
                  "give P in milliseconds, or X in seconds", false, false, false, false,
                  LetterSet("FST"), kFanucLetters, "A B C F G H I J K L M N O P Q R S T U X Y Z"},
     DialectRules{Dialect::linuxcnc, "abc", "", "", kPlainDwell, "give P in seconds", false, false,
                  true, false, LetterSet("FST"), kLinuxcncLetters,
-                 "A B C F G H I J K L M N O P Q R S T X Y Z"},
+                 "A B C F G H I J K L M N O P Q R S T X Y Z",
+                 {.locals = 30, .named_locals = true, .unset_is_zero = true}, kLinuxcncFiles},
     DialectRules{Dialect::sinumerik, "abc", "A3= B3= C3=", "switch it on with TRAORI",
                  kSinumerikDwell, "give F in seconds, or S in revolutions", true, true, false,
                  false, LetterSet("FSTD"), kSinumerikLetters,

@@ -9,6 +9,7 @@
 
 #include "parser/code_table.hpp"
 #include "parser/dialect.hpp"
+#include "parser/parameters.hpp"
 
 namespace frustum::parser {
 
@@ -46,6 +47,9 @@ struct DialectRules {
   LetterSet always_claimed;  // words that have a meaning in every block
   std::span<const LetterUse> letters;
   std::string_view known_letters;
+  ParameterRules parameters{};
+  // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
+  std::span<const std::string_view> file_names{};
 };
 
 [[nodiscard]] const DialectRules& rules_of(Dialect dialect);

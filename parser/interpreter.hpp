@@ -9,11 +9,14 @@
 // M98      : P names the subprogram, L repeats it; without L, P with more than four digits is
 //            repeats and number together (P00032000 is O2000 three times).
 // /        : blocks that begin with it run, unless `block_delete` is on.
+// Flow     : flow.hpp. What counts is what runs: blocks that are passed over are read for their flow
+//            statements alone.
 // Errors   : the first block that cannot be run ends the run with its diagnostic; the motions
-//            before it have reached the sink already.
+//            before it have reached the sink already. A syntax error brings those of the rest of the text.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -30,6 +33,8 @@ struct InterpreterOptions {
   bool block_delete = false;
   // Subprograms within subprograms.
   std::size_t max_call_depth = 32;
+  // Folders with subprograms of their own file, in this order.
+  std::vector<std::filesystem::path> search_path{};
   // A program that runs more blocks than this, by repeats within repeats, is taken for a mistake.
   std::uint64_t max_blocks = 100'000'000;
 };
