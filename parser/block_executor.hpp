@@ -43,8 +43,8 @@ using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram
 
 class BlockExecutor {
  public:
-  BlockExecutor(Dialect dialect, const MotionSink& sink)
-      : rules_(rules_of(dialect)), sink_(sink), parameters_(rules_.parameters) {}
+  BlockExecutor(Dialect dialect, const AxisTarget& start, const MotionSink& sink)
+      : rules_(rules_of(dialect)), sink_(sink), position_(start), parameters_(rules_.parameters) {}
 
   [[nodiscard]] Result<Flow> execute(const Block& block);
   void report_comments(const Block& block);

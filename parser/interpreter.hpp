@@ -1,6 +1,6 @@
 // Runs a program: its blocks in order, subprograms and their repeats, into a stream of motions.
 //
-// Start    : the state of ModalState's defaults; no axis position is known, no tool is in the
+// Start    : the state of ModalState's defaults; no axis position is known but by `start`, no tool is in the
 //            spindle. A motion's target holds only axes the program has placed; an absent axis
 //            stays where it is.
 // End      : M2, M30, the tape mark at the end, or the end of the text. What follows is not run.
@@ -31,6 +31,8 @@ namespace frustum::parser {
 struct InterpreterOptions {
   // The operator's switch: on, blocks that begin with / are left out (and reported as events).
   bool block_delete = false;
+  // Where the axes stand at the start, in program coordinates, as far as it is known (mm, rad).
+  AxisTarget start{};
   // Subprograms within subprograms.
   std::size_t max_call_depth = 32;
   // Folders with subprograms of their own file, in this order.

@@ -31,6 +31,8 @@ enum class PositionLoss : std::uint8_t {
 
 class ProgramPosition {
  public:
+  explicit ProgramPosition(const AxisTarget& start = {}) : target_(start) {}
+
   // All known axes: what a motion's target carries.
   [[nodiscard]] const AxisTarget& target() const { return target_; }
   [[nodiscard]] const std::optional<double>& operator[](AxisLetter axis) const {

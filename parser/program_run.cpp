@@ -30,13 +30,21 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
     : sink_(sink),
       options_(options),
       rules_(rules_of(program.dialect)),
-      executor_(program.dialect, sink),
+      executor_(program.dialect, options.start, sink),
       main_(std::make_shared<LoadedProgram>(program)) {}
 
 Result<RunSummary> ProgramRun::operator()() {
   frames_.push_back({main_, BlockCursor(main_->program())});
   while (!frames_.empty()) {
-    if (auto failure = run_next()) return *std::move(failure);
+    auto failure = run_next();
+    if (!failure) continue;
+    Diagnostics failures{*std::move(failure)};
+    if (syntax_failed_) {
+      // The rest of the text is read for its own mistakes, so that they are mended together.
+      const auto more = syntax_errors(frame().program->program(), frame().cursor.place());
+      failures.insert(failures.end(), more.begin(), more.end());
+    }
+    return failures;
   }
   return RunSummary{executor_.state(), blocks_};
 }
@@ -44,7 +52,10 @@ Result<RunSummary> ProgramRun::operator()() {
 ProgramRun::Failure ProgramRun::run_next() {
   repeat_part_that_ended();
   auto next = frame().cursor.next();
-  if (!next) return std::move(next).error().front();
+  if (!next) {
+    syntax_failed_ = true;
+    return std::move(next).error().front();
+  }
   if (*next == nullptr) return run_off(nullptr);
   const Block& block = **next;
   if (frame().opened && (block.tape_mark || block.program)) return run_off(&block);

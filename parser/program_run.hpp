@@ -70,6 +70,7 @@ class ProgramRun {
   std::map<std::string, std::shared_ptr<LoadedProgram>> files_{};
   std::vector<CallFrame> frames_{};
   std::uint64_t blocks_ = 0;
+  bool syntax_failed_ = false;
   // The else that a branch whose condition did not hold goes on with, by the offset of its block.
   std::optional<std::uint64_t> else_to_try_{};
 };

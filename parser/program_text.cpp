@@ -84,11 +84,11 @@ void LineReader::go_to(TextPlace place) {
     }
   }
   place_ = place;
+  after_feed_ = false;
   if (place.offset != 0) return;
   if (rest().size() < kByteOrderMark.size()) refill();
   if (rest().starts_with(kByteOrderMark)) {
-    in_window_ += kByteOrderMark.size();
-    place_.offset += kByteOrderMark.size();
+    take(kByteOrderMark.size());
   }
 }
 
@@ -109,14 +109,20 @@ bool LineReader::refill() {
 bool LineReader::at_end() { return rest().empty() && !refill(); }
 
 std::string_view LineReader::next() {
+  if (after_feed_ && rest().starts_with('\r')) take(1);
   LineLength length = first_line(rest());
   while (length.with_end == std::string_view::npos && refill()) length = first_line(rest());
   const std::string_view line = rest().substr(0, length.line);
   const std::size_t taken = std::min(length.with_end, rest().size());
-  in_window_ += taken;
-  place_.offset += taken;
+  after_feed_ = taken > length.line && rest()[taken - 1] == '\n' && taken == length.line + 1;
+  take(taken);
   ++place_.line;
   return line;
+}
+
+void LineReader::take(std::size_t bytes) {
+  in_window_ += bytes;
+  place_.offset += bytes;
 }
 
 }  // namespace frustum::parser

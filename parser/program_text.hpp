@@ -56,6 +56,7 @@ class LineReader {
   [[nodiscard]] std::string_view rest() const { return window_.substr(in_window_); }
   // More of the file behind what the window has left; false at its end.
   bool refill();
+  void take(std::size_t bytes);
 
   ProgramText text_;
   std::ifstream file_{};
@@ -63,6 +64,7 @@ class LineReader {
   std::string_view window_{};  // of the buffer, or the whole text
   std::size_t in_window_ = 0;  // where `place_` is in the window
   bool file_ended_ = true;
+  bool after_feed_ = false;  // the last line ended with LF: a CR now belongs to that end
   TextPlace place_{};
 };
 

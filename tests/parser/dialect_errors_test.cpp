@@ -29,7 +29,7 @@ constexpr Mistake kLinuxcnc[] = {
     {"G5 X1\n", "1:1: error: G5 is not simulated"},
     {"G81 Z-1 R2\n", "1:1: error: G81 is not simulated"},
     {"G92 X0\n", "1:1: error: G92 is not simulated"},
-    {"O100 sub\n", "1:6: error: unknown word S... after an O word"},
+    {"O100 sub\n", "1:1: error: subprogram 100 has no end"},
     {"G96 S100\n", "1:1: error: G96 is not simulated"},
     {"G28.1\n", "1:1: error: G28.1 is not simulated"},
     {"G41 D1\n", "1:1: error: G41 is not simulated"},

@@ -1,0 +1,171 @@
+#include "tests/parser/canonical_moves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "core/units.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr double kAgree = 1.0001e-4;  // rs274 prints four decimals
+constexpr std::array<std::string_view, 3> kArcKinds{"arc xy", "arc zx", "arc yz"};
+
+std::vector<std::optional<double>> values_of(const AxisTarget& end) {
+  std::vector<std::optional<double>> values;
+  for (const AxisLetter axis : kAxisLetters) {
+    auto value = end[axis];
+    if (value && is_rotary(axis)) *value *= kDegPerRad;
+    values.push_back(value);
+  }
+  return values;
+}
+
+struct ToMove {
+  std::optional<CanonicalMove> operator()(const Traverse& move) const {
+    if (move.coordinates == Coordinates::machine) return std::nullopt;
+    return CanonicalMove{"traverse", values_of(move.end)};
+  }
+  std::optional<CanonicalMove> operator()(const LinearFeed& move) const {
+    return CanonicalMove{"feed", values_of(move.end)};
+  }
+  std::optional<CanonicalMove> operator()(const ArcFeed& arc) const {
+    CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(arc.plane))),
+                       values_of(arc.end)};
+    const std::size_t normal = arc.plane == Plane::xy ? 2 : arc.plane == Plane::zx ? 1 : 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i != normal) move.values.emplace_back(arc.center[static_cast<Eigen::Index>(i)]);
+    }
+    move.values.emplace_back(arc.turns);
+    return move;
+  }
+  std::optional<CanonicalMove> operator()(const Dwell& dwell) const {
+    return CanonicalMove{"dwell", {dwell.seconds}};
+  }
+  std::optional<CanonicalMove> operator()(const ToolChange& change) const {
+    return CanonicalMove{"tool", {static_cast<double>(change.tool)}};
+  }
+  std::optional<CanonicalMove> operator()(const CoolantChange& change) const {
+    return CanonicalMove{change.flood ? "flood on" : "coolant off", {}};
+  }
+  template <typename Other>
+  std::optional<CanonicalMove> operator()(const Other& /*other*/) const {
+    return std::nullopt;
+  }
+};
+
+// What the printed calls are relative to.
+struct Printed {
+  double unit = 1.0;
+  Plane plane = Plane::xy;
+  std::vector<double> numbers{};
+
+  [[nodiscard]] std::vector<std::optional<double>> axes(std::size_t from) const {
+    std::vector<std::optional<double>> values;
+    for (std::size_t i = from; i < from + 6 && i < numbers.size(); ++i) {
+      values.emplace_back(numbers[i] * (i - from < 3 ? unit : 1.0));
+    }
+    return values;
+  }
+  [[nodiscard]] CanonicalMove arc() const {
+    // Coordinates in the plane: of the end, of the centre; turns; the third axis.
+    constexpr std::array<std::array<std::size_t, 3>, 3> kSlots{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+    const auto& slot = kSlots.at(static_cast<std::size_t>(plane));
+    std::array<double, 3> end{};
+    std::array<double, 3> centre{};
+    end.at(slot[0]) = numbers.at(0) * unit;
+    end.at(slot[1]) = numbers.at(1) * unit;
+    end.at(slot[2]) = numbers.at(5) * unit;
+    centre.at(slot[0]) = numbers.at(2) * unit;
+    centre.at(slot[1]) = numbers.at(3) * unit;
+    CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(plane))),
+                       {end[0], end[1], end[2], numbers.at(6), numbers.at(7), numbers.at(8)}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i != slot[2]) move.values.emplace_back(centre.at(i));
+    }
+    move.values.emplace_back(numbers.at(4));
+    return move;
+  }
+};
+
+std::vector<double> numbers_in(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at < text.size();) {
+    double value = 0.0;
+    const auto read = std::from_chars(text.data() + at, text.data() + text.size(), value);
+    if (read.ec != std::errc{}) {
+      ++at;
+      continue;
+    }
+    numbers.push_back(value);
+    at = static_cast<std::size_t>(read.ptr - text.data());
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
+  std::vector<CanonicalMove> moves;
+  for (const Motion& motion : motions) {
+    if (auto move = std::visit(ToMove{}, motion.command)) moves.push_back(*std::move(move));
+  }
+  return moves;
+}
+
+std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
+  std::vector<CanonicalMove> moves;
+  Printed printed;
+  std::istringstream lines{std::string(output)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t mark = line.find("N..... ");
+    const std::size_t bracket = line.find('(');
+    if (mark == std::string::npos || bracket == std::string::npos) continue;
+    const std::string call = line.substr(mark + 7, bracket - mark - 7);
+    const std::string arguments = line.substr(bracket + 1);
+    printed.numbers = numbers_in(arguments);
+    if (call == "USE_LENGTH_UNITS") {
+      printed.unit = arguments.find("INCHES") != std::string::npos ? kMmPerInch : 1.0;
+    } else if (call == "SELECT_PLANE") {
+      printed.plane = arguments.find("XZ") != std::string::npos   ? Plane::zx
+                      : arguments.find("YZ") != std::string::npos ? Plane::yz
+                                                                  : Plane::xy;
+    } else if (call == "STRAIGHT_TRAVERSE") {
+      moves.push_back({"traverse", printed.axes(0)});
+    } else if (call == "STRAIGHT_FEED") {
+      moves.push_back({"feed", printed.axes(0)});
+    } else if (call == "STRAIGHT_PROBE") {
+      moves.push_back({"probe", printed.axes(0)});
+    } else if (call == "ARC_FEED") {
+      moves.push_back(printed.arc());
+    } else if (call == "DWELL") {
+      moves.push_back({"dwell", {printed.numbers.at(0)}});
+    } else if (call == "CHANGE_TOOL") {
+      moves.push_back({"tool", {printed.numbers.at(0)}});
+    } else if (call == "FLOOD_ON") {
+      moves.push_back({"flood on", {}});
+    }
+  }
+  return moves;
+}
+
+std::string to_text(const CanonicalMove& move) {
+  std::string text = move.kind;
+  for (const auto& value : move.values) text += value ? fmt::format(" {:.4f}", *value) : " -";
+  return text;
+}
+
+bool agree(const CanonicalMove& a, const CanonicalMove& b) {
+  return a.kind == b.kind &&
+         std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
+                    [](const auto& left, const auto& right) {
+                      return !left || !right || std::abs(*left - *right) <= kAgree;
+                    });
+}
+
+}  // namespace frustum::parser
