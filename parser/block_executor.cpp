@@ -133,8 +133,9 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
 
 LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& movement) const {
   switch (movement.motion) {
-    case MotionMode::none:
-      return {};
+    default:
+      // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
+      return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
     case MotionMode::traverse:
     case MotionMode::linear: {
       const bool vectors = guides_tip(words) && movement.non_modal != NonModal::machine_coordinates;
@@ -152,7 +153,6 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
       return vectors ? letters | LetterSet(rules_.vector_letters) : letters;
     }
   }
-  return {};
 }
 
 BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,

@@ -13,15 +13,18 @@
 #include <cstdint>
 #include <functional>
 #include <variant>
+#include <vector>
 
 #include "core/result.hpp"
 #include "parser/block.hpp"
 #include "parser/block_words.hpp"
+#include "parser/canned_cycle.hpp"
 #include "parser/dialect_rules.hpp"
 #include "parser/modal_state.hpp"
 #include "parser/motion.hpp"
 #include "parser/parameters.hpp"
 #include "parser/program_position.hpp"
+#include "parser/system_parameters.hpp"
 
 namespace frustum::parser {
 
@@ -43,8 +46,15 @@ using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram
 
 class BlockExecutor {
  public:
+  BlockExecutor(const BlockExecutor&) = delete;  // its parameters look at its state
+  BlockExecutor& operator=(const BlockExecutor&) = delete;
   BlockExecutor(Dialect dialect, const AxisTarget& start, const MotionSink& sink)
-      : rules_(rules_of(dialect)), sink_(sink), position_(start), parameters_(rules_.parameters) {}
+      : rules_(rules_of(dialect)),
+        sink_(sink),
+        position_(start),
+        parameters_(rules_.parameters, &system_) {
+    state_.retract_to_initial = rules_.cycles.retract_to_initial;
+  }
 
   [[nodiscard]] Result<Flow> execute(const Block& block);
   void report_comments(const Block& block);
@@ -93,6 +103,11 @@ class BlockExecutor {
                                                     const Movement& movement);
   [[nodiscard]] Outcome move_straight(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_along_arc(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome set_cycle(const BlockWords& words, const Movement& movement,
+                                  AxisLetter depth_axis);
+  [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);
+  void drill(const std::vector<CycleStep>& steps, std::uint32_t column, AxisLetter depth_axis,
+             const Feed& feed);
   [[nodiscard]] Result<Flow> finish(const BlockWords& words);
 
   [[nodiscard]] double unit_scale() const;
@@ -116,6 +131,7 @@ class BlockExecutor {
   const MotionSink& sink_;
   ModalState state_;
   ProgramPosition position_;
+  SystemParameters system_{rules_.dialect, &state_, &position_};
   Parameters parameters_;
   const Block* block_ = nullptr;  // at work
 };

@@ -218,6 +218,10 @@ void BlockExecutor::set_paths(const BlockWords& words) {
 BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
   state_.plane = words.value_or(CodeGroup::plane, state_.plane);
   state_.distance = words.value_or(CodeGroup::distance, state_.distance);
+  state_.retract_to_initial =
+      words.value_or(CodeGroup::retract,
+                     state_.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
+      RetractWord::initial;
   state_.arc_distance = words.value_or(CodeGroup::arc_distance, state_.arc_distance);
   if (auto done = set_compensation(words); !done) return done;
   if (auto done = set_work_offset(words); !done) return done;

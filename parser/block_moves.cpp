@@ -17,6 +17,7 @@ constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 const char* motion_name(MotionMode motion, Dialect dialect) {
   constexpr std::array kNames{"", "G0", "G1", "G2", "G3"};
   constexpr std::array kPlain{"", "a rapid move", "a cutting move", "an arc", "an arc"};
+  if (is_cycle(motion)) return "a canned cycle";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
   return (letters ? kNames : kPlain).at(static_cast<std::size_t>(motion));
 }
@@ -43,6 +44,7 @@ Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
 BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Movement& movement) {
   // Axis words or not, the motion word stays in force for the blocks after.
   state_.motion = motion_of(words);
+  if (!is_cycle(state_.motion)) state_.cycle.reset();
   if (movement.non_modal == NonModal::home) return go_home(words);
   if (movement.non_modal == NonModal::align) return align(movement.column);
   if (movement.non_modal == NonModal::pole) return set_pole(words);
@@ -51,6 +53,7 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);
   }
+  if (is_cycle(movement.motion)) return run_cycle(words, movement);
   switch (movement.motion) {
     case MotionMode::none:
       return Done{};
@@ -60,8 +63,9 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise:
       return move_along_arc(words, movement);
+    default:
+      return Done{};
   }
-  return Done{};
 }
 
 BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words) {

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "parser/block.hpp"
 #include "parser/expression.hpp"
@@ -55,6 +58,17 @@ constexpr std::array kCodes{
     modal(kIso, 'G', 20, motion, MotionMode::arc_clockwise),
     modal(kIso, 'G', 30, motion, MotionMode::arc_counterclockwise),
     modal(kRs274, 'G', 800, cycle, 0),
+    modal(kRs274, 'G', 730, motion, MotionMode::peck_short),
+    modal(kRs274, 'G', 740, motion, MotionMode::tap_left),
+    modal(kRs274, 'G', 810, motion, MotionMode::drill),
+    modal(kRs274, 'G', 820, motion, MotionMode::drill_dwell),
+    modal(kRs274, 'G', 830, motion, MotionMode::peck),
+    modal(kRs274, 'G', 840, motion, MotionMode::tap),
+    modal(kRs274, 'G', 850, motion, MotionMode::bore),
+    modal(kRs274, 'G', 860, motion, MotionMode::bore_stop),
+    modal(kRs274, 'G', 870, motion, MotionMode::bore_back),
+    modal(kRs274, 'G', 880, motion, MotionMode::bore_manual),
+    modal(kRs274, 'G', 890, motion, MotionMode::bore_dwell),
     modal(kFanuc, 'G', 40, non_modal, NonModal::dwell, LetterSet("PXU")),
     modal(kLinuxcnc, 'G', 40, non_modal, NonModal::dwell, LetterSet("P")),
     modal(kSinumerik, 'G', 40, non_modal, NonModal::dwell),
@@ -121,8 +135,8 @@ constexpr std::array kCodes{
     passed(kSinumerik, 'G', 6020),
     passed(kSinumerik, 'G', 6030),
     passed(kIso, 'G', 970),
-    passed(kRs274, 'G', 980),
-    passed(kRs274, 'G', 990),
+    modal(kRs274, 'G', 980, retract, RetractWord::initial),
+    modal(kRs274, 'G', 990, retract, RetractWord::level),
     modal(kMachines, 'M', 0, stop, StopKind::program_stop),
     modal(kMachines, 'M', 10, stop, StopKind::optional_stop),
     modal(kMachines, 'M', 20, stop, StopKind::program_end),
@@ -264,9 +278,8 @@ constexpr std::array kRefused{
     RefusedCode{kFanuc, 'G', 650, 669, "call subprograms with M98 P"},
     RefusedCode{kFanuc, 'G', 680, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
-    RefusedCode{kRs274, 'G', 730, 769, "write the cycle out as G0 and G1 blocks"},
+    RefusedCode{kRs274, 'G', 750, 769, "write the cycle out as G0 and G1 blocks"},
     RefusedCode{kSinumerik, 'G', 740, 759, "move to the positions with SUPA and D0"},
-    RefusedCode{kRs274, 'G', 810, 899, "write the cycle out as G0 and G1 blocks"},
     RefusedCode{kRs274, 'G', 920, 929, "use a work offset, G54 to G59"},
     RefusedCode{kSinumerik, 'G', 1100, 1129, "write positions in X, Y and Z"},
     RefusedCode{kSinumerik, 'G', 5070, 5990, "use G54 to G57, G505 and G506"},
@@ -420,13 +433,31 @@ std::string_view remedy_for(Dialect dialect, std::string_view word) {
   return {};
 }
 
-std::string known_codes(Dialect dialect, char letter) {
+std::string known_words(Dialect dialect) {
   std::string names;
   for (const Code& code : kCodes) {
-    if (code.letter != letter || (code.dialects & of(dialect)) == 0) continue;
+    if (code.letter != kNamedWord || (code.dialects & of(dialect)) == 0) continue;
     if (!names.empty()) names += ' ';
     names += code.name();
   }
+  return names;
+}
+
+std::string codes_near(Dialect dialect, char letter, double number) {
+  constexpr std::size_t kShown = 5;
+  std::vector<const Code*> codes;
+  for (const Code& code : kCodes) {
+    if (code.letter == letter && (code.dialects & of(dialect)) != 0) codes.push_back(&code);
+  }
+  const auto distance = [&](const Code* code) { return std::abs(code->tenths - 10.0 * number); };
+  std::sort(codes.begin(), codes.end(), [&](const Code* a, const Code* b) {
+    return std::pair(distance(a), a->tenths) < std::pair(distance(b), b->tenths);
+  });
+  codes.resize(std::min(codes.size(), kShown));
+  std::sort(codes.begin(), codes.end(),
+            [](const Code* a, const Code* b) { return a->tenths < b->tenths; });
+  std::string names;
+  for (const Code* code : codes) names += (names.empty() ? "" : " ") + code->name();
   return names;
 }
 

@@ -71,6 +71,7 @@ enum class CodeGroup : std::uint8_t {
   orientation_path,
   rotary_path,
   path_control,
+  retract,
   tool_change,
   spindle,
   coolant,
@@ -102,6 +103,7 @@ enum class LengthWord : std::uint8_t {
 };
 enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
+enum class RetractWord : std::uint8_t { initial, level };
 // Where the frame of a tilted plane comes from.
 enum class TiltWord : std::uint8_t {
   off,
@@ -132,7 +134,9 @@ struct Code {
 // there is no such code.
 [[nodiscard]] std::string_view remedy_for(Dialect dialect, char letter, double number);
 [[nodiscard]] std::string_view remedy_for(Dialect dialect, std::string_view word);
-// "G0 G1 G2 ...": all known codes of the letter.
-[[nodiscard]] std::string known_codes(Dialect dialect, char letter);
+// "TRAORI CYCLE800 ...": all known words.
+[[nodiscard]] std::string known_words(Dialect dialect);
+// "G73 G74 G80": the known codes of the letter that are nearest to a number.
+[[nodiscard]] std::string codes_near(Dialect dialect, char letter, double number);
 
 }  // namespace frustum::parser

@@ -299,9 +299,10 @@ const auto parameter_def = (x3::lit('#')[after([](BlockBuilder& b, Iterator end)
                             })] > parameter_index)[then([](BlockBuilder& b) { b.close(); })];
 
 const auto argument_separator_def = x3::lit('/');
-const auto second_argument_def = (',' > logic > closing) | (closing > argument_separator > bracketed);
-const auto kArcTangent =
-    (x3::no_case["atan"][pend(Operation::arc_tangent, 4)] > opening > logic > second_argument)[kEmit];
+const auto second_argument_def =
+    (',' > logic > closing) | (closing > argument_separator > bracketed);
+const auto kArcTangent = (x3::no_case["atan"][pend(Operation::arc_tangent, 4)] > opening > logic >
+                          second_argument)[kEmit];
 const auto kPendFunction = [](const auto& context) {
   x3::get<BuilderTag>(context).get().pend_function(x3::_attr(context), x3::_where(context).begin());
 };
@@ -375,9 +376,9 @@ const auto kBlock =
                                  *(kWord | kComment | kSetting | kProgram))) > block_end;
 
 BOOST_SPIRIT_DEFINE(value, positive_value, negative_value, logic, relation, sum, product, power,
-                    primary, parameter, parameter_index, name_begin, name_end, opening, closing, bracketed, second_argument,
-                    argument_separator, equals, setting_target, comment_end, block_number,
-                    program_number, block_end)
+                    primary, parameter, parameter_index, name_begin, name_end, opening, closing,
+                    bracketed, second_argument, argument_separator, equals, setting_target,
+                    comment_end, block_number, program_number, block_end)
 
 Diagnostic on_line(Diagnostic diagnostic, std::uint32_t line) {
   diagnostic.line = static_cast<int>(line);

@@ -18,7 +18,19 @@ enum class MotionMode : std::uint8_t {
   traverse,
   linear,
   arc_clockwise,
-  arc_counterclockwise
+  arc_counterclockwise,
+  // The canned cycles: canned_cycle.hpp.
+  peck_short,
+  tap_left,
+  drill,
+  drill_dwell,
+  peck,
+  tap,
+  bore,
+  bore_stop,
+  bore_back,
+  bore_manual,
+  bore_dwell
 };
 enum class DistanceMode : std::uint8_t { absolute, incremental };
 // G70 of Sinumerik leaves feeds in mm.
@@ -45,6 +57,19 @@ struct FeedWord {
   double scaled = 0.0;  // in mm/min when per minute
 };
 
+// The words of the canned cycle at work, in mm and seconds as the program's distance mode counts them.
+struct CannedCycle {
+  MotionMode last = MotionMode::none;
+  double initial = 0.0;  // depth before the first hole
+  std::optional<double> level{};
+  std::optional<double> bottom{};
+  std::optional<double> peck{};
+  std::optional<double> dwell{};
+  std::optional<double> shift_u{};
+  std::optional<double> shift_v{};
+  std::optional<double> back{};
+};
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   Plane plane = Plane::xy;
@@ -64,6 +89,8 @@ struct ModalState {
   std::array<bool, 3> loose{};
   bool tilted = false;
   std::optional<Vec3> pole{};  // CC
+  std::optional<CannedCycle> cycle{};
+  bool retract_to_initial = true;  // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;
   double spindle_speed = 0.0;
   bool flood = false;

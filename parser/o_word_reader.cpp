@@ -42,7 +42,8 @@ constexpr std::array kKeywords{
     Keyword{"continue", FlowKind::next_turn, Needs::nothing},
 };
 constexpr std::string_view kKnown =
-    "known are sub endsub call return if elseif else endif while endwhile do repeat endrepeat break "
+    "known are sub endsub call return if elseif else endif while endwhile do repeat endrepeat "
+    "break "
     "continue";
 
 class OWordReader {
@@ -136,7 +137,8 @@ class OWordReader {
         if (end == std::string_view::npos) {
           return fail(start, "the comment is not closed", "close it with )");
         }
-        block_.comments.push_back({start, false, utf8_of(text_.substr(place_, end - place_)), nullptr});
+        block_.comments.push_back(
+            {start, false, utf8_of(text_.substr(place_, end - place_)), nullptr});
         place_ = end + 1;
       } else {
         fail(start, "text behind an O word", "an O word stands alone in its block");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "parser/expression.hpp"
+#include "parser/system_parameters.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -34,6 +35,9 @@ Result<int> Parameters::index_of(double number) {
 Result<double> Parameters::read(double number) const {
   auto index = index_of(number);
   if (!index) return std::move(index).error();
+  if (system_ != nullptr) {
+    if (const auto kept = system_->number(*index)) return *kept;
+  }
   const Numbered& all = numbered(*index);
   const auto found = all.find(*index);
   if (found == all.end()) {
@@ -47,6 +51,9 @@ Result<double> Parameters::read(double number) const {
 Result<double> Parameters::read(std::string_view name) const {
   const Named& all = named(name);
   const auto found = all.find(name);
+  if (found == all.end() && system_ != nullptr) {
+    if (const auto kept = system_->named(name)) return *kept;
+  }
   if (found == all.end()) {
     const std::string spelled = spelling_of(name);
     return error(fmt::format("parameter {} has no value", spelled),
@@ -55,7 +62,9 @@ Result<double> Parameters::read(std::string_view name) const {
   return found->second;
 }
 
-bool Parameters::has(std::string_view name) const { return named(name).contains(name); }
+bool Parameters::has(std::string_view name) const {
+  return named(name).contains(name) || (system_ != nullptr && system_->named(name));
+}
 
 void Parameters::enter(std::span<const double> arguments) {
   locals_.emplace_back();

@@ -25,9 +25,12 @@ struct ParameterRules {
   bool unset_is_zero = false;  // a number that was never set reads as 0
 };
 
+struct SystemParameters;
+
 class Parameters {
  public:
-  explicit Parameters(const ParameterRules& rules = {}) : rules_(rules) {}
+  explicit Parameters(const ParameterRules& rules = {}, const SystemParameters* system = nullptr)
+      : rules_(rules), system_(system) {}
 
   [[nodiscard]] Result<double> read(double number) const;
   [[nodiscard]] Result<double> read(std::string_view name) const;
@@ -69,9 +72,11 @@ class Parameters {
   }
 
   ParameterRules rules_;
+  const SystemParameters* system_;
   Numbered numbered_{};
   Named named_{};
-  std::vector<Locals> locals_{1};  // of the main program and the subprograms at work, innermost last
+  std::vector<Locals> locals_{
+      1};  // of the main program and the subprograms at work, innermost last
 };
 
 }  // namespace frustum::parser

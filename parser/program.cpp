@@ -47,8 +47,9 @@ Result<Program> parse_program(std::string_view text, std::string file, Dialect d
 }
 
 Result<Program> open_program(const std::filesystem::path& file, Dialect dialect) {
-  return ProgramText::open(file).transform(
-      [&](ProgramText text) { return Program{file.string(), dialect, std::move(text)}; });
+  return ProgramText::open(file).transform([&](ProgramText text) {
+    return Program{file.string(), dialect, std::move(text)};
+  });
 }
 
 Diagnostics syntax_errors(const Program& program, TextPlace start) {
@@ -68,9 +69,10 @@ Diagnostics syntax_errors(const Program& program, TextPlace start) {
     if (!fresh) failures.push_back(second_program(program, **block, entry->second));
   }
   if (cursor.at_end()) return failures;
-  Diagnostic more = error(fmt::format("more than {} syntax errors; the rest of the file was not read",
-                                      kMaxSyntaxErrors - 1),
-                          "is this an NC program?");
+  Diagnostic more =
+      error(fmt::format("more than {} syntax errors; the rest of the file was not read",
+                        kMaxSyntaxErrors - 1),
+            "is this an NC program?");
   more.file = program.file;
   failures.push_back(std::move(more));
   return failures;

@@ -238,8 +238,9 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
               options_.search_path.empty() ? "define it in the program"
                                            : "define it in the program or in a file of its name");
   }
-  CallFrame next{holder,       BlockCursor(holder->program()), *name, "endsub", entry->behind,
-                 entry->column, *count, true};
+  CallFrame next{
+      holder, BlockCursor(holder->program()), *name, "endsub", entry->behind, entry->column, *count,
+      true};
   if (auto failure = push_call(block, flow.column, std::move(next))) return failure;
   executor_.parameters().enter(arguments);
   return std::nullopt;

@@ -68,10 +68,11 @@ ProgramMap::ProgramMap(const Program& program) {
     if (!block) continue;
     if (*block == nullptr) break;
     const TextPlace place = cursor.block_place();
-    if ((*block)->program) programs_.emplace(*(*block)->program, Numbered{place, (*block)->program_column});
+    if ((*block)->program)
+      programs_.emplace(*(*block)->program, Numbered{place, (*block)->program_column});
     if (const auto& flow = (*block)->flow) {
-      landmarks_.push_back({place, cursor.place(), flow->kind, flow->turns, flow->column,
-                            flow->label});
+      landmarks_.push_back(
+          {place, cursor.place(), flow->kind, flow->turns, flow->column, flow->label});
     }
   }
   pair(program);
@@ -94,7 +95,8 @@ void ProgramMap::pair(const Program& program) {
   std::vector<Open> open;
   const auto unended = [&](const Open& statement) {
     const Landmark& begin = landmarks_[statement.begin];
-    add_fault(program, begin, fmt::format("{}{} has no end", wording(begin.kind).begin, named(begin)),
+    add_fault(program, begin,
+              fmt::format("{}{} has no end", wording(begin.kind).begin, named(begin)),
               fmt::format("close it with its {}", wording(begin.kind).end));
   };
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
@@ -112,14 +114,15 @@ void ProgramMap::pair(const Program& program) {
     // `while` behind the body of a `do` of the same label is its end.
     if (here.kind == FlowKind::loop && here.turns == Turns::while_true && !open.empty()) {
       const Landmark& begin = landmarks_[open.back().begin];
-      if (begin.kind == FlowKind::loop && begin.turns == Turns::until_end &&
-          !here.label.empty() && begin.label == here.label) {
+      if (begin.kind == FlowKind::loop && begin.turns == Turns::until_end && !here.label.empty() &&
+          begin.label == here.label) {
         here.kind = FlowKind::end_loop;
       }
     }
     if (opens(here.kind)) {
       if (here.kind == FlowKind::subprogram && !open.empty()) {
-        add_fault(program, here, fmt::format("subprogram{} begins within another statement", named(here)),
+        add_fault(program, here,
+                  fmt::format("subprogram{} begins within another statement", named(here)),
                   fmt::format("that of line {} is open", landmarks_[open.back().begin].place.line));
       }
       open.push_back({i, i});
@@ -130,12 +133,15 @@ void ProgramMap::pair(const Program& program) {
     const bool inner_only = *opener != FlowKind::loop || here.kind == FlowKind::end_loop;
     auto statement = std::find_if(open.rbegin(), open.rend(), [&](const Open& candidate) {
       const Landmark& begin = landmarks_[candidate.begin];
-      return begin.kind == *opener && (begin.label == here.label || (here.label.empty() && !inner_only));
+      return begin.kind == *opener &&
+             (begin.label == here.label || (here.label.empty() && !inner_only));
     });
     if (statement == open.rend()) {
-      add_fault(program, here,
-                fmt::format("there is no {}{} to which this belongs", wording(*opener).begin, named(here)),
-                fmt::format("it stands behind its {}, with the same label", wording(*opener).begin));
+      add_fault(
+          program, here,
+          fmt::format("there is no {}{} to which this belongs", wording(*opener).begin,
+                      named(here)),
+          fmt::format("it stands behind its {}, with the same label", wording(*opener).begin));
       continue;
     }
     if (inner_only) {
@@ -174,9 +180,10 @@ void ProgramMap::pair(const Program& program) {
 }
 
 const Landmark& ProgramMap::at(TextPlace place) const {
-  return *std::lower_bound(
-      landmarks_.begin(), landmarks_.end(), place.offset,
-      [](const Landmark& landmark, std::uint64_t offset) { return landmark.place.offset < offset; });
+  return *std::lower_bound(landmarks_.begin(), landmarks_.end(), place.offset,
+                           [](const Landmark& landmark, std::uint64_t offset) {
+                             return landmark.place.offset < offset;
+                           });
 }
 
 const Landmark* ProgramMap::target(std::string_view label) const {

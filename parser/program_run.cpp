@@ -154,8 +154,13 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) 
               known_programs(holder->map()));
   }
   if (call.count == 0) return std::nullopt;
-  CallFrame next{holder, BlockCursor(holder->program()), fmt::format("O{}", call.program), "M99",
-                 entry->second.place, entry->second.column, call.count};
+  CallFrame next{holder,
+                 BlockCursor(holder->program()),
+                 fmt::format("O{}", call.program),
+                 "M99",
+                 entry->second.place,
+                 entry->second.column,
+                 call.count};
   return push_call(block, call.column, std::move(next));
 }
 

@@ -154,6 +154,23 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
   return moves;
 }
 
+std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> moves) {
+  constexpr std::size_t kAxes = 6;
+  std::vector<CanonicalMove> kept;
+  std::vector<std::optional<double>> place;
+  for (CanonicalMove& move : moves) {
+    if (move.values.size() < kAxes) {
+      kept.push_back(std::move(move));
+      continue;
+    }
+    std::vector<std::optional<double>> end(move.values.begin(), move.values.begin() + kAxes);
+    const bool stands = move.kind == "traverse" && end == place;
+    place = std::move(end);
+    if (!stands) kept.push_back(std::move(move));
+  }
+  return kept;
+}
+
 std::string to_text(const CanonicalMove& move) {
   std::string text = move.kind;
   for (const auto& value : move.values) text += value ? fmt::format(" {:.4f}", *value) : " -";
@@ -161,11 +178,11 @@ std::string to_text(const CanonicalMove& move) {
 }
 
 bool agree(const CanonicalMove& a, const CanonicalMove& b) {
-  return a.kind == b.kind &&
-         std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
-                    [](const auto& left, const auto& right) {
-                      return !left || !right || std::abs(*left - *right) <= kAgree;
-                    });
+  return a.kind == b.kind && std::equal(a.values.begin(), a.values.end(), b.values.begin(),
+                                        b.values.end(), [](const auto& left, const auto& right) {
+                                          return !left || !right ||
+                                                 std::abs(*left - *right) <= kAgree;
+                                        });
 }
 
 }  // namespace frustum::parser

@@ -13,13 +13,16 @@
 namespace frustum::parser {
 
 struct CanonicalMove {
-  std::string kind{};                          // "traverse", "feed", "arc xy", "dwell", "tool", ...
-  std::vector<std::optional<double>> values{}; // absent: the program does not know it
+  std::string kind{};  // "traverse", "feed", "arc xy", "dwell", "tool", ...
+  std::vector<std::optional<double>> values{};  // absent: the program does not know it
 };
 
 [[nodiscard]] std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions);
 // Of lines such as "   12 N..... STRAIGHT_FEED(1.0000, ...)".
 [[nodiscard]] std::vector<CanonicalMove> moves_of_rs274(std::string_view output);
+
+// Leaves out rapid moves to where the tool is.
+[[nodiscard]] std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> moves);
 
 // "feed 1.0 2.0 3.0 0 0 0 100"
 [[nodiscard]] std::string to_text(const CanonicalMove& move);

@@ -27,7 +27,7 @@ constexpr Mistake kLinuxcnc[] = {
     {"G0 X1 I1\n", "1:7: error: I1 has no meaning in this block"},
     {"G10 L2 P1 X0\n", "1:1: error: G10 is not simulated"},
     {"G5 X1\n", "1:1: error: G5 is not simulated"},
-    {"G81 Z-1 R2\n", "1:1: error: G81 is not simulated"},
+    {"G81 Z-1 R2\n", "1:1: error: the cycle starts at an unknown Z: Z has not been programmed yet"},
     {"G92 X0\n", "1:1: error: G92 is not simulated"},
     {"O100 sub\n", "1:1: error: subprogram 100 has no end"},
     {"G96 S100\n", "1:1: error: G96 is not simulated"},
