@@ -213,7 +213,7 @@ class OWordReader {
 }  // namespace
 
 Result<Block> read_linuxcnc_block(std::string_view text, std::uint32_t line) {
-  if (text.find_first_of("oO") != std::string_view::npos) {
+  if (text.find('o') != std::string_view::npos || text.find('O') != std::string_view::npos) {
     if (auto statement = OWordReader(text, line)()) return *std::move(statement);
   }
   return parse_block(text, line);
