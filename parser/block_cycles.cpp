@@ -85,6 +85,7 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   const auto v = static_cast<AxisLetter>(axes.v);
   const auto w = static_cast<AxisLetter>(3 - axes.u - axes.v);
   if (auto done = check_tool_length(movement); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
   if (auto done = set_cycle(words, movement, w); !done) return done;
   const CannedCycle& cycle = *state_.cycle;
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {

@@ -404,6 +404,7 @@ Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
 }
 
 void BlockExecutor::emit(std::uint32_t column, Command command) {
+  if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
   sink_(Motion{block_->place_of(column), std::move(command)});
 }
 

@@ -97,6 +97,10 @@ class BlockExecutor {
   [[nodiscard]] Outcome align(std::uint32_t column);
   [[nodiscard]] Outcome set_pole(const BlockWords& words);
   [[nodiscard]] Outcome set_start(const BlockWords& words);
+  void change_word_frame(const WordFrame& next);
+  [[nodiscard]] Outcome shift_words(const BlockWords& words, NonModal how);
+  [[nodiscard]] Outcome turn_words(const BlockWords& words);
+  [[nodiscard]] Outcome check_word_frame(const Movement& movement) const;
   [[nodiscard]] Outcome go_home(const BlockWords& words);
   [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_in_machine_coordinates(const BlockWords& words,

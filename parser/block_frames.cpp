@@ -150,6 +150,13 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   const GivenCode& tilt = words[CodeGroup::tilted_plane];
   if (tilt.code == nullptr) return Done{};
   const auto kind = static_cast<TiltWord>(tilt.code->value);
+  if (kind == TiltWord::turn) return turn_words(words);
+  if (kind == TiltWord::off && state_.word_frame.turns()) {
+    WordFrame straight = state_.word_frame;
+    straight.turn = {};
+    change_word_frame(straight);
+    if (!state_.tilted) return Done{};
+  }
   Pose plane{Mat3::Identity(), Vec3::Zero()};
   if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale();
   if (kind == TiltWord::euler) {

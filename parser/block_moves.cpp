@@ -49,6 +49,7 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (movement.non_modal == NonModal::align) return align(movement.column);
   if (movement.non_modal == NonModal::pole) return set_pole(words);
   if (movement.non_modal == NonModal::start) return set_start(words);
+  if (movement.non_modal >= NonModal::shift_to_place) return shift_words(words, movement.non_modal);
   if (movement.motion != MotionMode::none) announce_rotary_path(words, movement.column);
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);
@@ -130,6 +131,7 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
   const AxisTarget end = end_of(words);
   if (movement.motion == MotionMode::traverse) {
     emit(movement.column, Traverse{end, state_.tool_axis, Coordinates::program});
@@ -154,6 +156,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     }
   }
   if (auto done = check_tool_length(movement); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
   ArcWords arc_words;
   arc_words.plane = state_.plane;
   arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;

@@ -87,9 +87,14 @@ enum class NonModal : std::uint8_t {
   dwell,
   home,
   machine_coordinates,
-  align,  // the rotary axes to the normal of the tilted plane
-  pole,   // the centre of the arcs that follow
-  start   // where the tool is before the program moves it
+  align,           // the rotary axes to the normal of the tilted plane
+  pole,            // the centre of the arcs that follow
+  start,           // where the tool is before the program moves it
+  shift_to_place,  // G92: so that the tool is where the words say
+  shift,           // G52
+  shift_off,
+  shift_suspend,
+  shift_resume
 };
 enum class SubprogramWord : std::uint8_t { none, call, leave };
 // The last two leave the tool-tip switch as it is.
@@ -109,6 +114,7 @@ enum class TiltWord : std::uint8_t {
   off,
   euler,    // shift X Y Z; turns I J K about Z, the new X, the new Z
   swivel,   // shift X Y Z; turns A B C in the order that Q names; shift u v w
+  turn,     // G68: about the centre X Y by R, in the plane
   spatial,  // turns A B C about the axes of the untilted X, Y, Z in this order
 };
 

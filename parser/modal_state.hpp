@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "parser/motion.hpp"
+#include "parser/word_frame.hpp"
 
 namespace frustum::parser {
 
@@ -88,7 +89,9 @@ struct ModalState {
   // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
   std::array<bool, 3> loose{};
   bool tilted = false;
-  std::optional<Vec3> pole{};  // CC
+  WordFrame word_frame{};
+  std::optional<WordFrame> suspended_shift{};  // G92.2
+  std::optional<Vec3> pole{};                  // CC
   std::optional<CannedCycle> cycle{};
   bool retract_to_initial = true;  // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;

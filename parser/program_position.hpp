@@ -27,6 +27,7 @@ enum class PositionLoss : std::uint8_t {
   length_compensation,
   tool_vector,  // I J K moved the rotary axes
   tilted_plane,
+  turned_frame,  // G68
 };
 
 class ProgramPosition {

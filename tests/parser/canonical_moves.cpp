@@ -64,29 +64,40 @@ struct Printed {
   double unit = 1.0;
   Plane plane = Plane::xy;
   std::vector<double> numbers{};
+  std::vector<double> shift = std::vector<double>(6, 0.0);  // of G92
+  double turn = 0.0;                                        // about Z
 
-  [[nodiscard]] std::vector<std::optional<double>> axes(std::size_t from) const {
-    std::vector<std::optional<double>> values;
-    for (std::size_t i = from; i < from + 6 && i < numbers.size(); ++i) {
-      values.emplace_back(numbers[i] * (i - from < 3 ? unit : 1.0));
-    }
-    return values;
+  // Coordinates of the work offset.
+  [[nodiscard]] Vec3 point(const Vec3& printed) const {
+    return rotation_z(turn * kRadPerDeg) * (printed * unit + Vec3(shift[0], shift[1], shift[2]));
+  }
+  [[nodiscard]] std::vector<std::optional<double>> axes() const {
+    const Vec3 place = point({numbers.at(0), numbers.at(1), numbers.at(2)});
+    return {place[0],
+            place[1],
+            place[2],
+            numbers.at(3) + shift[3],
+            numbers.at(4) + shift[4],
+            numbers.at(5) + shift[5]};
   }
   [[nodiscard]] CanonicalMove arc() const {
     // Coordinates in the plane: of the end, of the centre; turns; the third axis.
-    constexpr std::array<std::array<std::size_t, 3>, 3> kSlots{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+    constexpr std::array<std::array<int, 3>, 3> kSlots{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
     const auto& slot = kSlots.at(static_cast<std::size_t>(plane));
-    std::array<double, 3> end{};
-    std::array<double, 3> centre{};
-    end.at(slot[0]) = numbers.at(0) * unit;
-    end.at(slot[1]) = numbers.at(1) * unit;
-    end.at(slot[2]) = numbers.at(5) * unit;
-    centre.at(slot[0]) = numbers.at(2) * unit;
-    centre.at(slot[1]) = numbers.at(3) * unit;
+    Vec3 end;
+    Vec3 centre = Vec3::Zero();
+    end[slot[0]] = numbers.at(0);
+    end[slot[1]] = numbers.at(1);
+    end[slot[2]] = numbers.at(5);
+    centre[slot[0]] = numbers.at(2);
+    centre[slot[1]] = numbers.at(3);
+    end = point(end);
+    centre = point(centre);
     CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(plane))),
-                       {end[0], end[1], end[2], numbers.at(6), numbers.at(7), numbers.at(8)}};
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (i != slot[2]) move.values.emplace_back(centre.at(i));
+                       {end[0], end[1], end[2], numbers.at(6) + shift[3], numbers.at(7) + shift[4],
+                        numbers.at(8) + shift[5]}};
+    for (int i = 0; i < 3; ++i) {
+      if (i != slot[2]) move.values.emplace_back(centre[i]);
     }
     move.values.emplace_back(numbers.at(4));
     return move;
@@ -135,12 +146,17 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
       printed.plane = arguments.find("XZ") != std::string::npos   ? Plane::zx
                       : arguments.find("YZ") != std::string::npos ? Plane::yz
                                                                   : Plane::xy;
+    } else if (call == "SET_G92_OFFSET") {
+      printed.shift = printed.numbers;
+      for (std::size_t i = 0; i < 3; ++i) printed.shift.at(i) *= printed.unit;
+    } else if (call == "SET_XY_ROTATION") {
+      printed.turn = printed.numbers.at(0);
     } else if (call == "STRAIGHT_TRAVERSE") {
-      moves.push_back({"traverse", printed.axes(0)});
+      moves.push_back({"traverse", printed.axes()});
     } else if (call == "STRAIGHT_FEED") {
-      moves.push_back({"feed", printed.axes(0)});
+      moves.push_back({"feed", printed.axes()});
     } else if (call == "STRAIGHT_PROBE") {
-      moves.push_back({"probe", printed.axes(0)});
+      moves.push_back({"probe", printed.axes()});
     } else if (call == "ARC_FEED") {
       moves.push_back(printed.arc());
     } else if (call == "DWELL") {
