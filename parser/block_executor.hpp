@@ -62,6 +62,9 @@ class BlockExecutor {
   [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
   [[nodiscard]] const ModalState& state() const { return state_; }
   [[nodiscard]] Parameters& parameters() { return parameters_; }
+  // A call of a subprogram and its end; modes saved by M73 come back.
+  void enter_call() { saved_modes_.emplace_back(); }
+  void leave_call();
 
  private:
   struct Done {};
@@ -85,6 +88,8 @@ class BlockExecutor {
   // Doing.
   [[nodiscard]] Outcome set_parameters(const Block& block);
   void report_events(const BlockWords& words);
+  void restore_modes(std::uint32_t column);
+  [[nodiscard]] Outcome keep_modes(const BlockWords& words);
   [[nodiscard]] Outcome set_feed(const BlockWords& words);
   [[nodiscard]] Outcome set_tool(const BlockWords& words);
   void set_spindle_and_coolant(const BlockWords& words, bool speed);
@@ -119,6 +124,7 @@ class BlockExecutor {
   [[nodiscard]] double scaled(AxisLetter axis, double value) const;
   [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
   [[nodiscard]] Outcome set_targets(const BlockWords& words);
+  [[nodiscard]] Outcome set_polar_target(const BlockWords& words);
   [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
   void announce_rotary_path(const BlockWords& words, std::uint32_t column);
   [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;
@@ -135,6 +141,12 @@ class BlockExecutor {
   const MotionSink& sink_;
   ModalState state_;
   ProgramPosition position_;
+  // Modes that M70 and M73 keep, of the main program and each call.
+  struct SavedModes {
+    std::optional<ModalState> state{};
+    bool comes_back = false;
+  };
+  std::vector<SavedModes> saved_modes_{1};
   SystemParameters system_{rules_.dialect, &state_, &position_};
   Parameters parameters_;
   const Block* block_ = nullptr;  // at work

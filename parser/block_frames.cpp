@@ -80,7 +80,7 @@ Result<Compensation> BlockExecutor::compensation_after(const BlockWords& words) 
     }
   }
   if (rules_.tool_brings_length && words.has(CodeGroup::tool_change)) next.length = true;
-  if (words.has('D')) {
+  if (words.has('D') && rules_.always_claimed.has('D')) {
     const auto edge = whole(words, 'D', 0, kMaxEdge);
     if (!edge) return edge.error();
     if (*edge > 1) {

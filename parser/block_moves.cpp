@@ -1,6 +1,7 @@
 // The moves of a block: G28, G53, straight lines and arcs, and what they do to the known position.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/units.hpp"
@@ -321,10 +322,54 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
     }
     state_.tool_axis.reset();
   }
+  if (auto done = set_polar_target(words); !done) return done;
   for (const AxisLetter axis : kAxisLetters) {
     if (!words.has(to_char(axis))) continue;
     if (auto done = set_target(words, axis); !done) return done;
   }
+  return Done{};
+}
+
+// @ radius and ^ angle about the origin, in the plane; what is not given stays as it is.
+BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) {
+  const char first = words.first_of(LetterSet("pq"));
+  if (first == 0) return Done{};
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  for (const AxisLetter axis : {u, v}) {
+    if (!words.has(to_char(axis))) continue;
+    return fail(words[to_char(axis)].column,
+                fmt::format("{} beside a polar position", words.text_of(to_char(axis))),
+                "give the place in the plane by @ and ^, or by axis words");
+  }
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  const bool from_here = incremental || !words.has(kPolarRadius) || !words.has(kPolarAngle);
+  double radius = 0.0;
+  double angle = 0.0;
+  if (from_here) {
+    for (const AxisLetter axis : {u, v}) {
+      if (position_[axis]) continue;
+      return fail(words[first].column,
+                  fmt::format("the polar position goes on from one that is not known: {}",
+                              position_.why_unknown(axis)),
+                  "give both @ and ^");
+    }
+    radius = std::hypot(*position_[u], *position_[v]);
+    angle = std::atan2(*position_[v], *position_[u]);
+    if (radius == 0.0 && !words.has(kPolarAngle)) {
+      return fail(words[first].column, "a polar position without angle, from the origin",
+                  "give ^ in degrees");
+    }
+  }
+  if (words.has(kPolarRadius)) {
+    radius = words[kPolarRadius].value * unit_scale() + (incremental ? radius : 0.0);
+  }
+  if (words.has(kPolarAngle)) {
+    angle = words[kPolarAngle].value * kRadPerDeg + (incremental ? angle : 0.0);
+  }
+  position_.set(u, radius * std::cos(angle));
+  position_.set(v, radius * std::sin(angle));
   return Done{};
 }
 

@@ -140,7 +140,10 @@ constexpr std::array kCodes{
     passed(kSinumerik, 'G', 6010),  // when an exact stop is reached
     passed(kSinumerik, 'G', 6020),
     passed(kSinumerik, 'G', 6030),
-    passed(kIso, 'G', 970),
+    modal(kRs274, 'G', 960, speed_mode, SpeedWord::surface, LetterSet("D")),
+    modal(kRs274, 'G', 970, speed_mode, SpeedWord::revolutions),
+    passed(kSinumerik, 'G', 970),
+    passed(kLinuxcnc, 'G', 80),  // X is a radius
     modal(kRs274, 'G', 980, retract, RetractWord::initial),
     modal(kRs274, 'G', 990, retract, RetractWord::level),
     modal(kMachines, 'M', 0, stop, StopKind::program_stop),
@@ -156,11 +159,27 @@ constexpr std::array kCodes{
     passed(kMachines, 'M', 70, coolant),  // mist
     modal(kMachines, 'M', 80, coolant, CoolantWord::flood),
     modal(kMachines, 'M', 90, coolant, CoolantWord::off),
-    passed(kMachines, 'M', 100),  // clamp
-    passed(kMachines, 'M', 110),  // unclamp
-    passed(kMachines, 'M', 190),  // orient the spindle
-    passed(kRs274, 'M', 480),     // overrides on
-    passed(kRs274, 'M', 490),     // overrides off
+    passed(kMachines, 'M', 100),                                      // clamp
+    passed(kMachines, 'M', 110),                                      // unclamp
+    passed(kMachines, 'M', 190, CodeGroup::event, LetterSet("RPQ")),  // orient the spindle
+    passed(kRs274, 'M', 480),                                         // overrides on
+    passed(kRs274, 'M', 490),                                         // overrides off
+    passed(kLinuxcnc, 'M', 500, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 510, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 520, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 530, CodeGroup::event, LetterSet("P")),
+    modal(kRs274, 'M', 600, stop, StopKind::program_stop),
+    passed(kLinuxcnc, 'M', 620, CodeGroup::event, LetterSet("P")),  // outputs
+    passed(kLinuxcnc, 'M', 630, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 640, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 650, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 660, CodeGroup::event, LetterSet("PELQ")),  // wait on an input
+    passed(kLinuxcnc, 'M', 670, CodeGroup::event, LetterSet("EQ")),
+    passed(kLinuxcnc, 'M', 680, CodeGroup::event, LetterSet("EQ")),
+    modal(kLinuxcnc, 'M', 700, saved_modes, SavedModesWord::save),
+    modal(kLinuxcnc, 'M', 710, saved_modes, SavedModesWord::drop),
+    modal(kLinuxcnc, 'M', 720, saved_modes, SavedModesWord::restore),
+    modal(kLinuxcnc, 'M', 730, saved_modes, SavedModesWord::save_for_call),
     modal(kRs274, 'M', 980, subprogram, SubprogramWord::call, kCallWords),
     modal(kRs274, 'M', 990, subprogram, SubprogramWord::leave),
 
@@ -287,7 +306,8 @@ constexpr std::array kRefused{
     RefusedCode{kSinumerik, 'G', 740, 759, "move to the positions with SUPA and D0"},
     RefusedCode{kSinumerik, 'G', 1100, 1129, "write positions in X, Y and Z"},
     RefusedCode{kSinumerik, 'G', 5070, 5990, "use G54 to G57, G505 and G506"},
-    RefusedCode{kIso, 'G', 960, 969, "give the spindle speed in revolutions per minute"},
+    RefusedCode{kLinuxcnc, 'G', 70, 70, "give X as a radius"},
+    RefusedCode{kSinumerik, 'G', 960, 969, "give the spindle speed in revolutions per minute"},
     RefusedCode{kLinuxcnc, 'M', 4300, 4300, "use M428 (tool tip) or M429 (axes)"},
     RefusedCode{kHeidenhain, 'M', 890, 899, "write the cycle out as L blocks"},
     RefusedCode{kHeidenhain, 'M', 920, 929, "use M91, the machine's own coordinates"},

@@ -72,6 +72,8 @@ enum class CodeGroup : std::uint8_t {
   rotary_path,
   path_control,
   retract,
+  speed_mode,
+  saved_modes,
   tool_change,
   spindle,
   coolant,
@@ -108,6 +110,8 @@ enum class LengthWord : std::uint8_t {
 };
 enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
+enum class SpeedWord : std::uint8_t { revolutions, surface };
+enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
 enum class RetractWord : std::uint8_t { initial, level };
 // Where the frame of a tilted plane comes from.
 enum class TiltWord : std::uint8_t {

@@ -58,6 +58,7 @@ struct DialectRules {
   std::string_view known_letters;
   ParameterRules parameters{};
   CycleRules cycles{};
+  LetterSet polar_words{};
   // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
   std::span<const std::string_view> file_names{};
 };

@@ -20,6 +20,13 @@ using Iterator = const char*;
 // Room for the words of most blocks, so that they are allocated once.
 constexpr std::size_t kUsualWords = 8;
 
+// The polar words have no letter of their own.
+char letter_of(char written) {
+  if (written == '@') return kPolarRadius;
+  if (written == '^') return kPolarAngle;
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(written)));
+}
+
 // Thrown by actions for what the shape of the text alone cannot tell; never leaves this file.
 struct SyntaxStop {
   Diagnostic diagnostic;
@@ -52,9 +59,12 @@ class BlockBuilder {
   void begin_program(Iterator after) { opening_word_column_ = column_of(after - 1); }
 
   void begin_word(Iterator after) {
-    const auto letter = static_cast<char>(std::toupper(static_cast<unsigned char>(after[-1])));
+    const auto letter = letter_of(after[-1]);
     if (block_.words.empty()) block_.words.reserve(kUsualWords);
     block_.words.push_back({letter, false, column_of(after - 1), 0.0, {first_step(), 0}});
+    if (letter == kPolarRadius || letter == kPolarAngle) {
+      block_.words.back().spelled = letter == kPolarRadius ? "@" : "^";
+    }
     in_word_ = true;
   }
   void end_word() {
@@ -341,7 +351,7 @@ const auto relation_def = sum >> *((kRelations > sum)[kEmit]);
 const auto logic_def = relation >> *((kLogic > relation)[kEmit]);
 
 const auto kWord =
-    (x3::char_("a-mp-zA-MP-Z")[after([](BlockBuilder& b, Iterator end) { b.begin_word(end); })] >
+    (x3::char_("a-mp-zA-MP-Z@^")[after([](BlockBuilder& b, Iterator end) { b.begin_word(end); })] >
      value)[then([](BlockBuilder& b) { b.end_word(); })];
 
 const auto setting_target_def =

@@ -96,6 +96,7 @@ struct ModalState {
   bool retract_to_initial = true;  // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;
   double spindle_speed = 0.0;
+  bool surface_speed = false;  // G96: S is a cutting speed, which the spindle follows
   bool flood = false;
   std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
 

@@ -109,6 +109,7 @@ void ProgramRun::return_from_call() {
     return;
   }
   if (done.has_locals) executor_.parameters().leave();
+  executor_.leave_call();
   frames_.pop_back();
 }
 
@@ -173,6 +174,7 @@ ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t colu
   }
   next.cursor.go_to(next.entry);
   frames_.push_back(std::move(next));
+  executor_.enter_call();
   return std::nullopt;
 }
 

@@ -100,6 +100,7 @@ struct Printed {
       if (i != slot[2]) move.values.emplace_back(centre[i]);
     }
     move.values.emplace_back(numbers.at(4));
+    move.unit = unit;
     return move;
   }
 };
@@ -152,11 +153,11 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
     } else if (call == "SET_XY_ROTATION") {
       printed.turn = printed.numbers.at(0);
     } else if (call == "STRAIGHT_TRAVERSE") {
-      moves.push_back({"traverse", printed.axes()});
+      moves.push_back({"traverse", printed.axes(), printed.unit});
     } else if (call == "STRAIGHT_FEED") {
-      moves.push_back({"feed", printed.axes()});
+      moves.push_back({"feed", printed.axes(), printed.unit});
     } else if (call == "STRAIGHT_PROBE") {
-      moves.push_back({"probe", printed.axes()});
+      moves.push_back({"probe", printed.axes(), printed.unit});
     } else if (call == "ARC_FEED") {
       moves.push_back(printed.arc());
     } else if (call == "DWELL") {
@@ -194,11 +195,13 @@ std::string to_text(const CanonicalMove& move) {
 }
 
 bool agree(const CanonicalMove& a, const CanonicalMove& b) {
-  return a.kind == b.kind && std::equal(a.values.begin(), a.values.end(), b.values.begin(),
-                                        b.values.end(), [](const auto& left, const auto& right) {
-                                          return !left || !right ||
-                                                 std::abs(*left - *right) <= kAgree;
-                                        });
+  const double tolerance = kAgree * std::max(a.unit, b.unit);
+  const auto near = [tolerance](const std::optional<double>& left,
+                                const std::optional<double>& right) {
+    return !left || !right || std::abs(*left - *right) <= tolerance;
+  };
+  return a.kind == b.kind &&
+         std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), near);
 }
 
 }  // namespace frustum::parser

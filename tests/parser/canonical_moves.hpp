@@ -15,6 +15,7 @@ namespace frustum::parser {
 struct CanonicalMove {
   std::string kind{};  // "traverse", "feed", "arc xy", "dwell", "tool", ...
   std::vector<std::optional<double>> values{};  // absent: the program does not know it
+  double unit = 1.0;                            // mm in what the values were printed in
 };
 
 [[nodiscard]] std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions);
