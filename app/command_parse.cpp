@@ -1,13 +1,11 @@
 // frustum parse: NC text to canonical motions.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include "app/console.hpp"
+#include "app/nc_file.hpp"
 #include "parser/canonical_json.hpp"
-#include "parser/interpreter.hpp"
 
 namespace frustum::app {
 namespace {
@@ -21,28 +19,17 @@ struct Options {
 };
 
 int parse_file(const Options& options) {
-  std::ifstream in(options.file, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || !text) {
-    Diagnostic failure = error("the file cannot be read", "check the path and permissions");
-    failure.file = options.file;
-    return refuse(Diagnostics{failure});
+  const auto nc = open_nc(options.file, options.dialect);
+  if (!nc) return refuse(nc.error());
+  if (!nc->reason.empty() && !options.quiet) {
+    std::cerr << "note: read as " << name_of(nc->program.dialect) << " (" << nc->reason << ")\n";
   }
-  auto dialect = parser::dialect_named(options.dialect);
-  if (!dialect) {
-    const auto found = parser::recognise_dialect(text.view(), options.file);
-    dialect = found.dialect;
-    if (!options.quiet) {
-      std::cerr << "note: read as " << name_of(found.dialect) << " (" << found.reason << ")\n";
-    }
-  }
-  const auto program = parser::parse_program(text.view(), options.file, *dialect);
-  if (!program) return refuse(program.error());
   const auto print = [&](parser::Motion&& motion) {
     if (options.canon) std::cout << parser::to_json_line(motion) << '\n';
   };
-  const auto summary = parser::interpret(*program, print, {.block_delete = options.block_delete});
+  parser::InterpreterOptions run = options_for(options.file);
+  run.block_delete = options.block_delete;
+  const auto summary = parser::interpret(nc->program, print, run);
   if (!summary) return refuse(summary.error());
   return kDone;
 }

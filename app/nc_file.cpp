@@ -1,8 +1,6 @@
 #include "app/nc_file.hpp"
 
 #include <cctype>
-#include <fstream>
-#include <sstream>
 
 #include "parser/dialect.hpp"
 #include "parser/interpreter.hpp"
@@ -12,19 +10,32 @@ namespace frustum::app {
 
 Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,
                                                     const std::string& dialect_name) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in && std::filesystem::is_regular_file(file)) text << in.rdbuf();
-  if (!in || text.view().empty()) {
-    Diagnostic failure = error("the file cannot be read", "check the path and permissions");
-    failure.file = file;
-    return failure;
+  const auto nc = open_nc(file, dialect_name);
+  if (!nc) return nc.error();
+  return parser::motions_of(nc->program, options_for(file));
+}
+
+Result<NcFile> open_nc(const std::string& file, const std::string& dialect_name) {
+  constexpr std::size_t kLook = std::size_t{1} << 20U;
+  auto text = parser::ProgramText::open(file);
+  if (!text) return text.error();
+  NcFile nc;
+  if (const auto named = parser::dialect_named(dialect_name)) {
+    nc.program.dialect = *named;
+  } else {
+    const auto found = parser::recognise_dialect(text->head(kLook), file);
+    nc.program.dialect = found.dialect;
+    nc.reason = found.reason;
   }
-  const auto dialect = parser::dialect_named(dialect_name)
-                           .value_or(parser::recognise_dialect(text.view(), file).dialect);
-  const auto program = parser::parse_program(text.view(), file, dialect);
-  if (!program) return program.error();
-  return parser::motions_of(*program);
+  nc.program.file = file;
+  nc.program.text = *std::move(text);
+  return nc;
+}
+
+parser::InterpreterOptions options_for(const std::string& file) {
+  parser::InterpreterOptions options;
+  options.search_path = {std::filesystem::path(file).parent_path()};
+  return options;
 }
 
 std::string program_name(const std::filesystem::path& file) {

@@ -9,9 +9,18 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "parser/motion.hpp"
+#include "parser/interpreter.hpp"
 
 namespace frustum::app {
+
+struct NcFile {
+  parser::Program program{};
+  std::string reason{};  // why it is taken for its dialect; empty when that was given
+};
+// `dialect` as --dialect writes it; empty: recognised.
+[[nodiscard]] Result<NcFile> open_nc(const std::string& file, const std::string& dialect);
+// Subprograms are looked for beside the program.
+[[nodiscard]] parser::InterpreterOptions options_for(const std::string& file);
 
 // `dialect` as --dialect writes it; empty: recognised.
 [[nodiscard]] Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,

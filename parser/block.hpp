@@ -8,6 +8,7 @@
 //   d        a tilted plane turns the rotary axes to its normal (0: it does not)
 //   t        the duration of the block in seconds (FT)
 //   e        full turns of an arc beyond the first (TURN=)
+//   p q      radius and angle of a polar position (@ ^)
 //   u v w    a second shift of a tilted plane, along its own axes
 //   @        a word without a number (TRAORI, TOOL CALL): `number` is its row in the code table
 // Units: as written. Columns count bytes from 1. Comments are UTF-8 (Latin-1 text is converted).
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "parser/expression.hpp"
+#include "parser/flow.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::parser {
@@ -33,6 +35,8 @@ enum class Measure : std::uint8_t {
 };
 
 constexpr char kNamedWord = '@';
+constexpr char kPolarRadius = 'p';
+constexpr char kPolarAngle = 'q';
 
 // A letter and its value: a plain number (the fast, common case) or an expression.
 struct Word {
@@ -71,6 +75,7 @@ struct Block {
   std::vector<Word> words{};
   std::vector<Assignment> assignments{};
   std::vector<Comment> comments{};
+  std::optional<FlowStatement> flow{};
   std::vector<ExpressionStep> steps{};
   std::vector<std::string> names{};
   // Where the lines after the first begin, counted in bytes, when the block goes over several.
@@ -78,7 +83,7 @@ struct Block {
 
   [[nodiscard]] bool empty() const {
     return !tape_mark && !number && !program && words.empty() && assignments.empty() &&
-           comments.empty();
+           comments.empty() && !flow;
   }
   // Line and column of a byte of the block, counted from 1 over all its lines.
   [[nodiscard]] SourcePlace place_of(std::uint32_t column) const {

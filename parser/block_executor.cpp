@@ -17,7 +17,7 @@
 namespace frustum::parser {
 namespace {
 
-constexpr LetterSet kMoveWords{"XYZABCIJKRabc"};
+constexpr LetterSet kMoveWords{"XYZABCIJKRabcpq"};
 constexpr int kMaxTool = 99'999'999;
 constexpr int kMaxProgramNumber = 99'999'999;
 constexpr int kMaxRepeats = 99'999;
@@ -63,12 +63,22 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   if (!of_dwell('F')) {
     if (auto done = set_feed(*words); !done) return std::move(done).error();
   }
-  const bool speed = words->has('S') && !of_dwell('S');
-  if (speed && (*words)['S'].value < 0.0) {
+  const bool any_speed = words->has('S') && !of_dwell('S');
+  if (any_speed && (*words)['S'].value < 0.0) {
     return fail((*words)['S'].column, fmt::format("{} is negative", words->text_of('S')),
                 "give the direction by M3 or M4 and a speed that is not negative");
   }
-  if (speed) state_.spindle_speed = (*words)['S'].value;
+  state_.surface_speed =
+      words->value_or(CodeGroup::speed_mode,
+                      state_.surface_speed ? SpeedWord::surface : SpeedWord::revolutions) ==
+      SpeedWord::surface;
+  const bool speed = any_speed && !state_.surface_speed;
+  if (any_speed && state_.surface_speed) {
+    emit((*words)['S'].column, Event{"surface_speed", words->text_of('S')});
+  } else if (speed) {
+    state_.spindle_speed = (*words)['S'].value;
+  }
+  if (auto done = keep_modes(*words); !done) return std::move(done).error();
   if (auto done = set_tool(*words); !done) return std::move(done).error();
   set_spindle_and_coolant(*words, speed);
   report_events(*words);
@@ -133,26 +143,26 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
 
 LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& movement) const {
   switch (movement.motion) {
-    case MotionMode::none:
-      return {};
+    default:
+      // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
+      return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
     case MotionMode::traverse:
     case MotionMode::linear: {
       const bool vectors = guides_tip(words) && movement.non_modal != NonModal::machine_coordinates;
-      LetterSet letters = kAxisWords;
+      LetterSet letters = kAxisWords | rules_.polar_words;
       if (vectors) letters = letters | LetterSet(rules_.vector_letters);
       if (movement.motion == MotionMode::linear) letters.add('t');
       return letters;
     }
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise: {
-      const LetterSet letters = kAxisWords | LetterSet("RPet") |
+      const LetterSet letters = kAxisWords | LetterSet("RPet") | rules_.polar_words |
                                 centre_letters(words.value_or(CodeGroup::plane, state_.plane));
       // Where I J K are the tool vector, an arc has them for its centre.
       const bool vectors = guides_tip(words) && rules_.vector_letters != "IJK";
       return vectors ? letters | LetterSet(rules_.vector_letters) : letters;
     }
   }
-  return {};
 }
 
 BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
@@ -233,7 +243,15 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
   return Done{};
 }
 
+Result<double> BlockExecutor::value_of(const Block& block, ExpressionRange range) {
+  block_ = &block;
+  auto value = evaluate({block.steps, block.names, parameters_}, range);
+  if (!value) return in_this_block(value.error().front());
+  return value;
+}
+
 void BlockExecutor::report_comments(const Block& block) {
+  block_ = &block;
   for (const Comment& comment : block.comments) {
     if (comment.event != nullptr) {
       emit(comment.column, Event{comment.event, comment.text});
@@ -353,6 +371,61 @@ BlockExecutor::Outcome BlockExecutor::dwell(const BlockWords& words) {
   return Done{};
 }
 
+BlockExecutor::Outcome BlockExecutor::keep_modes(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::saved_modes];
+  if (code.code == nullptr) return Done{};
+  SavedModes& saved = saved_modes_.back();
+  switch (static_cast<SavedModesWord>(code.code->value)) {
+    case SavedModesWord::save:
+      saved = {state_, false};
+      break;
+    case SavedModesWord::save_for_call:
+      saved = {state_, true};
+      break;
+    case SavedModesWord::drop:
+      saved = {};
+      break;
+    case SavedModesWord::restore:
+      if (!saved.state) {
+        return fail(code.column, "there are no saved modes", "save them with M70 or M73 before");
+      }
+      restore_modes(code.column);
+      break;
+  }
+  return Done{};
+}
+
+void BlockExecutor::restore_modes(std::uint32_t column) {
+  const ModalState& saved = *saved_modes_.back().state;
+  state_.plane = saved.plane;
+  state_.unit = saved.unit;
+  state_.distance = saved.distance;
+  state_.arc_distance = saved.arc_distance;
+  state_.feed_mode = saved.feed_mode;
+  state_.feed = saved.feed;
+  state_.retract_to_initial = saved.retract_to_initial;
+  state_.surface_speed = saved.surface_speed;
+  if (state_.work_offset != saved.work_offset) {
+    state_.work_offset = saved.work_offset;
+    forget(kAxisWords, PositionLoss::work_offset);
+    emit(column, WorkOffsetChange{state_.work_offset});
+  }
+  if (state_.spindle != saved.spindle || state_.spindle_speed != saved.spindle_speed) {
+    state_.spindle = saved.spindle;
+    state_.spindle_speed = saved.spindle_speed;
+    emit(column, SpindleChange{state_.spindle, state_.spindle_speed});
+  }
+  if (state_.flood != saved.flood) {
+    state_.flood = saved.flood;
+    emit(column, CoolantChange{state_.flood});
+  }
+}
+
+void BlockExecutor::leave_call() {
+  if (saved_modes_.back().state && saved_modes_.back().comes_back) restore_modes(1);
+  saved_modes_.pop_back();
+}
+
 Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   const GivenCode& stop = words[CodeGroup::stop];
   if (stop.code != nullptr) {
@@ -396,6 +469,7 @@ Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
 }
 
 void BlockExecutor::emit(std::uint32_t column, Command command) {
+  if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
   sink_(Motion{block_->place_of(column), std::move(command)});
 }
 

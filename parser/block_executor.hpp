@@ -13,15 +13,18 @@
 #include <cstdint>
 #include <functional>
 #include <variant>
+#include <vector>
 
 #include "core/result.hpp"
 #include "parser/block.hpp"
 #include "parser/block_words.hpp"
+#include "parser/canned_cycle.hpp"
 #include "parser/dialect_rules.hpp"
 #include "parser/modal_state.hpp"
 #include "parser/motion.hpp"
 #include "parser/parameters.hpp"
 #include "parser/program_position.hpp"
+#include "parser/system_parameters.hpp"
 
 namespace frustum::parser {
 
@@ -43,10 +46,25 @@ using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram
 
 class BlockExecutor {
  public:
-  BlockExecutor(Dialect dialect, const MotionSink& sink) : rules_(rules_of(dialect)), sink_(sink) {}
+  BlockExecutor(const BlockExecutor&) = delete;  // its parameters look at its state
+  BlockExecutor& operator=(const BlockExecutor&) = delete;
+  BlockExecutor(Dialect dialect, const AxisTarget& start, const MotionSink& sink)
+      : rules_(rules_of(dialect)),
+        sink_(sink),
+        position_(start),
+        parameters_(rules_.parameters, &system_) {
+    state_.retract_to_initial = rules_.cycles.retract_to_initial;
+  }
 
   [[nodiscard]] Result<Flow> execute(const Block& block);
+  void report_comments(const Block& block);
+  // The value of one of the block's expressions.
+  [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
   [[nodiscard]] const ModalState& state() const { return state_; }
+  [[nodiscard]] Parameters& parameters() { return parameters_; }
+  // A call of a subprogram and its end; modes saved by M73 come back.
+  void enter_call() { saved_modes_.emplace_back(); }
+  void leave_call();
 
  private:
   struct Done {};
@@ -69,8 +87,9 @@ class BlockExecutor {
 
   // Doing.
   [[nodiscard]] Outcome set_parameters(const Block& block);
-  void report_comments(const Block& block);
   void report_events(const BlockWords& words);
+  void restore_modes(std::uint32_t column);
+  [[nodiscard]] Outcome keep_modes(const BlockWords& words);
   [[nodiscard]] Outcome set_feed(const BlockWords& words);
   [[nodiscard]] Outcome set_tool(const BlockWords& words);
   void set_spindle_and_coolant(const BlockWords& words, bool speed);
@@ -83,12 +102,21 @@ class BlockExecutor {
   [[nodiscard]] Outcome align(std::uint32_t column);
   [[nodiscard]] Outcome set_pole(const BlockWords& words);
   [[nodiscard]] Outcome set_start(const BlockWords& words);
+  void change_word_frame(const WordFrame& next);
+  [[nodiscard]] Outcome shift_words(const BlockWords& words, NonModal how);
+  [[nodiscard]] Outcome turn_words(const BlockWords& words);
+  [[nodiscard]] Outcome check_word_frame(const Movement& movement) const;
   [[nodiscard]] Outcome go_home(const BlockWords& words);
   [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_in_machine_coordinates(const BlockWords& words,
                                                     const Movement& movement);
   [[nodiscard]] Outcome move_straight(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_along_arc(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome set_cycle(const BlockWords& words, const Movement& movement,
+                                  AxisLetter depth_axis);
+  [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);
+  void drill(const std::vector<CycleStep>& steps, std::uint32_t column, AxisLetter depth_axis,
+             const Feed& feed);
   [[nodiscard]] Result<Flow> finish(const BlockWords& words);
 
   [[nodiscard]] double unit_scale() const;
@@ -96,6 +124,7 @@ class BlockExecutor {
   [[nodiscard]] double scaled(AxisLetter axis, double value) const;
   [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
   [[nodiscard]] Outcome set_targets(const BlockWords& words);
+  [[nodiscard]] Outcome set_polar_target(const BlockWords& words);
   [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
   void announce_rotary_path(const BlockWords& words, std::uint32_t column);
   [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;
@@ -112,6 +141,13 @@ class BlockExecutor {
   const MotionSink& sink_;
   ModalState state_;
   ProgramPosition position_;
+  // Modes that M70 and M73 keep, of the main program and each call.
+  struct SavedModes {
+    std::optional<ModalState> state{};
+    bool comes_back = false;
+  };
+  std::vector<SavedModes> saved_modes_{1};
+  SystemParameters system_{rules_.dialect, &state_, &position_};
   Parameters parameters_;
   const Block* block_ = nullptr;  // at work
 };

@@ -80,7 +80,7 @@ Result<Compensation> BlockExecutor::compensation_after(const BlockWords& words) 
     }
   }
   if (rules_.tool_brings_length && words.has(CodeGroup::tool_change)) next.length = true;
-  if (words.has('D')) {
+  if (words.has('D') && rules_.always_claimed.has('D')) {
     const auto edge = whole(words, 'D', 0, kMaxEdge);
     if (!edge) return edge.error();
     if (*edge > 1) {
@@ -150,6 +150,13 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   const GivenCode& tilt = words[CodeGroup::tilted_plane];
   if (tilt.code == nullptr) return Done{};
   const auto kind = static_cast<TiltWord>(tilt.code->value);
+  if (kind == TiltWord::turn) return turn_words(words);
+  if (kind == TiltWord::off && state_.word_frame.turns()) {
+    WordFrame straight = state_.word_frame;
+    straight.turn = {};
+    change_word_frame(straight);
+    if (!state_.tilted) return Done{};
+  }
   Pose plane{Mat3::Identity(), Vec3::Zero()};
   if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale();
   if (kind == TiltWord::euler) {
@@ -218,6 +225,10 @@ void BlockExecutor::set_paths(const BlockWords& words) {
 BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
   state_.plane = words.value_or(CodeGroup::plane, state_.plane);
   state_.distance = words.value_or(CodeGroup::distance, state_.distance);
+  state_.retract_to_initial =
+      words.value_or(CodeGroup::retract,
+                     state_.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
+      RetractWord::initial;
   state_.arc_distance = words.value_or(CodeGroup::arc_distance, state_.arc_distance);
   if (auto done = set_compensation(words); !done) return done;
   if (auto done = set_work_offset(words); !done) return done;

@@ -1,6 +1,7 @@
 // The moves of a block: G28, G53, straight lines and arcs, and what they do to the known position.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/units.hpp"
@@ -17,6 +18,7 @@ constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 const char* motion_name(MotionMode motion, Dialect dialect) {
   constexpr std::array kNames{"", "G0", "G1", "G2", "G3"};
   constexpr std::array kPlain{"", "a rapid move", "a cutting move", "an arc", "an arc"};
+  if (is_cycle(motion)) return "a canned cycle";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
   return (letters ? kNames : kPlain).at(static_cast<std::size_t>(motion));
 }
@@ -43,14 +45,17 @@ Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
 BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Movement& movement) {
   // Axis words or not, the motion word stays in force for the blocks after.
   state_.motion = motion_of(words);
+  if (!is_cycle(state_.motion)) state_.cycle.reset();
   if (movement.non_modal == NonModal::home) return go_home(words);
   if (movement.non_modal == NonModal::align) return align(movement.column);
   if (movement.non_modal == NonModal::pole) return set_pole(words);
   if (movement.non_modal == NonModal::start) return set_start(words);
+  if (movement.non_modal >= NonModal::shift_to_place) return shift_words(words, movement.non_modal);
   if (movement.motion != MotionMode::none) announce_rotary_path(words, movement.column);
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);
   }
+  if (is_cycle(movement.motion)) return run_cycle(words, movement);
   switch (movement.motion) {
     case MotionMode::none:
       return Done{};
@@ -60,8 +65,9 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise:
       return move_along_arc(words, movement);
+    default:
+      return Done{};
   }
-  return Done{};
 }
 
 BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words) {
@@ -126,6 +132,7 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
   const AxisTarget end = end_of(words);
   if (movement.motion == MotionMode::traverse) {
     emit(movement.column, Traverse{end, state_.tool_axis, Coordinates::program});
@@ -150,6 +157,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     }
   }
   if (auto done = check_tool_length(movement); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
   ArcWords arc_words;
   arc_words.plane = state_.plane;
   arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;
@@ -314,10 +322,54 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
     }
     state_.tool_axis.reset();
   }
+  if (auto done = set_polar_target(words); !done) return done;
   for (const AxisLetter axis : kAxisLetters) {
     if (!words.has(to_char(axis))) continue;
     if (auto done = set_target(words, axis); !done) return done;
   }
+  return Done{};
+}
+
+// @ radius and ^ angle about the origin, in the plane; what is not given stays as it is.
+BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) {
+  const char first = words.first_of(LetterSet("pq"));
+  if (first == 0) return Done{};
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  for (const AxisLetter axis : {u, v}) {
+    if (!words.has(to_char(axis))) continue;
+    return fail(words[to_char(axis)].column,
+                fmt::format("{} beside a polar position", words.text_of(to_char(axis))),
+                "give the place in the plane by @ and ^, or by axis words");
+  }
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  const bool from_here = incremental || !words.has(kPolarRadius) || !words.has(kPolarAngle);
+  double radius = 0.0;
+  double angle = 0.0;
+  if (from_here) {
+    for (const AxisLetter axis : {u, v}) {
+      if (position_[axis]) continue;
+      return fail(words[first].column,
+                  fmt::format("the polar position goes on from one that is not known: {}",
+                              position_.why_unknown(axis)),
+                  "give both @ and ^");
+    }
+    radius = std::hypot(*position_[u], *position_[v]);
+    angle = std::atan2(*position_[v], *position_[u]);
+    if (radius == 0.0 && !words.has(kPolarAngle)) {
+      return fail(words[first].column, "a polar position without angle, from the origin",
+                  "give ^ in degrees");
+    }
+  }
+  if (words.has(kPolarRadius)) {
+    radius = words[kPolarRadius].value * unit_scale() + (incremental ? radius : 0.0);
+  }
+  if (words.has(kPolarAngle)) {
+    angle = words[kPolarAngle].value * kRadPerDeg + (incremental ? angle : 0.0);
+  }
+  position_.set(u, radius * std::cos(angle));
+  position_.set(v, radius * std::sin(angle));
   return Done{};
 }
 

@@ -1,14 +1,16 @@
 #include "parser/block_reader.hpp"
 
 #include "parser/grammar.hpp"
+#include "parser/o_word_reader.hpp"
 
 namespace frustum::parser {
 
 BlockReader reader_of(Dialect dialect) {
   switch (dialect) {
     case Dialect::fanuc:
-    case Dialect::linuxcnc:
       return parse_block;
+    case Dialect::linuxcnc:
+      return read_linuxcnc_block;
     case Dialect::sinumerik:
       return read_sinumerik_block;
     case Dialect::heidenhain:

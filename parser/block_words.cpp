@@ -22,7 +22,7 @@ Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, d
     return at(block, word.column, name + " is not simulated", std::string(remedy));
   }
   return at(block, word.column, "unknown word " + name,
-            "known are " + known_codes(dialect, word.letter));
+            "near it are " + codes_near(dialect, word.letter, number));
 }
 
 }  // namespace

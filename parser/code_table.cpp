@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "parser/block.hpp"
 #include "parser/expression.hpp"
@@ -55,12 +58,29 @@ constexpr std::array kCodes{
     modal(kIso, 'G', 20, motion, MotionMode::arc_clockwise),
     modal(kIso, 'G', 30, motion, MotionMode::arc_counterclockwise),
     modal(kRs274, 'G', 800, cycle, 0),
+    modal(kRs274, 'G', 730, motion, MotionMode::peck_short),
+    modal(kRs274, 'G', 740, motion, MotionMode::tap_left),
+    modal(kRs274, 'G', 810, motion, MotionMode::drill),
+    modal(kRs274, 'G', 820, motion, MotionMode::drill_dwell),
+    modal(kRs274, 'G', 830, motion, MotionMode::peck),
+    modal(kRs274, 'G', 840, motion, MotionMode::tap),
+    modal(kRs274, 'G', 850, motion, MotionMode::bore),
+    modal(kRs274, 'G', 860, motion, MotionMode::bore_stop),
+    modal(kRs274, 'G', 870, motion, MotionMode::bore_back),
+    modal(kRs274, 'G', 880, motion, MotionMode::bore_manual),
+    modal(kRs274, 'G', 890, motion, MotionMode::bore_dwell),
     modal(kFanuc, 'G', 40, non_modal, NonModal::dwell, LetterSet("PXU")),
     modal(kLinuxcnc, 'G', 40, non_modal, NonModal::dwell, LetterSet("P")),
     modal(kSinumerik, 'G', 40, non_modal, NonModal::dwell),
     modal(kRs274, 'G', 280, non_modal, NonModal::home, kAxisWords),
     modal(kIso, 'G', 530, non_modal, NonModal::machine_coordinates),
     modal(kFanuc, 'G', 531, non_modal, NonModal::align),
+    modal(kRs274, 'G', 920, non_modal, NonModal::shift_to_place, kAxisWords),
+    modal(kRs274, 'G', 921, non_modal, NonModal::shift_off),
+    modal(kLinuxcnc, 'G', 922, non_modal, NonModal::shift_suspend),
+    modal(kLinuxcnc, 'G', 923, non_modal, NonModal::shift_resume),
+    modal(kRs274, 'G', 520, non_modal, NonModal::shift, kAxisWords),
+    modal(kFanuc, 'G', 680, tilted_plane, TiltWord::turn, LetterSet("XYZR")),
     modal(kIso, 'G', 170, plane, Plane::xy),
     modal(kIso, 'G', 180, plane, Plane::zx),
     modal(kIso, 'G', 190, plane, Plane::yz),
@@ -120,9 +140,12 @@ constexpr std::array kCodes{
     passed(kSinumerik, 'G', 6010),  // when an exact stop is reached
     passed(kSinumerik, 'G', 6020),
     passed(kSinumerik, 'G', 6030),
-    passed(kIso, 'G', 970),
-    passed(kRs274, 'G', 980),
-    passed(kRs274, 'G', 990),
+    modal(kRs274, 'G', 960, speed_mode, SpeedWord::surface, LetterSet("D")),
+    modal(kRs274, 'G', 970, speed_mode, SpeedWord::revolutions),
+    passed(kSinumerik, 'G', 970),
+    passed(kLinuxcnc, 'G', 80),  // X is a radius
+    modal(kRs274, 'G', 980, retract, RetractWord::initial),
+    modal(kRs274, 'G', 990, retract, RetractWord::level),
     modal(kMachines, 'M', 0, stop, StopKind::program_stop),
     modal(kMachines, 'M', 10, stop, StopKind::optional_stop),
     modal(kMachines, 'M', 20, stop, StopKind::program_end),
@@ -136,11 +159,27 @@ constexpr std::array kCodes{
     passed(kMachines, 'M', 70, coolant),  // mist
     modal(kMachines, 'M', 80, coolant, CoolantWord::flood),
     modal(kMachines, 'M', 90, coolant, CoolantWord::off),
-    passed(kMachines, 'M', 100),  // clamp
-    passed(kMachines, 'M', 110),  // unclamp
-    passed(kMachines, 'M', 190),  // orient the spindle
-    passed(kRs274, 'M', 480),     // overrides on
-    passed(kRs274, 'M', 490),     // overrides off
+    passed(kMachines, 'M', 100),                                      // clamp
+    passed(kMachines, 'M', 110),                                      // unclamp
+    passed(kMachines, 'M', 190, CodeGroup::event, LetterSet("RPQ")),  // orient the spindle
+    passed(kRs274, 'M', 480),                                         // overrides on
+    passed(kRs274, 'M', 490),                                         // overrides off
+    passed(kLinuxcnc, 'M', 500, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 510, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 520, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 530, CodeGroup::event, LetterSet("P")),
+    modal(kRs274, 'M', 600, stop, StopKind::program_stop),
+    passed(kLinuxcnc, 'M', 620, CodeGroup::event, LetterSet("P")),  // outputs
+    passed(kLinuxcnc, 'M', 630, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 640, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 650, CodeGroup::event, LetterSet("P")),
+    passed(kLinuxcnc, 'M', 660, CodeGroup::event, LetterSet("PELQ")),  // wait on an input
+    passed(kLinuxcnc, 'M', 670, CodeGroup::event, LetterSet("EQ")),
+    passed(kLinuxcnc, 'M', 680, CodeGroup::event, LetterSet("EQ")),
+    modal(kLinuxcnc, 'M', 700, saved_modes, SavedModesWord::save),
+    modal(kLinuxcnc, 'M', 710, saved_modes, SavedModesWord::drop),
+    modal(kLinuxcnc, 'M', 720, saved_modes, SavedModesWord::restore),
+    modal(kLinuxcnc, 'M', 730, saved_modes, SavedModesWord::save_for_call),
     modal(kRs274, 'M', 980, subprogram, SubprogramWord::call, kCallWords),
     modal(kRs274, 'M', 990, subprogram, SubprogramWord::leave),
 
@@ -257,20 +296,18 @@ constexpr std::array kRefused{
     RefusedCode{kIso, 'G', 410, 429, "program the path of the tool centre and use G40"},
     RefusedCode{kFanuc, 'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
     RefusedCode{kLinuxcnc, 'G', 431, 439, "use G43 H, and M428 for tool-tip control"},
-    RefusedCode{kFanuc, 'G', 510, 529, "write the positions out, in G54 to G59"},
-    RefusedCode{kLinuxcnc, 'G', 520, 529, "write the positions out, in G54 to G59.3"},
+    RefusedCode{kFanuc, 'G', 510, 519, "write the positions out, in G54 to G59"},
     RefusedCode{kFanuc, 'G', 541, 549, "use G54 to G59"},
     RefusedCode{kFanuc, 'G', 591, 599, "use G54 to G59"},
     RefusedCode{kFanuc, 'G', 650, 669, "call subprograms with M98 P"},
-    RefusedCode{kFanuc, 'G', 680, 689,
+    RefusedCode{kFanuc, 'G', 681, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
-    RefusedCode{kRs274, 'G', 730, 769, "write the cycle out as G0 and G1 blocks"},
+    RefusedCode{kRs274, 'G', 750, 769, "write the cycle out as G0 and G1 blocks"},
     RefusedCode{kSinumerik, 'G', 740, 759, "move to the positions with SUPA and D0"},
-    RefusedCode{kRs274, 'G', 810, 899, "write the cycle out as G0 and G1 blocks"},
-    RefusedCode{kRs274, 'G', 920, 929, "use a work offset, G54 to G59"},
     RefusedCode{kSinumerik, 'G', 1100, 1129, "write positions in X, Y and Z"},
     RefusedCode{kSinumerik, 'G', 5070, 5990, "use G54 to G57, G505 and G506"},
-    RefusedCode{kIso, 'G', 960, 969, "give the spindle speed in revolutions per minute"},
+    RefusedCode{kLinuxcnc, 'G', 70, 70, "give X as a radius"},
+    RefusedCode{kSinumerik, 'G', 960, 969, "give the spindle speed in revolutions per minute"},
     RefusedCode{kLinuxcnc, 'M', 4300, 4300, "use M428 (tool tip) or M429 (axes)"},
     RefusedCode{kHeidenhain, 'M', 890, 899, "write the cycle out as L blocks"},
     RefusedCode{kHeidenhain, 'M', 920, 929, "use M91, the machine's own coordinates"},
@@ -420,13 +457,31 @@ std::string_view remedy_for(Dialect dialect, std::string_view word) {
   return {};
 }
 
-std::string known_codes(Dialect dialect, char letter) {
+std::string known_words(Dialect dialect) {
   std::string names;
   for (const Code& code : kCodes) {
-    if (code.letter != letter || (code.dialects & of(dialect)) == 0) continue;
+    if (code.letter != kNamedWord || (code.dialects & of(dialect)) == 0) continue;
     if (!names.empty()) names += ' ';
     names += code.name();
   }
+  return names;
+}
+
+std::string codes_near(Dialect dialect, char letter, double number) {
+  constexpr std::size_t kShown = 5;
+  std::vector<const Code*> codes;
+  for (const Code& code : kCodes) {
+    if (code.letter == letter && (code.dialects & of(dialect)) != 0) codes.push_back(&code);
+  }
+  const auto distance = [&](const Code* code) { return std::abs(code->tenths - 10.0 * number); };
+  std::sort(codes.begin(), codes.end(), [&](const Code* a, const Code* b) {
+    return std::pair(distance(a), a->tenths) < std::pair(distance(b), b->tenths);
+  });
+  codes.resize(std::min(codes.size(), kShown));
+  std::sort(codes.begin(), codes.end(),
+            [](const Code* a, const Code* b) { return a->tenths < b->tenths; });
+  std::string names;
+  for (const Code* code : codes) names += (names.empty() ? "" : " ") + code->name();
   return names;
 }
 

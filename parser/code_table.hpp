@@ -71,6 +71,9 @@ enum class CodeGroup : std::uint8_t {
   orientation_path,
   rotary_path,
   path_control,
+  retract,
+  speed_mode,
+  saved_modes,
   tool_change,
   spindle,
   coolant,
@@ -86,9 +89,14 @@ enum class NonModal : std::uint8_t {
   dwell,
   home,
   machine_coordinates,
-  align,  // the rotary axes to the normal of the tilted plane
-  pole,   // the centre of the arcs that follow
-  start   // where the tool is before the program moves it
+  align,           // the rotary axes to the normal of the tilted plane
+  pole,            // the centre of the arcs that follow
+  start,           // where the tool is before the program moves it
+  shift_to_place,  // G92: so that the tool is where the words say
+  shift,           // G52
+  shift_off,
+  shift_suspend,
+  shift_resume
 };
 enum class SubprogramWord : std::uint8_t { none, call, leave };
 // The last two leave the tool-tip switch as it is.
@@ -102,11 +110,15 @@ enum class LengthWord : std::uint8_t {
 };
 enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
+enum class SpeedWord : std::uint8_t { revolutions, surface };
+enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
+enum class RetractWord : std::uint8_t { initial, level };
 // Where the frame of a tilted plane comes from.
 enum class TiltWord : std::uint8_t {
   off,
   euler,    // shift X Y Z; turns I J K about Z, the new X, the new Z
   swivel,   // shift X Y Z; turns A B C in the order that Q names; shift u v w
+  turn,     // G68: about the centre X Y by R, in the plane
   spatial,  // turns A B C about the axes of the untilted X, Y, Z in this order
 };
 
@@ -132,7 +144,9 @@ struct Code {
 // there is no such code.
 [[nodiscard]] std::string_view remedy_for(Dialect dialect, char letter, double number);
 [[nodiscard]] std::string_view remedy_for(Dialect dialect, std::string_view word);
-// "G0 G1 G2 ...": all known codes of the letter.
-[[nodiscard]] std::string known_codes(Dialect dialect, char letter);
+// "TRAORI CYCLE800 ...": all known words.
+[[nodiscard]] std::string known_words(Dialect dialect);
+// "G73 G74 G80": the known codes of the letter that are nearest to a number.
+[[nodiscard]] std::string codes_near(Dialect dialect, char letter, double number);
 
 }  // namespace frustum::parser

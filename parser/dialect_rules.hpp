@@ -9,6 +9,7 @@
 
 #include "parser/code_table.hpp"
 #include "parser/dialect.hpp"
+#include "parser/parameters.hpp"
 
 namespace frustum::parser {
 
@@ -26,6 +27,15 @@ struct DwellWord {
 struct LetterUse {
   char letter;
   std::string_view use;
+};
+
+// How canned cycles differ.
+struct CycleRules {
+  bool retract_to_initial = true;            // before the first G98 or G99
+  bool words_end_with_their_g_word = false;  // G83 behind G81 needs its own R and Z
+  bool feed_out_to_clearance = false;        // taps and G89 leave by feed all the way
+  // Each block begins at the depth before the first hole: with G98 the move to the next hole goes up there.
+  bool start_from_initial = false;
 };
 
 struct DialectRules {
@@ -46,6 +56,11 @@ struct DialectRules {
   LetterSet always_claimed;  // words that have a meaning in every block
   std::span<const LetterUse> letters;
   std::string_view known_letters;
+  ParameterRules parameters{};
+  CycleRules cycles{};
+  LetterSet polar_words{};
+  // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
+  std::span<const std::string_view> file_names{};
 };
 
 [[nodiscard]] const DialectRules& rules_of(Dialect dialect);

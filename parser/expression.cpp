@@ -58,6 +58,10 @@ double modulo(double a, double b) {
   return rest < 0.0 ? rest + std::abs(b) : rest;
 }
 
+// RS-274 compares within this.
+constexpr double kSame = 1e-4;
+bool same(double a, double b) { return std::abs(a - b) < kSame; }
+
 double apply(Operation operation, double a, double b) {
   switch (operation) {
     case Operation::negate:
@@ -74,6 +78,24 @@ double apply(Operation operation, double a, double b) {
       return std::pow(a, b);
     case Operation::modulo:
       return modulo(a, b);
+    case Operation::equal:
+      return same(a, b) ? 1.0 : 0.0;
+    case Operation::not_equal:
+      return same(a, b) ? 0.0 : 1.0;
+    case Operation::greater:
+      return a > b ? 1.0 : 0.0;
+    case Operation::greater_or_equal:
+      return a >= b ? 1.0 : 0.0;
+    case Operation::less:
+      return a < b ? 1.0 : 0.0;
+    case Operation::less_or_equal:
+      return a <= b ? 1.0 : 0.0;
+    case Operation::logical_and:
+      return a != 0.0 && b != 0.0 ? 1.0 : 0.0;
+    case Operation::logical_or:
+      return a != 0.0 || b != 0.0 ? 1.0 : 0.0;
+    case Operation::logical_xor:
+      return (a != 0.0) != (b != 0.0) ? 1.0 : 0.0;
     case Operation::sine:
       return std::sin(a * kRadPerDeg);
     case Operation::cosine:
@@ -103,13 +125,14 @@ double apply(Operation operation, double a, double b) {
     case Operation::number:
     case Operation::parameter:
     case Operation::named_parameter:
+    case Operation::exists:
       break;
   }
   return a;
 }
 
 constexpr bool takes_two(Operation operation) {
-  return (operation >= Operation::add && operation <= Operation::modulo) ||
+  return (operation >= Operation::add && operation <= Operation::logical_xor) ||
          operation == Operation::arc_tangent;
 }
 
@@ -119,7 +142,8 @@ Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
 }
 
 const char* operator_text(Operation operation) {
-  constexpr std::array kText{"+", "-", "*", "/", "**", " MOD "};
+  constexpr std::array kText{"+",    "-",    "*",    "/",    "**",    " MOD ", " EQ ", " NE ",
+                             " GT ", " GE ", " LT ", " LE ", " AND ", " OR ",  " XOR "};
   return kText.at(static_cast<std::size_t>(operation) - static_cast<std::size_t>(Operation::add));
 }
 
@@ -135,8 +159,9 @@ std::string function_text(Operation operation, const std::string& argument) {
 std::span<const FunctionName> function_names() { return kFunctions; }
 
 Result<double> evaluate(const ExpressionContext& context, ExpressionRange range) {
-  // Each open bracket holds at most four pending operands: of ATAN, a sum, a product, a power.
-  std::array<double, 4 * (kMaxExpressionDepth + 2)> stack;  // NOLINT: written before it is read
+  // Each open bracket holds at most six pending operands: of ATAN, a logical term, a comparison, a
+  // sum, a product, a power.
+  std::array<double, 6 * (kMaxExpressionDepth + 2)> stack;  // NOLINT: written before it is read
   std::size_t top = 0;
   for (const ExpressionStep& step : context.steps.subspan(range.first, range.count)) {
     if (step.operation == Operation::number) {
@@ -147,6 +172,11 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
       auto value = context.parameters.read(context.names[static_cast<std::size_t>(step.number)]);
       if (!value) return at_column(value.error().front(), step.column);
       stack[top++] = *value;
+      continue;
+    }
+    if (step.operation == Operation::exists) {
+      const bool set = context.parameters.has(context.names[static_cast<std::size_t>(step.number)]);
+      stack[top++] = set ? 1.0 : 0.0;
       continue;
     }
     if (step.operation == Operation::parameter) {
@@ -181,6 +211,10 @@ std::string to_text(std::span<const ExpressionStep> steps, std::span<const std::
     }
     if (step.operation == Operation::named_parameter) {
       stack.push_back(fmt::format("#<{}>", names[static_cast<std::size_t>(step.number)]));
+      continue;
+    }
+    if (step.operation == Operation::exists) {
+      stack.push_back(fmt::format("EXISTS[#<{}>]", names[static_cast<std::size_t>(step.number)]));
       continue;
     }
     std::string right;

@@ -22,6 +22,7 @@ enum class Operation : std::uint8_t {
   number,
   parameter,        // takes the number of the parameter
   named_parameter,  // `number` of the step is the index of the name
+  exists,           // 1 when the named parameter is set, else 0
   negate,
   add,
   subtract,
@@ -29,6 +30,15 @@ enum class Operation : std::uint8_t {
   divide,
   power,
   modulo,
+  equal,  // 1 or 0; within 1e-4, as RS-274 compares
+  not_equal,
+  greater,
+  greater_or_equal,
+  less,
+  less_or_equal,
+  logical_and,
+  logical_or,
+  logical_xor,
   sine,
   cosine,
   tangent,

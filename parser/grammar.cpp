@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <functional>
+#include <optional>
 
 #include "parser/comment_text.hpp"
 #include "parser/syntax_error.hpp"
@@ -19,6 +20,13 @@ using Iterator = const char*;
 // Room for the words of most blocks, so that they are allocated once.
 constexpr std::size_t kUsualWords = 8;
 
+// The polar words have no letter of their own.
+char letter_of(char written) {
+  if (written == '@') return kPolarRadius;
+  if (written == '^') return kPolarAngle;
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(written)));
+}
+
 // Thrown by actions for what the shape of the text alone cannot tell; never leaves this file.
 struct SyntaxStop {
   Diagnostic diagnostic;
@@ -29,8 +37,14 @@ struct SyntaxStop {
 class BlockBuilder {
  public:
   BlockBuilder(std::string_view text, std::uint32_t line) : text_(text) { block_.line = line; }
+  // Goes on with a block.
+  BlockBuilder(std::string_view text, Block&& block) : text_(text), block_(std::move(block)) {}
 
   Block take() { return std::move(block_); }
+
+  [[nodiscard]] std::uint32_t first_step() const {
+    return static_cast<std::uint32_t>(block_.steps.size());
+  }
 
   void set_tape_mark() { block_.tape_mark = true; }
   void set_deletable() { block_.deletable = true; }
@@ -45,9 +59,12 @@ class BlockBuilder {
   void begin_program(Iterator after) { opening_word_column_ = column_of(after - 1); }
 
   void begin_word(Iterator after) {
-    const auto letter = static_cast<char>(std::toupper(static_cast<unsigned char>(after[-1])));
+    const auto letter = letter_of(after[-1]);
     if (block_.words.empty()) block_.words.reserve(kUsualWords);
     block_.words.push_back({letter, false, column_of(after - 1), 0.0, {first_step(), 0}});
+    if (letter == kPolarRadius || letter == kPolarAngle) {
+      block_.words.back().spelled = letter == kPolarRadius ? "@" : "^";
+    }
     in_word_ = true;
   }
   void end_word() {
@@ -111,6 +128,9 @@ class BlockBuilder {
   }
   void emit_named(std::string_view name) {
     pending_.back().operation = Operation::named_parameter;
+    emit_existence(name);
+  }
+  void emit_existence(std::string_view name) {
     pending_.back().number = add_name(name);
     emit();
   }
@@ -162,9 +182,6 @@ class BlockBuilder {
   }
   [[nodiscard]] std::uint32_t column_of(Iterator where) const {
     return static_cast<std::uint32_t>(offset_of(where)) + 1;
-  }
-  [[nodiscard]] std::uint32_t first_step() const {
-    return static_cast<std::uint32_t>(block_.steps.size());
   }
   void push(const ExpressionStep& step) { block_.steps.push_back(step); }
 
@@ -248,12 +265,15 @@ const auto kBlank = x3::char_(" \t\r");
 const x3::rule<struct ValueRule> value = "value";
 const x3::rule<struct PositiveRule> positive_value = "value";
 const x3::rule<struct NegativeRule> negative_value = "value";
+const x3::rule<struct LogicRule> logic = "value";
+const x3::rule<struct RelationRule> relation = "value";
 const x3::rule<struct SumRule> sum = "value";
 const x3::rule<struct ProductRule> product = "value";
 const x3::rule<struct PowerRule> power = "value";
 const x3::rule<struct PrimaryRule> primary = "value";
 const x3::rule<struct ParameterRule> parameter = "parameter";
 const x3::rule<struct IndexRule> parameter_index = "parameter";
+const x3::rule<struct NameBeginRule> name_begin = "parameter";
 const x3::rule<struct NameEndRule> name_end = "parameter name";
 const x3::rule<struct OpeningRule> opening = "opening bracket";
 const x3::rule<struct ClosingRule> closing = "closing bracket";
@@ -269,13 +289,14 @@ const x3::rule<struct BlockEndRule> block_end = "end of block";
 
 const auto opening_def = x3::lit('[')[after([](BlockBuilder& b, Iterator end) { b.open(end); })];
 const auto closing_def = x3::lit(']')[then([](BlockBuilder& b) { b.close(); })];
-const auto bracketed_def = opening > sum > closing;
+const auto bracketed_def = opening > logic > closing;
 
 const auto kPushNumber = token([](BlockBuilder& b, std::string_view t) { b.push_number(t, 1.0); });
 const auto kPushNegative =
     token([](BlockBuilder& b, std::string_view t) { b.push_number(t, -1.0); });
 
 const auto kName = x3::raw[*(x3::char_ - '>')];
+const auto name_begin_def = x3::lit('#') >> '<';
 const auto name_end_def = x3::lit('>');
 // # pends the reading of a parameter; its name or its index completes it.
 const auto parameter_index_def =
@@ -288,14 +309,19 @@ const auto parameter_def = (x3::lit('#')[after([](BlockBuilder& b, Iterator end)
                             })] > parameter_index)[then([](BlockBuilder& b) { b.close(); })];
 
 const auto argument_separator_def = x3::lit('/');
-const auto second_argument_def = (',' > sum > closing) | (closing > argument_separator > bracketed);
-const auto kArcTangent =
-    (x3::no_case["atan"][pend(Operation::arc_tangent, 4)] > opening > sum > second_argument)[kEmit];
+const auto second_argument_def =
+    (',' > logic > closing) | (closing > argument_separator > bracketed);
+const auto kArcTangent = (x3::no_case["atan"][pend(Operation::arc_tangent, 4)] > opening > logic >
+                          second_argument)[kEmit];
 const auto kPendFunction = [](const auto& context) {
   x3::get<BuilderTag>(context).get().pend_function(x3::_attr(context), x3::_where(context).begin());
 };
 const auto kFunction = (x3::no_case[kFunctionTable][kPendFunction] > bracketed)[kEmit];
-const auto primary_def = parameter | bracketed | kArcTangent | kFunction;
+const auto kExists =
+    x3::no_case["exists"][pend(Operation::exists, 6)] > opening > name_begin >
+    kName[token([](BlockBuilder& b, std::string_view name) { b.emit_existence(name); })] >
+    name_end > closing;
+const auto primary_def = parameter | bracketed | kArcTangent | kExists | kFunction;
 
 const auto negative_value_def =
     kNumber[kPushNegative] |
@@ -311,8 +337,21 @@ const auto product_def = power >>
 const auto sum_def = product >> *(((x3::lit('+')[pend(Operation::add, 1)] |
                                     x3::lit('-')[pend(Operation::subtract, 1)]) > product)[kEmit]);
 
+// Operators of one level, spelled as words.
+const auto kRelations = (x3::no_case["eq"][pend(Operation::equal, 2)]) |
+                        (x3::no_case["ne"][pend(Operation::not_equal, 2)]) |
+                        (x3::no_case["gt"][pend(Operation::greater, 2)]) |
+                        (x3::no_case["ge"][pend(Operation::greater_or_equal, 2)]) |
+                        (x3::no_case["lt"][pend(Operation::less, 2)]) |
+                        (x3::no_case["le"][pend(Operation::less_or_equal, 2)]);
+const auto kLogic = (x3::no_case["and"][pend(Operation::logical_and, 3)]) |
+                    (x3::no_case["or"][pend(Operation::logical_or, 2)]) |
+                    (x3::no_case["xor"][pend(Operation::logical_xor, 3)]);
+const auto relation_def = sum >> *((kRelations > sum)[kEmit]);
+const auto logic_def = relation >> *((kLogic > relation)[kEmit]);
+
 const auto kWord =
-    (x3::char_("a-mp-zA-MP-Z")[after([](BlockBuilder& b, Iterator end) { b.begin_word(end); })] >
+    (x3::char_("a-mp-zA-MP-Z@^")[after([](BlockBuilder& b, Iterator end) { b.begin_word(end); })] >
      value)[then([](BlockBuilder& b) { b.end_word(); })];
 
 const auto setting_target_def =
@@ -322,7 +361,7 @@ const auto setting_target_def =
 const auto equals_def = x3::lit('=')[then([](BlockBuilder& b) { b.end_setting_index(); })];
 const auto kSetting =
     (x3::lit('#')[after([](BlockBuilder& b, Iterator end) { b.begin_setting(end); })] >
-     setting_target > equals > sum)[then([](BlockBuilder& b) { b.end_setting(); })];
+     setting_target > equals > logic)[then([](BlockBuilder& b) { b.end_setting(); })];
 
 const auto kCommentText = token([](BlockBuilder& b, std::string_view t) { b.end_comment_text(t); });
 const auto comment_end_def = x3::lit(')')[then([](BlockBuilder& b) { b.end_comment(); })];
@@ -346,10 +385,10 @@ const auto kBlock =
     ((kTapeMark >> *kComment) | (-kDelete >> -((x3::no_case['n'] > block_number) >> -kDelete) >>
                                  *(kWord | kComment | kSetting | kProgram))) > block_end;
 
-BOOST_SPIRIT_DEFINE(value, positive_value, negative_value, sum, product, power, primary, parameter,
-                    parameter_index, name_end, opening, closing, bracketed, second_argument,
-                    argument_separator, equals, setting_target, comment_end, block_number,
-                    program_number, block_end)
+BOOST_SPIRIT_DEFINE(value, positive_value, negative_value, logic, relation, sum, product, power,
+                    primary, parameter, parameter_index, name_begin, name_end, opening, closing,
+                    bracketed, second_argument, argument_separator, equals, setting_target,
+                    comment_end, block_number, program_number, block_end)
 
 Diagnostic on_line(Diagnostic diagnostic, std::uint32_t line) {
   diagnostic.line = static_cast<int>(line);
@@ -370,6 +409,27 @@ Result<Block> parse_block(std::string_view text, std::uint32_t line) {
     return on_line(stop.diagnostic, line);
   }
   return builder.take();
+}
+
+std::optional<Diagnostic> append_expression(std::string_view text, std::size_t& offset,
+                                            Block& block, ExpressionRange& range) {
+  BlockBuilder builder(text, std::move(block));
+  Iterator first = text.data() + offset;
+  const Iterator last = text.data() + text.size();
+  std::optional<Diagnostic> failure;
+  try {
+    range.first = builder.first_step();
+    x3::phrase_parse(first, last, x3::with<BuilderTag>(std::ref(builder))[x3::eps > value], kBlank);
+    range.count = builder.first_step() - range.first;
+  } catch (const x3::expectation_failure<Iterator>& stopped) {
+    failure = builder.failure(stopped.where(), stopped.which());
+  } catch (const SyntaxStop& stopped) {
+    failure = stopped.diagnostic;
+  }
+  offset = static_cast<std::size_t>(first - text.data());
+  block = builder.take();
+  if (failure) failure->line = static_cast<int>(block.line);
+  return failure;
 }
 
 }  // namespace frustum::parser

@@ -3,14 +3,17 @@
 //   block      = "%" { comment }
 //              | [ "/" ] [ N digits ] [ "/" ] { word | setting | comment | O digits }
 //   word       = letter value
-//   setting    = parameter "=" sum
-//   value      = [ sign ] ( number | parameter | function | "[" sum "]" )
+//   setting    = parameter "=" logic
+//   value      = [ sign ] ( number | parameter | function | "[" logic "]" )
+//   logic      = relation { ( "AND" | "OR" | "XOR" ) relation }
+//   relation   = sum { ( "EQ" | "NE" | "GT" | "GE" | "LT" | "LE" ) sum }
 //   sum        = product { ( "+" | "-" ) product }
 //   product    = power { ( "*" | "/" | "MOD" ) power }
 //   power      = value { "**" value }
-//   parameter  = "#" ( digits | "<" name ">" | "[" sum "]" | parameter )
-//   function   = name "[" sum "]"
-//              | "ATAN" "[" sum "]" "/" "[" sum "]" | "ATAN" "[" sum "," sum "]"
+//   parameter  = "#" ( digits | "<" name ">" | "[" logic "]" | parameter )
+//   function   = name "[" logic "]"
+//              | "EXISTS" "[" "#" "<" name ">" "]"
+//              | "ATAN" "[" logic "]" "/" "[" logic "]" | "ATAN" "[" logic "," logic "]"
 //   comment    = "(" text ")" | ";" text
 //
 // Letters may be of either case; blanks (space, tab, carriage return) may stand between any two
@@ -21,6 +24,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "core/result.hpp"
@@ -30,5 +34,10 @@ namespace frustum::parser {
 
 // `text` is one line without its line feed.
 [[nodiscard]] Result<Block> parse_block(std::string_view text, std::uint32_t line);
+
+// One `value` of the text from `offset` on, put behind the steps of the block; `offset` moves behind it.
+[[nodiscard]] std::optional<Diagnostic> append_expression(std::string_view text,
+                                                          std::size_t& offset, Block& block,
+                                                          ExpressionRange& range);
 
 }  // namespace frustum::parser

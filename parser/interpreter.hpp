@@ -1,6 +1,6 @@
 // Runs a program: its blocks in order, subprograms and their repeats, into a stream of motions.
 //
-// Start    : the state of ModalState's defaults; no axis position is known, no tool is in the
+// Start    : the state of ModalState's defaults; no axis position is known but by `start`, no tool is in the
 //            spindle. A motion's target holds only axes the program has placed; an absent axis
 //            stays where it is.
 // End      : M2, M30, the tape mark at the end, or the end of the text. What follows is not run.
@@ -9,11 +9,14 @@
 // M98      : P names the subprogram, L repeats it; without L, P with more than four digits is
 //            repeats and number together (P00032000 is O2000 three times).
 // /        : blocks that begin with it run, unless `block_delete` is on.
+// Flow     : flow.hpp. What counts is what runs: blocks that are passed over are read for their flow
+//            statements alone.
 // Errors   : the first block that cannot be run ends the run with its diagnostic; the motions
-//            before it have reached the sink already.
+//            before it have reached the sink already. A syntax error brings those of the rest of the text.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -28,8 +31,12 @@ namespace frustum::parser {
 struct InterpreterOptions {
   // The operator's switch: on, blocks that begin with / are left out (and reported as events).
   bool block_delete = false;
+  // Where the axes stand at the start, in program coordinates, as far as it is known (mm, rad).
+  AxisTarget start{};
   // Subprograms within subprograms.
   std::size_t max_call_depth = 32;
+  // Folders with subprograms of their own file, in this order.
+  std::vector<std::filesystem::path> search_path{};
   // A program that runs more blocks than this, by repeats within repeats, is taken for a mistake.
   std::uint64_t max_blocks = 100'000'000;
 };

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "parser/motion.hpp"
+#include "parser/word_frame.hpp"
 
 namespace frustum::parser {
 
@@ -18,7 +19,19 @@ enum class MotionMode : std::uint8_t {
   traverse,
   linear,
   arc_clockwise,
-  arc_counterclockwise
+  arc_counterclockwise,
+  // The canned cycles: canned_cycle.hpp.
+  peck_short,
+  tap_left,
+  drill,
+  drill_dwell,
+  peck,
+  tap,
+  bore,
+  bore_stop,
+  bore_back,
+  bore_manual,
+  bore_dwell
 };
 enum class DistanceMode : std::uint8_t { absolute, incremental };
 // G70 of Sinumerik leaves feeds in mm.
@@ -45,6 +58,19 @@ struct FeedWord {
   double scaled = 0.0;  // in mm/min when per minute
 };
 
+// The words of the canned cycle at work, in mm and seconds as the program's distance mode counts them.
+struct CannedCycle {
+  MotionMode last = MotionMode::none;
+  double initial = 0.0;  // depth before the first hole
+  std::optional<double> level{};
+  std::optional<double> bottom{};
+  std::optional<double> peck{};
+  std::optional<double> dwell{};
+  std::optional<double> shift_u{};
+  std::optional<double> shift_v{};
+  std::optional<double> back{};
+};
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   Plane plane = Plane::xy;
@@ -63,9 +89,14 @@ struct ModalState {
   // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
   std::array<bool, 3> loose{};
   bool tilted = false;
-  std::optional<Vec3> pole{};  // CC
+  WordFrame word_frame{};
+  std::optional<WordFrame> suspended_shift{};  // G92.2
+  std::optional<Vec3> pole{};                  // CC
+  std::optional<CannedCycle> cycle{};
+  bool retract_to_initial = true;  // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;
   double spindle_speed = 0.0;
+  bool surface_speed = false;  // G96: S is a cutting speed, which the spindle follows
   bool flood = false;
   std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
 

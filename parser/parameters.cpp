@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "parser/expression.hpp"
+#include "parser/system_parameters.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -34,8 +35,13 @@ Result<int> Parameters::index_of(double number) {
 Result<double> Parameters::read(double number) const {
   auto index = index_of(number);
   if (!index) return std::move(index).error();
-  const auto found = numbered_.find(*index);
-  if (found == numbered_.end()) {
+  if (system_ != nullptr) {
+    if (const auto kept = system_->number(*index)) return *kept;
+  }
+  const Numbered& all = numbered(*index);
+  const auto found = all.find(*index);
+  if (found == all.end()) {
+    if (rules_.unset_is_zero) return 0.0;
     return error(fmt::format("parameter #{} has no value", *index),
                  fmt::format("set it on an earlier block: #{}=...", *index));
   }
@@ -43,13 +49,30 @@ Result<double> Parameters::read(double number) const {
 }
 
 Result<double> Parameters::read(std::string_view name) const {
-  const auto found = named_.find(name);
-  if (found == named_.end()) {
+  const Named& all = named(name);
+  const auto found = all.find(name);
+  if (found == all.end() && system_ != nullptr) {
+    if (const auto kept = system_->named(name)) return *kept;
+  }
+  if (found == all.end()) {
     const std::string spelled = spelling_of(name);
     return error(fmt::format("parameter {} has no value", spelled),
                  fmt::format("set it on an earlier block: {}=...", spelled));
   }
   return found->second;
 }
+
+bool Parameters::has(std::string_view name) const {
+  return named(name).contains(name) || (system_ != nullptr && system_->named(name));
+}
+
+void Parameters::enter(std::span<const double> arguments) {
+  locals_.emplace_back();
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    locals_.back().numbered[static_cast<int>(i) + 1] = arguments[i];
+  }
+}
+
+void Parameters::leave() { locals_.pop_back(); }
 
 }  // namespace frustum::parser

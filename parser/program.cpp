@@ -2,81 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <span>
+#include <map>
+#include <utility>
 
-#include "parser/block_reader.hpp"
+#include "parser/block_cursor.hpp"
 
 namespace frustum::parser {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-char line_end_of(std::string_view text) {
-  return text.find('\n') == std::string_view::npos ? '\r' : '\n';
-}
-
-// Cuts the text into the lines of one block at a time.
-class LineSource {
- public:
-  struct Lines {
-    std::string_view text;  // of one line, or of several joined by line feeds
-    std::uint32_t first_line = 0;
-    std::vector<std::uint32_t> line_starts{};
-  };
-
-  LineSource(std::string_view text, Dialect dialect)
-      : rest_(text), dialect_(dialect), line_end_(line_end_of(text)) {}
-
-  [[nodiscard]] bool at_end() const { return rest_.empty(); }
-
-  Lines next() {
-    Lines lines{next_line(), line_, {}};
-    std::size_t mark = continuation_mark(lines.text, dialect_);
-    if (mark == std::string_view::npos) return lines;
-    joined_ = lines.text;
-    while (mark != std::string_view::npos && !at_end()) {
-      const std::size_t start = joined_.size() - lines.text.size();
-      // What follows the mark on its line is a remark.
-      std::fill(joined_.begin() + static_cast<std::ptrdiff_t>(start + mark), joined_.end(), ' ');
-      joined_ += '\n';
-      lines.line_starts.push_back(static_cast<std::uint32_t>(joined_.size()));
-      lines.text = next_line();
-      joined_ += lines.text;
-      mark = continuation_mark(lines.text, dialect_);
-    }
-    lines.text = joined_;
-    return lines;
-  }
-
- private:
-  std::string_view next_line() {
-    const std::size_t end = std::min(rest_.find(line_end_), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++line_;
-    return line;
-  }
-
-  std::string_view rest_;
-  Dialect dialect_;
-  char line_end_;
-  std::uint32_t line_ = 0;
-  std::string joined_{};
-};
-
-// Notes where the program numbers of `block` begin; the diagnostic when it began before.
-Diagnostics add_entry(Program& program, const Block& block, std::size_t index) {
-  if (!block.program) return {};
-  const auto [entry, fresh] = program.entries.emplace(*block.program, index);
-  if (fresh) return {};
-  Diagnostic diagnostic = error(fmt::format("program O{} is already on line {}", *block.program,
-                                            program.blocks[entry->second].line),
-                                "give each program of the file its own number");
-  diagnostic.line = static_cast<int>(block.line);
-  diagnostic.column = static_cast<int>(block.program_column);
-  return {std::move(diagnostic)};
+Diagnostic second_program(const Program& program, const Block& block, std::uint32_t first_line) {
+  Diagnostic twice =
+      error(fmt::format("program O{} is already on line {}", *block.program, first_line),
+            "give each program of the file its own number");
+  twice.file = program.file;
+  twice.line = static_cast<int>(block.line);
+  twice.column = static_cast<int>(block.program_column);
+  return twice;
 }
 
 std::string value_text(const Block& block, ExpressionRange range) {
@@ -99,37 +40,53 @@ std::string setting_text(const Block& block, const Assignment& setting) {
 }  // namespace
 
 Result<Program> parse_program(std::string_view text, std::string file, Dialect dialect) {
-  Program program;
-  program.dialect = dialect;
-  program.file = std::move(file);
-  Diagnostics failures;
-  const auto fail = [&](Diagnostic diagnostic) {
-    diagnostic.file = program.file;
-    failures.push_back(std::move(diagnostic));
-  };
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  const BlockReader read = reader_of(dialect);
-  LineSource source(text, dialect);
-  while (!source.at_end() && failures.size() < kMaxSyntaxErrors) {
-    const auto lines = source.next();
-    auto block = read(lines.text, lines.first_line);
-    if (!block) {
-      fail(std::move(block).error().front());
-      continue;
-    }
-    if (block->empty()) continue;
-    block->line_starts = lines.line_starts;
-    for (Diagnostic& twice : add_entry(program, *block, program.blocks.size()))
-      fail(std::move(twice));
-    program.blocks.push_back(*std::move(block));
-  }
-  if (failures.size() == kMaxSyntaxErrors && !source.at_end()) {
-    fail(error(fmt::format("more than {} syntax errors; the rest of the file was not read",
-                           kMaxSyntaxErrors - 1),
-               "is this an NC program?"));
-  }
+  Program program{std::move(file), dialect, ProgramText(std::string(text))};
+  Diagnostics failures = syntax_errors(program);
   if (!failures.empty()) return failures;
   return program;
+}
+
+Result<Program> open_program(const std::filesystem::path& file, Dialect dialect) {
+  return ProgramText::open(file).transform([&](ProgramText text) {
+    return Program{file.string(), dialect, std::move(text)};
+  });
+}
+
+Diagnostics syntax_errors(const Program& program, TextPlace start) {
+  Diagnostics failures;
+  std::map<std::uint32_t, std::uint32_t> line_of_program;
+  BlockCursor cursor(program);
+  if (start.offset != 0) cursor.go_to(start);
+  while (failures.size() < kMaxSyntaxErrors) {
+    auto block = cursor.next();
+    if (!block) {
+      failures.push_back(std::move(block).error().front());
+      continue;
+    }
+    if (*block == nullptr) return failures;
+    if (!(*block)->program) continue;
+    const auto [entry, fresh] = line_of_program.emplace(*(*block)->program, (*block)->line);
+    if (!fresh) failures.push_back(second_program(program, **block, entry->second));
+  }
+  if (cursor.at_end()) return failures;
+  Diagnostic more =
+      error(fmt::format("more than {} syntax errors; the rest of the file was not read",
+                        kMaxSyntaxErrors - 1),
+            "is this an NC program?");
+  more.file = program.file;
+  failures.push_back(std::move(more));
+  return failures;
+}
+
+std::vector<Block> blocks_of(const Program& program) {
+  std::vector<Block> blocks;
+  BlockCursor cursor(program);
+  while (true) {
+    const auto block = cursor.next();
+    if (!block) continue;
+    if (*block == nullptr) return blocks;
+    blocks.push_back(**block);
+  }
 }
 
 std::string to_text(const Block& block) {
@@ -148,9 +105,9 @@ std::string to_text(const Block& block) {
   return text;
 }
 
-std::string to_text(const Program& program) {
+std::string to_text(std::span<const Block> blocks) {
   std::string text;
-  for (const Block& block : program.blocks) text += to_text(block) + '\n';
+  for (const Block& block : blocks) text += to_text(block) + '\n';
   return text;
 }
 

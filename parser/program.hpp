@@ -1,4 +1,5 @@
-// An NC program: its blocks in file order, and where its subprograms begin.
+// An NC program: its text and the language it is written in. Its blocks are read as they are run, so that a
+// program may be larger than memory.
 //
 //   %                      tape mark: nothing before the program, end of it after
 //   O1000 (main)           the first program of the file is the main one, its O word may be missing
@@ -6,15 +7,15 @@
 //   M30
 //   O2000 (subprogram)     called by M98 P2000, ends with M99
 //
-// Lines end with LF, CRLF, or (when the file has no LF at all) CR. A byte order mark is skipped.
 // Units: as written.
-// Errors: all syntax errors of the file, one a block, up to kMaxSyntaxErrors; a program number that
-// occurs twice.
+// Errors: parse_program and syntax_errors: all syntax errors of the text, one a block, up to
+// kMaxSyntaxErrors; a program number that occurs twice. open_program: a file that cannot be read.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <map>
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "core/result.hpp"
 #include "parser/block.hpp"
 #include "parser/dialect.hpp"
+#include "parser/program_text.hpp"
 
 namespace frustum::parser {
 
@@ -30,15 +32,22 @@ constexpr std::size_t kMaxSyntaxErrors = 100;
 struct Program {
   std::string file{};  // names the program in diagnostics
   Dialect dialect = Dialect::fanuc;
-  std::vector<Block> blocks{};                     // blank lines left out
-  std::map<std::uint32_t, std::size_t> entries{};  // O number -> index of its first block
+  ProgramText text{};
 };
 
+// A text that is in memory, with its syntax checked.
 [[nodiscard]] Result<Program> parse_program(std::string_view text, std::string file,
                                             Dialect dialect = Dialect::fanuc);
+// A file of any size, whose syntax is checked as it runs.
+[[nodiscard]] Result<Program> open_program(const std::filesystem::path& file, Dialect dialect);
 
-// The block and the program as NC text: reading it again gives the same blocks (places aside).
+// From `start` on. The whole text is read once.
+[[nodiscard]] Diagnostics syntax_errors(const Program& program, TextPlace start = {});
+// All blocks in file order; blank lines and those with a syntax error left out.
+[[nodiscard]] std::vector<Block> blocks_of(const Program& program);
+
+// Blocks as NC text: reading it again gives the same blocks (places aside).
 [[nodiscard]] std::string to_text(const Block& block);
-[[nodiscard]] std::string to_text(const Program& program);
+[[nodiscard]] std::string to_text(std::span<const Block> blocks);
 
 }  // namespace frustum::parser

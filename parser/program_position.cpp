@@ -11,7 +11,8 @@ constexpr std::array kLossTexts{"",
                                 "the change of work offset",
                                 "the change of tool length compensation",
                                 "the tool vector",
-                                "the change of the tilted plane"};
+                                "the change of the tilted plane",
+                                "the turn of the frame"};
 
 }  // namespace
 

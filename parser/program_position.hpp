@@ -27,10 +27,13 @@ enum class PositionLoss : std::uint8_t {
   length_compensation,
   tool_vector,  // I J K moved the rotary axes
   tilted_plane,
+  turned_frame,  // G68
 };
 
 class ProgramPosition {
  public:
+  explicit ProgramPosition(const AxisTarget& start = {}) : target_(start) {}
+
   // All known axes: what a motion's target carries.
   [[nodiscard]] const AxisTarget& target() const { return target_; }
   [[nodiscard]] const std::optional<double>& operator[](AxisLetter axis) const {

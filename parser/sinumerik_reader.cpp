@@ -222,8 +222,7 @@ class SinumerikReader {
                "leave labels out; blocks run in their order");
       return;
     }
-    in_.fail(column, "unknown word " + name,
-             "known are " + known_codes(Dialect::sinumerik, kNamedWord));
+    in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
   }
 
   // NAME(...), kept as text.

@@ -103,7 +103,8 @@ TEST(Architecture, FoldersOfMetrologyPointDown) {
       for (const Include& include : includes_of(file)) {
         if (!include.quoted || room_of(include.target) != "metrology") continue;
         EXPECT_TRUE(below.contains(room_of(include.target.substr(prefix.size()))))
-            << file << ":" << include.line << ": " << folder << "/ may not include " << include.target;
+            << file << ":" << include.line << ": " << folder << "/ may not include "
+            << include.target;
       }
     }
   }

@@ -68,13 +68,12 @@ TEST(Complaint19, UnknownWordsAreErrorsWithLineAndWord) {
 }
 
 TEST(Complaint19, KnownWordsThatAreNotSimulatedBecomeEvents) {
-  const auto events =
-      all_of<Event>(motions("G61\nG64 P0.01 Q0.02\nG5.1 Q1\nG8 P1\nM7\nM10\nG97\n"));
+  const auto events = all_of<Event>(motions("G61\nG64 P0.01 Q0.02\nG5.1 Q1\nG8 P1\nM7\nM10\n"));
   std::vector<std::string> seen;
   seen.reserve(events.size());
   for (const Event& event : events) seen.push_back(event.name + "|" + event.text);
   EXPECT_EQ(seen, (std::vector<std::string>{"G61|", "G64|P0.01 Q0.02", "G5.1|Q1", "G8|P1", "M7|",
-                                            "M10|", "G97|"}));
+                                            "M10|"}));
 }
 
 TEST(BadPrograms, KeepTheMotionsBeforeTheError) {

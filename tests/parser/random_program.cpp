@@ -151,15 +151,15 @@ double Dice::number() {
   return sign * value + 0.0;
 }
 
-Program random_program(std::uint64_t seed) {
+std::vector<Block> random_blocks(std::uint64_t seed) {
   Dice dice(seed);
-  Program program;
+  std::vector<Block> blocks;
   std::uint32_t line = 0;
   for (std::size_t i = dice.below(12); i > 0; --i) {
     Block block = random_block(dice, ++line);
-    if (!block.empty()) program.blocks.push_back(std::move(block));
+    if (!block.empty()) blocks.push_back(std::move(block));
   }
-  return program;
+  return blocks;
 }
 
 bool same_block(const Block& a, const Block& b) {

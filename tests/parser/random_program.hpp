@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "parser/program.hpp"
 
@@ -28,7 +29,7 @@ class Dice {
   std::uint64_t index_ = 0;
 };
 
-[[nodiscard]] Program random_program(std::uint64_t seed);
+[[nodiscard]] std::vector<Block> random_blocks(std::uint64_t seed);
 
 // Equal but for columns, and for how names and expressions are numbered.
 [[nodiscard]] bool same_block(const Block& a, const Block& b);

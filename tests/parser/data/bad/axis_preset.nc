@@ -1,2 +1,2 @@
-; 2:1: error: G92 is not simulated (hint: use a work offset, G54 to G59)
+; 2:5: error: G92 says where X is, but X has not been programmed yet (hint: move X with G0 or G1 before)
 G92 X0

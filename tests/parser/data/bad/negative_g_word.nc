@@ -1,2 +1,2 @@
-; 2:1: error: unknown word G-1 (hint: known are G0 G1 G2 G3 G80 G4 G28 G53 G53.1 G17 G18 G19 G20 G21 G40 G43 G43.4 G43.5 G49 G54 G55 G56 G57 G58 G59 G68.2 G69 G90 G91 G90.1 G91.1 G93 G94 G95 G5.1 G8 G9 G15 G50 G50.1 G67 G61 G61.1 G64 G97 G98 G99)
+; 2:1: error: unknown word G-1 (hint: near it are G0 G1 G2 G3 G4)
 G-1 X0
