@@ -31,10 +31,9 @@ struct Value {
 class Evaluation {
  public:
   Evaluation(const PlannedCharacteristic& planned, std::vector<const FittedFeature*> features,
-             bool in_datum, const CmmModel& cmm, double line_uncertainty)
+             const CmmModel& cmm, double line_uncertainty)
       : planned_(planned),
         features_(std::move(features)),
-        in_datum_(in_datum),
         line_uncertainty_(line_uncertainty),
         u_(point_uncertainty(cmm)) {}
 
@@ -42,11 +41,11 @@ class Evaluation {
     const FittedFeature& feature = *features_.front();
     switch (planned_.kind) {
       case CharacteristicKind::roundness: {
-        const auto points = at_one_height(feature, section(0), *axis_of(feature.element));
+        const auto points = at_one_height(feature, section(), *axis_of(feature.element));
         return round(roundness(points, angle_frame(feature)), points);
       }
       case CharacteristicKind::equivalent_cone_form: {
-        const auto points = feature.section(section(0));
+        const auto points = feature.section(section());
         return round(equivalent_cone_form(points, feature.planned->half_angle,
                                           -unit(feature.planned->axis), angle_frame(feature)),
                      points);
@@ -64,8 +63,6 @@ class Evaluation {
                      feature.planned->half_angle,
                      {},
                      {}};
-      case CharacteristicKind::concentricity:
-        return concentricity();
       case CharacteristicKind::perpendicularity:
         return perpendicularity();
       case CharacteristicKind::line_distance:
@@ -80,22 +77,20 @@ class Evaluation {
   }
 
  private:
-  // The i-th section asked for; by default the first, for pairs first and last.
-  [[nodiscard]] std::size_t section(std::size_t i) const {
-    if (!planned_.sections.empty()) return planned_.sections[i];
-    return i == 0 ? 0 : section_count(*features_.back()->planned) - 1;
+  [[nodiscard]] std::size_t section() const {
+    return planned_.sections.empty() ? 0 : planned_.sections.front();
   }
 
   [[nodiscard]] Result<Value> round(Result<RoundProfile> profile, std::vector<Vec3> points) const {
-    if (!profile) return std::move(profile).error();
+    if (!profile) return about_section(*features_.front(), section(), profile.error());
     const double r = features_.front()->planned->radius;
-    Magnitude magnitude{MagnitudeKind::peak_to_valley, profile->deviation, std::move(points)};
+    Magnitude magnitude{{MagnitudeKind::peak_to_valley}, profile->deviation, std::move(points)};
     return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile), {},
                  std::move(magnitude)};
   }
 
   [[nodiscard]] static Magnitude residuals(const FittedFeature& feature) {
-    Magnitude magnitude{MagnitudeKind::peak_to_valley, {}, feature.all_points()};
+    Magnitude magnitude{{MagnitudeKind::peak_to_valley}, {}, feature.all_points()};
     for (const MeasuredPoint& p : feature.points) magnitude.parts.push_back(p.deviation);
     return magnitude;
   }
@@ -112,39 +107,17 @@ class Evaluation {
     return v;
   }
 
-  [[nodiscard]] static Magnitude vector_of(const Vec3& v) {
-    return {MagnitudeKind::length, {v.x(), v.y(), v.z()}, {}};
-  }
-
   [[nodiscard]] Value straightness() const {
     const FittedFeature& feature = *features_.front();
     const Vec3 axis = *axis_of(feature.element);
-    Magnitude off{MagnitudeKind::twice_largest, {}, feature.all_points()};
+    Magnitude off{{MagnitudeKind::twice_largest}, {}, feature.all_points()};
     for (const Vec3& p : off.places) {
       const Vec3 from = p - point_of(feature.element);
       const Vec3 across = from - from.dot(axis) * axis;
       off.parts.insert(off.parts.end(), across.begin(), across.end());
     }
-    const double value = size_of(off.kind, off.parts);
+    const double value = size_of(off);
     return {value, straightness_uncertainty(u_), {}, {}, {}, std::move(off)};
-  }
-
-  [[nodiscard]] Result<Value> concentricity() const {
-    const bool along_plan = in_datum_ && features_.size() == 1;
-    const Vec3 axis = along_plan ? unit(features_.front()->planned->axis).vec()
-                                 : axis_of(features_.front()->element)->vec();
-    const auto first = fit_circle(at_one_height(*features_.front(), section(0), axis));
-    if (!first) return first.error();
-    const auto second = fit_circle(at_one_height(*features_.back(), section(1), axis));
-    if (!second) return second.error();
-    const Vec3 apart = second->element.point - first->element.point;
-    const Vec3 offset = 2.0 * apart.cross(axis);
-    return Value{offset.norm(),
-                 concentricity_uncertainty(u_, *first, *second, *features_.front()),
-                 {},
-                 {},
-                 {},
-                 vector_of(offset)};
   }
 
   // Length of the toleranced feature over which it may tilt.
@@ -180,7 +153,7 @@ class Evaluation {
     const double length = extent(unit(datum.planned->axis));
     const Vec3 tilt = length * (alike ? Vec3(a.dot(b), 0.0, 0.0) : Vec3(a.cross(b)));
     return {tilt.norm(),    perpendicularity_uncertainty(u_, toleranced, datum, length), {}, {}, {},
-            vector_of(tilt)};
+            length_of(tilt)};
   }
 
   [[nodiscard]] Result<Value> lines() const {
@@ -213,7 +186,6 @@ class Evaluation {
 
   const PlannedCharacteristic& planned_;
   std::vector<const FittedFeature*> features_;
-  bool in_datum_;
   double line_uncertainty_;
   PointUncertainty u_;
 };
@@ -243,6 +215,7 @@ ZoneOf zone_of(const PlannedCharacteristic& planned, const FittedFeature& featur
       return orientation_zone;
     case CharacteristicKind::position:
     case CharacteristicKind::coaxiality:
+    case CharacteristicKind::concentricity:
     case CharacteristicKind::symmetry:
       return location_zone;
     case CharacteristicKind::circular_run_out:
@@ -331,6 +304,13 @@ std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t sectio
   return points;
 }
 
+Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
+                                   const Vec3& along) {
+  auto circle = fit_circle(at_one_height(feature, section, along));
+  if (!circle) return about_section(feature, section, std::move(circle).error());
+  return circle;
+}
+
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                       std::span<const FittedFeature> features, bool in_datum,
                                       const CmmModel& cmm, double line_uncertainty) {
@@ -350,12 +330,13 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   const auto evaluated = [&]() -> Result<Value> {
     const ZoneOf zone_finder = zone_of(planned, *chosen.front());
     if (zone_finder == nullptr) {
-      return Evaluation(planned, chosen, in_datum, cmm, line_uncertainty)();
+      return Evaluation(planned, chosen, cmm, line_uncertainty)();
     }
-    auto zone = zone_finder({planned, chosen, point_uncertainty(cmm)});
+    auto zone = zone_finder({planned, chosen, point_uncertainty(cmm), in_datum});
     if (!zone) return std::move(zone).error();
     harmonics = std::move(zone->harmonics);
-    return Value{zone->value, zone->uncertainty, {}, std::move(zone->profile), {}};
+    return Value{zone->value, zone->uncertainty,         {}, std::move(zone->profile),
+                 {},          std::move(zone->magnitude)};
   };
   auto value = evaluated();
   if (!value) {

@@ -54,6 +54,10 @@ struct AngleFrame {
 [[nodiscard]] std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t section,
                                               const Vec3& along);
 
+// Least-squares circle of a section's points, those of a cone at_one_height. Errors name the section.
+[[nodiscard]] Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
+                                                 const Vec3& along);
+
 // `features` are all that were measured, in one frame. `in_datum`: that frame is the datum system,
 // so planned directions hold in it; concentricity within one feature then looks along its planned
 // axis (its own fitted axis runs through any two of its sections and would hide what is asked).

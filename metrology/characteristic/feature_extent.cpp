@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "metrology/characteristic/characteristic.hpp"
@@ -84,6 +85,20 @@ std::vector<Vec3> extremes(const PlannedFeature& planned, const Element& element
   return points;
 }
 
+std::vector<Vec3> outline(const PlannedFeature& planned, const Element& element) {
+  constexpr int kDiameters = 36;  // 1 - cos(2.5 deg) of the radius is less than 0.1 %
+  const auto [u, v] = tangents(unit(planned.axis));
+  std::vector<Vec3> points = extremes(planned, element, u);
+  const bool is_disc = planned.kind == FeatureKind::plane && points.size() == 2;
+  for (int i = 1; is_disc && i < kDiameters; ++i) {
+    const double angle = std::numbers::pi * i / kDiameters;
+    for (const Vec3& p : extremes(planned, element, std::cos(angle) * u + std::sin(angle) * v)) {
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
 Result<std::vector<Vec3>> median_line(const FittedFeature& feature) {
   std::set<std::size_t> sections;
   for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
@@ -94,7 +109,7 @@ Result<std::vector<Vec3>> median_line(const FittedFeature& feature) {
   }
   std::vector<Vec3> centres;
   for (const std::size_t section : sections) {
-    const auto circle = fit_circle(at_one_height(feature, section, *axis_of(feature.element)));
+    const auto circle = section_circle(feature, section, *axis_of(feature.element));
     if (!circle) return circle.error();
     centres.push_back(circle->element.point);
   }

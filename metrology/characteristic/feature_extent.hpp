@@ -22,6 +22,9 @@ namespace frustum::metrology {
 [[nodiscard]] std::vector<Vec3> extremes(const PlannedFeature& planned, const Element& element,
                                          const Vec3& toward);
 
+// The same for all directions at once: the rim of a disc, less than 0.1 % of its radius between points.
+[[nodiscard]] std::vector<Vec3> outline(const PlannedFeature& planned, const Element& element);
+
 [[nodiscard]] Result<std::vector<Vec3>> median_line(const FittedFeature& feature);
 
 }  // namespace frustum::metrology

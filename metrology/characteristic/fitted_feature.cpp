@@ -1,10 +1,12 @@
 #include "metrology/characteristic/fitted_feature.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "metrology/plan/nominal.hpp"
 
@@ -116,6 +118,21 @@ FittedFeature transformed(const Pose& to_from, FittedFeature feature) {
     p.normal = to_from.direction(p.normal);
   }
   return feature;
+}
+
+Diagnostics about_section(const FittedFeature& feature, std::size_t section, Diagnostics faults) {
+  const std::string& name = feature.planned->name;
+  if (!feature.section(section).empty()) {
+    for (Diagnostic& d : faults) {
+      d.message = fmt::format("section {} of '{}': {}", section, name, d.message);
+    }
+    return faults;
+  }
+  std::set<std::size_t> measured;
+  for (const MeasuredPoint& p : feature.points) measured.insert(p.section);
+  return {error(fmt::format("section {} of '{}' has no points, measured are {}", section, name,
+                            fmt::join(measured, ", ")),
+                "measure it, or name another section; the first is 0")};
 }
 
 MeasuredFeature summary(const FittedFeature& feature) {

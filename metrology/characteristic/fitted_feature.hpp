@@ -45,6 +45,10 @@ struct FittedFeature {
 
 [[nodiscard]] FittedFeature transformed(const Pose& to_from, FittedFeature feature);
 
+// What is wrong with one of its sections, told with the names of both.
+[[nodiscard]] Diagnostics about_section(const FittedFeature& feature, std::size_t section,
+                                        Diagnostics faults);
+
 // What a report says about it.
 [[nodiscard]] MeasuredFeature summary(const FittedFeature& feature);
 

@@ -170,7 +170,7 @@ Result<Zone> roundness_zone(const Toleranced& what) {
   const std::size_t section = what.planned.sections.empty() ? 0 : what.planned.sections.front();
   const std::vector<Vec3> points = at_one_height(feature, section, *axis_of(feature.element));
   auto profile = roundness(points, angle_frame(feature));
-  if (!profile) return std::move(profile).error();
+  if (!profile) return about_section(feature, section, std::move(profile).error());
   const double radius = fit_circle(points)->element.radius;
   auto deviations = round_deviations(*profile, radius, what.planned);
   if (!deviations) return std::move(deviations).error();

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "metrology/characteristic/datum_element.hpp"
 #include "metrology/characteristic/feature_extent.hpp"
 #include "metrology/characteristic/zone.hpp"
+#include "metrology/fit/median_plane.hpp"
+#include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -49,16 +52,46 @@ Target planned_place(const PlannedFeature& planned) {
   return Line{planned.point, unit(planned.axis)};
 }
 
-// The points that have to lie in the zone.
-Result<std::vector<Vec3>> toleranced_points(const FittedFeature& feature, Criterion criterion,
-                                            const Target& target) {
+// How far points are off. Places are told of measured points; those of an element move together.
+Magnitude offsets(const Target& target, const std::vector<Vec3>& points) {
+  Magnitude off;
+  for (const Vec3& p : points) {
+    if (const auto* plane = std::get_if<Plane>(&target)) {
+      off.parts.push_back(residual(*plane, p));
+      continue;
+    }
+    Vec3 apart;
+    if (const auto* line = std::get_if<Line>(&target)) {
+      const Vec3 w = p - line->point;
+      apart = w - w.dot(line->axis.vec()) * line->axis.vec();
+    } else {
+      apart = p - std::get<Vec3>(target);
+    }
+    off.parts.insert(off.parts.end(), apart.begin(), apart.end());
+  }
+  off.rule.kind = std::holds_alternative<Plane>(target) ? MagnitudeKind::twice_largest_height
+                                                        : MagnitudeKind::twice_largest;
+  return off;
+}
+
+// What has to lie in the zone: the points that are farthest off, and all that may be.
+struct Content {
+  std::vector<Vec3> farthest{};
+  std::vector<Vec3> all{};
+  bool is_measured = false;  // points of the surface itself
+};
+Result<Content> content(const FittedFeature& feature, Criterion criterion, const Target& target) {
   const FeatureKind kind = feature.planned->kind;
   const bool is_surface =
       kind == FeatureKind::plane || kind == FeatureKind::line || kind == FeatureKind::point;
-  if (criterion == Criterion::minimum_zone && is_surface) return feature.all_points();
+  if (criterion == Criterion::minimum_zone && is_surface) {
+    return Content{feature.all_points(), feature.all_points(), true};
+  }
   if (criterion == Criterion::minimum_zone &&
       (kind == FeatureKind::cylinder || kind == FeatureKind::cone)) {
-    return median_line(feature);
+    return median_line(feature).transform([](const std::vector<Vec3>& centres) {
+      return Content{centres, centres};
+    });
   }
   const auto element = datum_element(feature, criterion);
   if (!element) return element.error();
@@ -66,7 +99,7 @@ Result<std::vector<Vec3>> toleranced_points(const FittedFeature& feature, Criter
   if (const auto* plane = std::get_if<Plane>(&*element)) {
     toward -= toward.dot(plane->axis.vec()) * plane->axis.vec();
   }
-  return extremes(*feature.planned, *element, toward);
+  return Content{extremes(*feature.planned, *element, toward), outline(*feature.planned, *element)};
 }
 
 double half_length(const std::vector<Vec3>& points) {
@@ -75,24 +108,57 @@ double half_length(const std::vector<Vec3>& points) {
 
 Result<Zone> centred_on(const Target& target, const FittedFeature& feature,
                         const Toleranced& what) {
-  const auto points = toleranced_points(feature, what.planned.criterion, target);
-  if (!points) return points.error();
+  auto within = content(feature, what.planned.criterion, target);
+  if (!within) return std::move(within).error();
   Zone zone;
-  zone.value = 2.0 * farthest(target, *points);
-  zone.uncertainty = place_uncertainty(what.u, feature, half_length(*points));
+  zone.value = 2.0 * farthest(target, within->farthest);
+  zone.uncertainty = place_uncertainty(what.u, feature, half_length(within->farthest));
+  zone.magnitude = offsets(target, within->all);
+  if (within->is_measured) zone.magnitude.places = std::move(within->all);
   return zone;
 }
 
-// Of two faces, all points as far from the one as from the other.
-Plane median_plane(const Plane& first, const Plane& second) {
-  const double sense = first.axis.vec().dot(second.axis.vec()) < 0.0 ? -1.0 : 1.0;
-  const Vec3 sum = first.axis.vec() + sense * second.axis.vec();
-  const double offset =
-      (first.axis.vec().dot(first.point) + sense * second.axis.vec().dot(second.point)) /
-      sum.norm();
-  const UnitVec3 normal = unit(sum);
-  const Vec3 middle = 0.5 * (first.point + second.point);
-  return {middle + (offset - middle.dot(normal.vec())) * normal.vec(), normal};
+// Two sections of one feature; their common axis would run through both and hide what is asked.
+Result<Zone> concentricity_within(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  const std::vector<std::size_t>& named = what.planned.sections;
+  const Vec3 axis =
+      what.in_datum ? unit(feature.planned->axis).vec() : axis_of(feature.element)->vec();
+  const auto first = section_circle(feature, named.empty() ? 0 : named[0], axis);
+  if (!first) return first.error();
+  const auto second =
+      section_circle(feature, named.empty() ? section_count(*feature.planned) - 1 : named[1], axis);
+  if (!second) return second.error();
+  const Vec3 apart = second->element.point - first->element.point;
+  Zone zone;
+  zone.magnitude = length_of(2.0 * apart.cross(axis));
+  zone.value = size_of(zone.magnitude);
+  zone.uncertainty = concentricity_uncertainty(what.u, *first, *second, feature);
+  return zone;
+}
+
+// The centres of the sections about the axis of the datum.
+Result<Zone> concentricity_to_datum(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  const FittedFeature& datum = *what.features.back();
+  const Line axis{point_of(datum.element), *axis_of(datum.element)};
+  std::vector<std::size_t> sections = what.planned.sections;
+  if (sections.empty()) {
+    sections.resize(section_count(*feature.planned));
+    std::iota(sections.begin(), sections.end(), std::size_t{0});
+  }
+  Zone zone;
+  std::vector<Vec3> centres;
+  for (const std::size_t section : sections) {
+    const auto circle = section_circle(feature, section, axis.axis);
+    if (!circle) return circle.error();
+    centres.push_back(circle->element.point);
+    zone.uncertainty =
+        std::max(zone.uncertainty, concentricity_uncertainty(what.u, *circle, datum));
+  }
+  zone.magnitude = offsets(axis, centres);
+  zone.value = size_of(zone.magnitude);
+  return zone;
 }
 
 bool is_plane(const FittedFeature& feature) { return feature.planned->kind == FeatureKind::plane; }
@@ -137,6 +203,7 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
   const Vec3 wanted = direction_of(*target);
   const Vec3 middle = 0.5 * (first.planned->point + last.planned->point);
   Zone zone;
+  std::vector<Vec3> ends;
   for (std::size_t i = 0; i < toleranced; ++i) {
     // The faces end where the median plane ends: half a width off along their normal.
     PlannedFeature end = *features[i]->planned;
@@ -146,7 +213,10 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
     zone.value = std::max(zone.value, 2.0 * farthest(*target, points));
     zone.uncertainty =
         std::max(zone.uncertainty, place_uncertainty(what.u, *features[i], half_length(points)));
+    const std::vector<Vec3> all = outline(end, median);
+    ends.insert(ends.end(), all.begin(), all.end());
   }
+  zone.magnitude = offsets(*target, ends);
   return zone;
 }
 
@@ -203,6 +273,8 @@ Result<Zone> location_zone(const Toleranced& what) {
       if (!axis) return axis.error();
       return centred_on(*axis, *features.front(), what);
     }
+    case CharacteristicKind::concentricity:
+      return features.size() == 1 ? concentricity_within(what) : concentricity_to_datum(what);
     default:
       return symmetry_zone(what);
   }

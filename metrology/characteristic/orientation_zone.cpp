@@ -45,14 +45,21 @@ double range_along(const std::vector<Vec3>& points, const Vec3& direction) {
   return high - low;
 }
 
-double cylinder_around(const std::vector<Vec3>& points, const Vec3& direction) {
+// How far the points are off the middle of the narrowest cylinder along that direction.
+Magnitude cylinder_around(const std::vector<Vec3>& points, const Vec3& direction) {
   const auto [u, v] = tangents(unit(direction));
   std::vector<Eigen::Vector2d> across;
   for (const Vec3& p : points) {
     const Vec3 w = p - points.front();
     across.emplace_back(w.dot(u), w.dot(v));
   }
-  return 2.0 * smallest_circle(across).radius;
+  const Eigen::Vector2d centre = smallest_circle(across).centre;
+  Magnitude off{{MagnitudeKind::twice_largest}, {}, {}};
+  for (const Eigen::Vector2d& p : across) {
+    const Vec3 apart = (p - centre).x() * u + (p - centre).y() * v;
+    off.parts.insert(off.parts.end(), apart.begin(), apart.end());
+  }
+  return off;
 }
 
 Vec3 surface_normal(const PlannedFeature& line, const Vec3& direction) {
@@ -61,41 +68,49 @@ Vec3 surface_normal(const PlannedFeature& line, const Vec3& direction) {
 
 // What the points themselves need: planes for a plane, for a line on a surface and where the datum
 // leaves one direction free; a cylinder for an axis.
-Result<double> zone_of_points(const FittedFeature& feature, const Wanted& want) {
+Result<Magnitude> zone_of_points(const FittedFeature& feature, const Wanted& want) {
   if (feature.planned->kind == FeatureKind::plane) {
-    if (!want.across) return range_along(feature.all_points(), want.direction);
+    if (!want.across) return heights_along(want.direction, feature.all_points());
     Constraints keep;
     keep.perpendicular_to = unit(want.datum);
     const auto zone = associated(feature, Criterion::minimum_zone, keep);
     if (!zone) return zone.error();
-    return zone->fit.form;
+    return Magnitude{{MagnitudeKind::peak_to_valley}, zone->fit.residuals, feature.all_points()};
   }
   if (feature.planned->kind == FeatureKind::line) {
-    return range_along(feature.all_points(), surface_normal(*feature.planned, want.direction));
+    return heights_along(surface_normal(*feature.planned, want.direction), feature.all_points());
   }
   const auto centres = median_line(feature);
   if (!centres) return centres.error();
   if (want.freedom == Freedom::none) return cylinder_around(*centres, want.direction);
   const Vec3 across = want.datum - want.datum.dot(want.direction) * want.direction;
-  return range_along(*centres, across.normalized());
+  Magnitude heights = heights_along(across.normalized(), *centres);
+  heights.places.clear();
+  return heights;
 }
 
 // What the associated element needs over its extent.
-double zone_of_element(const PlannedFeature& planned, const Element& element, const Wanted& want) {
-  const std::vector<Vec3> points = extremes(planned, element, want.direction);
+Zone zone_of_element(const PlannedFeature& planned, const Element& element, const Wanted& want) {
+  Zone zone;
   if (planned.kind == FeatureKind::plane) {
     const Vec3 normal = *axis_of(element);
     const Vec3 steepest = want.direction - want.direction.dot(normal) * normal;
-    return range_along(extremes(planned, element, steepest), want.direction);
+    zone.value = range_along(extremes(planned, element, steepest), want.direction);
+    zone.magnitude = heights_along(want.direction, outline(planned, element));
+    zone.magnitude.places.clear();  // all corners move together
+    return zone;
   }
+  const std::vector<Vec3> points = extremes(planned, element, want.direction);
   const Vec3 run = points.back() - points.front();
-  if (planned.kind == FeatureKind::line) {
-    return std::abs(run.dot(surface_normal(planned, want.direction)));
-  }
-  return run.cross(want.direction).norm();
+  const Vec3 along =
+      planned.kind == FeatureKind::line ? surface_normal(planned, want.direction) : want.direction;
+  const Vec3 rise = run.dot(along) * along;
+  zone.magnitude = length_of(planned.kind == FeatureKind::line ? rise : Vec3(run - rise));
+  zone.value = size_of(zone.magnitude);
+  return zone;
 }
 
-double length_of(const PlannedFeature& planned, const Element& element) {
+double largest_extent(const PlannedFeature& planned, const Element& element) {
   const std::vector<Vec3> points = extremes(planned, element, Vec3::UnitX());
   return (points.back() - points.front()).norm();
 }
@@ -117,15 +132,16 @@ Result<Zone> orientation_zone(const Toleranced& what) {
     want = wanted(*axis_of(*element), planned, *axis_of(*datum_as), unit(datum.planned->axis));
   }
   Zone zone;
-  zone.uncertainty = perpendicularity_uncertainty(what.u, feature, *what.features.back(),
-                                                  length_of(*feature.planned, *element));
-  if (!of_points) {
-    zone.value = zone_of_element(*feature.planned, *element, want);
-    return zone;
+  if (of_points) {
+    auto points = zone_of_points(feature, want);
+    if (!points) return std::move(points).error();
+    zone.magnitude = std::move(*points);
+    zone.value = size_of(zone.magnitude);
+  } else {
+    zone = zone_of_element(*feature.planned, *element, want);
   }
-  const auto value = zone_of_points(feature, want);
-  if (!value) return value.error();
-  zone.value = *value;
+  zone.uncertainty = perpendicularity_uncertainty(what.u, feature, *what.features.back(),
+                                                  largest_extent(*feature.planned, *element));
   return zone;
 }
 

@@ -45,12 +45,6 @@ Result<std::vector<double>> deviations(const std::vector<Surface>& surfaces, boo
   return found;
 }
 
-double twice_largest(const std::vector<double>& values) {
-  double most = 0.0;
-  for (const double v : values) most = std::max(most, std::abs(v));
-  return 2.0 * most;
-}
-
 RoundProfile plotted(const FittedFeature& feature, const std::vector<Vec3>& points,
                      std::vector<double> deviation) {
   RoundProfile profile;
@@ -67,22 +61,25 @@ Result<Zone> line_profile(const Toleranced& what) {
     for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
   }
   Zone worst;
-  bool is_first = true;
+  Magnitude all{{MagnitudeKind::twice_largest_height}, {}, {}};
   for (const std::size_t section : sections) {
     const std::vector<Vec3> points = feature.section(section);
-    if (points.empty()) return error("a section without points", "measure it");
+    if (points.empty()) return about_section(feature, section, {});
     auto found =
         deviations({{&feature, planned_surface(*feature.planned), points}}, what.planned.floating);
-    if (!found) return std::move(found).error();
-    const double value = twice_largest(*found);
+    if (!found) return about_section(feature, section, std::move(found).error());
+    const double value = all.rule(*found);
+    const bool is_first = all.parts.empty();
+    all.parts.insert(all.parts.end(), found->begin(), found->end());
+    all.places.insert(all.places.end(), points.begin(), points.end());
     if (!is_first && value <= worst.value) continue;
-    is_first = false;
     worst.value = value;
     worst.profile = {};
     if (is_round(feature.planned->kind)) {
       worst.profile = plotted(feature, points, std::move(*found));
     }
   }
+  worst.magnitude = std::move(all);
   return worst;
 }
 
@@ -94,7 +91,10 @@ Result<Zone> surface_profile(const Toleranced& what) {
   auto found = deviations(surfaces, what.planned.floating);
   if (!found) return std::move(found).error();
   Zone zone;
-  zone.value = twice_largest(*found);
+  zone.magnitude = {{MagnitudeKind::twice_largest_height}, *found, {}};
+  // Near points of different surfaces are not alike.
+  if (surfaces.size() == 1) zone.magnitude.places = surfaces.front().points;
+  zone.value = size_of(zone.magnitude);
   const FittedFeature& first = *what.features.front();
   if (surfaces.size() == 1 && is_round(first.planned->kind)) {
     zone.profile = plotted(first, surfaces.front().points, std::move(*found));

@@ -61,9 +61,9 @@ std::set<std::size_t> sections_of(const Toleranced& what) {
   return all;
 }
 
-Result<Zone> of_section(const Toleranced& what, RoundProfile profile) {
+Result<Zone> of_profile(const Toleranced& what, RoundProfile profile) {
   if (profile.deviation.size() < 2) {
-    return error("a section with fewer than 2 points", "measure at least two points of it");
+    return error("a run-out of fewer than 2 points", "measure two points of it or more");
   }
   Zone zone;
   if (what.planned.filter) {
@@ -91,17 +91,28 @@ Result<Zone> run_out_zone(const Toleranced& what) {
   if (!axis) return axis.error();
   const Turning turning(feature, *axis);
   Zone worst;
+  Magnitude readings{{MagnitudeKind::peak_to_valley}, {}, {}};
+  const auto add = [&](const Zone& zone, const std::vector<Vec3>& points) {
+    const std::vector<double>& parts = zone.profile.deviation;
+    readings.rule.rows.push_back(points.size());
+    readings.parts.insert(readings.parts.end(), parts.begin(), parts.end());
+    readings.places.insert(readings.places.end(), points.begin(), points.end());
+  };
   if (what.planned.kind == CharacteristicKind::total_run_out) {
-    auto whole = of_section(what, turning.read(feature.all_points()));
+    auto whole = of_profile(what, turning.read(feature.all_points()));
     if (!whole) return whole;
+    add(*whole, feature.all_points());
     worst = std::move(*whole);
   } else {
     for (const std::size_t section : sections_of(what)) {
-      auto zone = of_section(what, turning.read(turning.section(section)));
-      if (!zone) return zone;
+      const std::vector<Vec3> points = turning.section(section);
+      auto zone = of_profile(what, turning.read(points));
+      if (!zone) return about_section(feature, section, std::move(zone).error());
+      add(*zone, points);
       if (worst.profile.angle.empty() || zone->value > worst.value) worst = std::move(*zone);
     }
   }
+  worst.magnitude = std::move(readings);
   const double away = (point_of(feature.element) - axis->point).norm();
   worst.uncertainty = std::hypot(form_uncertainty(what.u, feature.planned->radius),
                                  place_uncertainty(what.u, *datums.front(), away));

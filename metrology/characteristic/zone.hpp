@@ -22,12 +22,14 @@ struct Zone {
   double uncertainty = 0.0;  // mm, standard
   RoundProfile profile{};
   std::vector<Harmonic> harmonics{};
+  Magnitude magnitude{};  // what the value is the size of; kind none where that is not told
 };
 
 struct Toleranced {
   const PlannedCharacteristic& planned;
   std::vector<const FittedFeature*> features{};  // in the order in which it names them
   PointUncertainty u{};
+  bool in_datum = false;
 };
 
 // Roundness, cylindricity, cone form, flatness and straightness by any criterion, parameter and filter;
@@ -35,7 +37,7 @@ struct Toleranced {
 [[nodiscard]] Result<Zone> form_zone(const Toleranced& what);
 // Parallelism, perpendicularity and angularity.
 [[nodiscard]] Result<Zone> orientation_zone(const Toleranced& what);
-// Position, coaxiality and symmetry.
+// Position, coaxiality, concentricity and symmetry.
 [[nodiscard]] Result<Zone> location_zone(const Toleranced& what);
 // Circular and total run-out.
 [[nodiscard]] Result<Zone> run_out_zone(const Toleranced& what);

@@ -213,8 +213,10 @@ enum class CharacteristicKind {
   flatness,              // P-V from the LS plane
   straightness,          // twice the largest distance from the LS line
   half_angle,            // against the nominal
-  concentricity,         // two sections: twice the distance of their centres across the axis: the
-                         // planned one in the datum system, else that fitted to the first feature
+  concentricity,     // features = [toleranced, datum]: twice the largest distance of the centres
+                     // of the sections from the datum's axis. One feature: twice the distance of
+                     // the centres of two sections across the axis: the planned one in the datum
+                     // system, else the fitted one
   perpendicularity,  // features = [toleranced, datum]: zone over the toleranced feature's extent
   radius,            // against the nominal; cone: in the section through the nominal point
   diameter,
@@ -255,10 +257,12 @@ struct PlannedCharacteristic {
   CharacteristicKind kind = CharacteristicKind::roundness;
   std::vector<std::string>
       features{};  // one; two for perpendicularity; one or two for concentricity
-  std::vector<std::size_t> sections{};  // first = 0; empty: first (and last, for concentricity)
-  double tolerance = 0.0;               // mm or rad: limit of the value, or of |value - nominal|
-  std::string frame{};                  // evaluated in this frame; empty: as all others
-  Vec3 direction = Vec3::Zero();        // line kinds: measured along it, or the angle about it
+  // Of the first feature, first = 0. Empty: the first; of run-outs, profiles of lines and a
+  // concentricity with a datum all; of one within a feature first and last.
+  std::vector<std::size_t> sections{};
+  double tolerance = 0.0;         // mm or rad: limit of the value, or of |value - nominal|
+  std::string frame{};            // evaluated in this frame; empty: as all others
+  Vec3 direction = Vec3::Zero();  // line kinds: measured along it, or the angle about it
   // How the toleranced element stands for its points: mz for the zone itself, mi and mc for fits.
   Criterion criterion = Criterion::least_squares;
   // Datums of orientation, coaxiality, symmetry and run-out: least_squares or outside_material.

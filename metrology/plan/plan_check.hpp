@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,13 @@ using FeatureKinds = std::vector<FeatureKind>;
 // A characteristic: its features, and whether it takes the keys it has
 // (plan_check_characteristic.cpp).
 void check_characteristic(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);
+
+// Message and hint.
+using PlaceFault = std::function<void(std::string, std::string)>;
+// Whether the planned places and directions of the features that a characteristic names allow what it asks
+// for: parallel, perpendicular, on one axis, symmetric (plan_check_places.cpp).
+void check_places(const PlannedCharacteristic& planned,
+                  std::span<const PlannedFeature* const> features, const PlaceFault& fault);
 
 // Frames and characteristics that compare lines (plan_check_lines.cpp).
 void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);

@@ -76,7 +76,7 @@ const std::vector<Rule>& rules() {
        parameter_key | open_filter,
        "ls mz"},
       {K::half_angle, {cone}, {}, 1, 1, kOne, 0, 0, "ls"},
-      {K::concentricity, axes, axes, 1, 2, "one feature or two", 2, 0, "ls"},
+      {K::concentricity, axes, axes, 1, 2, kDatum, 2, 0, "ls"},
       {K::perpendicularity, directed, directed, 1, 2, kDatum, 0, datum_criterion_key | frame_key,
        "ls mz mi mc"},
       {K::radius, sized, {}, 1, 1, kOne, 0, 0, "ls"},
@@ -189,7 +189,7 @@ class CharacteristicCheck {
       if (features_.back() == nullptr || !UnitVec3::of(features_.back()->axis)) return false;
     }
     for (std::size_t i = 1; i < c_.features.size(); ++i) {
-      if (c_.kind != CharacteristicKind::concentricity && !compares_lines(c_.kind) &&
+      if (!compares_lines(c_.kind) &&
           std::count(c_.features.begin(), c_.features.end(), c_.features[i]) > 1) {
         wrong("features", fmt::format("'{}' is named twice", c_.features[i]));
         return false;
@@ -219,6 +219,10 @@ class CharacteristicCheck {
   }
 
   void sections() const {
+    if (c_.kind == CharacteristicKind::concentricity) {
+      sections_of_concentricity();
+      return;
+    }
     if (c_.sections.empty()) return;
     if (rule_.sections == 0) {
       wrong("section", fmt::format("a {} concerns the whole feature", kind()));
@@ -229,14 +233,49 @@ class CharacteristicCheck {
                                     rule_.sections == 1 ? "" : "s", c_.sections.size()));
       return;
     }
-    for (std::size_t i = 0; i < c_.sections.size(); ++i) {
-      const PlannedFeature& feature = *features_[std::min(i, features_.size() - 1)];
-      if (c_.sections[i] >= section_count(feature)) {
-        wrong(rule_.sections == 1 ? "section" : "sections",
-              fmt::format("'{}' has {} sections, there is no section {}", feature.name,
-                          section_count(feature), c_.sections[i]),
-              "the first section is 0");
-      }
+    sections_exist();
+  }
+
+  [[nodiscard]] std::string_view section_key() const {
+    return c_.sections.size() == 1 ? "section" : "sections";
+  }
+  void sections_exist() const {
+    const PlannedFeature& feature = *features_.front();
+    const std::size_t count = section_count(feature);
+    for (const std::size_t section : c_.sections) {
+      if (section < count) continue;
+      wrong(section_key(),
+            fmt::format("'{}' has {} section{}, there is no section {}", feature.name, count,
+                        count == 1 ? "" : "s", section),
+            "the first section is 0");
+    }
+  }
+
+  // Two of one feature, or any of the feature that is compared with a datum.
+  void sections_of_concentricity() const {
+    constexpr std::string_view kRemedy =
+        "write sections = [first, second], or features = [toleranced, datum]";
+    if (features_.size() > 1) {
+      sections_exist();
+    } else if (c_.sections.empty() && section_count(*features_.front()) < 2) {
+      wrong("feature",
+            fmt::format("a concentricity within one feature compares two of its sections, '{}' has "
+                        "{}",
+                        features_.front()->name, section_count(*features_.front())),
+            "plan more sections, or write features = [toleranced, datum]");
+    } else if (!c_.sections.empty() && c_.sections.size() != 2) {
+      wrong(section_key(),
+            fmt::format("a concentricity within one feature compares two of its sections, named "
+                        "{} [{}]",
+                        c_.sections.size() == 1 ? "is" : "are", fmt::join(c_.sections, ", ")),
+            std::string(kRemedy));
+    } else if (!c_.sections.empty() && c_.sections[0] == c_.sections[1]) {
+      wrong("sections",
+            fmt::format("a concentricity compares two sections, section {} is named twice",
+                        c_.sections[0]),
+            std::string(kRemedy));
+    } else {
+      sections_exist();
     }
   }
 
@@ -301,31 +340,20 @@ class CharacteristicCheck {
   }
 
   void geometry() const {
-    if (c_.kind == CharacteristicKind::parallelism && c_.features.size() == 2) parallel();
-    if (c_.kind == CharacteristicKind::symmetry) symmetry();
+    if (c_.kind == CharacteristicKind::symmetry && !symmetry()) return;
     if (c_.kind == CharacteristicKind::circular_run_out && features_.front()->kind == plane &&
         !std::holds_alternative<RingStrategy>(features_.front()->strategy)) {
       wrong("features",
             fmt::format("the circular_run_out of '{}' needs rings, its strategy has none",
                         features_.front()->name));
+      return;
     }
+    check_places(c_, features_, [this](std::string message, std::string hint) {
+      wrong("features", std::move(message), std::move(hint));
+    });
   }
 
-  void parallel() const {
-    const Vec3 a = unit(features_[0]->axis);
-    const Vec3 b = unit(features_[1]->axis);
-    const bool alike = (features_[0]->kind == plane) == (features_[1]->kind == plane);
-    // 1e-3 rad: nobody plans that on purpose.
-    const double off = alike ? a.cross(b).norm() : std::abs(a.dot(b));
-    if (off > 1e-3) {
-      wrong("features",
-            fmt::format("'{}' and '{}' must be planned parallel, they are {:.6g} deg apart",
-                        c_.features[0], c_.features[1], std::asin(std::min(1.0, off)) * kDegPerRad),
-            "angularity compares with the planned angle");
-    }
-  }
-
-  void symmetry() const {
+  [[nodiscard]] bool symmetry() const {
     const std::size_t count = features_.size();
     std::size_t planes = 0;
     for (const PlannedFeature* f : features_) planes += f->kind == plane ? 1 : 0;
@@ -339,6 +367,7 @@ class CharacteristicCheck {
       wrong("features", "a pair of faces is two planes",
             "toleranced first, then the datum: [face, face, datum]");
     }
+    return sound;
   }
 
   const InspectionPlan& plan_;

@@ -4,20 +4,34 @@
 #include <cmath>
 
 namespace frustum::metrology {
+namespace {
 
-double size_of(MagnitudeKind kind, std::span<const double> parts) {
+double peak_to_valley(std::span<const double> parts) {
+  double low = parts.front();
+  double high = parts.front();
+  for (const double part : parts) {
+    low = std::min(low, part);
+    high = std::max(high, part);
+  }
+  return high - low;
+}
+
+}  // namespace
+
+double SizeRule::operator()(std::span<const double> parts) const {
   if (parts.empty()) return 0.0;
   switch (kind) {
     case MagnitudeKind::none:
       return 0.0;
     case MagnitudeKind::peak_to_valley: {
-      double low = parts.front();
-      double high = parts.front();
-      for (const double part : parts) {
-        low = std::min(low, part);
-        high = std::max(high, part);
+      if (rows.empty()) return peak_to_valley(parts);
+      double worst = 0.0;
+      for (const std::size_t places : rows) {
+        if (places == 0) continue;
+        worst = std::max(worst, peak_to_valley(parts.first(places)));
+        parts = parts.subspan(places);
       }
-      return high - low;
+      return worst;
     }
     case MagnitudeKind::twice_largest: {
       double largest = 0.0;
@@ -27,12 +41,31 @@ double size_of(MagnitudeKind kind, std::span<const double> parts) {
       }
       return 2.0 * std::sqrt(largest);
     }
+    case MagnitudeKind::twice_largest_height: {
+      double largest = 0.0;
+      for (const double part : parts) largest = std::max(largest, std::abs(part));
+      return 2.0 * largest;
+    }
     case MagnitudeKind::length:
       break;
   }
   double square = 0.0;
   for (const double part : parts) square += part * part;
   return std::sqrt(square);
+}
+
+double size_of(const Magnitude& magnitude) { return magnitude.rule(magnitude.parts); }
+
+Magnitude heights_along(const Vec3& direction, std::vector<Vec3> places) {
+  Magnitude heights{{MagnitudeKind::peak_to_valley}, {}, std::move(places)};
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : heights.places) mean += p / static_cast<double>(heights.places.size());
+  for (const Vec3& p : heights.places) heights.parts.push_back((p - mean).dot(direction));
+  return heights;
+}
+
+Magnitude length_of(const Vec3& vector) {
+  return {{MagnitudeKind::length}, {vector.x(), vector.y(), vector.z()}, {}};
 }
 
 }  // namespace frustum::metrology

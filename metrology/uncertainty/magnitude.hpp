@@ -16,18 +16,37 @@
 namespace frustum::metrology {
 
 enum class MagnitudeKind {
-  none,            // the value is no magnitude, or nobody told its parts
-  peak_to_valley,  // one part a place
-  twice_largest,   // three parts a place, a vector: twice the longest
-  length           // of the vector of all parts; no places
+  none,                  // the value is no magnitude, or nobody told its parts
+  peak_to_valley,        // one part a place; where there are rows of places, of the worst row
+  twice_largest,         // three parts a place, a vector: twice the longest
+  twice_largest_height,  // one part a place, of either sign: twice the largest amount
+  length                 // of the vector of all parts; no places
+};
+
+// How a size comes of its parts.
+struct SizeRule {
+  MagnitudeKind kind = MagnitudeKind::none;
+  std::vector<std::size_t> rows{};  // of a peak to valley: places in each row; empty: all in one
+
+  // 0 of no parts.
+  [[nodiscard]] double operator()(std::span<const double> parts) const;
 };
 
 struct Magnitude {
-  MagnitudeKind kind = MagnitudeKind::none;
+  SizeRule rule{};
   std::vector<double> parts{};  // mm
-  std::vector<Vec3> places{};   // mm, where on the part they stand
+  // mm, where on a surface they stand: near ones are alike. Empty where parts are few or those of an
+  // element, which are taken as measured.
+  std::vector<Vec3> places{};
+
+  [[nodiscard]] bool is_known() const { return rule.kind != MagnitudeKind::none; }
 };
 
-[[nodiscard]] double size_of(MagnitudeKind kind, std::span<const double> parts);
+[[nodiscard]] double size_of(const Magnitude& magnitude);
+
+// Heights of places along a direction, counted from their mean.
+[[nodiscard]] Magnitude heights_along(const Vec3& direction, std::vector<Vec3> places);
+// The vector itself.
+[[nodiscard]] Magnitude length_of(const Vec3& vector);
 
 }  // namespace frustum::metrology

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace frustum::metrology {
 namespace {
@@ -18,8 +19,8 @@ constexpr double kMostLikely = 0.5;
 
 Eigen::Index per_place(MagnitudeKind kind) { return kind == MagnitudeKind::twice_largest ? 3 : 1; }
 
-double size_of(MagnitudeKind kind, const Eigen::VectorXd& parts) {
-  return metrology::size_of(kind, std::span(parts.data(), static_cast<std::size_t>(parts.size())));
+double size_by(const SizeRule& rule, const Eigen::VectorXd& parts) {
+  return rule(std::span(parts.data(), static_cast<std::size_t>(parts.size())));
 }
 
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& noise) {
@@ -77,12 +78,12 @@ double quantile(std::vector<double>& values, double share) {
 
 }  // namespace
 
-ShapeEstimate::ShapeEstimate(MagnitudeKind kind, std::span<const Vec3> places,
+ShapeEstimate::ShapeEstimate(SizeRule rule, std::span<const Vec3> places,
                              const Eigen::MatrixXd& noise)
-    : kind_(kind) {
+    : rule_(std::move(rule)) {
   if (noise.cols() > 0) any_ = noise.col(0);
   if (places.empty()) return;  // one vector has nothing to smooth
-  const Eigen::Index parts = per_place(kind);
+  const Eigen::Index parts = per_place(rule_.kind);
   thin(places, parts);
   std::vector<Vec3> few;
   for (std::size_t i = 0; i < chosen_.size(); i += static_cast<std::size_t>(parts)) {
@@ -166,14 +167,14 @@ Eigen::VectorXd ShapeEstimate::smoothed(const Eigen::VectorXd& parts) const {
 
 Eigen::VectorXd ShapeEstimate::operator()(const Eigen::VectorXd& parts) const {
   Eigen::VectorXd shape = smoothed(parts);
-  if (!(size_of(kind_, shape) > 0.0)) shape = any_;
-  const double size = size_of(kind_, shape);
+  if (!(size_by(rule_, shape) > 0.0)) shape = any_;
+  const double size = size_by(rule_, shape);
   return size > 0.0 ? Eigen::VectorXd(shape / size) : shape;
 }
 
-SizeUnderNoise::SizeUnderNoise(MagnitudeKind kind, const Eigen::MatrixXd& noise,
+SizeUnderNoise::SizeUnderNoise(SizeRule rule, const Eigen::MatrixXd& noise,
                                const Eigen::VectorXd& shape, double coverage)
-    : kind_(kind), noise_(noise), shape_(shape), coverage_(coverage) {
+    : rule_(std::move(rule)), noise_(noise), shape_(shape), coverage_(coverage) {
   for (const double size : sizes(0.0)) {
     mean_at_zero_ += size / static_cast<double>(noise_.cols());
     largest_ = std::max(largest_, size);
@@ -183,11 +184,11 @@ SizeUnderNoise::SizeUnderNoise(MagnitudeKind kind, const Eigen::MatrixXd& noise,
 std::vector<double> SizeUnderNoise::sizes(double truth) const {
   std::vector<double> all(static_cast<std::size_t>(noise_.cols()));
   Eigen::VectorXd parts(shape_.size());
+  const bool is_one_row = rule_.kind == MagnitudeKind::peak_to_valley && rule_.rows.empty();
   for (Eigen::Index i = 0; i < noise_.cols(); ++i) {
     parts = truth * shape_ + noise_.col(i);
-    all[static_cast<std::size_t>(i)] = kind_ == MagnitudeKind::peak_to_valley
-                                           ? parts.maxCoeff() - parts.minCoeff()
-                                           : size_of(kind_, parts);
+    all[static_cast<std::size_t>(i)] =
+        is_one_row ? parts.maxCoeff() - parts.minCoeff() : size_by(rule_, parts);
   }
   return all;
 }

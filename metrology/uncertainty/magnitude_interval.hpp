@@ -15,7 +15,8 @@
 // Shape    : parts in rows, draws of the noise in columns
 // Errors   : none; noise that is zero gives the measured size itself
 // Accuracy : coverage 95 % for no form, 93 % to 97 % for most others; 89 % at worst, of a cone whose lobes are
-//            5 times the noise (docs/uncertainty.md, tests/metrology/coverage_test.cpp)
+//            5 times the noise; of zones 92 % to 99 % of perfect features, 84 % at worst of an eccentric journal
+//            (docs/uncertainty.md, tests/metrology/coverage_test.cpp, zone_coverage_test.cpp)
 // Source   : Feldman, Cousins 1998 (ordering); Chuang, Lai 2000 (inversion of tests along an estimated shape);
 //            Johnstone, Silverman 2004 (which waves are there)
 #pragma once
@@ -32,7 +33,7 @@ namespace frustum::metrology {
 class ShapeEstimate {
  public:
   // `noise`: a column a draw, at least a few times as many as parts.
-  ShapeEstimate(MagnitudeKind kind, std::span<const Vec3> places, const Eigen::MatrixXd& noise);
+  ShapeEstimate(SizeRule rule, std::span<const Vec3> places, const Eigen::MatrixXd& noise);
 
   // Of size 1.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& parts) const;
@@ -41,7 +42,7 @@ class ShapeEstimate {
   void thin(std::span<const Vec3> places, Eigen::Index per_place);
   [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& parts) const;
 
-  MagnitudeKind kind_;
+  SizeRule rule_;
   Eigen::VectorXd any_{};  // a shape for parts that are all 0
   // Of many places these few tell the shape; each other one is like the nearest of them.
   std::vector<Eigen::Index> chosen_{};
@@ -59,8 +60,8 @@ struct SizeInterval {
 // Sizes of a part of one shape under noise.
 class SizeUnderNoise {
  public:
-  // All outlive this.
-  SizeUnderNoise(MagnitudeKind kind, const Eigen::MatrixXd& noise, const Eigen::VectorXd& shape,
+  // Noise and shape outlive this.
+  SizeUnderNoise(SizeRule rule, const Eigen::MatrixXd& noise, const Eigen::VectorXd& shape,
                  double coverage = 0.95);
 
   // Whether `measured` is a likely size of a part whose size is `truth`.
@@ -77,7 +78,7 @@ class SizeUnderNoise {
   [[nodiscard]] std::vector<double> sizes(double truth) const;
   [[nodiscard]] Likely likely(double truth) const;
 
-  MagnitudeKind kind_;
+  SizeRule rule_;
   const Eigen::MatrixXd& noise_;
   const Eigen::VectorXd& shape_;
   double coverage_;

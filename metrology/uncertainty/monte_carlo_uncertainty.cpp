@@ -45,7 +45,7 @@ Estimate of_values(std::vector<double> values) {
 class Tally {
  public:
   explicit Tally(const CharacteristicResult& measured)
-      : kind_(measured.magnitude.kind),
+      : rule_(measured.magnitude.rule),
         places_(measured.magnitude.places),
         parts_(Eigen::Map<const Eigen::VectorXd>(
             measured.magnitude.parts.data(),
@@ -56,10 +56,10 @@ class Tally {
 
   void begin() {
     values_.clear();
-    if (kind_ != MagnitudeKind::none) noise_.resize(parts_.size(), kBlockOfDraws);
+    if (rule_.kind != MagnitudeKind::none) noise_.resize(parts_.size(), kBlockOfDraws);
   }
   void add(const CharacteristicResult& drawn) {
-    if (kind_ != MagnitudeKind::none) {
+    if (rule_.kind != MagnitudeKind::none) {
       const auto& parts = drawn.magnitude.parts;
       noise_.col(static_cast<Eigen::Index>(values_.size())) =
           Eigen::Map<const Eigen::VectorXd>(parts.data(), parts_.size()) - parts_;
@@ -68,15 +68,15 @@ class Tally {
     values_.push_back(2.0 * value_ - drawn.value);
   }
   void end() {
-    if (kind_ == MagnitudeKind::none) {
+    if (rule_.kind == MagnitudeKind::none) {
       blocks_.push_back(of_values(values_));
       return;
     }
     // The first block tells the shape for all.
     if (blocks_.empty()) take_bias();
     noise_.colwise() -= bias_;
-    if (blocks_.empty()) shape_ = ShapeEstimate(kind_, places_, noise_)(parts_);
-    const SizeInterval found = SizeUnderNoise(kind_, noise_, shape_).interval(size_);
+    if (blocks_.empty()) shape_ = ShapeEstimate(rule_, places_, noise_)(parts_);
+    const SizeInterval found = SizeUnderNoise(rule_, noise_, shape_).interval(size_);
     blocks_.push_back({per_mm_ * found.low, per_mm_ * found.high, per_mm_ * found.standard});
   }
 
@@ -105,7 +105,7 @@ class Tally {
     bias_ = (bias_.array().abs() > kSure * deviation.array()).select(bias_, 0.0);
     if (bias_.isZero(0.0)) return;
     parts_ -= bias_;
-    size_ = metrology::size_of(kind_, {parts_.data(), static_cast<std::size_t>(parts_.size())});
+    size_ = rule_({parts_.data(), static_cast<std::size_t>(parts_.size())});
   }
 
   [[nodiscard]] double mean(double Estimate::*of) const {
@@ -121,7 +121,7 @@ class Tally {
     return std::sqrt(square / (count * (count - 1.0)));
   }
 
-  MagnitudeKind kind_;
+  SizeRule rule_;
   std::vector<Vec3> places_;
   Eigen::VectorXd parts_;
   double value_;

@@ -101,6 +101,15 @@ double concentricity_uncertainty(const PointUncertainty& u, const Fit<Circle>& f
   return 2.0 * std::sqrt(square(u.probing) * cofactor + square(u.scale * height));
 }
 
+double concentricity_uncertainty(const PointUncertainty& u, const Fit<Circle>& section,
+                                 const FittedFeature& datum) {
+  const double height =
+      (section.element.point - point_of(datum.element)).dot(axis_of(datum.element)->vec());
+  const double middle = std::max(datum.cofactor(0, 0), datum.cofactor(1, 1));
+  const double cofactor = centre_cofactor(section) + middle + square(height) * tilt_cofactor(datum);
+  return 2.0 * std::sqrt(square(u.probing) * cofactor + square(u.scale * height));
+}
+
 double perpendicularity_uncertainty(const PointUncertainty& u, const FittedFeature& toleranced,
                                     const FittedFeature& datum, double extent) {
   return extent * std::sqrt(square(u.probing) * (tilt_cofactor(toleranced) + tilt_cofactor(datum)) +

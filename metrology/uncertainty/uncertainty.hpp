@@ -11,10 +11,12 @@
 //              radius                 u^2 = p^2 g^T Q g + (s r)^2/2; a cone's without what the
 //                                     datum system adds to the place of its section
 //              concentricity          u^2 = 4 (p^2 (Q_1 + Q_2 + h^2 Q_t) + (s h)^2)
+//              ... to a datum         u^2 = 4 (p^2 (Q_1 + Q_d + h^2 Q_t) + (s h)^2)
 //              perpendicularity       u^2 = L^2 (p^2 (Q_t1 + Q_t2) + s^2)
 //              lines and their frames  influence.hpp
-//            g: gradient to the fit's parameters; h: between the sections; L: extent;
-//            Q_1, Q_2: larger variance of a section's centre; Q_t: larger variance of a tilt
+//            g: gradient to the fit's parameters; h: between the sections, or from the datum's middle;
+//            L: extent; Q_1, Q_2: larger variance of a section's centre; Q_d: of the datum's axis in
+//            its middle; Q_t: larger variance of a tilt
 // Units    : mm, rad
 // Shape    : closed formulas
 // Errors   : none
@@ -46,6 +48,9 @@ struct PointUncertainty {
 [[nodiscard]] double concentricity_uncertainty(const PointUncertainty& u, const Fit<Circle>& first,
                                                const Fit<Circle>& second,
                                                const FittedFeature& axis);
+[[nodiscard]] double concentricity_uncertainty(const PointUncertainty& u,
+                                               const Fit<Circle>& section,
+                                               const FittedFeature& datum);
 [[nodiscard]] double perpendicularity_uncertainty(const PointUncertainty& u,
                                                   const FittedFeature& toleranced,
                                                   const FittedFeature& datum, double extent);

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "metrology/plan/inspection_plan.hpp"
 #include "test_part.hpp"
@@ -114,6 +117,119 @@ TEST(CharacteristicPlan, TellsWhatACharacteristicDoesNotTake) {
   EXPECT_EQ(fault(c), at + "frame: not for a roundness");
 }
 
+TEST(CharacteristicPlan, TellsWhichSectionsAConcentricityCompares) {
+  const auto with = [](std::vector<std::string> features, std::vector<std::size_t> sections) {
+    PlannedCharacteristic c = of(K::concentricity, std::move(features));
+    c.sections = std::move(sections);
+    return fault(c);
+  };
+  const std::string at = "characteristic[1].";
+  EXPECT_EQ(with({"cone"}, {}), "");
+  EXPECT_EQ(with({"cone"}, {0, 2}), "");
+  EXPECT_EQ(with({"cone", "C"}, {}), "");
+  EXPECT_EQ(with({"cone", "C"}, {1}), "");
+  EXPECT_EQ(with({"cone"}, {1}), at + "section: a concentricity within one feature compares two of "
+                                      "its sections, named is [1]");
+  EXPECT_EQ(with({"cone"}, {0, 1, 2}),
+            at + "sections: a concentricity within one feature compares two of its sections, named "
+                 "are [0, 1, 2]");
+  EXPECT_EQ(with({"cone"}, {1, 1}),
+            at + "sections: a concentricity compares two sections, section 1 is named twice");
+  EXPECT_EQ(with({"cone"}, {0, 3}), at + "sections: 'cone' has 3 sections, there is no section 3");
+  EXPECT_EQ(with({"cone", "C"}, {3}), at + "section: 'cone' has 3 sections, there is no section 3");
+  EXPECT_EQ(with({"C", "C"}, {}), at + "features: 'C' is named twice");
+  InspectionPlan plan = test_part::plan();
+  plan.features[3].strategy = SpiralStrategy{-11.0, -3.0};
+  plan.characteristics = {of(K::concentricity, {"cone"})};
+  ASSERT_EQ(check(plan).size(), 1U);
+  EXPECT_EQ(check(plan).front().message,
+            "a concentricity within one feature compares two of its sections, 'cone' has 1");
+}
+
+// The small cone part with one of its features shifted and turned about Y.
+std::string fault_of(const PlannedCharacteristic& c, const std::string& name, const Vec3& shift,
+                     double angle = 0.0) {
+  InspectionPlan plan = test_part::plan();
+  plan.datum.reset();
+  for (PlannedFeature& f : plan.features) {
+    if (f.name != name) continue;
+    f.point += shift;
+    f.axis = rotation_y(angle) * f.axis;
+    if (auto* grid = std::get_if<GridStrategy>(&f.strategy)) {
+      grid->u = rotation_y(angle) * grid->u;
+      grid->v = rotation_y(angle) * grid->v;
+    }
+    f.extent = {};
+  }
+  // A second wall of the groove, and a sphere over the cone.
+  PlannedFeature wall = test_part::plan().features[2];
+  wall.name = "wall";
+  wall.point = {50.0, 0.0, -4.0};
+  wall.axis = -Vec3::UnitX();
+  PlannedFeature ball;
+  ball.name = "ball";
+  ball.kind = FeatureKind::sphere;
+  ball.point = {0.0, 0.0, 60.0};
+  ball.radius = 5.0;
+  ball.strategy = SphereStrategy{};
+  plan.features.insert(plan.features.end(), {wall, ball});
+  plan.characteristics = {c};
+  const Diagnostics found = check(plan);
+  return found.empty() ? "" : found.front().key + ": " + found.front().message;
+}
+
+TEST(CharacteristicPlan, TellsWhatNoPartCouldHold) {
+  const std::string at = "characteristic[1].features: ";
+  const double deg = kRadPerDeg;
+  const Vec3 none = Vec3::Zero();
+  const auto square = of(K::perpendicularity, {"groove", "A"});
+  EXPECT_EQ(fault_of(square, "groove", none), "");
+  EXPECT_EQ(fault_of(square, "groove", none, 5e-4), "");
+  EXPECT_EQ(fault_of(square, "groove", none, 10.0 * deg),
+            at + "'groove' and 'A' must be planned perpendicular, they are 80 deg apart");
+  EXPECT_EQ(fault_of(of(K::perpendicularity, {"C", "A"}), "C", none, 10.0 * deg),
+            at + "'C' and 'A' must be planned perpendicular, they are 80 deg apart");
+  EXPECT_EQ(fault_of(of(K::perpendicularity, {"wall", "groove"}), "", none),
+            at + "'wall' and 'groove' must be planned perpendicular, they are 0 deg apart");
+  EXPECT_EQ(fault_of(of(K::perpendicularity, {"C", "cone"}), "", none),
+            at + "'C' and 'cone' must be planned perpendicular, they are 0 deg apart");
+  EXPECT_EQ(fault_of(of(K::angularity, {"C", "cone"}), "cone", none, 10.0 * deg), "");
+
+  for (const K kind : {K::coaxiality, K::concentricity, K::circular_run_out, K::total_run_out}) {
+    const auto on_axis = of(kind, {"cone", "C"});
+    EXPECT_EQ(fault_of(on_axis, "cone", {0.005, 0, 3}), "");
+    EXPECT_EQ(fault_of(on_axis, "cone", {20, 0, 3}),
+              at + "'cone' must be planned on the axis of 'C', it is 20 mm off");
+    EXPECT_EQ(fault_of(on_axis, "cone", none, 5.0 * deg),
+              at + "'cone' must be planned on the axis of 'C', it is 5 deg off");
+  }
+  EXPECT_EQ(fault_of(of(K::total_run_out, {"A", "C"}), "A", {9, 9, 0}), "");
+  EXPECT_EQ(fault_of(of(K::total_run_out, {"A", "C"}), "A", none, 5.0 * deg),
+            at + "'A' must be planned perpendicular to the axis of 'C', it is 5 deg off");
+  EXPECT_EQ(fault_of(of(K::coaxiality, {"ball", "C"}), "", none), "");
+  EXPECT_EQ(fault_of(of(K::coaxiality, {"ball", "C", "cone"}), "cone", {0, 0.5, 0}),
+            at + "'cone' must be planned on the axis of 'C', it is 0.5 mm off");
+  EXPECT_EQ(fault_of(of(K::coaxiality, {"ball", "C"}), "C", {0, 3, 0}),
+            at + "'ball' must be planned on the axis of 'C', it is 3 mm off");
+
+  // The groove lies 45 mm beside the axis.
+  EXPECT_EQ(fault_of(of(K::symmetry, {"groove", "wall", "C"}), "C", {45, 7, 0}), "");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"C", "groove", "wall"}), "C", {45, 7, 0}), "");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"groove", "wall", "C"}), "C", {25, 0, 0}),
+            at + "'groove' and 'wall' must be planned symmetric about 'C', they are 20 mm off");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"C", "groove", "wall"}), "C", {25, 0, 0}),
+            at + "'C' must be planned symmetric about 'groove' and 'wall', they are 20 mm off");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"groove", "wall", "C"}), "C", {45, 0, 0}, 5.0 * deg),
+            at + "'groove' and 'wall' must be planned symmetric about 'C', they are 5 deg off");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"groove", "A"}), "", none),
+            at + "'groove' must be planned symmetric about 'A', they are 90 deg off");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"groove", "wall"}), "", none),
+            at + "'groove' must be planned symmetric about 'wall', they are 10 mm off");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"cone", "C"}), "", none), "");
+  EXPECT_EQ(fault_of(of(K::symmetry, {"cone", "C"}), "cone", {0, 2, 0}),
+            at + "'cone' must be planned symmetric about 'C', they are 2 mm off");
+}
+
 TEST(CharacteristicPlan, TellsWhichFiltersMakeSense) {
   const auto filtered = [](K kind, const ProfileFilter& filter) {
     PlannedCharacteristic c = of(kind, {"C"});
@@ -159,6 +275,18 @@ TEST(CharacteristicPlan, TellsWhichDatumSystemsMakeSense) {
   EXPECT_EQ(datum_fault(fit), "datum.best_fit: excludes primary, secondary and tertiary");
   EXPECT_EQ(datum_fault({"A", "C", "", Criterion::least_squares, {}, {"RZ"}}),
             "datum.locked: only a best_fit has locked degrees");
+}
+
+TEST(CharacteristicPlan, TellsTheLineOfWhatNoPartCouldHold) {
+  const std::string text = to_toml(test_part::plan());
+  const auto plan = parse_plan(text +
+                                   "[[characteristic]]\nname = \"n\"\nkind = \"perpendicularity\"\n"
+                                   "features = [\"C\", \"cone\"]\ntolerance = \"1 um\"\n",
+                               "p.toml");
+  ASSERT_FALSE(plan);
+  const auto line = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 4;
+  EXPECT_TRUE(to_string(plan.error().front()).starts_with(fmt::format("p.toml:{}:", line)))
+      << to_string(plan.error().front());
 }
 
 TEST(CharacteristicPlan, TellsWhereInTheFile) {

@@ -67,6 +67,8 @@ TEST(InspectionPlan, KeepsEveryBitOfRandomNumbers) {
   synthetic::Draws draws(41);
   for (int i = 0; i < 200; ++i) {
     InspectionPlan plan = test_part::plan();
+    // A cone anywhere is concentric with nothing.
+    std::erase_if(plan.characteristics, [](const auto& c) { return c.name == "cone.to_cylinder"; });
     plan.features[3].half_angle = draws.between(0.01, 1.5);
     plan.features[3].point = draws.place(1000.0);
     plan.features[3].axis = draws.direction();
