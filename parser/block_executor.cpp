@@ -47,6 +47,10 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   block_ = &block;
   auto words = read_words(block, parameters_, rules_.dialect);
   if (!words) return std::move(words).error();
+  if (words->value_or(CodeGroup::subprogram, SubprogramWord::none) == SubprogramWord::macro) {
+    report_comments(block);
+    return call_macro(*words);
+  }
   const auto movement = movement_of(*words);
   if (!movement) return movement.error();
   if (auto done = check_claims(*words, *movement); !done) return std::move(done).error();
@@ -264,6 +268,11 @@ void BlockExecutor::report_comments(const Block& block) {
 }
 
 void BlockExecutor::report_events(const BlockWords& words) {
+  for (const GivenCode& word : words.vacant()) {
+    const auto written = std::find_if(block_->words.begin(), block_->words.end(),
+                                      [&](const Word& w) { return w.column == word.column; });
+    emit(word.column, Event{"vacant", std::string(1, written->letter)});
+  }
   for (const GivenCode& event : words.events()) {
     std::string arguments;
     for (char letter = 'A'; letter <= 'Z'; ++letter) {
@@ -426,6 +435,57 @@ void BlockExecutor::leave_call() {
   saved_modes_.pop_back();
 }
 
+// G65 P: the other letters are arguments, each of its own parameter.
+Result<Flow> BlockExecutor::call_macro(const BlockWords& words) const {
+  struct Argument {
+    char letter;
+    int parameter;
+  };
+  constexpr std::array kArguments{
+      Argument{'A', 1},  Argument{'B', 2},  Argument{'C', 3},  Argument{'D', 7},
+      Argument{'E', 8},  Argument{'F', 9},  Argument{'H', 11}, Argument{'I', 4},
+      Argument{'J', 5},  Argument{'K', 6},  Argument{'Q', 17}, Argument{'R', 18},
+      Argument{'S', 19}, Argument{'T', 20}, Argument{'U', 21}, Argument{'V', 22},
+      Argument{'W', 23}, Argument{'X', 24}, Argument{'Y', 25}, Argument{'Z', 26}};
+  constexpr std::size_t kParameters = 26;
+  const GivenCode& code = words[CodeGroup::subprogram];
+  auto call = called_program(words);
+  if (!call) return call.error();
+  call->arguments.emplace(kParameters, kVacant);
+  for (const Argument& argument : kArguments) {
+    if (!words.has(argument.letter)) continue;
+    call->arguments->at(static_cast<std::size_t>(argument.parameter) - 1) =
+        words[argument.letter].value;
+  }
+  for (std::size_t group = 0; group < kCodeGroups; ++group) {
+    const GivenCode& other = words[static_cast<CodeGroup>(group)];
+    if (other.code == nullptr || other.code == code.code) continue;
+    return fail(other.column, fmt::format("{} beside {}", other.code->name(), code.code->name()),
+                "write two blocks");
+  }
+  return Flow{*std::move(call)};
+}
+
+Result<CallSubprogram> BlockExecutor::called_program(const BlockWords& words) const {
+  const GivenCode& code = words[CodeGroup::subprogram];
+  CallSubprogram call{0, false, 1, code.column, {}};
+  if (!words.has('P')) {
+    return fail(code.column, code.code->name() + " without P",
+                fmt::format("name the subprogram, for example {} P2000", code.code->name()));
+  }
+  const auto program = whole(words, 'P', 1, kMaxProgramNumber);
+  if (!program) return program.error();
+  call.program = static_cast<std::uint32_t>(*program);
+  call.column = words['P'].column;
+  if (words.has('L')) {
+    const auto count = whole(words, 'L', 0, kMaxRepeats);
+    if (!count) return count.error();
+    call.counted = true;
+    call.count = static_cast<std::uint32_t>(*count);
+  }
+  return call;
+}
+
 Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   const GivenCode& stop = words[CodeGroup::stop];
   if (stop.code != nullptr) {
@@ -438,21 +498,9 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   if (word == SubprogramWord::leave) return Flow{LeaveSubprogram{subprogram.column}};
   if (word == SubprogramWord::none) return Flow{NextBlock{}};
 
-  CallSubprogram call{0, false, 1, subprogram.column};
-  if (!words.has('P')) {
-    return fail(subprogram.column, "M98 without P", "name the subprogram, for example M98 P2000");
-  }
-  const auto program = whole(words, 'P', 1, kMaxProgramNumber);
-  if (!program) return program.error();
-  call.program = static_cast<std::uint32_t>(*program);
-  call.column = words['P'].column;
-  if (words.has('L')) {
-    const auto count = whole(words, 'L', 0, kMaxRepeats);
-    if (!count) return count.error();
-    call.counted = true;
-    call.count = static_cast<std::uint32_t>(*count);
-  }
-  return Flow{call};
+  auto call = called_program(words);
+  if (!call) return call.error();
+  return Flow{*std::move(call)};
 }
 
 Diagnostic BlockExecutor::fail(std::uint32_t column, std::string message, std::string hint) const {

@@ -41,6 +41,8 @@ struct CallSubprogram {
   bool counted = false;  // L was given
   std::uint32_t count = 1;
   std::uint32_t column = 0;
+  std::optional<std::vector<double>>
+      arguments{};  // of a macro: #1, #2, ...; vacant where not given
 };
 using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram>;
 
@@ -117,6 +119,8 @@ class BlockExecutor {
   [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);
   void drill(const std::vector<CycleStep>& steps, std::uint32_t column, AxisLetter depth_axis,
              const Feed& feed);
+  [[nodiscard]] Result<CallSubprogram> called_program(const BlockWords& words) const;
+  [[nodiscard]] Result<Flow> call_macro(const BlockWords& words) const;
   [[nodiscard]] Result<Flow> finish(const BlockWords& words);
 
   [[nodiscard]] double unit_scale() const;

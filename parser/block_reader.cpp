@@ -1,6 +1,7 @@
 #include "parser/block_reader.hpp"
 
 #include "parser/grammar.hpp"
+#include "parser/macro_reader.hpp"
 #include "parser/o_word_reader.hpp"
 
 namespace frustum::parser {
@@ -8,7 +9,7 @@ namespace frustum::parser {
 BlockReader reader_of(Dialect dialect) {
   switch (dialect) {
     case Dialect::fanuc:
-      return parse_block;
+      return read_fanuc_block;
     case Dialect::linuxcnc:
       return read_linuxcnc_block;
     case Dialect::sinumerik:

@@ -76,6 +76,10 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
         return at(block, static_cast<std::uint32_t>(failure.column), failure.message, failure.hint);
       }
       number = *computed;
+      if (is_vacant(number)) {
+        words.vacant_.push_back({nullptr, word.column});
+        continue;
+      }
     }
     const bool named = word.letter == kNamedWord;
     if (word.letter != 'G' && word.letter != 'M' && !named) {

@@ -47,6 +47,8 @@ class BlockWords {
   }
   // Codes that are known but not simulated.
   [[nodiscard]] const std::vector<GivenCode>& events() const { return events_; }
+  // Words whose value is vacant: they count as not given.
+  [[nodiscard]] const std::vector<GivenCode>& vacant() const { return vacant_; }
   // The first word of the block among `letters`, by column.
   [[nodiscard]] char first_of(LetterSet letters) const;
   // "X1.5", "A3=0.5": as the program spells the word and a message names it.
@@ -64,6 +66,7 @@ class BlockWords {
   LetterSet given_{};
   std::array<GivenCode, kCodeGroups> codes_{};
   std::vector<GivenCode> events_{};
+  std::vector<GivenCode> vacant_{};
 };
 
 // The words refer to the block.

@@ -181,6 +181,7 @@ constexpr std::array kCodes{
     modal(kLinuxcnc, 'M', 720, saved_modes, SavedModesWord::restore),
     modal(kLinuxcnc, 'M', 730, saved_modes, SavedModesWord::save_for_call),
     modal(kRs274, 'M', 980, subprogram, SubprogramWord::call, kCallWords),
+    modal(kFanuc, 'G', 650, subprogram, SubprogramWord::macro),
     modal(kRs274, 'M', 990, subprogram, SubprogramWord::leave),
 
     named(kSinumerik, "SUPA", non_modal, NonModal::machine_coordinates),
@@ -299,7 +300,7 @@ constexpr std::array kRefused{
     RefusedCode{kFanuc, 'G', 510, 519, "write the positions out, in G54 to G59"},
     RefusedCode{kFanuc, 'G', 541, 549, "use G54 to G59"},
     RefusedCode{kFanuc, 'G', 591, 599, "use G54 to G59"},
-    RefusedCode{kFanuc, 'G', 650, 669, "call subprograms with M98 P"},
+    RefusedCode{kFanuc, 'G', 660, 669, "call subprograms with M98 P"},
     RefusedCode{kFanuc, 'G', 681, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
     RefusedCode{kRs274, 'G', 750, 769, "write the cycle out as G0 and G1 blocks"},

@@ -98,7 +98,7 @@ enum class NonModal : std::uint8_t {
   shift_suspend,
   shift_resume
 };
-enum class SubprogramWord : std::uint8_t { none, call, leave };
+enum class SubprogramWord : std::uint8_t { none, call, leave, macro };
 // The last two leave the tool-tip switch as it is.
 enum class LengthWord : std::uint8_t {
   off,

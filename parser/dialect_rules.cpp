@@ -102,12 +102,27 @@ constexpr std::array kPlainDwell{DwellWord{'P', DwellUnit::seconds}};
 constexpr std::array kCldataDwell{DwellWord{'P', DwellUnit::seconds},
                                   DwellWord{'S', DwellUnit::revolutions}};
 
+constexpr std::array<std::string_view, 3> kFanucFiles{"{}", "{}.nc", "{}.NC"};
 constexpr std::array<std::string_view, 2> kLinuxcncFiles{"{}.ngc", "{}.nc"};
 
 const std::array<DialectRules, kDialects.size()> kRules{
-    DialectRules{Dialect::fanuc, "IJK", "I J K", "switch it on with G43.4 or G43.5", kFanucDwell,
-                 "give P in milliseconds, or X in seconds", false, false, false, false,
-                 LetterSet("FST"), kFanucLetters, "A B C F G H I J K L M N O P Q R S T U X Y Z"},
+    DialectRules{Dialect::fanuc,
+                 "IJK",
+                 "I J K",
+                 "switch it on with G43.4 or G43.5",
+                 kFanucDwell,
+                 "give P in milliseconds, or X in seconds",
+                 false,
+                 false,
+                 false,
+                 false,
+                 LetterSet("FST"),
+                 kFanucLetters,
+                 "A B C F G H I J K L M N O P Q R S T U X Y Z",
+                 {.locals = 33, .unset_is_vacant = true},
+                 {},
+                 {},
+                 kFanucFiles},
     DialectRules{Dialect::linuxcnc,
                  "abc",
                  "",

@@ -185,8 +185,19 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
       stack[top - 1] = *value;
       continue;
     }
-    const double b = takes_two(step.operation) ? stack[--top] : 0.0;
-    const double a = stack[top - 1];
+    double b = takes_two(step.operation) ? stack[--top] : 0.0;
+    double a = stack[top - 1];
+    if (is_vacant(a) || is_vacant(b)) {
+      const bool asks =
+          step.operation == Operation::equal || step.operation == Operation::not_equal;
+      if (asks) {
+        const bool both = is_vacant(a) && is_vacant(b);
+        stack[top - 1] = both == (step.operation == Operation::equal) ? 1.0 : 0.0;
+        continue;
+      }
+      if (is_vacant(a)) a = 0.0;
+      if (is_vacant(b)) b = 0.0;
+    }
     if (const auto domain = domain_of(step.operation, a, b); domain && !domain->holds) {
       return at_column(
           error(fmt::format(fmt::runtime(domain->message), decimal_text(a), decimal_text(b)),

@@ -3,6 +3,7 @@
 // The steps of all expressions of a block lie in one row in the block; an ExpressionRange names a
 // part of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never
 // negative, and operators of one level bind to the left, `**` too: RS-274's rules.
+// A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0.
 // Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
 // beyond the range of numbers; each at the column of the operation.
 #pragma once

@@ -33,6 +33,7 @@ Result<int> Parameters::index_of(double number) {
 }
 
 Result<double> Parameters::read(double number) const {
+  if (rules_.unset_is_vacant && number == 0.0) return kVacant;
   auto index = index_of(number);
   if (!index) return std::move(index).error();
   if (system_ != nullptr) {
@@ -42,6 +43,7 @@ Result<double> Parameters::read(double number) const {
   const auto found = all.find(*index);
   if (found == all.end()) {
     if (rules_.unset_is_zero) return 0.0;
+    if (rules_.unset_is_vacant) return kVacant;
     return error(fmt::format("parameter #{} has no value", *index),
                  fmt::format("set it on an earlier block: #{}=...", *index));
   }
@@ -69,7 +71,7 @@ bool Parameters::has(std::string_view name) const {
 void Parameters::enter(std::span<const double> arguments) {
   locals_.emplace_back();
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    locals_.back().numbered[static_cast<int>(i) + 1] = arguments[i];
+    if (!is_vacant(arguments[i])) locals_.back().numbered[static_cast<int>(i) + 1] = arguments[i];
   }
 }
 

@@ -6,6 +6,8 @@
 // Errors: reading a parameter that was never set, or a number that no parameter has.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -23,9 +25,16 @@ struct ParameterRules {
   int locals = 0;              // #1 up to this number belong to the subprogram
   bool named_locals = false;   // so do names without _ before them
   bool unset_is_zero = false;  // a number that was never set reads as 0
+  // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but vacant ones, and a
+  // word of that value is not given at all (Custom Macro).
+  bool unset_is_vacant = false;
 };
 
 struct SystemParameters;
+
+// A vacant parameter among numbers.
+constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
+[[nodiscard]] inline bool is_vacant(double value) { return std::isnan(value); }
 
 class Parameters {
  public:

@@ -18,6 +18,10 @@ std::string unlabelled(std::string_view kind, const std::string& label) {
   return label.empty() ? std::string(kind) : fmt::format("{} {}", kind, label);
 }
 
+std::string spelled(double value) {
+  return is_vacant(value) ? "a vacant value" : decimal_text(value);
+}
+
 // "120" of the label "N120".
 std::optional<std::uint32_t> block_number_of(std::string_view label) {
   std::uint32_t number = 0;
@@ -38,7 +42,7 @@ Result<double> ProgramRun::value_of(const Block& block, ExpressionRange range) {
 Result<bool> ProgramRun::holds(const Block& block, const FlowStatement& flow) {
   const auto value = value_of(block, flow.condition);
   if (!value) return value.error();
-  return (*value != 0.0) != flow.negated;
+  return (*value != 0.0 && !is_vacant(*value)) != flow.negated;
 }
 
 Result<std::string> ProgramRun::label_of(const Block& block, const FlowStatement& flow) {
@@ -46,8 +50,9 @@ Result<std::string> ProgramRun::label_of(const Block& block, const FlowStatement
   const auto value = value_of(block, flow.label_value);
   if (!value) return value.error();
   const double nearest = std::round(*value);
-  if (std::abs(*value - nearest) > 1e-4 || nearest < 0.0 || nearest > 99'999'999.0) {
-    return at(block, flow.column, fmt::format("{} is no number of a block or subprogram", *value),
+  if (!(std::abs(*value - nearest) <= 1e-4) || nearest < 0.0 || nearest > 99'999'999.0) {
+    return at(block, flow.column,
+              fmt::format("{} is no number of a block or subprogram", spelled(*value)),
               "it is a whole number from 0 to 99999999");
   }
   return flow.label + fmt::format("{}", static_cast<std::uint32_t>(nearest));
@@ -58,8 +63,8 @@ Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange r
   const auto value = value_of(block, range);
   if (!value) return value.error();
   const double nearest = std::round(*value);
-  if (std::abs(*value - nearest) > 1e-4 || nearest > kMaxTurns) {
-    return at(block, block.flow->column, fmt::format("{} is no number of repeats", *value),
+  if (!(std::abs(*value - nearest) <= 1e-4) || nearest > kMaxTurns) {
+    return at(block, block.flow->column, fmt::format("{} is no number of repeats", spelled(*value)),
               "it is a whole number up to 1000000000");
   }
   return static_cast<std::uint64_t>(std::max(0.0, nearest));
@@ -265,6 +270,7 @@ std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search s
   const Program& program = frame().program->program();
   const auto number = block_number_of(label);
   const TextPlace here = frame().cursor.block_place();
+  const TextPlace start = frame().entry;
   const auto found_in = [&](TextPlace from, std::uint64_t to) -> std::optional<TextPlace> {
     BlockCursor cursor(program);
     cursor.go_to(from);
@@ -272,6 +278,8 @@ std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search s
       const auto block = cursor.next();
       if (!block) continue;
       if (*block == nullptr || cursor.block_place().offset >= to) return std::nullopt;
+      // The next program of the file has numbers of its own.
+      if ((*block)->program && cursor.block_place().offset > start.offset) return std::nullopt;
       if (number && (*block)->number == number) return cursor.block_place();
     }
   };
@@ -284,7 +292,6 @@ std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search s
       return std::nullopt;
     return target->place;
   }
-  const TextPlace start = frame().entry;
   if (search == Search::forward) return found_in(frame().cursor.place(), kEnd);
   if (search == Search::backward) return found_in(start, here.offset);
   if (search == Search::from_start) return found_in(start, kEnd);

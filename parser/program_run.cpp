@@ -59,7 +59,10 @@ ProgramRun::Failure ProgramRun::run_next() {
   if (*next == nullptr) return run_off(nullptr);
   const Block& block = **next;
   if (frame().opened && (block.tape_mark || block.program)) return run_off(&block);
-  frame().opened = frame().opened || does_something(block);
+  if (!frame().opened && does_something(block)) {
+    frame().opened = true;
+    if (frames_.size() == 1) frame().entry = frame().cursor.block_place();
+  }
   if (++blocks_ > options_.max_blocks) {
     return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks),
               "look for repeats within repeats, and for loops whose condition never changes");
@@ -143,26 +146,28 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram
 
 ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) {
   std::shared_ptr<LoadedProgram> holder = frame().program;
-  const auto& programs = holder->map().programs();
-  auto entry = programs.find(call.program);
-  if (entry == programs.end() && !call.counted && call.program >= kRepeatsFactor) {
+  const auto has = [&](std::uint32_t number) { return holder->map().programs().contains(number); };
+  if (!has(call.program) && !call.counted && call.program >= kRepeatsFactor &&
+      has(call.program % kRepeatsFactor)) {
     call.count = call.program / kRepeatsFactor;
     call.program %= kRepeatsFactor;
-    entry = programs.find(call.program);
   }
-  if (entry == programs.end()) {
-    return at(block, call.column, fmt::format("subprogram O{} does not exist", call.program),
-              known_programs(holder->map()));
+  const std::string name = fmt::format("O{}", call.program);
+  if (!has(call.program)) {
+    holder = file_of(name);
+    if (holder == nullptr || !has(call.program)) {
+      return at(block, call.column, fmt::format("subprogram {} does not exist", name),
+                known_programs(frame().program->map()));
+    }
   }
   if (call.count == 0) return std::nullopt;
-  CallFrame next{holder,
-                 BlockCursor(holder->program()),
-                 fmt::format("O{}", call.program),
-                 "M99",
-                 entry->second.place,
-                 entry->second.column,
+  const auto& entry = holder->map().programs().at(call.program);
+  CallFrame next{holder,    BlockCursor(holder->program()), name, "M99", entry.place, entry.column,
                  call.count};
-  return push_call(block, call.column, std::move(next));
+  next.has_locals = call.arguments.has_value();
+  if (auto failure = push_call(block, call.column, std::move(next))) return failure;
+  if (call.arguments) executor_.parameters().enter(*call.arguments);
+  return std::nullopt;
 }
 
 ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t column,

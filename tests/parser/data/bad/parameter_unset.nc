@@ -1,2 +1,0 @@
-; 2:5: error: parameter #7 has no value (hint: set it on an earlier block: #7=...)
-G0 X#7
