@@ -130,6 +130,16 @@ int measure(const Options& options) {
   const int sources = int{!options.points.empty()} + int{!options.mesh.empty()};
   const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
   const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
+  if (by_plan && options.overrides.any()) {
+    return refuse("--error, --errors, --tool-radius-error and --draw go with a job",
+                  "measured points and meshes have the errors that they have");
+  }
+  if (options.ball_centres && options.points.empty()) {
+    return refuse("--ball-centres goes with --points", "leave it out");
+  }
+  if (by_job && !options.unit.empty()) {
+    return refuse("--unit goes with --points or --mesh", "a job's part is in mm; leave it out");
+  }
   if (by_plan) return measure_by_plan(options);
   if (by_job && options.cmm.any()) {
     return refuse("--e0, --l-per-um and --cmm go with --points or --mesh",

@@ -41,6 +41,10 @@ struct Job {
 struct JobOverrides {
   ErrorWords errors{};
   std::optional<std::string> tool_radius_error{};
+
+  [[nodiscard]] bool any() const {
+    return !errors.files.empty() || !errors.errors.empty() || errors.draw || tool_radius_error;
+  }
 };
 
 // `want_plan`: a job without [inspection] is an error.

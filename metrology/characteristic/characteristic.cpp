@@ -312,8 +312,8 @@ Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t sec
 }
 
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
-                                      std::span<const FittedFeature> features, bool in_datum,
-                                      const CmmModel& cmm, double line_uncertainty) {
+                                      std::span<const FittedFeature> features, const CmmModel& cmm,
+                                      double line_uncertainty) {
   std::vector<const FittedFeature*> chosen;
   for (const std::string& name : planned.features) {
     const auto found = std::find_if(features.begin(), features.end(), [&](const FittedFeature& f) {
@@ -332,7 +332,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     if (zone_finder == nullptr) {
       return Evaluation(planned, chosen, cmm, line_uncertainty)();
     }
-    auto zone = zone_finder({planned, chosen, point_uncertainty(cmm), in_datum});
+    auto zone = zone_finder({planned, chosen, point_uncertainty(cmm)});
     if (!zone) return std::move(zone).error();
     harmonics = std::move(zone->harmonics);
     return Value{zone->value, zone->uncertainty,         {}, std::move(zone->profile),

@@ -58,14 +58,14 @@ struct AngleFrame {
 [[nodiscard]] Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
                                                  const Vec3& along);
 
-// `features` are all that were measured, in one frame. `in_datum`: that frame is the datum system,
-// so planned directions hold in it; concentricity within one feature then looks along its planned
-// axis (its own fitted axis runs through any two of its sections and would hide what is asked).
+// `features` are all that were measured, in the frame in which the plan holds: that of its datum system, or
+// without one the workpiece's. Concentricity within one feature looks along its planned axis (its own
+// fitted axis runs through any two of its sections and would hide what is asked).
 // `line_uncertainty` is the standard uncertainty, mm or rad, of a characteristic that compares
 // lines: it depends on their frame, which is not known here.
 [[nodiscard]] Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                                     std::span<const FittedFeature> features,
-                                                    bool in_datum, const CmmModel& cmm,
+                                                    const CmmModel& cmm,
                                                     double line_uncertainty = 0.0);
 
 }  // namespace frustum::metrology

@@ -139,11 +139,11 @@ Result<Measurement> evaluated_values(const InspectionPlan& plan,
   const auto result_of = [&](const PlannedCharacteristic& planned) -> Result<CharacteristicResult> {
     const double uncertainty = line_uncertainty(planned);
     if (planned.frame.empty()) {
-      return evaluate(planned, in_datum, uses_datum(plan), cmm, uncertainty);
+      return evaluate(planned, in_datum, cmm, uncertainty);
     }
     const Result<Pose>& frame = frames.find(planned.frame);
     if (!frame) return frame.error();
-    return evaluate(planned, named(planned, frame->inverse(), features), false, cmm, uncertainty);
+    return evaluate(planned, named(planned, frame->inverse(), features), cmm, uncertainty);
   };
   Diagnostics failures;
   for (const PlannedCharacteristic& planned : plan.characteristics) {

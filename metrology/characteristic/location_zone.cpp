@@ -122,8 +122,7 @@ Result<Zone> centred_on(const Target& target, const FittedFeature& feature,
 Result<Zone> concentricity_within(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
   const std::vector<std::size_t>& named = what.planned.sections;
-  const Vec3 axis =
-      what.in_datum ? unit(feature.planned->axis).vec() : axis_of(feature.element)->vec();
+  const Vec3 axis = unit(feature.planned->axis);
   const auto first = section_circle(feature, named.empty() ? 0 : named[0], axis);
   if (!first) return first.error();
   const auto second =
@@ -176,7 +175,23 @@ Result<Target> symmetry_datum(std::span<const FittedFeature* const> datums, Crit
     if (!element) return element.error();
     faces.push_back(std::get<Plane>(*element));
   }
-  return Target{faces.size() == 1 ? faces.front() : median_plane(faces[0], faces[1])};
+  if (faces.size() == 1) return Target{faces.front()};
+  const double sense =
+      sense_between(unit(datums[0]->planned->axis), unit(datums[1]->planned->axis));
+  return Target{median_plane(faces[0], faces[1], sense)};
+}
+
+// Of two faces, as they are planned about their datum.
+double planned_sense(const FittedFeature& first, const FittedFeature& second,
+                     std::span<const FittedFeature* const> datums, bool datum_is_axis) {
+  Vec3 direction = unit(datums.front()->planned->axis);
+  if (!datum_is_axis && datums.size() == 2) {
+    const Vec3 other = unit(datums.back()->planned->axis);
+    direction += sense_between(direction, other) * other;
+    direction.normalize();
+  }
+  return sense_towards(unit(first.planned->axis), unit(second.planned->axis), direction,
+                       datum_is_axis);
 }
 
 Result<Zone> symmetry_zone(const Toleranced& what) {
@@ -188,7 +203,11 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
   if (!is_plane(first)) return centred_on(*target, first, what);
   const FittedFeature& last = *features[toleranced - 1];
   Plane median = std::get<Plane>(first.element);
-  if (toleranced == 2) median = median_plane(median, std::get<Plane>(last.element));
+  if (toleranced == 2) {
+    const double sense = planned_sense(first, last, features.subspan(toleranced),
+                                       std::holds_alternative<Line>(*target));
+    median = median_plane(median, std::get<Plane>(last.element), sense);
+  }
   if (const auto* axis = std::get_if<Line>(&*target)) {
     // The plane through the axis that lies nearest to the toleranced one.
     const Vec3 along = axis->axis;

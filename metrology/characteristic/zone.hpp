@@ -1,7 +1,7 @@
 // The tolerance zones of ISO 1101 as this room evaluates them: what goes in, what comes out.
 //
 // Model    : each function below is one family of zones, defined in docs/characteristics.md
-// Units    : mm, rad; all features in one frame, in which the plan holds when `in_datum`
+// Units    : mm, rad; all features in one frame, in which the plan holds
 // Shape    : one characteristic a call
 // Errors   : sections with too few points, fits and filters that fail
 // Accuracy : 1e-9 mm (tests/metrology/zone_test.cpp, form_characteristic_test.cpp)
@@ -29,7 +29,6 @@ struct Toleranced {
   const PlannedCharacteristic& planned;
   std::vector<const FittedFeature*> features{};  // in the order in which it names them
   PointUncertainty u{};
-  bool in_datum = false;
 };
 
 // Roundness, cylindricity, cone form, flatness and straightness by any criterion, parameter and filter;

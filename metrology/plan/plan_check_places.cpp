@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "metrology/fit/median_plane.hpp"
@@ -97,8 +98,8 @@ class PlacesCheck {
 
   void symmetric() const {
     const std::size_t toleranced = is_plane(*features_[0]) && features_.size() > 2 ? 2 : 1;
-    const Place place = middle(features_.first(toleranced));
-    const Place datum = middle(features_.subspan(toleranced));
+    const Place datum = middle(features_.subspan(toleranced), nullptr);
+    const Place place = middle(features_.first(toleranced), &datum);
     const bool alike = place.is_plane == datum.is_plane;
     const double between = angle_between(place.direction.vec(), datum.direction.vec());
     const double askew = alike ? between : 0.5 * std::numbers::pi - between;
@@ -122,12 +123,16 @@ class PlacesCheck {
     Vec3 point = Vec3::Zero();
     UnitVec3 direction = UnitVec3::z();
   };
-  static Place middle(Features features) {
+  // Of two faces the plane midway: towards `datum`, or between the sides that look most alike.
+  static Place middle(Features features, const Place* datum) {
     const PlannedFeature& first = *features.front();
     if (features.size() == 1) return {is_plane(first), first.point, unit(first.axis)};
     const PlannedFeature& second = *features.back();
-    const Plane median =
-        median_plane({first.point, unit(first.axis)}, {second.point, unit(second.axis)});
+    const UnitVec3 a = unit(first.axis);
+    const UnitVec3 b = unit(second.axis);
+    const double sense = datum == nullptr ? sense_between(a, b)
+                                          : sense_towards(a, b, datum->direction, !datum->is_plane);
+    const Plane median = median_plane({first.point, a}, {second.point, b}, sense);
     return {true, median.point, median.axis};
   }
   static std::string names(Features features) {

@@ -54,12 +54,15 @@ std::string lower(std::string_view text) {
   return copy;
 }
 
-// What follows "unit" or "units" and a colon or equals sign.
+// What follows "unit" or "units" and a colon, equals sign or blank: "# unit inch" too. Behind a blank only a unit
+// counts, since "# units of the part" says nothing.
 std::optional<std::string_view> after_unit_key(std::string_view text) {
   for (const std::string_view key : {"units", "unit"}) {
     if (!text.starts_with(key)) continue;
-    const std::string_view rest = trimmed(text.substr(key.size()));
+    const std::string_view behind = text.substr(key.size());
+    const std::string_view rest = trimmed(behind);
     if (rest.starts_with(':') || rest.starts_with('=')) return trimmed(rest.substr(1));
+    if (behind.size() > rest.size() && length_unit(rest)) return rest;
   }
   return std::nullopt;
 }

@@ -132,7 +132,7 @@ Result<Eigen::RowVectorXd> Influence::size(const PlannedCharacteristic& planned)
   const auto index = static_cast<std::size_t>(find(planned.features.front()));
   const FittedFeature feature = transformed(workpiece_from_datum->inverse(), features_[index]);
   const auto value_of = [&](const FittedFeature& changed) -> Result<double> {
-    const auto result = evaluate(planned, std::span(&changed, 1), uses_datum(plan_), {});
+    const auto result = evaluate(planned, std::span(&changed, 1), {});
     if (!result) return result.error();
     return internal_value(*result);
   };

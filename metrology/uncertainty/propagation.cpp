@@ -67,7 +67,7 @@ Result<Eigen::MatrixXd> covariance(const InspectionPlan& plan, const Measurement
       gradients.row(i) = **gradient;
       continue;
     }
-    const auto stated = evaluate(*planned, in_datum, uses_datum(plan), cmm);
+    const auto stated = evaluate(*planned, in_datum, cmm);
     if (!stated) return stated.error();
     const double standard = 0.5 * internal_value(stated->expanded_uncertainty, stated->unit);
     alone[i] = standard * standard;

@@ -4,6 +4,7 @@
 
 #include "measured_feature.hpp"
 #include "metrology/characteristic/characteristic.hpp"
+#include "metrology/fit/median_plane.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -24,9 +25,8 @@ PlannedCharacteristic concentricity(std::vector<std::string> features,
   c.tolerance = 1.0;
   return c;
 }
-double value_of(const PlannedCharacteristic& c, const std::vector<FittedFeature>& features,
-                bool in_datum = true) {
-  const auto result = evaluate(c, features, in_datum, {});
+double value_of(const PlannedCharacteristic& c, const std::vector<FittedFeature>& features) {
+  const auto result = evaluate(c, features, {});
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
   return result ? 1e-3 * result->value : -1.0;
 }
@@ -49,9 +49,38 @@ TEST(Concentricity, ToADatumIsMeasuredAcrossTheAxisOfTheDatum) {
   // It is the datum's axis wherever both of them lie, and no frame's.
   const Pose askew = Pose::translated({1, 2, 3}) * turned(Vec3(0.6, 0, 0.8), 0.1);
   const std::vector<FittedFeature> moved{feature(collar, askew * lies), feature(shaft, askew)};
-  for (const bool in_datum : {false, true}) {
-    EXPECT_NEAR(value_of(concentricity({"C", "S"}), moved, in_datum), top, kExact);
+  EXPECT_NEAR(value_of(concentricity({"C", "S"}), moved), top, kExact);
+}
+
+TEST(Concentricity, OfTwoSectionsIsMeasuredAcrossThePlannedAxis) {
+  // Two rings 1 mm apart. An axis through both centres would see nothing of it.
+  auto pin = measured::cylinder("P", {0, 0, 0}, Vec3::UnitZ(), 10.0, {0.0, 20.0});
+  std::vector<Vec3> points;
+  std::vector<std::size_t> sections;
+  for (const PlannedPoint& p : planned_points(pin)) {
+    points.push_back(p.point + (p.section == 0 ? 0.5 : -0.5) * Vec3::UnitX());
+    sections.push_back(p.section);
   }
+  const auto apart = fit_feature(pin, points, sections, 0.0);
+  ASSERT_TRUE(apart);
+  EXPECT_NEAR(value_of(concentricity({"P"}), {*apart}), 2.0, kExact);
+}
+
+TEST(MedianPlane, OfAVGoesByItsDatumNotByItsOpening) {
+  for (const double opening : {44.9, 45.0, 45.1}) {
+    const double angle = opening * kRadPerDeg;
+    const Vec3 left(-std::cos(angle), 0, std::sin(angle));
+    const Vec3 right(std::cos(angle), 0, std::sin(angle));
+    EXPECT_EQ(sense_towards(left, right, Vec3::UnitX(), false), -1.0);
+    EXPECT_EQ(sense_towards(left, right, Vec3::UnitZ(), false), 1.0);
+    EXPECT_EQ(sense_towards(left, right, Vec3::UnitZ(), true), -1.0);
+    const Plane upright = median_plane({Vec3(-5, 0, 0), *UnitVec3::of(left)},
+                                       {Vec3(5, 0, 0), *UnitVec3::of(right)}, -1.0);
+    EXPECT_NEAR(std::abs(upright.axis.vec().x()), 1.0, 1e-15);
+    EXPECT_NEAR(upright.point.x(), 0.0, kExact);
+  }
+  // Parallel faces have one, whatever is asked.
+  EXPECT_EQ(sense_towards(Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitZ(), false), -1.0);
 }
 
 TEST(Concentricity, ToALeaningDatumGrowsWithTheDistanceFromIt) {
@@ -63,21 +92,20 @@ TEST(Concentricity, ToALeaningDatumGrowsWithTheDistanceFromIt) {
   EXPECT_NEAR(value_of(concentricity({"C", "S"}), features), 2.0 * 50.0 * std::sin(tilt), 1e-7);
 }
 
-TEST(Concentricity, OfTwoSectionsOfAFeatureLooksAlongTheDatumSystem) {
+TEST(Concentricity, OfTwoSectionsOfAFeatureLooksAlongItsPlannedAxis) {
   const auto shaft = measured::cylinder("S", {0, 0, 0}, Vec3::UnitZ(), 10.0, {-10.0, 0.0, 15.0});
   const double tilt = 1e-3;
   const std::vector<FittedFeature> features{feature(shaft, turned(Vec3::UnitX(), tilt))};
   EXPECT_NEAR(value_of(concentricity({"S"}), features), 2.0 * 25.0 * std::sin(tilt), kExact);
   EXPECT_NEAR(value_of(concentricity({"S"}, {0, 1}), features), 2.0 * 10.0 * std::sin(tilt),
               kExact);
-  EXPECT_NEAR(value_of(concentricity({"S"}), features, false), 0.0, kExact);
 }
 
 TEST(Concentricity, StatesTheUncertaintyOfTheSectionAndTheDatum) {
   const auto shaft = measured::cylinder("S", {0, 0, 0}, Vec3::UnitZ(), 10.0, {-10.0, 10.0});
   const auto collar = measured::cylinder("C", {0, 0, 40}, Vec3::UnitZ(), 20.0, {0.0, 5.0});
   const std::vector<FittedFeature> features{feature(collar), feature(shaft)};
-  const auto result = evaluate(concentricity({"C", "S"}, {0}), features, true, {.e0_mm = 0.002});
+  const auto result = evaluate(concentricity({"C", "S"}, {0}), features, {.e0_mm = 0.002});
   ASSERT_TRUE(result);
   // 36 points tell a centre by 2/36 of their variance, 72 the axis by 2/72 and its tilt by 2/72 over 10^2.
   const double variance = 2.0 / 36 + 2.0 / 72 * (1.0 + 40.0 * 40.0 / 100.0);
@@ -104,7 +132,7 @@ TEST(MissingSection, IsToldWithItsFeature) {
     PlannedCharacteristic c = concentricity(std::move(names), std::move(sections));
     c.kind = kind;
     c.criterion = criterion;
-    const auto result = evaluate(c, std::vector<FittedFeature>{first, feature(bearing)}, true, {});
+    const auto result = evaluate(c, std::vector<FittedFeature>{first, feature(bearing)}, {});
     EXPECT_FALSE(result) << name_of(kind);
     return result ? "" : result.error().front().message;
   };

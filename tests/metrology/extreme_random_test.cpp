@@ -53,9 +53,12 @@ std::vector<Vec3> any_points(Draws& draws) {
   return points;
 }
 
+// How far its points lie apart: what "a part of 100 mm" means.
 double size_of(const std::vector<Vec3>& points) {
   double farthest = 0.0;
-  for (const Vec3& p : points) farthest = std::max(farthest, (p - points.front()).norm());
+  for (const Vec3& p : points) {
+    for (const Vec3& q : points) farthest = std::max(farthest, (p - q).norm());
+  }
   return farthest;
 }
 

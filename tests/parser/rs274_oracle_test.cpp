@@ -33,14 +33,15 @@ std::vector<std::string> programs() {
   return names;
 }
 
-// What rs274 prints; it writes its parameters, so each run has a folder of its own.
+// What rs274 prints; it writes its parameters, and shares its tools in a file at home, so each run has a folder of
+// its own.
 std::string run_rs274(const fs::path& program) {
   const fs::path folder = fs::temp_directory_path() /
                           fmt::format("frustum-rs274-{}-{}", getpid(), program.stem().string());
   fs::create_directories(folder);
   const std::string command =
-      fmt::format("cd '{}' && timeout 20 rs274 -g -t '{}' '{}' 2>&1 </dev/null", folder.string(),
-                  (corpus() / "tools.tbl").string(), program.string());
+      fmt::format("cd '{0}' && HOME='{0}' timeout 20 rs274 -g -t '{1}' '{2}' 2>&1 </dev/null",
+                  folder.string(), (corpus() / "tools.tbl").string(), program.string());
   std::string output;
   std::array<char, 4096> part{};
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
