@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "metrology/fit/constraint_steps.hpp"
 #include "metrology/fit/kept_radius.hpp"
@@ -50,9 +51,19 @@ Result<Minimum> solve(const NormalisedPoints& local, const UnitVec3& normal) {
   const Constraints& keep = local.constraints;
   const PointBlocks all = PointBlocks::of(local);
   std::vector<Element> starts = starts_near(algebraic_circle(local, normal), keep);
-  if (!keep.radius || keep.axis) return best_minimum(starts, local, all, kWording);
-  auto direct = at_once(starts, local, all, principal_directions(local).spread[1]);
+  if (keep.axis) return best_minimum(starts, local, all, kWording);
+  const PrincipalDirections principal = principal_directions(local);
+  auto direct = at_once(starts, local, all, principal.spread[1]);
   if (direct) return settled(std::move(*direct), all, keep, kWording);
+  if (!keep.radius) {
+    for (const int i : {0, 1}) {
+      const Vec3 across = principal.directions.col(i);
+      for (const Bend& bend : bends_along(across - across.dot(normal.vec()) * normal.vec())) {
+        starts.push_back(Circle{bend.centre, normal, bend.radius});
+      }
+    }
+    return best_minimum(starts, local, all, kWording);
+  }
   for (const Vec3& centre : circle_centres(thinned(local, kSearched), normal, *keep.radius, 8)) {
     starts.push_back(Circle{centre, normal, *keep.radius});
   }
@@ -91,8 +102,35 @@ PlaneInformation plane_information(const NormalisedPoints& local, const UnitVec3
   return all;
 }
 
+// Which ways the plane of a circle may tilt.
+struct PlaneFreedom {
+  bool tilts = true;
+  std::optional<UnitVec3>
+      about{};  // the one axis that it may turn about, if it may not turn freely
+};
+
+// Of the plane's offset and its two tilts, the slopes along tangents(normal).
+Mat3 plane_cofactor(const PlaneInformation& plane, const PlaneFreedom& freedom,
+                    const UnitVec3& normal) {
+  Mat3 cofactor = Mat3::Zero();
+  if (freedom.tilts && !freedom.about) return plane.products.inverse();
+  if (!freedom.tilts) {
+    cofactor(0, 0) = 1.0 / plane.products(0, 0);
+    return cofactor;
+  }
+  // A turn about the axis changes the slopes across it alone.
+  const auto [u, v] = tangents(normal);
+  const Vec3 across = freedom.about->vec().cross(normal.vec());
+  Eigen::Matrix<double, 3, 2> free = Eigen::Matrix<double, 3, 2>::Zero();
+  free(0, 0) = 1.0;
+  free(1, 1) = u.dot(across);
+  free(2, 1) = v.dot(across);
+  const Eigen::Matrix2d products = free.transpose() * plane.products * free;
+  return free * products.inverse() * free.transpose();
+}
+
 Result<Fit<Circle>> circle_in(const NormalisedPoints& local, const UnitVec3& normal,
-                              bool free_plane) {
+                              const PlaneFreedom& freedom) {
   auto found = solved(
       local, [&](const NormalisedPoints& some) { return solve(some, normal); }, kWording.what);
   if (!found) return std::move(found).error();
@@ -104,11 +142,7 @@ Result<Fit<Circle>> circle_in(const NormalisedPoints& local, const UnitVec3& nor
   const PlaneInformation plane = plane_information(local, circle.axis);
   Eigen::MatrixXd cofactor = Eigen::MatrixXd::Zero(6, 6);
   cofactor.topLeftCorner<3, 3>() = found->cofactor;
-  if (free_plane) {
-    cofactor.bottomRightCorner<3, 3>() = plane.products.inverse();
-  } else {
-    cofactor(3, 3) = 1.0 / local.all_weights();
-  }
+  cofactor.bottomRightCorner<3, 3>() = plane_cofactor(plane, freedom, circle.axis);
   constexpr std::array kIsAngle{false, false, false, false, true, true};
   Fit<Circle> fit = completed(
       local, circle,
@@ -130,7 +164,7 @@ Result<Fit<Circle>> fit_circle(std::span<const Vec3> points, const FitOptions& o
   auto normal = plane_normal(*local, kWording.what);
   if (!normal) return std::move(normal).error();
   const Constraints& keep = local->constraints;
-  return circle_in(*local, *normal, !keep.parallel_to && !keep.axis && !keep.perpendicular_to);
+  return circle_in(*local, *normal, {!keep.parallel_to && !keep.axis, keep.perpendicular_to});
 }
 
 Result<Fit<Circle>> fit_circle_2d(std::span<const Vec3> points, const FitOptions& options) {
@@ -138,7 +172,7 @@ Result<Fit<Circle>> fit_circle_2d(std::span<const Vec3> points, const FitOptions
   if (!local) return std::move(local).error();
   const UnitVec3 normal = coordinate_plane(points);
   if (auto problem = elsewhere(options.constraints, normal)) return *problem;
-  return circle_in(*local, normal, true);
+  return circle_in(*local, normal, {});
 }
 
 }  // namespace frustum::metrology

@@ -45,9 +45,16 @@ Result<Minimum> solve(const NormalisedPoints& local) {
   }
   const PointBlocks all = PointBlocks::of(local);
   std::vector<Element> starts = likeliest(local, principal);
-  if (!radius) return best_minimum(starts, local, all, kWording);
   auto direct = at_once(starts, local, all, principal.spread[2]);
   if (direct) return settled(std::move(*direct), all, local.constraints, kWording);
+  if (!radius) {
+    for (const int i : {0, 1, 2}) {
+      for (const Bend& bend : bends_along(principal.directions.col(i))) {
+        starts.push_back(Sphere{bend.centre, bend.radius});
+      }
+    }
+    return best_minimum(starts, local, all, kWording);
+  }
   for (const Vec3& centre : sphere_centres(thinned(local, kSearched), *radius, 8)) {
     starts.push_back(Sphere{centre, *radius});
   }

@@ -130,6 +130,14 @@ std::optional<GaussNewton> at_once(const std::vector<Element>& starts,
   return std::nullopt;
 }
 
+std::vector<Bend> bends_along(const Vec3& direction) {
+  std::vector<Bend> bends;
+  for (const double radius : {0.2, 0.5, 1.0, 2.0, 5.0, 20.0}) {
+    for (const double side : {1.0, -1.0}) bends.push_back({side * radius * direction, radius});
+  }
+  return bends;
+}
+
 double redundancy(const NormalisedPoints& local, const Minimum& found) {
   return static_cast<double>(local.count()) - static_cast<double>(found.free_parameters);
 }

@@ -56,6 +56,14 @@ template <typename Start>
                                                  const NormalisedPoints& local,
                                                  const PointBlocks& all, double least_spread);
 
+// Circles and spheres through the middle of the points that bend to either side of them, little and much: starts
+// where the points are so rough that the algebraic one may lie in the wrong valley.
+struct Bend {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0.0;
+};
+[[nodiscard]] std::vector<Bend> bends_along(const Vec3& direction);
+
 [[nodiscard]] double redundancy(const NormalisedPoints& local, const Minimum& found);
 
 // What the fits along an axis start from.
