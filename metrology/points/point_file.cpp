@@ -361,6 +361,15 @@ Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
                                     const std::optional<LengthUnit>& unit) {
   auto found = read_file(file, unit);
   if (!found) return std::move(found).error();
+  if (found->size() > 1) {
+    std::string names;
+    for (const FoundPoints& f : *found) names += (names.empty() ? "" : ", ") + f.feature.feature;
+    Diagnostic several =
+        error(fmt::format("the file has points of {} features: {}", found->size(), names),
+              "one element goes through the points of one feature; leave the others out");
+    several.file = file.string();
+    return several;
+  }
   PointCloud cloud;
   for (const FoundPoints& f : *found) {
     cloud.points.insert(cloud.points.end(), f.feature.points.begin(), f.feature.points.end());

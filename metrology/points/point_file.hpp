@@ -26,7 +26,7 @@ struct PointCloud {
   std::vector<Vec3> points{};     // mm
   std::vector<double> weights{};  // one a point, or none at all
 };
-// All points of a file in order, whatever feature they name. `unit`: of a file that states no other.
+// The points of a file in order; an error when they are of several features. `unit`: of a file that states no other.
 [[nodiscard]] Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
                                                   const std::optional<LengthUnit>& unit = {});
 [[nodiscard]] Result<std::vector<Vec3>> read_points(const std::filesystem::path& file);

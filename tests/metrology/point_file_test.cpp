@@ -137,6 +137,17 @@ TEST(PointFile, ReadsQuotedNamesAndByteOrderMarks) {
   EXPECT_EQ(points->front().feature, "bore, \"upper\" #1");
 }
 
+TEST(PointFile, OfSeveralFeaturesIsNoCloud) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "several.csv";
+  std::ofstream(file) << "feature,x,y,z\na,1,2,3\nb,4,5,6\na,7,8,9\n";
+  const auto cloud = read_point_cloud(file);
+  ASSERT_FALSE(cloud);
+  EXPECT_EQ(cloud.error().front().message, "the file has points of 2 features: a, b");
+  std::ofstream(file) << "feature,x,y,z\na,1,2,3\na,7,8,9\n";
+  ASSERT_TRUE(read_point_cloud(file));
+  EXPECT_EQ(read_point_cloud(file)->points.size(), 2U);
+}
+
 TEST(PointFile, KeepsWeightsForFitsAndRefusesThemForPlans) {
   const std::string file = testing::TempDir() + "frustum_weights.csv";
   std::ofstream(file) << "x,y,z,weight\n1,2,3,0.5\n4,5,6,2\n";
