@@ -51,7 +51,7 @@ struct CallFrame {
   std::string name{};  // "O2000", "pocket"; empty for the main program
   std::string end{};   // of the subprogram, as it is spelled: "M99", "endsub"
   TextPlace entry{};
-  std::uint32_t column = 0;  // of the name at the entry
+  SourcePlace named{};  // where its name stands
   std::uint64_t runs_left = 1;
   bool has_locals = false;
   bool opened = false;  // a block that does something has been reached

@@ -36,6 +36,18 @@ const Element* find(const std::array<Element, N>& elements, std::string_view nam
   return nullptr;
 }
 
+struct Function {
+  std::string_view name;
+  Operation operation;
+};
+constexpr std::array kFunctions{
+    Function{"SIN", Operation::sine},        Function{"COS", Operation::cosine},
+    Function{"TAN", Operation::tangent},     Function{"ASIN", Operation::arc_sine},
+    Function{"ACOS", Operation::arc_cosine}, Function{"SQRT", Operation::square_root},
+    Function{"ABS", Operation::absolute},    Function{"INT", Operation::fix},
+    Function{"LN", Operation::logarithm},    Function{"EXP", Operation::exponential}};
+constexpr const char* kFnJump = "write FN 9: IF +Q1 EQU +Q3 GOTO LBL 5";
+
 class HeidenhainReader {
  public:
   HeidenhainReader(std::string_view text, std::uint32_t line) : in_(text, line) {
@@ -80,9 +92,10 @@ class HeidenhainReader {
       in_.go_back_to(column);
       return read_elements("M", {});
     }
-    if (name.size() > 1 && name.front() == 'Q') {
-      return in_.fail(column, "Q parameters are not read", "write the numbers out");
-    }
+    if (is_parameter(name)) return read_setting(name, column);
+    if (name == "FN") return read_fn(column);
+    if (name == "LBL") return read_label(column);
+    if (name == "CALL") return read_call(column);
     if (const auto remedy = remedy_for(Dialect::heidenhain, name); !remedy.empty()) {
       return in_.fail(column, name + " is not simulated", std::string(remedy));
     }
@@ -164,7 +177,7 @@ class HeidenhainReader {
       return add_measured(element->letter, Measure::incremental, element->spelled, column);
     }
     if (const Element* element = find(kToolVector, name); path.vector && element != nullptr) {
-      return add_number(block_, element->letter, number(name, column), column, element->spelled);
+      return add_value(element->letter, name, column, element->spelled);
     }
     if (path.vector && (name == "NX" || name == "NY" || name == "NZ")) {
       // The surface normal matters to oversized tools only, which TOOL CALL refuses.
@@ -183,9 +196,6 @@ class HeidenhainReader {
                       "program the path of the tool centre and use R0");
     }
     if (path.feed && name.starts_with('F')) return read_feed(name, column);
-    if (name == "Q" || name == "QL" || name == "QR") {
-      return in_.fail(column, "Q parameters are not read", "write the numbers out");
-    }
     if (name.empty()) {
       return in_.fail_unexpected("elements of a statement are such as X+10, R0, F500, FMAX, M3");
     }
@@ -224,8 +234,7 @@ class HeidenhainReader {
       return in_.fail(column, name + " is not simulated",
                       "give F, FMAX, F AUTO or FT; feed per revolution is M136");
     }
-    if (in_.peek() == 'Q') return in_.fail(column, "Q parameters are not read", "give a number");
-    add_number(block_, 'F', number(name, column), column);
+    add_value('F', name, column, nullptr);
   }
 
   void read_m(std::uint32_t column) {
@@ -266,12 +275,276 @@ class HeidenhainReader {
   }
 
   void add_measured(char letter, Measure measure, const char* spelled, std::uint32_t column) {
-    if (in_.peek() == 'Q')
-      return in_.fail(in_.column(), "Q parameters are not read", "write the numbers out");
-    add_number(block_, letter,
-               number(spelled != nullptr ? spelled : std::string(1, letter), column), column,
-               spelled);
-    block_.words.back().measure = measure;
+    add_value(letter, spelled != nullptr ? spelled : std::string(1, letter), column, spelled);
+    if (!block_.words.empty()) block_.words.back().measure = measure;
+  }
+
+  // --- Q parameters -----------------------------------------------------------------------------
+
+  // Q1, QL1, QR1
+  static bool is_parameter(std::string_view name) {
+    const std::size_t digits = name.find_first_of("0123456789");
+    if (digits == std::string_view::npos ||
+        name.find_first_not_of("0123456789", digits) != std::string_view::npos)
+      return false;
+    const std::string_view letters = name.substr(0, digits);
+    return letters == "Q" || letters == "QL" || letters == "QR";
+  }
+
+  // A word with [ + | - ] and a number or a parameter.
+  void add_value(char letter, std::string_view whose, std::uint32_t column, const char* spelled) {
+    const std::uint32_t place = in_.column();
+    const bool negative = in_.take('-');
+    if (!negative) in_.take('+');
+    if (in_.peek() != 'Q') {
+      in_.go_back_to(place);
+      return add_number(block_, letter, number(whose, column), column, spelled);
+    }
+    Word word;
+    word.letter = letter;
+    word.column = column;
+    word.spelled = spelled;
+    word.expression.first = first_step();
+    push_parameter();
+    if (negative) push(Operation::negate, place);
+    word.expression.count = first_step() - word.expression.first;
+    block_.words.push_back(word);
+  }
+
+  void push_parameter() {
+    const std::uint32_t column = in_.column();
+    const std::string name = in_.name();
+    if (!is_parameter(name)) {
+      return in_.fail(column, fmt::format("{} is no parameter", name.empty() ? "this" : name),
+                      "parameters are Q1, QL1 and QR1");
+    }
+    block_.names.push_back(name);
+    block_.steps.push_back(
+        {Operation::named_parameter, column, static_cast<double>(block_.names.size() - 1)});
+  }
+
+  // Q1 = Q2 + 3 * SIN(Q4)
+  void read_setting(const std::string& name, std::uint32_t column) {
+    if (!in_.take('=')) {
+      return in_.fail(in_.column(), name + " has no =", fmt::format("write {} = 5", name));
+    }
+    begin_setting(name, column);
+    read_sum(0);
+    end_setting();
+    end_statement();
+  }
+  void begin_setting(const std::string& name, std::uint32_t column) {
+    Assignment setting;
+    setting.column = column;
+    block_.names.push_back(name);
+    setting.name = static_cast<std::uint32_t>(block_.names.size() - 1);
+    setting.value.first = first_step();
+    block_.assignments.push_back(setting);
+  }
+  void end_setting() {
+    ExpressionRange& value = block_.assignments.back().value;
+    value.count = first_step() - value.first;
+  }
+  void end_statement() {
+    if (in_.peek() == ';') read_comment();
+    if (!in_.at_end()) in_.fail_unexpected("start a line for each statement");
+  }
+
+  // FN 0: Q5 = +60, FN 9: IF +Q1 EQU +Q3 GOTO LBL 5.
+  void read_fn(std::uint32_t column) {
+    const auto number = in_.number();
+    if (!number || !in_.take(':')) {
+      return in_.fail(column, "FN has no number", "write FN 0: Q5 = +60");
+    }
+    const auto fn = static_cast<int>(number->value);
+    constexpr std::array kComparisons{Operation::equal, Operation::not_equal, Operation::greater,
+                                      Operation::less};
+    if (fn >= 9 && fn <= 12)
+      return read_fn_jump(kComparisons.at(static_cast<std::size_t>(fn - 9)), column);
+    const std::uint32_t place = in_.column();
+    const std::string target = in_.name();
+    if (fn > 7) {
+      return in_.fail(column, fmt::format("FN {} is not simulated", fn),
+                      "known are FN 0 to FN 7 and FN 9 to FN 12");
+    }
+    if (!is_parameter(target) || !in_.take('=')) {
+      return in_.fail(place, "FN sets no parameter", "write FN 0: Q5 = +60");
+    }
+    begin_setting(target, place);
+    const auto operand = [&] { read_signed(0); };
+    const auto with = [&](std::string_view word, Operation operation) {
+      const std::uint32_t sign = in_.column();
+      if (!in_.take_name(word)) {
+        return in_.fail(sign, fmt::format("FN {} has no {}", fn, word),
+                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2");
+      }
+      operand();
+      push(operation, sign);
+    };
+    const auto sign_with = [&](char sign, Operation operation) {
+      const std::uint32_t at = in_.column();
+      if (!in_.take(sign)) {
+        return in_.fail(at, fmt::format("FN {} has no {}", fn, sign),
+                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2");
+      }
+      operand();
+      push(operation, at);
+    };
+    const auto function = [&](std::string_view word, Operation operation) {
+      const std::uint32_t at = in_.column();
+      if (!in_.take_name(word)) {
+        return in_.fail(at, fmt::format("FN {} has no {}", fn, word), "write FN 6: Q20 = SIN -Q5");
+      }
+      operand();
+      push(operation, at);
+    };
+    if (fn == 5) {
+      function("SQRT", Operation::square_root);
+    } else if (fn == 6) {
+      function("SIN", Operation::sine);
+    } else if (fn == 7) {
+      function("COS", Operation::cosine);
+    } else {
+      operand();
+      if (fn == 1) sign_with('+', Operation::add);
+      if (fn == 2) sign_with('-', Operation::subtract);
+      if (fn == 3) sign_with('*', Operation::multiply);
+      if (fn == 4) with("DIV", Operation::divide);
+    }
+    end_setting();
+    end_statement();
+  }
+
+  void read_fn_jump(Operation comparison, std::uint32_t column) {
+    if (!in_.take_name("IF")) return in_.fail(in_.column(), "FN has no IF", kFnJump);
+    begin_flow(FlowKind::jump, column);
+    block_.flow->condition.first = first_step();
+    read_signed(0);
+    const std::uint32_t place = in_.column();
+    const std::string word = in_.name();
+    if (word != "EQU" && word != "NE" && word != "GT" && word != "LT") {
+      return in_.fail(place, "FN compares by EQU, NE, GT or LT", kFnJump);
+    }
+    read_signed(0);
+    push(comparison, place);
+    block_.flow->condition.count = first_step() - block_.flow->condition.first;
+    if (!in_.take_name("GOTO") || !in_.take_name("LBL")) {
+      return in_.fail(in_.column(), "FN has no GOTO LBL", kFnJump);
+    }
+    read_label_name();
+    end_statement();
+  }
+
+  void read_sum(int depth) {
+    read_product(depth);
+    while (!in_.failed() && (in_.peek() == '+' || in_.peek() == '-')) {
+      const std::uint32_t column = in_.column();
+      const Operation operation = in_.take('+') ? Operation::add : Operation::subtract;
+      if (operation == Operation::subtract) in_.take('-');
+      read_product(depth);
+      push(operation, column);
+    }
+  }
+  void read_product(int depth) {
+    read_signed(depth);
+    while (!in_.failed()) {
+      const std::uint32_t column = in_.column();
+      Operation operation = Operation::multiply;
+      if (in_.take('/')) {
+        operation = Operation::divide;
+      } else if (in_.take('^')) {
+        operation = Operation::power;
+      } else if (!in_.take('*')) {
+        return;
+      }
+      read_signed(depth);
+      push(operation, column);
+    }
+  }
+  // [ + | - ] number, parameter, function or ( sum )
+  void read_signed(int depth) {
+    const std::uint32_t column = in_.column();
+    if (depth >= kMaxExpressionDepth) {
+      return in_.fail(column, "too many brackets within each other", "compute a part before");
+    }
+    if (in_.take('-')) {
+      read_signed(depth + 1);
+      return push(Operation::negate, column);
+    }
+    if (in_.take('+')) return read_signed(depth + 1);
+    if (in_.take('(')) {
+      read_sum(depth + 1);
+      if (!in_.failed() && !in_.take(')')) {
+        in_.fail(column, "the bracket is not closed", "close it with )");
+      }
+      return;
+    }
+    if (const auto found = in_.number()) {
+      block_.steps.push_back({Operation::number, column, found->value});
+      return;
+    }
+    const std::string name = in_.next_name();
+    for (const Function& function : kFunctions) {
+      if (name != function.name) continue;
+      (void)in_.name();
+      read_signed(depth + 1);
+      return push(function.operation, column);
+    }
+    push_parameter();
+  }
+  void push(Operation operation, std::uint32_t column) {
+    if (!in_.failed()) block_.steps.push_back({operation, column, 0.0});
+  }
+  [[nodiscard]] std::uint32_t first_step() const {
+    return static_cast<std::uint32_t>(block_.steps.size());
+  }
+
+  // --- labels -----------------------------------------------------------------------------------
+
+  void begin_flow(FlowKind kind, std::uint32_t column) {
+    block_.flow.emplace();
+    block_.flow->kind = kind;
+    block_.flow->column = column;
+  }
+
+  // 5 or "NAME".
+  void read_label_name() {
+    const std::uint32_t column = in_.column();
+    if (in_.take('"')) {
+      block_.flow->label = in_.text_to("\"");
+      if (!in_.take('"')) in_.fail(column, "the name is not closed", "close it with \"");
+    } else {
+      block_.flow->label = std::string(in_.digits());
+    }
+    if (!in_.failed() && block_.flow->label.empty()) {
+      in_.fail(column, "LBL has no number or name", "write LBL 1 or LBL \"SLOT\"");
+    }
+  }
+
+  void read_label(std::uint32_t column) {
+    begin_flow(FlowKind::label, column);
+    read_label_name();
+    // The end of a subprogram.
+    if (block_.flow->label == "0") block_.flow->kind = FlowKind::give_back;
+    end_statement();
+  }
+
+  // CALL LBL 1, CALL LBL 1 REP 3.
+  void read_call(std::uint32_t column) {
+    if (!in_.take_name("LBL")) {
+      return in_.fail(column, "CALL without LBL is not simulated", "write CALL LBL 1");
+    }
+    begin_flow(FlowKind::call, column);
+    read_label_name();
+    if (in_.take_name("REP")) {
+      block_.flow->kind = FlowKind::repeat_part;
+      block_.flow->condition.first = first_step();
+      read_signed(0);
+      block_.flow->condition.count = first_step() - block_.flow->condition.first;
+      // Older controls show how many are left.
+      if (in_.take('/')) (void)in_.digits();
+    }
+    end_statement();
   }
 
   double number(std::string_view whose, std::uint32_t column) {

@@ -243,9 +243,10 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
               options_.search_path.empty() ? "define it in the program"
                                            : "define it in the program or in a file of its name");
   }
-  CallFrame next{
-      holder, BlockCursor(holder->program()), *name, "endsub", entry->behind, entry->column, *count,
-      true};
+  CallFrame next{holder,        BlockCursor(holder->program()),
+                 *name,         rules_.dialect == Dialect::heidenhain ? "LBL 0" : "endsub",
+                 entry->behind, {entry->place.line, entry->column},
+                 *count,        true};
   if (auto failure = push_call(block, flow.column, std::move(next))) return failure;
   executor_.parameters().enter(arguments);
   return std::nullopt;
@@ -253,6 +254,8 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
 
 ProgramRun::Failure ProgramRun::give_back(const Block& block) {
   const FlowStatement& flow = *block.flow;
+  // Klartext passes the end of a subprogram that was not called.
+  if (frames_.size() == 1 && rules_.dialect == Dialect::heidenhain) return std::nullopt;
   if (frames_.size() == 1) {
     return at(block, flow.column, "return outside a subprogram", "end the main program with M2");
   }
@@ -308,6 +311,9 @@ ProgramRun::Failure ProgramRun::jump(const Block& block) {
   }
   const auto label = label_of(block, flow);
   if (!label) return label.error().front();
+  if (!block_number_of(*label) && !frame().program->map().faults().empty()) {
+    return frame().program->map().faults().front();
+  }
   const auto target = find_label(*label, flow.search);
   if (!target) {
     return at(block, flow.column, fmt::format("there is no {} to go to", *label),
@@ -326,9 +332,11 @@ ProgramRun::Failure ProgramRun::repeat(const Block& block) {
   const auto end = flow.last_label.empty() ? std::optional(frame().cursor.block_place())
                                            : find_label(flow.last_label, flow.search);
   if (!begin || !end || end->offset < begin->offset) {
-    return at(block, flow.column,
-              fmt::format("there is no part {} {} to repeat", flow.label, flow.last_label),
-              "name labels of this program, the earlier one first");
+    return at(
+        block, flow.column,
+        fmt::format("there is no part {} to repeat",
+                    flow.last_label.empty() ? flow.label : flow.label + " to " + flow.last_label),
+        "name labels of this program, the earlier one first");
   }
   if (*count == 0) return std::nullopt;
   const TextPlace behind = frame().cursor.place();

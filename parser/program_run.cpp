@@ -90,8 +90,8 @@ ProgramRun::Failure ProgramRun::run_off(const Block* end) {
     Diagnostic failure =
         in_this_file(error(fmt::format("subprogram {} has no {}", frame().name, frame().end),
                            fmt::format("end the subprogram with {}", frame().end)));
-    failure.line = static_cast<int>(frame().entry.line);
-    failure.column = static_cast<int>(frame().column);
+    failure.line = static_cast<int>(frame().named.line);
+    failure.column = static_cast<int>(frame().named.column);
     return failure;
   }
   if (end != nullptr && end->program) {
@@ -162,8 +162,8 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) 
   }
   if (call.count == 0) return std::nullopt;
   const auto& entry = holder->map().programs().at(call.program);
-  CallFrame next{holder,    BlockCursor(holder->program()), name, "M99", entry.place, entry.column,
-                 call.count};
+  CallFrame next{holder,      BlockCursor(holder->program()),   name,      "M99",
+                 entry.place, {entry.place.line, entry.column}, call.count};
   next.has_locals = call.arguments.has_value();
   if (auto failure = push_call(block, call.column, std::move(next))) return failure;
   if (call.arguments) executor_.parameters().enter(*call.arguments);

@@ -53,6 +53,38 @@ constexpr std::array kSwivelParameters{
 constexpr std::size_t kSwivelData = 1;
 constexpr std::size_t kSwivelStatus = 2;
 
+// What follows a flow word.
+enum class FlowForm : std::uint8_t { alone, condition, branch, until, steps, target };
+struct FlowWord {
+  std::string_view name;
+  FlowKind kind;
+  FlowForm form = FlowForm::alone;
+  Turns turns = Turns::while_true;
+  Search search = Search::from_start;
+};
+constexpr std::array kFlowWords{
+    FlowWord{"IF", FlowKind::branch, FlowForm::branch},
+    FlowWord{"ELSE", FlowKind::otherwise},
+    FlowWord{"ENDIF", FlowKind::end_branch},
+    FlowWord{"WHILE", FlowKind::loop, FlowForm::condition},
+    FlowWord{"ENDWHILE", FlowKind::end_loop},
+    FlowWord{"FOR", FlowKind::loop, FlowForm::steps, Turns::stepped},
+    FlowWord{"ENDFOR", FlowKind::end_loop},
+    FlowWord{"LOOP", FlowKind::loop, FlowForm::alone, Turns::until_end},
+    FlowWord{"ENDLOOP", FlowKind::end_loop},
+    FlowWord{"REPEAT", FlowKind::loop, FlowForm::alone, Turns::until_end},
+    FlowWord{"UNTIL", FlowKind::end_loop, FlowForm::until},
+    FlowWord{"GOTOF", FlowKind::jump, FlowForm::target, Turns::while_true, Search::forward},
+    FlowWord{"GOTOB", FlowKind::jump, FlowForm::target, Turns::while_true, Search::backward},
+    FlowWord{"GOTO", FlowKind::jump, FlowForm::target, Turns::while_true,
+             Search::forward_then_backward},
+};
+const FlowWord* flow_word(std::string_view name) {
+  const auto* found = std::find_if(kFlowWords.begin(), kFlowWords.end(),
+                                   [name](const FlowWord& word) { return word.name == name; });
+  return found == kFlowWords.end() ? nullptr : found;
+}
+
 class SinumerikReader {
  public:
   SinumerikReader(std::string_view text, std::uint32_t line) : in_(text, line) {
@@ -192,6 +224,8 @@ class SinumerikReader {
 
   void read_named(const std::string& name, std::uint32_t column) {
     if (read_address(name, column)) return;
+    if (in_.peek() == ':') return read_label(name, column);
+    if (const auto* flow = flow_word(name); flow != nullptr) return read_flow(*flow, column);
     if (name == "MSG") return read_event("message", column, true);
     if (name == "SPOS" || name == "SPOSA") {
       if (!in_.take('=')) return in_.fail(column, name + " has no =", "write SPOS=0");
@@ -217,12 +251,112 @@ class SinumerikReader {
       in_.fail(column, name + " is not simulated", std::string(remedy));
       return;
     }
-    if (in_.peek() == ':') {
-      in_.fail(column, fmt::format("the label {} is not read", name),
-               "leave labels out; blocks run in their order");
+    in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
+  }
+
+  // NAME: before a block, the place of a jump.
+  void read_label(const std::string& name, std::uint32_t column) {
+    in_.take(':');
+    begin_flow(FlowKind::label, column);
+    if (!in_.failed()) block_.flow->label = name;
+  }
+
+  void read_flow(const FlowWord& word, std::uint32_t column) {
+    begin_flow(word.kind, column);
+    if (in_.failed()) return;
+    block_.flow->turns = word.turns;
+    block_.flow->search = word.search;
+    switch (word.form) {
+      case FlowForm::alone:
+        break;
+      case FlowForm::condition:
+        read_condition(word.name);
+        break;
+      case FlowForm::branch:
+        read_condition(word.name);
+        read_jump_behind_condition();
+        break;
+      case FlowForm::until:
+        read_condition(word.name);
+        block_.flow->negated = true;
+        break;
+      case FlowForm::steps:
+        read_steps();
+        break;
+      case FlowForm::target:
+        read_target(word.name);
+        break;
+    }
+    if (word.name == "REPEAT" && !in_.at_end() && in_.peek() != ';') {
+      in_.fail(column, "REPEAT of labelled blocks is not simulated", "write them in FOR or LOOP");
+    } else if (!in_.at_end() && in_.peek() != ';') {
+      in_.fail_unexpected(fmt::format("{} stands alone in its block", word.name));
+    }
+  }
+
+  void begin_flow(FlowKind kind, std::uint32_t column) {
+    if (block_.flow || !block_.words.empty() || !block_.assignments.empty()) {
+      in_.fail(column, "a statement behind other words", "write it in a block of its own");
       return;
     }
-    in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
+    block_.flow.emplace();
+    block_.flow->kind = kind;
+    block_.flow->column = column;
+  }
+
+  void read_condition(std::string_view whose) {
+    if (in_.at_end()) {
+      in_.fail(in_.column(), fmt::format("{} has no condition", whose),
+               fmt::format("write for example {} R1<5", whose));
+      return;
+    }
+    block_.flow->condition = read_range([this] { read_logic(0); });
+  }
+
+  // IF R1<5 GOTOF NAME.
+  void read_jump_behind_condition() {
+    const auto* jump = flow_word(in_.next_name());
+    if (in_.failed() || jump == nullptr || jump->form != FlowForm::target) return;
+    (void)in_.name();
+    block_.flow->kind = FlowKind::jump;
+    block_.flow->search = jump->search;
+    read_target(jump->name);
+  }
+
+  void read_target(std::string_view whose) {
+    const std::uint32_t column = in_.column();
+    block_.flow->label = in_.name();
+    if (!in_.failed() && block_.flow->label.empty()) {
+      in_.fail(column, fmt::format("{} has no label", whose),
+               fmt::format("write for example {} LABEL1 or {} N100", whose, whose));
+    }
+  }
+
+  // FOR R1=1 TO 5.
+  void read_steps() {
+    const std::uint32_t column = in_.column();
+    const std::string name = in_.name();
+    const bool parameter = name.size() > 1 && name.front() == 'R' &&
+                           name.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (!parameter || !in_.take('=')) {
+      in_.fail(column, "FOR has no R parameter to count", "write FOR R1=1 TO 5");
+      return;
+    }
+    block_.flow->variable = add_name(name);
+    block_.flow->condition = read_range([this] { read_sum(0); });
+    if (!in_.take_name("TO")) {
+      in_.fail(in_.column(), "FOR has no TO", "write FOR R1=1 TO 5");
+      return;
+    }
+    block_.flow->limit = read_range([this] { read_sum(0); });
+  }
+
+  template <typename Read>
+  ExpressionRange read_range(const Read& read) {
+    ExpressionRange range{first_step(), 0};
+    read();
+    range.count = first_step() - range.first;
+    return range;
   }
 
   // NAME(...), kept as text.
@@ -355,6 +489,57 @@ class SinumerikReader {
     }
   }
 
+  // OR and XOR of AND of comparisons.
+  void read_logic(int depth) {
+    read_conjunction(depth);
+    while (!in_.failed()) {
+      const std::uint32_t column = in_.column();
+      const bool either = in_.take_name("OR");
+      if (!either && !in_.take_name("XOR")) return;
+      read_conjunction(depth);
+      push(either ? Operation::logical_or : Operation::logical_xor, column);
+    }
+  }
+
+  void read_conjunction(int depth) {
+    read_comparison(depth);
+    while (!in_.failed()) {
+      const std::uint32_t column = in_.column();
+      if (!in_.take_name("AND")) return;
+      read_comparison(depth);
+      push(Operation::logical_and, column);
+    }
+  }
+
+  void read_comparison(int depth) {
+    const std::uint32_t column = in_.column();
+    if (depth < kMaxExpressionDepth && in_.take_name("NOT")) {
+      read_comparison(depth + 1);
+      if (in_.failed()) return;
+      block_.steps.push_back({Operation::number, column, 0.0});
+      return push(Operation::equal, column);
+    }
+    read_sum(depth);
+    const std::uint32_t sign = in_.column();
+    if (const auto comparison = take_comparison()) {
+      read_sum(depth);
+      push(*comparison, sign);
+    }
+  }
+
+  std::optional<Operation> take_comparison() {
+    if (in_.take('=')) {
+      if (!in_.take('=')) in_.fail_unexpected("compare by ==");
+      return Operation::equal;
+    }
+    if (in_.take('<')) {
+      if (in_.take('>')) return Operation::not_equal;
+      return in_.take('=') ? Operation::less_or_equal : Operation::less;
+    }
+    if (in_.take('>')) return in_.take('=') ? Operation::greater_or_equal : Operation::greater;
+    return std::nullopt;
+  }
+
   void read_sum(int depth) {
     read_product(depth);
     while (!in_.failed()) {
@@ -402,7 +587,7 @@ class SinumerikReader {
     }
     if (in_.take('+')) return read_factor(depth + 1);
     if (in_.take('(')) {
-      read_sum(depth + 1);
+      read_logic(depth + 1);
       return close("the expression");
     }
     if (const auto number = in_.number()) {
