@@ -105,7 +105,7 @@ constexpr Mistake kHeidenhain[] = {
     {"L X+1 RL F100\n", "1:7: error: RL is not simulated"},
     {"L X+1 F100 X+2\n", "1:12: error: X is given twice in a block"},
     {"L Q1\n", "1:3: error: Q has no meaning in L"},
-    {"CALL LBL 1\n", "1:1: error: CALL is not simulated"},
+    {"CALL LBL 1\n", "1:1: error: no subprogram 1"},
     {"CYCL DEF 200\n", "1:1: error: CYCL DEF 200 is not simulated"},
     {"CYCL DEF 19.0\n", "1:1: error: CYCL DEF 19 is not simulated"},
     {"CYCL CALL\n", "1:1: error: CYCL CALL is not simulated"},
