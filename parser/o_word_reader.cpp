@@ -76,7 +76,7 @@ class OWordReader {
     }
     flow_.kind = known->kind;
     flow_.turns = known->turns;
-    read_values(*known, keyword_column);
+    read_values(*known);
     read_comments();
     block_.flow = std::move(flow_);
     return finish();
@@ -108,7 +108,7 @@ class OWordReader {
     return false;
   }
 
-  void read_values(const Keyword& keyword, std::uint32_t keyword_column) {
+  void read_values(const Keyword& keyword) {
     const bool given = peek() == '[';
     if (keyword.needs == Needs::expression && !given) {
       fail(column(), fmt::format("{} has no expression", keyword.name),
@@ -123,7 +123,6 @@ class OWordReader {
     } else if (given) {
       read_expression(flow_.condition);
     }
-    (void)keyword_column;
   }
 
   void read_comments() {

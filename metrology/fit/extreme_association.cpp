@@ -7,6 +7,7 @@
 
 #include "metrology/fit/axis_search.hpp"
 #include "metrology/fit/extreme_search.hpp"
+#include "metrology/fit/round_fit.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -259,7 +260,7 @@ Association finished(const Task& task, const ExtremeFound& found) {
   result.fit.rms = std::sqrt(squares / static_cast<double>(task.local.points.size()));
   result.fit.form =
       task.what == Sought::zone ? 2.0 * found.solution.level * task.local.scale : highest - lowest;
-  result.fit.element = from_local(task.local, element);
+  result.fit.element = in_mm(element, task.local);
   // A circle in space has those of its plane too.
   const bool has_plane = std::holds_alternative<Circle>(element);
   const auto parameters = has_plane ? 6 : static_cast<Eigen::Index>(task.kind.free.size());

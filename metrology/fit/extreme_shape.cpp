@@ -120,15 +120,4 @@ Element to_local(const NormalisedPoints& local, const Element& element) {
       element);
 }
 
-Element from_local(const NormalisedPoints& local, const Element& element) {
-  return std::visit(
-      [&](auto e) -> Element {
-        e.point = local.back(e.point);
-        if constexpr (requires { e.radius; }) e.radius *= local.scale;
-        if constexpr (requires { e.tube_radius; }) e.tube_radius *= local.scale;
-        return e;
-      },
-      element);
-}
-
 }  // namespace frustum::metrology

@@ -40,6 +40,5 @@ struct PlacedElement {
 [[nodiscard]] Element element_at(const ExtremeKind& kind, const PlacedElement& placed);
 
 [[nodiscard]] Element to_local(const NormalisedPoints& local, const Element& element);
-[[nodiscard]] Element from_local(const NormalisedPoints& local, const Element& element);
 
 }  // namespace frustum::metrology
