@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parser/expression.hpp"
+#include "parser/language/expression.hpp"
 
 namespace frustum::parser {
 namespace {

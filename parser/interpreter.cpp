@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "parser/program_run.hpp"
+#include "parser/running/program_run.hpp"
 
 namespace frustum::parser {
 

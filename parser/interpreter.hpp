@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "parser/block_executor.hpp"
-#include "parser/modal_state.hpp"
 #include "parser/motion.hpp"
 #include "parser/program.hpp"
+#include "parser/running/block_executor.hpp"
+#include "parser/running/modal_state.hpp"
 
 namespace frustum::parser {
 

@@ -15,15 +15,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/result.hpp"
-#include "parser/block.hpp"
 #include "parser/dialect.hpp"
-#include "parser/program_text.hpp"
+#include "parser/language/block.hpp"
+#include "parser/reading/program_text.hpp"
 
 namespace frustum::parser {
 
@@ -45,9 +44,5 @@ struct Program {
 [[nodiscard]] Diagnostics syntax_errors(const Program& program, TextPlace start = {});
 // All blocks in file order; blank lines and those with a syntax error left out.
 [[nodiscard]] std::vector<Block> blocks_of(const Program& program);
-
-// Blocks as NC text: reading it again gives the same blocks (places aside).
-[[nodiscard]] std::string to_text(const Block& block);
-[[nodiscard]] std::string to_text(std::span<const Block> blocks);
 
 }  // namespace frustum::parser

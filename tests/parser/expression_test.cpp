@@ -1,4 +1,4 @@
-#include "parser/expression.hpp"
+#include "parser/language/expression.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <charconv>
 #include <limits>
 
-#include "parser/grammar.hpp"
+#include "parser/reading/grammar.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

@@ -1,10 +1,11 @@
-#include "parser/grammar.hpp"
+#include "parser/reading/grammar.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "parser/language/block_text.hpp"
 #include "parser/program.hpp"
 
 namespace frustum::parser {

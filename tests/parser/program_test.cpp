@@ -1,4 +1,5 @@
 #include "parser/program.hpp"
+#include "parser/language/block_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,132 @@
+// A word that a program may use, and what it sets.
+//
+// A code is a G or M number, or a word without one (TRAORI, TOOL CALL). It belongs to a modal group,
+// of which a block may hold one word. Codes that are known but change nothing that is simulated are
+// events; codes that would change the part and are not simulated are refused with a remedy.
+// Units : none
+// Errors: none
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "parser/language/block.hpp"
+#include "parser/language/letter_set.hpp"
+
+namespace frustum::parser {
+
+enum class CodeGroup : std::uint8_t {
+  motion,
+  cycle,  // G80, which may stand beside G0 in a safe line; alone it cancels the motion
+  non_modal,
+  plane,
+  distance,
+  arc_distance,
+  feed_mode,
+  feed_source,
+  unit,
+  radius_compensation,
+  length_compensation,
+  tool_tip,
+  work_offset,
+  tilted_plane,
+  orientation_path,
+  rotary_path,
+  path_control,
+  retract,
+  speed_mode,
+  saved_modes,
+  tool_change,
+  spindle,
+  coolant,
+  stop,
+  subprogram,
+  event,  // no group: several may stand in a block
+};
+constexpr std::size_t kCodeGroups = static_cast<std::size_t>(CodeGroup::event);
+
+// The values of the groups that have no enum of their own.
+enum class NonModal : std::uint8_t {
+  none,
+  dwell,
+  home,
+  machine_coordinates,
+  align,           // the rotary axes to the normal of the tilted plane
+  pole,            // the centre of the arcs that follow
+  start,           // where the tool is before the program moves it
+  shift_to_place,  // G92: so that the tool is where the words say
+  shift,           // G52
+  shift_off,
+  shift_suspend,
+  shift_resume
+};
+enum class SubprogramWord : std::uint8_t { none, call, leave, macro };
+// The last two leave the tool-tip switch as it is.
+enum class LengthWord : std::uint8_t {
+  off,
+  length,
+  tool_centre_point,
+  tool_vectors,
+  length_only,
+  length_only_off
+};
+enum class TipWord : std::uint8_t { off, on };
+enum class CoolantWord : std::uint8_t { off, flood };
+enum class SpeedWord : std::uint8_t { revolutions, surface };
+enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
+enum class RetractWord : std::uint8_t { initial, level };
+// Where the frame of a tilted plane comes from.
+enum class TiltWord : std::uint8_t {
+  off,
+  euler,    // shift X Y Z; turns I J K about Z, the new X, the new Z
+  swivel,   // shift X Y Z; turns A B C in the order that Q names; shift u v w
+  turn,     // G68: about the centre X Y by R, in the plane
+  spatial,  // turns A B C about the axes of the untilted X, Y, Z in this order
+};
+
+struct Code {
+  char letter;  // G or M; '@' for a word without number
+  int tenths;   // ten times the number: G43.4 has 434
+  CodeGroup group;
+  std::uint8_t value;     // enumerator of what the group sets
+  LetterSet arguments;    // words that belong to this code
+  bool event;             // known, not simulated
+  std::string_view word;  // for '@'
+
+  [[nodiscard]] std::string name() const;
+};
+
+// Rows of the tables: a word that sets something,
+template <typename Value>
+constexpr Code modal(char letter, int tenths, CodeGroup group, Value value,
+                     LetterSet arguments = {}) {
+  return {letter, tenths, group, static_cast<std::uint8_t>(value), arguments, false, {}};
+}
+template <typename Value>
+constexpr Code named(std::string_view word, CodeGroup group, Value value,
+                     LetterSet arguments = {}) {
+  return {kNamedWord, 0, group, static_cast<std::uint8_t>(value), arguments, false, word};
+}
+// and one that is known and not simulated.
+constexpr Code passed(char letter, int tenths, CodeGroup group = CodeGroup::event,
+                      LetterSet arguments = {}) {
+  return {letter, tenths, group, 0, arguments, true, {}};
+}
+constexpr Code passed(std::string_view word, CodeGroup group = CodeGroup::event) {
+  return {kNamedWord, 0, group, 0, {}, true, word};
+}
+
+// Codes, or a word, that would change the part and that are not simulated.
+struct RefusedCode {
+  char letter;
+  int first_tenths;
+  int last_tenths;
+  std::string_view remedy;
+};
+struct RefusedWord {
+  std::string_view word;
+  std::string_view remedy;
+};
+
+}  // namespace frustum::parser

@@ -1,0 +1,82 @@
+// A dialect as data: its words, and the few rules by which it differs beyond them.
+//
+// Units: none.
+// Errors: none.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "parser/dialect.hpp"
+#include "parser/dialects/code.hpp"
+#include "parser/language/parameters.hpp"
+
+namespace frustum::parser {
+
+enum class DwellUnit : std::uint8_t {
+  seconds,
+  milliseconds_without_point,  // seconds when written with a decimal point
+  revolutions
+};
+struct DwellWord {
+  char letter;
+  DwellUnit unit;
+};
+
+// What a letter belongs to, for the hint when nothing in the block uses it.
+struct LetterUse {
+  char letter;
+  std::string_view use;
+};
+
+// How canned cycles differ.
+struct CycleRules {
+  bool retract_to_initial = true;            // before the first G98 or G99
+  bool words_end_with_their_g_word = false;  // G83 behind G81 needs its own R and Z
+  bool feed_out_to_clearance = false;        // taps and G89 leave by feed all the way
+  // Each block begins at the depth before the first hole: with G98 the move to the next hole goes up there.
+  bool start_from_initial = false;
+};
+
+struct DialectRules {
+  Dialect dialect = Dialect::fanuc;
+  // Its own codes and those it shares (shared_codes.hpp).
+  std::array<std::span<const Code>, 4> codes{};
+  std::span<const RefusedCode> refused_codes{};
+  std::span<const RefusedWord> refused_words{};
+  // The three letters of the tool vector, and how the dialect spells them.
+  std::string_view vector_letters{};
+  std::string_view vector_spelling{};
+  std::string_view vector_hint{};  // how the tool-tip control is switched on
+  std::span<const DwellWord> dwell{};
+  std::string_view dwell_hint{};
+  // A tool change brings the length of its tool: TOOL CALL, T D M6, LOADTL.
+  bool tool_brings_length = false;
+  // Machine coordinates still carry the tool length and the tool-tip control.
+  bool machine_coordinates_keep_length = false;
+  bool home_without_axes_is_all = false;
+  // Arcs without centre words or radius turn about the last pole (CC).
+  bool arcs_turn_about_pole = false;
+  LetterSet always_claimed{};  // words that have a meaning in every block
+  std::span<const LetterUse> letters{};
+  std::string_view known_letters{};
+  ParameterRules parameters{};
+  CycleRules cycles{};
+  LetterSet polar_words{};
+  // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
+  std::span<const std::string_view> file_names{};
+};
+
+// One file each: fanuc.cpp, linuxcnc.cpp, ...
+[[nodiscard]] const DialectRules& fanuc_rules();
+[[nodiscard]] const DialectRules& linuxcnc_rules();
+[[nodiscard]] const DialectRules& sinumerik_rules();
+[[nodiscard]] const DialectRules& heidenhain_rules();
+[[nodiscard]] const DialectRules& cldata_rules();
+
+[[nodiscard]] const DialectRules& rules_of(Dialect dialect);
+// Empty for unknown letters.
+[[nodiscard]] std::string_view letter_use(const DialectRules& rules, char letter);
+
+}  // namespace frustum::parser

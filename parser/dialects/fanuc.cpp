@@ -1,0 +1,100 @@
+// Fanuc and what ISO programs have in common with it.
+#include "parser/dialects/dialect_rules.hpp"
+#include "parser/dialects/shared_codes.hpp"
+
+#include <array>
+
+namespace frustum::parser {
+namespace {
+
+using enum CodeGroup;
+
+constexpr LetterSet kOffsetWord{"H"};
+constexpr LetterSet kSmoothingWords{"PQR"};
+constexpr std::array kCodes{
+    modal('G', 40, non_modal, NonModal::dwell, LetterSet("PXU")),
+    modal('G', 531, non_modal, NonModal::align),
+    modal('G', 680, tilted_plane, TiltWord::turn, LetterSet("XYZR")),
+    modal('G', 430, length_compensation, LengthWord::length, kOffsetWord),
+    modal('G', 434, length_compensation, LengthWord::tool_centre_point, kOffsetWord),
+    modal('G', 435, length_compensation, LengthWord::tool_vectors, kOffsetWord),
+    modal('G', 490, length_compensation, LengthWord::off),
+    modal('G', 682, tilted_plane, TiltWord::euler, LetterSet("XYZIJK")),
+    modal('G', 690, tilted_plane, TiltWord::off),
+    passed('G', 51, CodeGroup::event, kSmoothingWords),  // look-ahead contour control
+    passed('G', 80, CodeGroup::event, kSmoothingWords),  // look-ahead control
+    passed('G', 90),                                     // exact stop on this block
+    passed('G', 150),                                    // cancels what is refused: polar,
+    passed('G', 500),                                    // scaling,
+    passed('G', 501),                                    // mirror image,
+    passed('G', 670),                                    // modal macro calls
+    modal('G', 650, subprogram, SubprogramWord::macro),
+};
+
+// What would change the part and is not simulated.
+constexpr std::array kRefusedCodes{
+    RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
+    RefusedCode{'G', 100, 109, "give offsets in the job, not in the program"},
+    RefusedCode{'G', 160, 169, "write positions in X and Y"},
+    RefusedCode{'G', 281, 309, "return to home with G28"},
+    RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
+    RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
+    RefusedCode{'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
+    RefusedCode{'G', 510, 519, "write the positions out, in G54 to G59"},
+    RefusedCode{'G', 541, 549, "use G54 to G59"},
+    RefusedCode{'G', 591, 599, "use G54 to G59"},
+    RefusedCode{'G', 660, 669, "call subprograms with M98 P"},
+    RefusedCode{'G', 681, 689,
+                "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
+    RefusedCode{'G', 750, 769, "write the cycle out as G0 and G1 blocks"},
+};
+constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
+constexpr std::string_view kNeedsVectors =
+    "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), "
+    "and "
+    "the tool vector of G0 and G1 after G43.4 or G43.5";
+constexpr std::string_view kNoRadius = "cutter radius compensation is not simulated; leave D out";
+
+constexpr std::array kLetters{
+    LetterUse{'A', kNeedsMotion},
+    LetterUse{'B', kNeedsMotion},
+    LetterUse{'C', kNeedsMotion},
+    LetterUse{'D', kNoRadius},
+    LetterUse{'H', "H belongs to G43, G43.4 and G43.5"},
+    LetterUse{'I', kNeedsVectors},
+    LetterUse{'J', kNeedsVectors},
+    LetterUse{'K', kNeedsVectors},
+    LetterUse{'L', "L belongs to M98"},
+    LetterUse{'P', "P belongs to G4, G2, G3, M98, G5.1, G8 and G64"},
+    LetterUse{'Q', "Q belongs to G5.1, G8 and G64"},
+    LetterUse{'R', "R belongs to G2 and G3"},
+    LetterUse{'U', "U belongs to G4"},
+    LetterUse{'X', kNeedsMotion},
+    LetterUse{'Y', kNeedsMotion},
+    LetterUse{'Z', kNeedsMotion},
+};
+constexpr std::array kDwell{DwellWord{'P', DwellUnit::milliseconds_without_point},
+                            DwellWord{'X', DwellUnit::seconds}, DwellWord{'U', DwellUnit::seconds}};
+constexpr std::array<std::string_view, 3> kFiles{"{}", "{}.nc", "{}.NC"};
+
+constexpr DialectRules kRules{
+    .dialect = Dialect::fanuc,
+    .codes = {kCodes, kMachineCodes, kIsoCodes, kRs274Codes},
+    .refused_codes = kRefusedCodes,
+    .vector_letters = "IJK",
+    .vector_spelling = "I J K",
+    .vector_hint = "switch it on with G43.4 or G43.5",
+    .dwell = kDwell,
+    .dwell_hint = "give P in milliseconds, or X in seconds",
+    .always_claimed = LetterSet("FST"),
+    .letters = kLetters,
+    .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
+    .parameters = {.locals = 33, .unset_is_vacant = true},
+    .file_names = kFiles,
+};
+
+}  // namespace
+
+const DialectRules& fanuc_rules() { return kRules; }
+
+}  // namespace frustum::parser

@@ -1,0 +1,115 @@
+// Klartext of Heidenhain.
+#include "parser/dialects/dialect_rules.hpp"
+#include "parser/dialects/shared_codes.hpp"
+
+#include <array>
+
+namespace frustum::parser {
+namespace {
+
+using enum CodeGroup;
+
+constexpr std::array kCodes{
+    passed('M', 60),  // the change itself is TOOL CALL
+    named("BEGIN PGM MM", unit, LengthUnit::millimetre),
+    named("BEGIN PGM INCH", unit, LengthUnit::inch),
+    named("END PGM", stop, StopKind::program_end),
+    named("STOP", stop, StopKind::program_stop),
+    named("L", motion, MotionMode::linear),
+    named("L FMAX", motion, MotionMode::traverse),
+    named("LN", motion, MotionMode::linear),
+    named("LN FMAX", motion, MotionMode::traverse),
+    named("CC", non_modal, NonModal::pole, LetterSet("XY")),
+    named("C DR-", motion, MotionMode::arc_clockwise),
+    named("C DR+", motion, MotionMode::arc_counterclockwise),
+    named("CR DR-", motion, MotionMode::arc_clockwise),
+    named("CR DR+", motion, MotionMode::arc_counterclockwise),
+    named("TOOL CALL", tool_change, 0),
+    named("F AUTO", feed_source, 0),
+    named("R0", radius_compensation, 0),
+    named("CYCL DEF 247", work_offset, 0, LetterSet("P")),
+    named("DWELL", non_modal, NonModal::dwell, LetterSet("P")),
+    named("PLANE SPATIAL", tilted_plane, TiltWord::spatial, LetterSet("ABCd")),
+    named("PLANE RESET", tilted_plane, TiltWord::off, LetterSet("d")),
+    named("FUNCTION TCPM", tool_tip, TipWord::on),
+    named("FUNCTION RESET TCPM", tool_tip, TipWord::off),
+    named("PATHCTRL AXIS", orientation_path, OrientationPath::rotary_axes),
+    named("PATHCTRL VECTOR", orientation_path, OrientationPath::great_circle),
+    modal('M', 910, non_modal, NonModal::machine_coordinates),
+    modal('M', 1260, rotary_path, RotaryPath::shortest),
+    modal('M', 1270, rotary_path, RotaryPath::as_programmed),
+    modal('M', 1280, tool_tip, TipWord::on),
+    modal('M', 1290, tool_tip, TipWord::off),
+    modal('M', 1360, feed_mode, FeedMode::per_revolution),
+    modal('M', 1370, feed_mode, FeedMode::per_minute),
+    passed('M', 900),   // corners at a constant speed
+    passed('M', 1070),  // no stop at oversized tools
+    passed('M', 1080),
+};
+
+// What would change the part and is not simulated.
+constexpr std::array kRefusedCodes{
+    RefusedCode{'M', 890, 899, "write the cycle out as L blocks"},
+    RefusedCode{'M', 920, 929, "use M91, the machine's own coordinates"},
+    RefusedCode{'M', 970, 1039, "write the path out as L and C blocks"},
+    RefusedCode{'M', 1090, 1120, "give the feed of the tool tip, without M109 to M112"},
+    RefusedCode{'M', 1160, 1180, "give the feed of the tool tip with M128 instead"},
+    RefusedCode{'M', 1300, 1309, "program in the tilted plane, or use PLANE RESET"},
+    RefusedCode{'M', 1380, 1449, "use FUNCTION TCPM or M128"},
+};
+constexpr std::array kRefusedWords{
+    RefusedWord{"CT", "write the arc with CC and C, or with CR"},
+    RefusedWord{"CP", "write positions in X, Y and Z"},
+    RefusedWord{"LP", "write positions in X, Y and Z"},
+    RefusedWord{"CTP", "write positions in X, Y and Z"},
+    RefusedWord{"CHF", "write the chamfer as an L block"},
+    RefusedWord{"RND", "write the rounding as C or CR"},
+    RefusedWord{"APPR", "write the approach as L and C blocks"},
+    RefusedWord{"DEP", "write the departure as L and C blocks"},
+    RefusedWord{"CYCL", "write the cycle out as L blocks"},
+    RefusedWord{"SPL", "write splines as short L blocks"},
+};
+
+constexpr std::string_view kNeedsStatement =
+    "axis words belong to L, LN, C, CR and CC; I before one makes it incremental";
+constexpr std::string_view kNeedsTcpm = "TX TY TZ give the tool vector in LN after M128";
+
+constexpr std::array kLetters{
+    LetterUse{'A', kNeedsStatement},
+    LetterUse{'B', kNeedsStatement},
+    LetterUse{'C', kNeedsStatement},
+    LetterUse{'P', "it belongs to a dwell or a preset"},
+    LetterUse{'R', "R and a number give the radius of CR"},
+    LetterUse{'X', kNeedsStatement},
+    LetterUse{'Y', kNeedsStatement},
+    LetterUse{'Z', kNeedsStatement},
+    LetterUse{'a', kNeedsTcpm},
+    LetterUse{'b', kNeedsTcpm},
+    LetterUse{'c', kNeedsTcpm},
+    LetterUse{'d', "it belongs to PLANE"},
+    LetterUse{'t', "FT gives the time of a cutting block"},
+};
+constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
+
+constexpr DialectRules kRules{
+    .dialect = Dialect::heidenhain,
+    .codes = {kCodes, kMachineCodes},
+    .refused_codes = kRefusedCodes,
+    .refused_words = kRefusedWords,
+    .vector_letters = "abc",
+    .vector_spelling = "TX TY TZ",
+    .vector_hint = "switch it on with M128",
+    .dwell = kDwell,
+    .dwell_hint = "give the time in seconds",
+    .tool_brings_length = true,
+    .arcs_turn_about_pole = true,
+    .always_claimed = LetterSet("FST"),
+    .letters = kLetters,
+    .known_letters = "X Y Z A B C F FT M R",
+};
+
+}  // namespace
+
+const DialectRules& heidenhain_rules() { return kRules; }
+
+}  // namespace frustum::parser

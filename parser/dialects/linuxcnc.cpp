@@ -1,0 +1,104 @@
+// LinuxCNC, that is RS-274/NGC.
+#include "parser/dialects/dialect_rules.hpp"
+#include "parser/dialects/shared_codes.hpp"
+
+#include <array>
+
+namespace frustum::parser {
+namespace {
+
+using enum CodeGroup;
+
+constexpr LetterSet kOffsetWord{"H"};
+constexpr std::array kCodes{
+    modal('G', 40, non_modal, NonModal::dwell, LetterSet("P")),
+    modal('G', 922, non_modal, NonModal::shift_suspend),
+    modal('G', 923, non_modal, NonModal::shift_resume),
+    modal('G', 430, length_compensation, LengthWord::length_only, kOffsetWord),
+    modal('G', 490, length_compensation, LengthWord::length_only_off),
+    modal('M', 4280, tool_tip, TipWord::on),
+    modal('M', 4290, tool_tip, TipWord::off),
+    modal('G', 591, work_offset, 7),
+    modal('G', 592, work_offset, 8),
+    modal('G', 593, work_offset, 9),
+    passed('G', 80),  // X is a radius
+    passed('M', 500, CodeGroup::event, LetterSet("P")),
+    passed('M', 510, CodeGroup::event, LetterSet("P")),
+    passed('M', 520, CodeGroup::event, LetterSet("P")),
+    passed('M', 530, CodeGroup::event, LetterSet("P")),
+    passed('M', 620, CodeGroup::event, LetterSet("P")),  // outputs
+    passed('M', 630, CodeGroup::event, LetterSet("P")),
+    passed('M', 640, CodeGroup::event, LetterSet("P")),
+    passed('M', 650, CodeGroup::event, LetterSet("P")),
+    passed('M', 660, CodeGroup::event, LetterSet("PELQ")),  // wait on an input
+    passed('M', 670, CodeGroup::event, LetterSet("EQ")),
+    passed('M', 680, CodeGroup::event, LetterSet("EQ")),
+    modal('M', 700, saved_modes, SavedModesWord::save),
+    modal('M', 710, saved_modes, SavedModesWord::drop),
+    modal('M', 720, saved_modes, SavedModesWord::restore),
+    modal('M', 730, saved_modes, SavedModesWord::save_for_call),
+};
+
+// What would change the part and is not simulated.
+constexpr std::array kRefusedCodes{
+    RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
+    RefusedCode{'G', 100, 109, "give offsets in the job, not in the program"},
+    RefusedCode{'G', 281, 309, "return to home with G28"},
+    RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
+    RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
+    RefusedCode{'G', 431, 439, "use G43 H, and M428 for tool-tip control"},
+    RefusedCode{'G', 750, 769, "write the cycle out as G0 and G1 blocks"},
+    RefusedCode{'G', 70, 70, "give X as a radius"},
+    RefusedCode{'M', 4300, 4300, "use M428 (tool tip) or M429 (axes)"},
+};
+constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
+constexpr std::string_view kNeedsArc =
+    "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K)";
+constexpr std::string_view kNoRadius = "cutter radius compensation is not simulated; leave D out";
+
+constexpr std::array kLetters{
+    LetterUse{'A', kNeedsMotion},
+    LetterUse{'B', kNeedsMotion},
+    LetterUse{'C', kNeedsMotion},
+    LetterUse{'D', kNoRadius},
+    LetterUse{'E', "E belongs to M66 to M68"},
+    LetterUse{'H', "H belongs to G43"},
+    LetterUse{'I', kNeedsArc},
+    LetterUse{'J', kNeedsArc},
+    LetterUse{'K', kNeedsArc},
+    LetterUse{'L', "L belongs to M98"},
+    LetterUse{'P', "P belongs to G4, G2, G3, G64 and M98"},
+    LetterUse{'Q', "Q belongs to G64"},
+    LetterUse{'R', "R belongs to G2 and G3"},
+    LetterUse{'X', kNeedsMotion},
+    LetterUse{'Y', kNeedsMotion},
+    LetterUse{'Z', kNeedsMotion},
+};
+constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
+constexpr std::array<std::string_view, 2> kFiles{"{}.ngc", "{}.nc"};
+
+constexpr DialectRules kRules{
+    .dialect = Dialect::linuxcnc,
+    .codes = {kCodes, kMachineCodes, kIsoCodes, kRs274Codes},
+    .refused_codes = kRefusedCodes,
+    .vector_letters = "abc",
+    .dwell = kDwell,
+    .dwell_hint = "give P in seconds",
+    .home_without_axes_is_all = true,
+    .always_claimed = LetterSet("FST"),
+    .letters = kLetters,
+    .known_letters = "A B C F G H I J K L M N O P Q R S T X Y Z",
+    .parameters = {.locals = 30, .named_locals = true, .unset_is_zero = true},
+    .cycles = {.retract_to_initial = false,
+               .words_end_with_their_g_word = true,
+               .feed_out_to_clearance = true,
+               .start_from_initial = true},
+    .polar_words = LetterSet("pq"),
+    .file_names = kFiles,
+};
+
+}  // namespace
+
+const DialectRules& linuxcnc_rules() { return kRules; }
+
+}  // namespace frustum::parser

@@ -1,0 +1,100 @@
+// One block (line) of an NC program as written: words, parameter settings and comments, not yet
+// given a meaning.
+//
+// Every dialect's reader yields these blocks, with the words of its own spelling under the canonical
+// letters, so that one interpreter runs them all:
+//   A to Z   as ISO programs write them
+//   a b c    the tool vector where it has words of its own (A3= B3= C3=, TX TY TZ)
+//   d        a tilted plane turns the rotary axes to its normal (0: it does not)
+//   t        the duration of the block in seconds (FT)
+//   e        full turns of an arc beyond the first (TURN=)
+//   p q      radius and angle of a polar position (@ ^)
+//   u v w    a second shift of a tilted plane, along its own axes
+//   @        a word without a number (TRAORI, TOOL CALL): `number` is its row in the code table
+// Units: as written. Columns count bytes from 1. Comments are UTF-8 (Latin-1 text is converted).
+// Errors: none.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parser/language/expression.hpp"
+#include "parser/language/flow.hpp"
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+// How the value of an axis or centre word counts.
+enum class Measure : std::uint8_t {
+  modal,        // as G90 or G91 says
+  absolute,     // AC()
+  incremental,  // IC(), IX
+  shortest      // DC(): absolute, by the shorter way round
+};
+
+constexpr char kNamedWord = '@';
+constexpr char kPolarRadius = 'p';
+constexpr char kPolarAngle = 'q';
+
+// A letter and its value: a plain number (the fast, common case) or an expression.
+struct Word {
+  char letter = 0;
+  bool decimal_point = false;  // the number was written with one, which G4 P looks at
+  std::uint32_t column = 0;
+  double number = 0.0;
+  ExpressionRange expression{};  // empty when the value is `number`
+  Measure measure = Measure::modal;
+  const char* spelled = nullptr;  // "A3=" where the dialect's spelling is not the letter
+};
+
+// #1=2, #<depth>=[#1*2]. A name stands for itself, a number is computed by `index`.
+struct Assignment {
+  std::uint32_t column = 0;
+  std::optional<std::uint32_t> name{};  // index into Block::names
+  ExpressionRange index{};
+  ExpressionRange value{};
+};
+
+struct Comment {
+  std::uint32_t column = 0;
+  bool to_line_end = false;  // written with ; instead of ( )
+  std::string text{};
+  // The statement that this is the text of, when it is known but not simulated: "BLK FORM".
+  const char* event = nullptr;
+};
+
+struct Block {
+  std::uint32_t line = 0;                  // 1-based line of the file
+  bool tape_mark = false;                  // %
+  bool deletable = false;                  // begins with /
+  std::optional<std::uint32_t> number{};   // N word
+  std::optional<std::uint32_t> program{};  // O word
+  std::uint32_t program_column = 0;
+  std::vector<Word> words{};
+  std::vector<Assignment> assignments{};
+  std::vector<Comment> comments{};
+  std::optional<FlowStatement> flow{};
+  std::vector<ExpressionStep> steps{};
+  std::vector<std::string> names{};
+  // Where the lines after the first begin, counted in bytes, when the block goes over several.
+  std::vector<std::uint32_t> line_starts{};
+
+  [[nodiscard]] bool empty() const {
+    return !tape_mark && !number && !program && words.empty() && assignments.empty() &&
+           comments.empty() && !flow;
+  }
+  // Line and column of a byte of the block, counted from 1 over all its lines.
+  [[nodiscard]] SourcePlace place_of(std::uint32_t column) const {
+    SourcePlace place{line, column};
+    for (const std::uint32_t start : line_starts) {
+      if (column <= start) break;
+      ++place.line;
+      place.column = column - start;
+    }
+    return place;
+  }
+};
+
+}  // namespace frustum::parser

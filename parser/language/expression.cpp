@@ -1,0 +1,262 @@
+#include "parser/language/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "core/units.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::array kFunctions{
+    FunctionName{"SIN", Operation::sine},         FunctionName{"COS", Operation::cosine},
+    FunctionName{"TAN", Operation::tangent},      FunctionName{"ASIN", Operation::arc_sine},
+    FunctionName{"ACOS", Operation::arc_cosine},  FunctionName{"ATAN", Operation::arc_tangent},
+    FunctionName{"SQRT", Operation::square_root}, FunctionName{"ABS", Operation::absolute},
+    FunctionName{"ROUND", Operation::round},      FunctionName{"FIX", Operation::fix},
+    FunctionName{"FUP", Operation::fup},          FunctionName{"LN", Operation::logarithm},
+    FunctionName{"EXP", Operation::exponential},
+};
+
+struct Domain {
+  bool holds;
+  const char* message;  // {0}, {1}: the operands
+  const char* hint;
+};
+
+// What the operands must satisfy, or nothing when every number will do.
+std::optional<Domain> domain_of(Operation operation, double a, double b) {
+  switch (operation) {
+    case Operation::divide:
+      return Domain{b != 0.0, "division of {0} by zero", "check the divisor before dividing"};
+    case Operation::modulo:
+      return Domain{b != 0.0, "{0} MOD zero", "check the divisor before MOD"};
+    case Operation::power:
+      return Domain{!(a < 0.0 && b != std::floor(b)) && !(a == 0.0 && b < 0.0),
+                    "{0} ** {1} has no real value",
+                    "a negative base needs a whole exponent, zero one that is not negative"};
+    case Operation::arc_sine:
+      return Domain{std::abs(a) <= 1.0, "ASIN of {0}", "its argument lies between -1 and 1"};
+    case Operation::arc_cosine:
+      return Domain{std::abs(a) <= 1.0, "ACOS of {0}", "its argument lies between -1 and 1"};
+    case Operation::square_root:
+      return Domain{a >= 0.0, "SQRT of {0}", "its argument must not be negative"};
+    case Operation::logarithm:
+      return Domain{a > 0.0, "LN of {0}", "its argument must be positive"};
+    default:
+      return std::nullopt;
+  }
+}
+
+double modulo(double a, double b) {
+  const double rest = std::fmod(a, b);
+  return rest < 0.0 ? rest + std::abs(b) : rest;
+}
+
+// RS-274 compares within this.
+constexpr double kSame = 1e-4;
+bool same(double a, double b) { return std::abs(a - b) < kSame; }
+
+double apply(Operation operation, double a, double b) {
+  switch (operation) {
+    case Operation::negate:
+      return -a;
+    case Operation::add:
+      return a + b;
+    case Operation::subtract:
+      return a - b;
+    case Operation::multiply:
+      return a * b;
+    case Operation::divide:
+      return a / b;
+    case Operation::power:
+      return std::pow(a, b);
+    case Operation::modulo:
+      return modulo(a, b);
+    case Operation::equal:
+      return same(a, b) ? 1.0 : 0.0;
+    case Operation::not_equal:
+      return same(a, b) ? 0.0 : 1.0;
+    case Operation::greater:
+      return a > b ? 1.0 : 0.0;
+    case Operation::greater_or_equal:
+      return a >= b ? 1.0 : 0.0;
+    case Operation::less:
+      return a < b ? 1.0 : 0.0;
+    case Operation::less_or_equal:
+      return a <= b ? 1.0 : 0.0;
+    case Operation::logical_and:
+      return a != 0.0 && b != 0.0 ? 1.0 : 0.0;
+    case Operation::logical_or:
+      return a != 0.0 || b != 0.0 ? 1.0 : 0.0;
+    case Operation::logical_xor:
+      return (a != 0.0) != (b != 0.0) ? 1.0 : 0.0;
+    case Operation::sine:
+      return std::sin(a * kRadPerDeg);
+    case Operation::cosine:
+      return std::cos(a * kRadPerDeg);
+    case Operation::tangent:
+      return std::tan(a * kRadPerDeg);
+    case Operation::arc_sine:
+      return std::asin(a) * kDegPerRad;
+    case Operation::arc_cosine:
+      return std::acos(a) * kDegPerRad;
+    case Operation::arc_tangent:
+      return std::atan2(a, b) * kDegPerRad;
+    case Operation::square_root:
+      return std::sqrt(a);
+    case Operation::absolute:
+      return std::abs(a);
+    case Operation::round:
+      return std::round(a);
+    case Operation::fix:
+      return std::floor(a);
+    case Operation::fup:
+      return std::ceil(a);
+    case Operation::logarithm:
+      return std::log(a);
+    case Operation::exponential:
+      return std::exp(a);
+    case Operation::number:
+    case Operation::parameter:
+    case Operation::named_parameter:
+    case Operation::exists:
+      break;
+  }
+  return a;
+}
+
+constexpr bool takes_two(Operation operation) {
+  return (operation >= Operation::add && operation <= Operation::logical_xor) ||
+         operation == Operation::arc_tangent;
+}
+
+Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
+  diagnostic.column = static_cast<int>(column);
+  return diagnostic;
+}
+
+const char* operator_text(Operation operation) {
+  constexpr std::array kText{"+",    "-",    "*",    "/",    "**",    " MOD ", " EQ ", " NE ",
+                             " GT ", " GE ", " LT ", " LE ", " AND ", " OR ",  " XOR "};
+  return kText.at(static_cast<std::size_t>(operation) - static_cast<std::size_t>(Operation::add));
+}
+
+std::string function_text(Operation operation, const std::string& argument) {
+  for (const FunctionName& function : kFunctions) {
+    if (function.operation == operation) return fmt::format("{}[{}]", function.name, argument);
+  }
+  return argument;
+}
+
+}  // namespace
+
+std::span<const FunctionName> function_names() { return kFunctions; }
+
+Result<double> evaluate(const ExpressionContext& context, ExpressionRange range) {
+  // Each open bracket holds at most six pending operands: of ATAN, a logical term, a comparison, a
+  // sum, a product, a power.
+  std::array<double, 6 * (kMaxExpressionDepth + 2)> stack;  // NOLINT: written before it is read
+  std::size_t top = 0;
+  for (const ExpressionStep& step : context.steps.subspan(range.first, range.count)) {
+    if (step.operation == Operation::number) {
+      stack[top++] = step.number;
+      continue;
+    }
+    if (step.operation == Operation::named_parameter) {
+      auto value = context.parameters.read(context.names[static_cast<std::size_t>(step.number)]);
+      if (!value) return at_column(value.error().front(), step.column);
+      stack[top++] = *value;
+      continue;
+    }
+    if (step.operation == Operation::exists) {
+      const bool set = context.parameters.has(context.names[static_cast<std::size_t>(step.number)]);
+      stack[top++] = set ? 1.0 : 0.0;
+      continue;
+    }
+    if (step.operation == Operation::parameter) {
+      auto value = context.parameters.read(stack[top - 1]);
+      if (!value) return at_column(value.error().front(), step.column);
+      stack[top - 1] = *value;
+      continue;
+    }
+    double b = takes_two(step.operation) ? stack[--top] : 0.0;
+    double a = stack[top - 1];
+    if (is_vacant(a) || is_vacant(b)) {
+      const bool asks =
+          step.operation == Operation::equal || step.operation == Operation::not_equal;
+      if (asks) {
+        const bool both = is_vacant(a) && is_vacant(b);
+        stack[top - 1] = both == (step.operation == Operation::equal) ? 1.0 : 0.0;
+        continue;
+      }
+      if (is_vacant(a)) a = 0.0;
+      if (is_vacant(b)) b = 0.0;
+    }
+    if (const auto domain = domain_of(step.operation, a, b); domain && !domain->holds) {
+      return at_column(
+          error(fmt::format(fmt::runtime(domain->message), decimal_text(a), decimal_text(b)),
+                domain->hint),
+          step.column);
+    }
+    stack[top - 1] = apply(step.operation, a, b);
+    if (!std::isfinite(stack[top - 1])) {
+      return at_column(error("the result is too large for a number", "check the operands"),
+                       step.column);
+    }
+  }
+  return stack[0];
+}
+
+std::string to_text(std::span<const ExpressionStep> steps, std::span<const std::string> names) {
+  std::vector<std::string> stack;
+  for (const ExpressionStep& step : steps) {
+    if (step.operation == Operation::number) {
+      stack.push_back(decimal_text(step.number));
+      continue;
+    }
+    if (step.operation == Operation::named_parameter) {
+      stack.push_back(fmt::format("#<{}>", names[static_cast<std::size_t>(step.number)]));
+      continue;
+    }
+    if (step.operation == Operation::exists) {
+      stack.push_back(fmt::format("EXISTS[#<{}>]", names[static_cast<std::size_t>(step.number)]));
+      continue;
+    }
+    std::string right;
+    if (takes_two(step.operation)) {
+      right = std::move(stack.back());
+      stack.pop_back();
+    }
+    std::string& left = stack.back();
+    if (step.operation == Operation::parameter) {
+      const bool plain = left.find_first_not_of("0123456789") == std::string::npos;
+      left = fmt::format(fmt::runtime(plain || left.front() == '#' ? "#{}" : "#[{}]"), left);
+    } else if (step.operation == Operation::negate) {
+      const bool bare =
+          left.front() == '#' || left.front() == '[' || std::isalpha(left.front()) != 0;
+      left = fmt::format(fmt::runtime(bare ? "-{}" : "-[{}]"), left);
+    } else if (step.operation == Operation::arc_tangent) {
+      left = fmt::format("ATAN[{}]/[{}]", left, right);
+    } else if (takes_two(step.operation)) {
+      left = fmt::format("[{}{}{}]", left, operator_text(step.operation), right);
+    } else {
+      left = function_text(step.operation, left);
+    }
+  }
+  return stack.empty() ? std::string{} : stack.front();
+}
+
+std::string decimal_text(double value) {
+  std::array<char, 400> buffer;  // NOLINT: filled by to_chars; 1.8e308 has 309 digits
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
+  return {buffer.data(), end.ptr};
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,101 @@
+// Expressions of RS-274 ([#1 * SIN[30] + 2]) as postfix code.
+//
+// The steps of all expressions of a block lie in one row in the block; an ExpressionRange names a
+// part of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never
+// negative, and operators of one level bind to the left, `**` too: RS-274's rules.
+// A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0.
+// Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
+// beyond the range of numbers; each at the column of the operation.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+#include "parser/language/parameters.hpp"
+
+namespace frustum::parser {
+
+enum class Operation : std::uint8_t {
+  number,
+  parameter,        // takes the number of the parameter
+  named_parameter,  // `number` of the step is the index of the name
+  exists,           // 1 when the named parameter is set, else 0
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  modulo,
+  equal,  // 1 or 0; within 1e-4, as RS-274 compares
+  not_equal,
+  greater,
+  greater_or_equal,
+  less,
+  less_or_equal,
+  logical_and,
+  logical_or,
+  logical_xor,
+  sine,
+  cosine,
+  tangent,
+  arc_sine,
+  arc_cosine,
+  arc_tangent,  // of two: ATAN[y]/[x]
+  square_root,
+  absolute,
+  round,
+  fix,
+  fup,
+  logarithm,
+  exponential,
+};
+
+struct ExpressionStep {
+  Operation operation = Operation::number;
+  std::uint32_t column = 0;  // 1-based
+  double number = 0.0;
+
+  bool operator==(const ExpressionStep&) const = default;
+};
+
+// Brackets within brackets beyond this are refused by the grammar, which bounds the stack of
+// evaluate().
+constexpr int kMaxExpressionDepth = 64;
+
+struct ExpressionRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+
+  [[nodiscard]] bool empty() const { return count == 0; }
+};
+
+// What an expression looks at besides its own steps.
+struct ExpressionContext {
+  std::span<const ExpressionStep> steps;
+  std::span<const std::string> names;
+  const Parameters& parameters;
+};
+
+// The diagnostic has a column but neither file nor line.
+[[nodiscard]] Result<double> evaluate(const ExpressionContext& context, ExpressionRange range);
+
+// The expression as NC text; reading it again gives the same steps.
+[[nodiscard]] std::string to_text(std::span<const ExpressionStep> steps,
+                                  std::span<const std::string> names);
+
+// The shortest decimal text (no exponent) that reads back as exactly `value`.
+[[nodiscard]] std::string decimal_text(double value);
+
+// The operation that a function's name means, for the grammar: "SIN", "ATAN", ...
+struct FunctionName {
+  std::string_view name;
+  Operation operation;
+};
+[[nodiscard]] std::span<const FunctionName> function_names();
+
+}  // namespace frustum::parser

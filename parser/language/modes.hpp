@@ -1,0 +1,34 @@
+// The modes that have no place in a motion (motion.hpp has the others).
+//
+// Units : none
+// Errors: none
+#pragma once
+
+#include <cstdint>
+
+namespace frustum::parser {
+
+enum class MotionMode : std::uint8_t {
+  none,
+  traverse,
+  linear,
+  arc_clockwise,
+  arc_counterclockwise,
+  // The canned cycles: canned_cycle.hpp.
+  peck_short,
+  tap_left,
+  drill,
+  drill_dwell,
+  peck,
+  tap,
+  bore,
+  bore_stop,
+  bore_back,
+  bore_manual,
+  bore_dwell
+};
+enum class DistanceMode : std::uint8_t { absolute, incremental };
+// G70 of Sinumerik leaves feeds in mm.
+enum class LengthUnit : std::uint8_t { millimetre, inch, inch_but_feeds };
+
+}  // namespace frustum::parser

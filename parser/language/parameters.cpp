@@ -1,0 +1,79 @@
+#include "parser/language/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "parser/language/expression.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// The names of RS-274 are kept in lower case; those of other dialects are spelled as they are.
+std::string spelling_of(std::string_view name) {
+  const bool plain = !name.empty() && name.front() >= 'A' && name.front() <= 'Z';
+  return fmt::format(fmt::runtime(plain ? "{}" : "#<{}>"), name);
+}
+
+}  // namespace
+
+Result<int> Parameters::index_of(double number) {
+  // A computed index may be off by rounding; RS-274 forgives 1e-4.
+  const double nearest = std::round(number);
+  if (std::abs(number - nearest) > 1e-4) {
+    return error(fmt::format("parameter #{} is not a whole number", decimal_text(number)),
+                 "use ROUND, FIX or FUP on the computed number");
+  }
+  if (nearest < 1.0 || nearest > kMaxParameterNumber) {
+    return error(fmt::format("parameter #{} does not exist", decimal_text(nearest)),
+                 fmt::format("parameters are #1 to #{}", kMaxParameterNumber));
+  }
+  return static_cast<int>(nearest);
+}
+
+Result<double> Parameters::read(double number) const {
+  if (rules_.unset_is_vacant && number == 0.0) return kVacant;
+  auto index = index_of(number);
+  if (!index) return std::move(index).error();
+  if (system_ != nullptr) {
+    if (const auto kept = system_->number(*index)) return *kept;
+  }
+  const Numbered& all = numbered(*index);
+  const auto found = all.find(*index);
+  if (found == all.end()) {
+    if (rules_.unset_is_zero) return 0.0;
+    if (rules_.unset_is_vacant) return kVacant;
+    return error(fmt::format("parameter #{} has no value", *index),
+                 fmt::format("set it on an earlier block: #{}=...", *index));
+  }
+  return found->second;
+}
+
+Result<double> Parameters::read(std::string_view name) const {
+  const Named& all = named(name);
+  const auto found = all.find(name);
+  if (found == all.end() && system_ != nullptr) {
+    if (const auto kept = system_->named(name)) return *kept;
+  }
+  if (found == all.end()) {
+    const std::string spelled = spelling_of(name);
+    return error(fmt::format("parameter {} has no value", spelled),
+                 fmt::format("set it on an earlier block: {}=...", spelled));
+  }
+  return found->second;
+}
+
+bool Parameters::has(std::string_view name) const {
+  return named(name).contains(name) || (system_ != nullptr && system_->named(name));
+}
+
+void Parameters::enter(std::span<const double> arguments) {
+  locals_.emplace_back();
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (!is_vacant(arguments[i])) locals_.back().numbered[static_cast<int>(i) + 1] = arguments[i];
+  }
+}
+
+void Parameters::leave() { locals_.pop_back(); }
+
+}  // namespace frustum::parser

@@ -1,0 +1,101 @@
+// The parameters of a program: numbered (#1 .. #99999) and named (#<feed>), each set or not.
+//
+// The first numbers and the names that do not begin with _ belong to the subprogram at work: a call begins
+// with its arguments and none of its caller's. All others are of the whole program.
+// Units: as the program wrote them; a parameter has no unit until a word uses it.
+// Errors: reading a parameter that was never set, or a number that no parameter has.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "core/result.hpp"
+
+namespace frustum::parser {
+
+constexpr int kMaxParameterNumber = 99999;
+
+struct ParameterRules {
+  int locals = 0;              // #1 up to this number belong to the subprogram
+  bool named_locals = false;   // so do names without _ before them
+  bool unset_is_zero = false;  // a number that was never set reads as 0
+  // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but vacant ones, and a
+  // word of that value is not given at all (Custom Macro).
+  bool unset_is_vacant = false;
+};
+
+// The parameters that a controller keeps itself; no value for what it does not keep.
+class KeptParameters {
+ public:
+  KeptParameters() = default;
+  KeptParameters(const KeptParameters&) = default;
+  KeptParameters& operator=(const KeptParameters&) = default;
+  virtual ~KeptParameters() = default;
+  [[nodiscard]] virtual std::optional<double> number(int index) const = 0;
+  [[nodiscard]] virtual std::optional<double> named(std::string_view name) const = 0;
+};
+
+// A vacant parameter among numbers.
+constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
+[[nodiscard]] inline bool is_vacant(double value) { return std::isnan(value); }
+
+class Parameters {
+ public:
+  explicit Parameters(const ParameterRules& rules = {}, const KeptParameters* system = nullptr)
+      : rules_(rules), system_(system) {}
+
+  [[nodiscard]] Result<double> read(double number) const;
+  [[nodiscard]] Result<double> read(std::string_view name) const;
+  [[nodiscard]] bool has(std::string_view name) const;
+  // The number as an index, when a parameter of that number can exist.
+  [[nodiscard]] static Result<int> index_of(double number);
+
+  void set(int index, double value) { numbered(index)[index] = value; }
+  void set(std::string_view name, double value) {
+    named(name).insert_or_assign(std::string(name), value);
+  }
+
+  // A call: #1, #2, .. are `arguments` until the matching leave().
+  void enter(std::span<const double> arguments);
+  void leave();
+
+ private:
+  using Numbered = std::unordered_map<int, double>;
+  using Named = std::map<std::string, double, std::less<>>;
+  struct Locals {
+    Numbered numbered{};
+    Named named{};
+  };
+  [[nodiscard]] bool is_local(int index) const { return index <= rules_.locals; }
+  [[nodiscard]] bool is_local(std::string_view name) const {
+    return rules_.named_locals && !name.starts_with('_');
+  }
+  [[nodiscard]] Numbered& numbered(int index) {
+    return is_local(index) ? locals_.back().numbered : numbered_;
+  }
+  [[nodiscard]] const Numbered& numbered(int index) const {
+    return is_local(index) ? locals_.back().numbered : numbered_;
+  }
+  [[nodiscard]] Named& named(std::string_view name) {
+    return is_local(name) ? locals_.back().named : named_;
+  }
+  [[nodiscard]] const Named& named(std::string_view name) const {
+    return is_local(name) ? locals_.back().named : named_;
+  }
+
+  ParameterRules rules_;
+  const KeptParameters* system_;
+  Numbered numbered_{};
+  Named named_{};
+  std::vector<Locals> locals_{
+      1};  // of the main program and the subprograms at work, innermost last
+};
+
+}  // namespace frustum::parser

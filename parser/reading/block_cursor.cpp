@@ -1,0 +1,50 @@
+#include "parser/reading/block_cursor.hpp"
+
+#include <algorithm>
+
+namespace frustum::parser {
+
+BlockCursor::BlockCursor(const Program& program)
+    : file_(program.file),
+      dialect_(program.dialect),
+      lines_(program.text),
+      read_(reader_of(program.dialect)) {}
+
+std::string_view BlockCursor::next_text(std::vector<std::uint32_t>& line_starts) {
+  std::string_view text = lines_.next();
+  std::size_t mark = continuation_mark(text, dialect_);
+  if (mark == std::string_view::npos) return text;
+  joined_.clear();
+  while (true) {
+    const std::size_t start = joined_.size();
+    joined_ += text;
+    if (mark == std::string_view::npos || lines_.at_end()) return joined_;
+    // What follows the mark on its line is a remark.
+    std::fill(joined_.begin() + static_cast<std::ptrdiff_t>(start + mark), joined_.end(), ' ');
+    joined_ += '\n';
+    line_starts.push_back(static_cast<std::uint32_t>(joined_.size()));
+    text = lines_.next();
+    mark = continuation_mark(text, dialect_);
+  }
+}
+
+Result<const Block*> BlockCursor::next() {
+  while (!lines_.at_end()) {
+    block_place_ = lines_.place();
+    std::vector<std::uint32_t> line_starts;
+    const std::string_view text = next_text(line_starts);
+    auto block = read_(text, block_place_.line);
+    if (!block) {
+      Diagnostics failures = std::move(block).error();
+      for (Diagnostic& failure : failures) failure.file = file_;
+      return failures;
+    }
+    if (block->empty()) continue;
+    block_ = *std::move(block);
+    block_.line_starts = std::move(line_starts);
+    return &block_;
+  }
+  return static_cast<const Block*>(nullptr);
+}
+
+}  // namespace frustum::parser

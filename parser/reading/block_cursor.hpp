@@ -1,0 +1,43 @@
+// Reads a program block by block, from any place on.
+//
+// Units : as written
+// Shape : one cursor a reader; the program is shared
+// Errors: the syntax error of a block, with file, line and column; the cursor then stands behind it
+#pragma once
+
+#include <string>
+
+#include "core/result.hpp"
+#include "parser/program.hpp"
+#include "parser/reading/block_reader.hpp"
+
+namespace frustum::parser {
+
+class BlockCursor {
+ public:
+  explicit BlockCursor(const Program& program);
+
+  // Where the next block is looked for.
+  [[nodiscard]] TextPlace place() const { return lines_.place(); }
+  void go_to(TextPlace place) { lines_.go_to(place); }
+  // Where the block that next() gave begins.
+  [[nodiscard]] TextPlace block_place() const { return block_place_; }
+
+  [[nodiscard]] bool at_end() { return lines_.at_end(); }
+  // The next block that is not blank, valid until the next call; null at the end of the text.
+  [[nodiscard]] Result<const Block*> next();
+
+ private:
+  // The text of one block, lines that continue it joined by line feeds.
+  [[nodiscard]] std::string_view next_text(std::vector<std::uint32_t>& line_starts);
+
+  std::string file_;
+  Dialect dialect_;
+  LineReader lines_;
+  BlockReader read_;
+  std::string joined_{};
+  TextPlace block_place_{};
+  Block block_{};
+};
+
+}  // namespace frustum::parser

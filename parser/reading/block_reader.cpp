@@ -1,0 +1,40 @@
+#include "parser/reading/block_reader.hpp"
+
+#include "parser/reading/grammar.hpp"
+#include "parser/reading/macro_reader.hpp"
+#include "parser/reading/o_word_reader.hpp"
+
+namespace frustum::parser {
+
+BlockReader reader_of(Dialect dialect) {
+  switch (dialect) {
+    case Dialect::fanuc:
+      return read_fanuc_block;
+    case Dialect::linuxcnc:
+      return read_linuxcnc_block;
+    case Dialect::sinumerik:
+      return read_sinumerik_block;
+    case Dialect::heidenhain:
+      return read_heidenhain_block;
+    case Dialect::cldata:
+      return cldata_reader();
+  }
+  return parse_block;
+}
+
+std::size_t continuation_mark(std::string_view line, Dialect dialect) {
+  constexpr std::string_view kBlanks = " \t\r";
+  if (dialect == Dialect::heidenhain) {
+    const std::size_t last = line.find_last_not_of(kBlanks);
+    return last != std::string_view::npos && line[last] == '~' ? last : std::string_view::npos;
+  }
+  if (dialect != Dialect::cldata) return std::string_view::npos;
+  // A $ continues the statement, also before a comment; $$ begins one; PPRINT is text to its end.
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] != '$') continue;
+    return line.substr(i).starts_with("$$") ? std::string_view::npos : i;
+  }
+  return std::string_view::npos;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,43 @@
+// The text of one block -> its words, settings and comments.
+//
+//   block      = "%" { comment }
+//              | [ "/" ] [ N digits ] [ "/" ] { word | setting | comment | O digits }
+//   word       = letter value
+//   setting    = parameter "=" logic
+//   value      = [ sign ] ( number | parameter | function | "[" logic "]" )
+//   logic      = relation { ( "AND" | "OR" | "XOR" ) relation }
+//   relation   = sum { ( "EQ" | "NE" | "GT" | "GE" | "LT" | "LE" ) sum }
+//   sum        = product { ( "+" | "-" ) product }
+//   product    = power { ( "*" | "/" | "MOD" ) power }
+//   power      = value { "**" value }
+//   parameter  = "#" ( digits | "<" name ">" | "[" logic "]" | parameter )
+//   function   = name "[" logic "]"
+//              | "EXISTS" "[" "#" "<" name ">" "]"
+//              | "ATAN" "[" logic "]" "/" "[" logic "]" | "ATAN" "[" logic "," logic "]"
+//   comment    = "(" text ")" | ";" text
+//
+// Letters may be of either case; blanks (space, tab, carriage return) may stand between any two
+// tokens or nowhere. A sign belongs to the value after it: -2**2 is 4, as in RS-274. Numbers have
+// no exponent.
+// Units: none; values are as written.
+// Errors: the first one of the block, with line, column and hint; the file is left to the caller.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/result.hpp"
+#include "parser/language/block.hpp"
+
+namespace frustum::parser {
+
+// `text` is one line without its line feed.
+[[nodiscard]] Result<Block> parse_block(std::string_view text, std::uint32_t line);
+
+// One `value` of the text from `offset` on, put behind the steps of the block; `offset` moves behind it.
+[[nodiscard]] std::optional<Diagnostic> append_expression(std::string_view text,
+                                                          std::size_t& offset, Block& block,
+                                                          ExpressionRange& range);
+
+}  // namespace frustum::parser

@@ -1,0 +1,186 @@
+#include "parser/reading/line_scanner.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/comment_text.hpp"
+#include "parser/reading/syntax_error.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
+
+}  // namespace
+
+LineScanner::LineScanner(std::string_view text, std::uint32_t line) : text_(text), line_(line) {}
+
+void LineScanner::skip_blanks() {
+  place_ = std::min(text_.find_first_not_of(kBlanks, place_), text_.size());
+}
+
+bool LineScanner::at_end() { return peek() == 0 && (failed() || place_ >= text_.size()); }
+
+char LineScanner::peek() {
+  if (failed()) return 0;
+  skip_blanks();
+  return peek_byte();
+}
+
+char LineScanner::peek_byte() const {
+  return failed() || place_ >= text_.size() ? '\0' : upper(text_[place_]);
+}
+
+bool LineScanner::take(char expected) {
+  if (at_end() || peek() != expected) return false;
+  ++place_;
+  return true;
+}
+
+bool LineScanner::take_name(std::string_view expected) {
+  const std::uint32_t start = column();
+  if (name() == expected) return true;
+  go_back_to(start);
+  return false;
+}
+
+std::string LineScanner::letters() {
+  std::string run;
+  for (char c = peek(); is_letter(c); c = peek_byte()) {
+    run += c;
+    ++place_;
+  }
+  return run;
+}
+
+std::string LineScanner::name() {
+  std::string run;
+  if (!is_letter(peek())) return run;
+  for (char c = peek(); is_letter(c) || is_digit(c); c = peek_byte()) {
+    run += c;
+    ++place_;
+  }
+  return run;
+}
+
+std::string LineScanner::next_name() {
+  const std::uint32_t start = column();
+  std::string found = name();
+  go_back_to(start);
+  return found;
+}
+
+std::string_view LineScanner::digits() {
+  if (at_end()) return {};
+  const std::size_t start = place_;
+  while (is_digit(peek_byte())) ++place_;
+  return text_.substr(start, place_ - start);
+}
+
+std::optional<ScannedNumber> LineScanner::number() {
+  if (at_end()) return std::nullopt;
+  const std::size_t start = place_;
+  const auto has_digits = [this] {
+    const std::size_t first = place_;
+    while (is_digit(peek_byte())) ++place_;
+    return place_ > first;
+  };
+  bool any = has_digits();
+  const bool point = peek_byte() == '.';
+  if (point) {
+    ++place_;
+    any = has_digits() || any;
+  }
+  if (!any) {
+    place_ = start;
+    return std::nullopt;
+  }
+  ScannedNumber found{0.0, point};
+  const auto read = std::from_chars(text_.data() + start, text_.data() + place_, found.value);
+  if (read.ec == std::errc::result_out_of_range && found.value != 0.0) found.value = 0.0;
+  if (read.ec == std::errc::result_out_of_range && place_ - start > 308) {
+    fail(static_cast<std::uint32_t>(start + 1), "the number is too large",
+         "numbers go up to 1.8e308");
+  }
+  return found;
+}
+
+double LineScanner::signed_number(std::string_view whose, std::uint32_t whose_column) {
+  const bool negative = take('-');
+  if (!negative) take('+');
+  const auto found = number();
+  if (!found) {
+    fail(whose_column, fmt::format("{} has no number", whose),
+         fmt::format("write {} and a number", whose));
+    return 0.0;
+  }
+  return (negative ? -found->value : found->value) + 0.0;
+}
+
+std::string LineScanner::text_to(std::string_view stops) {
+  if (failed()) return {};
+  place_ = std::min(text_.find_first_not_of(" \t\r", place_), text_.size());
+  const std::size_t start = place_;
+  place_ = std::min(text_.find('\n', start), text_.size());
+  if (!stops.empty()) place_ = std::min(text_.find_first_of(stops, start), place_);
+  std::string_view found = text_.substr(start, place_ - start);
+  found = found.substr(0, found.find_last_not_of(" \t\r") + 1);
+  return utf8_of(found);
+}
+
+std::uint32_t LineScanner::column() {
+  skip_blanks();
+  return static_cast<std::uint32_t>(place_) + 1;
+}
+
+void LineScanner::fail(std::uint32_t column, std::string message, std::string hint) {
+  if (failed()) return;
+  failure_ = error(std::move(message), std::move(hint));
+  failure_->column = static_cast<int>(column);
+}
+
+void LineScanner::fail_unexpected(std::string hint) {
+  const std::string found = at_end() ? "the end of the block" : printable(text_[place_]);
+  fail(column(), "unexpected " + found, std::move(hint));
+}
+
+Result<Block> LineScanner::finish(Block&& block) const {
+  if (!failed()) return std::move(block);
+  // The lines of the block are not cut yet; count them here.
+  Diagnostic diagnostic = *failure_;
+  diagnostic.line = static_cast<int>(line_);
+  const auto before =
+      text_.substr(0, std::min(static_cast<std::size_t>(diagnostic.column) - 1, text_.size()));
+  for (const char c : before) diagnostic.line += c == '\n' ? 1 : 0;
+  if (const std::size_t feed = before.rfind('\n'); feed != std::string_view::npos) {
+    diagnostic.column -= static_cast<int>(feed) + 1;
+  }
+  return diagnostic;
+}
+
+void add_code(Block& block, const Code& code, std::uint32_t column) {
+  Word word;
+  word.letter = kNamedWord;
+  word.column = column;
+  word.number = row_of(code);
+  block.words.push_back(word);
+}
+
+void add_number(Block& block, char letter, double number, std::uint32_t column,
+                const char* spelled) {
+  Word word;
+  word.letter = letter;
+  word.column = column;
+  word.number = number;
+  word.spelled = spelled;
+  block.words.push_back(word);
+}
+
+}  // namespace frustum::parser

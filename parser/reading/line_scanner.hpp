@@ -1,0 +1,76 @@
+// Reads a block of text by hand, where a dialect's words are few: names, numbers, signs, comments.
+//
+// The first failure sticks: from then on everything is at its end, so that readers need to look only
+// once. Letters count as upper case. Blanks are skipped before each token; a line feed, between the
+// lines of one block, is a blank.
+// Units: none; values are as written. Columns count bytes from 1 over all lines of the block.
+// Errors: a number that is missing or too large; those of the reader, by fail().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/result.hpp"
+#include "parser/language/block.hpp"
+
+namespace frustum::parser {
+
+struct ScannedNumber {
+  double value = 0.0;
+  bool decimal_point = false;
+};
+
+class LineScanner {
+ public:
+  LineScanner(std::string_view text, std::uint32_t line);
+
+  [[nodiscard]] bool at_end();
+  // The next character that is not blank, in upper case; 0 at the end.
+  [[nodiscard]] char peek();
+  // Like peek(), but of the very next byte.
+  [[nodiscard]] char peek_byte() const;
+  bool take(char expected);
+  // The whole name when it is `expected`.
+  bool take_name(std::string_view expected);
+  // A run of letters, in upper case; empty when there is none.
+  [[nodiscard]] std::string letters();
+  // A letter or _, then letters, digits, _.
+  [[nodiscard]] std::string name();
+  // What name() would return.
+  [[nodiscard]] std::string next_name();
+  [[nodiscard]] std::string_view digits();
+  // A decimal number without a sign; nothing is taken when there is none.
+  [[nodiscard]] std::optional<ScannedNumber> number();
+  // [ + | - ] number; `whose` has no number when there is none.
+  [[nodiscard]] double signed_number(std::string_view whose, std::uint32_t whose_column);
+  // To the end of the line, or up to one of `stops`; blanks at both ends are left out.
+  [[nodiscard]] std::string text_to(std::string_view stops = {});
+
+  // Of the next token.
+  [[nodiscard]] std::uint32_t column();
+  void go_back_to(std::uint32_t column) { place_ = column - 1; }
+  [[nodiscard]] bool failed() const { return failure_.has_value(); }
+  void fail(std::uint32_t column, std::string message, std::string hint);
+  void fail_unexpected(std::string hint);
+  // The block, or the failure.
+  [[nodiscard]] Result<Block> finish(Block&& block) const;
+
+ private:
+  void skip_blanks();
+
+  std::string_view text_;
+  std::uint32_t line_ = 0;
+  std::size_t place_ = 0;
+  std::optional<Diagnostic> failure_{};
+};
+
+// Adds a word that has no number of its own: a code of the table.
+struct Code;
+void add_code(Block& block, const Code& code, std::uint32_t column);
+// A letter with a plain number.
+void add_number(Block& block, char letter, double number, std::uint32_t column,
+                const char* spelled = nullptr);
+
+}  // namespace frustum::parser

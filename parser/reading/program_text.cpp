@@ -1,0 +1,128 @@
+#include "parser/reading/program_text.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::size_t kWindow = std::size_t{1} << 20U;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+Diagnostic unreadable(const std::filesystem::path& file, std::string hint) {
+  Diagnostic failure = error("the file cannot be read", std::move(hint));
+  failure.file = file.string();
+  return failure;
+}
+
+// Length of the line at the front of `text`, and of its end; no end in `text`: npos.
+struct LineLength {
+  std::size_t line = 0;
+  std::size_t with_end = std::string_view::npos;
+};
+LineLength first_line(std::string_view text) {
+  const auto find = [](std::string_view in, char wanted) {
+    const void* found = std::memchr(in.data(), wanted, in.size());
+    return found == nullptr ? in.size()
+                            : static_cast<std::size_t>(static_cast<const char*>(found) - in.data());
+  };
+  if (text.empty()) return {};
+  const std::size_t feed = find(text, '\n');
+  const std::size_t carriage = find(text.substr(0, feed), '\r');
+  if (carriage + 1 < text.size() && carriage < feed) {
+    return {carriage, carriage + (carriage + 1 == feed ? 2U : 1U)};
+  }
+  if (feed < text.size()) return {feed, feed + 1};
+  return {carriage, std::string_view::npos};
+}
+
+}  // namespace
+
+Result<ProgramText> ProgramText::open(const std::filesystem::path& file) {
+  std::error_code failed;
+  if (std::filesystem::is_directory(file, failed)) return unreadable(file, "it is a folder");
+  if (!std::ifstream(file, std::ios::binary)) {
+    return unreadable(file, "check the path and permissions");
+  }
+  ProgramText text;
+  text.file_ = file;
+  return text;
+}
+
+std::string ProgramText::head(std::size_t count) const {
+  if (file_.empty()) return text_->substr(0, count);
+  std::string bytes(count, '\0');
+  std::ifstream in(file_, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+LineReader::LineReader(ProgramText text) : text_(std::move(text)) {
+  if (text_.file_.empty()) {
+    window_ = *text_.text_;
+  } else {
+    file_.open(text_.file_, std::ios::binary);
+  }
+  go_to({});
+}
+
+void LineReader::go_to(TextPlace place) {
+  if (text_.file_.empty()) {
+    in_window_ = std::min<std::size_t>(place.offset, window_.size());
+  } else {
+    const std::uint64_t window_start = place_.offset - in_window_;
+    if (place.offset >= window_start && place.offset < window_start + window_.size()) {
+      in_window_ = static_cast<std::size_t>(place.offset - window_start);
+    } else {
+      file_.clear();
+      file_.seekg(static_cast<std::streamoff>(place.offset));
+      file_ended_ = false;
+      buffer_.clear();
+      window_ = {};
+      in_window_ = 0;
+    }
+  }
+  place_ = place;
+  after_feed_ = false;
+  if (place.offset != 0) return;
+  if (rest().size() < kByteOrderMark.size()) refill();
+  if (rest().starts_with(kByteOrderMark)) {
+    take(kByteOrderMark.size());
+  }
+}
+
+bool LineReader::refill() {
+  if (file_ended_) return false;
+  buffer_.erase(0, in_window_);
+  in_window_ = 0;
+  const std::size_t kept = buffer_.size();
+  buffer_.resize(kept + kWindow);
+  file_.read(buffer_.data() + kept, static_cast<std::streamsize>(kWindow));
+  const auto read = static_cast<std::size_t>(file_.gcount());
+  buffer_.resize(kept + read);
+  window_ = buffer_;
+  file_ended_ = read < kWindow;
+  return read > 0;
+}
+
+bool LineReader::at_end() { return rest().empty() && !refill(); }
+
+std::string_view LineReader::next() {
+  if (after_feed_ && rest().starts_with('\r')) take(1);
+  LineLength length = first_line(rest());
+  while (length.with_end == std::string_view::npos && refill()) length = first_line(rest());
+  const std::string_view line = rest().substr(0, length.line);
+  const std::size_t taken = std::min(length.with_end, rest().size());
+  after_feed_ = taken > length.line && rest()[taken - 1] == '\n' && taken == length.line + 1;
+  take(taken);
+  ++place_.line;
+  return line;
+}
+
+void LineReader::take(std::size_t bytes) {
+  in_window_ += bytes;
+  place_.offset += bytes;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,122 @@
+#include "parser/reading/syntax_error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace frustum::parser {
+namespace {
+
+// Where the diagnostic points.
+enum class Place : std::uint8_t { stop, opening, word };
+// Which stops a row is for.
+enum class Stop : std::uint8_t { any, end, character };
+
+struct Row {
+  std::string_view expected;
+  Stop stop;
+  std::string_view characters;  // for Stop::character
+  Place place;
+  const char* message;  // {letter}: of the word; {found}: the character at the stop
+  const char* hint;
+};
+
+constexpr std::string_view kDigits = "0123456789.";
+
+// The first row that fits speaks.
+constexpr std::array kRows{
+    Row{"value", Stop::any, "", Place::word, "{letter} has no number",
+        "give {letter} a number, a parameter (#1) or an expression in [ ]"},
+    Row{"flow control", Stop::any, "", Place::word, "unknown word {letter}... after an O word",
+        "O-word flow control (sub, while, if) is not read: write O1000 to M99 and call M98 P1000"},
+    Row{"operand", Stop::end, "", Place::opening, "the bracket is not closed", "close it with ]"},
+    Row{"operand", Stop::any, "", Place::stop, "a number is missing before {found}",
+        "write a number, a parameter (#1), a function (SIN[30]) or an expression in [ ]"},
+    Row{"setting value", Stop::any, "", Place::word, "the parameter setting has no value",
+        "write #1=2.5 or #1=[#2+1]"},
+    Row{"opening bracket", Stop::any, "", Place::stop, "a function needs its argument in [ ]",
+        "write for example SIN[30]"},
+    Row{"closing bracket", Stop::end, "", Place::opening, "the bracket is not closed",
+        "close it with ]"},
+    Row{"closing bracket", Stop::any, "", Place::stop, "unexpected {found} in an expression",
+        "operators are + - * / ** MOD; close the expression with ]"},
+    Row{"closing parenthesis", Stop::end, "", Place::opening, "the comment is not closed",
+        "close it with ) on the same line"},
+    Row{"closing parenthesis", Stop::any, "", Place::stop, "comment inside a comment",
+        "use other brackets inside comments"},
+    Row{"second argument", Stop::any, "", Place::stop, "ATAN needs two values",
+        "write ATAN[y]/[x] or ATAN[y,x]"},
+    Row{"parameter", Stop::any, "", Place::stop, "# without a parameter", "write #1 or #<name>"},
+    Row{"parameter name", Stop::any, "", Place::stop, "the parameter name is not closed",
+        "write #<name>"},
+    Row{"equals", Stop::any, "", Place::word,
+        "a parameter setting has no =", "write #1=value to set a parameter, X#1 to use one"},
+    Row{"block number", Stop::any, "", Place::stop, "N has no number",
+        "write N and 1 to 8 digits, or leave it away"},
+    Row{"program number", Stop::any, "", Place::stop, "O has no number",
+        "write O and the number of the program, for example O1000"},
+    Row{"end of block", Stop::character, kDigits, Place::stop, "a number without a letter",
+        "put a letter before it, for example X; a number has one decimal point and no blanks"},
+    Row{"end of block", Stop::character, ")", Place::stop, "unexpected )",
+        "open the comment with ("},
+    Row{"end of block", Stop::character, "]", Place::stop, "unexpected ]",
+        "open the expression with ["},
+    Row{"end of block", Stop::character, "+-*[", Place::stop, "unexpected {found} between words",
+        "put expressions in [ ] after a letter: X[1+2]"},
+    Row{"end of block", Stop::character, "nN", Place::stop, "N is not the first word",
+        "put the block number at the start of the block"},
+    Row{"end of block", Stop::character, "/", Place::stop, "unexpected / between words",
+        "block delete stands at the start of the block; division stands in [ ]"},
+    Row{"end of block", Stop::character, "%", Place::stop, "unexpected % inside a block",
+        "% stands alone on its line"},
+    Row{"end of block", Stop::any, "", Place::stop, "unexpected {found}",
+        "a block consists of words such as G1 X10, settings such as #1=2, and comments in ( )"},
+};
+
+bool fits(const Row& row, const SyntaxFailure& failure) {
+  if (row.expected != failure.expected) return false;
+  const bool at_end = failure.offset >= failure.text.size();
+  switch (row.stop) {
+    case Stop::end:
+      return at_end;
+    case Stop::character:
+      return !at_end && row.characters.find(failure.text[failure.offset]) != std::string_view::npos;
+    case Stop::any:
+      return true;
+  }
+  return false;
+}
+
+std::uint32_t column_of(const Row& row, const SyntaxFailure& failure) {
+  if (row.place == Place::opening && failure.opening_column > 0) return failure.opening_column;
+  if (row.place == Place::word && failure.word_column > 0) return failure.word_column;
+  return static_cast<std::uint32_t>(failure.offset) + 1;
+}
+
+}  // namespace
+
+std::string printable(char character) {
+  const auto code = static_cast<unsigned char>(character);
+  if (code >= 0x20 && code < 0x7F) return fmt::format("'{}'", character);
+  return fmt::format("byte 0x{:02X}", code);
+}
+
+Diagnostic describe(const SyntaxFailure& failure) {
+  const bool at_end = failure.offset >= failure.text.size();
+  const std::string found = at_end ? "the end" : printable(failure.text[failure.offset]);
+  for (const Row& row : kRows) {
+    if (!fits(row, failure)) continue;
+    const auto worded = [&](const char* pattern) {
+      return fmt::format(fmt::runtime(pattern), fmt::arg("letter", failure.word_letter),
+                         fmt::arg("found", found));
+    };
+    Diagnostic diagnostic = error(worded(row.message), worded(row.hint));
+    diagnostic.column = static_cast<int>(column_of(row, failure));
+    return diagnostic;
+  }
+  Diagnostic diagnostic = error("unexpected " + found, "expected " + std::string(failure.expected));
+  diagnostic.column = static_cast<int>(failure.offset) + 1;
+  return diagnostic;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,203 @@
+// Canned cycles in a program: their words, which stay in force until the motion changes, and their repeats.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/units.hpp"
+#include "parser/arc.hpp"
+#include "parser/running/block_executor.hpp"
+#include "parser/running/canned_cycle.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxHoles = 99'999;
+constexpr double kMillisecondsPerSecond = 1000.0;
+
+bool needs_peck(MotionMode cycle) {
+  return cycle == MotionMode::peck || cycle == MotionMode::peck_short;
+}
+bool needs_dwell(MotionMode cycle) {
+  return cycle == MotionMode::drill_dwell || cycle == MotionMode::bore_stop ||
+         cycle == MotionMode::bore_manual || cycle == MotionMode::bore_dwell;
+}
+
+}  // namespace
+
+// Words that the block gives replace those in force.
+BlockExecutor::Outcome BlockExecutor::set_cycle(const BlockWords& words, const Movement& movement,
+                                                AxisLetter depth_axis) {
+  const char depth_letter = to_char(depth_axis);
+  const bool goes_on = state_.cycle && is_cycle(state_.cycle->last);
+  CannedCycle cycle = goes_on ? *state_.cycle : CannedCycle{};
+  if (goes_on && rules_.cycles.words_end_with_their_g_word && cycle.last != movement.motion) {
+    cycle = CannedCycle{.initial = cycle.initial};
+  }
+  if (!goes_on) {
+    if (!position_[depth_axis]) {
+      return fail(movement.column,
+                  fmt::format("the cycle starts at an unknown {}: {}", depth_letter,
+                              position_.why_unknown(depth_axis)),
+                  fmt::format("program {} in absolute coordinates (G90) before it", depth_letter));
+    }
+    cycle.initial = *position_[depth_axis];
+  }
+  cycle.last = movement.motion;
+  const auto read = [&](char letter, std::optional<double>& value, double scale) {
+    if (words.has(letter)) value = words[letter].value * scale;
+  };
+  read('R', cycle.level, unit_scale());
+  read(depth_letter, cycle.bottom, unit_scale());
+  read('Q', cycle.peck, unit_scale());
+  const bool milliseconds =
+      rules_.dialect == Dialect::fanuc && words.has('P') && !words['P'].decimal_point;
+  read('P', cycle.dwell, milliseconds ? 1.0 / kMillisecondsPerSecond : 1.0);
+  const PlaneAxes axes = axes_of(state_.plane);
+  read("IJK"[axes.u], cycle.shift_u, unit_scale());
+  read("IJK"[axes.v], cycle.shift_v, unit_scale());
+  read("IJK"[3 - axes.u - axes.v], cycle.back, unit_scale());
+
+  const auto missing = [&](char letter, std::string what) {
+    return fail(movement.column, fmt::format("the cycle has no {}", letter), std::move(what));
+  };
+  if (!cycle.level) return missing('R', "give R, where feeding begins");
+  if (!cycle.bottom) {
+    return missing(depth_letter, fmt::format("give {}, the bottom of the hole", depth_letter));
+  }
+  if (needs_peck(cycle.last) && (!cycle.peck || *cycle.peck <= 0.0)) {
+    return missing('Q', "give Q, the depth of a peck, above zero");
+  }
+  if (rules_.dialect == Dialect::linuxcnc && needs_dwell(cycle.last) && !cycle.dwell) {
+    return missing('P', "give P, the dwell at the bottom in seconds");
+  }
+  if (cycle.dwell.value_or(0.0) < 0.0) return missing('P', "P is a time that is not negative");
+  if (cycle.last == MotionMode::bore_back && (!cycle.shift_u || !cycle.shift_v || !cycle.back)) {
+    return missing('I', "give I and J, the shift of the tool, and K, how far the bore goes up");
+  }
+  state_.cycle = cycle;
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const Movement& movement) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  const auto w = static_cast<AxisLetter>(3 - axes.u - axes.v);
+  if (auto done = check_tool_length(movement); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = set_cycle(words, movement, w); !done) return done;
+  const CannedCycle& cycle = *state_.cycle;
+  if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
+    return fail(words[rotary].column, fmt::format("{} in a canned cycle", words.text_of(rotary)),
+                "turn the axes on the block before");
+  }
+  const auto feed = feed_for(words, movement, true);
+  if (!feed) return feed.error();
+
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  CycleDepths depths;
+  depths.level = *cycle.level + (incremental ? cycle.initial : 0.0);
+  depths.bottom = *cycle.bottom + (incremental ? depths.level : 0.0);
+  depths.clear = state_.retract_to_initial ? std::max(cycle.initial, depths.level) : depths.level;
+  depths.feed_out = rules_.cycles.feed_out_to_clearance ? depths.clear : depths.level;
+  depths.peck = cycle.peck.value_or(0.0);
+  depths.dwell = cycle.dwell.value_or(0.0);
+  depths.back = cycle.back.value_or(0.0) + (incremental ? depths.bottom : 0.0);
+  if (depths.bottom > depths.level) {
+    return fail(movement.column,
+                fmt::format("the bottom of the hole ({:g} mm) lies above R ({:g} mm)",
+                            depths.bottom, depths.level),
+                "give R above the bottom");
+  }
+  int holes = 1;
+  for (const char letter : {'L', 'K'}) {
+    const bool repeats = letter == 'L' || rules_.dialect == Dialect::fanuc;
+    if (!repeats || !words.has(letter)) continue;
+    const auto given = whole(words, letter, 0, kMaxHoles);
+    if (!given) return given.error();
+    holes = *given;
+  }
+  const auto rapid = [&](std::uint32_t column) {
+    emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
+  };
+  const double stands = rules_.cycles.start_from_initial ? cycle.initial : *position_[w];
+  if (holes > 0 && stands < depths.level) {
+    position_.set(w, depths.level);
+    rapid(movement.column);
+  }
+  if (rules_.cycles.start_from_initial && state_.retract_to_initial) position_.set(w, depths.clear);
+  for (int hole = 0; hole < holes; ++hole) {
+    for (const AxisLetter axis : {u, v}) {
+      if (!words.has(to_char(axis))) continue;
+      if (auto done = set_target(words, axis); !done) return done;
+    }
+    for (const AxisLetter axis : {u, v}) {
+      if (position_[axis]) continue;
+      return fail(
+          movement.column,
+          fmt::format("the place of the hole is not known: {}", position_.why_unknown(axis)),
+          fmt::format("give {} on this block", to_char(axis)));
+    }
+    rapid(movement.column);
+    if (*position_[w] != depths.level) {
+      position_.set(w, depths.level);
+      rapid(movement.column);
+    }
+    drill(steps_at_hole(cycle.last, depths), movement.column, w, *feed);
+  }
+  return Done{};
+}
+
+void BlockExecutor::drill(const std::vector<CycleStep>& steps, std::uint32_t column,
+                          AxisLetter depth_axis, const Feed& feed) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  const double at_u = *position_[u];
+  const double at_v = *position_[v];
+  const SpindleDirection turned = state_.spindle;
+  const auto turn = [&](SpindleDirection direction) {
+    state_.spindle = direction;
+    emit(column, SpindleChange{direction, state_.spindle_speed});
+  };
+  for (const CycleStep& step : steps) {
+    switch (step.action) {
+      case CycleAction::rapid:
+      case CycleAction::feed: {
+        const AxisTarget before = position_.target();
+        position_.set(u, at_u + (step.shifted ? state_.cycle->shift_u.value_or(0.0) : 0.0));
+        position_.set(v, at_v + (step.shifted ? state_.cycle->shift_v.value_or(0.0) : 0.0));
+        position_.set(depth_axis, step.value);
+        if (step.action == CycleAction::feed) {
+          emit(column,
+               LinearFeed{position_.target(), state_.tool_axis, Coordinates::program, feed});
+        } else if (!(before == position_.target())) {
+          emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
+        }
+        break;
+      }
+      case CycleAction::dwell:
+        emit(column, Dwell{step.value});
+        break;
+      case CycleAction::stop_spindle:
+        turn(SpindleDirection::off);
+        break;
+      case CycleAction::start_spindle:
+        turn(turned);
+        break;
+      case CycleAction::reverse_spindle:
+        turn(turned == SpindleDirection::clockwise ? SpindleDirection::counterclockwise
+                                                   : SpindleDirection::clockwise);
+        break;
+      case CycleAction::orient_spindle:
+        emit(column, Event{"orient_spindle", {}});
+        break;
+      case CycleAction::wait:
+        emit(column, Stop{StopKind::program_stop});
+        break;
+    }
+  }
+}
+
+}  // namespace frustum::parser

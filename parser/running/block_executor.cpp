@@ -1,0 +1,530 @@
+// Reading a block's intent, and what neither moves an axis nor changes a frame. The frames are in
+// block_frames.cpp, the moves in block_moves.cpp.
+#include "parser/running/block_executor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/units.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr LetterSet kMoveWords{"XYZABCIJKRabcpq"};
+constexpr int kMaxTool = 99'999'999;
+constexpr int kMaxProgramNumber = 99'999'999;
+constexpr int kMaxRepeats = 99'999;
+constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kSecondsPerMinute = 60.0;
+
+LetterSet centre_letters(Plane plane) {
+  constexpr std::array kLetters{LetterSet("IJ"), LetterSet("IK"), LetterSet("JK")};
+  return kLetters.at(static_cast<std::size_t>(plane));
+}
+
+// The text behind "MSG," when the comment is meant for the operator.
+std::optional<std::string> message_in(std::string_view comment) {
+  constexpr std::string_view kPrefix = "MSG,";
+  std::size_t start = comment.find_first_not_of(" \t");
+  for (const char expected : kPrefix) {
+    if (start >= comment.size()) return std::nullopt;
+    if (std::toupper(static_cast<unsigned char>(comment[start++])) != expected) return std::nullopt;
+  }
+  return std::string(
+      comment.substr(std::min(comment.find_first_not_of(" \t", start), comment.size())));
+}
+
+}  // namespace
+
+Result<Flow> BlockExecutor::execute(const Block& block) {
+  block_ = &block;
+  auto words = read_words(block, parameters_, rules_.dialect);
+  if (!words) return std::move(words).error();
+  if (words->value_or(CodeGroup::subprogram, SubprogramWord::none) == SubprogramWord::macro) {
+    report_comments(block);
+    return call_macro(*words);
+  }
+  const auto movement = movement_of(*words);
+  if (!movement) return movement.error();
+  if (auto done = check_claims(*words, *movement); !done) return std::move(done).error();
+
+  report_comments(block);
+  if (auto done = set_parameters(block); !done) return std::move(done).error();
+  state_.unit = words->value_or(CodeGroup::unit, state_.unit);
+  const bool dwells = movement->non_modal == NonModal::dwell;
+  // F and S of a dwell are its time where the dialect says so.
+  const auto of_dwell = [&](char letter) {
+    return dwells && std::any_of(rules_.dwell.begin(), rules_.dwell.end(),
+                                 [letter](const DwellWord& word) { return word.letter == letter; });
+  };
+  if (!of_dwell('F')) {
+    if (auto done = set_feed(*words); !done) return std::move(done).error();
+  }
+  const bool any_speed = words->has('S') && !of_dwell('S');
+  if (any_speed && (*words)['S'].value < 0.0) {
+    return fail((*words)['S'].column, fmt::format("{} is negative", words->text_of('S')),
+                "give the direction by M3 or M4 and a speed that is not negative");
+  }
+  state_.surface_speed =
+      words->value_or(CodeGroup::speed_mode,
+                      state_.surface_speed ? SpeedWord::surface : SpeedWord::revolutions) ==
+      SpeedWord::surface;
+  const bool speed = any_speed && !state_.surface_speed;
+  if (any_speed && state_.surface_speed) {
+    emit((*words)['S'].column, Event{"surface_speed", words->text_of('S')});
+  } else if (speed) {
+    state_.spindle_speed = (*words)['S'].value;
+  }
+  if (auto done = keep_modes(*words); !done) return std::move(done).error();
+  if (auto done = set_tool(*words); !done) return std::move(done).error();
+  set_spindle_and_coolant(*words, speed);
+  report_events(*words);
+  if (dwells) {
+    if (auto done = dwell(*words); !done) return std::move(done).error();
+  }
+  if (auto done = set_frames(*words); !done) return std::move(done).error();
+  if (auto done = move(*words, *movement); !done) return std::move(done).error();
+  return finish(*words);
+}
+
+MotionMode BlockExecutor::motion_of(const BlockWords& words) const {
+  const bool cancelled = words.has(CodeGroup::cycle);
+  return words.value_or(CodeGroup::motion, cancelled ? MotionMode::none : state_.motion);
+}
+
+Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& words) const {
+  const auto non_modal = words.value_or(CodeGroup::non_modal, NonModal::none);
+  const MotionMode mode = motion_of(words);
+  const GivenCode& motion_code = words[CodeGroup::motion];
+  const GivenCode& non_modal_code = words[CodeGroup::non_modal];
+  const LetterSet move_words = words.given() & kMoveWords;
+
+  if (non_modal == NonModal::home) {
+    if (motion_code.code != nullptr && mode != MotionMode::traverse) {
+      return fail(motion_code.column,
+                  fmt::format("{} and {} both use the axis words", non_modal_code.code->name(),
+                              motion_code.code->name()),
+                  "write two blocks");
+    }
+    if ((words.given() & kAxisWords).empty() && !rules_.home_without_axes_is_all) {
+      return fail(non_modal_code.column, "G28 names no axis",
+                  "give the axes to send home, for example G91 G28 Z0");
+    }
+    return Movement{non_modal, MotionMode::none, non_modal_code.column};
+  }
+  if (non_modal != NonModal::none && non_modal != NonModal::machine_coordinates &&
+      motion_code.code == nullptr) {
+    return Movement{non_modal, MotionMode::none, non_modal_code.column};
+  }
+  if (non_modal == NonModal::machine_coordinates) {
+    const std::string name = non_modal_code.code->name();
+    if (mode != MotionMode::traverse && mode != MotionMode::linear) {
+      return fail(non_modal_code.column, name + " without a straight move",
+                  "machine coordinates belong to a straight move, for example G53 G0 Z0");
+    }
+    if ((words.given() & kAxisWords).empty()) {
+      return fail(non_modal_code.column, name + " names no axis",
+                  "give the axes to move, for example Z0");
+    }
+    if (words.value_or(CodeGroup::distance, state_.distance) == DistanceMode::incremental) {
+      return fail(non_modal_code.column, name + " in G91", "machine coordinates need G90");
+    }
+    return Movement{non_modal, mode, non_modal_code.column};
+  }
+  if (words.has(CodeGroup::tilted_plane)) return Movement{non_modal, MotionMode::none, 0};
+  if (move_words.empty()) return Movement{non_modal, MotionMode::none, 0};
+  const std::uint32_t column =
+      motion_code.code != nullptr ? motion_code.column : words[words.first_of(move_words)].column;
+  return Movement{non_modal, mode, column};
+}
+
+LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& movement) const {
+  switch (movement.motion) {
+    default:
+      // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
+      return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
+    case MotionMode::traverse:
+    case MotionMode::linear: {
+      const bool vectors = guides_tip(words) && movement.non_modal != NonModal::machine_coordinates;
+      LetterSet letters = kAxisWords | rules_.polar_words;
+      if (vectors) letters = letters | LetterSet(rules_.vector_letters);
+      if (movement.motion == MotionMode::linear) letters.add('t');
+      return letters;
+    }
+    case MotionMode::arc_clockwise:
+    case MotionMode::arc_counterclockwise: {
+      const LetterSet letters = kAxisWords | LetterSet("RPet") | rules_.polar_words |
+                                centre_letters(words.value_or(CodeGroup::plane, state_.plane));
+      // Where I J K are the tool vector, an arc has them for its centre.
+      const bool vectors = guides_tip(words) && rules_.vector_letters != "IJK";
+      return vectors ? letters | LetterSet(rules_.vector_letters) : letters;
+    }
+  }
+}
+
+BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
+                                                   const Movement& movement) const {
+  LetterSet claimed = rules_.always_claimed;
+  LetterSet twice;
+  const auto claim = [&](LetterSet letters) {
+    twice = twice | (claimed & letters);
+    claimed = claimed | letters;
+  };
+  for (std::size_t group = 0; group < kCodeGroups; ++group) {
+    const Code* code = words[static_cast<CodeGroup>(group)].code;
+    if (code != nullptr && !code->event) claim(code->arguments);
+  }
+  for (const GivenCode& event : words.events()) claim(event.code->arguments);
+  claim(motion_words(words, movement));
+
+  if (const char letter = words.first_of(words.given() & twice); letter != 0) {
+    return fail(words[letter].column,
+                fmt::format("{} could belong to two words of the block", words.text_of(letter)),
+                "write two blocks");
+  }
+  const char letter = words.first_of(words.given().without(claimed));
+  if (letter == 0) return Done{};
+  const std::string_view use = letter_use(rules_, letter);
+  if (use.empty()) {
+    return fail(words[letter].column, "unknown word " + words.text_of(letter),
+                fmt::format("known are the letters {}", rules_.known_letters));
+  }
+  return fail(words[letter].column,
+              fmt::format("{} has no meaning in this block", words.text_of(letter)),
+              std::string(use));
+}
+
+Result<int> BlockExecutor::whole(const BlockWords& words, char letter, int least, int most) const {
+  const GivenWord& word = words[letter];
+  const double nearest = std::round(word.value);
+  // RS-274 forgives 1e-4 in numbers that have to be whole.
+  if (std::abs(word.value - nearest) > 1e-4) {
+    return fail(word.column, fmt::format("{} is not a whole number", words.text_of(letter)),
+                fmt::format("give {} without decimals", words.name_of(letter)));
+  }
+  if (nearest < least || nearest > most) {
+    return fail(word.column, fmt::format("{} is out of range", words.text_of(letter)),
+                fmt::format("{} goes from {} to {}", words.name_of(letter), least, most));
+  }
+  return static_cast<int>(nearest);
+}
+
+BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
+  if (block.assignments.empty()) return Done{};
+  // All are computed before the first is set: a block reads what the blocks before it left.
+  const ExpressionContext context{block.steps, block.names, parameters_};
+  std::vector<std::pair<int, double>> values;
+  for (const Assignment& setting : block.assignments) {
+    const auto value = evaluate(context, setting.value);
+    if (!value) return in_this_block(value.error().front());
+    int index = 0;
+    if (!setting.name) {
+      const auto number = evaluate(context, setting.index);
+      if (!number) return in_this_block(number.error().front());
+      const auto checked = Parameters::index_of(*number);
+      if (!checked) {
+        return fail(setting.column, checked.error().front().message, checked.error().front().hint);
+      }
+      index = *checked;
+    }
+    values.emplace_back(index, *value);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& name = block.assignments[i].name;
+    if (name) {
+      parameters_.set(block.names[*name], values[i].second);
+    } else {
+      parameters_.set(values[i].first, values[i].second);
+    }
+  }
+  return Done{};
+}
+
+Result<double> BlockExecutor::value_of(const Block& block, ExpressionRange range) {
+  block_ = &block;
+  auto value = evaluate({block.steps, block.names, parameters_}, range);
+  if (!value) return in_this_block(value.error().front());
+  return value;
+}
+
+void BlockExecutor::report_comments(const Block& block) {
+  block_ = &block;
+  for (const Comment& comment : block.comments) {
+    if (comment.event != nullptr) {
+      emit(comment.column, Event{comment.event, comment.text});
+      continue;
+    }
+    auto message = message_in(comment.text);
+    const char* name = message ? "message" : "comment";
+    emit(comment.column, Event{name, message ? *std::move(message) : comment.text});
+  }
+}
+
+void BlockExecutor::report_events(const BlockWords& words) {
+  for (const GivenCode& word : words.vacant()) {
+    const auto written = std::find_if(block_->words.begin(), block_->words.end(),
+                                      [&](const Word& w) { return w.column == word.column; });
+    emit(word.column, Event{"vacant", std::string(1, written->letter)});
+  }
+  for (const GivenCode& event : words.events()) {
+    std::string arguments;
+    for (char letter = 'A'; letter <= 'Z'; ++letter) {
+      if (!words.has(letter) || !event.code->arguments.has(letter)) continue;
+      if (!arguments.empty()) arguments += ' ';
+      arguments += words.text_of(letter);
+    }
+    emit(event.column, Event{event.code->name(), std::move(arguments)});
+  }
+}
+
+BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
+  const auto mode = words.value_or(CodeGroup::feed_mode, state_.feed_mode);
+  if (mode != state_.feed_mode) state_.feed.reset();
+  state_.feed_mode = mode;
+  if (const GivenCode& source = words[CodeGroup::feed_source]; source.code != nullptr) {
+    if (!state_.tool_feed) {
+      return fail(source.column, source.code->name() + " without a feed in the tool call",
+                  "give F in TOOL CALL, or a number here");
+    }
+    state_.feed = state_.tool_feed;
+  }
+  if (!words.has('F')) return Done{};
+  const double feed = words['F'].value;
+  if (feed < 0.0) {
+    return fail(words['F'].column, fmt::format("{} is negative", words.text_of('F')),
+                "give a feed above zero");
+  }
+  const bool in_inches = state_.unit == LengthUnit::inch && mode != FeedMode::inverse_time;
+  const double scale = in_inches ? kMmPerInch : 1.0;
+  const auto given = feed > 0.0 ? std::optional(FeedWord{feed, feed * scale}) : std::nullopt;
+  // The feed of a tool call waits for F AUTO.
+  const bool of_tool = rules_.dialect == Dialect::heidenhain && words.has(CodeGroup::tool_change);
+  (of_tool ? state_.tool_feed : state_.feed) = given;
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
+  if (words.has('T')) {
+    const auto tool = whole(words, 'T', 0, kMaxTool);
+    if (!tool) return tool.error();
+    state_.selected_tool = *tool;
+  }
+  const GivenCode& change = words[CodeGroup::tool_change];
+  if (change.code != nullptr) {
+    if (!state_.selected_tool) {
+      return fail(change.column, change.code->name() + " without a tool",
+                  "give T on this block or before");
+    }
+    if (state_.spindle != SpindleDirection::off) {
+      state_.spindle = SpindleDirection::off;
+      emit(change.column, SpindleChange{state_.spindle, state_.spindle_speed});
+    }
+    state_.tool = *state_.selected_tool;
+    emit(change.column, ToolChange{state_.tool});
+  }
+  return Done{};
+}
+
+void BlockExecutor::set_spindle_and_coolant(const BlockWords& words, bool speed) {
+  const GivenCode& spindle = words[CodeGroup::spindle];
+  if (spindle.code != nullptr || (speed && state_.spindle != SpindleDirection::off)) {
+    state_.spindle = words.value_or(CodeGroup::spindle, state_.spindle);
+    emit(spindle.code != nullptr ? spindle.column : words['S'].column,
+         SpindleChange{state_.spindle, state_.spindle_speed});
+  }
+  const GivenCode& coolant = words[CodeGroup::coolant];
+  if (coolant.code != nullptr && !coolant.code->event) {
+    state_.flood = static_cast<CoolantWord>(coolant.code->value) == CoolantWord::flood;
+    emit(coolant.column, CoolantChange{state_.flood});
+  }
+}
+
+BlockExecutor::Outcome BlockExecutor::dwell(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  const DwellWord* given = nullptr;
+  for (const DwellWord& word : rules_.dwell) {
+    if (!words.has(word.letter)) continue;
+    if (given != nullptr) {
+      return fail(
+          words[word.letter].column,
+          fmt::format("{} has both {} and {}", code.code->name(), given->letter, word.letter),
+          "give one time");
+    }
+    given = &word;
+  }
+  if (given == nullptr) {
+    return fail(code.column, code.code->name() + " without a time", std::string(rules_.dwell_hint));
+  }
+  const GivenWord& time = words[given->letter];
+  if (time.value < 0.0) {
+    return fail(time.column, fmt::format("{} is negative", words.text_of(given->letter)),
+                "a dwell takes a time that is not negative");
+  }
+  if (given->unit == DwellUnit::revolutions && state_.spindle_speed <= 0.0) {
+    return fail(time.column, "a dwell in revolutions with no spindle speed",
+                "give a spindle speed before");
+  }
+  const bool milliseconds =
+      given->unit == DwellUnit::milliseconds_without_point && !time.decimal_point;
+  emit(code.column, Dwell{milliseconds ? time.value / kMillisecondsPerSecond
+                          : given->unit == DwellUnit::revolutions
+                              ? time.value * kSecondsPerMinute / state_.spindle_speed
+                              : time.value});
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::keep_modes(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::saved_modes];
+  if (code.code == nullptr) return Done{};
+  SavedModes& saved = saved_modes_.back();
+  switch (static_cast<SavedModesWord>(code.code->value)) {
+    case SavedModesWord::save:
+      saved = {state_, false};
+      break;
+    case SavedModesWord::save_for_call:
+      saved = {state_, true};
+      break;
+    case SavedModesWord::drop:
+      saved = {};
+      break;
+    case SavedModesWord::restore:
+      if (!saved.state) {
+        return fail(code.column, "there are no saved modes", "save them with M70 or M73 before");
+      }
+      restore_modes(code.column);
+      break;
+  }
+  return Done{};
+}
+
+void BlockExecutor::restore_modes(std::uint32_t column) {
+  const ModalState& saved = *saved_modes_.back().state;
+  state_.plane = saved.plane;
+  state_.unit = saved.unit;
+  state_.distance = saved.distance;
+  state_.arc_distance = saved.arc_distance;
+  state_.feed_mode = saved.feed_mode;
+  state_.feed = saved.feed;
+  state_.retract_to_initial = saved.retract_to_initial;
+  state_.surface_speed = saved.surface_speed;
+  if (state_.work_offset != saved.work_offset) {
+    state_.work_offset = saved.work_offset;
+    forget(kAxisWords, PositionLoss::work_offset);
+    emit(column, WorkOffsetChange{state_.work_offset});
+  }
+  if (state_.spindle != saved.spindle || state_.spindle_speed != saved.spindle_speed) {
+    state_.spindle = saved.spindle;
+    state_.spindle_speed = saved.spindle_speed;
+    emit(column, SpindleChange{state_.spindle, state_.spindle_speed});
+  }
+  if (state_.flood != saved.flood) {
+    state_.flood = saved.flood;
+    emit(column, CoolantChange{state_.flood});
+  }
+}
+
+void BlockExecutor::enter_call() {
+  saved_modes_.emplace_back();
+  ++system_.call_level;
+}
+
+void BlockExecutor::leave_call() {
+  if (saved_modes_.back().state && saved_modes_.back().comes_back) restore_modes(1);
+  saved_modes_.pop_back();
+  --system_.call_level;
+}
+
+// G65 P: the other letters are arguments, each of its own parameter.
+Result<Flow> BlockExecutor::call_macro(const BlockWords& words) const {
+  struct Argument {
+    char letter;
+    int parameter;
+  };
+  constexpr std::array kArguments{
+      Argument{'A', 1},  Argument{'B', 2},  Argument{'C', 3},  Argument{'D', 7},
+      Argument{'E', 8},  Argument{'F', 9},  Argument{'H', 11}, Argument{'I', 4},
+      Argument{'J', 5},  Argument{'K', 6},  Argument{'Q', 17}, Argument{'R', 18},
+      Argument{'S', 19}, Argument{'T', 20}, Argument{'U', 21}, Argument{'V', 22},
+      Argument{'W', 23}, Argument{'X', 24}, Argument{'Y', 25}, Argument{'Z', 26}};
+  constexpr std::size_t kParameters = 26;
+  const GivenCode& code = words[CodeGroup::subprogram];
+  auto call = called_program(words);
+  if (!call) return call.error();
+  call->arguments.emplace(kParameters, kVacant);
+  for (const Argument& argument : kArguments) {
+    if (!words.has(argument.letter)) continue;
+    call->arguments->at(static_cast<std::size_t>(argument.parameter) - 1) =
+        words[argument.letter].value;
+  }
+  for (std::size_t group = 0; group < kCodeGroups; ++group) {
+    const GivenCode& other = words[static_cast<CodeGroup>(group)];
+    if (other.code == nullptr || other.code == code.code) continue;
+    return fail(other.column, fmt::format("{} beside {}", other.code->name(), code.code->name()),
+                "write two blocks");
+  }
+  return Flow{*std::move(call)};
+}
+
+Result<CallSubprogram> BlockExecutor::called_program(const BlockWords& words) const {
+  const GivenCode& code = words[CodeGroup::subprogram];
+  CallSubprogram call{0, false, 1, code.column, {}};
+  if (!words.has('P')) {
+    return fail(code.column, code.code->name() + " without P",
+                fmt::format("name the subprogram, for example {} P2000", code.code->name()));
+  }
+  const auto program = whole(words, 'P', 1, kMaxProgramNumber);
+  if (!program) return program.error();
+  call.program = static_cast<std::uint32_t>(*program);
+  call.column = words['P'].column;
+  if (words.has('L')) {
+    const auto count = whole(words, 'L', 0, kMaxRepeats);
+    if (!count) return count.error();
+    call.counted = true;
+    call.count = static_cast<std::uint32_t>(*count);
+  }
+  return call;
+}
+
+Result<Flow> BlockExecutor::finish(const BlockWords& words) {
+  const GivenCode& stop = words[CodeGroup::stop];
+  if (stop.code != nullptr) {
+    const auto kind = static_cast<StopKind>(stop.code->value);
+    emit(stop.column, Stop{kind});
+    if (kind == StopKind::program_end) return Flow{EndProgram{}};
+  }
+  const GivenCode& subprogram = words[CodeGroup::subprogram];
+  const auto word = words.value_or(CodeGroup::subprogram, SubprogramWord::none);
+  if (word == SubprogramWord::leave) return Flow{LeaveSubprogram{subprogram.column}};
+  if (word == SubprogramWord::none) return Flow{NextBlock{}};
+
+  auto call = called_program(words);
+  if (!call) return call.error();
+  return Flow{*std::move(call)};
+}
+
+Diagnostic BlockExecutor::fail(std::uint32_t column, std::string message, std::string hint) const {
+  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  diagnostic.column = static_cast<int>(column);
+  return in_this_block(std::move(diagnostic));
+}
+
+Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
+  const SourcePlace place = block_->place_of(static_cast<std::uint32_t>(diagnostic.column));
+  diagnostic.line = static_cast<int>(place.line);
+  diagnostic.column = static_cast<int>(place.column);
+  return diagnostic;
+}
+
+void BlockExecutor::emit(std::uint32_t column, Command command) {
+  if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
+  sink_(Motion{block_->place_of(column), std::move(command)});
+}
+
+}  // namespace frustum::parser

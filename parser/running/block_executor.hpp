@@ -1,0 +1,159 @@
+// Carries out one block after another: the modal state, the position, the parameters, and the
+// motions that follow from them.
+//
+// Order within a block, RS-274's: comments; parameters; units; feed mode; F; S; T; M6; M3 M4 M5; M7
+// M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or
+// the motion; stops and calls.
+// Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc
+// centres, R and F; never rotary words, tool vectors, or the F of a purely rotary move.
+// Errors: with line, column and hint; the file is left to the caller. Nothing of the block that
+// failed is to be relied on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <variant>
+#include <vector>
+
+#include "core/result.hpp"
+#include "parser/dialects/dialect_rules.hpp"
+#include "parser/language/block.hpp"
+#include "parser/language/parameters.hpp"
+#include "parser/motion.hpp"
+#include "parser/running/block_words.hpp"
+#include "parser/running/canned_cycle.hpp"
+#include "parser/running/modal_state.hpp"
+#include "parser/running/program_position.hpp"
+#include "parser/running/system_parameters.hpp"
+
+namespace frustum::parser {
+
+using MotionSink = std::function<void(Motion&&)>;
+
+// Where the program goes after a block.
+struct NextBlock {};
+struct EndProgram {};
+struct LeaveSubprogram {
+  std::uint32_t column = 0;
+};
+struct CallSubprogram {
+  std::uint32_t program = 0;
+  bool counted = false;  // L was given
+  std::uint32_t count = 1;
+  std::uint32_t column = 0;
+  std::optional<std::vector<double>>
+      arguments{};  // of a macro: #1, #2, ...; vacant where not given
+};
+using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram>;
+
+class BlockExecutor {
+ public:
+  BlockExecutor(const BlockExecutor&) = delete;  // its parameters look at its state
+  BlockExecutor& operator=(const BlockExecutor&) = delete;
+  BlockExecutor(Dialect dialect, const AxisTarget& start, const MotionSink& sink)
+      : rules_(rules_of(dialect)),
+        sink_(sink),
+        position_(start),
+        parameters_(rules_.parameters, &system_) {
+    state_.retract_to_initial = rules_.cycles.retract_to_initial;
+  }
+
+  [[nodiscard]] Result<Flow> execute(const Block& block);
+  void report_comments(const Block& block);
+  // The value of one of the block's expressions.
+  [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
+  [[nodiscard]] const ModalState& state() const { return state_; }
+  [[nodiscard]] Parameters& parameters() { return parameters_; }
+  // A call of a subprogram and its end; modes saved by M73 come back.
+  void enter_call();
+  void leave_call();
+
+ private:
+  struct Done {};
+  using Outcome = Result<Done>;
+  // What of the block moves axes, and how.
+  struct Movement {
+    NonModal non_modal = NonModal::none;
+    MotionMode motion = MotionMode::none;  // none: no move, the words only set modes
+    std::uint32_t column = 0;              // of the word the motion is reported at
+  };
+
+  // Looking: what the block asks for, given the modes.
+  [[nodiscard]] MotionMode motion_of(const BlockWords& words) const;
+  [[nodiscard]] Result<Movement> movement_of(const BlockWords& words) const;
+  [[nodiscard]] bool guides_tip(const BlockWords& words) const;
+  [[nodiscard]] Result<Compensation> compensation_after(const BlockWords& words) const;
+  [[nodiscard]] LetterSet motion_words(const BlockWords& words, const Movement& movement) const;
+  [[nodiscard]] Outcome check_claims(const BlockWords& words, const Movement& movement) const;
+  [[nodiscard]] Result<int> whole(const BlockWords& words, char letter, int least, int most) const;
+
+  // Doing.
+  [[nodiscard]] Outcome set_parameters(const Block& block);
+  void report_events(const BlockWords& words);
+  void restore_modes(std::uint32_t column);
+  [[nodiscard]] Outcome keep_modes(const BlockWords& words);
+  [[nodiscard]] Outcome set_feed(const BlockWords& words);
+  [[nodiscard]] Outcome set_tool(const BlockWords& words);
+  void set_spindle_and_coolant(const BlockWords& words, bool speed);
+  [[nodiscard]] Outcome dwell(const BlockWords& words);
+  [[nodiscard]] Outcome set_frames(const BlockWords& words);
+  [[nodiscard]] Outcome set_compensation(const BlockWords& words);
+  [[nodiscard]] Outcome set_work_offset(const BlockWords& words);
+  [[nodiscard]] Outcome set_tilted_plane(const BlockWords& words);
+  void set_paths(const BlockWords& words);
+  [[nodiscard]] Outcome align(std::uint32_t column);
+  [[nodiscard]] Outcome set_pole(const BlockWords& words);
+  [[nodiscard]] Outcome set_start(const BlockWords& words);
+  void change_word_frame(const WordFrame& next);
+  [[nodiscard]] Outcome shift_words(const BlockWords& words, NonModal how);
+  [[nodiscard]] Outcome turn_words(const BlockWords& words);
+  [[nodiscard]] Outcome check_word_frame(const Movement& movement) const;
+  [[nodiscard]] Outcome go_home(const BlockWords& words);
+  [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_in_machine_coordinates(const BlockWords& words,
+                                                    const Movement& movement);
+  [[nodiscard]] Outcome move_straight(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_along_arc(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome set_cycle(const BlockWords& words, const Movement& movement,
+                                  AxisLetter depth_axis);
+  [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);
+  void drill(const std::vector<CycleStep>& steps, std::uint32_t column, AxisLetter depth_axis,
+             const Feed& feed);
+  [[nodiscard]] Result<CallSubprogram> called_program(const BlockWords& words) const;
+  [[nodiscard]] Result<Flow> call_macro(const BlockWords& words) const;
+  [[nodiscard]] Result<Flow> finish(const BlockWords& words);
+
+  [[nodiscard]] double unit_scale() const;
+  [[nodiscard]] Vec3 vector_of(const BlockWords& words, std::string_view letters) const;
+  [[nodiscard]] double scaled(AxisLetter axis, double value) const;
+  [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
+  [[nodiscard]] Outcome set_targets(const BlockWords& words);
+  [[nodiscard]] Outcome set_polar_target(const BlockWords& words);
+  [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
+  void announce_rotary_path(const BlockWords& words, std::uint32_t column);
+  [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;
+  [[nodiscard]] Outcome set_tool_axis(const BlockWords& words);
+  [[nodiscard]] Result<Feed> feed_for(const BlockWords& words, const Movement& movement,
+                                      bool linear) const;
+  void leave_program_coordinates(LetterSet axes, PositionLoss loss);
+  void forget(LetterSet axes, PositionLoss loss);
+  [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
+  [[nodiscard]] Diagnostic in_this_block(Diagnostic diagnostic) const;
+  void emit(std::uint32_t column, Command command);
+
+  const DialectRules& rules_;
+  const MotionSink& sink_;
+  ModalState state_;
+  ProgramPosition position_;
+  // Modes that M70 and M73 keep, of the main program and each call.
+  struct SavedModes {
+    std::optional<ModalState> state{};
+    bool comes_back = false;
+  };
+  std::vector<SavedModes> saved_modes_{1};
+  SystemParameters system_{rules_.dialect, state_, position_};
+  Parameters parameters_;
+  const Block* block_ = nullptr;  // at work
+};
+
+}  // namespace frustum::parser

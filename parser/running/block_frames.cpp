@@ -1,0 +1,240 @@
+// What changes the meaning of coordinates: planes, tool length and tip, work offsets, tilted planes.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/units.hpp"
+#include "parser/running/block_executor.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxOffsetNumber = 9999;
+constexpr int kMaxPreset = 999;
+constexpr int kMaxEdge = 12;
+
+// What a length word makes of the two switches; the offset number is the caller's.
+Compensation compensation_of(LengthWord word, const Compensation& before) {
+  switch (word) {
+    case LengthWord::off:
+      return {};
+    case LengthWord::length:
+      return {true, false, false, 0};
+    case LengthWord::tool_centre_point:
+      return {true, true, false, 0};
+    case LengthWord::tool_vectors:
+      return {true, true, true, 0};
+    case LengthWord::length_only:
+      return {true, before.tip, false, 0};
+    case LengthWord::length_only_off:
+      return {false, before.tip, false, 0};
+  }
+  return before;
+}
+
+// What the machine is told: guiding the tip begins when the length is known.
+CompensationChange told(const Compensation& compensation) {
+  return {compensation.length ? compensation.mode() : LengthCompensation::off,
+          compensation.tool_vectors && compensation.length, compensation.offset_number};
+}
+bool same(const CompensationChange& a, const CompensationChange& b) {
+  return a.mode == b.mode && a.tool_vectors == b.tool_vectors && a.offset_number == b.offset_number;
+}
+
+Mat3 turn(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
+
+// The order of the axes that a swivel mode names: three pairs of bits, 1 X, 2 Y, 3 Z, the first
+// axis lowest; 57 is X Y Z. Empty for the modes that do not turn axis by axis.
+std::optional<std::array<int, 3>> axis_sequence(int mode) {
+  std::array<int, 3> axes{};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    axes.at(i) = ((mode >> (2 * static_cast<int>(i))) & 3) - 1;
+    if (axes.at(i) < 0) return std::nullopt;
+  }
+  if (axes[0] == axes[1] || axes[1] == axes[2] || (mode >> 6) != 0) return std::nullopt;
+  return axes;
+}
+
+}  // namespace
+
+bool BlockExecutor::guides_tip(const BlockWords& words) const {
+  const Code* length = words[CodeGroup::length_compensation].code;
+  const bool tip =
+      length == nullptr
+          ? state_.compensation.tip
+          : compensation_of(static_cast<LengthWord>(length->value), state_.compensation).tip;
+  return words.value_or(CodeGroup::tool_tip, tip ? TipWord::on : TipWord::off) == TipWord::on;
+}
+
+Result<Compensation> BlockExecutor::compensation_after(const BlockWords& words) const {
+  Compensation next = state_.compensation;
+  const GivenCode& length = words[CodeGroup::length_compensation];
+  if (length.code != nullptr) {
+    next = compensation_of(static_cast<LengthWord>(length.code->value), next);
+    if (words.has('H')) {
+      const auto number = whole(words, 'H', 1, kMaxOffsetNumber);
+      if (!number) return number.error();
+      next.offset_number = *number;
+    } else if (rules_.dialect != Dialect::fanuc && next.length) {
+      next.offset_number = state_.tool;
+    }
+  }
+  if (rules_.tool_brings_length && words.has(CodeGroup::tool_change)) next.length = true;
+  if (words.has('D') && rules_.always_claimed.has('D')) {
+    const auto edge = whole(words, 'D', 0, kMaxEdge);
+    if (!edge) return edge.error();
+    if (*edge > 1) {
+      return fail(words['D'].column, fmt::format("{} is not simulated", words.text_of('D')),
+                  "tools have one edge here: D1, or D0 for no length");
+    }
+    next.length = *edge == 1;
+  }
+  if (rules_.tool_brings_length) {
+    next.length = next.length && state_.tool != 0;
+    next.offset_number = next.length ? state_.tool : 0;
+  }
+  next.tip =
+      words.value_or(CodeGroup::tool_tip, next.tip ? TipWord::on : TipWord::off) == TipWord::on;
+  return next;
+}
+
+BlockExecutor::Outcome BlockExecutor::set_compensation(const BlockWords& words) {
+  const auto next = compensation_after(words);
+  if (!next) return next.error();
+  const CompensationChange before = told(state_.compensation);
+  const CompensationChange after = told(*next);
+  const bool tip_before = before.mode == LengthCompensation::tool_centre_point;
+  const bool tip_after = after.mode == LengthCompensation::tool_centre_point;
+  const bool same_tool = before.offset_number == after.offset_number;
+  if (tip_before != tip_after || (tip_after && !same_tool)) {
+    forget(kLinearWords, PositionLoss::length_compensation);
+  } else if (before.mode != after.mode || !same_tool) {
+    forget(LetterSet("Z"), PositionLoss::length_compensation);
+  }
+  if (!next->tip) state_.tool_axis.reset();
+  state_.compensation = *next;
+
+  const GivenCode& length = words[CodeGroup::length_compensation];
+  const GivenCode& tip = words[CodeGroup::tool_tip];
+  const GivenCode& tool = words[CodeGroup::tool_change];
+  const GivenCode& cause = length.code != nullptr ? length : tip.code != nullptr ? tip : tool;
+  if (length.code != nullptr || !same(before, after)) {
+    emit(cause.code != nullptr ? cause.column : words['D'].column, after);
+  }
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_work_offset(const BlockWords& words) {
+  const GivenCode& offset = words[CodeGroup::work_offset];
+  if (offset.code == nullptr) return Done{};
+  int number = offset.code->value;
+  if (!offset.code->arguments.empty()) {
+    if (!words.has('P')) {
+      return fail(offset.column, offset.code->name() + " without a number", "give Q339=1");
+    }
+    const auto given = whole(words, 'P', 0, kMaxPreset);
+    if (!given) return given.error();
+    number = *given;
+  }
+  if (number != state_.work_offset) forget(kAxisWords, PositionLoss::work_offset);
+  state_.work_offset = number;
+  emit(offset.column, WorkOffsetChange{number});
+  return Done{};
+}
+
+Vec3 BlockExecutor::vector_of(const BlockWords& words, std::string_view letters) const {
+  return {words[letters[0]].value, words[letters[1]].value, words[letters[2]].value};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) {
+  const GivenCode& tilt = words[CodeGroup::tilted_plane];
+  if (tilt.code == nullptr) return Done{};
+  const auto kind = static_cast<TiltWord>(tilt.code->value);
+  if (kind == TiltWord::turn) return turn_words(words);
+  if (kind == TiltWord::off && state_.word_frame.turns()) {
+    WordFrame straight = state_.word_frame;
+    straight.turn = {};
+    change_word_frame(straight);
+    if (!state_.tilted) return Done{};
+  }
+  Pose plane{Mat3::Identity(), Vec3::Zero()};
+  if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale();
+  if (kind == TiltWord::euler) {
+    const Vec3 angles = vector_of(words, "IJK") * kRadPerDeg;
+    plane.rotation = turn(2, angles[0]) * turn(0, angles[1]) * turn(2, angles[2]);
+  } else if (kind == TiltWord::spatial) {
+    const Vec3 angles = vector_of(words, "ABC") * kRadPerDeg;
+    plane.translation.setZero();
+    plane.rotation = turn(2, angles[2]) * turn(1, angles[1]) * turn(0, angles[0]);
+  } else if (kind == TiltWord::swivel) {
+    const auto mode = whole(words, 'Q', 0, 255);
+    if (!mode) return mode.error();
+    const auto axes = axis_sequence(*mode);
+    if (!axes) {
+      return fail(words['Q'].column, fmt::format("swivel mode {} is not simulated", *mode),
+                  "turn axis by axis: mode 57 turns about X, then Y, then Z");
+    }
+    const Vec3 angles = vector_of(words, "ABC") * kRadPerDeg;
+    for (std::size_t i = 0; i < axes->size(); ++i) {
+      plane.rotation = plane.rotation * turn(axes->at(i), angles[static_cast<Eigen::Index>(i)]);
+    }
+    plane.translation += plane.rotation * (vector_of(words, "uvw") * unit_scale());
+  }
+  const bool aligns = words.has('d') && words['d'].value != 0.0;
+  if (kind != TiltWord::off || state_.tilted || aligns) {
+    forget(kLinearWords, PositionLoss::tilted_plane);
+  }
+  state_.tilted = kind != TiltWord::off || aligns;
+  if (state_.tilted) {
+    emit(tilt.column, TiltedPlaneChange{plane});
+  }
+  if (aligns) {
+    if (auto done = align(tilt.column); !done) return done;
+  }
+  if (kind == TiltWord::off) {
+    state_.tilted = false;
+    emit(tilt.column, TiltedPlaneChange{});
+  }
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::align(std::uint32_t column) {
+  if (!state_.tilted) {
+    return fail(column, "no tilted plane to align the tool with", "define it before, by G68.2");
+  }
+  emit(column, AlignToPlane{});
+  forget(kAxisWords, PositionLoss::tilted_plane);
+  state_.tool_axis.reset();
+  return Done{};
+}
+
+void BlockExecutor::set_paths(const BlockWords& words) {
+  const GivenCode& orientation = words[CodeGroup::orientation_path];
+  if (orientation.code != nullptr) {
+    emit(orientation.column,
+         OrientationPathChange{static_cast<OrientationPath>(orientation.code->value)});
+  }
+  const GivenCode& rotary = words[CodeGroup::rotary_path];
+  if (rotary.code != nullptr) {
+    state_.rotary_path = static_cast<RotaryPath>(rotary.code->value);
+    state_.announced_rotary_path = state_.rotary_path;
+    emit(rotary.column, RotaryPathChange{state_.rotary_path});
+  }
+}
+
+BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
+  state_.plane = words.value_or(CodeGroup::plane, state_.plane);
+  state_.distance = words.value_or(CodeGroup::distance, state_.distance);
+  state_.retract_to_initial =
+      words.value_or(CodeGroup::retract,
+                     state_.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
+      RetractWord::initial;
+  state_.arc_distance = words.value_or(CodeGroup::arc_distance, state_.arc_distance);
+  if (auto done = set_compensation(words); !done) return done;
+  if (auto done = set_work_offset(words); !done) return done;
+  if (auto done = set_tilted_plane(words); !done) return done;
+  set_paths(words);
+  return Done{};
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,430 @@
+// The moves of a block: G28, G53, straight lines and arcs, and what they do to the known position.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/units.hpp"
+#include "parser/arc.hpp"
+#include "parser/running/block_executor.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxTurns = 10'000;
+constexpr double kSecondsPerMinute = 60.0;
+constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
+
+const char* motion_name(MotionMode motion, Dialect dialect) {
+  constexpr std::array kNames{"", "G0", "G1", "G2", "G3"};
+  constexpr std::array kPlain{"", "a rapid move", "a cutting move", "an arc", "an arc"};
+  if (is_cycle(motion)) return "a canned cycle";
+  const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
+  return (letters ? kNames : kPlain).at(static_cast<std::size_t>(motion));
+}
+
+// Whether X, Y or Z moves between two targets; an axis first placed now counts as moving.
+bool moves_linearly(const AxisTarget& before, const AxisTarget& after) {
+  for (const AxisLetter axis : kSpatialAxes) {
+    if (after[axis] && before[axis] != after[axis]) return true;
+  }
+  return false;
+}
+
+Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
+  Vec3 point = otherwise;
+  for (const AxisLetter axis : kSpatialAxes) {
+    const auto slot = static_cast<Eigen::Index>(axis);
+    point[slot] = target[axis].value_or(otherwise[slot]);
+  }
+  return point;
+}
+
+}  // namespace
+
+BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Movement& movement) {
+  // Axis words or not, the motion word stays in force for the blocks after.
+  state_.motion = motion_of(words);
+  if (!is_cycle(state_.motion)) state_.cycle.reset();
+  if (movement.non_modal == NonModal::home) return go_home(words);
+  if (movement.non_modal == NonModal::align) return align(movement.column);
+  if (movement.non_modal == NonModal::pole) return set_pole(words);
+  if (movement.non_modal == NonModal::start) return set_start(words);
+  if (movement.non_modal >= NonModal::shift_to_place) return shift_words(words, movement.non_modal);
+  if (movement.motion != MotionMode::none) announce_rotary_path(words, movement.column);
+  if (movement.non_modal == NonModal::machine_coordinates) {
+    return move_in_machine_coordinates(words, movement);
+  }
+  if (is_cycle(movement.motion)) return run_cycle(words, movement);
+  switch (movement.motion) {
+    case MotionMode::none:
+      return Done{};
+    case MotionMode::traverse:
+    case MotionMode::linear:
+      return move_straight(words, movement);
+    case MotionMode::arc_clockwise:
+    case MotionMode::arc_counterclockwise:
+      return move_along_arc(words, movement);
+    default:
+      return Done{};
+  }
+}
+
+BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words) {
+  const std::uint32_t column = words[CodeGroup::non_modal].column;
+  const AxisTarget before = position_.target();
+  HomeReturn home;
+  LetterSet named;
+  if ((words.given() & kAxisWords).empty()) {
+    home.axes.fill(true);
+    named = kAxisWords;
+  }
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    home.axes.at(static_cast<std::size_t>(axis)) = true;
+    named.add(letter);
+    // "G91 G28 Z0" from a place that is not known goes straight home: zero needs no start.
+    const bool stays = state_.distance == DistanceMode::incremental && words[letter].value == 0.0;
+    if (stays) continue;
+    if (auto done = set_target(words, axis); !done) return done;
+  }
+  if (!(position_.target() == before)) {
+    emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
+  }
+  emit(column, Command{home});
+  leave_program_coordinates(named, PositionLoss::home);
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::move_in_machine_coordinates(const BlockWords& words,
+                                                                  const Movement& movement) {
+  AxisTarget end;
+  LetterSet named;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    named.add(letter);
+    end[axis] = scaled(axis, words[letter].value);
+  }
+  const Compensation& kept = state_.compensation;
+  const bool tip_moves = kept.tip || (kept.length && !(named & kLinearWords).empty());
+  if (rules_.machine_coordinates_keep_length && tip_moves) {
+    return fail(words[CodeGroup::non_modal].column,
+                fmt::format("{} with a tool length or TRAORI would place the tool's tip",
+                            words[CodeGroup::non_modal].code->name()),
+                "switch them off before: TRAFOOF, and D0 on this block");
+  }
+  if (movement.motion == MotionMode::traverse) {
+    emit(movement.column, Traverse{end, std::nullopt, Coordinates::machine});
+  } else {
+    const auto feed = feed_for(words, movement, moves_linearly({}, end));
+    if (!feed) return feed.error();
+    emit(movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
+  }
+  leave_program_coordinates(named, PositionLoss::machine_coordinates);
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
+                                                    const Movement& movement) {
+  const AxisTarget before = position_.target();
+  if (auto done = check_tool_length(movement); !done) return done;
+  if (auto done = set_targets(words); !done) return done;
+  if (auto done = set_tool_axis(words); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
+  const AxisTarget end = end_of(words);
+  if (movement.motion == MotionMode::traverse) {
+    emit(movement.column, Traverse{end, state_.tool_axis, Coordinates::program});
+    return Done{};
+  }
+  const auto feed = feed_for(words, movement, moves_linearly(before, end));
+  if (!feed) return feed.error();
+  emit(movement.column, LinearFeed{end, state_.tool_axis, Coordinates::program, *feed});
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
+                                                     const Movement& movement) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  for (const int axis : {axes.u, axes.v}) {
+    const auto letter = static_cast<AxisLetter>(axis);
+    if (!position_[letter]) {
+      return fail(
+          movement.column,
+          fmt::format("the start of the arc is not known: {}", position_.why_unknown(letter)),
+          "move to the start with G0 or G1 in G90 first");
+    }
+  }
+  if (auto done = check_tool_length(movement); !done) return done;
+  if (auto done = check_word_frame(movement); !done) return done;
+  ArcWords arc_words;
+  arc_words.plane = state_.plane;
+  arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;
+  arc_words.centre_is_absolute = state_.arc_distance == DistanceMode::absolute;
+  const AxisTarget before = position_.target();
+  if (auto done = set_targets(words); !done) return done;
+  if (rules_.vector_letters != "IJK") {
+    if (auto done = set_tool_axis(words); !done) return done;
+  }
+  // Where the height of the start is not known, that of the end stands for it.
+  arc_words.end = spatial(position_.target(), Vec3::Zero());
+  arc_words.start = spatial(before, arc_words.end);
+  for (std::size_t i = 0; i < arc_words.centre.size(); ++i) {
+    const char letter = "IJK"[i];
+    if (!words.has(letter)) continue;
+    const bool absolute = words[letter].measure == Measure::absolute;
+    arc_words.centre.at(i) = words[letter].value * unit_scale() -
+                             (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);
+  }
+  if (rules_.arcs_turn_about_pole && !words.has('R')) {
+    if (!state_.pole) {
+      return fail(movement.column, "the arc has no centre", "give the centre by CC before");
+    }
+    arc_words.centre_is_absolute = true;
+    arc_words.centre = {(*state_.pole)[0], (*state_.pole)[1], std::nullopt};
+  }
+  if (words.has('R')) arc_words.radius = words['R'].value * unit_scale();
+
+  auto arc = arc_of(arc_words);
+  if (!arc) {
+    const LetterSet shape = words.given() & LetterSet(words.has('R') ? "R" : "IJK");
+    const std::uint32_t column =
+        shape.empty() ? movement.column : words[words.first_of(shape)].column;
+    return fail(column, arc.error().front().message, arc.error().front().hint);
+  }
+  for (const int axis : {axes.u, axes.v}) {
+    position_.set(static_cast<AxisLetter>(axis), arc->end[axis]);
+  }
+  int turns = 1;
+  if (words.has('P')) {
+    const auto given = whole(words, 'P', 1, kMaxTurns);
+    if (!given) return given.error();
+    turns = *given;
+  }
+  if (words.has('e')) {
+    const auto more = whole(words, 'e', 0, kMaxTurns);
+    if (!more) return more.error();
+    turns += *more;
+  }
+  const auto feed = feed_for(words, movement, true);
+  if (!feed) return feed.error();
+  emit(movement.column, ArcFeed{end_of(words), arc->centre, state_.plane,
+                                arc_words.clockwise ? -turns : turns, state_.tool_axis, *feed});
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_pole(const BlockWords& words) {
+  Vec3 pole = state_.pole.value_or(spatial(position_.target(), Vec3::Zero()));
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
+    const char letter = to_char(axis);
+    const bool relative = words.has(letter) && words[letter].measure == Measure::incremental;
+    const bool as_before = !words.has(letter) && !state_.pole;
+    if ((relative || as_before) && !position_[axis]) {
+      return fail(words[CodeGroup::non_modal].column,
+                  fmt::format("the pole needs a position, but {}", position_.why_unknown(axis)),
+                  fmt::format("give {} of the pole without I", letter));
+    }
+    if (!words.has(letter)) continue;
+    pole[static_cast<Eigen::Index>(axis)] =
+        words[letter].value * unit_scale() + (relative ? *position_[axis] : 0.0);
+  }
+  // CC alone is where the tool stands.
+  if ((words.given() & LetterSet("XY")).empty()) pole = spatial(position_.target(), pole);
+  state_.pole = pole;
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_start(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  std::string text;
+  for (const AxisLetter axis : kSpatialAxes) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    position_.set(axis, scaled(axis, words[letter].value));
+    text += (text.empty() ? "" : " ") + words.text_of(letter);
+  }
+  emit(code.column, Event{code.code->name(), std::move(text)});
+  return Done{};
+}
+
+void BlockExecutor::announce_rotary_path(const BlockWords& words, std::uint32_t column) {
+  if ((words.given() & kRotaryWords).empty()) return;
+  RotaryPath path = state_.rotary_path;
+  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
+    const char letter = "ABC"[i];
+    if (!words.has(letter)) continue;
+    const Measure measure = words[letter].measure;
+    // A step from a place known but for full turns goes on from there.
+    const bool steps = measure == Measure::incremental && state_.loose.at(i);
+    if (measure == Measure::shortest || steps) path = RotaryPath::shortest;
+  }
+  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
+    if (words.has("ABC"[i])) state_.loose.at(i) = path == RotaryPath::shortest;
+  }
+  if (path == state_.announced_rotary_path) return;
+  state_.announced_rotary_path = path;
+  emit(column, RotaryPathChange{path});
+}
+
+BlockExecutor::Outcome BlockExecutor::check_tool_length(const Movement& movement) const {
+  if (!state_.compensation.tip || state_.compensation.length) return Done{};
+  return fail(
+      movement.column, "the tool-tip control is on, but no tool length is in force",
+      rules_.tool_brings_length ? "call a tool before the move" : "give G43 H before the move");
+}
+
+// Axes that went the shorter way are left where they are until they are named again.
+AxisTarget BlockExecutor::end_of(const BlockWords& words) const {
+  AxisTarget end = position_.target();
+  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
+    const char letter = "ABC"[i];
+    if (state_.loose.at(i) && !words.has(letter)) end[static_cast<AxisLetter>(3 + i)].reset();
+  }
+  return end;
+}
+
+double BlockExecutor::unit_scale() const {
+  return state_.unit == LengthUnit::millimetre ? 1.0 : kMmPerInch;
+}
+
+double BlockExecutor::scaled(AxisLetter axis, double value) const {
+  return value * (is_rotary(axis) ? kRadPerDeg : unit_scale());
+}
+
+BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLetter axis) {
+  const char letter = to_char(axis);
+  const double value = scaled(axis, words[letter].value);
+  const Measure measure = words[letter].measure;
+  const bool absolute = measure == Measure::modal ? state_.distance == DistanceMode::absolute
+                                                  : measure != Measure::incremental;
+  if (absolute) {
+    position_.set(axis, value);
+    return Done{};
+  }
+  if (!position_[axis]) {
+    return fail(words[letter].column,
+                fmt::format("{} is incremental, but {}", words.text_of(letter),
+                            position_.why_unknown(axis)),
+                fmt::format("program {} once in absolute coordinates (G90) first", letter));
+  }
+  position_.set(axis, *position_[axis] + value);
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
+  if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
+    if (state_.compensation.tool_vectors) {
+      return fail(
+          words[rotary].column,
+          fmt::format("{} in G43.5, where tool vectors turn the axes", words.text_of(rotary)),
+          "give the direction by I J K, or use G43.4");
+    }
+    state_.tool_axis.reset();
+  }
+  if (auto done = set_polar_target(words); !done) return done;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (!words.has(to_char(axis))) continue;
+    if (auto done = set_target(words, axis); !done) return done;
+  }
+  return Done{};
+}
+
+// @ radius and ^ angle about the origin, in the plane; what is not given stays as it is.
+BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) {
+  const char first = words.first_of(LetterSet("pq"));
+  if (first == 0) return Done{};
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  for (const AxisLetter axis : {u, v}) {
+    if (!words.has(to_char(axis))) continue;
+    return fail(words[to_char(axis)].column,
+                fmt::format("{} beside a polar position", words.text_of(to_char(axis))),
+                "give the place in the plane by @ and ^, or by axis words");
+  }
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  const bool from_here = incremental || !words.has(kPolarRadius) || !words.has(kPolarAngle);
+  double radius = 0.0;
+  double angle = 0.0;
+  if (from_here) {
+    for (const AxisLetter axis : {u, v}) {
+      if (position_[axis]) continue;
+      return fail(words[first].column,
+                  fmt::format("the polar position goes on from one that is not known: {}",
+                              position_.why_unknown(axis)),
+                  "give both @ and ^");
+    }
+    radius = std::hypot(*position_[u], *position_[v]);
+    angle = std::atan2(*position_[v], *position_[u]);
+    if (radius == 0.0 && !words.has(kPolarAngle)) {
+      return fail(words[first].column, "a polar position without angle, from the origin",
+                  "give ^ in degrees");
+    }
+  }
+  if (words.has(kPolarRadius)) {
+    radius = words[kPolarRadius].value * unit_scale() + (incremental ? radius : 0.0);
+  }
+  if (words.has(kPolarAngle)) {
+    angle = words[kPolarAngle].value * kRadPerDeg + (incremental ? angle : 0.0);
+  }
+  position_.set(u, radius * std::cos(angle));
+  position_.set(v, radius * std::sin(angle));
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_tool_axis(const BlockWords& words) {
+  const char first = words.first_of(LetterSet(rules_.vector_letters));
+  if (first == 0) return Done{};
+  if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
+    return fail(words[rotary].column,
+                fmt::format("{} and a tool vector in one block", words.text_of(rotary)),
+                fmt::format("give the direction by {} or by rotary words, not both",
+                            rules_.vector_spelling));
+  }
+  state_.tool_axis = UnitVec3::of(vector_of(words, rules_.vector_letters));
+  if (!state_.tool_axis) {
+    return fail(words[first].column, "the tool vector has no direction",
+                fmt::format("give {} a length above zero; it points from the tip to the spindle",
+                            rules_.vector_spelling));
+  }
+  forget(kRotaryWords, PositionLoss::tool_vector);
+  return Done{};
+}
+
+Result<Feed> BlockExecutor::feed_for(const BlockWords& words, const Movement& movement,
+                                     bool linear) const {
+  if (words.has('t')) {
+    if (words['t'].value <= 0.0) {
+      return fail(words['t'].column, fmt::format("{} is not above zero", words.text_of('t')),
+                  "give the time of the block in seconds");
+    }
+    return Feed{kSecondsPerMinute / words['t'].value, FeedMode::inverse_time};
+  }
+  if (state_.feed_mode == FeedMode::inverse_time && !words.has('F')) {
+    return fail(movement.column,
+                fmt::format("{} without F in G93", motion_name(movement.motion, rules_.dialect)),
+                "in G93 each cutting block needs its own F, the inverse of its minutes");
+  }
+  if (!state_.feed) {
+    return fail(movement.column,
+                fmt::format("{} without a feed rate", motion_name(movement.motion, rules_.dialect)),
+                "give F on this block or before, above zero");
+  }
+  return Feed{linear ? state_.feed->scaled : state_.feed->as_written, state_.feed_mode};
+}
+
+void BlockExecutor::leave_program_coordinates(LetterSet axes, PositionLoss loss) {
+  // With the tool-centre-point control on, X Y Z are of the tip, which any axis may carry along.
+  forget(state_.tool_centre_point() ? axes | kLinearWords : axes, loss);
+  if (!(axes & kRotaryWords).empty()) state_.tool_axis.reset();
+}
+
+void BlockExecutor::forget(LetterSet axes, PositionLoss loss) {
+  for (const AxisLetter axis : kAxisLetters) {
+    if (axes.has(to_char(axis))) position_.forget(axis, loss, block_->line);
+  }
+  if (axes.has('X')) state_.pole.reset();
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,113 @@
+#include "parser/running/block_words.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace frustum::parser {
+namespace {
+
+Diagnostic at(const Block& block, std::uint32_t column, std::string message, std::string hint) {
+  const SourcePlace place = block.place_of(column);
+  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  diagnostic.line = static_cast<int>(place.line);
+  diagnostic.column = static_cast<int>(place.column);
+  return diagnostic;
+}
+
+Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, double number) {
+  const std::string name = word.letter + decimal_text(number);
+  const std::string_view remedy = remedy_for(dialect, word.letter, number);
+  if (!remedy.empty()) {
+    return at(block, word.column, name + " is not simulated", std::string(remedy));
+  }
+  return at(block, word.column, "unknown word " + name,
+            "near it are " + codes_near(dialect, word.letter, number));
+}
+
+}  // namespace
+
+char BlockWords::first_of(LetterSet letters) const {
+  const LetterSet wanted = letters & given_;
+  if (wanted.empty()) return 0;
+  char first = 0;
+  std::uint32_t first_column = std::numeric_limits<std::uint32_t>::max();
+  for (char letter = 'A'; letter <= 'z'; ++letter) {
+    if (!wanted.has(letter) || (*this)[letter].column >= first_column) continue;
+    first = letter;
+    first_column = (*this)[letter].column;
+  }
+  return first;
+}
+
+namespace {
+
+std::string spelling_in(const Block& block, char letter) {
+  for (const Word& word : block.words) {
+    if (word.letter == letter && word.spelled != nullptr) return word.spelled;
+  }
+  return std::string(1, letter);
+}
+
+}  // namespace
+
+std::string BlockWords::name_of(char letter) const {
+  std::string name = spelling_in(*block_, letter);
+  while (name.size() > 1 && std::string_view(" =/").find(name.back()) != std::string_view::npos) {
+    name.pop_back();
+  }
+  return name;
+}
+
+std::string BlockWords::text_of(char letter) const {
+  return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
+}
+
+Result<BlockWords> read_words(const Block& block, const Parameters& parameters, Dialect dialect) {
+  const ExpressionContext context{block.steps, block.names, parameters};
+  BlockWords words;
+  words.block_ = &block;
+  for (const Word& word : block.words) {
+    double number = word.number;
+    if (!word.expression.empty()) {
+      auto computed = evaluate(context, word.expression);
+      if (!computed) {
+        const Diagnostic& failure = computed.error().front();
+        return at(block, static_cast<std::uint32_t>(failure.column), failure.message, failure.hint);
+      }
+      number = *computed;
+      if (is_vacant(number)) {
+        words.vacant_.push_back({nullptr, word.column});
+        continue;
+      }
+    }
+    const bool named = word.letter == kNamedWord;
+    if (word.letter != 'G' && word.letter != 'M' && !named) {
+      if (words.has(word.letter)) {
+        return at(block, word.column,
+                  fmt::format("{} is given twice in a block", words.name_of(word.letter)),
+                  "leave one of them out, or write two blocks");
+      }
+      words.given_.add(word.letter);
+      words.values_[BlockWords::slot(word.letter)] = {number, word.column, word.decimal_point,
+                                                      word.measure};
+      continue;
+    }
+    const Code* code = named ? &code_at(number) : find_code(dialect, word.letter, number);
+    if (code == nullptr) return unknown_code(block, dialect, word, number);
+    if (code->event) words.events_.push_back({code, word.column});
+    if (code->group == CodeGroup::event) continue;
+    GivenCode& place = words.codes_[static_cast<std::size_t>(code->group)];
+    if (place.code != nullptr) {
+      return at(block, word.column,
+                place.code == code ? fmt::format("{} is given twice in a block", code->name())
+                                   : fmt::format("{} and {} contradict each other in a block",
+                                                 place.code->name(), code->name()),
+                "leave one of them out, or write two blocks");
+    }
+    place = {code, word.column};
+  }
+  return words;
+}
+
+}  // namespace frustum::parser

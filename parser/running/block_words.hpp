@@ -1,0 +1,76 @@
+// The words of one block with their values computed and sorted by what they do.
+//
+// Units: as written.
+// Errors: an expression that cannot be computed, an unknown or refused G or M word, a letter given
+// twice, two words of one modal group; each with line and column.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/result.hpp"
+#include "parser/dialects/code_table.hpp"
+#include "parser/dialects/dialect_rules.hpp"
+#include "parser/language/block.hpp"
+#include "parser/language/parameters.hpp"
+
+namespace frustum::parser {
+
+struct GivenWord {
+  double value = 0.0;
+  std::uint32_t column = 0;
+  bool decimal_point = false;
+  Measure measure = Measure::modal;
+};
+
+struct GivenCode {
+  const Code* code = nullptr;  // in the code table, which lives for ever
+  std::uint32_t column = 0;
+};
+
+class BlockWords {
+ public:
+  [[nodiscard]] LetterSet given() const { return given_; }
+  [[nodiscard]] bool has(char letter) const { return given_.has(letter); }
+  // The word of that letter; zero when not given.
+  [[nodiscard]] const GivenWord& operator[](char letter) const { return values_[slot(letter)]; }
+  [[nodiscard]] bool has(CodeGroup group) const { return (*this)[group].code != nullptr; }
+  [[nodiscard]] const GivenCode& operator[](CodeGroup group) const {
+    return codes_[static_cast<std::size_t>(group)];
+  }
+  // What the group's word sets, or `otherwise` when the block has none of the group.
+  template <typename Value>
+  [[nodiscard]] Value value_or(CodeGroup group, Value otherwise) const {
+    const Code* code = (*this)[group].code;
+    return code == nullptr || code->event ? otherwise : static_cast<Value>(code->value);
+  }
+  // Codes that are known but not simulated.
+  [[nodiscard]] const std::vector<GivenCode>& events() const { return events_; }
+  // Words whose value is vacant: they count as not given.
+  [[nodiscard]] const std::vector<GivenCode>& vacant() const { return vacant_; }
+  // The first word of the block among `letters`, by column.
+  [[nodiscard]] char first_of(LetterSet letters) const;
+  // "X1.5", "A3=0.5": as the program spells the word and a message names it.
+  [[nodiscard]] std::string text_of(char letter) const;
+  // "X", "A3", "tool"
+  [[nodiscard]] std::string name_of(char letter) const;
+
+ private:
+  friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
+                                       Dialect dialect);
+  static constexpr std::size_t slot(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+
+  const Block* block_ = nullptr;
+  std::array<GivenWord, 'z' - 'A' + 1> values_{};
+  LetterSet given_{};
+  std::array<GivenCode, kCodeGroups> codes_{};
+  std::vector<GivenCode> events_{};
+  std::vector<GivenCode> vacant_{};
+};
+
+// The words refer to the block.
+[[nodiscard]] Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
+                                            Dialect dialect);
+
+}  // namespace frustum::parser

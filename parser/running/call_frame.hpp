@@ -1,0 +1,62 @@
+// A program or subprogram at work: where it is read, how often it runs, and the repeats within it.
+//
+// Units : none
+// Errors: none
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parser/reading/block_cursor.hpp"
+#include "parser/running/program_map.hpp"
+
+namespace frustum::parser {
+
+// A program with its map, once something has asked for it.
+class LoadedProgram {
+ public:
+  explicit LoadedProgram(Program program) : program_(std::move(program)) {}
+  [[nodiscard]] const Program& program() const { return program_; }
+  [[nodiscard]] const ProgramMap& map() {
+    if (!map_) map_.emplace(program_);
+    return *map_;
+  }
+
+ private:
+  Program program_;
+  std::optional<ProgramMap> map_{};
+};
+
+// A loop that counts.
+struct CountedLoop {
+  std::uint64_t begin = 0;  // offset of its first block
+  double turns_left = 0.0;
+  std::string variable{};  // that goes up by 1 to `limit`, instead
+  double limit = 0.0;
+};
+// A stretch of blocks that runs again when its end is reached.
+struct RepeatedPart {
+  TextPlace begin{};
+  std::uint64_t end = 0;
+  TextPlace behind{};
+  std::uint64_t turns_left = 0;
+};
+
+struct CallFrame {
+  std::shared_ptr<LoadedProgram> program;
+  BlockCursor cursor;
+  std::string name{};  // "O2000", "pocket"; empty for the main program
+  std::string end{};   // of the subprogram, as it is spelled: "M99", "endsub"
+  TextPlace entry{};
+  SourcePlace named{};  // where its name stands
+  std::uint64_t runs_left = 1;
+  bool has_locals = false;
+  bool opened = false;  // a block that does something has been reached
+  std::vector<CountedLoop> loops{};
+  std::vector<RepeatedPart> parts{};
+};
+
+}  // namespace frustum::parser

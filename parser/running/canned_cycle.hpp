@@ -1,0 +1,56 @@
+// Canned cycles: what the tool does at one hole, G73 to G89.
+//
+// Depths are coordinates along the axis of the plane's normal: Z in G17, Y in G18, X in G19.
+//
+//   G73  pecks that break the chip     G85  bores, feeds out
+//   G74  taps left-handed              G86  bores, stops the spindle, leaves by rapid
+//   G81  drills                        G87  bores from behind, with the tool shifted
+//   G82  drills, dwells                G88  bores, stops for the operator, who retracts
+//   G83  pecks that clear the hole     G89  bores, dwells, feeds out
+//   G84  taps
+//
+// Units : mm, seconds
+// Shape : the steps of one hole, in order
+// Errors: none; the words are checked by the caller
+// Source: ISO 6983-1 table of canned cycles; the chip-breaking retract and the clearance of a peck are those of
+//         LinuxCNC, 0.010 in
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parser/running/modal_state.hpp"
+
+namespace frustum::parser {
+
+struct CycleDepths {
+  double level = 0.0;     // R: where feeding begins
+  double bottom = 0.0;    // Z
+  double clear = 0.0;     // where the tool goes afterwards: R (G99) or where it was before (G98)
+  double feed_out = 0.0;  // up to where taps and G89 leave by feed: R, of LinuxCNC `clear`
+  double peck = 0.0;      // Q
+  double dwell = 0.0;     // P, seconds
+  double back = 0.0;      // K of G87: how far the bore goes up to
+};
+
+enum class CycleAction : std::uint8_t {
+  rapid,
+  feed,
+  dwell,
+  stop_spindle,
+  start_spindle,    // as it turned before
+  reverse_spindle,  // against that
+  orient_spindle,
+  wait  // for the operator
+};
+struct CycleStep {
+  CycleAction action = CycleAction::rapid;
+  double value = 0.0;    // depth of a move, seconds of a dwell
+  bool shifted = false;  // a move to the hole's place shifted by I J, or back from it
+};
+
+[[nodiscard]] bool is_cycle(MotionMode mode);
+// The tool is above the hole at `level`.
+[[nodiscard]] std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& depths);
+
+}  // namespace frustum::parser

@@ -1,0 +1,84 @@
+// What an NC program has set so far and what stays set: the modes, tool, spindle and feed.
+//
+// The defaults are the state every program starts in: no motion mode, G17, G21, G90, G91.1, G94,
+// G49, G54, no feed, no tool chosen, spindle and coolant off.
+// Units: mm, rad, mm/min, 1/min.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "parser/language/modes.hpp"
+#include "parser/motion.hpp"
+#include "parser/running/word_frame.hpp"
+
+namespace frustum::parser {
+
+// Whether the tool's length counts, and whether the control guides the tool's tip: two switches, in
+// Fanuc's G43.4 thrown together.
+struct Compensation {
+  bool length = false;
+  bool tip = false;
+  bool tool_vectors = false;
+  int offset_number = 0;
+
+  [[nodiscard]] LengthCompensation mode() const {
+    if (tip) return LengthCompensation::tool_centre_point;
+    return length ? LengthCompensation::length : LengthCompensation::off;
+  }
+  bool operator==(const Compensation&) const = default;
+};
+
+// An F word: a purely rotary move reads it in deg/min, whatever the unit of lengths.
+struct FeedWord {
+  double as_written = 0.0;
+  double scaled = 0.0;  // in mm/min when per minute
+};
+
+// The words of the canned cycle at work, in mm and seconds as the program's distance mode counts them.
+struct CannedCycle {
+  MotionMode last = MotionMode::none;
+  double initial = 0.0;  // depth before the first hole
+  std::optional<double> level{};
+  std::optional<double> bottom{};
+  std::optional<double> peck{};
+  std::optional<double> dwell{};
+  std::optional<double> shift_u{};
+  std::optional<double> shift_v{};
+  std::optional<double> back{};
+};
+
+struct ModalState {
+  MotionMode motion = MotionMode::none;
+  Plane plane = Plane::xy;
+  LengthUnit unit = LengthUnit::millimetre;
+  DistanceMode distance = DistanceMode::absolute;
+  DistanceMode arc_distance = DistanceMode::incremental;
+  FeedMode feed_mode = FeedMode::per_minute;
+  std::optional<FeedWord> feed{};
+  Compensation compensation{};
+  int work_offset = 1;
+  std::optional<int> selected_tool{};
+  int tool = 0;                                                  // in the spindle
+  std::optional<FeedWord> tool_feed{};                           // of TOOL CALL, for F AUTO
+  RotaryPath rotary_path = RotaryPath::as_programmed;            // M126
+  RotaryPath announced_rotary_path = RotaryPath::as_programmed;  // the last one in the motions
+  // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
+  std::array<bool, 3> loose{};
+  bool tilted = false;
+  WordFrame word_frame{};
+  std::optional<WordFrame> suspended_shift{};  // G92.2
+  std::optional<Vec3> pole{};                  // CC
+  std::optional<CannedCycle> cycle{};
+  bool retract_to_initial = true;  // G98; G99: to R
+  SpindleDirection spindle = SpindleDirection::off;
+  double spindle_speed = 0.0;
+  bool surface_speed = false;  // G96: S is a cutting speed, which the spindle follows
+  bool flood = false;
+  std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
+
+  [[nodiscard]] bool tool_centre_point() const { return compensation.tip; }
+};
+
+}  // namespace frustum::parser

@@ -1,0 +1,348 @@
+// Flow statements: branches, loops, subprograms by name, jumps and repeats.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "parser/running/program_run.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::size_t kMaxArguments = 30;
+constexpr double kMaxTurns = 1e9;
+
+std::string unlabelled(std::string_view kind, const std::string& label) {
+  return label.empty() ? std::string(kind) : fmt::format("{} {}", kind, label);
+}
+
+std::string spelled(double value) {
+  return is_vacant(value) ? "a vacant value" : decimal_text(value);
+}
+
+// "120" of the label "N120".
+std::optional<std::uint32_t> block_number_of(std::string_view label) {
+  std::uint32_t number = 0;
+  if (label.size() < 2 || label.front() != 'N') return std::nullopt;
+  const auto read = std::from_chars(label.data() + 1, label.data() + label.size(), number);
+  if (read.ec != std::errc{} || read.ptr != label.data() + label.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+Result<double> ProgramRun::value_of(const Block& block, ExpressionRange range) {
+  auto value = executor_.value_of(block, range);
+  if (value) return value;
+  return in_this_file(std::move(value).error().front());
+}
+
+Result<bool> ProgramRun::holds(const Block& block, const FlowStatement& flow) {
+  const auto value = value_of(block, flow.condition);
+  if (!value) return value.error();
+  return (*value != 0.0 && !is_vacant(*value)) != flow.negated;
+}
+
+Result<std::string> ProgramRun::label_of(const Block& block, const FlowStatement& flow) {
+  if (flow.label_value.empty()) return flow.label;
+  const auto value = value_of(block, flow.label_value);
+  if (!value) return value.error();
+  const double nearest = std::round(*value);
+  if (!(std::abs(*value - nearest) <= 1e-4) || nearest < 0.0 || nearest > 99'999'999.0) {
+    return at(block, flow.column,
+              fmt::format("{} is no number of a block or subprogram", spelled(*value)),
+              "it is a whole number from 0 to 99999999");
+  }
+  return flow.label + fmt::format("{}", static_cast<std::uint32_t>(nearest));
+}
+
+Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange range) {
+  if (range.empty()) return std::uint64_t{1};
+  const auto value = value_of(block, range);
+  if (!value) return value.error();
+  const double nearest = std::round(*value);
+  if (!(std::abs(*value - nearest) <= 1e-4) || nearest > kMaxTurns) {
+    return at(block, block.flow->column, fmt::format("{} is no number of repeats", spelled(*value)),
+              "it is a whole number up to 1000000000");
+  }
+  return static_cast<std::uint64_t>(std::max(0.0, nearest));
+}
+
+ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
+  executor_.report_comments(block);
+  const FlowStatement& flow = *block.flow;
+  const TextPlace place = frame().cursor.block_place();
+  switch (flow.kind) {
+    case FlowKind::call:
+      return call(block);
+    case FlowKind::give_back:
+      return give_back(block);
+    case FlowKind::jump:
+      return jump(block);
+    case FlowKind::repeat_part:
+      return repeat(block);
+    case FlowKind::label:
+      return block.words.empty() && block.assignments.empty() ? std::nullopt : execute(block);
+    case FlowKind::only_if: {
+      const auto condition = holds(block, flow);
+      if (!condition) return condition.error().front();
+      return *condition ? execute(block) : std::nullopt;
+    }
+    default:
+      break;
+  }
+  const ProgramMap& map = frame().program->map();
+  if (!map.faults().empty()) return map.faults().front();
+  const Landmark& here = map.at(place);
+  switch (here.kind) {
+    case FlowKind::branch:
+    case FlowKind::else_branch: {
+      const bool asked = here.kind == FlowKind::branch || else_to_try_ == place.offset;
+      else_to_try_.reset();
+      if (!asked) {
+        frame().cursor.go_to(map[here.end].behind);
+        return std::nullopt;
+      }
+      const auto condition = holds(block, flow);
+      if (!condition) return condition.error().front();
+      if (*condition) return std::nullopt;
+      const Landmark& next = map[here.next];
+      if (next.kind == FlowKind::else_branch) {
+        else_to_try_ = next.place.offset;
+        frame().cursor.go_to(next.place);
+      } else {
+        frame().cursor.go_to(next.behind);
+      }
+      return std::nullopt;
+    }
+    case FlowKind::otherwise:
+      frame().cursor.go_to(map[here.end].behind);
+      return std::nullopt;
+    case FlowKind::loop:
+      return enter_loop(block, here);
+    case FlowKind::end_loop:
+      return turn_loop(block, here);
+    case FlowKind::leave_loop:
+      frame().cursor.go_to(map[here.end].behind);
+      return std::nullopt;
+    case FlowKind::next_turn:
+      frame().cursor.go_to(map[here.end].place);
+      return std::nullopt;
+    case FlowKind::subprogram:
+      // Reached by the blocks before it: a definition, which runs when it is called.
+      frame().cursor.go_to(map[here.end].behind);
+      return std::nullopt;
+    case FlowKind::end_sub:
+      return give_back(block);
+    default:
+      return std::nullopt;
+  }
+}
+
+ProgramRun::Failure ProgramRun::enter_loop(const Block& block, const Landmark& here) {
+  const FlowStatement& flow = *block.flow;
+  const ProgramMap& map = frame().program->map();
+  std::vector<CountedLoop>& loops = frame().loops;
+  // Left by a jump and begun anew: what it had counted is of no more use.
+  const auto left = std::find_if(loops.begin(), loops.end(), [&](const CountedLoop& loop) {
+    return loop.begin == here.place.offset;
+  });
+  loops.erase(left, loops.end());
+  bool goes = true;
+  if (flow.turns == Turns::while_true) {
+    const auto condition = holds(block, flow);
+    if (!condition) return condition.error().front();
+    goes = *condition;
+  } else if (flow.turns == Turns::counted) {
+    const auto count = count_of(block, flow.condition);
+    if (!count) return count.error().front();
+    goes = *count > 0;
+    if (goes) loops.push_back({here.place.offset, static_cast<double>(*count)});
+  } else if (flow.turns == Turns::stepped) {
+    const auto first = value_of(block, flow.condition);
+    if (!first) return first.error().front();
+    const auto limit = value_of(block, flow.limit);
+    if (!limit) return limit.error().front();
+    const std::string& variable = block.names[flow.variable];
+    executor_.parameters().set(variable, *first);
+    goes = *first <= *limit;
+    if (goes) loops.push_back({here.place.offset, 0.0, variable, *limit});
+  }
+  if (!goes) frame().cursor.go_to(map[here.end].behind);
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::turn_loop(const Block& block, const Landmark& here) {
+  const ProgramMap& map = frame().program->map();
+  const Landmark& begin = map[here.begin];
+  if (begin.turns == Turns::while_true) {
+    frame().cursor.go_to(begin.place);
+    return std::nullopt;
+  }
+  if (begin.turns == Turns::until_end) {
+    if (!block.flow->condition.empty()) {
+      const auto again = holds(block, *block.flow);
+      if (!again) return again.error().front();
+      if (!*again) return std::nullopt;
+    }
+    frame().cursor.go_to(begin.behind);
+    return std::nullopt;
+  }
+  std::vector<CountedLoop>& loops = frame().loops;
+  const auto loop = std::find_if(loops.begin(), loops.end(), [&](const CountedLoop& candidate) {
+    return candidate.begin == begin.place.offset;
+  });
+  if (loop == loops.end()) {
+    return at(block, block.flow->column, "the end of a loop that was not begun",
+              fmt::format("the jump into it passed its beginning on line {}", begin.place.line));
+  }
+  loops.erase(loop + 1, loops.end());
+  if (begin.turns == Turns::counted) {
+    if (--loop->turns_left > 0.0) {
+      frame().cursor.go_to(begin.behind);
+    } else {
+      loops.pop_back();
+    }
+    return std::nullopt;
+  }
+  const auto value = executor_.parameters().read(loop->variable);
+  const double stepped = (value ? *value : 0.0) + 1.0;
+  executor_.parameters().set(loop->variable, stepped);
+  if (stepped <= loop->limit) {
+    frame().cursor.go_to(begin.behind);
+  } else {
+    loops.pop_back();
+  }
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::call(const Block& block) {
+  const FlowStatement& flow = *block.flow;
+  const auto name = label_of(block, flow);
+  if (!name) return name.error().front();
+  if (flow.arguments.size() > kMaxArguments) {
+    return at(block, flow.column, fmt::format("{} arguments in a call", flow.arguments.size()),
+              fmt::format("a subprogram takes up to {}", kMaxArguments));
+  }
+  std::vector<double> arguments;
+  for (const ExpressionRange& argument : flow.arguments) {
+    const auto value = value_of(block, argument);
+    if (!value) return value.error().front();
+    arguments.push_back(*value);
+  }
+  const auto count = count_of(block, flow.condition);
+  if (!count) return count.error().front();
+  if (*count == 0) return std::nullopt;
+  const auto holder = program_with(*name);
+  const Landmark* entry = holder == nullptr ? nullptr : holder->map().target(*name);
+  if (holder != nullptr && !holder->map().faults().empty()) return holder->map().faults().front();
+  if (entry == nullptr) {
+    return at(block, flow.column, unlabelled("no subprogram", *name),
+              options_.search_path.empty() ? "define it in the program"
+                                           : "define it in the program or in a file of its name");
+  }
+  CallFrame next{holder,        BlockCursor(holder->program()),
+                 *name,         rules_.dialect == Dialect::heidenhain ? "LBL 0" : "endsub",
+                 entry->behind, {entry->place.line, entry->column},
+                 *count,        true};
+  if (auto failure = push_call(block, flow.column, std::move(next))) return failure;
+  executor_.parameters().enter(arguments);
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::give_back(const Block& block) {
+  const FlowStatement& flow = *block.flow;
+  // Klartext passes the end of a subprogram that was not called.
+  if (frames_.size() == 1 && rules_.dialect == Dialect::heidenhain) return std::nullopt;
+  if (frames_.size() == 1) {
+    return at(block, flow.column, "return outside a subprogram", "end the main program with M2");
+  }
+  if (!flow.condition.empty()) {
+    const auto value = value_of(block, flow.condition);
+    if (!value) return value.error().front();
+    executor_.parameters().set("_value", *value);
+  }
+  executor_.parameters().set("_value_returned", flow.condition.empty() ? 0.0 : 1.0);
+  return_from_call();
+  return std::nullopt;
+}
+
+std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search search) {
+  const Program& program = frame().program->program();
+  const auto number = block_number_of(label);
+  const TextPlace here = frame().cursor.block_place();
+  const TextPlace start = frame().entry;
+  const auto found_in = [&](TextPlace from, std::uint64_t to) -> std::optional<TextPlace> {
+    BlockCursor cursor(program);
+    cursor.go_to(from);
+    while (true) {
+      const auto block = cursor.next();
+      if (!block) continue;
+      if (*block == nullptr || cursor.block_place().offset >= to) return std::nullopt;
+      // The next program of the file has numbers of its own.
+      if ((*block)->program && cursor.block_place().offset > start.offset) return std::nullopt;
+      if (number && (*block)->number == number) return cursor.block_place();
+    }
+  };
+  constexpr auto kEnd = std::numeric_limits<std::uint64_t>::max();
+  if (!number) {
+    const Landmark* target = frame().program->map().target(label);
+    if (target == nullptr) return std::nullopt;
+    const bool behind = target->place.offset > here.offset;
+    if ((search == Search::forward && !behind) || (search == Search::backward && behind))
+      return std::nullopt;
+    return target->place;
+  }
+  if (search == Search::forward) return found_in(frame().cursor.place(), kEnd);
+  if (search == Search::backward) return found_in(start, here.offset);
+  if (search == Search::from_start) return found_in(start, kEnd);
+  const auto ahead = found_in(frame().cursor.place(), kEnd);
+  return ahead ? ahead : found_in(start, here.offset);
+}
+
+ProgramRun::Failure ProgramRun::jump(const Block& block) {
+  const FlowStatement& flow = *block.flow;
+  if (!flow.condition.empty()) {
+    const auto condition = holds(block, flow);
+    if (!condition) return condition.error().front();
+    if (!*condition) return std::nullopt;
+  }
+  const auto label = label_of(block, flow);
+  if (!label) return label.error().front();
+  if (!block_number_of(*label) && !frame().program->map().faults().empty()) {
+    return frame().program->map().faults().front();
+  }
+  const auto target = find_label(*label, flow.search);
+  if (!target) {
+    return at(block, flow.column, fmt::format("there is no {} to go to", *label),
+              "the jump names a block or label of this program");
+  }
+  frame().cursor.go_to(*target);
+  frame().parts.clear();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::repeat(const Block& block) {
+  const FlowStatement& flow = *block.flow;
+  const auto count = count_of(block, flow.condition);
+  if (!count) return count.error().front();
+  const auto begin = find_label(flow.label, flow.search);
+  const auto end = flow.last_label.empty() ? std::optional(frame().cursor.block_place())
+                                           : find_label(flow.last_label, flow.search);
+  if (!begin || !end || end->offset < begin->offset) {
+    return at(
+        block, flow.column,
+        fmt::format("there is no part {} to repeat",
+                    flow.last_label.empty() ? flow.label : flow.label + " to " + flow.last_label),
+        "name labels of this program, the earlier one first");
+  }
+  if (*count == 0) return std::nullopt;
+  const TextPlace behind = frame().cursor.place();
+  frame().parts.push_back({*begin, end->offset, behind, *count - 1});
+  frame().cursor.go_to(*begin);
+  return std::nullopt;
+}
+
+}  // namespace frustum::parser

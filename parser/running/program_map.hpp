@@ -1,0 +1,68 @@
+// Where the flow statements, labels and numbered programs of a program stand and which belong together, so
+// that a jump need not read what it passes over. Made when the first one is looked for: most programs
+// have none.
+//
+// Units : places of program_text.hpp
+// Shape : one read of the whole text
+// Errors: faults(): an end without its beginning, a beginning without its end, else behind else, break outside a
+//         loop, a subprogram within another or of the same name, a label that is there twice. Blocks with a
+//         syntax error are passed over; they are told when they are run
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "parser/language/flow.hpp"
+#include "parser/program.hpp"
+
+namespace frustum::parser {
+
+struct Landmark {
+  TextPlace place{};   // of its block
+  TextPlace behind{};  // of what follows
+  FlowKind kind = FlowKind::label;
+  Turns turns = Turns::while_true;
+  std::uint32_t column = 0;
+  std::string label{};
+  // Indices of what belongs to it: the beginning of its statement (of a loop, for break and continue), the next
+  // part of it, and its end.
+  std::size_t begin = 0;
+  std::size_t next = 0;
+  std::size_t end = 0;
+};
+
+class ProgramMap {
+ public:
+  explicit ProgramMap(const Program& program);
+
+  [[nodiscard]] const Diagnostics& faults() const { return faults_; }
+  [[nodiscard]] const Landmark& operator[](std::size_t index) const { return landmarks_[index]; }
+  // In the order of the text.
+  [[nodiscard]] const std::vector<Landmark>& landmarks() const { return landmarks_; }
+  // The one whose block is at `place`, which must be one.
+  [[nodiscard]] const Landmark& at(TextPlace place) const;
+  // The subprogram or label of that name; null when there is none.
+  [[nodiscard]] const Landmark* target(std::string_view label) const;
+  // The program that O and a number begin.
+  struct Numbered {
+    TextPlace place{};
+    std::uint32_t column = 0;
+  };
+  [[nodiscard]] const std::map<std::uint32_t, Numbered>& programs() const { return programs_; }
+
+ private:
+  void pair(const Program& program);
+  void add_fault(const Program& program, const Landmark& landmark, std::string message,
+                 std::string hint);
+
+  std::vector<Landmark> landmarks_{};
+  std::map<std::string, std::size_t, std::less<>> targets_{};
+  std::map<std::uint32_t, Numbered> programs_{};
+  Diagnostics faults_{};
+};
+
+}  // namespace frustum::parser

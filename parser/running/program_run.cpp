@@ -1,0 +1,218 @@
+// The blocks in their order, and the calls that words make. Flow statements are in program_flow.cpp.
+#include "parser/running/program_run.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace frustum::parser {
+namespace {
+
+// P00032000: three times O2000.
+constexpr std::uint32_t kRepeatsFactor = 10'000;
+
+std::string known_programs(const ProgramMap& map) {
+  if (map.programs().empty())
+    return "the file holds no subprogram; begin one with O and its number";
+  std::string names = "the file holds";
+  for (const auto& entry : map.programs()) names += fmt::format(" O{}", entry.first);
+  return names;
+}
+
+bool does_something(const Block& block) {
+  return !block.words.empty() || !block.assignments.empty() || block.program || block.flow;
+}
+
+}  // namespace
+
+ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
+                       const InterpreterOptions& options)
+    : sink_(sink),
+      options_(options),
+      rules_(rules_of(program.dialect)),
+      executor_(program.dialect, options.start, sink),
+      main_(std::make_shared<LoadedProgram>(program)) {}
+
+Result<RunSummary> ProgramRun::operator()() {
+  frames_.push_back({main_, BlockCursor(main_->program())});
+  while (!frames_.empty()) {
+    auto failure = run_next();
+    if (!failure) continue;
+    Diagnostics failures{*std::move(failure)};
+    if (syntax_failed_) {
+      // The rest of the text is read for its own mistakes, so that they are mended together.
+      const auto more = syntax_errors(frame().program->program(), frame().cursor.place());
+      failures.insert(failures.end(), more.begin(), more.end());
+    }
+    return failures;
+  }
+  return RunSummary{executor_.state(), blocks_};
+}
+
+ProgramRun::Failure ProgramRun::run_next() {
+  repeat_part_that_ended();
+  auto next = frame().cursor.next();
+  if (!next) {
+    syntax_failed_ = true;
+    return std::move(next).error().front();
+  }
+  if (*next == nullptr) return run_off(nullptr);
+  const Block& block = **next;
+  if (frame().opened && (block.tape_mark || block.program)) return run_off(&block);
+  if (!frame().opened && does_something(block)) {
+    frame().opened = true;
+    if (frames_.size() == 1) frame().entry = frame().cursor.block_place();
+  }
+  if (++blocks_ > options_.max_blocks) {
+    return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks),
+              "look for repeats within repeats, and for loops whose condition never changes");
+  }
+  if (block.deletable && options_.block_delete) {
+    sink_(Motion{{block.line, 1}, Event{"block_delete", {}}});
+    return std::nullopt;
+  }
+  return block.flow ? follow_statement(block) : execute(block);
+}
+
+ProgramRun::Failure ProgramRun::execute(const Block& block) {
+  auto flow = executor_.execute(block);
+  if (!flow) return in_this_file(std::move(flow).error().front());
+  return std::visit([&](const auto& wish) { return follow(block, wish); }, *flow);
+}
+
+Diagnostic ProgramRun::in_this_file(Diagnostic diagnostic) const {
+  diagnostic.file = frames_.back().program->program().file;
+  return diagnostic;
+}
+
+ProgramRun::Failure ProgramRun::run_off(const Block* end) {
+  if (frames_.size() > 1) {
+    Diagnostic failure =
+        in_this_file(error(fmt::format("subprogram {} has no {}", frame().name, frame().end),
+                           fmt::format("end the subprogram with {}", frame().end)));
+    failure.line = static_cast<int>(frame().named.line);
+    failure.column = static_cast<int>(frame().named.column);
+    return failure;
+  }
+  if (end != nullptr && end->program) {
+    return at(*end, end->program_column, fmt::format("the program runs into O{}", *end->program),
+              "end the main program with M30");
+  }
+  frames_.clear();
+  return std::nullopt;
+}
+
+void ProgramRun::return_from_call() {
+  CallFrame& done = frame();
+  if (--done.runs_left > 0) {
+    done.cursor.go_to(done.entry);
+    done.opened = false;
+    done.loops.clear();
+    done.parts.clear();
+    return;
+  }
+  if (done.has_locals) executor_.parameters().leave();
+  executor_.leave_call();
+  frames_.pop_back();
+}
+
+void ProgramRun::repeat_part_that_ended() {
+  CallFrame& here = frame();
+  while (!here.parts.empty() && here.cursor.place().offset == here.parts.back().end) {
+    RepeatedPart& part = here.parts.back();
+    if (part.turns_left-- > 0) return here.cursor.go_to(part.begin);
+    here.cursor.go_to(part.behind);
+    here.parts.pop_back();
+  }
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const NextBlock& /*next*/) {
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const EndProgram& /*end*/) {
+  frames_.clear();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram& leave) {
+  if (frames_.size() == 1) {
+    return at(block, leave.column, "M99 in the main program would repeat it for ever",
+              "end the main program with M30");
+  }
+  return_from_call();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) {
+  std::shared_ptr<LoadedProgram> holder = frame().program;
+  const auto has = [&](std::uint32_t number) { return holder->map().programs().contains(number); };
+  if (!has(call.program) && !call.counted && call.program >= kRepeatsFactor &&
+      has(call.program % kRepeatsFactor)) {
+    call.count = call.program / kRepeatsFactor;
+    call.program %= kRepeatsFactor;
+  }
+  const std::string name = fmt::format("O{}", call.program);
+  if (!has(call.program)) {
+    holder = file_of(name);
+    if (holder == nullptr || !has(call.program)) {
+      return at(block, call.column, fmt::format("subprogram {} does not exist", name),
+                known_programs(frame().program->map()));
+    }
+  }
+  if (call.count == 0) return std::nullopt;
+  const auto& entry = holder->map().programs().at(call.program);
+  CallFrame next{holder,      BlockCursor(holder->program()),   name,      "M99",
+                 entry.place, {entry.place.line, entry.column}, call.count};
+  next.has_locals = call.arguments.has_value();
+  if (auto failure = push_call(block, call.column, std::move(next))) return failure;
+  if (call.arguments) executor_.parameters().enter(*call.arguments);
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t column,
+                                          CallFrame next) {
+  if (frames_.size() > options_.max_call_depth) {
+    return at(block, column,
+              fmt::format("more than {} subprograms within each other", options_.max_call_depth),
+              fmt::format("does {} call itself?", next.name));
+  }
+  next.cursor.go_to(next.entry);
+  frames_.push_back(std::move(next));
+  executor_.enter_call();
+  return std::nullopt;
+}
+
+std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
+  const auto [place, fresh] = files_.try_emplace(name);
+  if (!fresh) return place->second;
+  for (const auto& folder : options_.search_path) {
+    for (const std::string_view pattern : rules_.file_names) {
+      const auto file = folder / fmt::format(fmt::runtime(pattern), name);
+      if (!std::filesystem::is_regular_file(file)) continue;
+      auto program = open_program(file, rules_.dialect);
+      if (!program) continue;
+      place->second = std::make_shared<LoadedProgram>(*std::move(program));
+      return place->second;
+    }
+  }
+  return nullptr;
+}
+
+std::shared_ptr<LoadedProgram> ProgramRun::program_with(const std::string& name) {
+  for (const auto& candidate : {frame().program, main_}) {
+    if (candidate->map().target(name) != nullptr) return candidate;
+  }
+  return file_of(name);
+}
+
+Diagnostic ProgramRun::at(const Block& block, std::uint32_t column, std::string message,
+                          std::string hint) const {
+  const SourcePlace place = block.place_of(column);
+  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  diagnostic.line = static_cast<int>(place.line);
+  diagnostic.column = static_cast<int>(place.column);
+  return in_this_file(std::move(diagnostic));
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,34 @@
+// The parameters that a controller keeps itself: where the tool is, which modes are on.
+//
+//   LinuxCNC   #<_x>, #<_feed>, #<_motion_mode>, ..., #5420 to #5425, #5220, #5400
+//   Fanuc      #5001 to #5006 (end of the last block), #4001 to #4120 (modes)
+//
+// Units : positions in the program's own unit (mm or inch) and degrees, feeds per minute in it
+// Errors: none; no value for what is not such a parameter, or for a position that is not known
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "parser/dialect.hpp"
+#include "parser/language/parameters.hpp"
+#include "parser/running/modal_state.hpp"
+#include "parser/running/program_position.hpp"
+
+namespace frustum::parser {
+
+class SystemParameters final : public KeptParameters {
+ public:
+  SystemParameters(Dialect of, const ModalState& modes, const ProgramPosition& place)
+      : dialect(of), state(modes), position(place) {}
+
+  [[nodiscard]] std::optional<double> number(int index) const override;
+  [[nodiscard]] std::optional<double> named(std::string_view name) const override;
+
+  Dialect dialect;
+  const ModalState& state;
+  const ProgramPosition& position;
+  int call_level = 0;
+};
+
+}  // namespace frustum::parser

@@ -1,0 +1,93 @@
+#include "parser/running/word_frame.hpp"
+
+#include <variant>
+
+#include "parser/arc.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr double kSameDirection = 1e-12;
+constexpr std::array kLinear{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
+
+bool all_known(const AxisTarget& target) {
+  return target[AxisLetter::X] && target[AxisLetter::Y] && target[AxisLetter::Z];
+}
+
+Vec3 point_of(const AxisTarget& target) {
+  return {*target[AxisLetter::X], *target[AxisLetter::Y], *target[AxisLetter::Z]};
+}
+
+void set_point(AxisTarget& target, const Vec3& point) {
+  for (const AxisLetter axis : kLinear) target[axis] = point[static_cast<Eigen::Index>(axis)];
+}
+
+}  // namespace
+
+bool WordFrame::turns() const {
+  return !turn.rotation.isIdentity(0.0) || !turn.translation.isZero(0.0);
+}
+
+bool WordFrame::is_identity() const {
+  return shift.isZero(0.0) && rotary_shift == std::array<double, 3>{} && !turns();
+}
+
+AxisTarget WordFrame::from_words(const AxisTarget& words) const {
+  AxisTarget place = words;
+  for (std::size_t i = 0; i < rotary_shift.size(); ++i) {
+    auto& angle = place[static_cast<AxisLetter>(3 + i)];
+    if (angle) *angle += rotary_shift.at(i);
+  }
+  if (!turns()) {
+    for (const AxisLetter axis : kLinear) {
+      if (place[axis]) *place[axis] += shift[static_cast<Eigen::Index>(axis)];
+    }
+  } else if (all_known(words)) {
+    set_point(place, point(point_of(words)));
+  } else {
+    for (const AxisLetter axis : kLinear) place[axis].reset();
+  }
+  return place;
+}
+
+AxisTarget WordFrame::to_words(const AxisTarget& place) const {
+  AxisTarget words = place;
+  for (std::size_t i = 0; i < rotary_shift.size(); ++i) {
+    auto& angle = words[static_cast<AxisLetter>(3 + i)];
+    if (angle) *angle -= rotary_shift.at(i);
+  }
+  if (!turns()) {
+    for (const AxisLetter axis : kLinear) {
+      if (words[axis]) *words[axis] -= shift[static_cast<Eigen::Index>(axis)];
+    }
+  } else if (all_known(place)) {
+    set_point(words, turn.inverse().point(point_of(place)) - shift);
+  } else {
+    for (const AxisLetter axis : kLinear) words[axis].reset();
+  }
+  return words;
+}
+
+void WordFrame::place(Command& command) const {
+  const auto straight = [&](auto& move) {
+    if (move.coordinates == Coordinates::machine) return;
+    move.end = from_words(move.end);
+    if (move.tool_axis) move.tool_axis = UnitVec3::of(turn.direction(*move.tool_axis));
+  };
+  if (auto* traverse = std::get_if<Traverse>(&command)) {
+    straight(*traverse);
+  } else if (auto* feed = std::get_if<LinearFeed>(&command)) {
+    straight(*feed);
+  } else if (auto* arc = std::get_if<ArcFeed>(&command)) {
+    arc->end = from_words(arc->end);
+    arc->center = point(arc->center);
+    if (arc->tool_axis) arc->tool_axis = UnitVec3::of(turn.direction(*arc->tool_axis));
+  }
+}
+
+bool WordFrame::keeps(Plane plane) const {
+  const Vec3 normal = Vec3::Unit(axes_of(plane).w);
+  return (turn.direction(normal) - normal).norm() < kSameDirection;
+}
+
+}  // namespace frustum::parser
