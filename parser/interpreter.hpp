@@ -25,6 +25,7 @@
 #include "parser/program.hpp"
 #include "parser/running/block_executor.hpp"
 #include "parser/running/modal_state.hpp"
+#include "parser/tool_table.hpp"
 
 namespace frustum::parser {
 
@@ -33,6 +34,8 @@ struct InterpreterOptions {
   bool block_delete = false;
   // Where the axes stand at the start, in program coordinates, as far as it is known (mm, rad).
   AxisTarget start{};
+  // What D, H and T words refer to. G10 L1 of a program changes its own copy.
+  ToolTable tools{};
   // Subprograms within subprograms.
   std::size_t max_call_depth = 32;
   // Folders with subprograms of their own file, in this order.

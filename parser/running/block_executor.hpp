@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "parser/running/modal_state.hpp"
 #include "parser/running/program_position.hpp"
 #include "parser/running/system_parameters.hpp"
+#include "parser/tool_table.hpp"
 
 namespace frustum::parser {
 
@@ -50,9 +52,10 @@ class BlockExecutor {
  public:
   BlockExecutor(const BlockExecutor&) = delete;  // its parameters look at its state
   BlockExecutor& operator=(const BlockExecutor&) = delete;
-  BlockExecutor(Dialect dialect, const AxisTarget& start, const MotionSink& sink)
+  BlockExecutor(Dialect dialect, const AxisTarget& start, ToolTable tools, const MotionSink& sink)
       : rules_(rules_of(dialect)),
         sink_(sink),
+        tools_(std::move(tools)),
         position_(start),
         parameters_(rules_.parameters, &system_) {
     state_.retract_to_initial = rules_.cycles.retract_to_initial;
@@ -143,6 +146,7 @@ class BlockExecutor {
 
   const DialectRules& rules_;
   const MotionSink& sink_;
+  ToolTable tools_;
   ModalState state_;
   ProgramPosition position_;
   // Modes that M70 and M73 keep, of the main program and each call.

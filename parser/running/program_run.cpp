@@ -30,7 +30,7 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
     : sink_(sink),
       options_(options),
       rules_(rules_of(program.dialect)),
-      executor_(program.dialect, options.start, sink),
+      executor_(program.dialect, options.start, options.tools, sink),
       main_(std::make_shared<LoadedProgram>(program)) {}
 
 Result<RunSummary> ProgramRun::operator()() {
