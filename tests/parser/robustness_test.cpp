@@ -11,7 +11,7 @@
 namespace frustum::parser {
 namespace {
 
-constexpr InterpreterOptions kShort{
+const InterpreterOptions kShort{
     .block_delete = false, .max_call_depth = 32, .max_blocks = 2000};
 
 // Reads and runs; a failure must say where and what to do.
