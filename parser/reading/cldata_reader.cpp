@@ -10,6 +10,7 @@
 
 #include "parser/dialects/code_table.hpp"
 #include "parser/motion.hpp"
+#include "parser/reading/block_draft.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/line_scanner.hpp"
 
@@ -79,7 +80,7 @@ class CldataReader {
     for (const char* text : kTexts) {
       // The word may run into its text: PARTNOFLANGE.
       if (name_.starts_with(text)) {
-        in_.go_back_to(column_ + 6);
+        in_.go_to(column_ + 6);
         in_.take('/');
         block_.comments.push_back(
             {column_, false, in_.text_to(), text == kTexts[1] ? "message" : text});

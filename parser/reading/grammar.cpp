@@ -411,25 +411,22 @@ Result<Block> parse_block(std::string_view text, std::uint32_t line) {
   return builder.take();
 }
 
-std::optional<Diagnostic> append_expression(std::string_view text, std::size_t& offset,
-                                            Block& block, ExpressionRange& range) {
+void append_rs274_expression(LineScanner& in, Block& block, ExpressionRange& range) {
+  const std::string_view text = in.text();
   BlockBuilder builder(text, std::move(block));
-  Iterator first = text.data() + offset;
+  Iterator first = text.data() + (in.column() - 1);
   const Iterator last = text.data() + text.size();
-  std::optional<Diagnostic> failure;
   try {
     range.first = builder.first_step();
     x3::phrase_parse(first, last, x3::with<BuilderTag>(std::ref(builder))[x3::eps > value], kBlank);
     range.count = builder.first_step() - range.first;
   } catch (const x3::expectation_failure<Iterator>& stopped) {
-    failure = builder.failure(stopped.where(), stopped.which());
+    in.fail(builder.failure(stopped.where(), stopped.which()));
   } catch (const SyntaxStop& stopped) {
-    failure = stopped.diagnostic;
+    in.fail(stopped.diagnostic);
   }
-  offset = static_cast<std::size_t>(first - text.data());
+  in.go_to(static_cast<std::uint32_t>(first - text.data()) + 1);
   block = builder.take();
-  if (failure) failure->line = static_cast<int>(block.line);
-  return failure;
 }
 
 }  // namespace frustum::parser

@@ -24,20 +24,18 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "core/result.hpp"
 #include "parser/language/block.hpp"
+#include "parser/reading/line_scanner.hpp"
 
 namespace frustum::parser {
 
 // `text` is one line without its line feed.
 [[nodiscard]] Result<Block> parse_block(std::string_view text, std::uint32_t line);
 
-// One `value` of the text from `offset` on, put behind the steps of the block; `offset` moves behind it.
-[[nodiscard]] std::optional<Diagnostic> append_expression(std::string_view text,
-                                                          std::size_t& offset, Block& block,
-                                                          ExpressionRange& range);
+// One `value` at the scanner, put behind the steps of the block.
+void append_rs274_expression(LineScanner& in, Block& block, ExpressionRange& range);
 
 }  // namespace frustum::parser

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 
-#include "parser/dialects/code_table.hpp"
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/syntax_error.hpp"
 
@@ -44,10 +43,21 @@ bool LineScanner::take(char expected) {
   return true;
 }
 
+bool LineScanner::take_sign(std::string_view expected) {
+  if (peek() != expected.front()) return false;
+  const std::uint32_t start = column();
+  for (const char c : expected) {
+    if (take(c)) continue;
+    go_to(start);
+    return false;
+  }
+  return true;
+}
+
 bool LineScanner::take_name(std::string_view expected) {
   const std::uint32_t start = column();
   if (name() == expected) return true;
-  go_back_to(start);
+  go_to(start);
   return false;
 }
 
@@ -73,7 +83,7 @@ std::string LineScanner::name() {
 std::string LineScanner::next_name() {
   const std::uint32_t start = column();
   std::string found = name();
-  go_back_to(start);
+  go_to(start);
   return found;
 }
 
@@ -124,13 +134,17 @@ double LineScanner::signed_number(std::string_view whose, std::uint32_t whose_co
   return (negative ? -found->value : found->value) + 0.0;
 }
 
-std::string LineScanner::text_to(std::string_view stops) {
+std::string_view LineScanner::bytes_to(std::string_view stops) {
   if (failed()) return {};
-  place_ = std::min(text_.find_first_not_of(" \t\r", place_), text_.size());
   const std::size_t start = place_;
   place_ = std::min(text_.find('\n', start), text_.size());
   if (!stops.empty()) place_ = std::min(text_.find_first_of(stops, start), place_);
-  std::string_view found = text_.substr(start, place_ - start);
+  return text_.substr(start, place_ - start);
+}
+
+std::string LineScanner::text_to(std::string_view stops) {
+  std::string_view found = bytes_to(stops);
+  found.remove_prefix(std::min(found.find_first_not_of(" \t\r"), found.size()));
   found = found.substr(0, found.find_last_not_of(" \t\r") + 1);
   return utf8_of(found);
 }
@@ -144,6 +158,10 @@ void LineScanner::fail(std::uint32_t column, std::string message, std::string hi
   if (failed()) return;
   failure_ = error(std::move(message), std::move(hint));
   failure_->column = static_cast<int>(column);
+}
+
+void LineScanner::fail(Diagnostic failure) {
+  if (!failed()) failure_ = std::move(failure);
 }
 
 void LineScanner::fail_unexpected(std::string hint) {
@@ -163,24 +181,6 @@ Result<Block> LineScanner::finish(Block&& block) const {
     diagnostic.column -= static_cast<int>(feed) + 1;
   }
   return diagnostic;
-}
-
-void add_code(Block& block, const Code& code, std::uint32_t column) {
-  Word word;
-  word.letter = kNamedWord;
-  word.column = column;
-  word.number = row_of(code);
-  block.words.push_back(word);
-}
-
-void add_number(Block& block, char letter, double number, std::uint32_t column,
-                const char* spelled) {
-  Word word;
-  word.letter = letter;
-  word.column = column;
-  word.number = number;
-  word.spelled = spelled;
-  block.words.push_back(word);
 }
 
 }  // namespace frustum::parser

@@ -26,12 +26,15 @@ class LineScanner {
  public:
   LineScanner(std::string_view text, std::uint32_t line);
 
+  [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] bool at_end();
   // The next character that is not blank, in upper case; 0 at the end.
   [[nodiscard]] char peek();
   // Like peek(), but of the very next byte.
   [[nodiscard]] char peek_byte() const;
   bool take(char expected);
+  // All characters of the sign, or none.
+  bool take_sign(std::string_view expected);
   // The whole name when it is `expected`.
   bool take_name(std::string_view expected);
   // A run of letters, in upper case; empty when there is none.
@@ -48,11 +51,16 @@ class LineScanner {
   // To the end of the line, or up to one of `stops`; blanks at both ends are left out.
   [[nodiscard]] std::string text_to(std::string_view stops = {});
 
+  // The same with its blanks and as the bytes are.
+  [[nodiscard]] std::string_view bytes_to(std::string_view stops = {});
+
   // Of the next token.
   [[nodiscard]] std::uint32_t column();
-  void go_back_to(std::uint32_t column) { place_ = column - 1; }
+  void go_to(std::uint32_t column) { place_ = column - 1; }
   [[nodiscard]] bool failed() const { return failure_.has_value(); }
   void fail(std::uint32_t column, std::string message, std::string hint);
+  // One that knows its column.
+  void fail(Diagnostic failure);
   void fail_unexpected(std::string hint);
   // The block, or the failure.
   [[nodiscard]] Result<Block> finish(Block&& block) const;
@@ -65,12 +73,5 @@ class LineScanner {
   std::size_t place_ = 0;
   std::optional<Diagnostic> failure_{};
 };
-
-// Adds a word that has no number of its own: a code of the table.
-struct Code;
-void add_code(Block& block, const Code& code, std::uint32_t column);
-// A letter with a plain number.
-void add_number(Block& block, char letter, double number, std::uint32_t column,
-                const char* spelled = nullptr);
 
 }  // namespace frustum::parser

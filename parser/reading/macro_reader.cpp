@@ -4,28 +4,27 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string>
 
 #include "parser/reading/grammar.hpp"
+#include "parser/reading/line_scanner.hpp"
 
 namespace frustum::parser {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
 
 // The words around a statement (N, /, comments, what THEN does) are read by the grammar of blocks, with
 // the statement blanked out so that columns stay what they are.
 class MacroReader {
  public:
   MacroReader(std::string_view text, std::uint32_t line, std::size_t start)
-      : text_(text), place_(start), start_(start) {
+      : text_(text), in_(text, line), start_(start) {
     block_.line = line;
+    in_.go_to(static_cast<std::uint32_t>(start) + 1);
   }
 
   Result<Block> operator()() {
-    flow_.column = column();
-    const std::string keyword = letters();
+    flow_.column = in_.column();
+    const std::string keyword = in_.letters();
     if (keyword == "WHILE") {
       read_while();
     } else if (keyword == "DO") {
@@ -40,7 +39,7 @@ class MacroReader {
     } else {
       read_jump();
     }
-    if (failure_) return *failure_;
+    if (in_.failed()) return in_.finish(std::move(block_));
     return around_statement();
   }
 
@@ -48,20 +47,21 @@ class MacroReader {
   void read_while() {
     flow_.kind = FlowKind::loop;
     read_condition("WHILE");
-    if (failure_) return;
-    const std::uint32_t at = column();
-    if (letters() != "DO") return fail(at, "WHILE has no DO", "write WHILE [#1 LT 5] DO1");
+    if (in_.failed()) return;
+    const std::uint32_t at = in_.column();
+    if (in_.letters() != "DO") return in_.fail(at, "WHILE has no DO", "write WHILE [#1 LT 5] DO1");
     read_loop_number();
   }
 
   void read_if() {
     read_condition("IF");
-    if (failure_) return;
-    const std::uint32_t at = column();
-    const std::string keyword = letters();
+    if (in_.failed()) return;
+    const std::uint32_t at = in_.column();
+    const std::string keyword = in_.letters();
     if (keyword == "GOTO") return read_jump();
     if (keyword != "THEN") {
-      return fail(at, "IF has neither GOTO nor THEN", "write IF [c] GOTO 100 or IF [c] THEN #1=2");
+      return in_.fail(at, "IF has neither GOTO nor THEN",
+                      "write IF [c] GOTO 100 or IF [c] THEN #1=2");
     }
     flow_.kind = FlowKind::only_if;
   }
@@ -72,44 +72,44 @@ class MacroReader {
     flow_.label = std::string(1, 'N');
     if (const std::string digits = number(); !digits.empty()) {
       flow_.label += digits;
-    } else if (peek() == '#' || peek() == '[') {
-      failure_ = append_expression(text_, place_, block_, flow_.label_value);
+    } else if (in_.peek() == '#' || in_.peek() == '[') {
+      read_expression(flow_.label_value);
     } else {
-      fail(column(), "GOTO has no block number", "write GOTO 100, or GOTO #1");
+      in_.fail(in_.column(), "GOTO has no block number", "write GOTO 100, or GOTO #1");
     }
   }
 
   void read_loop_number() {
-    const std::uint32_t at = column();
+    const std::uint32_t at = in_.column();
     flow_.label = number();
     if (flow_.label != "1" && flow_.label != "2" && flow_.label != "3") {
-      fail(at, "DO and END take a number from 1 to 3", "write DO1 and END1");
+      in_.fail(at, "DO and END take a number from 1 to 3", "write DO1 and END1");
     }
   }
 
   void read_condition(std::string_view keyword) {
-    if (peek() != '[') {
-      return fail(column(), fmt::format("{} has no condition", keyword),
-                  fmt::format("write it in brackets: {} [#1 LT 5]", keyword));
+    if (in_.peek() != '[') {
+      return in_.fail(in_.column(), fmt::format("{} has no condition", keyword),
+                      fmt::format("write it in brackets: {} [#1 LT 5]", keyword));
     }
-    failure_ = append_expression(text_, place_, block_, flow_.condition);
+    read_expression(flow_.condition);
   }
 
   Result<Block> around_statement() {
     std::string around(text_);
     std::fill(around.begin() + static_cast<std::ptrdiff_t>(start_),
-              around.begin() + static_cast<std::ptrdiff_t>(place_), ' ');
+              around.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
     auto read = parse_block(around, block_.line);
     if (!read) return read;
     Block whole = *std::move(read);
     const bool acts = !whole.words.empty() || !whole.assignments.empty();
     if (flow_.kind == FlowKind::only_if && !acts) {
-      fail(column(), "THEN does nothing", "write a setting behind it: THEN #1=2");
+      in_.fail(in_.column(), "THEN does nothing", "write a setting behind it: THEN #1=2");
     } else if (flow_.kind != FlowKind::only_if && acts) {
-      fail(whole.words.empty() ? whole.assignments.front().column : whole.words.front().column,
-           "words beside a statement", "write two blocks");
+      in_.fail(whole.words.empty() ? whole.assignments.front().column : whole.words.front().column,
+               "words beside a statement", "write two blocks");
     }
-    if (failure_) return *failure_;
+    if (in_.failed()) return in_.finish(std::move(block_));
     append_steps(whole);
     whole.flow = std::move(flow_);
     return whole;
@@ -131,43 +131,22 @@ class MacroReader {
     }
   }
 
-  std::string letters() {
-    (void)peek();
-    std::string run;
-    while (place_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[place_])) != 0) {
-      run += static_cast<char>(std::toupper(static_cast<unsigned char>(text_[place_++])));
-    }
-    return run;
-  }
   // Digits without leading zeros; empty when there are none.
   std::string number() {
-    (void)peek();
-    const std::size_t start = place_;
-    while (place_ < text_.size() && text_[place_] >= '0' && text_[place_] <= '9') ++place_;
-    if (place_ == start) return {};
-    const std::size_t nonzero = std::min(text_.find_first_not_of('0', start), place_ - 1);
-    return std::string(text_.substr(nonzero, place_ - nonzero));
+    const std::string_view digits = in_.digits();
+    const std::size_t nonzero = digits.find_first_not_of('0');
+    if (digits.empty() || nonzero != std::string_view::npos) {
+      return std::string(digits.substr(std::min(nonzero, digits.size())));
+    }
+    return "0";
   }
-  char peek() {
-    place_ = std::min(text_.find_first_not_of(kBlanks, place_), text_.size());
-    return place_ < text_.size() ? text_[place_] : '\0';
-  }
-  std::uint32_t column() {
-    (void)peek();
-    return static_cast<std::uint32_t>(place_) + 1;
-  }
-  void fail(std::uint32_t column, std::string message, std::string hint) {
-    failure_ = error(std::move(message), std::move(hint));
-    failure_->line = static_cast<int>(block_.line);
-    failure_->column = static_cast<int>(column);
-  }
+  void read_expression(ExpressionRange& range) { append_rs274_expression(in_, block_, range); }
 
   std::string_view text_;
-  std::size_t place_;
+  LineScanner in_;
   std::size_t start_;
   Block block_{};
   FlowStatement flow_{};
-  std::optional<Diagnostic> failure_{};
 };
 
 // Where a statement begins, behind N and /; npos when the block has none.

@@ -6,9 +6,11 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <optional>
 
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/grammar.hpp"
+#include "parser/reading/line_scanner.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -48,75 +50,65 @@ constexpr std::string_view kKnown =
 
 class OWordReader {
  public:
-  OWordReader(std::string_view text, std::uint32_t line) : text_(text) { block_.line = line; }
+  OWordReader(std::string_view text, std::uint32_t line) : in_(text, line) { block_.line = line; }
 
   // The statement, when the block begins with one.
   std::optional<Result<Block>> operator()() {
-    if (take('/')) block_.deletable = true;
-    if (peek() == 'n') {
-      ++place_;
-      block_.number = number();
-    }
-    if (take('/')) block_.deletable = true;
-    if (peek() != 'o') return std::nullopt;
-    flow_.column = column();
-    ++place_;
-    if (!read_label()) return finish();
-    const std::uint32_t keyword_column = column();
-    const std::string keyword = letters();
+    if (in_.take('/')) block_.deletable = true;
+    if (in_.take('N')) block_.number = number();
+    if (in_.take('/')) block_.deletable = true;
+    flow_.column = in_.column();
+    if (!in_.take('O')) return std::nullopt;
+    if (!read_label()) return in_.finish(std::move(block_));
+    const std::uint32_t keyword_column = in_.column();
+    const std::string keyword = lower_case(in_.letters());
     // O100 alone begins a numbered program.
     if (keyword.empty() && only_digits_) return std::nullopt;
     const auto* known = std::find_if(kKeywords.begin(), kKeywords.end(),
                                      [&](const Keyword& k) { return k.name == keyword; });
     if (known == kKeywords.end()) {
-      fail(keyword_column,
-           keyword.empty() ? "the O word has no keyword" : "unknown O word " + keyword,
-           std::string(kKnown));
-      return finish();
+      in_.fail(keyword_column,
+               keyword.empty() ? "the O word has no keyword" : "unknown O word " + keyword,
+               std::string(kKnown));
+      return in_.finish(std::move(block_));
     }
     flow_.kind = known->kind;
     flow_.turns = known->turns;
     read_values(*known);
     read_comments();
     block_.flow = std::move(flow_);
-    return finish();
+    return in_.finish(std::move(block_));
   }
 
  private:
   bool read_label() {
-    const std::uint32_t start = column();
-    if (take('<')) {
-      const std::size_t end = text_.find('>', place_);
-      if (end == std::string_view::npos) {
-        fail(start, "the name is not closed", "write o<name>");
-        return false;
-      }
-      for (const char c : text_.substr(place_, end - place_)) {
-        if (kBlanks.find(c) == std::string_view::npos) flow_.label += lower(c);
-      }
-      place_ = end + 1;
-      if (flow_.label.empty()) fail(start, "the O word has no name", "write o<name>");
-      return !failure_;
+    const std::uint32_t start = in_.column();
+    if (in_.take('<')) {
+      flow_.label = lower_case(in_.bytes_to(">"));
+      std::erase_if(flow_.label, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
+      if (!in_.take('>')) in_.fail(start, "the name is not closed", "write o<name>");
+      if (flow_.label.empty()) in_.fail(start, "the O word has no name", "write o<name>");
+      return !in_.failed();
     }
     if (const auto digits = number()) {
       flow_.label = std::to_string(*digits);
       only_digits_ = true;
       return true;
     }
-    if (peek() == '[' || peek() == '#') return read_expression(flow_.label_value);
-    if (!failure_) fail(start, "O has no number or name", "write o100 or o<name>");
+    if (in_.peek() == '[' || in_.peek() == '#') return read_expression(flow_.label_value);
+    in_.fail(start, "O has no number or name", "write o100 or o<name>");
     return false;
   }
 
   void read_values(const Keyword& keyword) {
-    const bool given = peek() == '[';
+    const bool given = in_.peek() == '[';
     if (keyword.needs == Needs::expression && !given) {
-      fail(column(), fmt::format("{} has no expression", keyword.name),
-           fmt::format("write it in brackets: {} [#1 LT 5]", keyword.name));
+      in_.fail(in_.column(), fmt::format("{} has no expression", keyword.name),
+               fmt::format("write it in brackets: {} [#1 LT 5]", keyword.name));
     } else if (keyword.needs == Needs::nothing && given) {
-      fail(column(), fmt::format("{} takes no expression", keyword.name), "leave it out");
+      in_.fail(in_.column(), fmt::format("{} takes no expression", keyword.name), "leave it out");
     } else if (keyword.needs == Needs::arguments) {
-      while (!failure_ && peek() == '[') {
+      while (in_.peek() == '[') {
         flow_.arguments.emplace_back();
         read_expression(flow_.arguments.back());
       }
@@ -126,87 +118,46 @@ class OWordReader {
   }
 
   void read_comments() {
-    while (!failure_ && peek() != 0) {
-      const std::uint32_t start = column();
-      if (take(';')) {
-        block_.comments.push_back({start, true, utf8_of(text_.substr(place_)), nullptr});
-        place_ = text_.size();
-      } else if (take('(')) {
-        const std::size_t end = text_.find(')', place_);
-        if (end == std::string_view::npos) {
-          return fail(start, "the comment is not closed", "close it with )");
-        }
-        block_.comments.push_back(
-            {start, false, utf8_of(text_.substr(place_, end - place_)), nullptr});
-        place_ = end + 1;
+    while (!in_.at_end()) {
+      const std::uint32_t start = in_.column();
+      if (in_.take(';')) {
+        block_.comments.push_back({start, true, utf8_of(in_.bytes_to()), nullptr});
+      } else if (in_.take('(')) {
+        block_.comments.push_back({start, false, utf8_of(in_.bytes_to(")")), nullptr});
+        if (!in_.take(')')) in_.fail(start, "the comment is not closed", "close it with )");
       } else {
-        fail(start, "text behind an O word", "an O word stands alone in its block");
+        in_.fail(start, "text behind an O word", "an O word stands alone in its block");
       }
     }
   }
 
   bool read_expression(ExpressionRange& range) {
-    failure_ = append_expression(text_, place_, block_, range);
-    return !failure_;
+    append_rs274_expression(in_, block_, range);
+    return !in_.failed();
   }
 
   // Up to 8 digits.
   std::optional<std::uint32_t> number() {
-    (void)peek();
+    const std::uint32_t start = in_.column();
+    const std::string_view digits = in_.digits();
+    if (digits.empty()) return std::nullopt;
     std::uint32_t value = 0;
-    const std::size_t start = place_;
-    while (place_ < text_.size() && text_[place_] >= '0' && text_[place_] <= '9') ++place_;
-    if (place_ == start) return std::nullopt;
-    const auto read = std::from_chars(text_.data() + start, text_.data() + place_, value);
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (read.ec != std::errc{}) {
-      fail(static_cast<std::uint32_t>(start) + 1, "the number is too large",
-           "N and O numbers have up to 8 digits");
+      in_.fail(start, "the number is too large", "N and O numbers have up to 8 digits");
     }
     return value;
   }
-
-  std::string letters() {
-    (void)peek();
-    std::string run;
-    while (place_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[place_])) != 0) {
-      run += lower(text_[place_++]);
-    }
-    return run;
+  static std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
   }
 
-  // The next character that is not blank, in lower case; 0 at the end.
-  char peek() {
-    place_ = std::min(text_.find_first_not_of(kBlanks, place_), text_.size());
-    return place_ < text_.size() ? lower(text_[place_]) : '\0';
-  }
-  bool take(char expected) {
-    if (peek() != expected) return false;
-    ++place_;
-    return true;
-  }
-  static char lower(char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  std::uint32_t column() {
-    (void)peek();
-    return static_cast<std::uint32_t>(place_) + 1;
-  }
-  void fail(std::uint32_t column, std::string message, std::string hint) {
-    failure_ = error(std::move(message), std::move(hint));
-    failure_->line = static_cast<int>(block_.line);
-    failure_->column = static_cast<int>(column);
-  }
-  Result<Block> finish() {
-    if (failure_) return *failure_;
-    return std::move(block_);
-  }
-
-  std::string_view text_;
-  std::size_t place_ = 0;
+  LineScanner in_;
   Block block_{};
   FlowStatement flow_{};
   bool only_digits_ = false;
-  std::optional<Diagnostic> failure_{};
 };
 
 }  // namespace

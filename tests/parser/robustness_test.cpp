@@ -11,8 +11,7 @@
 namespace frustum::parser {
 namespace {
 
-const InterpreterOptions kShort{
-    .block_delete = false, .max_call_depth = 32, .max_blocks = 2000};
+const InterpreterOptions kShort{.block_delete = false, .max_call_depth = 32, .max_blocks = 2000};
 
 // Reads and runs; a failure must say where and what to do.
 void survive(const std::string& text) {

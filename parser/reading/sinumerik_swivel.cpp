@@ -1,0 +1,112 @@
+#include "parser/reading/sinumerik_swivel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/sinumerik_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+struct Parameter {
+  std::string_view name;
+  char letter;
+  const char* spelled;
+};
+// The parameters of CYCLE800 in their order; those without a letter are looked at by the reader.
+constexpr std::array kSwivelParameters{
+    Parameter{"_FR", 0, ""},       Parameter{"_TC", 0, ""},
+    Parameter{"_ST", 0, ""},       Parameter{"_MODE", 'Q', "_MODE="},
+    Parameter{"_X0", 'X', "_X0="}, Parameter{"_Y0", 'Y', "_Y0="},
+    Parameter{"_Z0", 'Z', "_Z0="}, Parameter{"_A", 'A', "_A="},
+    Parameter{"_B", 'B', "_B="},   Parameter{"_C", 'C', "_C="},
+    Parameter{"_X1", 'u', "_X1="}, Parameter{"_Y1", 'v', "_Y1="},
+    Parameter{"_Z1", 'w', "_Z1="}, Parameter{"_DIR", 'd', "_DIR="},
+    Parameter{"_FR_I", 0, ""},     Parameter{"_DMODE", 0, ""}};
+constexpr std::size_t kSwivelData = 1;
+constexpr std::size_t kSwivelStatus = 2;
+
+class SwivelReader {
+ public:
+  explicit SwivelReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
+
+  void read(std::uint32_t column) {
+    const bool bare = !in_.take('(');
+    std::string data = "0";
+    std::string written;
+    bool any = false;
+    std::vector<Word> words;
+    for (std::size_t i = 0; !bare && !in_.failed(); ++i) {
+      if (in_.at_end()) {
+        in_.fail(column, "the bracket of CYCLE800 is not closed", "close it with )");
+        return;
+      }
+      if (i >= kSwivelParameters.size()) {
+        in_.fail(in_.column(), "CYCLE800 has too many parameters",
+                 fmt::format("it takes {}", kSwivelParameters.size()));
+        return;
+      }
+      if (in_.peek() != ',' && in_.peek() != ')') {
+        any = true;
+        read_swivel_parameter(i, words, data);
+      }
+      if (in_.take(')')) break;
+      if (in_.at_end()) continue;
+      if (!in_.take(',')) in_.fail_unexpected("separate the parameters of CYCLE800 by ,");
+    }
+    const bool cancels = !any || data == "0";
+    add_code(block_, *find_code(Dialect::sinumerik, cancels ? "CYCLE800()" : "CYCLE800"), column);
+    if (cancels) return;
+    block_.words.insert(block_.words.end(), words.begin(), words.end());
+    if (std::none_of(words.begin(), words.end(), [](const Word& w) { return w.letter == 'Q'; })) {
+      in_.fail(column, "CYCLE800 without a swivel mode", "give 57 as the fourth parameter");
+    }
+  }
+
+ private:
+  void read_swivel_parameter(std::size_t i, std::vector<Word>& words, std::string& data) {
+    const Parameter& parameter = kSwivelParameters.at(i);
+    const std::uint32_t column = in_.column();
+    if (i == kSwivelData) {
+      if (!in_.take('"')) {
+        in_.fail(column, "the swivel data record is a text", "write its name in \"\"");
+        return;
+      }
+      data = in_.text_to("\"");
+      // No name is the first record, which is in use.
+      if (!in_.take('"')) in_.fail(column, "the text is not closed", "close it with \"");
+      return;
+    }
+    Word word;
+    word.letter = parameter.letter;
+    word.spelled = parameter.spelled;
+    word.column = column;
+    read_sinumerik_value(draft_, word, std::string(parameter.name));
+    if (parameter.letter != 0) {
+      words.push_back(word);
+    } else if (i == 0 && (word.number != 0.0 || !word.expression.empty())) {
+      draft_.add_event("CYCLE800", column, "the retract before the swivel");
+    } else if (i == kSwivelStatus && (!word.expression.empty() ||
+                                      static_cast<long>(std::min(word.number, 1e6)) % 10 == 1)) {
+      in_.fail(column, "CYCLE800 on top of another swivel is not simulated",
+               "give the whole turn in one call: 0 as the third parameter");
+    }
+  }
+
+  BlockDraft& draft_;
+  LineScanner& in_;
+  Block& block_;
+};
+
+}  // namespace
+
+void read_sinumerik_swivel(BlockDraft& draft, std::uint32_t column) {
+  SwivelReader(draft).read(column);
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,22 @@
+// How Sinumerik programs write values: R1*2, SIN(30), AC(5), IC(R1).
+//
+// Units : none; values are as written
+// Errors: an operand, bracket or = that is missing, ACP and ACN; at the draft's scanner
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "parser/reading/block_draft.hpp"
+
+namespace frustum::parser {
+
+[[nodiscard]] const ExpressionSpelling& sinumerik_expressions();
+
+// R and digits.
+[[nodiscard]] bool is_r_parameter(std::string_view name);
+
+// What is behind the = of the word `name`: an expression, or AC() IC() DC() around one.
+void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name);
+
+}  // namespace frustum::parser
