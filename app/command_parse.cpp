@@ -30,8 +30,11 @@ int parse_file(const Options& options) {
   parser::InterpreterOptions run = options_for(options.file);
   run.block_delete = options.block_delete;
   const auto summary = parser::interpret(nc->program, print, run);
-  if (!summary) return refuse(summary.error());
-  return kDone;
+  if (summary) return kDone;
+  // What reads the motions alone must not take a part for the whole program.
+  if (options.canon) std::cout << parser::to_json_line(summary.error().front()) << '\n';
+  std::cout.flush();
+  return refuse(summary.error());
 }
 
 }  // namespace
@@ -47,8 +50,10 @@ void add_parse(CLI::App& program, int& exit_code) {
                    "from the file, with the reason on stderr)")
       ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
   command->add_flag("--quiet", options->quiet, "Do not say which dialect was recognised");
-  command->add_flag("--canon", options->canon,
-                    "Print one JSON line a motion (mm, degrees, mm/min)");
+  command->add_flag(
+      "--canon", options->canon,
+      "Print one JSON line a motion (mm, degrees, mm/min); where the program cannot be "
+      "run on, the last line has the type error");
   command->add_flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");
   command->footer("Example: frustum parse cone.nc --canon");
   command->callback([options, &exit_code] { exit_code = parse_file(*options); });

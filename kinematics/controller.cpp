@@ -42,7 +42,11 @@ class Controller::State {
     if (!problems_.empty()) return false;
     place_ = motion.place;
     std::visit([this](const auto& command) { execute(command); }, motion.command);
-    return problems_.empty();
+    if (problems_.empty()) return true;
+    if (!options_.problems) return false;
+    for (Diagnostic& problem : problems_) options_.problems(std::move(problem));
+    problems_.clear();
+    return true;
   }
 
   Result<Execution> finish() {
@@ -165,7 +169,7 @@ class Controller::State {
     for (const AxisLetter letter : kAxisLetters) {
       if (target[letter] && !present(letter)) return;
     }
-    if (manner.kind == PathKind::feed && tool_ == 0) {
+    if (manner.kind == PathKind::feed && tool_ == 0 && options_.feeds_need_tool) {
       fail("feed move without a tool in the spindle", "call a tool first, for example T1 M6");
       return;
     }
@@ -329,8 +333,13 @@ class Controller::State {
       if (!within_travel(motion.at(static_cast<double>(i) / parts))) return;
     }
     BlockOrder order;
+    order.block.kind = manner.kind;
     if (!set_feed(motion, manner, order.block)) return;
     q_ = motion.end;
+    if (options_.watch) {
+      options_.watch(motion, order.block);
+      if (!options_.sample_path) return;
+    }
     if (!options_.sample_path) {
       execution_.axes.push_back({place_.line, manner.kind, q_});
       return;
@@ -338,7 +347,6 @@ class Controller::State {
     if (!options_.sink) execution_.axes.push_back({place_.line, manner.kind, q_});
     order.motion = std::move(motion);
     order.block.source_line = place_.line;
-    order.block.kind = manner.kind;
     order.block.spindle_on = spindle_on_;
     order.block.tool = tool_;
     order.has_tool = tool_ != 0;
@@ -399,6 +407,7 @@ class Controller::State {
   }
   void warn(std::string message) { note(execution_.warnings, warning(std::move(message))); }
   void note(Diagnostics& list, Diagnostic diagnostic) const {
+    if (place_.file) diagnostic.file = *place_.file;
     diagnostic.line = static_cast<int>(place_.line);
     diagnostic.column = static_cast<int>(place_.column);
     list.push_back(std::move(diagnostic));

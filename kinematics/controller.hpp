@@ -56,13 +56,21 @@ struct Execution {
   Diagnostics warnings{};
 };
 
+struct BlockMotion;  // block_motion.hpp
+
 struct ControllerOptions {
   double path_bound = 1e-5;  // mm
   bool sample_path = true;   // false: axis positions only (errors and times play no part)
   bool check_travel = true;  // false: positions beyond the travels are executed all the same
   TimeLawOptions time_law{};
-  bool servo_lag = false;  // the path is where the axes are behind their commands
-  PathSink sink{};         // takes the path in parts as it grows; nothing of it is then kept
+  bool servo_lag = false;       // the path is where the axes are behind their commands
+  PathSink sink{};              // takes the path in parts as it grows; nothing of it is then kept
+  bool feeds_need_tool = true;  // false: feed moves with an empty spindle are executed too
+  // Sees each move that is made, for those who judge it; without sample_path nothing of the axes is kept.
+  std::function<void(const BlockMotion&, const PathBlock&)> watch{};
+  // Takes what is wrong with a motion, which is then not made, and those after it are. Without it the first
+  // problem ends the execution.
+  std::function<void(Diagnostic&&)> problems{};
 };
 
 class Controller {

@@ -147,8 +147,15 @@ void add(Json& json, const Event& event) {
 std::string to_json_line(const Motion& motion) {
   Json json;
   json["line"] = motion.place.line;
+  if (motion.place.file) json["file"] = *motion.place.file;
   std::visit([&json](const auto& command) { add(json, command); }, motion.command);
   // An event's text may come from elsewhere than a program, so bytes that are no text are replaced.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_json_line(const Diagnostic& error) {
+  const Json json{{"line", error.line}, {"column", error.column},   {"file", error.file},
+                  {"type", "error"},    {"message", error.message}, {"hint", error.hint}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -18,6 +18,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/result.hpp"
@@ -28,6 +30,13 @@
 #include "parser/tool_table.hpp"
 
 namespace frustum::parser {
+
+// A block that is about to be run.
+struct BlockAhead {
+  const Block& block;
+  const std::shared_ptr<const std::string>& file;  // as of SourcePlace
+  std::size_t calls = 0;                           // 0: of the main program
+};
 
 struct InterpreterOptions {
   // The operator's switch: on, blocks that begin with / are left out (and reported as events).
@@ -42,6 +51,11 @@ struct InterpreterOptions {
   std::vector<std::filesystem::path> search_path{};
   // A program that runs more blocks than this, by repeats within repeats, is taken for a mistake.
   std::uint64_t max_blocks = 100'000'000;
+  // Looks on: called before each block that is run or passed over; false ends the run there.
+  std::function<bool(const BlockAhead&)> watch{};
+  // Takes the error of a block that cannot be run, which is then passed over as if it were not there; false
+  // ends the run. Without it the first error ends the run.
+  std::function<bool(Diagnostic&&)> go_on{};
 };
 
 struct RunSummary {

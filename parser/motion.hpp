@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ inline constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLette
 struct SourcePlace {
   std::uint32_t line = 0;    // 1-based line of the file
   std::uint32_t column = 0;  // 1-based column of the first word that matters
+  // Of a subprogram that has a file of its own; null: the file of the main program.
+  std::shared_ptr<const std::string> file{};
 };
 
 // A target in program coordinates: mm for X Y Z, rad for A B C; absent where never programmed.

@@ -688,6 +688,7 @@ class Planner {
     problems_.push_back(std::move(problem));
   }
   void locate(Diagnostic& diagnostic) const {
+    if (place_.file) diagnostic.file = *place_.file;
     diagnostic.line = static_cast<int>(place_.line);
     diagnostic.column = static_cast<int>(place_.column);
   }

@@ -449,6 +449,7 @@ class NcWriter {
   void refuse(std::string_view what, std::string hint) {
     Diagnostic problem =
         error(fmt::format("{} has no words for {}", spelling_.title, what), std::move(hint));
+    if (place_.file) problem.file = *place_.file;
     problem.line = static_cast<int>(place_.line);
     problem.column = static_cast<int>(place_.column);
     // One of a kind is enough: the same motion would fail a million times.

@@ -87,7 +87,7 @@ struct Block {
   }
   // Line and column of a byte of the block, counted from 1 over all its lines.
   [[nodiscard]] SourcePlace place_of(std::uint32_t column) const {
-    SourcePlace place{line, column};
+    SourcePlace place{line, column, nullptr};
     for (const std::uint32_t start : line_starts) {
       if (column <= start) break;
       ++place.line;

@@ -524,7 +524,25 @@ Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
 
 void BlockExecutor::emit(std::uint32_t column, Command command) {
   if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
-  sink_(Motion{block_->place_of(column), std::move(command)});
+  SourcePlace place = block_->place_of(column);
+  place.file = file_;
+  sink_(Motion{std::move(place), std::move(command)});
+}
+
+void BlockExecutor::pass_over(const Block& block) {
+  block_ = &block;
+  for (const Word& word : block.words) {
+    if (!kAxisWords.has(word.letter)) continue;
+    const auto axis = static_cast<AxisLetter>(std::string_view("XYZABC").find(word.letter));
+    const bool absolute =
+        word.measure == Measure::absolute ||
+        (word.measure == Measure::modal && state_.distance == DistanceMode::absolute);
+    if (absolute && word.expression.empty()) {
+      position_.set(axis, scaled(axis, word.number));
+    } else {
+      forget(LetterSet({&word.letter, 1}), PositionLoss::mistake);
+    }
+  }
 }
 
 }  // namespace frustum::parser

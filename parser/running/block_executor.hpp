@@ -12,6 +12,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -70,6 +72,11 @@ class BlockExecutor {
   // A call of a subprogram and its end; modes saved by M73 come back.
   void enter_call();
   void leave_call();
+  // The file that the blocks from now on are of, as SourcePlace::file has it.
+  void read_from(std::shared_ptr<const std::string> file) { file_ = std::move(file); }
+  // After a block that could not be carried out: the axes that it names are where it says, as far as that is
+  // plain, and not known otherwise.
+  void pass_over(const Block& block);
 
  private:
   struct Done {};
@@ -158,6 +165,7 @@ class BlockExecutor {
   SystemParameters system_{rules_.dialect, state_, position_};
   Parameters parameters_;
   const Block* block_ = nullptr;  // at work
+  std::shared_ptr<const std::string> file_{};
 };
 
 }  // namespace frustum::parser

@@ -18,8 +18,14 @@ namespace frustum::parser {
 // A program with its map, once something has asked for it.
 class LoadedProgram {
  public:
-  explicit LoadedProgram(Program program) : program_(std::move(program)) {}
+  enum class Role : std::uint8_t { main, file_of_subprogram };
+  LoadedProgram(Program program, Role role)
+      : program_(std::move(program)),
+        place_file_(role == Role::main ? nullptr
+                                       : std::make_shared<const std::string>(program_.file)) {}
   [[nodiscard]] const Program& program() const { return program_; }
+  // What SourcePlace::file is in its blocks.
+  [[nodiscard]] const std::shared_ptr<const std::string>& place_file() const { return place_file_; }
   [[nodiscard]] const ProgramMap& map() {
     if (!map_) map_.emplace(program_);
     return *map_;
@@ -27,6 +33,7 @@ class LoadedProgram {
 
  private:
   Program program_;
+  std::shared_ptr<const std::string> place_file_;
   std::optional<ProgramMap> map_{};
 };
 

@@ -12,7 +12,8 @@ constexpr std::array kLossTexts{"",
                                 "the change of tool length compensation",
                                 "the tool vector",
                                 "the change of the tilted plane",
-                                "the turn of the frame"};
+                                "the turn of the frame",
+                                kMistake};
 
 }  // namespace
 

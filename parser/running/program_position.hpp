@@ -28,7 +28,11 @@ enum class PositionLoss : std::uint8_t {
   tool_vector,  // I J K moved the rotary axes
   tilted_plane,
   turned_frame,  // G68
+  mistake,       // a block that could not be run
 };
+
+// What why_unknown() calls a block that could not be run.
+constexpr const char* kMistake = "the mistake";
 
 class ProgramPosition {
  public:

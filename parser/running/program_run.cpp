@@ -31,7 +31,7 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
       options_(options),
       rules_(rules_of(program.dialect)),
       executor_(program.dialect, options.start, options.tools, sink),
-      main_(std::make_shared<LoadedProgram>(program)) {}
+      main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {}
 
 Result<RunSummary> ProgramRun::operator()() {
   frames_.push_back({main_, BlockCursor(main_->program())});
@@ -53,7 +53,8 @@ ProgramRun::Failure ProgramRun::run_next() {
   repeat_part_that_ended();
   auto next = frame().cursor.next();
   if (!next) {
-    syntax_failed_ = true;
+    if (goes_on(next.error().front())) return std::nullopt;
+    syntax_failed_ = !options_.go_on;
     return std::move(next).error().front();
   }
   if (*next == nullptr) return run_off(nullptr);
@@ -67,11 +68,23 @@ ProgramRun::Failure ProgramRun::run_next() {
     return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks),
               "look for repeats within repeats, and for loops whose condition never changes");
   }
-  if (block.deletable && options_.block_delete) {
-    sink_(Motion{{block.line, 1}, Event{"block_delete", {}}});
+  if (options_.watch &&
+      !options_.watch({block, frame().program->place_file(), frames_.size() - 1})) {
+    frames_.clear();
     return std::nullopt;
   }
-  return block.flow ? follow_statement(block) : execute(block);
+  if (block.deletable && options_.block_delete) {
+    sink_(Motion{{block.line, 1, frame().program->place_file()}, Event{"block_delete", {}}});
+    return std::nullopt;
+  }
+  auto failure = block.flow ? follow_statement(block) : execute(block);
+  if (!failure || !goes_on(*failure)) return failure;
+  executor_.pass_over(block);
+  return std::nullopt;
+}
+
+bool ProgramRun::goes_on(const Diagnostic& failure) const {
+  return options_.go_on && options_.go_on(Diagnostic(failure));
 }
 
 ProgramRun::Failure ProgramRun::execute(const Block& block) {
@@ -114,6 +127,7 @@ void ProgramRun::return_from_call() {
   if (done.has_locals) executor_.parameters().leave();
   executor_.leave_call();
   frames_.pop_back();
+  executor_.read_from(frame().program->place_file());
 }
 
 void ProgramRun::repeat_part_that_ended() {
@@ -180,6 +194,7 @@ ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t colu
   next.cursor.go_to(next.entry);
   frames_.push_back(std::move(next));
   executor_.enter_call();
+  executor_.read_from(frame().program->place_file());
   return std::nullopt;
 }
 
@@ -192,7 +207,8 @@ std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
       if (!std::filesystem::is_regular_file(file)) continue;
       auto program = open_program(file, rules_.dialect);
       if (!program) continue;
-      place->second = std::make_shared<LoadedProgram>(*std::move(program));
+      place->second = std::make_shared<LoadedProgram>(*std::move(program),
+                                                      LoadedProgram::Role::file_of_subprogram);
       return place->second;
     }
   }

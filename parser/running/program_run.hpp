@@ -27,6 +27,7 @@ class ProgramRun {
   using Failure = std::optional<Diagnostic>;
 
   [[nodiscard]] Failure run_next();
+  [[nodiscard]] bool goes_on(const Diagnostic& failure) const;
   // The end of the text, a tape mark, or the next program: fine for a main program only.
   [[nodiscard]] Failure run_off(const Block* end);
   void return_from_call();

@@ -119,7 +119,9 @@ TEST(DialectLaws, OnePathIsTheSameInAllOfThem) {
       if (std::holds_alternative<Event>(motion.command)) continue;
       // How the tip's control was switched on may differ.
       if (std::holds_alternative<CompensationChange>(motion.command)) continue;
-      path += to_json_line({{1, 1}, motion.command}) + '\n';
+      Motion placed = motion;
+      placed.place = {1, 1};
+      path += to_json_line(placed) + '\n';
     }
     return path;
   };

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "parser/canonical_json.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {
@@ -88,6 +89,63 @@ TEST(Flow, LooksForSubprogramsBesideTheProgram) {
   std::ofstream(folder / "slot.ngc") << "o<slot> sub\nG0 X#1\no<slot> endsub\nM2\n";
   const auto found = motions("o<slot> call [6]\n", {.search_path = {folder}}, Dialect::linuxcnc);
   EXPECT_EQ(*last_of<Traverse>(found).end[X], 6.0);
+}
+
+TEST(Flow, MotionsOfASubprogramNameItsFile) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "frustum-flow-file";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "slot.ngc") << "o<slot> sub\nG0 X#1\no<slot> endsub\nM2\n";
+  const auto found =
+      motions("G0 X1\no<slot> call [6]\nG0 X2\n", {.search_path = {folder}}, Dialect::linuxcnc);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].place.file, nullptr);
+  ASSERT_NE(found[1].place.file, nullptr);
+  EXPECT_EQ(*found[1].place.file, (folder / "slot.ngc").string());
+  EXPECT_EQ(found[1].place.line, 2U);
+  EXPECT_EQ(found[2].place.file, nullptr);
+  EXPECT_NE(to_json_line(found[1]).find("slot.ngc"), std::string::npos);
+  EXPECT_EQ(to_json_line(found[2]).find("file"), std::string::npos);
+}
+
+TEST(Flow, WatchSeesEachBlockWithItsFileAndDepth) {
+  std::string seen;
+  InterpreterOptions options;
+  options.watch = [&](const BlockAhead& ahead) {
+    EXPECT_EQ(ahead.file, nullptr);
+    seen += fmt::format("{}.{} ", ahead.block.line, ahead.calls);
+    return ahead.block.line != 6;
+  };
+  const auto found = motions("o1 sub\nG0 X1\no1 endsub\no1 call\nG0 X2\nG0 X3\nG0 X4\n", options,
+                             Dialect::linuxcnc);
+  EXPECT_EQ(seen, "1.0 4.0 2.1 3.1 5.0 6.0 ");
+  EXPECT_EQ(all_of<Traverse>(found).size(), 2U);
+}
+
+TEST(Flow, GoesOnBehindBlocksThatCannotBeRun) {
+  std::vector<std::string> told;
+  InterpreterOptions options;
+  options.go_on = [&](Diagnostic&& problem) {
+    told.push_back(fmt::format("{}: {}", problem.line, problem.message));
+    return true;
+  };
+  std::vector<double> x;
+  const Program program{"part.nc", Dialect::fanuc,
+                        ProgramText("G0 X1 Y1\nG1 X2\nG999\nX(\nG91 G0 X1\nM98 P7\nG0 X1\n")};
+  const auto summary = interpret(
+      program,
+      [&](Motion&& motion) {
+        if (const auto* move = std::get_if<Traverse>(&motion.command))
+          x.push_back(*move->end[AxisLetter::X]);
+      },
+      options);
+  ASSERT_TRUE(summary);
+  ASSERT_EQ(told.size(), 4U);
+  EXPECT_EQ(told[0], "2: G1 without a feed rate");
+  EXPECT_EQ(told[1].substr(0, 2), "3:");
+  EXPECT_EQ(told[2].substr(0, 2), "4:");
+  EXPECT_EQ(told[3].substr(0, 2), "6:");
+  // The move of line 2 is taken as made, so that what follows has its place.
+  EXPECT_EQ(x, (std::vector<double>{1, 3, 4}));
 }
 
 struct Mistake {
