@@ -31,6 +31,9 @@ enum class CodeGroup : std::uint8_t {
   tool_tip,
   work_offset,
   tilted_plane,
+  polar,
+  scaling,
+  mirror,
   orientation_path,
   rotary_path,
   path_control,
@@ -75,14 +78,18 @@ enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
 enum class SpeedWord : std::uint8_t { revolutions, surface };
 enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
+enum class PolarWord : std::uint8_t { off, on };
+enum class ScalingWord : std::uint8_t { off, on };
+enum class MirrorWord : std::uint8_t { off, on };
 enum class RetractWord : std::uint8_t { initial, level };
 // Where the frame of a tilted plane comes from.
 enum class TiltWord : std::uint8_t {
   off,
-  euler,    // shift X Y Z; turns I J K about Z, the new X, the new Z
-  swivel,   // shift X Y Z; turns A B C in the order that Q names; shift u v w
-  turn,     // G68: about the centre X Y by R, in the plane
-  spatial,  // turns A B C about the axes of the untilted X, Y, Z in this order
+  swivel,          // shift X Y Z; turns A B C in the order that Q names; shift u v w
+  turn,            // G68: about the centre X Y by R, in the plane; about I J K by R, in space
+  feature,         // G68.2: shift X Y Z, turned as P says (feature_frame.hpp)
+  feature_within,  // G68.4: the same, in the frame at work
+  spatial,         // turns A B C about the axes of the untilted X, Y, Z in this order
 };
 
 struct Code {

@@ -14,20 +14,24 @@ constexpr LetterSet kSmoothingWords{"PQR"};
 constexpr std::array kCodes{
     modal('G', 40, non_modal, NonModal::dwell, LetterSet("PXU")),
     modal('G', 531, non_modal, NonModal::align),
-    modal('G', 680, tilted_plane, TiltWord::turn, LetterSet("XYZR")),
+    modal('G', 680, tilted_plane, TiltWord::turn, LetterSet("XYZIJKR")),
     modal('G', 430, length_compensation, LengthWord::length, kOffsetWord),
     modal('G', 434, length_compensation, LengthWord::tool_centre_point, kOffsetWord),
     modal('G', 435, length_compensation, LengthWord::tool_vectors, kOffsetWord),
     modal('G', 490, length_compensation, LengthWord::off),
-    modal('G', 682, tilted_plane, TiltWord::euler, LetterSet("XYZIJK")),
+    modal('G', 682, tilted_plane, TiltWord::feature, LetterSet("XYZIJKPQR")),
+    modal('G', 684, tilted_plane, TiltWord::feature_within, LetterSet("XYZIJKPQR")),
+    modal('G', 150, polar, PolarWord::off),
+    modal('G', 160, polar, PolarWord::on),
+    modal('G', 500, scaling, ScalingWord::off),
+    modal('G', 510, scaling, ScalingWord::on, LetterSet("XYZIJKP")),
+    modal('G', 501, mirror, MirrorWord::off, kLinearWords),
+    modal('G', 511, mirror, MirrorWord::on, kLinearWords),
     modal('G', 690, tilted_plane, TiltWord::off),
     passed('G', 51, CodeGroup::event, kSmoothingWords),  // look-ahead contour control
     passed('G', 80, CodeGroup::event, kSmoothingWords),  // look-ahead control
     passed('G', 90),                                     // exact stop on this block
-    passed('G', 150),                                    // cancels what is refused: polar,
-    passed('G', 500),                                    // scaling,
-    passed('G', 501),                                    // mirror image,
-    passed('G', 670),                                    // modal macro calls
+    passed('G', 670),                                    // cancels modal macro calls, refused
     modal('G', 650, subprogram, SubprogramWord::macro),
 };
 
@@ -35,15 +39,17 @@ constexpr std::array kCodes{
 constexpr std::array kRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
     RefusedCode{'G', 100, 109, "give offsets in the job, not in the program"},
-    RefusedCode{'G', 160, 169, "write positions in X and Y"},
     RefusedCode{'G', 281, 309, "return to home with G28"},
     RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
     RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
     RefusedCode{'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
-    RefusedCode{'G', 510, 519, "write the positions out, in G54 to G59"},
     RefusedCode{'G', 541, 549, "use G54 to G59"},
     RefusedCode{'G', 591, 599, "use G54 to G59"},
     RefusedCode{'G', 660, 669, "call subprograms with M98 P"},
+    RefusedCode{'G', 532, 539, "turn the tool with G53.1, then go to the place"},
+    RefusedCode{
+        'G', 683, 683,
+        "where the tool points is the machine's to know: give the frame by G68.2 X Y Z I J K"},
     RefusedCode{'G', 681, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
     RefusedCode{'G', 750, 769, "write the cycle out as G0 and G1 blocks"},

@@ -86,6 +86,10 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   const auto w = static_cast<AxisLetter>(3 - axes.u - axes.v);
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = check_word_frame(movement); !done) return done;
+  if (state_.word_frame.scale != 1.0 || state_.word_frame.mirrors.at(static_cast<std::size_t>(w))) {
+    return fail(movement.column, "a canned cycle where the depths are scaled or mirrored",
+                fmt::format("end it before, by G50 or G50.1 {}0", to_char(w)));
+  }
   if (auto done = set_cycle(words, movement, w); !done) return done;
   const CannedCycle& cycle = *state_.cycle;
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
@@ -128,10 +132,7 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   }
   if (rules_.cycles.start_from_initial && state_.retract_to_initial) position_.set(w, depths.clear);
   for (int hole = 0; hole < holes; ++hole) {
-    for (const AxisLetter axis : {u, v}) {
-      if (!words.has(to_char(axis))) continue;
-      if (auto done = set_target(words, axis); !done) return done;
-    }
+    if (auto done = set_place_in_plane(words); !done) return done;
     for (const AxisLetter axis : {u, v}) {
       if (position_[axis]) continue;
       return fail(

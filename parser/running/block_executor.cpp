@@ -138,7 +138,12 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
     }
     return Movement{non_modal, mode, non_modal_code.column};
   }
-  if (words.has(CodeGroup::tilted_plane)) return Movement{non_modal, MotionMode::none, 0};
+  for (const CodeGroup group : {CodeGroup::tilted_plane, CodeGroup::scaling, CodeGroup::mirror}) {
+    const Code* frame = words[group].code;
+    if (frame != nullptr && !frame->arguments.empty()) {
+      return Movement{non_modal, MotionMode::none, 0};
+    }
+  }
   if (move_words.empty()) return Movement{non_modal, MotionMode::none, 0};
   const std::uint32_t column =
       motion_code.code != nullptr ? motion_code.column : words[words.first_of(move_words)].column;

@@ -110,6 +110,13 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_compensation(const BlockWords& words);
   [[nodiscard]] Outcome set_work_offset(const BlockWords& words);
   [[nodiscard]] Outcome set_tilted_plane(const BlockWords& words);
+  [[nodiscard]] Outcome set_feature(const BlockWords& words);
+  [[nodiscard]] Outcome check_feature(const Movement& movement) const;
+  [[nodiscard]] Outcome turn_in_space(const BlockWords& words);
+  [[nodiscard]] Outcome tilt(const GivenCode& code, const Pose& plane, bool within);
+  [[nodiscard]] Outcome set_scaling(const BlockWords& words);
+  [[nodiscard]] Outcome set_mirror(const BlockWords& words);
+  void set_polar_mode(const BlockWords& words);
   void set_paths(const BlockWords& words);
   [[nodiscard]] Outcome align(std::uint32_t column);
   [[nodiscard]] Outcome set_pole(const BlockWords& words);
@@ -139,6 +146,8 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_target(const BlockWords& words, AxisLetter axis);
   [[nodiscard]] Outcome set_targets(const BlockWords& words);
   [[nodiscard]] Outcome set_polar_target(const BlockWords& words);
+  [[nodiscard]] Outcome set_place_in_plane(const BlockWords& words);
+  [[nodiscard]] Outcome check_polar_arc(const BlockWords& words) const;
   [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
   void announce_rotary_path(const BlockWords& words, std::uint32_t column);
   [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;

@@ -151,6 +151,12 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   if (tilt.code == nullptr) return Done{};
   const auto kind = static_cast<TiltWord>(tilt.code->value);
   if (kind == TiltWord::turn) return turn_words(words);
+  if (kind == TiltWord::feature || kind == TiltWord::feature_within) return set_feature(words);
+  if (kind == TiltWord::off) {
+    state_.feature.reset();
+    if (state_.frame_below) state_.word_frame = *state_.frame_below;
+    state_.frame_below.reset();
+  }
   if (kind == TiltWord::off && state_.word_frame.turns()) {
     WordFrame straight = state_.word_frame;
     straight.turn = {};
@@ -159,10 +165,7 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   }
   Pose plane{Mat3::Identity(), Vec3::Zero()};
   if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale();
-  if (kind == TiltWord::euler) {
-    const Vec3 angles = vector_of(words, "IJK") * kRadPerDeg;
-    plane.rotation = turn(2, angles[0]) * turn(0, angles[1]) * turn(2, angles[2]);
-  } else if (kind == TiltWord::spatial) {
+  if (kind == TiltWord::spatial) {
     const Vec3 angles = vector_of(words, "ABC") * kRadPerDeg;
     plane.translation.setZero();
     plane.rotation = turn(2, angles[2]) * turn(1, angles[1]) * turn(0, angles[0]);
@@ -185,6 +188,7 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
     forget(kLinearWords, PositionLoss::tilted_plane);
   }
   state_.tilted = kind != TiltWord::off || aligns;
+  state_.tilt = plane;
   if (state_.tilted) {
     emit(tilt.column, TiltedPlaneChange{plane});
   }
@@ -232,7 +236,10 @@ BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
   state_.arc_distance = words.value_or(CodeGroup::arc_distance, state_.arc_distance);
   if (auto done = set_compensation(words); !done) return done;
   if (auto done = set_work_offset(words); !done) return done;
+  if (auto done = set_mirror(words); !done) return done;
+  if (auto done = set_scaling(words); !done) return done;
   if (auto done = set_tilted_plane(words); !done) return done;
+  set_polar_mode(words);
   set_paths(words);
   return Done{};
 }

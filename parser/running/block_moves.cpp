@@ -45,6 +45,7 @@ Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
 BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Movement& movement) {
   // Axis words or not, the motion word stays in force for the blocks after.
   state_.motion = motion_of(words);
+  if (auto done = check_feature(movement); !done) return done;
   if (!is_cycle(state_.motion)) state_.cycle.reset();
   if (movement.non_modal == NonModal::home) return go_home(words);
   if (movement.non_modal == NonModal::align) return align(movement.column);
@@ -158,6 +159,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_polar_arc(words); !done) return done;
   ArcWords arc_words;
   arc_words.plane = state_.plane;
   arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;
@@ -323,53 +325,14 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
     state_.tool_axis.reset();
   }
   if (auto done = set_polar_target(words); !done) return done;
+  if (auto done = set_place_in_plane(words); !done) return done;
+  const PlaneAxes plane = axes_of(state_.plane);
   for (const AxisLetter axis : kAxisLetters) {
     if (!words.has(to_char(axis))) continue;
+    if (axis == static_cast<AxisLetter>(plane.u) || axis == static_cast<AxisLetter>(plane.v))
+      continue;
     if (auto done = set_target(words, axis); !done) return done;
   }
-  return Done{};
-}
-
-// @ radius and ^ angle about the origin, in the plane; what is not given stays as it is.
-BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) {
-  const char first = words.first_of(LetterSet("pq"));
-  if (first == 0) return Done{};
-  const PlaneAxes axes = axes_of(state_.plane);
-  const auto u = static_cast<AxisLetter>(axes.u);
-  const auto v = static_cast<AxisLetter>(axes.v);
-  for (const AxisLetter axis : {u, v}) {
-    if (!words.has(to_char(axis))) continue;
-    return fail(words[to_char(axis)].column,
-                fmt::format("{} beside a polar position", words.text_of(to_char(axis))),
-                "give the place in the plane by @ and ^, or by axis words");
-  }
-  const bool incremental = state_.distance == DistanceMode::incremental;
-  const bool from_here = incremental || !words.has(kPolarRadius) || !words.has(kPolarAngle);
-  double radius = 0.0;
-  double angle = 0.0;
-  if (from_here) {
-    for (const AxisLetter axis : {u, v}) {
-      if (position_[axis]) continue;
-      return fail(words[first].column,
-                  fmt::format("the polar position goes on from one that is not known: {}",
-                              position_.why_unknown(axis)),
-                  "give both @ and ^");
-    }
-    radius = std::hypot(*position_[u], *position_[v]);
-    angle = std::atan2(*position_[v], *position_[u]);
-    if (radius == 0.0 && !words.has(kPolarAngle)) {
-      return fail(words[first].column, "a polar position without angle, from the origin",
-                  "give ^ in degrees");
-    }
-  }
-  if (words.has(kPolarRadius)) {
-    radius = words[kPolarRadius].value * unit_scale() + (incremental ? radius : 0.0);
-  }
-  if (words.has(kPolarAngle)) {
-    angle = words[kPolarAngle].value * kRadPerDeg + (incremental ? angle : 0.0);
-  }
-  position_.set(u, radius * std::cos(angle));
-  position_.set(v, radius * std::sin(angle));
   return Done{};
 }
 

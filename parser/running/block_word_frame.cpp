@@ -1,4 +1,5 @@
-// The words that shift and turn the frame of the words that follow: G92, G52, G68.
+// The words that shift, turn, scale and mirror the frame of the words that follow: G92, G52, G68,
+// G51, G51.1.
 #include <fmt/format.h>
 
 #include "core/units.hpp"
@@ -78,14 +79,19 @@ BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
   if (!words.has('R')) {
     return fail(code.column, code.code->name() + " without an angle", "give R in degrees");
   }
+  if (!(words.given() & LetterSet("IJK")).empty()) return turn_in_space(words);
   const PlaneAxes axes = axes_of(state_.plane);
-  Vec3 centre = Vec3::Zero();
+  WordFrame next = state_.word_frame;
+  // Where the tool is, in words before the turn.
+  const AxisTarget here = WordFrame{.turn = next.turn}.from_words(
+      WordFrame{.shift = next.shift}.from_words(position_.target()));
+  Vec3 pivot = Vec3::Zero();
   for (const int axis : {axes.u, axes.v}) {
     const auto letter = static_cast<AxisLetter>(axis);
     if (words.has(to_char(letter))) {
-      centre[axis] = scaled(letter, words[to_char(letter)].value);
-    } else if (position_[letter]) {
-      centre[axis] = *position_[letter];
+      pivot[axis] = scaled(letter, words[to_char(letter)].value) + next.shift[axis];
+    } else if (here[letter]) {
+      pivot[axis] = *here[letter];
     } else {
       return fail(code.column,
                   fmt::format("the centre of {} is not known: {}", code.code->name(),
@@ -93,16 +99,110 @@ BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
                   fmt::format("give {} on this block", to_char(letter)));
     }
   }
-  WordFrame next = state_.word_frame;
-  const Mat3 rotation = rotation_about(Vec3::Unit(axes.w), words['R'].value * kRadPerDeg);
-  const Vec3 pivot = centre + next.shift;
+  Mat3 rotation = rotation_about(Vec3::Unit(axes.w), words['R'].value * kRadPerDeg);
+  if (state_.distance == DistanceMode::incremental) {
+    if (!next.keeps(state_.plane)) {
+      return fail(words['R'].column,
+                  fmt::format("{} in G91 goes on from a turn in another plane", words.text_of('R')),
+                  "end that turn with G69 before");
+    }
+    rotation = rotation * next.turn.rotation;
+  }
   next.turn = Pose{rotation, pivot - rotation * pivot};
+  change_word_frame(next);
+  return Done{};
+}
+
+// G51 X Y Z P: lengths times P about a centre.
+BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::scaling];
+  if (code.code == nullptr) return Done{};
+  WordFrame next = state_.word_frame;
+  if (next.turns()) {
+    return fail(code.column, fmt::format("{} within a turned frame", code.code->name()),
+                "scale first and turn then, and end them the other way round: G69, then G50");
+  }
+  next.scale = 1.0;
+  next.scale_centre.setZero();
+  change_word_frame(next);
+  if (static_cast<ScalingWord>(code.code->value) == ScalingWord::off) return Done{};
+
+  const auto factor = [&](char letter) {
+    // A number without a point counts thousandths.
+    return words[letter].value * (words[letter].decimal_point ? 1.0 : 1e-3);
+  };
+  const char given = words.first_of(LetterSet("PIJK"));
+  if (given == 0) {
+    return fail(code.column, code.code->name() + " without a factor",
+                "give P, for example P2. or P2000 for twice the size");
+  }
+  for (const char letter : {'I', 'J', 'K'}) {
+    if (given == 'P' ? !words.has(letter) : words.has(letter) && factor(letter) == factor(given)) {
+      continue;
+    }
+    const bool missing = !words.has(letter);
+    return fail(words[missing ? given : letter].column,
+                missing
+                    ? fmt::format("{} scales without {}", code.code->name(), letter)
+                    : fmt::format("{} scales one axis other than the rest", words.text_of(letter)),
+                "circles would be none: give one factor by P, and mirror axes by G51.1");
+  }
+  next.scale = factor(given);
+  if (!(next.scale > 0.0)) {
+    return fail(words[given].column, fmt::format("{} is not above zero", words.text_of(given)),
+                "give a factor above zero, and mirror axes by G51.1");
+  }
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    if (words.has(to_char(axis))) {
+      next.scale_centre[i] = scaled(axis, words[to_char(axis)].value) + next.shift[i];
+    } else if (position_[axis]) {
+      next.scale_centre[i] = *position_[axis] + next.shift[i];
+    } else {
+      return fail(code.column,
+                  fmt::format("the centre of {} is not known: {}", code.code->name(),
+                              position_.why_unknown(axis)),
+                  fmt::format("give {} on this block", to_char(axis)));
+    }
+  }
+  change_word_frame(next);
+  return Done{};
+}
+
+// G51.1 X10: what is beyond X10 lies on this side of it.
+BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::mirror];
+  if (code.code == nullptr) return Done{};
+  WordFrame next = state_.word_frame;
+  if (next.turns() || next.scale != 1.0) {
+    return fail(code.column, fmt::format("{} within a turned or scaled frame", code.code->name()),
+                "mirror first, then scale, then turn, and end them the other way round: G69, G50, "
+                "G50.1");
+  }
+  const bool on = static_cast<MirrorWord>(code.code->value) == MirrorWord::on;
+  const bool all = (words.given() & kLinearWords).empty();
+  if (on && all) {
+    return fail(code.column, code.code->name() + " names no axis",
+                "give where the axis is mirrored, for example G51.1 X0");
+  }
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
+    const auto i = static_cast<std::size_t>(axis);
+    const bool named = words.has(to_char(axis));
+    if (!on && (named || all)) next.mirrors.at(i).reset();
+    if (!on || !named) continue;
+    next.mirrors.at(i) =
+        scaled(axis, words[to_char(axis)].value) + next.shift[static_cast<Eigen::Index>(axis)];
+  }
   change_word_frame(next);
   return Done{};
 }
 
 // A turned frame mixes the axes, so that all of them have to be known before one of them moves.
 BlockExecutor::Outcome BlockExecutor::check_word_frame(const Movement& movement) const {
+  if (state_.word_frame.is_mirrored() && state_.compensation.tip) {
+    return fail(movement.column, "a move with tool-tip control in a mirrored frame",
+                "mirror the program before it is written, or switch the control off");
+  }
   if (!state_.word_frame.turns()) return Done{};
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
     if (position_[axis]) continue;

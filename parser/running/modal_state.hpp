@@ -11,6 +11,7 @@
 
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
+#include "parser/running/feature_frame.hpp"
 #include "parser/running/word_frame.hpp"
 
 namespace frustum::parser {
@@ -49,6 +50,13 @@ struct CannedCycle {
   std::optional<double> back{};
 };
 
+// G16: what the words of the plane's axes have said last, as radius and angle.
+struct PolarMode {
+  std::optional<double> radius{};
+  double angle = 0.0;
+  bool from_here = false;  // the radius counts from where the tool is, not from the origin
+};
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   Plane plane = Plane::xy;
@@ -67,7 +75,11 @@ struct ModalState {
   // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
   std::array<bool, 3> loose{};
   bool tilted = false;
+  Pose tilt{};                            // of the tilted plane
+  std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last
+  std::optional<PolarMode> polar{};       // G16
   WordFrame word_frame{};
+  std::optional<WordFrame> frame_below{};      // of the words before G68.2: that plane lies in it
   std::optional<WordFrame> suspended_shift{};  // G92.2
   std::optional<Vec3> pole{};                  // CC
   std::optional<CannedCycle> cycle{};

@@ -29,7 +29,46 @@ bool WordFrame::turns() const {
 }
 
 bool WordFrame::is_identity() const {
-  return shift.isZero(0.0) && rotary_shift == std::array<double, 3>{} && !turns();
+  return shift.isZero(0.0) && rotary_shift == std::array<double, 3>{} && !turns() && scale == 1.0 &&
+         !is_mirrored();
+}
+
+double WordFrame::stretched(AxisLetter axis, double value) const {
+  const auto i = static_cast<std::size_t>(axis);
+  const double centre = scale_centre[static_cast<Eigen::Index>(axis)];
+  const double scaled = scale == 1.0 ? value : centre + scale * (value - centre);
+  return mirrors.at(i) ? 2.0 * *mirrors.at(i) - scaled : scaled;
+}
+
+double WordFrame::unstretched(AxisLetter axis, double value) const {
+  const auto i = static_cast<std::size_t>(axis);
+  const double centre = scale_centre[static_cast<Eigen::Index>(axis)];
+  const double scaled = mirrors.at(i) ? 2.0 * *mirrors.at(i) - value : value;
+  return scale == 1.0 ? scaled : centre + (scaled - centre) / scale;
+}
+
+Vec3 WordFrame::point(const Vec3& words) const {
+  const Vec3 turned = turn.point(words + shift);
+  Vec3 placed;
+  for (const AxisLetter axis : kLinear) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    placed[i] = stretched(axis, turned[i]);
+  }
+  return placed;
+}
+
+Vec3 WordFrame::direction(const Vec3& words) const {
+  Vec3 turned = turn.direction(words);
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    if (mirrors.at(i)) turned[static_cast<Eigen::Index>(i)] *= -1.0;
+  }
+  return turned;
+}
+
+bool WordFrame::reverses(Plane plane) const {
+  const PlaneAxes axes = axes_of(plane);
+  return mirrors.at(static_cast<std::size_t>(axes.u)).has_value() !=
+         mirrors.at(static_cast<std::size_t>(axes.v)).has_value();
 }
 
 AxisTarget WordFrame::from_words(const AxisTarget& words) const {
@@ -40,7 +79,8 @@ AxisTarget WordFrame::from_words(const AxisTarget& words) const {
   }
   if (!turns()) {
     for (const AxisLetter axis : kLinear) {
-      if (place[axis]) *place[axis] += shift[static_cast<Eigen::Index>(axis)];
+      if (!place[axis]) continue;
+      place[axis] = stretched(axis, *place[axis] + shift[static_cast<Eigen::Index>(axis)]);
     }
   } else if (all_known(words)) {
     set_point(place, point(point_of(words)));
@@ -58,10 +98,15 @@ AxisTarget WordFrame::to_words(const AxisTarget& place) const {
   }
   if (!turns()) {
     for (const AxisLetter axis : kLinear) {
-      if (words[axis]) *words[axis] -= shift[static_cast<Eigen::Index>(axis)];
+      if (!words[axis]) continue;
+      words[axis] = unstretched(axis, *words[axis]) - shift[static_cast<Eigen::Index>(axis)];
     }
   } else if (all_known(place)) {
-    set_point(words, turn.inverse().point(point_of(place)) - shift);
+    Vec3 turned;
+    for (const AxisLetter axis : kLinear) {
+      turned[static_cast<Eigen::Index>(axis)] = unstretched(axis, *place[axis]);
+    }
+    set_point(words, turn.inverse().point(turned) - shift);
   } else {
     for (const AxisLetter axis : kLinear) words[axis].reset();
   }
@@ -72,7 +117,7 @@ void WordFrame::place(Command& command) const {
   const auto straight = [&](auto& move) {
     if (move.coordinates == Coordinates::machine) return;
     move.end = from_words(move.end);
-    if (move.tool_axis) move.tool_axis = UnitVec3::of(turn.direction(*move.tool_axis));
+    if (move.tool_axis) move.tool_axis = UnitVec3::of(direction(*move.tool_axis));
   };
   if (auto* traverse = std::get_if<Traverse>(&command)) {
     straight(*traverse);
@@ -81,7 +126,8 @@ void WordFrame::place(Command& command) const {
   } else if (auto* arc = std::get_if<ArcFeed>(&command)) {
     arc->end = from_words(arc->end);
     arc->center = point(arc->center);
-    if (arc->tool_axis) arc->tool_axis = UnitVec3::of(turn.direction(*arc->tool_axis));
+    if (reverses(arc->plane)) arc->turns = -arc->turns;
+    if (arc->tool_axis) arc->tool_axis = UnitVec3::of(direction(*arc->tool_axis));
   }
 }
 

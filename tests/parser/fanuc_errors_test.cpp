@@ -1,0 +1,72 @@
+// What the words of Fanuc refuse, and how: place, message and remedy.
+#include <gtest/gtest.h>
+
+#include "tests/parser/running.hpp"
+
+namespace frustum::parser {
+namespace {
+
+struct Mistake {
+  const char* text;
+  const char* complaint;  // "line:column: error: message", without the hint
+};
+
+constexpr Mistake kFrames[] = {
+    {"G68.2 P5 X0\n", "1:7: error: P5 is out of range"},
+    {"G68.2 P1 Q112 I10\n", "1:10: error: Q112 is no order of turns"},
+    {"G68.2 I10 R5\n", "1:11: error: R5 has no meaning in G68.2 P0"},
+    {"G68.2 P2 X0 Y0 Z0\n", "1:1: error: G68.2 P2 without Q"},
+    {"G68.2 P3 Q0 I1\n", "1:10: error: Q0 is out of range"},
+    {"G68.2 P3 Q2 X5 K1\n", "1:13: error: X5 has no meaning in G68.2 P3"},
+    {"G68.2 P2 Q1 X0\nG68.2 P2 Q2 X5\nG68.2 P2 Q3 X9\n",
+     "3:10: error: the three points of the plane lie on one line"},
+    {"G68.2 P3 Q1 I1\nG68.2 P3 Q2 I1\n", "2:10: error: the two vectors span no plane"},
+    {"G68.2 P3 Q1 I1\nG68.2 P3 Q2 I0.5 K1\n",
+     "2:10: error: the two vectors are 26.5651 degrees off the right angle"},
+    {"G68.2 P4 I90 J90\n", "1:1: error: the two lines of the plane are parallel"},
+    {"G68.2 P2 Q1 X0\nG68.2 P2 Q3 Y5\nG0 X0\n",
+     "3:1: error: a move while the tilted plane is described by halves"},
+    {"G68.4 I10\n", "1:1: error: G68.4 without a tilted plane"},
+    {"G68.3 X0 Y0 Z0\n", "1:1: error: G68.3 is not simulated"},
+    {"G53.6\n", "1:1: error: G53.6 is not simulated"},
+    {"G68 X0 Y0\n", "1:1: error: G68 without an angle"},
+    {"G68 X0 Y0 Z0 I0 R9\n", "1:14: error: the axis of the turn has no direction"},
+    {"G68 X0 Y0 I1 R9\n",
+     "1:1: error: the centre of G68 is not known: Z has not been programmed yet"},
+    {"G0 X0 Y0 Z0\nG68 X0 Y0 R9\nG18 G91 G68 X0 Z0 R5\n",
+     "3:19: error: R5 in G91 goes on from a turn in another plane"},
+    {"G51.1 X0\nG68.2 X0 I5\n", "2:1: error: G68.2 while the words are mirrored or scaled"},
+    {"G51 P2.\n", "1:1: error: the centre of G51 is not known: X has not been programmed yet"},
+    {"G51 X0 Y0 Z0\n", "1:1: error: G51 without a factor"},
+    {"G51 X0 Y0 Z0 P0\n", "1:14: error: P0 is not above zero"},
+    {"G51 X0 Y0 Z0 I2. J2. K1.\n", "1:22: error: K1 scales one axis other than the rest"},
+    {"G51 X0 Y0 Z0 I2. J2.\n", "1:14: error: G51 scales without K"},
+    {"G0 X0 Y0 Z0\nG68 X0 Y0 R9\nG51 P2.\n", "3:1: error: G51 within a turned frame"},
+    {"G51.1\n", "1:1: error: G51.1 names no axis"},
+    {"G0 X0 Y0 Z0\nG51 P2.\nG51.1 X0\n", "3:1: error: G51.1 within a turned or scaled frame"},
+    {"G51.1 X0\nG43.4 H1\nG0 X0 Y0 Z0\n",
+     "3:1: error: a move with tool-tip control in a mirrored frame"},
+    {"G0 X0 Y0 Z0\nG51.1 Z0\nG81 R2 Z-3 F10\n",
+     "3:1: error: a canned cycle where the depths are scaled or mirrored"},
+    {"G16\nG0 Y90\n", "2:4: error: an angle in G16, but no radius yet"},
+    {"G16 G91 G0 X5 Y90\n",
+     "1:12: error: the radius counts from where the tool is, but X has not been programmed yet"},
+    {"G0 X0 Y0\nG16 G2 X10 Y0 I5 F10\n", "2:15: error: I5 of an arc in G16"},
+};
+
+template <std::size_t Count>
+void expect_complaints(const Mistake (&mistakes)[Count]) {
+  for (const Mistake& mistake : mistakes) {
+    const auto lines = complaints(mistake.text);
+    EXPECT_EQ(lines.size(), 1U) << mistake.text;
+    if (lines.empty()) continue;
+    const std::size_t hint = lines[0].find(" (hint: ");
+    EXPECT_NE(hint, std::string::npos) << lines[0];
+    EXPECT_EQ(lines[0].substr(0, hint), mistake.complaint) << mistake.text;
+  }
+}
+
+TEST(FanucErrors, OfFrames) { expect_complaints(kFrames); }
+
+}  // namespace
+}  // namespace frustum::parser
