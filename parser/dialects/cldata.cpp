@@ -10,6 +10,7 @@ namespace {
 using enum CodeGroup;
 
 constexpr LetterSet kOffsetWord{"H"};
+constexpr LetterSet kHoleWords{"ZRuvQPfrI"};
 constexpr std::array kCodes{
     named("UNITS/MM", unit, LengthUnit::millimetre),
     named("UNITS/INCHES", unit, LengthUnit::inch),
@@ -36,24 +37,47 @@ constexpr std::array kCodes{
     named("GOHOME", non_modal, NonModal::home),
     named("DELAY", non_modal, NonModal::dwell, LetterSet("P")),
     named("DELAY REV", non_modal, NonModal::dwell),
+    named("CYCLE/OFF", hole_cycle, HoleWord::off),
+    named("CYCLE/ON", hole_cycle, HoleWord::on),
+    named("CYCLE/DRILL", hole_cycle, HoleWord::drill, kHoleWords),
+    named("CYCLE/DEEP", hole_cycle, HoleWord::peck, kHoleWords),
+    named("CYCLE/BRKCHP", hole_cycle, HoleWord::break_chip, kHoleWords),
+    named("CYCLE/TAP", hole_cycle, HoleWord::tap, kHoleWords),
+    named("CYCLE/BORE", hole_cycle, HoleWord::bore, kHoleWords),
     named("STOP", stop, StopKind::program_stop),
     named("OPSTOP", stop, StopKind::optional_stop),
     named("END", stop, StopKind::program_end),
     named("FINI", stop, StopKind::program_end),
 };
 
+constexpr std::string_view kWriteOut = "let the CAM system write the path out as GOTO records";
+constexpr std::string_view kTipPath = "let the CAM system write the path of the tool tip";
+constexpr std::string_view kWherePartIs =
+    "let the CAM system write the path where the part is, or set the work offset in the job";
+constexpr std::string_view kTiltByVector = "give tool vectors in GOTO after MULTAX/ON";
 constexpr std::array kRefusedWords{
-    RefusedWord{"CYCLE", "write the cycle out as GOTO records"},
-    RefusedWord{"CUTCOM", "let the CAM system write the path of the tool tip"},
-    RefusedWord{"TRANS", "let the CAM system write the path where the part is"},
-    RefusedWord{"ROTATE", "give tool vectors in GOTO after MULTAX/ON"},
-    RefusedWord{"ORIGIN", "set the work offset in the job"},
-    RefusedWord{"COPY", "write the path out"},
-    RefusedWord{"TRACUT", "write the path out"},
-    RefusedWord{"CALSUB", "write the path out"},
+    RefusedWord{"CUTCOM", kTipPath},
+    RefusedWord{"SWITCH", kTipPath},
+    RefusedWord{"TRANS", kWherePartIs},
+    RefusedWord{"ORIGIN", kWherePartIs},
+    RefusedWord{"TRACUT", kWherePartIs},
+    RefusedWord{"SCALE", kWherePartIs},
+    RefusedWord{"ROTATE", kTiltByVector},
+    RefusedWord{"ROTABL", kTiltByVector},
+    RefusedWord{"ROTHED", kTiltByVector},
+    RefusedWord{"MODE", "give places by GOTO and steps by GODLTA"},
+    RefusedWord{"COPY", kWriteOut},
+    RefusedWord{"INDEX", kWriteOut},
+    RefusedWord{"CALSUB", kWriteOut},
+    RefusedWord{"CALL", kWriteOut},
+    RefusedWord{"THREAD", kWriteOut},
     RefusedWord{"RETRCT", "write the retract as a GOTO record"},
-    RefusedWord{"MOVARC", "write the arc as CIRCLE and GOTO"},
-    RefusedWord{"TLAXIS", "give the tool vector in GOTO after MULTAX/ON"},
+    RefusedWord{"PREFUN", "say what the G word does by records of CLDATA"},
+    RefusedWord{"GOFWD", kWriteOut},
+    RefusedWord{"GOLFT", kWriteOut},
+    RefusedWord{"GORGT", kWriteOut},
+    RefusedWord{"TLLFT", kTipPath},
+    RefusedWord{"TLRGT", kTipPath},
 };
 
 constexpr std::array kLetters{
@@ -75,6 +99,7 @@ constexpr DialectRules kRules{
     .dwell_hint = "write DELAY/seconds or DELAY/n,REV",
     .tool_brings_length = true,
     .home_without_axes_is_all = true,
+    .holes_at_moves = true,
     .always_claimed = LetterSet("FST"),
     .letters = kLetters,
 };

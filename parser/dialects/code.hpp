@@ -40,6 +40,9 @@ enum class CodeGroup : std::uint8_t {
   retract,
   speed_mode,
   saved_modes,
+  hole_cycle,
+  hole_call,
+  raised_error,
   tool_change,
   spindle,
   coolant,
@@ -82,6 +85,8 @@ enum class PolarWord : std::uint8_t { off, on };
 enum class ScalingWord : std::uint8_t { off, on };
 enum class MirrorWord : std::uint8_t { off, on };
 enum class RetractWord : std::uint8_t { initial, level };
+// What is done at each hole that the program names by itself: hole_cycle.hpp.
+enum class HoleWord : std::uint8_t { off, on, drill, peck, break_chip, tap, bore };
 // Where the frame of a tilted plane comes from.
 enum class TiltWord : std::uint8_t {
   off,
@@ -90,6 +95,10 @@ enum class TiltWord : std::uint8_t {
   feature,         // G68.2: shift X Y Z, turned as P says (feature_frame.hpp)
   feature_within,  // G68.4: the same, in the frame at work
   spatial,         // turns A B C about the axes of the untilted X, Y, Z in this order
+  turns,           // I J K about Z, the new X, the new Z
+  vectors,         // X along A B C, Z along I J K
+  points,          // X from X Y Z to I J K, Y to the side of u v w
+  relative,        // a turn A, B or C in the frame at work
 };
 
 struct Code {

@@ -58,6 +58,8 @@ struct DialectRules {
   bool home_without_axes_is_all = false;
   // Arcs without centre words or radius turn about the last pole (CC).
   bool arcs_turn_about_pole = false;
+  // While a hole cycle is on, each move names the top of a hole.
+  bool holes_at_moves = false;
   LetterSet always_claimed{};  // words that have a meaning in every block
   std::span<const LetterUse> letters{};
   std::string_view known_letters{};

@@ -9,6 +9,7 @@ namespace {
 
 using enum CodeGroup;
 
+constexpr LetterSet kHoleWords{"zuvVQwPfrW"};
 constexpr std::array kCodes{
     passed('M', 60),  // the change itself is TOOL CALL
     named("BEGIN PGM MM", unit, LengthUnit::millimetre),
@@ -24,12 +25,28 @@ constexpr std::array kCodes{
     named("C DR+", motion, MotionMode::arc_counterclockwise),
     named("CR DR-", motion, MotionMode::arc_clockwise),
     named("CR DR+", motion, MotionMode::arc_counterclockwise),
+    named("CT", motion, MotionMode::arc_counterclockwise, LetterSet("k")),
     named("TOOL CALL", tool_change, 0),
     named("F AUTO", feed_source, 0),
     named("R0", radius_compensation, 0),
     named("CYCL DEF 247", work_offset, 0, LetterSet("P")),
+    named("CYCL DEF 7", non_modal, NonModal::shift, LetterSet("XYZABC")),
+    named("CYCL DEF 8", mirror, MirrorWord::on, LetterSet("XYZ")),
+    named("CYCL DEF 8 OFF", mirror, MirrorWord::off),
+    named("CYCL DEF 11", scaling, ScalingWord::on, LetterSet("XYZP")),
+    named("CYCL DEF 10", tilted_plane, TiltWord::turn, LetterSet("XYR")),
+    named("CYCL DEF 200", hole_cycle, HoleWord::drill, kHoleWords),
+    named("CYCL DEF 201", hole_cycle, HoleWord::bore, kHoleWords),
+    named("CYCL DEF 207", hole_cycle, HoleWord::tap, kHoleWords),
+    named("CYCL CALL", hole_call, 0),
+    modal('M', 990, hole_call, 0),
+    named("FN 14", raised_error, 0, LetterSet("E")),
     named("DWELL", non_modal, NonModal::dwell, LetterSet("P")),
     named("PLANE SPATIAL", tilted_plane, TiltWord::spatial, LetterSet("ABCd")),
+    named("PLANE EULER", tilted_plane, TiltWord::turns, LetterSet("IJKd")),
+    named("PLANE VECTOR", tilted_plane, TiltWord::vectors, LetterSet("ABCIJKd")),
+    named("PLANE POINTS", tilted_plane, TiltWord::points, LetterSet("XYZIJKuvwd")),
+    named("PLANE RELATIV", tilted_plane, TiltWord::relative, LetterSet("ABCd")),
     named("PLANE RESET", tilted_plane, TiltWord::off, LetterSet("d")),
     named("FUNCTION TCPM", tool_tip, TipWord::on),
     named("FUNCTION RESET TCPM", tool_tip, TipWord::off),
@@ -49,7 +66,7 @@ constexpr std::array kCodes{
 
 // What would change the part and is not simulated.
 constexpr std::array kRefusedCodes{
-    RefusedCode{'M', 890, 899, "write the cycle out as L blocks"},
+    RefusedCode{'M', 890, 899, "call the cycle by M99 or CYCL CALL at each hole"},
     RefusedCode{'M', 920, 929, "use M91, the machine's own coordinates"},
     RefusedCode{'M', 970, 1039, "write the path out as L and C blocks"},
     RefusedCode{'M', 1090, 1120, "give the feed of the tool tip, without M109 to M112"},
@@ -58,10 +75,6 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'M', 1380, 1449, "use FUNCTION TCPM or M128"},
 };
 constexpr std::array kRefusedWords{
-    RefusedWord{"CT", "write the arc with CC and C, or with CR"},
-    RefusedWord{"CP", "write positions in X, Y and Z"},
-    RefusedWord{"LP", "write positions in X, Y and Z"},
-    RefusedWord{"CTP", "write positions in X, Y and Z"},
     RefusedWord{"CHF", "write the chamfer as an L block"},
     RefusedWord{"RND", "write the rounding as C or CR"},
     RefusedWord{"APPR", "write the approach as L and C blocks"},
@@ -87,6 +100,8 @@ constexpr std::array kLetters{
     LetterUse{'b', kNeedsTcpm},
     LetterUse{'c', kNeedsTcpm},
     LetterUse{'d', "it belongs to PLANE"},
+    LetterUse{'p', "PR gives a radius in LP, CP and CTP"},
+    LetterUse{'q', "PA gives an angle in LP, CP and CTP"},
     LetterUse{'t', "FT gives the time of a cutting block"},
 };
 constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
@@ -106,6 +121,7 @@ constexpr DialectRules kRules{
     .always_claimed = LetterSet("FST"),
     .letters = kLetters,
     .known_letters = "X Y Z A B C F FT M R",
+    .polar_words = LetterSet("pq"),
 };
 
 }  // namespace

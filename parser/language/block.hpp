@@ -8,8 +8,10 @@
 //   d        a tilted plane turns the rotary axes to its normal (0: it does not)
 //   t        the duration of the block in seconds (FT)
 //   e        full turns of an arc beyond the first (TURN=)
-//   p q      radius and angle of a polar position (@ ^)
+//   p q      radius and angle of a polar position (@ ^, PR PA)
+//   k        an arc goes on in the direction of the move before it (CT)
 //   u v w    a second shift of a tilted plane, along its own axes
+//   f r      the feed of a hole cycle, per minute and per revolution
 //   @        a word without a number (TRAORI, TOOL CALL): `number` is its row in the code table
 // Units: as written. Columns count bytes from 1. Comments are UTF-8 (Latin-1 text is converted).
 // Errors: none.
@@ -37,6 +39,7 @@ enum class Measure : std::uint8_t {
 constexpr char kNamedWord = '@';
 constexpr char kPolarRadius = 'p';
 constexpr char kPolarAngle = 'q';
+constexpr char kTangential = 'k';
 
 // A letter and its value: a plain number (the fast, common case) or an expression.
 struct Word {

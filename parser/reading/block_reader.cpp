@@ -15,7 +15,7 @@ BlockReader reader_of(Dialect dialect) {
     case Dialect::sinumerik:
       return read_sinumerik_block;
     case Dialect::heidenhain:
-      return read_heidenhain_block;
+      return heidenhain_reader();
     case Dialect::cldata:
       return cldata_reader();
   }

@@ -1,7 +1,7 @@
 // Lines of text -> blocks, in the spelling of one dialect.
 //
 // A reader keeps what its language spreads over lines and what control flow cannot change (the CIRCLE
-// before a GOTO); a new one belongs to each program.
+// before a GOTO, the name of BEGIN PGM); a new one belongs to each program.
 // Units: none; values are as written.
 // Errors: the first one of the block, with line, column and hint; the file is left to the caller.
 #pragma once
@@ -25,7 +25,7 @@ using BlockReader = std::function<Result<Block>(std::string_view text, std::uint
 [[nodiscard]] std::size_t continuation_mark(std::string_view line, Dialect dialect);
 
 [[nodiscard]] Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line);
-[[nodiscard]] Result<Block> read_heidenhain_block(std::string_view text, std::uint32_t line);
+[[nodiscard]] BlockReader heidenhain_reader();
 [[nodiscard]] BlockReader cldata_reader();
 
 }  // namespace frustum::parser

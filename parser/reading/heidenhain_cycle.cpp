@@ -1,7 +1,10 @@
-// CYCL DEF of Klartext.
+// CYCL DEF and CYCL CALL of Klartext.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain_statements.hpp"
@@ -9,31 +12,150 @@
 namespace frustum::parser {
 namespace {
 
+struct CycleParameter {
+  const char* name;
+  char letter;  // hole_cycle.hpp
+  const char* spelled;
+  bool needed = false;
+};
+struct ParameterCycle {
+  double number;
+  const char* code;
+  std::span<const CycleParameter> parameters;
+  std::string_view form;
+};
+constexpr std::array kPreset{CycleParameter{"Q339", 'P', "Q339=", true}};
+constexpr std::array kDrill{CycleParameter{"Q200", 'u', "Q200=", true},
+                            CycleParameter{"Q201", 'z', "Q201=", true},
+                            CycleParameter{"Q206", 'f', "Q206=", true},
+                            CycleParameter{"Q202", 'Q', "Q202="},
+                            CycleParameter{"Q210", 'w', "Q210="},
+                            CycleParameter{"Q203", 'V', "Q203=", true},
+                            CycleParameter{"Q204", 'v', "Q204="},
+                            CycleParameter{"Q211", 'P', "Q211="},
+                            CycleParameter{"Q395", 0, ""}};
+constexpr std::array kReam{
+    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
+    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
+    CycleParameter{"Q208", 'W', "Q208="},       CycleParameter{"Q203", 'V', "Q203=", true},
+    CycleParameter{"Q204", 'v', "Q204="}};
+constexpr std::array kTap{
+    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
+    CycleParameter{"Q239", 'r', "Q239=", true}, CycleParameter{"Q203", 'V', "Q203=", true},
+    CycleParameter{"Q204", 'v', "Q204="}};
+constexpr std::array kCycles{
+    ParameterCycle{247.0, "CYCL DEF 247", kPreset, "the preset's number is Q339"},
+    ParameterCycle{200.0, "CYCL DEF 200", kDrill,
+                   "it has Q200 Q201 Q206 Q202 Q210 Q203 Q204 Q211, for example Q200=+2"},
+    ParameterCycle{201.0, "CYCL DEF 201", kReam,
+                   "it has Q200 Q201 Q206 Q211 Q208 Q203 Q204, for example Q200=+2"},
+    ParameterCycle{207.0, "CYCL DEF 207", kTap,
+                   "it has Q200 Q201 Q239 Q203 Q204, for example Q200=+2"}};
+
 class CycleReader {
  public:
   explicit CycleReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
 
   void read_cycle(std::uint32_t column) {
     const bool defines = in_.take_name("DEF");
+    if (!defines && in_.take_name("CALL")) {
+      add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL"), column);
+      return read_heidenhain_elements(draft_, "CYCL CALL");
+    }
     const auto number = defines ? in_.number() : std::nullopt;
     if (!number) {
-      return in_.fail(column, defines ? "CYCL DEF has no number" : "CYCL CALL is not simulated",
-                      "write the cycle out as L blocks");
+      return in_.fail(column, defines ? "CYCL DEF has no number" : "CYCL without DEF or CALL",
+                      "write CYCL DEF 200 and its parameters, or CYCL CALL");
     }
     const double cycle = std::floor(number->value + 1e-6);
     const int part = static_cast<int>(std::lround((number->value - cycle) * 10.0));
-    if (cycle == 247.0) return read_preset(column);
     if (cycle == 9.0) return read_dwell_cycle(part, column);
     if (cycle == 32.0) return note(draft_, "CYCL DEF 32", column, in_.text_to(";"));
+    if (cycle == 7.0) return read_shift(part, column);
+    if (cycle == 8.0) return read_mirror(part, column);
+    if (cycle == 10.0) return read_turn(part, column);
+    if (cycle == 11.0) return read_scaling(part, column);
+    for (const ParameterCycle& known : kCycles) {
+      if (cycle == known.number) return read_parameters(known, column);
+    }
+    struct Remedy {
+      double cycle;
+      const char* text;
+    };
+    constexpr std::array kRemedies{
+        Remedy{12.0, "call the program by CALL LBL, from a label of this program"},
+        Remedy{19.0, "use PLANE SPATIAL"},
+        Remedy{26.0, "scale all axes by one factor: CYCL DEF 11.1 SCL 0.99"},
+        Remedy{203.0, "use CYCL DEF 200, or write the cycle out as L blocks"},
+        Remedy{205.0, "use CYCL DEF 200, or write the cycle out as L blocks"}};
+    const auto* remedy = std::find_if(kRemedies.begin(), kRemedies.end(),
+                                      [&](const Remedy& r) { return r.cycle == cycle; });
     in_.fail(column, fmt::format("CYCL DEF {} is not simulated", cycle),
-             cycle == 19.0  ? "use PLANE SPATIAL"
-             : cycle == 7.0 ? "set the work offset in the job, and call it by CYCL DEF 247 Q339=1"
-                            : "write the cycle out as L blocks");
+             remedy == kRemedies.end() ? "write the cycle out as L blocks" : remedy->text);
   }
 
  private:
-  void read_preset(std::uint32_t column) {
-    add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 247"), column);
+  // CYCL DEF 7.1 X+60, IX+5
+  void read_shift(int part, std::uint32_t column) {
+    if (part == 0) return note(draft_, "CYCL DEF 7", column, in_.text_to(";"));
+    if (in_.peek() == '#') {
+      return in_.fail(in_.column(), "datums of a table are not simulated",
+                      "give the shift by its values: CYCL DEF 7.1 X+60");
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 7"), column);
+    read_heidenhain_axes(draft_, "CYCL DEF 7");
+  }
+
+  // CYCL DEF 8.1 X Y; without axes it ends.
+  void read_mirror(int part, std::uint32_t column) {
+    if (part == 0) return note(draft_, "CYCL DEF 8", column, in_.text_to(";"));
+    const std::size_t place = block_.words.size();
+    while (!in_.at_end() && in_.peek() != ';') {
+      const std::uint32_t axis_column = in_.column();
+      const std::string axes = in_.letters();
+      const std::size_t other = axes.find_first_not_of("XYZ");
+      if (axes.empty() || other != std::string::npos) {
+        return in_.fail(axis_column, "CYCL DEF 8 mirrors X, Y and Z", "write CYCL DEF 8.1 X Y");
+      }
+      for (const char axis : axes) add_number(block_, axis, 0.0, axis_column);
+    }
+    const bool on = block_.words.size() > place;
+    add_code(block_, *find_code(Dialect::heidenhain, on ? "CYCL DEF 8" : "CYCL DEF 8 OFF"), column);
+    end_statement(draft_);
+  }
+
+  // CYCL DEF 11.1 SCL 0.99
+  void read_scaling(int part, std::uint32_t column) {
+    if (part == 0) return note(draft_, "CYCL DEF 11", column, in_.text_to(";"));
+    const std::uint32_t place = in_.column();
+    if (!in_.take_name("SCL")) {
+      return in_.fail(place, "CYCL DEF 11 has no SCL", "write CYCL DEF 11.1 SCL 0.99");
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 11"), column);
+    for (const char axis : {'X', 'Y', 'Z'}) add_number(block_, axis, 0.0, column);
+    add_value(draft_, 'P', "SCL", place, "SCL");
+    block_.words.back().decimal_point = true;  // a factor, no thousandths
+    end_statement(draft_);
+  }
+
+  // CYCL DEF 10.1 ROT+35, IROT+5: about the datum.
+  void read_turn(int part, std::uint32_t column) {
+    if (part == 0) return note(draft_, "CYCL DEF 10", column, in_.text_to(";"));
+    const std::uint32_t place = in_.column();
+    const std::string name = in_.letters();
+    if (name != "ROT" && name != "IROT") {
+      return in_.fail(place, "CYCL DEF 10 has no ROT", "write CYCL DEF 10.1 ROT+35");
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 10"), column);
+    add_number(block_, 'X', 0.0, column);
+    add_number(block_, 'Y', 0.0, column);
+    add_value(draft_, 'R', name, place, name == "ROT" ? "ROT" : "IROT");
+    if (name == "IROT") block_.words.back().measure = Measure::incremental;
+    end_statement(draft_);
+  }
+
+  void read_parameters(const ParameterCycle& cycle, std::uint32_t column) {
+    add_code(block_, *find_code(Dialect::heidenhain, cycle.code), column);
     while (!in_.at_end()) {
       if (in_.peek() == ';') {
         draft_.read_comment();
@@ -41,13 +163,33 @@ class CycleReader {
       }
       const std::uint32_t place = in_.column();
       const std::string name = in_.name();
-      if (name.empty()) return in_.fail_unexpected("write CYCL DEF 247 DATUM SETTING Q339=+1");
+      if (name.empty()) return in_.fail_unexpected(std::string(cycle.form));
       if (!in_.take('=')) continue;  // the cycle's name
-      if (name != "Q339") {
-        return in_.fail(place, fmt::format("{} has no meaning in CYCL DEF 247", name),
-                        "the preset's number is Q339");
+      const auto known =
+          std::find_if(cycle.parameters.begin(), cycle.parameters.end(),
+                       [&](const CycleParameter& parameter) { return name == parameter.name; });
+      if (known == cycle.parameters.end()) {
+        return in_.fail(place, fmt::format("{} has no meaning in {}", name, cycle.code),
+                        std::string(cycle.form));
       }
-      add_number(block_, 'P', in_.signed_number(name, place), place, "Q339=");
+      if (known->letter == 0) {  // of which only zero is simulated
+        if (in_.signed_number(name, place) != 0.0) {
+          in_.fail(place, fmt::format("{} is not simulated", name), "give it the value 0");
+        }
+        continue;
+      }
+      add_value(draft_, known->letter, name, place, known->spelled);
+    }
+    for (const CycleParameter& parameter : cycle.parameters) {
+      const bool given =
+          std::any_of(block_.words.begin(), block_.words.end(),
+                      [&](const Word& word) { return word.letter == parameter.letter; });
+      if (!parameter.needed || given || in_.failed()) continue;
+      if (cycle.number == 247.0) {
+        return in_.fail(column, "CYCL DEF 247 without a number", std::string(cycle.form));
+      }
+      return in_.fail(column, fmt::format("{} has no {}", cycle.code, parameter.name),
+                      std::string(cycle.form));
     }
   }
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <type_traits>
+
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain_statements.hpp"
 
@@ -35,25 +37,37 @@ class FlowReader {
                                       Operation::less};
     if (fn >= 9 && fn <= 12)
       return read_fn_jump(kComparisons.at(static_cast<std::size_t>(fn - 9)), column);
+    if (fn == 14) return read_raised_error(column);
+    if (fn == 15) return note(draft_, "FN 15", column, in_.text_to(";"));
+    if (fn == 16) return note(draft_, "FN 16", column, in_.text_to(";"));
     const std::uint32_t place = in_.column();
     const std::string target = in_.name();
-    if (fn > 7) {
+    if (fn > 8 && fn != 13) {
       return in_.fail(column, fmt::format("FN {} is not simulated", fn),
-                      "known are FN 0 to FN 7 and FN 9 to FN 12");
+                      "known are FN 0 to FN 16; set what it would read by FN 0: Q1 = +5");
     }
     if (!is_q_parameter(target) || !in_.take('=')) {
       return in_.fail(place, "FN sets no parameter", "write FN 0: Q5 = +60");
     }
     draft_.begin_setting(target, place);
     const auto operand = [&] { (void)draft_.read_expression(ExpressionLevel::operand); };
-    const auto with = [&](std::string_view word, Operation operation) {
+    const auto square = [&] {
+      block_.steps.push_back({Operation::number, place, 2.0});
+      push(Operation::power, place);
+    };
+    const auto with = [&](std::string_view word, const auto& combine) {
       const std::uint32_t sign = in_.column();
       if (!in_.take_name(word)) {
         return in_.fail(sign, fmt::format("FN {} has no {}", fn, word),
-                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2");
+                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2, "
+                        "FN 8: Q5 = +5 LEN +4, FN 13: Q6 = +5 ANG +4");
       }
       operand();
-      push(operation, sign);
+      if constexpr (std::is_same_v<std::decay_t<decltype(combine)>, Operation>) {
+        push(combine, sign);
+      } else {
+        combine();
+      }
     };
     const auto sign_with = [&](char sign, Operation operation) {
       const std::uint32_t at = in_.column();
@@ -84,8 +98,34 @@ class FlowReader {
       if (fn == 2) sign_with('-', Operation::subtract);
       if (fn == 3) sign_with('*', Operation::multiply);
       if (fn == 4) with("DIV", Operation::divide);
+      if (fn == 8) {
+        square();
+        with("LEN", [&] {
+          square();
+          push(Operation::add, place);
+          push(Operation::square_root, place);
+        });
+      }
+      if (fn == 13) {
+        // From 0 to 360 degrees.
+        with("ANG", [&] {
+          push(Operation::arc_tangent, place);
+          block_.steps.push_back({Operation::number, place, 360.0});
+          push(Operation::modulo, place);
+        });
+      }
     }
     draft_.end_setting();
+    end_statement(draft_);
+  }
+
+  // FN 14: ERROR = 1000
+  void read_raised_error(std::uint32_t column) {
+    if (!in_.take_name("ERROR") || !in_.take('=')) {
+      return in_.fail(in_.column(), "FN 14 has no ERROR =", "write FN 14: ERROR = 1000");
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, "FN 14"), column);
+    add_value(draft_, 'E', "ERROR", column, "ERROR=");
     end_statement(draft_);
   }
 

@@ -1,4 +1,4 @@
-// Path statements of Klartext: L, LN, C, CR, CC and the elements of a line.
+// Path statements of Klartext: L, LN, C, CR, CT, LP, CP, CTP, CC and the elements of a line.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,12 +16,21 @@ struct Element {
 constexpr std::array kIncremental{Element{"IX", 'X', "IX"}, Element{"IY", 'Y', "IY"},
                                   Element{"IZ", 'Z', "IZ"}, Element{"IA", 'A', "IA"},
                                   Element{"IB", 'B', "IB"}, Element{"IC", 'C', "IC"}};
+struct PolarElement {
+  std::string_view name;
+  char letter;
+  Measure measure;
+};
+constexpr std::array kPolar{PolarElement{"PR", kPolarRadius, Measure::modal},
+                            PolarElement{"PA", kPolarAngle, Measure::modal},
+                            PolarElement{"IPR", kPolarRadius, Measure::incremental},
+                            PolarElement{"IPA", kPolarAngle, Measure::incremental}};
 constexpr std::array kToolVector{Element{"TX", 'a', "TX"}, Element{"TY", 'b', "TY"},
                                  Element{"TZ", 'c', "TZ"}};
 
-template <std::size_t N>
-const Element* find(const std::array<Element, N>& elements, std::string_view name) {
-  for (const Element& element : elements) {
+template <typename Known, std::size_t N>
+const Known* find(const std::array<Known, N>& elements, std::string_view name) {
+  for (const Known& element : elements) {
     if (element.name == name) return &element;
   }
   return nullptr;
@@ -30,6 +39,7 @@ const Element* find(const std::array<Element, N>& elements, std::string_view nam
 // What a statement has room for.
 struct Path {
   bool axes = false;
+  bool polar = false;
   bool vector = false;
   bool radius = false;
   bool sense = false;
@@ -41,19 +51,25 @@ class PathReader {
   explicit PathReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
 
   void read_path(const std::string& statement, std::uint32_t column) {
-    const bool arc = statement.front() == 'C';
+    const bool tangential = statement.starts_with("CT");
+    const bool polar = statement.ends_with('P');
+    const bool arc = statement.front() == 'C' && !tangential;
     // The place of the statement's word; which word it is, the elements tell.
     block_.words.push_back({kNamedWord, false, column, 0.0, {}});
     Path path;
     path.axes = true;
+    path.polar = polar;
     path.vector = statement == "LN";
     path.radius = statement == "CR";
     path.sense = arc;
     path.feed = true;
     read_elements(statement, path);
     if (in_.failed()) return;
-    std::string word = statement;
-    if (arc) {
+    std::string word = polar ? statement.substr(0, statement.size() - 1) : statement;
+    if (tangential) {
+      if (rapid_) return in_.fail(column, statement + " with FMAX", "give an arc a feed");
+      add_number(block_, kTangential, 1.0, column);
+    } else if (arc) {
       if (sense_ == 0) {
         return in_.fail(column, statement + " has no direction", "end it with DR+ or DR-");
       }
@@ -108,6 +124,9 @@ class PathReader {
     if (const Element* element = find(kIncremental, name); path.axes && element != nullptr) {
       return add_measured(element->letter, Measure::incremental, element->spelled, column);
     }
+    if (const PolarElement* element = find(kPolar, name); path.polar && element != nullptr) {
+      return add_measured(element->letter, element->measure, element->name.data(), column);
+    }
     if (const Element* element = find(kToolVector, name); path.vector && element != nullptr) {
       return add_value(draft_, element->letter, name, column, element->spelled);
     }
@@ -133,7 +152,7 @@ class PathReader {
     }
     in_.fail(column, fmt::format("{} has no meaning in {}", name, statement),
              "known are X Y Z A B C, I before them, R0, F, FMAX, F AUTO, FT, M; TX TY TZ in LN; "
-             "DR+ and DR- in C and CR");
+             "DR+ and DR- in C, CR and CP; PR and PA in LP, CP and CTP");
   }
 
   void read_radius(const std::string& statement, const Path& path, std::uint32_t column) {
@@ -162,6 +181,10 @@ class PathReader {
       return;
     }
     if (name == "FT") return add_number(block_, 't', in_.signed_number(name, column), column, "FT");
+    if (name.starts_with("FQ")) {  // FQ1
+      in_.go_to(column + 1);
+      return add_value(draft_, 'F', "F", column, nullptr);
+    }
     if (!spaced) {
       return in_.fail(column, name + " is not simulated",
                       "give F, FMAX, F AUTO or FT; feed per revolution is M136");
@@ -209,6 +232,9 @@ void read_heidenhain_path(BlockDraft& draft, const std::string& statement, std::
 }
 void read_heidenhain_elements(BlockDraft& draft, const std::string& statement) {
   PathReader(draft).read_elements(statement, {});
+}
+void read_heidenhain_axes(BlockDraft& draft, const std::string& statement) {
+  PathReader(draft).read_elements(statement, {.axes = true});
 }
 void read_heidenhain_pole(BlockDraft& draft, std::uint32_t column) {
   PathReader(draft).read_pole(column);

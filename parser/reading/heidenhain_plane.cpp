@@ -3,18 +3,40 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain_statements.hpp"
 
 namespace frustum::parser {
 namespace {
 
-struct SpatialAngle {
+struct PlaneWord {
   const char* name;
   char letter;
 };
-constexpr std::array kSpatialAngles{SpatialAngle{"SPA", 'A'}, SpatialAngle{"SPB", 'B'},
-                                    SpatialAngle{"SPC", 'C'}};
+struct PlaneForm {
+  std::string_view kind;
+  const char* code;
+  std::size_t needed;
+  std::string_view what;
+  std::span<const PlaneWord> words;
+};
+constexpr std::array kSpatial{PlaneWord{"SPA", 'A'}, PlaneWord{"SPB", 'B'}, PlaneWord{"SPC", 'C'}};
+constexpr std::array kEuler{PlaneWord{"EULPR", 'I'}, PlaneWord{"EULNU", 'J'},
+                            PlaneWord{"EULROT", 'K'}};
+constexpr std::array kVectors{PlaneWord{"BX", 'A'}, PlaneWord{"BY", 'B'}, PlaneWord{"BZ", 'C'},
+                              PlaneWord{"NX", 'I'}, PlaneWord{"NY", 'J'}, PlaneWord{"NZ", 'K'}};
+constexpr std::array kPoints{PlaneWord{"P1X", 'X'}, PlaneWord{"P1Y", 'Y'}, PlaneWord{"P1Z", 'Z'},
+                             PlaneWord{"P2X", 'I'}, PlaneWord{"P2Y", 'J'}, PlaneWord{"P2Z", 'K'},
+                             PlaneWord{"P3X", 'u'}, PlaneWord{"P3Y", 'v'}, PlaneWord{"P3Z", 'w'}};
+constexpr std::array kForms{
+    PlaneForm{"SPATIAL", "PLANE SPATIAL", 3, "three angles: SPA, SPB and SPC", kSpatial},
+    PlaneForm{"EULER", "PLANE EULER", 3, "three angles: EULPR, EULNU and EULROT", kEuler},
+    PlaneForm{"VECTOR", "PLANE VECTOR", 6, "two vectors: BX BY BZ and NX NY NZ", kVectors},
+    PlaneForm{"POINTS", "PLANE POINTS", 9, "three points: P1X P1Y P1Z to P3Z", kPoints},
+    PlaneForm{"RELATIV", "PLANE RELATIV", 1, "one angle: SPA, SPB or SPC", kSpatial},
+    PlaneForm{"RELATIVE", "PLANE RELATIV", 1, "one angle: SPA, SPB or SPC", kSpatial},
+    PlaneForm{"RESET", "PLANE RESET", 0, "", {}}};
 
 class PlaneReader {
  public:
@@ -22,12 +44,14 @@ class PlaneReader {
 
   void read_plane(std::uint32_t column) {
     const std::string kind = in_.name();
-    if (kind != "SPATIAL" && kind != "RESET") {
+    const auto* form = std::find_if(kForms.begin(), kForms.end(),
+                                    [&](const PlaneForm& known) { return known.kind == kind; });
+    if (form == kForms.end()) {
       return in_.fail(column, fmt::format("PLANE {} is not simulated", kind),
-                      "use PLANE SPATIAL SPA SPB SPC, or PLANE RESET");
+                      "use PLANE SPATIAL SPA SPB SPC, EULER, VECTOR, POINTS, RELATIV or RESET");
     }
-    add_code(block_, *find_code(Dialect::heidenhain, "PLANE " + kind), column);
-    int angles = 0;
+    add_code(block_, *find_code(Dialect::heidenhain, form->code), column);
+    std::size_t given = 0;
     bool behaviour = false;
     while (!in_.at_end()) {
       const std::uint32_t place = in_.column();
@@ -35,14 +59,13 @@ class PlaneReader {
         draft_.read_comment();
         continue;
       }
+      if (const PlaneWord* word = take_word(*form)) {
+        add_value(draft_, word->letter, word->name, place, word->name);
+        ++given;
+        continue;
+      }
       const std::string name = in_.letters();
-      const auto* angle =
-          std::find_if(kSpatialAngles.begin(), kSpatialAngles.end(),
-                       [&](const SpatialAngle& known) { return known.name == name; });
-      if (angle != kSpatialAngles.end() && kind == "SPATIAL") {
-        add_number(block_, angle->letter, in_.signed_number(name, place), place, angle->name);
-        ++angles;
-      } else if (name == "TURN" || name == "STAY") {
+      if (name == "TURN" || name == "STAY") {
         behaviour = true;
         if (name == "TURN") add_number(block_, 'd', 1.0, place, "TURN ");
       } else if (name == "MOVE") {
@@ -52,8 +75,13 @@ class PlaneReader {
         read_plane_option(name, place);
       }
     }
-    if (kind == "SPATIAL" && angles < 3) {
-      in_.fail(column, "PLANE SPATIAL needs three angles", "give SPA, SPB and SPC, zero or not");
+    if (in_.failed()) return;
+    const bool all = form->kind.starts_with("RELATIV") ? given == 1 : given >= form->needed;
+    if (!all) {
+      return in_.fail(
+          column,
+          fmt::format("PLANE {} needs {}", kind, form->what.substr(0, form->what.find(':'))),
+          fmt::format("give {}", form->what.substr(form->what.find(':') + 2)));
     }
     if (!behaviour) {
       in_.fail(column, fmt::format("PLANE {} does not say whether the axes turn", kind),
@@ -62,6 +90,24 @@ class PlaneReader {
   }
 
  private:
+  // A word of the form, with its number behind it: SPA+45, P1X+0, BX+1.
+  const PlaneWord* take_word(const PlaneForm& form) {
+    const std::uint32_t place = in_.column();
+    const std::string name = in_.name();
+    for (const PlaneWord& word : form.words) {
+      const std::string_view known = word.name;
+      // SPA45: the number has no sign.
+      const bool run_on =
+          name.starts_with(known) && (name.size() == known.size() || name[known.size()] == 'Q' ||
+                                      (name[known.size()] >= '0' && name[known.size()] <= '9'));
+      if (!run_on) continue;
+      in_.go_to(place + static_cast<std::uint32_t>(known.size()));
+      return &word;
+    }
+    in_.go_to(place);
+    return nullptr;
+  }
+
   // How the axes get there, which is not simulated.
   void read_plane_option(const std::string& name, std::uint32_t place) {
     const auto pass = [&](const char* event, std::string text) {
@@ -89,7 +135,7 @@ class PlaneReader {
     }
     if (name.empty()) return in_.fail_unexpected("write PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY");
     in_.fail(place, fmt::format("{} has no meaning in PLANE", name),
-             "known are SPA SPB SPC, TURN, STAY, MB, F, SEQ, SYM, TABLE ROT, COORD ROT");
+             "known are the words of its form, TURN, STAY, MB, F, SEQ, SYM, TABLE ROT, COORD ROT");
   }
 
   BlockDraft& draft_;

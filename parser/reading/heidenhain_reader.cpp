@@ -1,8 +1,12 @@
 // Heidenhain Klartext: a statement a line, with its own elements.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <vector>
 
+#include "core/spelling.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/heidenhain_statements.hpp"
@@ -13,10 +17,15 @@ namespace {
 constexpr std::string_view kLineHint =
     "a line is a statement such as L X+10 R0 FMAX, with its number before it";
 
+constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
+// By their first words.
+constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL", "BEGIN", "END",
+                                 "BLK", "STOP", "FN",    "LBL",      "CALL", "M3",    "Q1"};
+
 class HeidenhainReader {
  public:
-  HeidenhainReader(std::string_view text, std::uint32_t line)
-      : draft_(text, line, heidenhain_expressions()) {}
+  HeidenhainReader(std::string_view text, std::uint32_t line, std::string& program)
+      : draft_(text, line, heidenhain_expressions()), program_(program) {}
 
   Result<Block> operator()() {
     if (const auto digits = in_.digits(); !digits.empty()) {
@@ -39,8 +48,9 @@ class HeidenhainReader {
       return note(draft_, "structure", column, in_.text_to());
     }
     const std::string name = in_.name();
-    if (name == "L" || name == "LN" || name == "C" || name == "CR")
+    if (std::find(kPaths.begin(), kPaths.end(), name) != kPaths.end()) {
       return read_heidenhain_path(draft_, name, column);
+    }
     if (name == "CC") return read_heidenhain_pole(draft_, column);
     if (name == "TOOL") return read_heidenhain_tool(draft_, column);
     if (name == "PLANE") return read_heidenhain_plane(draft_, column);
@@ -66,10 +76,9 @@ class HeidenhainReader {
       return in_.fail(column, name + " is not simulated", std::string(remedy));
     }
     if (name.empty()) return in_.fail_unexpected(std::string(kLineHint));
-    in_.fail(
-        column, "unknown statement " + name,
-        "known are L LN CC C CR TOOL CALL, TOOL DEF, PLANE SPATIAL, PLANE RESET, FUNCTION TCPM, "
-        "FUNCTION RESET TCPM, CYCL DEF 247, STOP, BLK FORM, BEGIN PGM, END PGM");
+    std::vector<std::string> known(kStatements.begin(), kStatements.end());
+    known.insert(known.end(), kPaths.begin(), kPaths.end());
+    in_.fail(column, "unknown statement " + name, suggestion(name, known));
   }
 
   void read_frame_of_program(const std::string& name, std::uint32_t column) {
@@ -77,29 +86,38 @@ class HeidenhainReader {
       return in_.fail(column, name + " without PGM", "write BEGIN PGM NAME MM or END PGM NAME MM");
     }
     const std::uint32_t place = in_.column();
-    std::string text = in_.text_to();
+    std::string text = in_.text_to(";");
+    const std::string called = text.substr(0, text.find(' '));
     if (name == "END") {
+      if (!program_.empty() && called != program_) {
+        return in_.fail(place, fmt::format("END PGM {} of the program {}", called, program_),
+                        "BEGIN PGM and END PGM have the same name");
+      }
       add_code(block_, *find_code(Dialect::heidenhain, "END PGM"), column);
-      return;
+      return end_statement(draft_);
     }
+    program_ = called;
     const bool metric = text.ends_with(" MM") || text == "MM";
     if (!metric && !text.ends_with(" INCH") && text != "INCH") {
       return in_.fail(place, "BEGIN PGM has no unit", "end it with MM or INCH");
     }
     add_code(block_, *find_code(Dialect::heidenhain, metric ? "BEGIN PGM MM" : "BEGIN PGM INCH"),
              column);
-    draft_.add_event("BEGIN PGM", column, std::move(text));
+    note(draft_, "BEGIN PGM", column, std::move(text));
   }
 
   BlockDraft draft_;
   LineScanner& in_ = draft_.in;
   Block& block_ = draft_.block;
+  std::string& program_;  // of BEGIN PGM
 };
 
 }  // namespace
 
-Result<Block> read_heidenhain_block(std::string_view text, std::uint32_t line) {
-  return HeidenhainReader(text, line)();
+BlockReader heidenhain_reader() {
+  return [program = std::string()](std::string_view text, std::uint32_t line) mutable {
+    return HeidenhainReader(text, line, program)();
+  };
 }
 
 }  // namespace frustum::parser

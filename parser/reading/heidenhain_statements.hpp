@@ -12,9 +12,10 @@
 
 namespace frustum::parser {
 
-// L, LN, C, CR; the elements of a line that has no path: STOP M5; CC.
+// L, LN, C, CR, CT, LP, CP, CTP; the elements of a line that has no path: STOP M5; axes alone; CC.
 void read_heidenhain_path(BlockDraft& draft, const std::string& statement, std::uint32_t column);
 void read_heidenhain_elements(BlockDraft& draft, const std::string& statement);
+void read_heidenhain_axes(BlockDraft& draft, const std::string& statement);
 void read_heidenhain_pole(BlockDraft& draft, std::uint32_t column);
 // Q1 = ..., FN 0: .., LBL, CALL LBL.
 void read_heidenhain_setting(BlockDraft& draft, const std::string& name, std::uint32_t column);

@@ -16,12 +16,16 @@ class ToolReader {
     if (kind == "DEF") return note(draft_, "TOOL DEF", column, in_.text_to(";"));
     if (kind != "CALL")
       return in_.fail(column, "TOOL without CALL or DEF", "write TOOL CALL 1 Z S5000");
-    if (in_.peek() == '"' || in_.peek() == 'Q') {
+    const std::string next = in_.next_name();
+    if (in_.peek() == '"' || next.starts_with("QS")) {
       return in_.fail(in_.column(), "TOOL CALL has a name instead of a number",
                       "tools go by their numbers here: TOOL CALL 1 Z S5000");
     }
     const std::uint32_t place = in_.column();
-    if (const auto tool = in_.number()) {
+    if (is_q_parameter(next)) {
+      add_code(block_, *find_code(Dialect::heidenhain, "TOOL CALL"), column);
+      add_value(draft_, 'T', "TOOL CALL", place, "tool ");
+    } else if (const auto tool = in_.number()) {
       add_code(block_, *find_code(Dialect::heidenhain, "TOOL CALL"), column);
       add_number(block_, 'T', tool->value, place, "tool ");
     }
@@ -43,8 +47,14 @@ class ToolReader {
       return in_.fail(column, fmt::format("tool axis {} is not simulated", name),
                       "the tool is along Z");
     }
-    if (name == "S") return add_number(block_, 'S', in_.signed_number(name, column), column);
-    if (name == "F") return add_number(block_, 'F', in_.signed_number(name, column), column);
+    // SQ1, FQ2
+    const bool by_parameter =
+        (name.starts_with('S') || name.starts_with('F')) && name.size() > 1 && name[1] == 'Q';
+    if (by_parameter) {
+      in_.go_to(column + 1);
+      name.resize(1);
+    }
+    if (name == "S" || name == "F") return add_value(draft_, name[0], name, column, nullptr);
     if (name == "DL" || name == "DR") {
       if (in_.peek_byte() == '2') (void)in_.digits();
       if (in_.signed_number(name, column) != 0.0) {

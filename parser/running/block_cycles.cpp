@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/units.hpp"
@@ -108,6 +109,10 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   depths.peck = cycle.peck.value_or(0.0);
   depths.dwell = cycle.dwell.value_or(0.0);
   depths.back = cycle.back.value_or(0.0) + (incremental ? depths.bottom : 0.0);
+  if (needs_peck(cycle.last) && depths.level - depths.bottom > kMostPecks * depths.peck) {
+    return fail(movement.column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
+                "give a larger Q");
+  }
   if (depths.bottom > depths.level) {
     return fail(movement.column,
                 fmt::format("the bottom of the hole ({:g} mm) lies above R ({:g} mm)",
@@ -145,37 +150,48 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
       position_.set(w, depths.level);
       rapid(movement.column);
     }
-    drill(steps_at_hole(cycle.last, depths), movement.column, w, *feed);
+    Vec3 centre;
+    for (const AxisLetter axis : {u, v, w}) {
+      centre[static_cast<Eigen::Index>(axis)] = *position_[axis];
+    }
+    const auto place = [&](double depth, bool shifted) {
+      Vec3 point = centre;
+      if (shifted) {
+        point[axes.u] += state_.cycle->shift_u.value_or(0.0);
+        point[axes.v] += state_.cycle->shift_v.value_or(0.0);
+      }
+      point[axes.w] = depth;
+      return point;
+    };
+    drill(steps_at_hole(cycle.last, depths), movement.column, place, *feed, *feed);
   }
   return Done{};
 }
 
 void BlockExecutor::drill(const std::vector<CycleStep>& steps, std::uint32_t column,
-                          AxisLetter depth_axis, const Feed& feed) {
-  const PlaneAxes axes = axes_of(state_.plane);
-  const auto u = static_cast<AxisLetter>(axes.u);
-  const auto v = static_cast<AxisLetter>(axes.v);
-  const double at_u = *position_[u];
-  const double at_v = *position_[v];
+                          const PlaceInHole& place, const Feed& feed, const Feed& feed_out) {
   const SpindleDirection turned = state_.spindle;
   const auto turn = [&](SpindleDirection direction) {
     state_.spindle = direction;
     emit(column, SpindleChange{direction, state_.spindle_speed});
   };
+  double depth = std::numeric_limits<double>::infinity();
   for (const CycleStep& step : steps) {
     switch (step.action) {
       case CycleAction::rapid:
       case CycleAction::feed: {
         const AxisTarget before = position_.target();
-        position_.set(u, at_u + (step.shifted ? state_.cycle->shift_u.value_or(0.0) : 0.0));
-        position_.set(v, at_v + (step.shifted ? state_.cycle->shift_v.value_or(0.0) : 0.0));
-        position_.set(depth_axis, step.value);
+        const Vec3 point = place(step.value, step.shifted);
+        for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
+          position_.set(axis, point[static_cast<Eigen::Index>(axis)]);
+        }
         if (step.action == CycleAction::feed) {
-          emit(column,
-               LinearFeed{position_.target(), state_.tool_axis, Coordinates::program, feed});
+          emit(column, LinearFeed{position_.target(), state_.tool_axis, Coordinates::program,
+                                  step.value > depth ? feed_out : feed});
         } else if (!(before == position_.target())) {
           emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
         }
+        depth = step.value;
         break;
       }
       case CycleAction::dwell:

@@ -56,6 +56,11 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   if (auto done = check_claims(*words, *movement); !done) return std::move(done).error();
 
   report_comments(block);
+  if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
+      raised.code != nullptr) {
+    return fail(raised.column, fmt::format("the program stops with {}", words->text_of('E')),
+                "look at the conditions before this block");
+  }
   if (auto done = set_parameters(block); !done) return std::move(done).error();
   state_.unit = words->value_or(CodeGroup::unit, state_.unit);
   const bool dwells = movement->non_modal == NonModal::dwell;
@@ -91,6 +96,7 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   }
   if (auto done = set_frames(*words); !done) return std::move(done).error();
   if (auto done = move(*words, *movement); !done) return std::move(done).error();
+  if (auto done = call_hole_cycle(*words); !done) return std::move(done).error();
   return finish(*words);
 }
 
@@ -138,7 +144,8 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
     }
     return Movement{non_modal, mode, non_modal_code.column};
   }
-  for (const CodeGroup group : {CodeGroup::tilted_plane, CodeGroup::scaling, CodeGroup::mirror}) {
+  for (const CodeGroup group :
+       {CodeGroup::tilted_plane, CodeGroup::scaling, CodeGroup::mirror, CodeGroup::hole_cycle}) {
     const Code* frame = words[group].code;
     if (frame != nullptr && !frame->arguments.empty()) {
       return Movement{non_modal, MotionMode::none, 0};

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/arc.hpp"
 #include "parser/dialects/dialect_rules.hpp"
 #include "parser/language/block.hpp"
 #include "parser/language/parameters.hpp"
@@ -110,6 +111,7 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_compensation(const BlockWords& words);
   [[nodiscard]] Outcome set_work_offset(const BlockWords& words);
   [[nodiscard]] Outcome set_tilted_plane(const BlockWords& words);
+  [[nodiscard]] Outcome set_plane(const BlockWords& words);
   [[nodiscard]] Outcome set_feature(const BlockWords& words);
   [[nodiscard]] Outcome check_feature(const Movement& movement) const;
   [[nodiscard]] Outcome turn_in_space(const BlockWords& words);
@@ -134,8 +136,15 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_cycle(const BlockWords& words, const Movement& movement,
                                   AxisLetter depth_axis);
   [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);
-  void drill(const std::vector<CycleStep>& steps, std::uint32_t column, AxisLetter depth_axis,
-             const Feed& feed);
+  // Where the tool is at a depth of the hole, on its axis or shifted.
+  using PlaceInHole = std::function<Vec3(double depth, bool shifted)>;
+  void drill(const std::vector<CycleStep>& steps, std::uint32_t column, const PlaceInHole& place,
+             const Feed& feed, const Feed& feed_out);
+  [[nodiscard]] Outcome set_hole_cycle(const BlockWords& words);
+  [[nodiscard]] Outcome make_hole(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome call_hole_cycle(const BlockWords& words);
+  void drill_from_top(const Vec3& top, const std::optional<Vec3>& from, bool turns,
+                      std::uint32_t column);
   [[nodiscard]] Result<CallSubprogram> called_program(const BlockWords& words) const;
   [[nodiscard]] Result<Flow> call_macro(const BlockWords& words) const;
   [[nodiscard]] Result<Flow> finish(const BlockWords& words);
@@ -148,6 +157,10 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_polar_target(const BlockWords& words);
   [[nodiscard]] Outcome set_place_in_plane(const BlockWords& words);
   [[nodiscard]] Outcome check_polar_arc(const BlockWords& words) const;
+  [[nodiscard]] Outcome set_target_about_pole(const BlockWords& words);
+  [[nodiscard]] Outcome check_turned_angle(const BlockWords& words, const ArcWords& arc) const;
+  [[nodiscard]] Outcome lead_on(const Movement& movement, ArcWords& arc) const;
+  void keep_heading(const AxisTarget& before);
   [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
   void announce_rotary_path(const BlockWords& words, std::uint32_t column);
   [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;

@@ -152,12 +152,14 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   const auto kind = static_cast<TiltWord>(tilt.code->value);
   if (kind == TiltWord::turn) return turn_words(words);
   if (kind == TiltWord::feature || kind == TiltWord::feature_within) return set_feature(words);
+  if (kind >= TiltWord::spatial) return set_plane(words);
   if (kind == TiltWord::off) {
     state_.feature.reset();
     if (state_.frame_below) state_.word_frame = *state_.frame_below;
     state_.frame_below.reset();
   }
-  if (kind == TiltWord::off && state_.word_frame.turns()) {
+  const bool ends_turn = rules_.dialect != Dialect::heidenhain;  // G69
+  if (kind == TiltWord::off && ends_turn && state_.word_frame.turns()) {
     WordFrame straight = state_.word_frame;
     straight.turn = {};
     change_word_frame(straight);
@@ -165,11 +167,7 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   }
   Pose plane{Mat3::Identity(), Vec3::Zero()};
   if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale();
-  if (kind == TiltWord::spatial) {
-    const Vec3 angles = vector_of(words, "ABC") * kRadPerDeg;
-    plane.translation.setZero();
-    plane.rotation = turn(2, angles[2]) * turn(1, angles[1]) * turn(0, angles[0]);
-  } else if (kind == TiltWord::swivel) {
+  if (kind == TiltWord::swivel) {
     const auto mode = whole(words, 'Q', 0, 255);
     if (!mode) return mode.error();
     const auto axes = axis_sequence(*mode);
@@ -241,7 +239,7 @@ BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
   if (auto done = set_tilted_plane(words); !done) return done;
   set_polar_mode(words);
   set_paths(words);
-  return Done{};
+  return set_hole_cycle(words);
 }
 
 }  // namespace frustum::parser

@@ -1,6 +1,7 @@
 // The moves of a block: G28, G53, straight lines and arcs, and what they do to the known position.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -31,6 +32,14 @@ bool moves_linearly(const AxisTarget& before, const AxisTarget& after) {
   return false;
 }
 
+// Of an angle in degrees; a whole turn and a little is one.
+int started_turns(double angle) {
+  constexpr double kDegreesOfATurn = 360.0;
+  constexpr double kRounding = 1e-6;
+  const double turns = std::ceil(std::abs(angle) / kDegreesOfATurn - kRounding);
+  return static_cast<int>(std::clamp(turns, 1.0, static_cast<double>(kMaxTurns)));
+}
+
 Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
   Vec3 point = otherwise;
   for (const AxisLetter axis : kSpatialAxes) {
@@ -57,6 +66,9 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
     return move_in_machine_coordinates(words, movement);
   }
   if (is_cycle(movement.motion)) return run_cycle(words, movement);
+  if (rules_.holes_at_moves && state_.hole_cycle.on && movement.motion != MotionMode::none) {
+    return make_hole(words, movement);
+  }
   switch (movement.motion) {
     case MotionMode::none:
       return Done{};
@@ -134,6 +146,7 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
   if (auto done = check_word_frame(movement); !done) return done;
+  keep_heading(before);
   const AxisTarget end = end_of(words);
   if (movement.motion == MotionMode::traverse) {
     emit(movement.column, Traverse{end, state_.tool_axis, Coordinates::program});
@@ -179,7 +192,9 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     arc_words.centre.at(i) = words[letter].value * unit_scale() -
                              (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);
   }
-  if (rules_.arcs_turn_about_pole && !words.has('R')) {
+  if (words.has(kTangential)) {
+    if (auto done = lead_on(movement, arc_words); !done) return done;
+  } else if (rules_.arcs_turn_about_pole && !words.has('R')) {
     if (!state_.pole) {
       return fail(movement.column, "the arc has no centre", "give the centre by CC before");
     }
@@ -199,6 +214,15 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     position_.set(static_cast<AxisLetter>(axis), arc->end[axis]);
   }
   int turns = 1;
+  if (words[kPolarAngle].measure == Measure::incremental) {
+    if (auto done = check_turned_angle(words, arc_words); !done) return done;
+    turns = started_turns(words[kPolarAngle].value);
+  }
+  if (rules_.arcs_turn_about_pole) {
+    const Vec3 arm = arc->end - arc->centre;
+    const Vec3 along = Vec3::Unit(axes.w).cross(arm) * (arc_words.clockwise ? -1.0 : 1.0);
+    state_.heading = Heading{spatial(position_.target(), Vec3::Zero()), along};
+  }
   if (words.has('P')) {
     const auto given = whole(words, 'P', 1, kMaxTurns);
     if (!given) return given.error();
@@ -324,7 +348,11 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
     }
     state_.tool_axis.reset();
   }
-  if (auto done = set_polar_target(words); !done) return done;
+  if (auto done =
+          rules_.arcs_turn_about_pole ? set_target_about_pole(words) : set_polar_target(words);
+      !done) {
+    return done;
+  }
   if (auto done = set_place_in_plane(words); !done) return done;
   const PlaneAxes plane = axes_of(state_.plane);
   for (const AxisLetter axis : kAxisLetters) {

@@ -45,6 +45,11 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
       }
       break;
     default:
+      if (rules_.dialect == Dialect::heidenhain &&
+          (next.turns() || next.is_mirrored() || next.scale != 1.0)) {
+        return fail(code.column, "a datum shift within a rotation, mirror image or scaling",
+                    "end them (CYCL DEF 10.1 ROT+0, 8.1, 11.1 SCL 1), shift, and begin them again");
+      }
       if ((words.given() & kAxisWords).empty()) {
         return fail(code.column, code.code->name() + " names no axis",
                     fmt::format("give the axes to shift, for example {} X0", code.code->name()));
@@ -57,7 +62,7 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
         double& shift = is_rotary(axis) ? next.rotary_shift.at(slot - 3)
                                         : next.shift[static_cast<Eigen::Index>(slot)];
         if (how == NonModal::shift) {
-          shift = value;
+          shift = value + (words[letter].measure == Measure::incremental ? shift : 0.0);
           continue;
         }
         if (!position_[axis]) {
@@ -80,6 +85,10 @@ BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
     return fail(code.column, code.code->name() + " without an angle", "give R in degrees");
   }
   if (!(words.given() & LetterSet("IJK")).empty()) return turn_in_space(words);
+  if (rules_.dialect == Dialect::heidenhain && state_.word_frame.is_mirrored()) {
+    return fail(code.column, "a rotation within a mirror image",
+                "end the mirror image by CYCL DEF 8.1, without axes");
+  }
   const PlaneAxes axes = axes_of(state_.plane);
   WordFrame next = state_.word_frame;
   // Where the tool is, in words before the turn.
@@ -100,7 +109,7 @@ BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
     }
   }
   Mat3 rotation = rotation_about(Vec3::Unit(axes.w), words['R'].value * kRadPerDeg);
-  if (state_.distance == DistanceMode::incremental) {
+  if (state_.distance == DistanceMode::incremental || words['R'].measure == Measure::incremental) {
     if (!next.keeps(state_.plane)) {
       return fail(words['R'].column,
                   fmt::format("{} in G91 goes on from a turn in another plane", words.text_of('R')),
@@ -181,6 +190,8 @@ BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
   }
   const bool on = static_cast<MirrorWord>(code.code->value) == MirrorWord::on;
   const bool all = (words.given() & kLinearWords).empty();
+  // Of Klartext the axes are those of the last definition.
+  if (rules_.dialect == Dialect::heidenhain) next.mirrors = {};
   if (on && all) {
     return fail(code.column, code.code->name() + " names no axis",
                 "give where the axis is mirrored, for example G51.1 X0");

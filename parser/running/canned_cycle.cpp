@@ -1,22 +1,24 @@
 #include "parser/running/canned_cycle.hpp"
 
-#include "core/units.hpp"
+#include <algorithm>
 
 namespace frustum::parser {
 namespace {
-
-constexpr double kChip = 0.010 * kMmPerInch;
 
 using enum CycleAction;
 
 std::vector<CycleStep> pecks(const CycleDepths& depths, bool clears) {
   std::vector<CycleStep> steps;
-  for (double depth = depths.level - depths.peck; depth > depths.bottom; depth -= depths.peck) {
+  const double top = depths.peck_from.value_or(depths.level);
+  for (double depth = top - depths.peck; depth > depths.bottom; depth -= depths.peck) {
     steps.push_back({feed, depth});
     if (clears) steps.push_back({rapid, depths.level});
-    steps.push_back({rapid, depth + kChip});
+    if (clears && depths.dwell_above > 0.0) steps.push_back({dwell, depths.dwell_above});
+    const double near = depth + depths.chip;
+    steps.push_back({rapid, depths.peck_from ? std::min(near, depths.level) : near});
   }
   steps.push_back({feed, depths.bottom});
+  if (depths.dwell > 0.0 && depths.peck_from) steps.push_back({dwell, depths.dwell});
   steps.push_back({rapid, depths.clear});
   return steps;
 }

@@ -17,11 +17,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "core/units.hpp"
 #include "parser/running/modal_state.hpp"
 
 namespace frustum::parser {
+
+// The retract that breaks a chip, and the clearance above the last peck.
+constexpr double kChip = 0.010 * kMmPerInch;
 
 struct CycleDepths {
   double level = 0.0;     // R: where feeding begins
@@ -29,8 +34,11 @@ struct CycleDepths {
   double clear = 0.0;     // where the tool goes afterwards: R (G99) or where it was before (G98)
   double feed_out = 0.0;  // up to where taps and G89 leave by feed: R, of LinuxCNC `clear`
   double peck = 0.0;      // Q
-  double dwell = 0.0;     // P, seconds
-  double back = 0.0;      // K of G87: how far the bore goes up to
+  double chip = kChip;    // how far above the last peck the tool stops coming back
+  std::optional<double> peck_from{};  // where pecks are counted from; R
+  double dwell_above = 0.0;           // after each peck that clears the hole, seconds
+  double dwell = 0.0;                 // P, seconds
+  double back = 0.0;                  // K of G87: how far the bore goes up to
 };
 
 enum class CycleAction : std::uint8_t {
@@ -48,6 +56,9 @@ struct CycleStep {
   double value = 0.0;    // depth of a move, seconds of a dwell
   bool shifted = false;  // a move to the hole's place shifted by I J, or back from it
 };
+
+// More pecks than this are taken for a mistake.
+constexpr double kMostPecks = 10'000.0;
 
 [[nodiscard]] bool is_cycle(MotionMode mode);
 // The tool is above the hole at `level`.

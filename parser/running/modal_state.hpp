@@ -12,6 +12,7 @@
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
 #include "parser/running/feature_frame.hpp"
+#include "parser/running/hole_cycle.hpp"
 #include "parser/running/word_frame.hpp"
 
 namespace frustum::parser {
@@ -57,6 +58,12 @@ struct PolarMode {
   bool from_here = false;  // the radius counts from where the tool is, not from the origin
 };
 
+// Where a move in the plane has ended, and in which direction.
+struct Heading {
+  Vec3 at = Vec3::Zero();
+  Vec3 along = Vec3::Zero();
+};
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   Plane plane = Plane::xy;
@@ -82,7 +89,9 @@ struct ModalState {
   std::optional<WordFrame> frame_below{};      // of the words before G68.2: that plane lies in it
   std::optional<WordFrame> suspended_shift{};  // G92.2
   std::optional<Vec3> pole{};                  // CC
+  std::optional<Heading> heading{};            // of the last move
   std::optional<CannedCycle> cycle{};
+  HoleCycle hole_cycle{};
   bool retract_to_initial = true;  // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;
   double spindle_speed = 0.0;
