@@ -67,7 +67,8 @@ enum class NonModal : std::uint8_t {
   shift_suspend,
   shift_resume
 };
-enum class SubprogramWord : std::uint8_t { none, call, leave, macro };
+// G65 and G66 are read by themselves, since their letters are arguments.
+enum class SubprogramWord : std::uint8_t { none, call, leave, macro, end_modal };
 // The last two leave the tool-tip switch as it is.
 enum class LengthWord : std::uint8_t {
   off,

@@ -22,7 +22,14 @@ class DialectCodes {
  public:
   explicit DialectCodes(Dialect dialect) {
     for (const std::span<const Code> part : rules_of(dialect).codes) {
-      codes_.insert(codes_.end(), part.begin(), part.end());
+      // The dialect's own words come before those it shares.
+      for (const Code& code : part) {
+        const bool there = std::any_of(codes_.begin(), codes_.end(), [&code](const Code& other) {
+          return other.letter == code.letter && other.tenths == code.tenths &&
+                 other.word == code.word;
+        });
+        if (!there) codes_.push_back(code);
+      }
     }
     for (std::size_t i = 0; i < codes_.size(); ++i) {
       const Code& code = codes_[i];

@@ -35,6 +35,8 @@ struct CycleRules {
   bool retract_to_initial = true;            // before the first G98 or G99
   bool words_end_with_their_g_word = false;  // G83 behind G81 needs its own R and Z
   bool feed_out_to_clearance = false;        // taps and G89 leave by feed all the way
+  // Q shifts the tool of G76 and G87 along the plane's first axis; G87 then bores up from R to Z.
+  bool tool_shift_by_q = false;
   // Each block begins at the depth before the first hole: with G98 the move to the next hole goes up there.
   bool start_from_initial = false;
 };

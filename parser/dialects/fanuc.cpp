@@ -28,11 +28,19 @@ constexpr std::array kCodes{
     modal('G', 501, mirror, MirrorWord::off, kLinearWords),
     modal('G', 511, mirror, MirrorWord::on, kLinearWords),
     modal('G', 690, tilted_plane, TiltWord::off),
-    passed('G', 51, CodeGroup::event, kSmoothingWords),  // look-ahead contour control
-    passed('G', 80, CodeGroup::event, kSmoothingWords),  // look-ahead control
-    passed('G', 90),                                     // exact stop on this block
-    passed('G', 670),                                    // cancels modal macro calls, refused
+    passed('G', 51, CodeGroup::event, kSmoothingWords),       // look-ahead contour control
+    passed('G', 80, CodeGroup::event, kSmoothingWords),       // look-ahead control
+    passed('G', 90),                                          // exact stop on this block
+    passed('G', 220, CodeGroup::event, LetterSet("XYZIJK")),  // limits of travel on
+    passed('G', 230),                                         // and off
+    passed('G', 620, path_control),                           // corners
+    passed('G', 630, path_control),                           // tapping
+    passed('M', 290),                                         // rigid tap
     modal('G', 650, subprogram, SubprogramWord::macro),
+    modal('G', 660, subprogram, SubprogramWord::macro),
+    modal('G', 670, subprogram, SubprogramWord::end_modal),
+    modal('G', 760, motion, MotionMode::fine_bore),
+    modal('M', 990, subprogram, SubprogramWord::leave, LetterSet("P")),
 };
 
 // What would change the part and is not simulated.
@@ -45,14 +53,17 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
     RefusedCode{'G', 541, 549, "use G54 to G59"},
     RefusedCode{'G', 591, 599, "use G54 to G59"},
-    RefusedCode{'G', 660, 669, "call subprograms with M98 P"},
+    RefusedCode{'G', 661, 669, "call the macro after each block that moves by G66 P"},
+    RefusedCode{'M', 1980, 1980, "call it with M98 P: programs are looked for beside this one too"},
     RefusedCode{'G', 532, 539, "turn the tool with G53.1, then go to the place"},
     RefusedCode{
         'G', 683, 683,
         "where the tool points is the machine's to know: give the frame by G68.2 X Y Z I J K"},
     RefusedCode{'G', 681, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
-    RefusedCode{'G', 750, 769, "write the cycle out as G0 and G1 blocks"},
+    RefusedCode{'G', 270, 279, "return to home with G28, which needs no check"},
+    RefusedCode{'G', 290, 299, "go back with G0 blocks"},
+    RefusedCode{'G', 750, 759, "write the cycle out as G0 and G1 blocks"},
 };
 constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
 constexpr std::string_view kNeedsVectors =
@@ -72,7 +83,7 @@ constexpr std::array kLetters{
     LetterUse{'K', kNeedsVectors},
     LetterUse{'L', "L belongs to M98"},
     LetterUse{'P', "P belongs to G4, G2, G3, M98, G5.1, G8 and G64"},
-    LetterUse{'Q', "Q belongs to G5.1, G8 and G64"},
+    LetterUse{'Q', "Q belongs to G5.1, G8, G64, G68.2, G73, G76, G83 and G87"},
     LetterUse{'R', "R belongs to G2 and G3"},
     LetterUse{'U', "U belongs to G4"},
     LetterUse{'X', kNeedsMotion},
@@ -95,7 +106,8 @@ constexpr DialectRules kRules{
     .always_claimed = LetterSet("FST"),
     .letters = kLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
-    .parameters = {.locals = 33, .unset_is_vacant = true},
+    .parameters = {.locals = 33, .unset_is_vacant = true, .first_system = 1000},
+    .cycles = {.tool_shift_by_q = true},
     .file_names = kFiles,
 };
 

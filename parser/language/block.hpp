@@ -72,6 +72,7 @@ struct Block {
   std::uint32_t line = 0;                  // 1-based line of the file
   bool tape_mark = false;                  // %
   bool deletable = false;                  // begins with /
+  std::uint8_t delete_switch = 0;          // 1 to 9 for /1 to /9, 0 without a number
   std::optional<std::uint32_t> number{};   // N word
   std::optional<std::uint32_t> program{};  // O word
   std::uint32_t program_column = 0;

@@ -26,6 +26,7 @@ std::string setting_text(const Block& block, const Assignment& setting) {
 
 std::string to_text(const Block& block) {
   std::string text = block.tape_mark ? "%" : block.deletable ? "/" : "";
+  if (block.delete_switch != 0) text += fmt::format("{} ", block.delete_switch);
   const auto append = [&text](const std::string& part) {
     if (!text.empty() && text.back() != '/') text += ' ';
     text += part;

@@ -23,6 +23,43 @@ constexpr std::array kFunctions{
     FunctionName{"EXP", Operation::exponential},
 };
 
+constexpr std::array kMacroFunctions{
+    FunctionName{"FIX", Operation::truncate}, FunctionName{"FUP", Operation::round_away},
+    FunctionName{"BIN", Operation::from_bcd}, FunctionName{"BCD", Operation::to_bcd},
+    FunctionName{"ADP", Operation::as_it_is},
+};
+
+constexpr double kMostBits = 2147483648.0;  // 32 of them, one the sign
+constexpr double kMostDigits = 99'999'999.0;
+bool has_bits(double value) {
+  return value == std::floor(value) && value >= -kMostBits && value < kMostBits;
+}
+std::uint32_t bits_of(double value) {
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(value));
+}
+double of_bits(std::uint32_t bits) { return static_cast<std::int32_t>(bits); }
+
+// Four bits a decimal digit.
+double to_bcd(double value) {
+  auto rest = static_cast<std::uint32_t>(value);
+  std::uint32_t coded = 0;
+  for (unsigned shift = 0; rest != 0; shift += 4, rest /= 10) coded |= (rest % 10) << shift;
+  return coded;
+}
+double from_bcd(double value) {
+  auto rest = static_cast<std::uint32_t>(value);
+  double decoded = 0.0;
+  for (double place = 1.0; rest != 0; place *= 10.0, rest >>= 4U) decoded += place * (rest & 15U);
+  return decoded;
+}
+bool is_bcd(double value) {
+  if (value != std::floor(value) || value < 0.0 || value >= 2.0 * kMostBits) return false;
+  for (auto rest = static_cast<std::uint32_t>(value); rest != 0; rest >>= 4U) {
+    if ((rest & 15U) > 9) return false;
+  }
+  return true;
+}
+
 struct Domain {
   bool holds;
   const char* message;  // {0}, {1}: the operands
@@ -48,6 +85,19 @@ std::optional<Domain> domain_of(Operation operation, double a, double b) {
       return Domain{a >= 0.0, "SQRT of {0}", "its argument must not be negative"};
     case Operation::logarithm:
       return Domain{a > 0.0, "LN of {0}", "its argument must be positive"};
+    case Operation::remainder:
+      return Domain{std::round(b) != 0.0, "{0} MOD zero", "check the divisor before MOD"};
+    case Operation::bit_and:
+    case Operation::bit_or:
+    case Operation::bit_xor:
+      return Domain{
+          has_bits(a) && has_bits(b), "the bits of {0} and {1}",
+          "AND, OR and XOR combine the bits of whole numbers of 32 bits; round them before"};
+    case Operation::to_bcd:
+      return Domain{a == std::floor(a) && a >= 0.0 && a <= kMostDigits, "BCD of {0}",
+                    "its argument is a whole number from 0 to 99999999"};
+    case Operation::from_bcd:
+      return Domain{is_bcd(a), "BIN of {0}", "each four bits of its argument are a digit up to 9"};
     default:
       return std::nullopt;
   }
@@ -122,6 +172,23 @@ double apply(Operation operation, double a, double b) {
       return std::log(a);
     case Operation::exponential:
       return std::exp(a);
+    case Operation::bit_and:
+      return of_bits(bits_of(a) & bits_of(b));
+    case Operation::bit_or:
+      return of_bits(bits_of(a) | bits_of(b));
+    case Operation::bit_xor:
+      return of_bits(bits_of(a) ^ bits_of(b));
+    case Operation::remainder:
+      return std::fmod(std::round(a), std::round(b)) + 0.0;
+    case Operation::truncate:
+      return std::trunc(a) + 0.0;
+    case Operation::round_away:
+      return (a < 0.0 ? std::floor(a) : std::ceil(a)) + 0.0;
+    case Operation::from_bcd:
+      return from_bcd(a);
+    case Operation::to_bcd:
+      return to_bcd(a);
+    case Operation::as_it_is:
     case Operation::number:
     case Operation::parameter:
     case Operation::named_parameter:
@@ -132,7 +199,7 @@ double apply(Operation operation, double a, double b) {
 }
 
 constexpr bool takes_two(Operation operation) {
-  return (operation >= Operation::add && operation <= Operation::logical_xor) ||
+  return (operation >= Operation::add && operation <= Operation::remainder) ||
          operation == Operation::arc_tangent;
 }
 
@@ -142,14 +209,17 @@ Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
 }
 
 const char* operator_text(Operation operation) {
-  constexpr std::array kText{"+",    "-",    "*",    "/",    "**",    " MOD ", " EQ ", " NE ",
-                             " GT ", " GE ", " LT ", " LE ", " AND ", " OR ",  " XOR "};
+  constexpr std::array kText{"+",     "-",     "*",    "/",     "**",   " MOD ", " EQ ",
+                             " NE ",  " GT ",  " GE ", " LT ",  " LE ", " AND ", " OR ",
+                             " XOR ", " AND ", " OR ", " XOR ", " MOD "};
   return kText.at(static_cast<std::size_t>(operation) - static_cast<std::size_t>(Operation::add));
 }
 
 std::string function_text(Operation operation, const std::string& argument) {
-  for (const FunctionName& function : kFunctions) {
-    if (function.operation == operation) return fmt::format("{}[{}]", function.name, argument);
+  for (const std::span<const FunctionName> table : {function_names(), macro_function_names()}) {
+    for (const FunctionName& function : table) {
+      if (function.operation == operation) return fmt::format("{}[{}]", function.name, argument);
+    }
   }
   return argument;
 }
@@ -157,6 +227,7 @@ std::string function_text(Operation operation, const std::string& argument) {
 }  // namespace
 
 std::span<const FunctionName> function_names() { return kFunctions; }
+std::span<const FunctionName> macro_function_names() { return kMacroFunctions; }
 
 Result<double> evaluate(const ExpressionContext& context, ExpressionRange range) {
   // Each open bracket holds at most six pending operands: of ATAN, a logical term, a comparison, a

@@ -2,7 +2,9 @@
 //
 // The steps of all expressions of a block lie in one row in the block; an ExpressionRange names a
 // part of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never
-// negative, and operators of one level bind to the left, `**` too: RS-274's rules.
+// negative, and operators of one level bind to the left, `**` too: RS-274's rules. Custom Macro has operations
+// of its own under some of these names: AND, OR and XOR combine bits, FIX and FUP round towards zero and away
+// from it, MOD has the sign of what is divided.
 // A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0.
 // Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
 // beyond the range of numbers; each at the column of the operation.
@@ -40,6 +42,10 @@ enum class Operation : std::uint8_t {
   logical_and,
   logical_or,
   logical_xor,
+  bit_and,
+  bit_or,
+  bit_xor,
+  remainder,
   sine,
   cosine,
   tangent,
@@ -53,6 +59,11 @@ enum class Operation : std::uint8_t {
   fup,
   logarithm,
   exponential,
+  truncate,
+  round_away,
+  from_bcd,  // BIN
+  to_bcd,    // BCD
+  as_it_is,  // ADP, which is for words that count increments
 };
 
 struct ExpressionStep {
@@ -97,5 +108,7 @@ struct FunctionName {
   Operation operation;
 };
 [[nodiscard]] std::span<const FunctionName> function_names();
+// Those that Custom Macro has in their place, and besides.
+[[nodiscard]] std::span<const FunctionName> macro_function_names();
 
 }  // namespace frustum::parser

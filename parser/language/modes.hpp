@@ -25,7 +25,8 @@ enum class MotionMode : std::uint8_t {
   bore_stop,
   bore_back,
   bore_manual,
-  bore_dwell
+  bore_dwell,
+  fine_bore
 };
 enum class DistanceMode : std::uint8_t { absolute, incremental };
 // G70 of Sinumerik leaves feeds in mm.

@@ -41,6 +41,12 @@ Result<double> Parameters::read(double number) const {
   const Numbered& all = numbered(*index);
   const auto found = all.find(*index);
   if (found == all.end()) {
+    if (rules_.first_system != 0 && *index >= rules_.first_system) {
+      return error(fmt::format("system variable #{} is not known", *index),
+                   "positions are known once they are programmed; leave clocks, signals and "
+                   "screens out of the "
+                   "simulated program");
+    }
     if (rules_.unset_is_zero) return 0.0;
     if (rules_.unset_is_vacant) return kVacant;
     return error(fmt::format("parameter #{} has no value", *index),

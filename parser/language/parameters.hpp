@@ -29,6 +29,8 @@ struct ParameterRules {
   // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but vacant ones, and a
   // word of that value is not given at all (Custom Macro).
   bool unset_is_vacant = false;
+  // From this number on they are the controller's own: one that it does not keep cannot be read. 0: none are.
+  int first_system = 0;
 };
 
 // The parameters that a controller keeps itself; no value for what it does not keep.

@@ -19,7 +19,7 @@ BlockReader reader_of(Dialect dialect) {
     case Dialect::cldata:
       return cldata_reader();
   }
-  return parse_block;
+  return [](std::string_view text, std::uint32_t line) { return parse_block(text, line); };
 }
 
 std::size_t continuation_mark(std::string_view line, Dialect dialect) {

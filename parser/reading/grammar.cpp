@@ -36,9 +36,15 @@ struct SyntaxStop {
 // so no action is ever undone.
 class BlockBuilder {
  public:
-  BlockBuilder(std::string_view text, std::uint32_t line) : text_(text) { block_.line = line; }
+  BlockBuilder(std::string_view text, std::uint32_t line, Arithmetic arithmetic)
+      : text_(text), macro_(arithmetic == Arithmetic::custom_macro) {
+    block_.line = line;
+  }
   // Goes on with a block.
-  BlockBuilder(std::string_view text, Block&& block) : text_(text), block_(std::move(block)) {}
+  BlockBuilder(std::string_view text, Block&& block, Arithmetic arithmetic)
+      : text_(text), block_(std::move(block)), macro_(arithmetic == Arithmetic::custom_macro) {}
+
+  [[nodiscard]] bool is_macro() const { return macro_; }
 
   Block take() { return std::move(block_); }
 
@@ -48,6 +54,9 @@ class BlockBuilder {
 
   void set_tape_mark() { block_.tape_mark = true; }
   void set_deletable() { block_.deletable = true; }
+  void set_delete_switch(char digit) {
+    block_.delete_switch = static_cast<std::uint8_t>(digit - '0');
+  }
   void set_number(std::string_view digits) { block_.number = whole(digits); }
   void set_program(std::string_view digits) {
     // The O stands one byte or some blanks before its digits; the column of the O was noted.
@@ -118,10 +127,14 @@ class BlockBuilder {
     pending_.push_back({operation, column_of(begin), 0.0});
   }
   void pend_function(Operation operation, Iterator after) {
-    for (const FunctionName& function : function_names()) {
-      if (function.operation == operation) pend(operation, after - function.name.size());
+    for (const std::span<const FunctionName> table : {function_names(), macro_function_names()}) {
+      for (const FunctionName& function : table) {
+        if (function.operation == operation) pend(operation, after - function.name.size());
+      }
     }
   }
+  // The second argument that ATAN[x] does without.
+  void push_one(Iterator begin) { push({Operation::number, column_of(begin), 1.0}); }
   void emit() {
     push(pending_.back());
     pending_.pop_back();
@@ -208,6 +221,7 @@ class BlockBuilder {
 
   std::string_view text_;
   Block block_;
+  bool macro_ = false;
   std::vector<ExpressionStep> pending_;
   std::vector<std::uint32_t> openings_;  // columns of the open brackets and parameter signs
   std::uint32_t opening_word_column_ = 0;
@@ -244,9 +258,18 @@ constexpr auto pend(Operation operation, int length) {
 }
 constexpr auto kEmit = then([](BlockBuilder& b) { b.emit(); });
 
+// Alternatives of one arithmetic alone; what follows is not looked at in the other.
+constexpr auto only_if(bool macro) {
+  return x3::eps[([macro](const auto& context) {
+    x3::_pass(context) = x3::get<BuilderTag>(context).get().is_macro() == macro;
+  })];
+}
+const auto kInMacro = only_if(true);
+const auto kInRs274 = only_if(false);
+
 struct FunctionTable : x3::symbols<Operation> {
-  FunctionTable() {
-    for (const FunctionName& function : function_names()) {
+  explicit FunctionTable(std::span<const FunctionName> functions) {
+    for (const FunctionName& function : functions) {
       if (function.operation == Operation::arc_tangent) continue;  // takes two brackets
       std::string lower;
       for (const char c : function.name) lower += static_cast<char>(std::tolower(c));
@@ -254,7 +277,8 @@ struct FunctionTable : x3::symbols<Operation> {
     }
   }
 };
-const FunctionTable kFunctionTable;
+const FunctionTable kFunctionTable(function_names());
+const FunctionTable kMacroFunctionTable(macro_function_names());
 
 const auto kDigit = x3::char_('0', '9');
 const auto kDigits = x3::raw[x3::lexeme[+kDigit]];
@@ -279,6 +303,7 @@ const x3::rule<struct OpeningRule> opening = "opening bracket";
 const x3::rule<struct ClosingRule> closing = "closing bracket";
 const x3::rule<struct BracketedRule> bracketed = "opening bracket";
 const x3::rule<struct SecondArgumentRule> second_argument = "closing bracket";
+const x3::rule<struct CommaRule> comma = "comma";
 const x3::rule<struct ArgumentSeparatorRule> argument_separator = "second argument";
 const x3::rule<struct EqualsRule> equals = "equals";
 const x3::rule<struct SettingTargetRule> setting_target = "parameter";
@@ -310,18 +335,26 @@ const auto parameter_def = (x3::lit('#')[after([](BlockBuilder& b, Iterator end)
 
 const auto argument_separator_def = x3::lit('/');
 const auto second_argument_def =
-    (',' > logic > closing) | (closing > argument_separator > bracketed);
+    (',' > logic > closing) |
+    (closing >> ((kInMacro >> !x3::lit('/') >>
+                  x3::eps[after([](BlockBuilder& b, Iterator end) { b.push_one(end); })]) |
+                 (x3::eps > argument_separator > bracketed)));
+const auto comma_def = x3::lit(',');
 const auto kArcTangent = (x3::no_case["atan"][pend(Operation::arc_tangent, 4)] > opening > logic >
                           second_argument)[kEmit];
 const auto kPendFunction = [](const auto& context) {
   x3::get<BuilderTag>(context).get().pend_function(x3::_attr(context), x3::_where(context).begin());
 };
-const auto kFunction = (x3::no_case[kFunctionTable][kPendFunction] > bracketed)[kEmit];
+const auto kFunction =
+    ((kInMacro >> x3::no_case[kMacroFunctionTable][kPendFunction]) > bracketed)[kEmit] |
+    (x3::no_case[kFunctionTable][kPendFunction] > bracketed)[kEmit];
+const auto kPower = ((kInMacro >> x3::no_case["pow"][pend(Operation::power, 3)]) > opening > logic >
+                     comma > logic > closing)[kEmit];
 const auto kExists =
     x3::no_case["exists"][pend(Operation::exists, 6)] > opening > name_begin >
     kName[token([](BlockBuilder& b, std::string_view name) { b.emit_existence(name); })] >
     name_end > closing;
-const auto primary_def = parameter | bracketed | kArcTangent | kExists | kFunction;
+const auto primary_def = parameter | bracketed | kArcTangent | kExists | kPower | kFunction;
 
 const auto negative_value_def =
     kNumber[kPushNegative] |
@@ -330,12 +363,17 @@ const auto positive_value_def = kNumber[kPushNumber] | primary;
 const auto value_def =
     kNumber[kPushNumber] | ('-' > negative_value) | ('+' > positive_value) | primary;
 const auto power_def = value >> *((x3::lit("**")[pend(Operation::power, 2)] > value)[kEmit]);
-const auto product_def = power >>
-                         *((((x3::lit('*')[pend(Operation::multiply, 1)]) |
-                             (x3::lit('/')[pend(Operation::divide, 1)]) |
-                             (x3::no_case["mod"][pend(Operation::modulo, 3)])) > power)[kEmit]);
+const auto product_def =
+    power >>
+    *((((x3::lit('*')[pend(Operation::multiply, 1)]) | (x3::lit('/')[pend(Operation::divide, 1)]) |
+        (kInRs274 >> x3::no_case["mod"][pend(Operation::modulo, 3)]) |
+        (kInMacro >> x3::no_case["mod"][pend(Operation::remainder, 3)]) |
+        (kInMacro >> x3::no_case["and"][pend(Operation::bit_and, 3)])) > power)[kEmit]);
 const auto sum_def = product >> *(((x3::lit('+')[pend(Operation::add, 1)] |
-                                    x3::lit('-')[pend(Operation::subtract, 1)]) > product)[kEmit]);
+                                    x3::lit('-')[pend(Operation::subtract, 1)] |
+                                    (kInMacro >> x3::no_case["or"][pend(Operation::bit_or, 2)]) |
+                                    (kInMacro >> x3::no_case["xor"][pend(Operation::bit_xor, 3)])) >
+                                   product)[kEmit]);
 
 // Operators of one level, spelled as words.
 const auto kRelations = (x3::no_case["eq"][pend(Operation::equal, 2)]) |
@@ -347,7 +385,8 @@ const auto kRelations = (x3::no_case["eq"][pend(Operation::equal, 2)]) |
 const auto kLogic = (x3::no_case["and"][pend(Operation::logical_and, 3)]) |
                     (x3::no_case["or"][pend(Operation::logical_or, 2)]) |
                     (x3::no_case["xor"][pend(Operation::logical_xor, 3)]);
-const auto relation_def = sum >> *((kRelations > sum)[kEmit]);
+const auto relation_def = sum >> -(((kRelations > sum)[kEmit]) >>
+                                   *(((kInRs274 >> kRelations) > sum)[kEmit]));
 const auto logic_def = relation >> *((kLogic > relation)[kEmit]);
 
 const auto kWord =
@@ -376,9 +415,15 @@ const auto block_number_def =
 const auto program_number_def =
     kDigits[token([](BlockBuilder& b, std::string_view digits) { b.set_program(digits); })];
 const auto kProgram =
-    x3::no_case['o'][after([](BlockBuilder& b, Iterator end) { b.begin_program(end); })] >
+    (x3::no_case['o'] |
+     (kInMacro >>
+      x3::lit(':')))[after([](BlockBuilder& b, Iterator end) { b.begin_program(end); })] >
     program_number;
-const auto kDelete = x3::lit('/')[then([](BlockBuilder& b) { b.set_deletable(); })];
+const auto kDelete =
+    x3::lit('/')[then([](BlockBuilder& b) { b.set_deletable(); })] >>
+    -(kInMacro >>
+      x3::char_('1',
+                '9')[after([](BlockBuilder& b, Iterator end) { b.set_delete_switch(end[-1]); })]);
 const auto kTapeMark = x3::lit('%')[then([](BlockBuilder& b) { b.set_tape_mark(); })];
 const auto block_end_def = x3::eoi;
 const auto kBlock =
@@ -387,7 +432,7 @@ const auto kBlock =
 
 BOOST_SPIRIT_DEFINE(value, positive_value, negative_value, logic, relation, sum, product, power,
                     primary, parameter, parameter_index, name_begin, name_end, opening, closing,
-                    bracketed, second_argument, argument_separator, equals, setting_target,
+                    bracketed, second_argument, argument_separator, equals, setting_target, comma,
                     comment_end, block_number, program_number, block_end)
 
 Diagnostic on_line(Diagnostic diagnostic, std::uint32_t line) {
@@ -397,8 +442,8 @@ Diagnostic on_line(Diagnostic diagnostic, std::uint32_t line) {
 
 }  // namespace
 
-Result<Block> parse_block(std::string_view text, std::uint32_t line) {
-  BlockBuilder builder(text, line);
+Result<Block> parse_block(std::string_view text, std::uint32_t line, Arithmetic arithmetic) {
+  BlockBuilder builder(text, line, arithmetic);
   Iterator first = text.data();
   const Iterator last = first + text.size();
   try {
@@ -411,9 +456,10 @@ Result<Block> parse_block(std::string_view text, std::uint32_t line) {
   return builder.take();
 }
 
-void append_rs274_expression(LineScanner& in, Block& block, ExpressionRange& range) {
+void append_rs274_expression(LineScanner& in, Block& block, ExpressionRange& range,
+                             Arithmetic arithmetic) {
   const std::string_view text = in.text();
-  BlockBuilder builder(text, std::move(block));
+  BlockBuilder builder(text, std::move(block), arithmetic);
   Iterator first = text.data() + (in.column() - 1);
   const Iterator last = text.data() + text.size();
   try {

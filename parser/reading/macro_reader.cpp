@@ -3,14 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string>
 
+#include "parser/reading/comment_text.hpp"
 #include "parser/reading/grammar.hpp"
 #include "parser/reading/line_scanner.hpp"
 
 namespace frustum::parser {
 namespace {
+
+// What writes to a file or a screen: reported with the text as it is written.
+struct OutputStatement {
+  const char* keyword;
+  bool has_text;  // in [ ]
+};
+constexpr std::array kOutputs{OutputStatement{"POPEN", false}, OutputStatement{"PCLOS", false},
+                              OutputStatement{"DPRNT", true}, OutputStatement{"BPRNT", true},
+                              OutputStatement{"SETVN", true}};
 
 // The words around a statement (N, /, comments, what THEN does) are read by the grammar of blocks, with
 // the statement blanked out so that columns stay what they are.
@@ -36,6 +47,9 @@ class MacroReader {
       read_loop_number();
     } else if (keyword == "IF") {
       read_if();
+    } else if (keyword != "GOTO") {
+      read_output(keyword);
+      return in_.failed() ? in_.finish(std::move(block_)) : around_output();
     } else {
       read_jump();
     }
@@ -79,6 +93,31 @@ class MacroReader {
     }
   }
 
+  void read_output(std::string_view keyword) {
+    const auto output = std::find_if(kOutputs.begin(), kOutputs.end(),
+                                     [&](const auto& known) { return known.keyword == keyword; });
+    if (output == kOutputs.end())
+      return in_.fail_unexpected("write statements in blocks of their own");
+    if (keyword == "SETVN") {
+      return in_.fail(flow_.column, "SETVN is not simulated",
+                      "it names variables for the screen: leave it out of the simulated program");
+    }
+    comment_ = {flow_.column, false, {}, output->keyword};
+    if (!output->has_text) return;
+    const std::uint32_t opening = in_.column();
+    if (!in_.take('[')) {
+      return in_.fail(opening, fmt::format("{} has no text", keyword),
+                      fmt::format("write it in brackets: {}[X#1[53]]", keyword));
+    }
+    const std::size_t end = std::min(text_.find('('), text_.size());
+    const std::size_t closing = text_.substr(0, end).rfind(']');
+    if (closing == std::string_view::npos || closing < opening) {
+      return in_.fail(opening, "the bracket is not closed", "close it with ]");
+    }
+    comment_.text = utf8_of(text_.substr(opening, closing - opening));
+    in_.go_to(static_cast<std::uint32_t>(closing) + 2);
+  }
+
   void read_loop_number() {
     const std::uint32_t at = in_.column();
     flow_.label = number();
@@ -99,7 +138,7 @@ class MacroReader {
     std::string around(text_);
     std::fill(around.begin() + static_cast<std::ptrdiff_t>(start_),
               around.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
-    auto read = parse_block(around, block_.line);
+    auto read = parse_block(around, block_.line, Arithmetic::custom_macro);
     if (!read) return read;
     Block whole = *std::move(read);
     const bool acts = !whole.words.empty() || !whole.assignments.empty();
@@ -113,6 +152,15 @@ class MacroReader {
     append_steps(whole);
     whole.flow = std::move(flow_);
     return whole;
+  }
+
+  Result<Block> around_output() {
+    std::string around(text_);
+    std::fill(around.begin() + static_cast<std::ptrdiff_t>(start_),
+              around.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
+    auto read = parse_block(around, block_.line, Arithmetic::custom_macro);
+    if (read) read->comments.insert(read->comments.begin(), comment_);
+    return read;
   }
 
   // The statement's own expressions, behind those of the rest.
@@ -140,18 +188,26 @@ class MacroReader {
     }
     return "0";
   }
-  void read_expression(ExpressionRange& range) { append_rs274_expression(in_, block_, range); }
+  void read_expression(ExpressionRange& range) {
+    append_rs274_expression(in_, block_, range, Arithmetic::custom_macro);
+  }
 
   std::string_view text_;
   LineScanner in_;
   std::size_t start_;
   Block block_{};
   FlowStatement flow_{};
+  Comment comment_{};  // of an output statement
 };
 
 // Where a statement begins, behind N and /; npos when the block has none.
 std::size_t statement_start(std::string_view text) {
   std::size_t place = std::min(text.find_first_not_of(" \t\r/"), text.size());
+  // The switch of /2.
+  if (place > 0 && place < text.size() && text[place - 1] == '/' && text[place] >= '1' &&
+      text[place] <= '9') {
+    place = std::min(text.find_first_not_of(" \t\r", place + 1), text.size());
+  }
   if (place < text.size() && (text[place] == 'N' || text[place] == 'n')) {
     place = std::min(text.find_first_not_of("0123456789 \t/", place + 1), text.size());
   }
@@ -168,6 +224,9 @@ std::size_t statement_start(std::string_view text) {
   for (const std::string_view keyword : {"WHILE", "GOTO", "END", "DO"}) {
     if (begins_with(keyword)) return place;
   }
+  for (const OutputStatement& output : kOutputs) {
+    if (begins_with(output.keyword)) return place;
+  }
   return std::string_view::npos;
 }
 
@@ -175,7 +234,7 @@ std::size_t statement_start(std::string_view text) {
 
 Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
   const std::size_t start = statement_start(text);
-  if (start == std::string_view::npos) return parse_block(text, line);
+  if (start == std::string_view::npos) return parse_block(text, line, Arithmetic::custom_macro);
   return MacroReader(text, line, start)();
 }
 

@@ -39,13 +39,16 @@ constexpr std::array kRows{
     Row{"closing bracket", Stop::end, "", Place::opening, "the bracket is not closed",
         "close it with ]"},
     Row{"closing bracket", Stop::any, "", Place::stop, "unexpected {found} in an expression",
-        "operators are + - * / ** MOD; close the expression with ]"},
+        "operators are + - * / ** MOD AND OR XOR and one EQ, NE, GT, GE, LT or LE; close the "
+        "expression "
+        "with ]"},
     Row{"closing parenthesis", Stop::end, "", Place::opening, "the comment is not closed",
         "close it with ) on the same line"},
     Row{"closing parenthesis", Stop::any, "", Place::stop, "comment inside a comment",
         "use other brackets inside comments"},
     Row{"second argument", Stop::any, "", Place::stop, "ATAN needs two values",
         "write ATAN[y]/[x] or ATAN[y,x]"},
+    Row{"comma", Stop::any, "", Place::stop, "POW needs two values", "write POW[x,y]"},
     Row{"parameter", Stop::any, "", Place::stop, "# without a parameter", "write #1 or #<name>"},
     Row{"parameter name", Stop::any, "", Place::stop, "the parameter name is not closed",
         "write #<name>"},

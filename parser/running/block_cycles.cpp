@@ -19,6 +19,9 @@ constexpr double kMillisecondsPerSecond = 1000.0;
 bool needs_peck(MotionMode cycle) {
   return cycle == MotionMode::peck || cycle == MotionMode::peck_short;
 }
+bool words_shift_by_q(MotionMode cycle) {
+  return cycle == MotionMode::fine_bore || cycle == MotionMode::bore_back;
+}
 bool needs_dwell(MotionMode cycle) {
   return cycle == MotionMode::drill_dwell || cycle == MotionMode::bore_stop ||
          cycle == MotionMode::bore_manual || cycle == MotionMode::bore_dwell;
@@ -73,7 +76,16 @@ BlockExecutor::Outcome BlockExecutor::set_cycle(const BlockWords& words, const M
     return missing('P', "give P, the dwell at the bottom in seconds");
   }
   if (cycle.dwell.value_or(0.0) < 0.0) return missing('P', "P is a time that is not negative");
-  if (cycle.last == MotionMode::bore_back && (!cycle.shift_u || !cycle.shift_v || !cycle.back)) {
+  const bool by_q = rules_.cycles.tool_shift_by_q && words_shift_by_q(cycle.last);
+  if (by_q && (!cycle.peck || *cycle.peck <= 0.0)) {
+    return missing('Q', "give Q, the shift of the tool, above zero");
+  }
+  if (by_q) {
+    cycle.shift_u = cycle.peck;
+    cycle.shift_v = 0.0;
+  }
+  if (cycle.last == MotionMode::bore_back && !by_q &&
+      (!cycle.shift_u || !cycle.shift_v || !cycle.back)) {
     return missing('I', "give I and J, the shift of the tool, and K, how far the bore goes up");
   }
   state_.cycle = cycle;
@@ -113,7 +125,17 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
     return fail(movement.column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
                 "give a larger Q");
   }
-  if (depths.bottom > depths.level) {
+  depths.from_level = rules_.cycles.tool_shift_by_q && cycle.last == MotionMode::bore_back;
+  if (depths.from_level) {
+    depths.clear = cycle.initial;
+    if (depths.bottom <= depths.level || cycle.initial <= depths.bottom) {
+      return fail(
+          movement.column,
+          fmt::format("G87 bores from R ({:g} mm) up to {} ({:g} mm), below the tool ({:g} mm)",
+                      depths.level, to_char(w), depths.bottom, cycle.initial),
+          "give R below the bore, the other depth above R, and start above both");
+    }
+  } else if (depths.bottom > depths.level) {
     return fail(movement.column,
                 fmt::format("the bottom of the hole ({:g} mm) lies above R ({:g} mm)",
                             depths.bottom, depths.level),
@@ -146,7 +168,7 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
           fmt::format("give {} on this block", to_char(axis)));
     }
     rapid(movement.column);
-    if (*position_[w] != depths.level) {
+    if (*position_[w] != depths.level && !depths.from_level) {
       position_.set(w, depths.level);
       rapid(movement.column);
     }

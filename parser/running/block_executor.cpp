@@ -45,12 +45,13 @@ std::optional<std::string> message_in(std::string_view comment) {
 
 Result<Flow> BlockExecutor::execute(const Block& block) {
   block_ = &block;
+  moved_ = false;
+  if (const Word* macro = macro_word(block)) {
+    report_comments(block);
+    return call_macro(block, *macro);
+  }
   auto words = read_words(block, parameters_, rules_.dialect);
   if (!words) return std::move(words).error();
-  if (words->value_or(CodeGroup::subprogram, SubprogramWord::none) == SubprogramWord::macro) {
-    report_comments(block);
-    return call_macro(*words);
-  }
   const auto movement = movement_of(*words);
   if (!movement) return movement.error();
   if (auto done = check_claims(*words, *movement); !done) return std::move(done).error();
@@ -253,7 +254,10 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
     if (name) {
       parameters_.set(block.names[*name], values[i].second);
     } else {
-      parameters_.set(values[i].first, values[i].second);
+      const auto kept =
+          set_system_variable(block.assignments[i].column, values[i].first, values[i].second);
+      if (!kept) return kept.error();
+      if (!*kept) parameters_.set(values[i].first, values[i].second);
     }
   }
   return Done{};
@@ -269,6 +273,8 @@ Result<double> BlockExecutor::value_of(const Block& block, ExpressionRange range
 void BlockExecutor::report_comments(const Block& block) {
   block_ = &block;
   for (const Comment& comment : block.comments) {
+    // A ; by itself ends a block.
+    if (comment.to_line_end && comment.text.empty()) continue;
     if (comment.event != nullptr) {
       emit(comment.column, Event{comment.event, comment.text});
       continue;
@@ -453,37 +459,6 @@ void BlockExecutor::leave_call() {
   --system_.call_level;
 }
 
-// G65 P: the other letters are arguments, each of its own parameter.
-Result<Flow> BlockExecutor::call_macro(const BlockWords& words) const {
-  struct Argument {
-    char letter;
-    int parameter;
-  };
-  constexpr std::array kArguments{
-      Argument{'A', 1},  Argument{'B', 2},  Argument{'C', 3},  Argument{'D', 7},
-      Argument{'E', 8},  Argument{'F', 9},  Argument{'H', 11}, Argument{'I', 4},
-      Argument{'J', 5},  Argument{'K', 6},  Argument{'Q', 17}, Argument{'R', 18},
-      Argument{'S', 19}, Argument{'T', 20}, Argument{'U', 21}, Argument{'V', 22},
-      Argument{'W', 23}, Argument{'X', 24}, Argument{'Y', 25}, Argument{'Z', 26}};
-  constexpr std::size_t kParameters = 26;
-  const GivenCode& code = words[CodeGroup::subprogram];
-  auto call = called_program(words);
-  if (!call) return call.error();
-  call->arguments.emplace(kParameters, kVacant);
-  for (const Argument& argument : kArguments) {
-    if (!words.has(argument.letter)) continue;
-    call->arguments->at(static_cast<std::size_t>(argument.parameter) - 1) =
-        words[argument.letter].value;
-  }
-  for (std::size_t group = 0; group < kCodeGroups; ++group) {
-    const GivenCode& other = words[static_cast<CodeGroup>(group)];
-    if (other.code == nullptr || other.code == code.code) continue;
-    return fail(other.column, fmt::format("{} beside {}", other.code->name(), code.code->name()),
-                "write two blocks");
-  }
-  return Flow{*std::move(call)};
-}
-
 Result<CallSubprogram> BlockExecutor::called_program(const BlockWords& words) const {
   const GivenCode& code = words[CodeGroup::subprogram];
   CallSubprogram call{0, false, 1, code.column, {}};
@@ -513,8 +488,18 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   }
   const GivenCode& subprogram = words[CodeGroup::subprogram];
   const auto word = words.value_or(CodeGroup::subprogram, SubprogramWord::none);
-  if (word == SubprogramWord::leave) return Flow{LeaveSubprogram{subprogram.column}};
-  if (word == SubprogramWord::none) return Flow{NextBlock{}};
+  if (word == SubprogramWord::leave) {
+    LeaveSubprogram leave{subprogram.column};
+    if (words.has('P') && subprogram.code->arguments.has('P')) {
+      const auto number = whole(words, 'P', 1, kMaxProgramNumber);
+      if (!number) return number.error();
+      leave.column = words['P'].column;
+      leave.block_number = static_cast<std::uint32_t>(*number);
+    }
+    return Flow{leave};
+  }
+  if (word == SubprogramWord::end_modal) return Flow{EndModalCall{}};
+  if (word == SubprogramWord::none) return Flow{NextBlock{moved_}};
 
   auto call = called_program(words);
   if (!call) return call.error();
@@ -535,6 +520,9 @@ Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
 }
 
 void BlockExecutor::emit(std::uint32_t column, Command command) {
+  moved_ = moved_ || std::holds_alternative<Traverse>(command) ||
+           std::holds_alternative<LinearFeed>(command) ||
+           std::holds_alternative<ArcFeed>(command) || std::holds_alternative<HomeReturn>(command);
   if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
   SourcePlace place = block_->place_of(column);
   place.file = file_;

@@ -36,10 +36,13 @@ namespace frustum::parser {
 using MotionSink = std::function<void(Motion&&)>;
 
 // Where the program goes after a block.
-struct NextBlock {};
+struct NextBlock {
+  bool moved = false;
+};
 struct EndProgram {};
 struct LeaveSubprogram {
   std::uint32_t column = 0;
+  std::optional<std::uint32_t> block_number{};  // where the caller goes on
 };
 struct CallSubprogram {
   std::uint32_t program = 0;
@@ -47,9 +50,11 @@ struct CallSubprogram {
   std::uint32_t count = 1;
   std::uint32_t column = 0;
   std::optional<std::vector<double>>
-      arguments{};  // of a macro: #1, #2, ...; vacant where not given
+      arguments{};     // of a macro: #1, #2, ...; vacant where not given
+  bool modal = false;  // G66: not now, but after each block that moves
 };
-using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram>;
+struct EndModalCall {};  // G67
+using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram, EndModalCall>;
 
 class BlockExecutor {
  public:
@@ -70,6 +75,10 @@ class BlockExecutor {
   [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
   [[nodiscard]] const ModalState& state() const { return state_; }
   [[nodiscard]] Parameters& parameters() { return parameters_; }
+  // Whether the last block has moved an axis.
+  [[nodiscard]] bool moved() const { return moved_; }
+  // #1 to #33 of the macro at work.
+  [[nodiscard]] std::vector<double> local_values() const;
   // A call of a subprogram and its end; modes saved by M73 come back.
   void enter_call();
   void leave_call();
@@ -146,7 +155,9 @@ class BlockExecutor {
   void drill_from_top(const Vec3& top, const std::optional<Vec3>& from, bool turns,
                       std::uint32_t column);
   [[nodiscard]] Result<CallSubprogram> called_program(const BlockWords& words) const;
-  [[nodiscard]] Result<Flow> call_macro(const BlockWords& words) const;
+  [[nodiscard]] const Word* macro_word(const Block& block) const;
+  [[nodiscard]] Result<Flow> call_macro(const Block& block, const Word& code);
+  [[nodiscard]] Result<bool> set_system_variable(std::uint32_t column, int index, double value);
   [[nodiscard]] Result<Flow> finish(const BlockWords& words);
 
   [[nodiscard]] double unit_scale() const;
@@ -188,6 +199,7 @@ class BlockExecutor {
   Parameters parameters_;
   const Block* block_ = nullptr;  // at work
   std::shared_ptr<const std::string> file_{};
+  bool moved_ = false;  // the block has moved an axis
 };
 
 }  // namespace frustum::parser

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "parser/reading/block_cursor.hpp"
+#include "parser/running/block_executor.hpp"
 #include "parser/running/program_map.hpp"
 
 namespace frustum::parser {
@@ -52,6 +53,11 @@ struct RepeatedPart {
   std::uint64_t turns_left = 0;
 };
 
+// G66: the macro that runs after each block that moves.
+struct ModalMacro {
+  CallSubprogram call{};  // its arguments are what the macro has left of them
+};
+
 struct CallFrame {
   std::shared_ptr<LoadedProgram> program;
   BlockCursor cursor;
@@ -64,6 +70,9 @@ struct CallFrame {
   bool opened = false;  // a block that does something has been reached
   std::vector<CountedLoop> loops{};
   std::vector<RepeatedPart> parts{};
+  // Those at work in this program, innermost last. Moves of a macro called by one of them call those before it.
+  std::vector<ModalMacro> modal_macros{};
+  bool is_modal = false;  // called by the last one of its caller
 };
 
 }  // namespace frustum::parser

@@ -44,7 +44,16 @@ std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& d) {
     case MotionMode::bore_stop:
       return {
           {feed, d.bottom}, {dwell, d.dwell}, {stop_spindle}, {rapid, d.clear}, {start_spindle}};
+    case MotionMode::fine_bore:
+      return {{feed, d.bottom},        {dwell, d.dwell},       {stop_spindle},   {orient_spindle},
+              {rapid, d.bottom, true}, {rapid, d.clear, true}, {rapid, d.clear}, {start_spindle}};
     case MotionMode::bore_back:
+      if (d.from_level) {
+        return {{stop_spindle},   {orient_spindle}, {rapid, d.clear, true},  {rapid, d.level, true},
+                {rapid, d.level}, {start_spindle},  {feed, d.bottom},        {dwell, d.dwell},
+                {stop_spindle},   {orient_spindle}, {rapid, d.bottom, true}, {rapid, d.clear, true},
+                {rapid, d.clear}, {start_spindle}};
+      }
       return {{rapid, d.level, true},  {stop_spindle},          {orient_spindle},
               {rapid, d.bottom, true}, {rapid, d.bottom},       {start_spindle},
               {feed, d.back},          {feed, d.bottom},        {stop_spindle},

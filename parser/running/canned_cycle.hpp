@@ -2,6 +2,7 @@
 //
 // Depths are coordinates along the axis of the plane's normal: Z in G17, Y in G18, X in G19.
 //
+//   G76  bores, stops and shifts the tool, leaves by rapid
 //   G73  pecks that break the chip     G85  bores, feeds out
 //   G74  taps left-handed              G86  bores, stops the spindle, leaves by rapid
 //   G81  drills                        G87  bores from behind, with the tool shifted
@@ -39,6 +40,7 @@ struct CycleDepths {
   double dwell_above = 0.0;           // after each peck that clears the hole, seconds
   double dwell = 0.0;                 // P, seconds
   double back = 0.0;                  // K of G87: how far the bore goes up to
+  bool from_level = false;            // G87 by Q: the bore goes from `level` up to `bottom`
 };
 
 enum class CycleAction : std::uint8_t {

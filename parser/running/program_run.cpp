@@ -66,7 +66,8 @@ ProgramRun::Failure ProgramRun::run_next() {
   }
   if (++blocks_ > options_.max_blocks) {
     return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks),
-              "look for repeats within repeats, and for loops whose condition never changes");
+              "look for repeats within repeats, for loops whose condition never changes, and for "
+              "M99 in the main program");
   }
   if (options_.watch &&
       !options_.watch({block, frame().program->place_file(), frames_.size() - 1})) {
@@ -77,6 +78,7 @@ ProgramRun::Failure ProgramRun::run_next() {
     sink_(Motion{{block.line, 1, frame().program->place_file()}, Event{"block_delete", {}}});
     return std::nullopt;
   }
+  statement_ran_ = statement_ran_ || block.flow.has_value();
   auto failure = block.flow ? follow_statement(block) : execute(block);
   if (!failure || !goes_on(*failure)) return failure;
   executor_.pass_over(block);
@@ -90,6 +92,12 @@ bool ProgramRun::goes_on(const Diagnostic& failure) const {
 ProgramRun::Failure ProgramRun::execute(const Block& block) {
   auto flow = executor_.execute(block);
   if (!flow) return in_this_file(std::move(flow).error().front());
+  const bool calls_or_leaves = std::holds_alternative<CallSubprogram>(*flow) ||
+                               std::holds_alternative<LeaveSubprogram>(*flow);
+  if (calls_or_leaves && executor_.moved() && !frame().modal_macros.empty()) {
+    return at(block, 1, "a call or M99 beside a move, which calls the macro of G66",
+              "write two blocks, or end G66 with G67 before");
+  }
   return std::visit([&](const auto& wish) { return follow(block, wish); }, *flow);
 }
 
@@ -124,6 +132,12 @@ void ProgramRun::return_from_call() {
     done.parts.clear();
     return;
   }
+  CallFrame& caller = frames_[frames_.size() - 2];
+  if (done.is_modal) {
+    caller.modal_macros.back().call.arguments = executor_.local_values();
+  } else {
+    caller.modal_macros = std::move(done.modal_macros);
+  }
   if (done.has_locals) executor_.parameters().leave();
   executor_.leave_call();
   frames_.pop_back();
@@ -140,7 +154,15 @@ void ProgramRun::repeat_part_that_ended() {
   }
 }
 
-ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const NextBlock& /*next*/) {
+ProgramRun::Failure ProgramRun::follow(const Block& block, const NextBlock& next) {
+  if (!next.moved || frame().modal_macros.empty()) return std::nullopt;
+  CallSubprogram call = frame().modal_macros.back().call;
+  call.column = 1;  // that of G66 is of another block
+  return call_numbered(block, std::move(call), true);
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const EndModalCall& /*end*/) {
+  if (!frame().modal_macros.empty()) frame().modal_macros.pop_back();
   return std::nullopt;
 }
 
@@ -150,15 +172,59 @@ ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const EndProgram&
 }
 
 ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram& leave) {
-  if (frames_.size() == 1) {
+  if (frames_.size() == 1) return repeat_main_program(block, leave);
+  if (!leave.block_number) {
+    return_from_call();
+    return std::nullopt;
+  }
+  // What is left of the repeats does not run.
+  const std::string label = fmt::format("N{}", *leave.block_number);
+  Diagnostic failure = at(block, leave.column, fmt::format("there is no {} to go back to", label),
+                          "P of M99 names a block of the program that called this one");
+  frame().runs_left = 1;
+  return_from_call();
+  const auto target = find_label(label, Search::forward_then_backward);
+  if (!target) return failure;
+  frame().cursor.go_to(*target);
+  frame().parts.clear();
+  return std::nullopt;
+}
+
+// M99 of the main program runs it again from its start, or goes on at the block that P names.
+ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
+                                                    const LeaveSubprogram& leave) {
+  if (leave.block_number && rules_.dialect == Dialect::fanuc) {
+    const std::string label = fmt::format("N{}", *leave.block_number);
+    const auto target = find_label(label, Search::forward_then_backward);
+    if (!target) {
+      return at(block, leave.column, fmt::format("there is no {} to go to", label),
+                "P of M99 names a block of this program");
+    }
+    frame().cursor.go_to(*target);
+    frame().parts.clear();
+    return std::nullopt;
+  }
+  // Nothing that has run could make the next time another.
+  if (!statement_ran_ || rules_.dialect != Dialect::fanuc) {
     return at(block, leave.column, "M99 in the main program would repeat it for ever",
               "end the main program with M30");
   }
-  return_from_call();
+  statement_ran_ = false;
+  frame().cursor.go_to(frame().entry);
+  frame().opened = false;
+  frame().loops.clear();
+  frame().parts.clear();
   return std::nullopt;
 }
 
 ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) {
+  if (!call.modal) return call_numbered(block, std::move(call), false);
+  frame().modal_macros.push_back({std::move(call)});
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram call,
+                                              bool by_modal) {
   std::shared_ptr<LoadedProgram> holder = frame().program;
   const auto has = [&](std::uint32_t number) { return holder->map().programs().contains(number); };
   if (!has(call.program) && !call.counted && call.program >= kRepeatsFactor &&
@@ -179,6 +245,7 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) 
   CallFrame next{holder,      BlockCursor(holder->program()),   name,      "M99",
                  entry.place, {entry.place.line, entry.column}, call.count};
   next.has_locals = call.arguments.has_value();
+  next.is_modal = by_modal;
   if (auto failure = push_call(block, call.column, std::move(next))) return failure;
   if (call.arguments) executor_.parameters().enter(*call.arguments);
   return std::nullopt;
@@ -191,6 +258,8 @@ ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t colu
               fmt::format("more than {} subprograms within each other", options_.max_call_depth),
               fmt::format("does {} call itself?", next.name));
   }
+  next.modal_macros = frame().modal_macros;
+  if (next.is_modal) next.modal_macros.pop_back();
   next.cursor.go_to(next.entry);
   frames_.push_back(std::move(next));
   executor_.enter_call();

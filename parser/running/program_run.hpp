@@ -38,6 +38,9 @@ class ProgramRun {
   [[nodiscard]] Failure follow(const Block& block, const EndProgram& end);
   [[nodiscard]] Failure follow(const Block& block, const LeaveSubprogram& leave);
   [[nodiscard]] Failure follow(const Block& block, CallSubprogram call);
+  [[nodiscard]] Failure follow(const Block& block, const EndModalCall& end);
+  [[nodiscard]] Failure call_numbered(const Block& block, CallSubprogram call, bool by_modal);
+  [[nodiscard]] Failure repeat_main_program(const Block& block, const LeaveSubprogram& leave);
 
   // What its flow statement asks for (program_flow.cpp).
   [[nodiscard]] Failure follow_statement(const Block& block);
@@ -71,6 +74,7 @@ class ProgramRun {
   std::map<std::string, std::shared_ptr<LoadedProgram>> files_{};
   std::vector<CallFrame> frames_{};
   std::uint64_t blocks_ = 0;
+  bool statement_ran_ = false;  // since the main program began, or began again by M99
   bool syntax_failed_ = false;
   // The else that a branch whose condition did not hold goes on with, by the offset of its block.
   std::optional<std::uint64_t> else_to_try_{};

@@ -21,8 +21,8 @@ Value position_of(const SystemParameters& of, AxisLetter axis) {
 }
 
 double motion_word(MotionMode mode) {
-  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  730.0, 740.0, 810.0,
-                               820.0, 830.0, 840.0, 850.0, 860.0, 870.0, 880.0, 890.0};
+  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  730.0, 740.0, 810.0, 820.0,
+                               830.0, 840.0, 850.0, 860.0, 870.0, 880.0, 890.0, 760.0};
   return kTenths.at(static_cast<std::size_t>(mode));
 }
 
@@ -112,8 +112,85 @@ constexpr std::array kNamed{
     Named{"_vminor", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
 };
 
+// #4001 to #4130: the word of each group that is in force.
+struct ModalVariable {
+  int index;
+  Value (*value)(const ModalState& state);
+};
+constexpr std::array kModal{
+    ModalVariable{4001,
+                  [](const ModalState& state) -> Value {
+                    const bool known = state.motion >= MotionMode::traverse &&
+                                       state.motion <= MotionMode::arc_counterclockwise;
+                    return known ? Value(motion_word(state.motion) / 10.0) : std::nullopt;
+                  }},
+    ModalVariable{
+        4002,
+        [](const ModalState& state) -> Value { return 17.0 + static_cast<double>(state.plane); }},
+    ModalVariable{4003,
+                  [](const ModalState& state) -> Value {
+                    return state.distance == DistanceMode::absolute ? 90.0 : 91.0;
+                  }},
+    ModalVariable{4005,
+                  [](const ModalState& state) -> Value {
+                    constexpr std::array kModes{94.0, 93.0, 95.0};
+                    return kModes.at(static_cast<std::size_t>(state.feed_mode));
+                  }},
+    ModalVariable{4006,
+                  [](const ModalState& state) -> Value {
+                    return state.unit == LengthUnit::millimetre ? 21.0 : 20.0;
+                  }},
+    ModalVariable{4008,
+                  [](const ModalState& state) -> Value {
+                    const Compensation& kept = state.compensation;
+                    return !kept.length ? 49.0 : kept.tool_vectors ? 43.5 : kept.tip ? 43.4 : 43.0;
+                  }},
+    ModalVariable{4009,
+                  [](const ModalState& state) -> Value {
+                    return state.cycle ? motion_word(state.motion) / 10.0 : 80.0;
+                  }},
+    ModalVariable{
+        4010,
+        [](const ModalState& state) -> Value { return state.retract_to_initial ? 98.0 : 99.0; }},
+    ModalVariable{4011,
+                  [](const ModalState& state) -> Value {
+                    return state.word_frame.scale == 1.0 ? 50.0 : 51.0;
+                  }},
+    ModalVariable{
+        4013, [](const ModalState& state) -> Value { return state.surface_speed ? 96.0 : 97.0; }},
+    ModalVariable{4014,
+                  [](const ModalState& state) -> Value {
+                    return state.work_offset <= 6 ? 53.0 + state.work_offset : 54.1;
+                  }},
+    ModalVariable{4016,
+                  [](const ModalState& state) -> Value {
+                    return state.tilted || state.word_frame.turns() ? 68.0 : 69.0;
+                  }},
+    ModalVariable{4017, [](const ModalState& state) -> Value { return state.polar ? 16.0 : 15.0; }},
+    ModalVariable{4022,
+                  [](const ModalState& state) -> Value {
+                    return state.word_frame.is_mirrored() ? 51.1 : 50.1;
+                  }},
+    ModalVariable{
+        4109,
+        [](const ModalState& state) -> Value { return state.feed ? state.feed->as_written : 0.0; }},
+    ModalVariable{
+        4111, [](const ModalState& state) -> Value { return state.compensation.offset_number; }},
+    ModalVariable{4119, [](const ModalState& state) -> Value { return state.spindle_speed; }},
+    ModalVariable{4120,
+                  [](const ModalState& state) -> Value { return state.selected_tool.value_or(0); }},
+};
+
+Value modal_variable(const ModalState& state, int index) {
+  const auto found =
+      std::find_if(kModal.begin(), kModal.end(),
+                   [index](const ModalVariable& entry) { return entry.index == index; });
+  return found == kModal.end() ? std::nullopt : found->value(state);
+}
+
 constexpr int kLinuxcncPosition = 5420;
 constexpr int kFanucPosition = 5001;
+constexpr int kFanucPositionNow = 5041;  // with the length of the tool
 constexpr int kWorkOffset = 5220;
 constexpr int kTool = 5400;
 constexpr int kAxes = 6;
@@ -124,6 +201,13 @@ Value SystemParameters::number(int index) const {
   const int first = dialect == Dialect::fanuc ? kFanucPosition : kLinuxcncPosition;
   if (index >= first && index < first + kAxes) {
     return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(index - first)));
+  }
+  if (dialect == Dialect::fanuc) {
+    const int now = index - kFanucPositionNow;
+    if (now >= 0 && now < kAxes && !state.compensation.length) {
+      return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(now)));
+    }
+    return modal_variable(state, index);
   }
   if (dialect != Dialect::linuxcnc) return std::nullopt;
   if (index == kWorkOffset) return state.work_offset;

@@ -59,7 +59,7 @@ TEST(BadPrograms, AreManyEnoughToCoverTheWordings) { EXPECT_GE(bad_programs().si
 
 // Complaint 19: a dialect's unknown word is an error with line and word, never skipped.
 TEST(Complaint19, UnknownWordsAreErrorsWithLineAndWord) {
-  for (const std::string word : {"G77", "G187", "M77", "M198", "E3", "V2", "W1"}) {
+  for (const std::string word : {"G77", "G187", "M77", "M197", "E3", "V2", "W1"}) {
     const auto lines = complaints("G0 X0\n\nN30 G1 Y5 F100 " + word + "\n");
     ASSERT_EQ(lines.size(), 1U) << word;
     EXPECT_TRUE(lines.front().starts_with("3:16: error: unknown word " + word + " (hint: "))

@@ -36,6 +36,8 @@ constexpr Mistake kLinuxcnc[] = {
     {"G52\n", "1:1: error: G52 names no axis"},
     {"G1 X1\n", "1:1: error: G1 without a feed rate"},
     {"G51\n", "1:1: error: unknown word G51"},
+    {"G0 XATAN[1]\n", "1:12: error: ATAN needs two values"},
+    {"G0 XPOW[2,3]\n", "1:4: error: X has no number"},
 };
 
 constexpr Mistake kSinumerik[] = {

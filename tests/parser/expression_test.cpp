@@ -14,7 +14,8 @@ namespace frustum::parser {
 namespace {
 
 double value_of(const std::string& expression) {
-  return last_of<Traverse>(motions("#1=7 #<depth>=-2.5\nG0 X" + expression + "\n"))
+  return last_of<Traverse>(
+             motions("#1=7 #<depth>=-2.5\nG0 X" + expression + "\n", {}, Dialect::linuxcnc))
       .end[AxisLetter::X]
       .value_or(std::numeric_limits<double>::quiet_NaN());
 }

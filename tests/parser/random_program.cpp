@@ -11,14 +11,16 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::string_view kLetters = "ABCDEFGHIJKLMPQRSTUVWXYZ";
-constexpr std::array kOneOperand{Operation::negate,      Operation::sine,     Operation::cosine,
-                                 Operation::tangent,     Operation::arc_sine, Operation::arc_cosine,
-                                 Operation::square_root, Operation::absolute, Operation::round,
-                                 Operation::fix,         Operation::fup,      Operation::logarithm,
-                                 Operation::exponential, Operation::parameter};
-constexpr std::array kTwoOperands{Operation::add,        Operation::subtract, Operation::multiply,
-                                  Operation::divide,     Operation::power,    Operation::modulo,
-                                  Operation::arc_tangent};
+constexpr std::array kOneOperand{
+    Operation::negate,   Operation::sine,       Operation::cosine,      Operation::tangent,
+    Operation::arc_sine, Operation::arc_cosine, Operation::square_root, Operation::absolute,
+    Operation::round,    Operation::truncate,   Operation::round_away,  Operation::from_bcd,
+    Operation::to_bcd,   Operation::as_it_is,   Operation::logarithm,   Operation::exponential,
+    Operation::parameter};
+constexpr std::array kTwoOperands{Operation::add,     Operation::subtract,   Operation::multiply,
+                                  Operation::divide,  Operation::power,      Operation::remainder,
+                                  Operation::bit_and, Operation::bit_or,     Operation::bit_xor,
+                                  Operation::less,    Operation::arc_tangent};
 
 void push_expression(Dice& dice, Block& block, int depth) {
   const double leaf = depth == 0 ? 1.0 : 0.3;

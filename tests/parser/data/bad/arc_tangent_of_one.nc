@@ -1,2 +1,2 @@
-; 2:12: error: ATAN needs two values (hint: write ATAN[y]/[x] or ATAN[y,x])
-G0 XATAN[1]
+; 2:13: error: a function needs its argument in [ ] (hint: write for example SIN[30])
+G0 XATAN[1]/2

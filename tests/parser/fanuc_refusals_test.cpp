@@ -66,6 +66,59 @@ void expect_complaints(const Mistake (&mistakes)[Count]) {
   }
 }
 
+constexpr Mistake kMacros[] = {
+    {"G65 P1 N5 A1\n", "1:8: error: N is not the first word"},
+    {"G65 P1.5\n", "1:5: error: P1.5 is not a whole number"},
+    {"G65 P0\n", "1:5: error: P0 is out of range"},
+    {"G65 P1 L-1\n", "1:8: error: L-1 is out of range"},
+    {"G65 P1 A1 A2\n", "1:11: error: A is given twice in a block"},
+    {"G65 P1 G0\n", "1:8: error: G0 beside G65"},
+    {"#1=2 G65 P1\n", "1:1: error: a setting beside G65"},
+    {"G66 A1\n", "1:1: error: G66 without P"},
+    {"G66 P77\nG0 X1\n", "2:1: error: subprogram O77 does not exist"},
+    {"G66.1 P1\n", "1:1: error: G66.1 is not simulated"},
+    {"G66 P1\nG0 X1 M98 P1\nM30\nO1\nM99\n",
+     "2:1: error: a call or M99 beside a move, which calls the macro of G66"},
+    {"G65 P1 I1 I2 I3 I4 I5 I6 I7 I8 I9 I10 I11\n",
+     "1:39: error: more than ten I J K of a macro call"},
+    {"M198 P1\n", "1:1: error: M198 is not simulated"},
+    {"M98 P2\nM30\nO2\nM99 P7\n", "4:5: error: there is no N7 to go back to"},
+    {"M99 P7\n", "1:5: error: there is no N7 to go to"},
+    {"M98 P2\nM30\nO2\nM99 P1.5\n", "4:5: error: P1.5 is not a whole number"},
+    {"#3000=5(TOOL BROKEN)\n", "1:1: error: the program raises alarm 5: TOOL BROKEN"},
+    {"#3000=1\n", "1:1: error: the program raises alarm 1"},
+    {"#1=#3001\n", "1:4: error: system variable #3001 is not known"},
+    {"#3002=0\n", "1:1: error: system variable #3002 is not simulated"},
+    {"#4001=1\n", "1:1: error: system variable #4001 is not simulated"},
+    {"G0 X#5021\n", "1:5: error: system variable #5021 is not known"},
+    {"G0 X#5001\n", "1:5: error: system variable #5001 is not known"},
+    {"SETVN 500[A,B]\n", "1:1: error: SETVN is not simulated"},
+    {"DPRNT X#1\n", "1:7: error: DPRNT has no text"},
+    {"DPRNT[X#1[53]\nDPRNT[X\n", "2:6: error: the bracket is not closed"},
+    {"G0 X[1 EQ 1 AND 2 EQ 2]\n", "1:19: error: unexpected 'E' in an expression"},
+    {"G0 X[1.5 AND 2]\n", "1:10: error: the bits of 1.5 and 2"},
+    {"G0 X[5 MOD 0.2]\n", "1:8: error: 5 MOD zero"},
+    {"G0 XPOW[2]\n", "1:10: error: POW needs two values"},
+    {"G0 XPOW[-2,0.5]\n", "1:5: error: -2 ** 0.5 has no real value"},
+    {"G0 XBCD[-1]\n", "1:5: error: BCD of -1"},
+    {"G0 XBIN[10]\n", "1:5: error: BIN of 10"},
+};
+
+constexpr Mistake kCycles[] = {
+    {"G0 X0 Y0 Z9\nG76 R2 Z-9 F50\n", "2:1: error: the cycle has no Q"},
+    {"G0 X0 Y0 Z9\nG87 R-9 Z-5 F50\n", "2:1: error: the cycle has no Q"},
+    {"G0 X0 Y0 Z9\nG87 R-5 Z-9 Q1 F50\n",
+     "2:1: error: G87 bores from R (-5 mm) up to Z (-9 mm), below the tool (9 mm)"},
+    {"G73 R2 Z-9 F50\n",
+     "1:1: error: the cycle starts at an unknown Z: Z has not been programmed yet"},
+    {"G0 X0 Y0 Z9\nG83 R2 Z-9 F50\n", "2:1: error: the cycle has no Q"},
+    {"G0 X0 Y0 Z9\nG81 R2 Z-9 F50 K1.5\n", "2:16: error: K1.5 is not a whole number"},
+    {"G27 X0\n", "1:1: error: G27 is not simulated"},
+    {"G29 X0\n", "1:1: error: G29 is not simulated"},
+};
+
+TEST(FanucErrors, OfCycles) { expect_complaints(kCycles); }
+TEST(FanucErrors, OfMacros) { expect_complaints(kMacros); }
 TEST(FanucErrors, OfFrames) { expect_complaints(kFrames); }
 
 }  // namespace
