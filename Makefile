@@ -1,6 +1,8 @@
 # The commands of a working day. Each does all it needs, so that on a fresh Debian 12 machine `make demo`
 # and `make test` are the only ones to know. JOBS=1 make test builds with one compiler at a time.
+# ORACLE=1 make test also compares with LinuxCNC's interpreter, which it installs.
 JOBS ?= $(shell nproc)
+ORACLE ?= 0
 BUILD = cmake --build --parallel $(JOBS)
 DEMO_OUT = out/cone
 
@@ -10,7 +12,8 @@ DEMO_OUT = out/cone
 help:
 	@echo 'make demo          set up, build, and run the main job: ends with a pass/fail table'
 	@echo '                   and $(DEMO_OUT)/report.html'
-	@echo 'make test          set up, build, and run every test'
+	@echo 'make test          set up, build, and run every test; with ORACLE=1 also those that compare NC'
+	@echo '                   programs with LinuxCNC, a package of 80 MB'
 	@echo 'make build         set up and build; the program is build/frustum'
 	@echo 'make asan          the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make bench         build and run the benchmarks'
@@ -19,7 +22,7 @@ help:
 	@echo 'make clean         remove build/ and out/'
 
 setup:
-	@scripts/setup
+	@scripts/setup $(if $(filter 1,$(ORACLE)),--with-oracle)
 
 build/%/build.ninja: CMakePresets.json | setup
 	cmake --preset $*

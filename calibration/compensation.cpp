@@ -140,6 +140,7 @@ class Compensator {
     }
   }
   void rewrite(const Motion& motion, const parser::ArcFeed& move) { replace(motion, move.feed); }
+  void rewrite(const Motion& motion, const parser::Probe& /*probe*/) { keep(motion); }
 
   // Every motion with a tool in the spindle is one block of the path, in the same order.
   void keep(const Motion& motion) {

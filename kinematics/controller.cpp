@@ -68,6 +68,13 @@ class Controller::State {
   void execute(const parser::ArcFeed& move) {
     go(move.end, move.tool_axis, Coordinates::program, {PathKind::feed, move.feed}, &move);
   }
+  // There is no part that it could meet.
+  void execute(const parser::Probe& move) {
+    warn(move.must_meet ? "the probe meets nothing here, where a control would stop with an alarm: "
+                          "it goes to the end of its move"
+                        : "the probe meets nothing here: it goes to the end of its move");
+    go(move.end, move.tool_axis, Coordinates::program, {PathKind::feed, move.feed}, nullptr);
+  }
   void execute(const parser::HomeReturn& move) {
     AxisPositions end = q_;
     const AxisPositions home = machine_.home();

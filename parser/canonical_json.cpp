@@ -55,6 +55,7 @@ void add_coordinates(Json& json, Coordinates coordinates) {
 void add_feed(Json& json, const Feed& feed) {
   json["feed"] = feed.value;
   if (feed.mode != FeedMode::per_minute) json["feed_mode"] = name_in(kFeedModes, feed.mode);
+  if (feed.synchronised) json["synchronised"] = true;
 }
 
 // One overload a command: writes the type and what belongs to it.
@@ -87,6 +88,14 @@ void add(Json& json, const ArcFeed& arc) {
   json["turns"] = arc.turns;
   add_tool_axis(json, arc.tool_axis);
   add_feed(json, arc.feed);
+}
+void add(Json& json, const Probe& probe) {
+  json["type"] = "probe";
+  json["end"] = json_of(probe.end);
+  json["away"] = probe.away;
+  json["must_meet"] = probe.must_meet;
+  add_tool_axis(json, probe.tool_axis);
+  add_feed(json, probe.feed);
 }
 void add(Json& json, const Dwell& dwell) {
   json["type"] = "dwell";

@@ -59,6 +59,8 @@ struct Feed {
   // mm/min (deg/min for purely rotary moves); 1/min with inverse_time; mm with per_revolution.
   double value = 0.0;
   FeedMode mode = FeedMode::per_minute;
+  // Threads: the axes follow the angle of the spindle from its mark on; with per_revolution.
+  bool synchronised = false;
 };
 
 // G0. With tool-centre-point control on, `tool_axis` may give the direction (G43.5 vector words).
@@ -88,6 +90,15 @@ struct ArcFeed {
   int turns = 1;
   std::optional<UnitVec3> tool_axis{};
   Feed feed{};
+};
+// G38.2 to G38.5: a feed that ends where the probe meets the part, or (away) leaves it, at `end` at the latest.
+// Where there is a part no program knows: what knows none goes to `end`.
+struct Probe {
+  AxisTarget end{};
+  std::optional<UnitVec3> tool_axis{};
+  Feed feed{};
+  bool away = false;
+  bool must_meet = true;  // else the control stops with an alarm
 };
 struct Dwell {
   double seconds = 0.0;
@@ -144,9 +155,9 @@ struct Event {
 };
 
 using Command =
-    std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Dwell, ToolChange, CompensationChange,
-                 WorkOffsetChange, OrientationPathChange, RotaryPathChange, TiltedPlaneChange,
-                 AlignToPlane, SpindleChange, CoolantChange, Stop, Event>;
+    std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Probe, Dwell, ToolChange,
+                 CompensationChange, WorkOffsetChange, OrientationPathChange, RotaryPathChange,
+                 TiltedPlaneChange, AlignToPlane, SpindleChange, CoolantChange, Stop, Event>;
 
 struct Motion {
   SourcePlace place{};

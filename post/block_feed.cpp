@@ -26,7 +26,7 @@ Feed feed_for(const Feed& written, const PartOfBlock& part) {
   // rad and mm: below any written word; an axis that turns and a tip that moves by less stand.
   constexpr double kAxesStand = 1e-12;
   constexpr double kTipStands = 1e-9;
-  if (!(part.minutes > 0.0)) return written;
+  if (!(part.minutes > 0.0) || written.synchronised) return written;
   const bool axes_turn = !part.tip_words && part.turn > kAxesStand;
   if (axes_turn || written.mode == FeedMode::inverse_time) {
     return {1.0 / part.minutes, FeedMode::inverse_time};

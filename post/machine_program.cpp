@@ -97,6 +97,10 @@ class Planner {
     }
   }
   void follow(const parser::ArcFeed& move) { go({move.end, move.tool_axis, &move.feed, &move}); }
+  void follow(const parser::Probe& /*probe*/) {
+    fail("a probing move is not post-processed: what follows depends on what it meets",
+         "leave the blocks that probe out, and give their results as numbers");
+  }
   // Not every dialect has a word for home; its place is known here.
   void follow(const parser::HomeReturn& home) {
     AxisTarget end;

@@ -59,6 +59,8 @@ constexpr NcSpelling linuxcnc() {
   s.extension = ".ngc";
   s.header = "%\n($)\nG21 G90 G91.1 G17 G40 G49 G80 G94";
   s.upper_comments = false;
+  s.thread = "G33";
+  s.lead = "K";
   s.tool_vector = {};
   s.tool_vectors = "";
   s.tool_centre_point = "G43 H#\nM428";

@@ -35,6 +35,8 @@ struct NcSpelling {
   std::string_view traverse, linear, clockwise, counterclockwise;
   std::string_view with_vector;    // of straight motions with a tool vector; empty: the same
   std::string_view traverse_feed;  // stands where F would
+  // Synchronised with the spindle, and the letter of the way of a revolution; empty: none.
+  std::string_view thread, lead;
   bool modal;
   std::array<std::string_view, 3> planes;       // XY ZX YZ
   std::array<std::string_view, 3> tool_vector;  // components; empty: none

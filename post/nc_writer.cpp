@@ -68,6 +68,10 @@ class NcWriter {
     straight(move.end, move.tool_axis, move.coordinates, &move.feed);
   }
 
+  void write(const parser::Probe& /*probe*/) {
+    refuse("a probing move", "leave the blocks that probe out");
+  }
+
   void write(const parser::HomeReturn& home) {
     if (spelling_.home_return.empty()) {
       refuse("the return to home (G28)", "give the position in machine coordinates");
@@ -165,6 +169,13 @@ class NcWriter {
     if (words.empty()) return;
 
     std::string_view motion = feed == nullptr ? spelling_.traverse : spelling_.linear;
+    if (feed != nullptr && feed->synchronised) {
+      motion = spelling_.thread;
+      if (motion.empty()) {
+        refuse("a move synchronised with the spindle", "write threads with the control's cycles");
+        return;
+      }
+    }
     if (tool_axis && !spelling_.with_vector.empty()) motion = spelling_.with_vector;
     std::string block;
     if (machine) block += spelling_.before_machine_coordinates;
@@ -234,6 +245,10 @@ class NcWriter {
 
   // " F500", with the words that change the mode before it.
   std::string feed_words(const Feed& feed) {
+    if (feed.synchronised) {  // of this block alone
+      feed_text_.clear();
+      return fmt::format(" {}{}", spelling_.lead, significant(feed.value, options_.feed_digits));
+    }
     const std::string_view word = spelling_.feed_words.at(index_of(feed.mode));
     if (word.empty()) {
       refuse(feed.mode == FeedMode::inverse_time ? "inverse time feed" : "feed per revolution",

@@ -26,6 +26,7 @@ enum class CodeGroup : std::uint8_t {
   feed_mode,
   feed_source,
   unit,
+  diameter,
   radius_compensation,
   length_compensation,
   tool_tip,
@@ -53,6 +54,10 @@ enum class CodeGroup : std::uint8_t {
 constexpr std::size_t kCodeGroups = static_cast<std::size_t>(CodeGroup::event);
 
 // The values of the groups that have no enum of their own.
+enum class ToolWord : std::uint8_t {
+  change,
+  is
+};  // is: which one is in the spindle, without a change
 enum class NonModal : std::uint8_t {
   none,
   dwell,
@@ -80,6 +85,7 @@ enum class LengthWord : std::uint8_t {
 };
 enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
+enum class DiameterWord : std::uint8_t { radius, diameter };
 enum class SpeedWord : std::uint8_t { revolutions, surface };
 enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
 enum class PolarWord : std::uint8_t { off, on };

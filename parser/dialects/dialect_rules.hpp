@@ -58,6 +58,8 @@ struct DialectRules {
   // Machine coordinates still carry the tool length and the tool-tip control.
   bool machine_coordinates_keep_length = false;
   bool home_without_axes_is_all = false;
+  // F beside G20 or G21 counts in the unit before the block.
+  bool feed_precedes_unit = false;
   // Arcs without centre words or radius turn about the last pole (CC).
   bool arcs_turn_about_pole = false;
   // While a hole cycle is on, each move names the top of a hole.

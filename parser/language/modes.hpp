@@ -14,6 +14,14 @@ enum class MotionMode : std::uint8_t {
   linear,
   arc_clockwise,
   arc_counterclockwise,
+  // Synchronised with the spindle, and probing: threading_cycle.hpp, block_threads.cpp, block_moves.cpp.
+  thread,
+  rigid_tap,
+  thread_cycle,
+  probe_towards,
+  probe_towards_if_any,
+  probe_away,
+  probe_away_if_any,
   // The canned cycles: canned_cycle.hpp.
   peck_short,
   tap_left,

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <optional>
 
+#include "parser/reading/blank_free_text.hpp"
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/grammar.hpp"
 #include "parser/reading/line_scanner.hpp"
@@ -162,11 +163,27 @@ class OWordReader {
 
 }  // namespace
 
-Result<Block> read_linuxcnc_block(std::string_view text, std::uint32_t line) {
+namespace {
+
+Result<Block> read_line(std::string_view text, std::uint32_t line) {
   if (text.find('o') != std::string_view::npos || text.find('O') != std::string_view::npos) {
     if (auto statement = OWordReader(text, line)()) return *std::move(statement);
   }
   return parse_block(text, line);
+}
+
+}  // namespace
+
+Result<Block> read_linuxcnc_block(std::string_view text, std::uint32_t line) {
+  auto block = read_line(text, line);
+  if (block) return block;
+  // Blanks within numbers and names: seldom, so that they are looked for last. What is wrong is told of the line
+  // as it is written.
+  const BlankFreeText free = without_blanks(text);
+  auto again = read_line(free.text, line);
+  if (!again) return block;
+  restore_columns(*again, free);
+  return again;
 }
 
 }  // namespace frustum::parser

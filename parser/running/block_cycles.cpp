@@ -157,7 +157,11 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
     position_.set(w, depths.level);
     rapid(movement.column);
   }
-  if (rules_.cycles.start_from_initial && state_.retract_to_initial) position_.set(w, depths.clear);
+  // With G99 it goes up to a higher R on the way.
+  if (rules_.cycles.start_from_initial) {
+    position_.set(w,
+                  state_.retract_to_initial ? depths.clear : std::max(*position_[w], depths.level));
+  }
   for (int hole = 0; hole < holes; ++hole) {
     if (auto done = set_place_in_plane(words); !done) return done;
     for (const AxisLetter axis : {u, v}) {

@@ -63,7 +63,8 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
                 "look at the conditions before this block");
   }
   if (auto done = set_parameters(block); !done) return std::move(done).error();
-  state_.unit = words->value_or(CodeGroup::unit, state_.unit);
+  const LengthUnit unit = words->value_or(CodeGroup::unit, state_.unit);
+  if (!rules_.feed_precedes_unit) state_.unit = unit;
   const bool dwells = movement->non_modal == NonModal::dwell;
   // F and S of a dwell are its time where the dialect says so.
   const auto of_dwell = [&](char letter) {
@@ -73,6 +74,10 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   if (!of_dwell('F')) {
     if (auto done = set_feed(*words); !done) return std::move(done).error();
   }
+  state_.unit = unit;
+  state_.diameter = words->value_or(CodeGroup::diameter, state_.diameter ? DiameterWord::diameter
+                                                                         : DiameterWord::radius) ==
+                    DiameterWord::diameter;
   const bool any_speed = words->has('S') && !of_dwell('S');
   if (any_speed && (*words)['S'].value < 0.0) {
     return fail((*words)['S'].column, fmt::format("{} is negative", words->text_of('S')),
@@ -163,6 +168,17 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
     default:
       // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
       return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
+    case MotionMode::thread:
+      return kAxisWords | LetterSet("K");
+    case MotionMode::rigid_tap:
+      return kLinearWords | LetterSet("K");
+    case MotionMode::thread_cycle:
+      return kLinearWords | LetterSet("PIJKRQHEL");
+    case MotionMode::probe_towards:
+    case MotionMode::probe_towards_if_any:
+    case MotionMode::probe_away:
+    case MotionMode::probe_away_if_any:
+      return kAxisWords;
     case MotionMode::traverse:
     case MotionMode::linear: {
       const bool vectors = guides_tip(words) && movement.non_modal != NonModal::machine_coordinates;
@@ -335,7 +351,16 @@ BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
     state_.selected_tool = *tool;
   }
   const GivenCode& change = words[CodeGroup::tool_change];
-  if (change.code != nullptr) {
+  if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
+    if (!words.has('Q')) {
+      return fail(change.column, change.code->name() + " without a tool",
+                  "give Q, the number of the tool that is in the spindle");
+    }
+    const auto tool = whole(words, 'Q', 0, kMaxTool);
+    if (!tool) return tool.error();
+    state_.tool = *tool;
+    emit(change.column, ToolChange{state_.tool});
+  } else if (change.code != nullptr) {
     if (!state_.selected_tool) {
       return fail(change.column, change.code->name() + " without a tool",
                   "give T on this block or before");
@@ -426,6 +451,7 @@ void BlockExecutor::restore_modes(std::uint32_t column) {
   const ModalState& saved = *saved_modes_.back().state;
   state_.plane = saved.plane;
   state_.unit = saved.unit;
+  state_.diameter = saved.diameter;
   state_.distance = saved.distance;
   state_.arc_distance = saved.arc_distance;
   state_.feed_mode = saved.feed_mode;

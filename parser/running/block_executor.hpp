@@ -1,7 +1,7 @@
 // Carries out one block after another: the modal state, the position, the parameters, and the
 // motions that follow from them.
 //
-// Order within a block, RS-274's: comments; parameters; units; feed mode; F; S; T; M6; M3 M4 M5; M7
+// Order within a block, RS-274's: comments; parameters; units (LinuxCNC: behind F); feed mode; F; S; T; M6; M3 M4 M5; M7
 // M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or
 // the motion; stops and calls.
 // Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc
@@ -29,6 +29,7 @@
 #include "parser/running/modal_state.hpp"
 #include "parser/running/program_position.hpp"
 #include "parser/running/system_parameters.hpp"
+#include "parser/running/threading_cycle.hpp"
 #include "parser/tool_table.hpp"
 
 namespace frustum::parser {
@@ -142,6 +143,14 @@ class BlockExecutor {
                                                     const Movement& movement);
   [[nodiscard]] Outcome move_straight(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_along_arc(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Result<double> lead_of(const BlockWords& words, const Movement& movement,
+                                       char letter) const;
+  [[nodiscard]] Outcome move_along_thread(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome tap_rigidly(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Result<ThreadingCycle> threading_cycle(const BlockWords& words,
+                                                       const Movement& movement) const;
+  [[nodiscard]] Outcome cut_thread(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome probe(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome set_cycle(const BlockWords& words, const Movement& movement,
                                   AxisLetter depth_axis);
   [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);

@@ -20,6 +20,7 @@ const char* motion_name(MotionMode motion, Dialect dialect) {
   constexpr std::array kNames{"", "G0", "G1", "G2", "G3"};
   constexpr std::array kPlain{"", "a rapid move", "a cutting move", "an arc", "an arc"};
   if (is_cycle(motion)) return "a canned cycle";
+  if (motion >= MotionMode::probe_towards) return "a probing move";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
   return (letters ? kNames : kPlain).at(static_cast<std::size_t>(motion));
 }
@@ -78,6 +79,17 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise:
       return move_along_arc(words, movement);
+    case MotionMode::thread:
+      return move_along_thread(words, movement);
+    case MotionMode::rigid_tap:
+      return tap_rigidly(words, movement);
+    case MotionMode::thread_cycle:
+      return cut_thread(words, movement);
+    case MotionMode::probe_towards:
+    case MotionMode::probe_towards_if_any:
+    case MotionMode::probe_away:
+    case MotionMode::probe_away_if_any:
+      return probe(words, movement);
     default:
       return Done{};
   }
@@ -315,7 +327,8 @@ double BlockExecutor::unit_scale() const {
 }
 
 double BlockExecutor::scaled(AxisLetter axis, double value) const {
-  return value * (is_rotary(axis) ? kRadPerDeg : unit_scale());
+  const double share = axis == AxisLetter::X && state_.diameter ? 0.5 : 1.0;
+  return value * (is_rotary(axis) ? kRadPerDeg : share * unit_scale());
 }
 
 BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLetter axis) {

@@ -13,6 +13,10 @@ namespace frustum::parser {
 BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) {
   const char first = words.first_of(LetterSet("pq"));
   if (first == 0) return Done{};
+  if (state_.plane != Plane::xy) {
+    return fail(words[first].column, "a polar position outside the plane of X and Y",
+                "give it in G17");
+  }
   const PlaneAxes axes = axes_of(state_.plane);
   const auto u = static_cast<AxisLetter>(axes.u);
   const auto v = static_cast<AxisLetter>(axes.v);

@@ -68,6 +68,7 @@ struct ModalState {
   MotionMode motion = MotionMode::none;
   Plane plane = Plane::xy;
   LengthUnit unit = LengthUnit::millimetre;
+  bool diameter = false;  // G7: X words are twice the position
   DistanceMode distance = DistanceMode::absolute;
   DistanceMode arc_distance = DistanceMode::incremental;
   FeedMode feed_mode = FeedMode::per_minute;

@@ -114,20 +114,23 @@ AxisTarget WordFrame::to_words(const AxisTarget& place) const {
 }
 
 void WordFrame::place(Command& command) const {
-  const auto straight = [&](auto& move) {
-    if (move.coordinates == Coordinates::machine) return;
+  const auto words_of = [&](auto& move) {
     move.end = from_words(move.end);
     if (move.tool_axis) move.tool_axis = UnitVec3::of(direction(*move.tool_axis));
+  };
+  const auto straight = [&](auto& move) {
+    if (move.coordinates == Coordinates::program) words_of(move);
   };
   if (auto* traverse = std::get_if<Traverse>(&command)) {
     straight(*traverse);
   } else if (auto* feed = std::get_if<LinearFeed>(&command)) {
     straight(*feed);
   } else if (auto* arc = std::get_if<ArcFeed>(&command)) {
-    arc->end = from_words(arc->end);
+    words_of(*arc);
     arc->center = point(arc->center);
     if (reverses(arc->plane)) arc->turns = -arc->turns;
-    if (arc->tool_axis) arc->tool_axis = UnitVec3::of(direction(*arc->tool_axis));
+  } else if (auto* probe = std::get_if<Probe>(&command)) {
+    words_of(*probe);
   }
 }
 

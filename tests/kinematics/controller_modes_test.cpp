@@ -91,6 +91,18 @@ TEST(ControllerFeed, CountsTheLinearAxesWithoutTcpAndDwellsTakeTime) {
   EXPECT_NEAR(e->cycle_time, block_time(*e, 3) + 5.0 + 2.5, 1e-9);
 }
 
+TEST(ControllerFeed, AProbeGoesToItsEndAndSaysThatItMeetsNothing) {
+  const auto e = run(shipped("iwf-bc"),
+                     lines({ToolChange{1}, kLength, Traverse{target({{X, 0}, {Y, 0}, {Z, 80}})},
+                            Probe{.end = target({{Z, 70}}), .feed = feed(600)}}),
+                     kNoLimits);
+  ASSERT_TRUE(e) << to_string(e.error().front());
+  EXPECT_NEAR(block_time(*e, 4), 1.0, 1e-9);
+  ASSERT_EQ(e->warnings.size(), 1U);
+  EXPECT_EQ(e->warnings.front().line, 4);
+  EXPECT_NE(e->warnings.front().message.find("meets nothing"), std::string::npos);
+}
+
 TEST(ControllerFeed, RefusesAFeedPerRevolutionWhileTheSpindleStands) {
   const auto e = run(
       shipped("three-axis"),

@@ -26,13 +26,34 @@ std::vector<std::optional<double>> values_of(const AxisTarget& end) {
   return values;
 }
 
+std::optional<double> rate_of(const Feed& feed) {
+  const bool written = feed.mode != FeedMode::inverse_time && !feed.synchronised;
+  return written ? std::optional(feed.value) : std::nullopt;
+}
+
+double signed_speed(SpindleDirection direction, double speed) {
+  return direction == SpindleDirection::off         ? 0.0
+         : direction == SpindleDirection::clockwise ? speed
+                                                    : -speed;
+}
+
 struct ToMove {
   std::optional<CanonicalMove> operator()(const Traverse& move) const {
-    if (move.coordinates == Coordinates::machine) return std::nullopt;
     return CanonicalMove{"traverse", values_of(move.end)};
   }
   std::optional<CanonicalMove> operator()(const LinearFeed& move) const {
-    return CanonicalMove{"feed", values_of(move.end)};
+    CanonicalMove result{"feed", values_of(move.end)};
+    result.rate = rate_of(move.feed);
+    if (move.feed.synchronised) {
+      result.kind = "thread";
+      result.values.emplace_back(move.feed.value);
+    }
+    return result;
+  }
+  std::optional<CanonicalMove> operator()(const Probe& move) const {
+    CanonicalMove result{"probe", values_of(move.end)};
+    result.rate = rate_of(move.feed);
+    return result;
   }
   std::optional<CanonicalMove> operator()(const ArcFeed& arc) const {
     CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(arc.plane))),
@@ -42,7 +63,16 @@ struct ToMove {
       if (i != normal) move.values.emplace_back(arc.center[static_cast<Eigen::Index>(i)]);
     }
     move.values.emplace_back(arc.turns);
+    move.rate = rate_of(arc.feed);
     return move;
+  }
+  std::optional<CanonicalMove> operator()(const Stop& stop) const {
+    if (stop.kind == StopKind::program_end) return std::nullopt;
+    return CanonicalMove{stop.kind == StopKind::program_stop ? "stop" : "optional stop", {}};
+  }
+  std::optional<CanonicalMove> operator()(const Event& event) const {
+    if (event.name != "message") return std::nullopt;
+    return CanonicalMove{"message " + event.text, {}};
   }
   std::optional<CanonicalMove> operator()(const Dwell& dwell) const {
     return CanonicalMove{"dwell", {dwell.seconds}};
@@ -66,6 +96,12 @@ struct Printed {
   std::vector<double> numbers{};
   std::vector<double> shift = std::vector<double>(6, 0.0);  // of G92
   double turn = 0.0;                                        // about Z
+  std::optional<double> lead{};                             // synchronised with the spindle
+  double rate = 0.0;
+  double rate_in_degrees = 0.0;
+  double speed = 0.0;
+  SpindleDirection direction = SpindleDirection::off;
+  bool surface_speed = false;
 
   // Coordinates of the work offset.
   [[nodiscard]] Vec3 point(const Vec3& printed) const {
@@ -79,6 +115,14 @@ struct Printed {
             numbers.at(3) + shift[3],
             numbers.at(4) + shift[4],
             numbers.at(5) + shift[5]};
+  }
+  [[nodiscard]] CanonicalMove feed() const {
+    CanonicalMove move{"feed", axes(), unit};
+    if (lead) {
+      move.kind = "thread";
+      move.values.emplace_back(*lead * unit);
+    }
+    return move;
   }
   [[nodiscard]] CanonicalMove arc() const {
     // Coordinates in the plane: of the end, of the centre; turns; the third axis.
@@ -105,6 +149,20 @@ struct Printed {
   }
 };
 
+// Where the last move ends.
+std::vector<std::optional<double>> place_of(const std::vector<CanonicalMove>& moves) {
+  constexpr std::ptrdiff_t kAxes = 6;
+  for (auto move = moves.rbegin(); move != moves.rend(); ++move) {
+    if (move->values.size() >= kAxes) return {move->values.begin(), move->values.begin() + kAxes};
+  }
+  return std::vector<std::optional<double>>(kAxes, 0.0);
+}
+
+bool moves_linearly(const std::vector<CanonicalMove>& moves, std::size_t at) {
+  const auto before = place_of({moves.begin(), moves.begin() + static_cast<std::ptrdiff_t>(at)});
+  return !std::equal(before.begin(), before.begin() + 3, moves[at].values.begin());
+}
+
 std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> numbers;
   for (std::size_t at = 0; at < text.size();) {
@@ -124,8 +182,19 @@ std::vector<double> numbers_in(std::string_view text) {
 
 std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
   std::vector<CanonicalMove> moves;
+  double spindle = 0.0;
+  bool surface_speed = false;
   for (const Motion& motion : motions) {
-    if (auto move = std::visit(ToMove{}, motion.command)) moves.push_back(*std::move(move));
+    if (const auto* change = std::get_if<SpindleChange>(&motion.command)) {
+      spindle = signed_speed(change->direction, change->speed);
+    }
+    if (const auto* event = std::get_if<Event>(&motion.command)) {
+      surface_speed = surface_speed || event->name == "surface_speed";
+    }
+    auto move = std::visit(ToMove{}, motion.command);
+    if (!move) continue;
+    if (!surface_speed) move->spindle = spindle;
+    moves.push_back(*std::move(move));
   }
   return moves;
 }
@@ -133,12 +202,16 @@ std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
 std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
   std::vector<CanonicalMove> moves;
   Printed printed;
+  std::size_t told = 0;
   std::istringstream lines{std::string(output)};
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t mark = line.find("N..... ");
+    // "   12 N10    STRAIGHT_FEED("
+    const std::size_t mark = line.find(" N");
     const std::size_t bracket = line.find('(');
     if (mark == std::string::npos || bracket == std::string::npos) continue;
-    const std::string call = line.substr(mark + 7, bracket - mark - 7);
+    const std::size_t start = line.find_first_not_of("0123456789. ", mark + 2);
+    if (start >= bracket) continue;
+    const std::string call = line.substr(start, bracket - start);
     const std::string arguments = line.substr(bracket + 1);
     printed.numbers = numbers_in(arguments);
     if (call == "USE_LENGTH_UNITS") {
@@ -155,17 +228,65 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
     } else if (call == "STRAIGHT_TRAVERSE") {
       moves.push_back({"traverse", printed.axes(), printed.unit});
     } else if (call == "STRAIGHT_FEED") {
-      moves.push_back({"feed", printed.axes(), printed.unit});
+      moves.push_back(printed.feed());
+    } else if (call == "START_SPEED_FEED_SYNC") {
+      printed.lead = printed.numbers.at(0);
+    } else if (call == "STOP_SPEED_FEED_SYNCH") {
+      printed.lead.reset();
+    } else if (call == "RIGID_TAP") {
+      // Three axes, there and back.
+      printed.numbers.resize(6);
+      CanonicalMove there = printed.feed();
+      CanonicalMove back = there;
+      for (std::size_t i = 0; i < 6; ++i) {
+        back.values[i] = place_of(moves)[i];
+        if (i >= 3) there.values[i] = back.values[i];
+      }
+      // On the way back the spindle turns the other way.
+      back.spindle = -signed_speed(printed.direction, printed.speed);
+      moves.push_back(std::move(there));
+      moves.push_back(std::move(back));
     } else if (call == "STRAIGHT_PROBE") {
       moves.push_back({"probe", printed.axes(), printed.unit});
     } else if (call == "ARC_FEED") {
       moves.push_back(printed.arc());
     } else if (call == "DWELL") {
       moves.push_back({"dwell", {printed.numbers.at(0)}});
-    } else if (call == "CHANGE_TOOL") {
+    } else if (call == "CHANGE_TOOL" || call == "CHANGE_TOOL_NUMBER") {
       moves.push_back({"tool", {printed.numbers.at(0)}});
     } else if (call == "FLOOD_ON") {
       moves.push_back({"flood on", {}});
+    } else if (call == "FLOOD_OFF") {
+      moves.push_back({"coolant off", {}});
+    } else if (call == "PROGRAM_STOP") {
+      moves.push_back({"stop", {}});
+    } else if (call == "OPTIONAL_PROGRAM_STOP") {
+      moves.push_back({"optional stop", {}});
+    } else if (call == "MESSAGE") {
+      const std::string text = arguments.substr(1, arguments.rfind('"') - 1);
+      moves.push_back(
+          {"message " + text.substr(std::min(text.find_first_not_of(' '), text.size())), {}});
+    } else if (call == "SET_FEED_RATE") {
+      printed.rate = printed.numbers.at(0) * printed.unit;
+      printed.rate_in_degrees = printed.numbers.at(0);
+    } else if (call == "SET_SPINDLE_SPEED") {
+      printed.speed = printed.numbers.at(1);
+    } else if (call == "SET_SPINDLE_MODE") {
+      printed.surface_speed = printed.surface_speed || printed.numbers.at(1) > 0.0;
+    } else if (call == "START_SPINDLE_CLOCKWISE") {
+      printed.direction = SpindleDirection::clockwise;
+    } else if (call == "START_SPINDLE_COUNTERCLOCKWISE") {
+      printed.direction = SpindleDirection::counterclockwise;
+    } else if (call == "STOP_SPINDLE_TURNING") {
+      printed.direction = SpindleDirection::off;
+    }
+    for (; told < moves.size(); ++told) {
+      CanonicalMove& move = moves[told];
+      if (!printed.surface_speed && !move.spindle)
+        move.spindle = signed_speed(printed.direction, printed.speed);
+      // A purely rotary move has its feed in degrees, whatever the unit.
+      const bool cuts = move.kind == "feed" || move.kind == "probe" || move.kind.starts_with("arc");
+      if (cuts) move.rate = moves_linearly(moves, told) ? printed.rate : printed.rate_in_degrees;
     }
   }
   return moves;
@@ -191,6 +312,8 @@ std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> mov
 std::string to_text(const CanonicalMove& move) {
   std::string text = move.kind;
   for (const auto& value : move.values) text += value ? fmt::format(" {:.4f}", *value) : " -";
+  if (move.rate) text += fmt::format(" feed {:.4f}", *move.rate);
+  if (move.spindle) text += fmt::format(" spindle {:.4f}", *move.spindle);
   return text;
 }
 
@@ -200,7 +323,8 @@ bool agree(const CanonicalMove& a, const CanonicalMove& b) {
                                 const std::optional<double>& right) {
     return !left || !right || std::abs(*left - *right) <= tolerance;
   };
-  return a.kind == b.kind &&
+  // Printed with four decimals, in the program's unit.
+  return a.kind == b.kind && near(a.rate, b.rate) && near(a.spindle, b.spindle) &&
          std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), near);
 }
 

@@ -16,6 +16,8 @@ struct CanonicalMove {
   std::string kind{};  // "traverse", "feed", "arc xy", "dwell", "tool", ...
   std::vector<std::optional<double>> values{};  // absent: the program does not know it
   double unit = 1.0;                            // mm in what the values were printed in
+  std::optional<double> rate{};                 // of a feed move in G94 or G95: mm/min, deg/min, mm
+  std::optional<double> spindle{};              // 1/min, clockwise above zero
 };
 
 [[nodiscard]] std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions);
@@ -25,7 +27,7 @@ struct CanonicalMove {
 // Leaves out rapid moves to where the tool is.
 [[nodiscard]] std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> moves);
 
-// "feed 1.0 2.0 3.0 0 0 0 100"
+// "feed 1.0 2.0 3.0 0 0 0 feed 100 spindle 1000"
 [[nodiscard]] std::string to_text(const CanonicalMove& move);
 // The same kind, and what both know within 1e-4.
 [[nodiscard]] bool agree(const CanonicalMove& a, const CanonicalMove& b);

@@ -338,6 +338,30 @@ TEST(NcWriter, SaysWhatADialectHasNoWordsFor) {
   EXPECT_FALSE(write_nc(vectors, Dialect::cldata));
 }
 
+TEST(NcWriter, WritesThreadsWhereTheDialectHasThemAndNoProbing) {
+  parser::AxisTarget a, b;
+  a[AxisLetter::Z] = -5.0;
+  b[AxisLetter::Z] = -9.0;
+  const auto program = parser::Coordinates::program;
+  const parser::Feed lead{1.5, parser::FeedMode::per_revolution, true};
+  const parser::Feed feed{500.0, parser::FeedMode::per_minute};
+  const std::vector<Motion> threads{{{1, 1}, parser::LinearFeed{a, {}, program, lead}},
+                                    {{2, 1}, parser::LinearFeed{b, {}, program, lead}},
+                                    {{3, 1}, parser::LinearFeed{a, {}, program, feed}}};
+  const auto written = write_nc(threads, Dialect::linuxcnc);
+  ASSERT_TRUE(written) << first_of(written.error());
+  EXPECT_NE(written->text.find("G33 Z-5. K1.5\nZ-9. K1.5\nG1 Z-5. F500\n"), std::string::npos)
+      << written->text;
+  const auto refused = write_nc(threads, Dialect::sinumerik);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().message,
+            "Sinumerik has no words for a move synchronised with the spindle");
+  const std::vector<Motion> probe{{{7, 1}, parser::Probe{a, {}, feed}}};
+  const auto probing = write_nc(probe, Dialect::linuxcnc);
+  ASSERT_FALSE(probing);
+  EXPECT_EQ(probing.error().front().line, 7);
+}
+
 TEST(NcWriter, KeepsCommentsReadable) {
   EXPECT_EQ(fanuc_of({parser::Event{"comment", "a (b) \xC3\xA4 c  "}}),
             "%\nO1001 (FRUSTUM)\nG21 G90 G17 G40 G49 G80 G94\n(A [B] ? C)\n%\n");
