@@ -6,6 +6,7 @@
 #include "app/console.hpp"
 #include "app/nc_file.hpp"
 #include "parser/canonical_json.hpp"
+#include "parser/tool_table.hpp"
 
 namespace frustum::app {
 namespace {
@@ -16,6 +17,9 @@ struct Options {
   bool canon = false;
   bool quiet = false;
   bool block_delete = false;
+  std::string tools{};  // a tool table
+  bool inch_machine = false;
+  std::vector<std::string> search_path{};
 };
 
 int parse_file(const Options& options) {
@@ -29,6 +33,14 @@ int parse_file(const Options& options) {
   };
   parser::InterpreterOptions run = options_for(options.file);
   run.block_delete = options.block_delete;
+  if (options.inch_machine) run.machine_unit = parser::LengthUnit::inch;
+  run.search_path.insert(run.search_path.end(), options.search_path.begin(),
+                         options.search_path.end());
+  if (!options.tools.empty()) {
+    auto tools = parser::read_tool_table(options.tools, run.machine_unit);
+    if (!tools) return refuse(tools.error());
+    run.tools = *std::move(tools);
+  }
   const auto summary = parser::interpret(nc->program, print, run);
   if (summary) return kDone;
   // What reads the motions alone must not take a part for the whole program.
@@ -55,6 +67,12 @@ void add_parse(CLI::App& program, int& exit_code) {
       "Print one JSON line a motion (mm, degrees, mm/min); where the program cannot be "
       "run on, the last line has the type error");
   command->add_flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");
+  command->add_option("--tools", options->tools,
+                      "LinuxCNC tool table: G43, M6 and M61 take its tools alone");
+  command->add_flag("--inch-machine", options->inch_machine,
+                    "The tool table and parameters such as #5221 count in inches (default: mm)");
+  command->add_option("--search-path", options->search_path,
+                      "Folder with subprograms, after the program's own; may be repeated");
   command->footer("Example: frustum parse cone.nc --canon");
   command->callback([options, &exit_code] { exit_code = parse_file(*options); });
 }

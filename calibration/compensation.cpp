@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/path_comparison.hpp"
+#include "kinematics/work_offset.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -80,7 +82,12 @@ class Compensator {
  public:
   Compensator(const Machine& machine, const GeometricErrors& errors, const Setup& setup,
               const ToolPath& path, const CompensationOptions& options)
-      : machine_(machine), errors_(errors), setup_(setup), path_(path), options_(options) {
+      : machine_(machine),
+        errors_(errors),
+        setup_(setup),
+        path_(path),
+        options_(options),
+        work_offsets_(setup.work_offsets) {
     stretch_ends_.reserve(path.blocks.size());
     for (std::size_t k = 0; k < path.stretches.size(); ++k) {
       const std::uint32_t block = path.stretches[k].block;
@@ -110,9 +117,20 @@ class Compensator {
     offset_number_ = change.number;
     out_.push_back(motion);
   }
+  // The path has been executed, so that what it needs is there.
+  void rewrite(const Motion& motion, const parser::WorkOffsetSetting& setting) {
+    const auto before = work_offsets_.find(setting.number);
+    const auto origin = kinematics::placed_origin(
+        machine_, setting,
+        before == work_offsets_.end() ? std::nullopt : std::optional(before->second));
+    if (origin) work_offsets_[setting.number] = *origin;
+    out_.push_back(motion);
+  }
   void rewrite(const Motion& motion, const parser::CompensationChange& change) {
     mode_ = change.mode;
-    length_ = mode_ == LengthCompensation::off ? 0.0 : setup_.tools.at(change.offset_number).length;
+    length_ = mode_ == LengthCompensation::off ? 0.0
+              : change.length                  ? *change.length
+                                               : setup_.tools.at(change.offset_number).length;
     Motion written = motion;
     std::get<parser::CompensationChange>(written.command).tool_vectors = false;
     out_.push_back(std::move(written));
@@ -156,7 +174,7 @@ class Compensator {
     }
     const auto block = static_cast<std::uint32_t>(next_block_++);
     const std::uint32_t first = first_pose(block), last = last_pose(block);
-    const Vec3 offset = setup_.work_offsets.at(offset_number_);
+    const Vec3 offset = work_offsets_.at(offset_number_);
     const WordFrame frame(machine_, offset, mode_ == LengthCompensation::tool_centre_point,
                           length_);
     const Words start = frame.words_of(at_.value_or(path_.axes[first].q));
@@ -288,6 +306,7 @@ class Compensator {
   const Setup& setup_;
   const ToolPath& path_;
   CompensationOptions options_;
+  std::map<int, Vec3> work_offsets_;  // of the setup, and as the program places them
   std::vector<std::pair<std::size_t, std::size_t>> stretch_ends_;  // of each block
   std::vector<Piece> pieces_;                                      // of the block at work
   std::uint32_t piece_start_ = 0;                                  // pose it starts from

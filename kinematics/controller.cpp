@@ -12,6 +12,7 @@
 #include "kinematics/inverse.hpp"
 #include "kinematics/path_recorder.hpp"
 #include "kinematics/rotary_axes.hpp"
+#include "kinematics/work_offset.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -22,6 +23,7 @@ using parser::LengthCompensation;
 using parser::Motion;
 
 constexpr double kSecondsPerMinute = 60.0;
+constexpr int kJobOffsets = 6;  // G54 to G59
 
 }  // namespace
 
@@ -32,6 +34,7 @@ class Controller::State {
       : machine_(machine),
         setup_(setup),
         options_(options),
+        work_offsets_(setup.work_offsets),
         q_(machine.home()),
         recorder_(machine, errors, setup.table_from_workpiece.inverse(), q_,
                   {options.path_bound, options.time_law, options.servo_lag, options.sink}) {
@@ -76,6 +79,11 @@ class Controller::State {
     go(move.end, move.tool_axis, Coordinates::program, {PathKind::feed, move.feed}, nullptr);
   }
   void execute(const parser::HomeReturn& move) {
+    if (move.point != 1) {
+      fail(fmt::format("G30: the machine has no reference point {}", move.point),
+           "store the point with G30.1 before, or give it in machine coordinates (G53)");
+      return;
+    }
     AxisPositions end = q_;
     const AxisPositions home = machine_.home();
     for (const AxisLetter letter : kAxisLetters) {
@@ -100,6 +108,11 @@ class Controller::State {
       compensated_length_ = 0.0;
       return;
     }
+    if (change.length) {
+      compensation_ = change.mode;
+      compensated_length_ = *change.length;
+      return;
+    }
     const auto tool = setup_.tools.find(change.offset_number);
     if (tool == setup_.tools.end()) {
       fail(change.offset_number == 0
@@ -116,15 +129,33 @@ class Controller::State {
     compensated_length_ = tool->second.length;
   }
   void execute(const parser::WorkOffsetChange& change) {
-    const auto offset = setup_.work_offsets.find(change.number);
-    if (offset == setup_.work_offsets.end()) {
-      fail(fmt::format("work offset G{} is not defined", 53 + change.number),
-           fmt::format("add G{} to [offsets] of the job", 53 + change.number));
+    const auto offset = work_offsets_.find(change.number);
+    if (offset == work_offsets_.end()) {
+      const std::string name = parser::work_offset_name(change.number);
+      fail(fmt::format("work offset {} is not defined", name),
+           change.number <= kJobOffsets
+               ? fmt::format("add {} to [offsets] of the job", name)
+               : std::string("use G54 to G59, or place it with G10 L2 before"));
       return;
     }
     offset_ = offset->second;
+    offset_number_ = change.number;
     offset_known_ = true;
     place_words();
+  }
+  void execute(const parser::WorkOffsetSetting& setting) {
+    const auto before = work_offsets_.find(setting.number);
+    const auto origin =
+        placed_origin(machine_, setting,
+                      before == work_offsets_.end() ? std::nullopt : std::optional(before->second));
+    if (!origin) {
+      const std::string name = parser::work_offset_name(setting.number);
+      fail(fmt::format("the program places {} along some axes, and nothing gives the others", name),
+           "give X, Y and Z in the setting");
+      return;
+    }
+    work_offsets_[setting.number] = *origin;
+    if (setting.number == offset_number_) execute(parser::WorkOffsetChange{offset_number_});
   }
   void execute(const parser::SpindleChange& change) {
     spindle_on_ = change.direction != parser::SpindleDirection::off && change.speed > 0.0;
@@ -316,7 +347,7 @@ class Controller::State {
   [[nodiscard]] TipFrame tip_frame() const { return {table_from_words_, compensated_length_}; }
 
   bool know_offset() {
-    if (!offset_known_) execute(parser::WorkOffsetChange{1});
+    if (!offset_known_) execute(parser::WorkOffsetChange{offset_number_});
     return problems_.empty();
   }
 
@@ -423,9 +454,11 @@ class Controller::State {
   const Machine& machine_;
   const Setup& setup_;
   ControllerOptions options_;
+  std::map<int, Vec3> work_offsets_;  // of the setup, and as the program places them
 
   AxisPositions q_;  // where the axes are
   Vec3 offset_ = Vec3::Zero();
+  int offset_number_ = 1;
   bool offset_known_ = false;
   std::optional<Pose> plane_{};  // program_from_plane
   Pose table_from_words_{};

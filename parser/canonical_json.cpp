@@ -72,6 +72,7 @@ void add(Json& json, const HomeReturn& home) {
     if (home.axes.at(static_cast<std::size_t>(axis)))
       json["axes"].push_back(std::string(1, to_char(axis)));
   }
+  if (home.point != 1) json["point"] = home.point;
 }
 void add(Json& json, const LinearFeed& feed) {
   json["type"] = "feed";
@@ -110,10 +111,20 @@ void add(Json& json, const CompensationChange& change) {
   json["mode"] = name_in(kLengthModes, change.mode);
   json["tool_vectors"] = change.tool_vectors;
   json["offset"] = change.offset_number;
+  if (change.length) json["length"] = *change.length;
 }
 void add(Json& json, const WorkOffsetChange& change) {
   json["type"] = "work_offset";
   json["number"] = change.number;
+}
+void add(Json& json, const WorkOffsetSetting& setting) {
+  json["type"] = "work_offset_setting";
+  json["number"] = setting.number;
+  json["origin"] = Json::object();
+  for (std::size_t i = 0; i < setting.origin.size(); ++i) {
+    const auto& value = setting.origin.at(i);
+    if (value) json["origin"][std::string(1, to_char(kAxisLetters.at(i)))] = *value;
+  }
 }
 void add(Json& json, const OrientationPathChange& change) {
   json["type"] = "orientation_path";

@@ -43,8 +43,14 @@ struct InterpreterOptions {
   bool block_delete = false;
   // Where the axes stand at the start, in program coordinates, as far as it is known (mm, rad).
   AxisTarget start{};
-  // What D, H and T words refer to. G10 L1 of a program changes its own copy.
+  // What D, H and T words refer to. G10 L1 of a program changes its own copy. Where it is empty the program takes tools
+  // as the setup has them.
   ToolTable tools{};
+  // Where work offsets and the points of G28 and G30 lie before the program, as far as that is known of the setup.
+  WorkOffsets work_offsets{};
+  std::array<AxisTarget, 2> reference_points{};
+  // LinuxCNC: the unit of the machine, in which parameters such as #5221 and #5403 count.
+  LengthUnit machine_unit = LengthUnit::millimetre;
   // Subprograms within subprograms.
   std::size_t max_call_depth = 32;
   // Folders with subprograms of their own file, in this order.

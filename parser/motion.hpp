@@ -69,9 +69,11 @@ struct Traverse {
   std::optional<UnitVec3> tool_axis{};
   Coordinates coordinates = Coordinates::program;
 };
-// G28: the named axes go to the machine's home position, by rapid.
+// G28: the named axes go to the machine's home position, by rapid; G30: to its second reference point, or the
+// third or fourth. A point that the program itself has stored (G28.1, G30.1) is a Traverse instead.
 struct HomeReturn {
   std::array<bool, 6> axes{};  // indexed by AxisLetter
+  int point = 1;
 };
 // G1.
 struct LinearFeed {
@@ -107,17 +109,29 @@ struct Dwell {
 struct ToolChange {
   int tool = 0;
 };
-// G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given).
+// G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given); `length` is set where the program or its
+// tool table gives the length itself (G43.1, G10 L1), and goes before what the setup has under that number.
 enum class LengthCompensation : std::uint8_t { off, length, tool_centre_point };
 struct CompensationChange {
   LengthCompensation mode = LengthCompensation::off;
   bool tool_vectors = false;  // G43.5: I J K give the tool axis
   int offset_number = 0;
+  std::optional<double> length{};  // mm
 };
-// G54..G59: 1..6.
+// G54..G59: 1..6, G59.1..G59.3: 7..9, G54.1 P1: 101.
+constexpr int kExtendedWorkOffset = 100;
 struct WorkOffsetChange {
   int number = 1;
 };
+// G10 L2, L20, #5221=..: the program places a work offset. `origin` are the positions of X, Y and Z without tool, with
+// the rotary axes at zero, at which the words are zero; an absent one stays as the setup has it. Turns and rotary
+// offsets are resolved in the motions. A setting of the offset in force counts at once.
+struct WorkOffsetSetting {
+  int number = 1;
+  std::array<std::optional<double>, 3> origin{};  // mm
+};
+// "G54", "G59.1", "G54.1 P1".
+[[nodiscard]] std::string work_offset_name(int number);
 // How the tool axis goes from one programmed orientation to the next under tool-centre-point control:
 // the rotary axes linear (G43.4, ORIAXES, PATHCTRL AXIS), or the vector on the great circle (ORIVECT,
 // PATHCTRL VECTOR).
@@ -154,10 +168,10 @@ struct Event {
   std::string text{};
 };
 
-using Command =
-    std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Probe, Dwell, ToolChange,
-                 CompensationChange, WorkOffsetChange, OrientationPathChange, RotaryPathChange,
-                 TiltedPlaneChange, AlignToPlane, SpindleChange, CoolantChange, Stop, Event>;
+using Command = std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Probe, Dwell, ToolChange,
+                             CompensationChange, WorkOffsetChange, WorkOffsetSetting,
+                             OrientationPathChange, RotaryPathChange, TiltedPlaneChange,
+                             AlignToPlane, SpindleChange, CoolantChange, Stop, Event>;
 
 struct Motion {
   SourcePlace place{};

@@ -1,13 +1,23 @@
 // The tools that a control knows: numbers, offsets, diameters, as far as a program depends on them.
 //
-// Units : mm, rad
-// Errors: none
+// A tool table file is LinuxCNC's: one tool a line, a remark behind ; of which there may be lines alone.
+//   T1 P1 D10.0 Z50.0 ;end mill
+//   T number, P pocket, D diameter, X Y Z A B C offsets, I J front and back angle of a turning tool in degrees,
+//   Q its orientation 0 to 9. U, V and W have to be zero: these axes are not simulated.
+// The file does not name its unit. It is that of the machine, and in LinuxCNC's stand-alone rs274 always the inch.
+//
+// Units : mm, rad; I and J as written, degrees
+// Errors: read_tool_table: all mistakes of the file, with line and column
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
+#include "core/result.hpp"
+#include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::parser {
@@ -18,8 +28,20 @@ struct Tool {
       offset{};  // of its tip from the gauge point, along the machine axes
   double diameter = 0.0;
   std::string remark{};
+  // Whether the length (Z) is given; a program may set the diameter alone, and the setup has the length.
+  bool has_length = true;
+  double length_wear = 0.0;    // added to the length
+  double diameter_wear = 0.0;  // added to the diameter
+  double front_angle = 0.0;
+  double back_angle = 0.0;
+  int orientation = 0;
 };
 
 using ToolTable = std::map<int, Tool>;  // by tool number
+
+[[nodiscard]] Result<ToolTable> tool_table_of(std::string_view text, const std::string& file,
+                                              LengthUnit unit = LengthUnit::millimetre);
+[[nodiscard]] Result<ToolTable> read_tool_table(const std::filesystem::path& file,
+                                                LengthUnit unit = LengthUnit::millimetre);
 
 }  // namespace frustum::parser

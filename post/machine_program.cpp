@@ -103,6 +103,11 @@ class Planner {
   }
   // Not every dialect has a word for home; its place is known here.
   void follow(const parser::HomeReturn& home) {
+    if (home.point != 1) {
+      fail(fmt::format("G30: the machine has no reference point {}", home.point),
+           "store the point with G30.1 before, or give it in machine coordinates (G53)");
+      return;
+    }
     AxisTarget end;
     for (const AxisLetter letter : parser::kAxisLetters) {
       if (home.axes.at(static_cast<std::size_t>(letter)) && present(letter)) {
@@ -119,11 +124,22 @@ class Planner {
     compensate({});
     emit(change);
   }
-  void follow(const parser::CompensationChange& change) { compensation_ = change; }
+  void follow(const parser::CompensationChange& change) {
+    if (change.length) {
+      fail("a program that sets its tool lengths itself",
+           "take the lengths from the job: leave out G43.1, G43.2 and G10 L1, L10, L11");
+      return;
+    }
+    compensation_ = change;
+  }
   void follow(const parser::WorkOffsetChange& change) {
     if (!known_offset(change.number)) return;
     offset_ = change.number;
     emit(change);
+  }
+  void follow(const parser::WorkOffsetSetting& setting) {
+    fail(fmt::format("a program that places {} itself", parser::work_offset_name(setting.number)),
+         "leave out G10 and give its origin in the table frame: [offsets] of a job, or --offset");
   }
   void follow(const parser::OrientationPathChange& change) {
     orientation_ = change.path;

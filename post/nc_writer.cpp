@@ -77,6 +77,11 @@ class NcWriter {
       refuse("the return to home (G28)", "give the position in machine coordinates");
       return;
     }
+    if (home.point != 1) {
+      refuse("the return to another reference point than home (G30)",
+             "give the position in machine coordinates");
+      return;
+    }
     std::string block(spelling_.home_return);
     for (const AxisLetter letter : parser::kAxisLetters) {
       if (home.axes.at(index_of(letter))) block += fmt::format(" {}0", parser::to_char(letter));
@@ -276,6 +281,10 @@ class NcWriter {
   // --- states ---------------------------------------------------------------------------------
 
   void write(const parser::CompensationChange& change) {
+    if (change.length) {
+      refuse("a tool length that the program sets itself", "take the lengths from the tool table");
+      return;
+    }
     if (change.mode != LengthCompensation::off && spelling_.compensation_by_tool &&
         change.offset_number != tool_) {
       refuse(fmt::format("the length of tool {} with tool {} in the spindle", change.offset_number,
@@ -384,6 +393,10 @@ class NcWriter {
     lines(word.empty() ? filled(spelling_.any_work_offset, '#', fmt::format("{}", change.number))
                        : std::string(word));
     forget_positions();
+  }
+  void write(const parser::WorkOffsetSetting& setting) {
+    refuse(fmt::format("a program that places {} itself", parser::work_offset_name(setting.number)),
+           "give the origin in the setup");
   }
   void write(const parser::Dwell& dwell) {
     lines(filled(spelling_.dwell, '#', significant(dwell.seconds, options_.feed_digits)));

@@ -63,9 +63,13 @@ enum class NonModal : std::uint8_t {
   dwell,
   home,
   machine_coordinates,
-  align,           // the rotary axes to the normal of the tilted plane
-  pole,            // the centre of the arcs that follow
-  start,           // where the tool is before the program moves it
+  align,        // the rotary axes to the normal of the tilted plane
+  pole,         // the centre of the arcs that follow
+  start,        // where the tool is before the program moves it
+  second_home,  // G30
+  keep_home,    // G28.1: where the axes are is home from now on
+  keep_second_home,
+  data,            // G10
   shift_to_place,  // G92: so that the tool is where the words say
   shift,           // G52
   shift_off,
@@ -74,14 +78,16 @@ enum class NonModal : std::uint8_t {
 };
 // G65 and G66 are read by themselves, since their letters are arguments.
 enum class SubprogramWord : std::uint8_t { none, call, leave, macro, end_modal };
-// The last two leave the tool-tip switch as it is.
+// From length_only on they leave the tool-tip switch as it is.
 enum class LengthWord : std::uint8_t {
   off,
   length,
   tool_centre_point,
   tool_vectors,
   length_only,
-  length_only_off
+  length_only_off,
+  dynamic,    // G43.1: the axis words are the tool's offset
+  additional  // G43.2: added to the offset in force
 };
 enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };

@@ -41,10 +41,30 @@ struct CycleRules {
   bool start_from_initial = false;
 };
 
+// What G10 sets, by its L word.
+enum class DataInput : std::uint8_t {
+  tool_table,       // L0: it is read again
+  tool,             // the offsets, radius R, angles I J and orientation Q of tool P
+  tool_here,        // so that the tool is where the words say
+  tool_at_fixture,  // the same, in the last work offset (G59.3)
+  work_offset,      // the origin of offset P, turned by R
+  offset_here,      // so that the axes are where the words say
+  extended_offset,  // G54.1 P
+  length,           // R of offset number P
+  length_wear,
+  radius,
+  radius_wear
+};
+struct DataWord {
+  int number;  // L
+  DataInput input;
+  LetterSet words;  // beside L and P
+};
+
 struct DialectRules {
   Dialect dialect = Dialect::fanuc;
   // Its own codes and those it shares (shared_codes.hpp).
-  std::array<std::span<const Code>, 4> codes{};
+  std::array<std::span<const Code>, 5> codes{};
   std::span<const RefusedCode> refused_codes{};
   std::span<const RefusedWord> refused_words{};
   // The three letters of the tool vector, and how the dialect spells them.
@@ -70,6 +90,11 @@ struct DialectRules {
   ParameterRules parameters{};
   CycleRules cycles{};
   LetterSet polar_words{};
+  std::span<const DataWord> data_words{};
+  // A parameter that is written counts at once, not from the next change of work offset on.
+  bool parameters_count_at_once = false;
+  // G10 in G91 adds to what is there.
+  bool data_follow_distance_mode = false;
   // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
   std::span<const std::string_view> file_names{};
 };

@@ -28,6 +28,9 @@ constexpr std::array kCodes{
     modal('G', 501, mirror, MirrorWord::off, kLinearWords),
     modal('G', 511, mirror, MirrorWord::on, kLinearWords),
     modal('G', 690, tilted_plane, TiltWord::off),
+    modal('G', 100, non_modal, NonModal::data, LetterSet("LPRXYZABC")),
+    modal('G', 300, non_modal, NonModal::second_home, kAxisWords | LetterSet("P")),
+    modal('G', 541, work_offset, kExtendedWorkOffset, LetterSet("P")),
     passed('G', 51, CodeGroup::event, kSmoothingWords),       // look-ahead contour control
     passed('G', 80, CodeGroup::event, kSmoothingWords),       // look-ahead control
     passed('G', 90),                                          // exact stop on this block
@@ -43,15 +46,24 @@ constexpr std::array kCodes{
     modal('M', 990, subprogram, SubprogramWord::leave, LetterSet("P")),
 };
 
+constexpr std::array kDataWords{
+    DataWord{1, DataInput::length, LetterSet("R")},
+    DataWord{2, DataInput::work_offset, kAxisWords},
+    DataWord{10, DataInput::length, LetterSet("R")},
+    DataWord{11, DataInput::length_wear, LetterSet("R")},
+    DataWord{12, DataInput::radius, LetterSet("R")},
+    DataWord{13, DataInput::radius_wear, LetterSet("R")},
+    DataWord{20, DataInput::extended_offset, kAxisWords},
+};
+
 // What would change the part and is not simulated.
 constexpr std::array kRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
-    RefusedCode{'G', 100, 109, "give offsets in the job, not in the program"},
-    RefusedCode{'G', 281, 309, "return to home with G28"},
+    RefusedCode{'G', 281, 289, "return to home with G28"},
     RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
     RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
     RefusedCode{'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
-    RefusedCode{'G', 541, 549, "use G54 to G59"},
+    RefusedCode{'G', 542, 549, "use G54 to G59"},
     RefusedCode{'G', 591, 599, "use G54 to G59"},
     RefusedCode{'G', 661, 669, "call the macro after each block that moves by G66 P"},
     RefusedCode{'M', 1980, 1980, "call it with M98 P: programs are looked for beside this one too"},
@@ -81,10 +93,10 @@ constexpr std::array kLetters{
     LetterUse{'I', kNeedsVectors},
     LetterUse{'J', kNeedsVectors},
     LetterUse{'K', kNeedsVectors},
-    LetterUse{'L', "L belongs to M98"},
-    LetterUse{'P', "P belongs to G4, G2, G3, M98, G5.1, G8 and G64"},
+    LetterUse{'L', "L belongs to G10 and M98"},
+    LetterUse{'P', "P belongs to G4, G2, G3, M98, G10, G30, G54.1, G5.1, G8 and G64"},
     LetterUse{'Q', "Q belongs to G5.1, G8, G64, G68.2, G73, G76, G83 and G87"},
-    LetterUse{'R', "R belongs to G2 and G3"},
+    LetterUse{'R', "R belongs to G2, G3 and G10"},
     LetterUse{'U', "U belongs to G4"},
     LetterUse{'X', kNeedsMotion},
     LetterUse{'Y', kNeedsMotion},
@@ -108,6 +120,9 @@ constexpr DialectRules kRules{
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
     .parameters = {.locals = 33, .unset_is_vacant = true, .first_system = 1000},
     .cycles = {.tool_shift_by_q = true},
+    .data_words = kDataWords,
+    .parameters_count_at_once = true,
+    .data_follow_distance_mode = true,
     .file_names = kFiles,
 };
 

@@ -15,6 +15,12 @@ constexpr std::array kCodes{
     modal('G', 922, non_modal, NonModal::shift_suspend),
     modal('G', 923, non_modal, NonModal::shift_resume),
     modal('G', 430, length_compensation, LengthWord::length_only, kOffsetWord),
+    modal('G', 431, length_compensation, LengthWord::dynamic, kAxisWords),
+    modal('G', 432, length_compensation, LengthWord::additional, kAxisWords | kOffsetWord),
+    modal('G', 100, non_modal, NonModal::data, LetterSet("LPRXYZABCIJQ")),
+    modal('G', 281, non_modal, NonModal::keep_home),
+    modal('G', 300, non_modal, NonModal::second_home, kAxisWords),
+    modal('G', 301, non_modal, NonModal::keep_second_home),
     modal('G', 490, length_compensation, LengthWord::length_only_off),
     modal('G', 330, motion, MotionMode::thread),
     modal('G', 331, motion, MotionMode::rigid_tap),
@@ -48,13 +54,30 @@ constexpr std::array kCodes{
     modal('M', 730, saved_modes, SavedModesWord::save_for_call),
 };
 
+// M100 to M199 are the user's own.
+constexpr auto kUserCodes = [] {
+  std::array<Code, 100> codes{};
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    codes[i] = passed('M', 1000 + 10 * static_cast<int>(i), CodeGroup::event, LetterSet("PQ"));
+  }
+  return codes;
+}();
+
+constexpr LetterSet kToolAxes = kAxisWords | LetterSet("RIJQ");
+constexpr std::array kDataWords{
+    DataWord{0, DataInput::tool_table, LetterSet()},
+    DataWord{1, DataInput::tool, kToolAxes},
+    DataWord{2, DataInput::work_offset, kAxisWords | LetterSet("R")},
+    DataWord{10, DataInput::tool_here, kToolAxes},
+    DataWord{11, DataInput::tool_at_fixture, kToolAxes},
+    DataWord{20, DataInput::offset_here, kAxisWords},
+};
+
 // What would change the part and is not simulated.
 constexpr std::array kRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
-    RefusedCode{'G', 100, 109, "give offsets in the job, not in the program"},
-    RefusedCode{'G', 281, 309, "return to home with G28"},
     RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
-    RefusedCode{'G', 431, 439, "use G43 H, and M428 for tool-tip control"},
+    RefusedCode{'G', 433, 439, "use G43 H, and M428 for tool-tip control"},
     RefusedCode{'G', 171, 171, "U V W are not simulated; use G17"},
     RefusedCode{'G', 181, 181, "U V W are not simulated; use G18"},
     RefusedCode{'G', 191, 191, "U V W are not simulated; use G19"},
@@ -72,14 +95,14 @@ constexpr std::array kLetters{
     LetterUse{'C', kNeedsMotion},
     LetterUse{'D', kNoRadius},
     LetterUse{'E', "E belongs to G76 and M66 to M68"},
-    LetterUse{'H', "H belongs to G43 and G76"},
+    LetterUse{'H', "H belongs to G43, G43.2 and G76"},
     LetterUse{'I', kNeedsArc},
     LetterUse{'J', kNeedsArc},
     LetterUse{'K', kNeedsArc},
-    LetterUse{'L', "L belongs to M98"},
-    LetterUse{'P', "P belongs to G4, G2, G3, G64 and M98"},
-    LetterUse{'Q', "Q belongs to G64"},
-    LetterUse{'R', "R belongs to G2 and G3"},
+    LetterUse{'L', "L belongs to G10 and M98"},
+    LetterUse{'P', "P belongs to G4, G2, G3, G10, G64, M98 and M100 to M199"},
+    LetterUse{'Q', "Q belongs to G64, G10, M61 and M100 to M199"},
+    LetterUse{'R', "R belongs to G2, G3 and G10"},
     LetterUse{'X', kNeedsMotion},
     LetterUse{'Y', kNeedsMotion},
     LetterUse{'Z', kNeedsMotion},
@@ -89,7 +112,7 @@ constexpr std::array<std::string_view, 2> kFiles{"{}.ngc", "{}.nc"};
 
 constexpr DialectRules kRules{
     .dialect = Dialect::linuxcnc,
-    .codes = {kCodes, kMachineCodes, kIsoCodes, kRs274Codes},
+    .codes = {kCodes, kUserCodes, kMachineCodes, kIsoCodes, kRs274Codes},
     .refused_codes = kRefusedCodes,
     .vector_letters = "abc",
     .dwell = kDwell,
@@ -105,6 +128,7 @@ constexpr DialectRules kRules{
                .feed_out_to_clearance = true,
                .start_from_initial = true},
     .polar_words = LetterSet("pq"),
+    .data_words = kDataWords,
     .file_names = kFiles,
 };
 

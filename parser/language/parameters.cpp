@@ -36,7 +36,11 @@ Result<double> Parameters::read(double number) const {
   auto index = index_of(number);
   if (!index) return std::move(index).error();
   if (system_ != nullptr) {
-    if (const auto kept = system_->number(*index)) return *kept;
+    if (const auto kept = system_->number(*index)) {
+      if (!is_vacant(*kept)) return *kept;
+      return error(fmt::format("the value of #{} is the setup's and not known here", *index),
+                   "set it in the program before it is read");
+    }
   }
   const Numbered& all = numbered(*index);
   const auto found = all.find(*index);

@@ -33,7 +33,8 @@ struct ParameterRules {
   int first_system = 0;
 };
 
-// The parameters that a controller keeps itself; no value for what it does not keep.
+// The parameters that a controller keeps itself; no value for what it does not keep, NaN for what it keeps and the
+// program cannot know.
 class KeptParameters {
  public:
   KeptParameters() = default;

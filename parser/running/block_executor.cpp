@@ -29,19 +29,23 @@ LetterSet centre_letters(Plane plane) {
   return kLetters.at(static_cast<std::size_t>(plane));
 }
 
-// The text behind "MSG," when the comment is meant for the operator.
-std::optional<std::string> message_in(std::string_view comment) {
-  constexpr std::string_view kPrefix = "MSG,";
-  std::size_t start = comment.find_first_not_of(" \t");
-  for (const char expected : kPrefix) {
-    if (start >= comment.size()) return std::nullopt;
-    if (std::toupper(static_cast<unsigned char>(comment[start++])) != expected) return std::nullopt;
-  }
-  return std::string(
-      comment.substr(std::min(comment.find_first_not_of(" \t", start), comment.size())));
-}
-
 }  // namespace
+
+BlockExecutor::BlockExecutor(Dialect dialect, const AxisTarget& start, ControlData data,
+                             const MotionSink& sink)
+    : rules_(rules_of(dialect)),
+      sink_(sink),
+      data_(std::move(data)),
+      position_(start),
+      parameters_(rules_.parameters, &system_) {
+  state_.retract_to_initial = rules_.cycles.retract_to_initial;
+  place_datum(data_.work_offset(state_.work_offset));
+  for (const auto& [number, offset] : data_.work_offsets) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      told_origins_[number].at(i) = offset.origin[kAxisLetters.at(i)];
+    }
+  }
+}
 
 Result<Flow> BlockExecutor::execute(const Block& block) {
   block_ = &block;
@@ -75,6 +79,7 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
     if (auto done = set_feed(*words); !done) return std::move(done).error();
   }
   state_.unit = unit;
+  if (rules_.parameters_count_at_once) data_.unit = unit;
   state_.diameter = words->value_or(CodeGroup::diameter, state_.diameter ? DiameterWord::diameter
                                                                          : DiameterWord::radius) ==
                     DiameterWord::diameter;
@@ -118,7 +123,7 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   const GivenCode& non_modal_code = words[CodeGroup::non_modal];
   const LetterSet move_words = words.given() & kMoveWords;
 
-  if (non_modal == NonModal::home) {
+  if (non_modal == NonModal::home || non_modal == NonModal::second_home) {
     if (motion_code.code != nullptr && mode != MotionMode::traverse) {
       return fail(motion_code.column,
                   fmt::format("{} and {} both use the axis words", non_modal_code.code->name(),
@@ -126,8 +131,9 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
                   "write two blocks");
     }
     if ((words.given() & kAxisWords).empty() && !rules_.home_without_axes_is_all) {
-      return fail(non_modal_code.column, "G28 names no axis",
-                  "give the axes to send home, for example G91 G28 Z0");
+      const std::string name = non_modal_code.code->name();
+      return fail(non_modal_code.column, name + " names no axis",
+                  fmt::format("give the axes to send home, for example G91 {} Z0", name));
     }
     return Movement{non_modal, MotionMode::none, non_modal_code.column};
   }
@@ -156,6 +162,12 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
     if (frame != nullptr && !frame->arguments.empty()) {
       return Movement{non_modal, MotionMode::none, 0};
     }
+  }
+  const GivenCode& length = words[CodeGroup::length_compensation];
+  const bool axes_of_tool =
+      length.code != nullptr && !(length.code->arguments & kAxisWords).empty();
+  if (axes_of_tool && motion_code.code == nullptr) {
+    return Movement{non_modal, MotionMode::none, 0};
   }
   if (move_words.empty()) return Movement{non_modal, MotionMode::none, 0};
   const std::uint32_t column =
@@ -270,12 +282,27 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
     if (name) {
       parameters_.set(block.names[*name], values[i].second);
     } else {
-      const auto kept =
-          set_system_variable(block.assignments[i].column, values[i].first, values[i].second);
-      if (!kept) return kept.error();
-      if (!*kept) parameters_.set(values[i].first, values[i].second);
+      const std::uint32_t column = block.assignments[i].column;
+      auto done = set_numbered(column, values[i].first, values[i].second);
+      if (!done) return done;
     }
   }
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_numbered(std::uint32_t column, int index, double value) {
+  const auto written = is_vacant(value) ? ParameterWrite::not_kept
+                                        : write_parameter(data_, rules_.dialect, index, value);
+  if (written == ParameterWrite::read_only) {
+    return fail(column, fmt::format("parameter #{} can only be read", index),
+                "it tells the tool or the position; use another parameter");
+  }
+  if (written == ParameterWrite::done) {
+    return rules_.parameters_count_at_once ? replace_datum(column) : Outcome{Done{}};
+  }
+  const auto kept = set_system_variable(column, index, value);
+  if (!kept) return kept.error();
+  if (!*kept) parameters_.set(index, value);
   return Done{};
 }
 
@@ -284,38 +311,6 @@ Result<double> BlockExecutor::value_of(const Block& block, ExpressionRange range
   auto value = evaluate({block.steps, block.names, parameters_}, range);
   if (!value) return in_this_block(value.error().front());
   return value;
-}
-
-void BlockExecutor::report_comments(const Block& block) {
-  block_ = &block;
-  for (const Comment& comment : block.comments) {
-    // A ; by itself ends a block.
-    if (comment.to_line_end && comment.text.empty()) continue;
-    if (comment.event != nullptr) {
-      emit(comment.column, Event{comment.event, comment.text});
-      continue;
-    }
-    auto message = message_in(comment.text);
-    const char* name = message ? "message" : "comment";
-    emit(comment.column, Event{name, message ? *std::move(message) : comment.text});
-  }
-}
-
-void BlockExecutor::report_events(const BlockWords& words) {
-  for (const GivenCode& word : words.vacant()) {
-    const auto written = std::find_if(block_->words.begin(), block_->words.end(),
-                                      [&](const Word& w) { return w.column == word.column; });
-    emit(word.column, Event{"vacant", std::string(1, written->letter)});
-  }
-  for (const GivenCode& event : words.events()) {
-    std::string arguments;
-    for (char letter = 'A'; letter <= 'Z'; ++letter) {
-      if (!words.has(letter) || !event.code->arguments.has(letter)) continue;
-      if (!arguments.empty()) arguments += ' ';
-      arguments += words.text_of(letter);
-    }
-    emit(event.column, Event{event.code->name(), std::move(arguments)});
-  }
 }
 
 BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
@@ -344,21 +339,32 @@ BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
   return Done{};
 }
 
+// In LinuxCNC the tool table has all the tools there are; T0 is no tool.
+BlockExecutor::Outcome BlockExecutor::check_tool_exists(int tool, std::uint32_t column) const {
+  const bool listed = rules_.dialect == Dialect::linuxcnc && data_.tools_are_listed;
+  if (!listed || tool == 0 || data_.tools.contains(tool)) return Done{};
+  return fail(column, fmt::format("tool {} is not in the tool table", tool),
+              fmt::format("add a line T{} to the tool table", tool));
+}
+
 BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
   if (words.has('T')) {
     const auto tool = whole(words, 'T', 0, kMaxTool);
     if (!tool) return tool.error();
+    if (auto done = check_tool_exists(*tool, words['T'].column); !done) return done;
     state_.selected_tool = *tool;
   }
   const GivenCode& change = words[CodeGroup::tool_change];
   if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
     if (!words.has('Q')) {
       return fail(change.column, change.code->name() + " without a tool",
-                  "give Q, the number of the tool that is in the spindle");
+                  fmt::format("give the tool that is in the spindle, for example {} Q1",
+                              change.code->name()));
     }
     const auto tool = whole(words, 'Q', 0, kMaxTool);
     if (!tool) return tool.error();
-    state_.tool = *tool;
+    if (auto done = check_tool_exists(*tool, words['Q'].column); !done) return done;
+    state_.tool = data_.tool = *tool;
     emit(change.column, ToolChange{state_.tool});
   } else if (change.code != nullptr) {
     if (!state_.selected_tool) {
@@ -369,7 +375,7 @@ BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
       state_.spindle = SpindleDirection::off;
       emit(change.column, SpindleChange{state_.spindle, state_.spindle_speed});
     }
-    state_.tool = *state_.selected_tool;
+    state_.tool = data_.tool = *state_.selected_tool;
     emit(change.column, ToolChange{state_.tool});
   }
   return Done{};
@@ -459,9 +465,8 @@ void BlockExecutor::restore_modes(std::uint32_t column) {
   state_.retract_to_initial = saved.retract_to_initial;
   state_.surface_speed = saved.surface_speed;
   if (state_.work_offset != saved.work_offset) {
-    state_.work_offset = saved.work_offset;
-    forget(kAxisWords, PositionLoss::work_offset);
-    emit(column, WorkOffsetChange{state_.work_offset});
+    // It was in force before, so that there is nothing to complain of.
+    static_cast<void>(select_work_offset(saved.work_offset, column));
   }
   if (state_.spindle != saved.spindle || state_.spindle_speed != saved.spindle_speed) {
     state_.spindle = saved.spindle;
@@ -550,6 +555,7 @@ void BlockExecutor::emit(std::uint32_t column, Command command) {
            std::holds_alternative<LinearFeed>(command) ||
            std::holds_alternative<ArcFeed>(command) || std::holds_alternative<HomeReturn>(command);
   if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
+  if (!state_.offset_frame.is_identity()) state_.offset_frame.place(command);
   SourcePlace place = block_->place_of(column);
   place.file = file_;
   sink_(Motion{std::move(place), std::move(command)});

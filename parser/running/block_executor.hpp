@@ -12,7 +12,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -26,11 +28,11 @@
 #include "parser/motion.hpp"
 #include "parser/running/block_words.hpp"
 #include "parser/running/canned_cycle.hpp"
+#include "parser/running/control_data.hpp"
 #include "parser/running/modal_state.hpp"
 #include "parser/running/program_position.hpp"
 #include "parser/running/system_parameters.hpp"
 #include "parser/running/threading_cycle.hpp"
-#include "parser/tool_table.hpp"
 
 namespace frustum::parser {
 
@@ -61,14 +63,7 @@ class BlockExecutor {
  public:
   BlockExecutor(const BlockExecutor&) = delete;  // its parameters look at its state
   BlockExecutor& operator=(const BlockExecutor&) = delete;
-  BlockExecutor(Dialect dialect, const AxisTarget& start, ToolTable tools, const MotionSink& sink)
-      : rules_(rules_of(dialect)),
-        sink_(sink),
-        tools_(std::move(tools)),
-        position_(start),
-        parameters_(rules_.parameters, &system_) {
-    state_.retract_to_initial = rules_.cycles.retract_to_initial;
-  }
+  BlockExecutor(Dialect dialect, const AxisTarget& start, ControlData data, const MotionSink& sink);
 
   [[nodiscard]] Result<Flow> execute(const Block& block);
   void report_comments(const Block& block);
@@ -110,15 +105,18 @@ class BlockExecutor {
 
   // Doing.
   [[nodiscard]] Outcome set_parameters(const Block& block);
+  [[nodiscard]] Outcome set_numbered(std::uint32_t column, int index, double value);
   void report_events(const BlockWords& words);
   void restore_modes(std::uint32_t column);
   [[nodiscard]] Outcome keep_modes(const BlockWords& words);
   [[nodiscard]] Outcome set_feed(const BlockWords& words);
   [[nodiscard]] Outcome set_tool(const BlockWords& words);
+  [[nodiscard]] Outcome check_tool_exists(int tool, std::uint32_t column) const;
   void set_spindle_and_coolant(const BlockWords& words, bool speed);
   [[nodiscard]] Outcome dwell(const BlockWords& words);
   [[nodiscard]] Outcome set_frames(const BlockWords& words);
   [[nodiscard]] Outcome set_compensation(const BlockWords& words);
+  [[nodiscard]] Outcome change_compensation(const BlockWords& words, const Compensation& next);
   [[nodiscard]] Outcome set_work_offset(const BlockWords& words);
   [[nodiscard]] Outcome set_tilted_plane(const BlockWords& words);
   [[nodiscard]] Outcome set_plane(const BlockWords& words);
@@ -137,7 +135,35 @@ class BlockExecutor {
   [[nodiscard]] Outcome shift_words(const BlockWords& words, NonModal how);
   [[nodiscard]] Outcome turn_words(const BlockWords& words);
   [[nodiscard]] Outcome check_word_frame(const Movement& movement) const;
-  [[nodiscard]] Outcome go_home(const BlockWords& words);
+
+  // What lies between words and axes, and positions that follow it (block_datum.cpp).
+  using ToolOffset = std::array<double, kAxisLetters.size()>;
+  void place_datum(const WorkOffset& datum);
+  [[nodiscard]] Result<WorkOffset> datum_of(int number, std::uint32_t column) const;
+  [[nodiscard]] Outcome select_work_offset(int number, std::uint32_t column);
+  [[nodiscard]] Outcome replace_datum(std::uint32_t column);
+  [[nodiscard]] Outcome tell_origin(int number, std::uint32_t column);
+  [[nodiscard]] AxisTarget axis_positions() const;
+  [[nodiscard]] std::string why_axis_unknown(AxisLetter axis) const;
+  void follow_datum(const ModalState& before, const AxisTarget& axes, PositionLoss loss);
+  void arrive(const AxisTarget& axes);
+  [[nodiscard]] Result<std::optional<ToolOffset>> tool_offset_of(const BlockWords& words,
+                                                                 const Compensation& next) const;
+  [[nodiscard]] Result<ToolOffset> given_tool_offset(const BlockWords& words) const;
+
+  // G10 (block_data.cpp).
+  [[nodiscard]] Outcome set_data(const BlockWords& words);
+  [[nodiscard]] Outcome set_work_offset_data(const BlockWords& words, const DataWord& data);
+  [[nodiscard]] Outcome set_offset_here(const BlockWords& words);
+  [[nodiscard]] Outcome set_tool_data(const BlockWords& words, const DataWord& data);
+  [[nodiscard]] Outcome set_offset_memory(const BlockWords& words, const DataWord& data);
+  [[nodiscard]] Outcome set_tool_offsets(const BlockWords& words, DataInput input, Tool& tool);
+
+  // Reference points and machine coordinates (block_points.cpp).
+  [[nodiscard]] Outcome keep_point(std::size_t point, std::uint32_t column);
+  [[nodiscard]] Outcome go_home(const BlockWords& words, std::size_t point);
+  void go_to_axis_positions(const AxisTarget& point, LetterSet named, std::uint32_t column);
+  void return_to_point(std::size_t point, LetterSet axes, std::uint32_t column);
   [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome move_in_machine_coordinates(const BlockWords& words,
                                                     const Movement& movement);
@@ -195,7 +221,8 @@ class BlockExecutor {
 
   const DialectRules& rules_;
   const MotionSink& sink_;
-  ToolTable tools_;
+  ControlData data_;
+  std::map<int, std::array<std::optional<double>, 3>> told_origins_{};  // as the motions have them
   ModalState state_;
   ProgramPosition position_;
   // Modes that M70 and M73 keep, of the main program and each call.
@@ -204,7 +231,7 @@ class BlockExecutor {
     bool comes_back = false;
   };
   std::vector<SavedModes> saved_modes_{1};
-  SystemParameters system_{rules_.dialect, state_, position_};
+  SystemParameters system_{rules_.dialect, state_, position_, data_};
   Parameters parameters_;
   const Block* block_ = nullptr;  // at work
   std::shared_ptr<const std::string> file_{};

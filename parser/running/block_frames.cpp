@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kMaxOffsetNumber = 9999;
 constexpr int kMaxPreset = 999;
+constexpr int kMaxExtendedOffset = 300;
 constexpr int kMaxEdge = 12;
 
 // What a length word makes of the two switches; the offset number is the caller's.
@@ -26,6 +27,9 @@ Compensation compensation_of(LengthWord word, const Compensation& before) {
       return {true, true, true, 0};
     case LengthWord::length_only:
       return {true, before.tip, false, 0};
+    case LengthWord::dynamic:
+    case LengthWord::additional:
+      return {true, before.tip, false, before.offset_number};
     case LengthWord::length_only_off:
       return {false, before.tip, false, 0};
   }
@@ -35,10 +39,14 @@ Compensation compensation_of(LengthWord word, const Compensation& before) {
 // What the machine is told: guiding the tip begins when the length is known.
 CompensationChange told(const Compensation& compensation) {
   return {compensation.length ? compensation.mode() : LengthCompensation::off,
-          compensation.tool_vectors && compensation.length, compensation.offset_number};
+          compensation.tool_vectors && compensation.length, compensation.offset_number,
+          compensation.length && compensation.tool_offset
+              ? std::optional(compensation.tool_offset->at(2))
+              : std::nullopt};
 }
 bool same(const CompensationChange& a, const CompensationChange& b) {
-  return a.mode == b.mode && a.tool_vectors == b.tool_vectors && a.offset_number == b.offset_number;
+  return a.mode == b.mode && a.tool_vectors == b.tool_vectors &&
+         a.offset_number == b.offset_number && a.length == b.length;
 }
 
 Mat3 turn(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
@@ -75,8 +83,14 @@ Result<Compensation> BlockExecutor::compensation_after(const BlockWords& words) 
       const auto number = whole(words, 'H', 1, kMaxOffsetNumber);
       if (!number) return number.error();
       next.offset_number = *number;
-    } else if (rules_.dialect != Dialect::fanuc && next.length) {
+    } else if (rules_.dialect != Dialect::fanuc && next.length && length.code->arguments.has('H') &&
+               length.code->value != static_cast<std::uint8_t>(LengthWord::additional)) {
       next.offset_number = state_.tool;
+    }
+    if (next.length) {
+      auto offset = tool_offset_of(words, next);
+      if (!offset) return offset.error();
+      next.tool_offset = *offset;
     }
   }
   if (rules_.tool_brings_length && words.has(CodeGroup::tool_change)) next.length = true;
@@ -98,21 +112,46 @@ Result<Compensation> BlockExecutor::compensation_after(const BlockWords& words) 
   return next;
 }
 
+BlockExecutor::Outcome BlockExecutor::change_compensation(const BlockWords& words,
+                                                          const Compensation& next) {
+  const ModalState before = state_;
+  const AxisTarget axes = axis_positions();
+  if (next.tip && next.tool_offset) {
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      if (i == 2 || next.tool_offset->at(i) == 0.0) continue;
+      const GivenCode& length = words[CodeGroup::length_compensation];
+      const GivenCode& cause = length.code != nullptr ? length : words[CodeGroup::tool_tip];
+      return fail(cause.column,
+                  fmt::format("the tool-tip control with a tool offset along {}",
+                              to_char(kAxisLetters.at(i))),
+                  "it knows the tool's length (Z) alone");
+    }
+  }
+  const CompensationChange told_before = told(before.compensation);
+  const CompensationChange told_after = told(next);
+  const bool tip_before = told_before.mode == LengthCompensation::tool_centre_point;
+  const bool tip_after = told_after.mode == LengthCompensation::tool_centre_point;
+  if (!next.tip) state_.tool_axis.reset();
+  state_.compensation = next;
+  place_datum(state_.datum);
+  const bool same_tool = told_before.offset_number == told_after.offset_number &&
+                         told_before.length == told_after.length;
+  if (tip_before != tip_after || (tip_after && !same_tool)) {
+    forget(kLinearWords, PositionLoss::length_compensation);
+  } else {
+    follow_datum(before, axes, PositionLoss::length_compensation);
+  }
+  return Done{};
+}
+
 BlockExecutor::Outcome BlockExecutor::set_compensation(const BlockWords& words) {
   const auto next = compensation_after(words);
   if (!next) return next.error();
   const CompensationChange before = told(state_.compensation);
   const CompensationChange after = told(*next);
-  const bool tip_before = before.mode == LengthCompensation::tool_centre_point;
-  const bool tip_after = after.mode == LengthCompensation::tool_centre_point;
-  const bool same_tool = before.offset_number == after.offset_number;
-  if (tip_before != tip_after || (tip_after && !same_tool)) {
-    forget(kLinearWords, PositionLoss::length_compensation);
-  } else if (before.mode != after.mode || !same_tool) {
-    forget(LetterSet("Z"), PositionLoss::length_compensation);
+  if (!(*next == state_.compensation)) {
+    if (auto done = change_compensation(words, *next); !done) return done;
   }
-  if (!next->tip) state_.tool_axis.reset();
-  state_.compensation = *next;
 
   const GivenCode& length = words[CodeGroup::length_compensation];
   const GivenCode& tip = words[CodeGroup::tool_tip];
@@ -129,17 +168,17 @@ BlockExecutor::Outcome BlockExecutor::set_work_offset(const BlockWords& words) {
   if (offset.code == nullptr) return Done{};
   int number = offset.code->value;
   if (!offset.code->arguments.empty()) {
+    const bool extended = number == kExtendedWorkOffset;
     if (!words.has('P')) {
-      return fail(offset.column, offset.code->name() + " without a number", "give Q339=1");
+      return fail(offset.column, offset.code->name() + " without a number",
+                  extended ? "give P1 for the first of the further work offsets" : "give Q339=1");
     }
-    const auto given = whole(words, 'P', 0, kMaxPreset);
+    const auto given =
+        extended ? whole(words, 'P', 1, kMaxExtendedOffset) : whole(words, 'P', 0, kMaxPreset);
     if (!given) return given.error();
-    number = *given;
+    number = *given + (extended ? kExtendedWorkOffset : 0);
   }
-  if (number != state_.work_offset) forget(kAxisWords, PositionLoss::work_offset);
-  state_.work_offset = number;
-  emit(offset.column, WorkOffsetChange{number});
-  return Done{};
+  return select_work_offset(number, offset.column);
 }
 
 Vec3 BlockExecutor::vector_of(const BlockWords& words, std::string_view letters) const {

@@ -1,4 +1,5 @@
-// The moves of a block: G28, G53, straight lines and arcs, and what they do to the known position.
+// The moves of a block: straight lines and arcs, and what they do to the known position. Those to reference points
+// and in machine coordinates are in block_points.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +58,11 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   state_.motion = motion_of(words);
   if (auto done = check_feature(movement); !done) return done;
   if (!is_cycle(state_.motion)) state_.cycle.reset();
-  if (movement.non_modal == NonModal::home) return go_home(words);
+  if (movement.non_modal == NonModal::home) return go_home(words, 1);
+  if (movement.non_modal == NonModal::second_home) return go_home(words, 2);
+  if (movement.non_modal == NonModal::keep_home) return keep_point(0, movement.column);
+  if (movement.non_modal == NonModal::keep_second_home) return keep_point(1, movement.column);
+  if (movement.non_modal == NonModal::data) return set_data(words);
   if (movement.non_modal == NonModal::align) return align(movement.column);
   if (movement.non_modal == NonModal::pole) return set_pole(words);
   if (movement.non_modal == NonModal::start) return set_start(words);
@@ -93,62 +98,6 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
     default:
       return Done{};
   }
-}
-
-BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words) {
-  const std::uint32_t column = words[CodeGroup::non_modal].column;
-  const AxisTarget before = position_.target();
-  HomeReturn home;
-  LetterSet named;
-  if ((words.given() & kAxisWords).empty()) {
-    home.axes.fill(true);
-    named = kAxisWords;
-  }
-  for (const AxisLetter axis : kAxisLetters) {
-    const char letter = to_char(axis);
-    if (!words.has(letter)) continue;
-    home.axes.at(static_cast<std::size_t>(axis)) = true;
-    named.add(letter);
-    // "G91 G28 Z0" from a place that is not known goes straight home: zero needs no start.
-    const bool stays = state_.distance == DistanceMode::incremental && words[letter].value == 0.0;
-    if (stays) continue;
-    if (auto done = set_target(words, axis); !done) return done;
-  }
-  if (!(position_.target() == before)) {
-    emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
-  }
-  emit(column, Command{home});
-  leave_program_coordinates(named, PositionLoss::home);
-  return Done{};
-}
-
-BlockExecutor::Outcome BlockExecutor::move_in_machine_coordinates(const BlockWords& words,
-                                                                  const Movement& movement) {
-  AxisTarget end;
-  LetterSet named;
-  for (const AxisLetter axis : kAxisLetters) {
-    const char letter = to_char(axis);
-    if (!words.has(letter)) continue;
-    named.add(letter);
-    end[axis] = scaled(axis, words[letter].value);
-  }
-  const Compensation& kept = state_.compensation;
-  const bool tip_moves = kept.tip || (kept.length && !(named & kLinearWords).empty());
-  if (rules_.machine_coordinates_keep_length && tip_moves) {
-    return fail(words[CodeGroup::non_modal].column,
-                fmt::format("{} with a tool length or TRAORI would place the tool's tip",
-                            words[CodeGroup::non_modal].code->name()),
-                "switch them off before: TRAFOOF, and D0 on this block");
-  }
-  if (movement.motion == MotionMode::traverse) {
-    emit(movement.column, Traverse{end, std::nullopt, Coordinates::machine});
-  } else {
-    const auto feed = feed_for(words, movement, moves_linearly({}, end));
-    if (!feed) return feed.error();
-    emit(movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
-  }
-  leave_program_coordinates(named, PositionLoss::machine_coordinates);
-  return Done{};
 }
 
 BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
@@ -416,12 +365,6 @@ Result<Feed> BlockExecutor::feed_for(const BlockWords& words, const Movement& mo
                 "give F on this block or before, above zero");
   }
   return Feed{linear ? state_.feed->scaled : state_.feed->as_written, state_.feed_mode};
-}
-
-void BlockExecutor::leave_program_coordinates(LetterSet axes, PositionLoss loss) {
-  // With the tool-centre-point control on, X Y Z are of the tip, which any axis may carry along.
-  forget(state_.tool_centre_point() ? axes | kLinearWords : axes, loss);
-  if (!(axes & kRotaryWords).empty()) state_.tool_axis.reset();
 }
 
 void BlockExecutor::forget(LetterSet axes, PositionLoss loss) {

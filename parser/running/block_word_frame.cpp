@@ -32,17 +32,19 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
   switch (how) {
     case NonModal::shift_off:
       clear();
-      state_.suspended_shift.reset();
+      data_.shift = {};
+      data_.shift_counts = false;
       break;
     case NonModal::shift_suspend:
-      state_.suspended_shift = next;
       clear();
+      data_.shift_counts = false;
       break;
     case NonModal::shift_resume:
-      if (state_.suspended_shift) {
-        next.shift = state_.suspended_shift->shift;
-        next.rotary_shift = state_.suspended_shift->rotary_shift;
+      for (std::size_t i = 0; i < 3; ++i) {
+        next.shift[static_cast<Eigen::Index>(i)] = data_.shift.at(i);
+        next.rotary_shift.at(i) = data_.shift.at(3 + i);
       }
+      data_.shift_counts = true;
       break;
     default:
       if (rules_.dialect == Dialect::heidenhain &&
@@ -73,6 +75,11 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
         }
         shift += *position_[axis] - value;
       }
+      for (std::size_t i = 0; i < 3; ++i) {
+        data_.shift.at(i) = next.shift[static_cast<Eigen::Index>(i)];
+        data_.shift.at(3 + i) = next.rotary_shift.at(i);
+      }
+      data_.shift_counts = true;
   }
   change_word_frame(next);
   return Done{};
@@ -214,7 +221,7 @@ BlockExecutor::Outcome BlockExecutor::check_word_frame(const Movement& movement)
     return fail(movement.column, "a move with tool-tip control in a mirrored frame",
                 "mirror the program before it is written, or switch the control off");
   }
-  if (!state_.word_frame.turns()) return Done{};
+  if (!state_.word_frame.turns() && !state_.offset_frame.turns()) return Done{};
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
     if (position_[axis]) continue;
     return fail(movement.column,
@@ -223,7 +230,7 @@ BlockExecutor::Outcome BlockExecutor::check_word_frame(const Movement& movement)
   }
   const bool arc = movement.motion == MotionMode::arc_clockwise ||
                    movement.motion == MotionMode::arc_counterclockwise;
-  if (arc && !state_.word_frame.keeps(state_.plane)) {
+  if (arc && !(state_.word_frame.keeps(state_.plane) && state_.offset_frame.keeps(state_.plane))) {
     return fail(movement.column, "an arc in a plane that the frame turns",
                 "write it as straight moves, or turn the frame about the normal of the plane");
   }

@@ -11,6 +11,7 @@
 
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
+#include "parser/running/control_data.hpp"
 #include "parser/running/feature_frame.hpp"
 #include "parser/running/hole_cycle.hpp"
 #include "parser/running/word_frame.hpp"
@@ -24,7 +25,14 @@ struct Compensation {
   bool tip = false;
   bool tool_vectors = false;
   int offset_number = 0;
+  // Of the tool, along the axes, where the program or its tool table gives them; else only the setup knows.
+  std::optional<std::array<double, kAxisLetters.size()>> tool_offset{};
 
+  // What is added to the positions of the axes; none where only the setup knows.
+  [[nodiscard]] std::optional<std::array<double, kAxisLetters.size()>> offset() const {
+    if (!length) return std::array<double, kAxisLetters.size()>{};
+    return tool_offset;
+  }
   [[nodiscard]] LengthCompensation mode() const {
     if (tip) return LengthCompensation::tool_centre_point;
     return length ? LengthCompensation::length : LengthCompensation::off;
@@ -75,6 +83,10 @@ struct ModalState {
   std::optional<FeedWord> feed{};
   Compensation compensation{};
   int work_offset = 1;
+  // Of the work offset in force: its origin, as far as the program knows it, and from it and the tool the frame between
+  // the words' frame and the axes: the turn, the tool's offset along X and Y, the rotary offsets.
+  WorkOffset datum{};
+  WordFrame offset_frame{};
   std::optional<int> selected_tool{};
   int tool = 0;                                                  // in the spindle
   std::optional<FeedWord> tool_feed{};                           // of TOOL CALL, for F AUTO
@@ -87,10 +99,9 @@ struct ModalState {
   std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last
   std::optional<PolarMode> polar{};       // G16
   WordFrame word_frame{};
-  std::optional<WordFrame> frame_below{};      // of the words before G68.2: that plane lies in it
-  std::optional<WordFrame> suspended_shift{};  // G92.2
-  std::optional<Vec3> pole{};                  // CC
-  std::optional<Heading> heading{};            // of the last move
+  std::optional<WordFrame> frame_below{};  // of the words before G68.2: that plane lies in it
+  std::optional<Vec3> pole{};              // CC
+  std::optional<Heading> heading{};        // of the last move
   std::optional<CannedCycle> cycle{};
   HoleCycle hole_cycle{};
   bool retract_to_initial = true;  // G98; G99: to R

@@ -44,8 +44,18 @@ class ProgramPosition {
     return target_[axis];
   }
 
-  void set(AxisLetter axis, double value) { target_[axis] = value; }
+  void set(AxisLetter axis, double value) {
+    target_[axis] = value;
+    axes_[axis].reset();
+  }
+  // Where an axis stands, in machine coordinates, while its program coordinate is not known.
+  [[nodiscard]] const std::optional<double>& standing(AxisLetter axis) const { return axes_[axis]; }
+  void stand(AxisLetter axis, double value) { axes_[axis] = value; }
   void forget(AxisLetter axis, PositionLoss loss, std::uint32_t line);
+  [[nodiscard]] bool never_known(AxisLetter axis) const {
+    return !target_[axis] &&
+           causes_.at(static_cast<std::size_t>(axis)).loss == PositionLoss::never_programmed;
+  }
   // "X is not known since G28 on line 12", "X has not been programmed yet".
   [[nodiscard]] std::string why_unknown(AxisLetter axis) const;
 
@@ -55,6 +65,7 @@ class ProgramPosition {
     std::uint32_t line = 0;
   };
   AxisTarget target_{};
+  AxisTarget axes_{};
   std::array<Cause, kAxisLetters.size()> causes_{};
 };
 

@@ -23,6 +23,16 @@ bool does_something(const Block& block) {
   return !block.words.empty() || !block.assignments.empty() || block.program || block.flow;
 }
 
+ControlData data_before(const InterpreterOptions& options) {
+  ControlData data;
+  data.tools = options.tools;
+  data.tools_are_listed = !options.tools.empty();
+  data.work_offsets = options.work_offsets;
+  data.reference_points = options.reference_points;
+  data.unit = options.machine_unit;
+  return data;
+}
+
 }  // namespace
 
 ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
@@ -30,7 +40,7 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
     : sink_(sink),
       options_(options),
       rules_(rules_of(program.dialect)),
-      executor_(program.dialect, options.start, options.tools, sink),
+      executor_(program.dialect, options.start, data_before(options), sink),
       main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {}
 
 Result<RunSummary> ProgramRun::operator()() {

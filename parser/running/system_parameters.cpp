@@ -196,8 +196,6 @@ Value modal_variable(const ModalState& state, int index) {
 constexpr int kLinuxcncPosition = 5420;
 constexpr int kFanucPosition = 5001;
 constexpr int kFanucPositionNow = 5041;  // with the length of the tool
-constexpr int kWorkOffset = 5220;
-constexpr int kTool = 5400;
 constexpr int kAxes = 6;
 
 }  // namespace
@@ -212,12 +210,9 @@ Value SystemParameters::number(int index) const {
     if (now >= 0 && now < kAxes && !state.compensation.length) {
       return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(now)));
     }
-    return modal_variable(state, index);
+    if (const Value mode = modal_variable(state, index)) return mode;
   }
-  if (dialect != Dialect::linuxcnc) return std::nullopt;
-  if (index == kWorkOffset) return state.work_offset;
-  if (index == kTool) return state.tool;
-  return std::nullopt;
+  return read_parameter(data, dialect, index);
 }
 
 Value SystemParameters::named(std::string_view name) const {

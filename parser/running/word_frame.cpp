@@ -24,13 +24,11 @@ void set_point(AxisTarget& target, const Vec3& point) {
 
 }  // namespace
 
-bool WordFrame::turns() const {
-  return !turn.rotation.isIdentity(0.0) || !turn.translation.isZero(0.0);
-}
+bool WordFrame::turns() const { return !turn.rotation.isIdentity(0.0); }
 
 bool WordFrame::is_identity() const {
-  return shift.isZero(0.0) && rotary_shift == std::array<double, 3>{} && !turns() && scale == 1.0 &&
-         !is_mirrored();
+  return shift.isZero(0.0) && turn.translation.isZero(0.0) &&
+         rotary_shift == std::array<double, 3>{} && !turns() && scale == 1.0 && !is_mirrored();
 }
 
 double WordFrame::stretched(AxisLetter axis, double value) const {
@@ -80,7 +78,8 @@ AxisTarget WordFrame::from_words(const AxisTarget& words) const {
   if (!turns()) {
     for (const AxisLetter axis : kLinear) {
       if (!place[axis]) continue;
-      place[axis] = stretched(axis, *place[axis] + shift[static_cast<Eigen::Index>(axis)]);
+      const auto slot = static_cast<Eigen::Index>(axis);
+      place[axis] = stretched(axis, *place[axis] + shift[slot] + turn.translation[slot]);
     }
   } else if (all_known(words)) {
     set_point(place, point(point_of(words)));
@@ -99,7 +98,8 @@ AxisTarget WordFrame::to_words(const AxisTarget& place) const {
   if (!turns()) {
     for (const AxisLetter axis : kLinear) {
       if (!words[axis]) continue;
-      words[axis] = unstretched(axis, *words[axis]) - shift[static_cast<Eigen::Index>(axis)];
+      const auto slot = static_cast<Eigen::Index>(axis);
+      words[axis] = unstretched(axis, *words[axis]) - shift[slot] - turn.translation[slot];
     }
   } else if (all_known(place)) {
     Vec3 turned;

@@ -113,6 +113,52 @@ TEST(ControllerFeed, RefusesAFeedPerRevolutionWhileTheSpindleStands) {
   EXPECT_EQ(e.error().front().line, 3);
 }
 
+// The axes stand where the program says, as its control counts: origin, word and length.
+TEST(ControllerFrames, FollowAWorkOffsetThatTheProgramPlaces) {
+  for (const char* name : {"three-axis", "iwf-bc"}) {
+    const auto e = run(shipped(name),
+                       lines({WorkOffsetSetting{2, {7.0, 8.0, 9.0}}, WorkOffsetChange{2},
+                              CompensationChange{LengthCompensation::length, false, 5, 40.0},
+                              Traverse{target({{X, 1}, {Y, 2}, {Z, 3}})},
+                              WorkOffsetSetting{2, {17.0, std::nullopt, std::nullopt}},
+                              Traverse{target({{X, 1}})}}),
+                       kNoLimits);
+    ASSERT_TRUE(e) << to_string(e.error().front());
+    const AxisPositions& first = e->axes.at(1).axes;
+    EXPECT_NEAR(first[X], 8.0, 1e-9);
+    EXPECT_NEAR(first[Y], 10.0, 1e-9);
+    EXPECT_NEAR(first[Z], 52.0, 1e-9);
+    const AxisPositions& second = e->axes.at(2).axes;
+    EXPECT_NEAR(second[X], 18.0, 1e-9);
+    EXPECT_NEAR(second[Y], 10.0, 1e-9);
+  }
+}
+
+TEST(ControllerFrames, KeepTheAxesOfTheSetupThatTheProgramLeavesOut) {
+  const auto e = run(shipped("three-axis"),
+                     lines({Traverse{target({{X, 0}, {Y, 0}, {Z, 0}})},
+                            WorkOffsetSetting{1, {std::nullopt, std::nullopt, 55.0}},
+                            Traverse{target({{X, 0}, {Y, 0}, {Z, 0}})}}),
+                     kNoLimits);
+  ASSERT_TRUE(e) << to_string(e.error().front());
+  EXPECT_NEAR(e->axes.at(2).axes[X], e->axes.at(1).axes[X], 1e-9);
+  EXPECT_NEAR(e->axes.at(2).axes[Z], 55.0, 1e-9);
+}
+
+TEST(ControllerFrames, RefuseWhatNothingPlaces) {
+  const auto half =
+      run(shipped("three-axis"), lines({WorkOffsetSetting{3, {1.0, std::nullopt, 2.0}}}));
+  ASSERT_FALSE(half);
+  EXPECT_EQ(half.error().front().message,
+            "the program places G56 along some axes, and nothing gives the others");
+  const auto point = run(shipped("three-axis"), lines({HomeReturn{.point = 2}}));
+  ASSERT_FALSE(point);
+  EXPECT_EQ(point.error().front().message, "G30: the machine has no reference point 2");
+  const auto beyond = run(shipped("three-axis"), lines({WorkOffsetChange{8}}));
+  ASSERT_FALSE(beyond);
+  EXPECT_EQ(beyond.error().front().message, "work offset G59.2 is not defined");
+}
+
 TEST(ControllerFrames, FollowATiltedPlaneWithAndWithoutTcp) {
   const Pose plane{rotation_z(25 * kDeg) * rotation_y(-30 * kDeg), Vec3(3, -4, 5)};
   for (const char* name : {"iwf-bc", "swivel-head-table", "double-pivot-head"}) {

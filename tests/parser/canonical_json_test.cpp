@@ -86,5 +86,25 @@ TEST(CanonicalJson, StaysReadableWhateverTheBytesOfAComment) {
   EXPECT_NE(lines.at(2).find("\xC3\x80\xC2\x80 \xC3\xBF"), std::string::npos);
 }
 
+TEST(CanonicalJson, TellsWhatTheProgramItselfPlaces) {
+  WorkOffsetSetting setting{2, {1.5, std::nullopt, -3.0}};
+  EXPECT_EQ(to_json_line({{7, 1}, setting}),
+            R"({"line":7,"type":"work_offset_setting","number":2,"origin":{"X":1.5,"Z":-3.0}})");
+  EXPECT_EQ(
+      to_json_line({{8, 1}, CompensationChange{LengthCompensation::length, false, 3, 50.25}}),
+      R"({"line":8,"type":"compensation","mode":"length","tool_vectors":false,"offset":3,"length":50.25})");
+  HomeReturn second{.point = 2};
+  second.axes[2] = true;
+  EXPECT_EQ(to_json_line({{9, 1}, second}), R"({"line":9,"type":"home","axes":["Z"],"point":2})");
+}
+
+TEST(WorkOffsetName, IsTheWordOfTheProgram) {
+  EXPECT_EQ(work_offset_name(1), "G54");
+  EXPECT_EQ(work_offset_name(6), "G59");
+  EXPECT_EQ(work_offset_name(7), "G59.1");
+  EXPECT_EQ(work_offset_name(9), "G59.3");
+  EXPECT_EQ(work_offset_name(148), "G54.1 P48");
+}
+
 }  // namespace
 }  // namespace frustum::parser

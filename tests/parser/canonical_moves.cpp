@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "core/units.hpp"
@@ -16,14 +17,26 @@ namespace {
 constexpr double kAgree = 1.0001e-4;  // rs274 prints four decimals
 constexpr std::array<std::string_view, 3> kArcKinds{"arc xy", "arc zx", "arc yz"};
 
-std::vector<std::optional<double>> values_of(const AxisTarget& end) {
-  std::vector<std::optional<double>> values;
-  for (const AxisLetter axis : kAxisLetters) {
-    auto value = end[axis];
-    if (value && is_rotary(axis)) *value *= kDegPerRad;
-    values.push_back(value);
+// A text and the numbers in it: "pos 1.5" is "pos #" and 1.5.
+CanonicalMove said(const std::string& kind, std::string_view text) {
+  CanonicalMove move{kind, {}};
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  move.kind += ' ';
+  while (!text.empty()) {
+    const bool sign = text.size() > 1 && text.front() == '-';
+    const char first = text[sign ? 1 : 0];
+    double value = 0.0;
+    if (first >= '0' && first <= '9') {
+      const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+      text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+      move.kind += '#';
+      move.values.emplace_back(value);
+      continue;
+    }
+    move.kind += text.front();
+    text.remove_prefix(1);
   }
-  return values;
+  return move;
 }
 
 std::optional<double> rate_of(const Feed& feed) {
@@ -37,12 +50,14 @@ double signed_speed(SpindleDirection direction, double speed) {
                                                     : -speed;
 }
 
-struct ToMove {
-  std::optional<CanonicalMove> operator()(const Traverse& move) const {
-    return CanonicalMove{"traverse", values_of(move.end)};
+// Walks along the motions: their moves in machine coordinates. An axis that a move leaves out stays where it is.
+class Walk {
+ public:
+  std::optional<CanonicalMove> operator()(const Traverse& move) {
+    return CanonicalMove{"traverse", arrive(move.end, move.coordinates)};
   }
-  std::optional<CanonicalMove> operator()(const LinearFeed& move) const {
-    CanonicalMove result{"feed", values_of(move.end)};
+  std::optional<CanonicalMove> operator()(const LinearFeed& move) {
+    CanonicalMove result{"feed", arrive(move.end, move.coordinates)};
     result.rate = rate_of(move.feed);
     if (move.feed.synchronised) {
       result.kind = "thread";
@@ -50,43 +65,80 @@ struct ToMove {
     }
     return result;
   }
-  std::optional<CanonicalMove> operator()(const Probe& move) const {
-    CanonicalMove result{"probe", values_of(move.end)};
+  std::optional<CanonicalMove> operator()(const Probe& move) {
+    CanonicalMove result{"probe", arrive(move.end, Coordinates::program)};
     result.rate = rate_of(move.feed);
     return result;
   }
-  std::optional<CanonicalMove> operator()(const ArcFeed& arc) const {
+  std::optional<CanonicalMove> operator()(const ArcFeed& arc) {
     CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(arc.plane))),
-                       values_of(arc.end)};
+                       arrive(arc.end, Coordinates::program)};
     const std::size_t normal = arc.plane == Plane::xy ? 2 : arc.plane == Plane::zx ? 1 : 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (i != normal) move.values.emplace_back(arc.center[static_cast<Eigen::Index>(i)]);
+      if (i == normal) continue;
+      move.values.push_back(in_machine(i, arc.center[static_cast<Eigen::Index>(i)]));
     }
     move.values.emplace_back(arc.turns);
     move.rate = rate_of(arc.feed);
     return move;
   }
-  std::optional<CanonicalMove> operator()(const Stop& stop) const {
+  std::optional<CanonicalMove> operator()(const Stop& stop) {
     if (stop.kind == StopKind::program_end) return std::nullopt;
     return CanonicalMove{stop.kind == StopKind::program_stop ? "stop" : "optional stop", {}};
   }
-  std::optional<CanonicalMove> operator()(const Event& event) const {
-    if (event.name != "message") return std::nullopt;
-    return CanonicalMove{"message " + event.text, {}};
+  std::optional<CanonicalMove> operator()(const WorkOffsetChange& change) {
+    offset_ = change.number;
+    return std::nullopt;
   }
-  std::optional<CanonicalMove> operator()(const Dwell& dwell) const {
+  std::optional<CanonicalMove> operator()(const WorkOffsetSetting& setting) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (setting.origin.at(i)) origins_[setting.number].at(i) = *setting.origin.at(i);
+    }
+    return std::nullopt;
+  }
+  std::optional<CanonicalMove> operator()(const CompensationChange& change) {
+    length_ = change.mode == LengthCompensation::off ? 0.0 : change.length;
+    return std::nullopt;
+  }
+  std::optional<CanonicalMove> operator()(const Dwell& dwell) {
     return CanonicalMove{"dwell", {dwell.seconds}};
   }
-  std::optional<CanonicalMove> operator()(const ToolChange& change) const {
+  std::optional<CanonicalMove> operator()(const ToolChange& change) {
     return CanonicalMove{"tool", {static_cast<double>(change.tool)}};
   }
-  std::optional<CanonicalMove> operator()(const CoolantChange& change) const {
+  std::optional<CanonicalMove> operator()(const CoolantChange& change) {
     return CanonicalMove{change.flood ? "flood on" : "coolant off", {}};
+  }
+  std::optional<CanonicalMove> operator()(const Event& event) {
+    if (event.name == "message" || event.name == "debug") return said("message", event.text);
+    if (event.name == "log") return said("log", event.text);
+    return std::nullopt;
   }
   template <typename Other>
   std::optional<CanonicalMove> operator()(const Other& /*other*/) const {
     return std::nullopt;
   }
+
+ private:
+  [[nodiscard]] std::optional<double> in_machine(std::size_t axis, double value) {
+    if (axis < 3) value += origins_[offset_].at(axis);
+    if (axis == 2 && !length_) return std::nullopt;
+    return value + (axis == 2 ? *length_ : 0.0);
+  }
+  std::vector<std::optional<double>> arrive(const AxisTarget& end, Coordinates coordinates) {
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      const AxisLetter axis = kAxisLetters.at(i);
+      if (!end[axis]) continue;
+      const double value = *end[axis] * (is_rotary(axis) ? kDegPerRad : 1.0);
+      place_.at(i) = coordinates == Coordinates::machine ? value : in_machine(i, value);
+    }
+    return {place_.begin(), place_.end()};
+  }
+
+  std::map<int, std::array<double, 3>> origins_{};
+  int offset_ = 1;
+  std::optional<double> length_ = 0.0;
+  std::array<std::optional<double>, kAxisLetters.size()> place_{};
 };
 
 // What the printed calls are relative to.
@@ -94,27 +146,39 @@ struct Printed {
   double unit = 1.0;
   Plane plane = Plane::xy;
   std::vector<double> numbers{};
-  std::vector<double> shift = std::vector<double>(6, 0.0);  // of G92
-  double turn = 0.0;                                        // about Z
-  std::optional<double> lead{};                             // synchronised with the spindle
+  std::vector<double> shift = std::vector<double>(6, 0.0);   // of G92
+  std::vector<double> origin = std::vector<double>(6, 0.0);  // of the work offset
+  std::vector<double> tool = std::vector<double>(6, 0.0);
+  double turn = 0.0;             // about Z
+  std::optional<double> lead{};  // synchronised with the spindle
   double rate = 0.0;
   double rate_in_degrees = 0.0;
   double speed = 0.0;
   SpindleDirection direction = SpindleDirection::off;
   bool surface_speed = false;
 
-  // Coordinates of the work offset.
+  // Six lengths and angles from the printed ones, behind `first` numbers.
+  [[nodiscard]] std::vector<double> six(std::size_t first) const {
+    std::vector<double> values(6);
+    for (std::size_t i = 0; i < 6; ++i) values[i] = numbers.at(first + i) * (i < 3 ? unit : 1.0);
+    return values;
+  }
+  // In machine coordinates.
   [[nodiscard]] Vec3 point(const Vec3& printed) const {
-    return rotation_z(turn * kRadPerDeg) * (printed * unit + Vec3(shift[0], shift[1], shift[2]));
+    return rotation_z(turn * kRadPerDeg) * (printed * unit + Vec3(shift[0], shift[1], shift[2])) +
+           Vec3(origin[0] + tool[0], origin[1] + tool[1], origin[2] + tool[2]);
+  }
+  [[nodiscard]] double angle(std::size_t axis, double printed) const {
+    return printed + shift[axis] + origin[axis] + tool[axis];
   }
   [[nodiscard]] std::vector<std::optional<double>> axes() const {
     const Vec3 place = point({numbers.at(0), numbers.at(1), numbers.at(2)});
     return {place[0],
             place[1],
             place[2],
-            numbers.at(3) + shift[3],
-            numbers.at(4) + shift[4],
-            numbers.at(5) + shift[5]};
+            angle(3, numbers.at(3)),
+            angle(4, numbers.at(4)),
+            angle(5, numbers.at(5))};
   }
   [[nodiscard]] CanonicalMove feed() const {
     CanonicalMove move{"feed", axes(), unit};
@@ -138,8 +202,8 @@ struct Printed {
     end = point(end);
     centre = point(centre);
     CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(plane))),
-                       {end[0], end[1], end[2], numbers.at(6) + shift[3], numbers.at(7) + shift[4],
-                        numbers.at(8) + shift[5]}};
+                       {end[0], end[1], end[2], angle(3, numbers.at(6)), angle(4, numbers.at(7)),
+                        angle(5, numbers.at(8))}};
     for (int i = 0; i < 3; ++i) {
       if (i != slot[2]) move.values.emplace_back(centre[i]);
     }
@@ -182,6 +246,7 @@ std::vector<double> numbers_in(std::string_view text) {
 
 std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
   std::vector<CanonicalMove> moves;
+  Walk walk;
   double spindle = 0.0;
   bool surface_speed = false;
   for (const Motion& motion : motions) {
@@ -191,7 +256,7 @@ std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
     if (const auto* event = std::get_if<Event>(&motion.command)) {
       surface_speed = surface_speed || event->name == "surface_speed";
     }
-    auto move = std::visit(ToMove{}, motion.command);
+    auto move = std::visit(walk, motion.command);
     if (!move) continue;
     if (!surface_speed) move->spindle = spindle;
     moves.push_back(*std::move(move));
@@ -221,8 +286,14 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
                       : arguments.find("YZ") != std::string::npos ? Plane::yz
                                                                   : Plane::xy;
     } else if (call == "SET_G92_OFFSET") {
-      printed.shift = printed.numbers;
-      for (std::size_t i = 0; i < 3; ++i) printed.shift.at(i) *= printed.unit;
+      printed.shift = printed.six(0);
+    } else if (call == "SET_G5X_OFFSET") {
+      printed.origin = printed.six(1);
+    } else if (call == "USE_TOOL_LENGTH_OFFSET") {
+      printed.tool = printed.six(0);
+    } else if (call == "MESSAGE" || call == "LOG") {
+      const std::string_view text = std::string_view(arguments).substr(1, arguments.size() - 3);
+      moves.push_back(said(call == "LOG" ? "log" : "message", text));
     } else if (call == "SET_XY_ROTATION") {
       printed.turn = printed.numbers.at(0);
     } else if (call == "STRAIGHT_TRAVERSE") {
@@ -262,10 +333,6 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
       moves.push_back({"stop", {}});
     } else if (call == "OPTIONAL_PROGRAM_STOP") {
       moves.push_back({"optional stop", {}});
-    } else if (call == "MESSAGE") {
-      const std::string text = arguments.substr(1, arguments.rfind('"') - 1);
-      moves.push_back(
-          {"message " + text.substr(std::min(text.find_first_not_of(' '), text.size())), {}});
     } else if (call == "SET_FEED_RATE") {
       printed.rate = printed.numbers.at(0) * printed.unit;
       printed.rate_in_degrees = printed.numbers.at(0);

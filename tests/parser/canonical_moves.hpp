@@ -1,6 +1,6 @@
 // Motions and the calls that the stand-alone RS-274 interpreter prints, brought to one form for comparison.
 //
-// Units: mm, degrees, seconds, mm/min
+// Units: mm, degrees, seconds, mm/min; positions in machine coordinates, work offsets at zero at the start
 #pragma once
 
 #include <optional>
@@ -20,6 +20,7 @@ struct CanonicalMove {
   std::optional<double> spindle{};              // 1/min, clockwise above zero
 };
 
+// Z is unknown while a tool's length is in force that only the setup has.
 [[nodiscard]] std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions);
 // Of lines such as "   12 N..... STRAIGHT_FEED(1.0000, ...)".
 [[nodiscard]] std::vector<CanonicalMove> moves_of_rs274(std::string_view output);

@@ -13,6 +13,7 @@
 
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
+#include "parser/tool_table.hpp"
 #include "tests/parser/canonical_moves.hpp"
 
 namespace frustum::parser {
@@ -95,7 +96,16 @@ TEST_P(Rs274Oracle, CommandsTheSameMoves) {
   ASSERT_TRUE(program);
   InterpreterOptions options;
   options.search_path = {corpus() / "subs"};
-  for (const AxisLetter axis : kAxisLetters) options.start[axis] = 0.0;
+  // The oracle begins with all parameters at zero, and its own unit is the inch.
+  AxisTarget zero;
+  for (const AxisLetter axis : kAxisLetters) zero[axis] = 0.0;
+  options.start = zero;
+  for (int number = 1; number <= 9; ++number) options.work_offsets[number].origin = zero;
+  options.reference_points.fill(zero);
+  options.machine_unit = LengthUnit::inch;
+  auto tools = read_tool_table(corpus() / "tools.tbl", LengthUnit::inch);
+  ASSERT_TRUE(tools) << to_string(tools.error().front());
+  options.tools = *std::move(tools);
   const auto motions = motions_of(*program, options);
   ASSERT_TRUE(motions) << to_string(motions.error().front());
   const std::string output = run_rs274(file);
