@@ -171,6 +171,7 @@ void BlockExecutor::drill_from_top(const Vec3& top, const std::optional<Vec3>& f
   depths.feed_out = depths.level;
   depths.peck = cycle.peck;
   depths.dwell = cycle.dwell;
+  depths.peck_from = cycle.level;
   if (cycle.top) {
     depths.chip = cycle.clear;
     depths.peck_from = 0.0;
