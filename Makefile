@@ -6,7 +6,7 @@ ORACLE ?= 0
 BUILD = cmake --build --parallel $(JOBS)
 DEMO_OUT = out/cone
 
-.PHONY: help demo build test setup asan bench format check-format tidy clean
+.PHONY: help demo build test setup asan fuzz bench format check-format tidy clean
 .DEFAULT_GOAL := help
 
 help:
@@ -16,6 +16,7 @@ help:
 	@echo '                   programs with LinuxCNC, a package of 80 MB'
 	@echo 'make build         set up and build; the program is build/frustum'
 	@echo 'make asan          the tests under the address and undefined-behaviour sanitizers'
+	@echo 'make fuzz          libFuzzer on every NC dialect, FUZZ_SECONDS=600 each, JOBS at a time'
 	@echo 'make bench         build and run the benchmarks'
 	@echo 'make format        format every source file; make check-format only looks'
 	@echo 'make tidy          clang-tidy over the sources (make tidy FILES="core/pose.cpp" for some)'
@@ -41,9 +42,14 @@ asan: build/asan/build.ninja
 	$(BUILD) --preset asan
 	ctest --preset asan
 
+fuzz: build/fuzz/build.ninja
+	$(BUILD) --preset fuzz
+	JOBS=$(JOBS) scripts/fuzz
+
 bench: build/bench/build.ninja
-	$(BUILD) --preset bench --target frustum_bench
+	$(BUILD) --preset bench --target frustum_bench frustum_nc_bench
 	build/bench/bench/frustum_bench
+	build/bench/bench/frustum_nc_bench
 
 format:
 	scripts/format

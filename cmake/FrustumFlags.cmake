@@ -36,5 +36,5 @@ if(FRUSTUM_SANITIZE)
   add_compile_options(-fsanitize=${FRUSTUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FRUSTUM_SANITIZE})
   # GCC warns of its own instrumentation inside standard headers (GCC bug 105562).
-  target_compile_options(frustum_flags INTERFACE -Wno-maybe-uninitialized)
+  target_compile_options(frustum_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
