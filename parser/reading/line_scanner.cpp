@@ -4,6 +4,8 @@
 
 #include <cctype>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/syntax_error.hpp"
@@ -112,10 +114,12 @@ std::optional<ScannedNumber> LineScanner::number() {
     place_ = start;
     return std::nullopt;
   }
+  const std::string digits(text_.substr(start, place_ - start));
   ScannedNumber found{0.0, point};
-  const auto read = std::from_chars(text_.data() + start, text_.data() + place_, found.value);
-  if (read.ec == std::errc::result_out_of_range && found.value != 0.0) found.value = 0.0;
-  if (read.ec == std::errc::result_out_of_range && place_ - start > 308) {
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), found.value);
+  // Out of range is also what is too small, which is 0.
+  if (read.ec == std::errc::result_out_of_range &&
+      std::isinf(std::strtod(digits.c_str(), nullptr))) {
     fail(static_cast<std::uint32_t>(start + 1), "the number is too large",
          "numbers go up to 1.8e308");
   }

@@ -10,6 +10,7 @@
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/grammar.hpp"
 #include "parser/reading/line_scanner.hpp"
+#include "parser/reading/plain_block.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -233,6 +234,7 @@ std::size_t statement_start(std::string_view text) {
 }  // namespace
 
 Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
+  if (auto plain = read_plain_block(text, line)) return *std::move(plain);
   const std::size_t start = statement_start(text);
   if (start == std::string_view::npos) return parse_block(text, line, Arithmetic::custom_macro);
   return MacroReader(text, line, start)();

@@ -12,6 +12,7 @@
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/grammar.hpp"
 #include "parser/reading/line_scanner.hpp"
+#include "parser/reading/plain_block.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -166,6 +167,7 @@ class OWordReader {
 namespace {
 
 Result<Block> read_line(std::string_view text, std::uint32_t line) {
+  if (auto plain = read_plain_block(text, line)) return *std::move(plain);
   if (text.find('o') != std::string_view::npos || text.find('O') != std::string_view::npos) {
     if (auto statement = OWordReader(text, line)()) return *std::move(statement);
   }

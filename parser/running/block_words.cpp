@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 namespace frustum::parser {
 namespace {
+
+constexpr double kLargestValue = 1e15;
 
 Diagnostic at(const Block& block, std::uint32_t column, std::string message, std::string hint) {
   const SourcePlace place = block.place_of(column);
@@ -87,6 +90,11 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
         return at(block, word.column,
                   fmt::format("{} is given twice in a block", words.name_of(word.letter)),
                   "leave one of them out, or write two blocks");
+      }
+      // Beyond this sums and squares of positions would leave the range of numbers.
+      if (!(std::abs(number) <= kLargestValue)) {
+        return at(block, word.column, words.name_of(word.letter) + " is too large",
+                  "the values of words go up to 1e15");
       }
       words.given_.add(word.letter);
       words.values_[BlockWords::slot(word.letter)] = {number, word.column, word.decimal_point,

@@ -12,11 +12,12 @@
 
 #include "parser/reading/block_cursor.hpp"
 #include "parser/running/block_executor.hpp"
+#include "parser/running/block_numbers.hpp"
 #include "parser/running/program_map.hpp"
 
 namespace frustum::parser {
 
-// A program with its map, once something has asked for it.
+// A program with its map and its block numbers, once something has asked for them.
 class LoadedProgram {
  public:
   enum class Role : std::uint8_t { main, file_of_subprogram };
@@ -31,11 +32,16 @@ class LoadedProgram {
     if (!map_) map_.emplace(program_);
     return *map_;
   }
+  [[nodiscard]] const BlockNumbers& numbers() {
+    if (!numbers_) numbers_.emplace(program_);
+    return *numbers_;
+  }
 
  private:
   Program program_;
   std::shared_ptr<const std::string> place_file_;
   std::optional<ProgramMap> map_{};
+  std::optional<BlockNumbers> numbers_{};
 };
 
 // A loop that counts.

@@ -270,21 +270,11 @@ ProgramRun::Failure ProgramRun::give_back(const Block& block) {
 }
 
 std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search search) {
-  const Program& program = frame().program->program();
   const auto number = block_number_of(label);
   const TextPlace here = frame().cursor.block_place();
   const TextPlace start = frame().entry;
-  const auto found_in = [&](TextPlace from, std::uint64_t to) -> std::optional<TextPlace> {
-    BlockCursor cursor(program);
-    cursor.go_to(from);
-    while (true) {
-      const auto block = cursor.next();
-      if (!block) continue;
-      if (*block == nullptr || cursor.block_place().offset >= to) return std::nullopt;
-      // The next program of the file has numbers of its own.
-      if ((*block)->program && cursor.block_place().offset > start.offset) return std::nullopt;
-      if (number && (*block)->number == number) return cursor.block_place();
-    }
+  const auto found_in = [&](TextPlace from, std::uint64_t end) {
+    return frame().program->numbers().find(*number, from.offset, end, start.offset);
   };
   constexpr auto kEnd = std::numeric_limits<std::uint64_t>::max();
   if (!number) {
@@ -296,10 +286,12 @@ std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search s
     return target->place;
   }
   if (search == Search::forward) return found_in(frame().cursor.place(), kEnd);
-  if (search == Search::backward) return found_in(start, here.offset);
+  // A block may jump to itself.
+  const std::uint64_t up_to_here = here.offset + 1;
+  if (search == Search::backward) return found_in(start, up_to_here);
   if (search == Search::from_start) return found_in(start, kEnd);
   const auto ahead = found_in(frame().cursor.place(), kEnd);
-  return ahead ? ahead : found_in(start, here.offset);
+  return ahead ? ahead : found_in(start, up_to_here);
 }
 
 ProgramRun::Failure ProgramRun::jump(const Block& block) {
