@@ -32,6 +32,7 @@ enum class CodeGroup : std::uint8_t {
   tool_tip,
   work_offset,
   tilted_plane,
+  program_frame,
   polar,
   scaling,
   mirror,
@@ -100,6 +101,17 @@ enum class MirrorWord : std::uint8_t { off, on };
 enum class RetractWord : std::uint8_t { initial, level };
 // What is done at each hole that the program names by itself: hole_cycle.hpp.
 enum class HoleWord : std::uint8_t { off, on, drill, peck, break_chip, tap, bore };
+// The programmable frame: the first four replace it, the others go on within it.
+enum class FrameWord : std::uint8_t {
+  shift,
+  turn,
+  scale,
+  mirror,
+  shift_within,
+  turn_within,
+  scale_within,
+  mirror_within
+};
 // Where the frame of a tilted plane comes from.
 enum class TiltWord : std::uint8_t {
   off,

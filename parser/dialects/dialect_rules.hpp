@@ -95,6 +95,10 @@ struct DialectRules {
   bool parameters_count_at_once = false;
   // G10 in G91 adds to what is there.
   bool data_follow_distance_mode = false;
+  // A new tilted plane begins without programmable frame.
+  bool planes_end_frames = false;
+  // Subprograms are programs with a head of their own, or files without; every end of a program returns from one.
+  bool subprograms_are_programs = false;
   // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
   std::span<const std::string_view> file_names{};
 };

@@ -9,6 +9,7 @@
 //   t        the duration of the block in seconds (FT)
 //   e        full turns of an arc beyond the first (TURN=)
 //   p q      radius and angle of a polar position (@ ^, PR PA)
+//   s        a tilted plane goes on within the last one
 //   k        an arc goes on in the direction of the move before it (CT)
 //   u v w    a second shift of a tilted plane, along its own axes
 //   f r      the feed of a hole cycle, per minute and per revolution
@@ -40,6 +41,7 @@ constexpr char kNamedWord = '@';
 constexpr char kPolarRadius = 'p';
 constexpr char kPolarAngle = 'q';
 constexpr char kTangential = 'k';
+constexpr char kSwivelOnTop = 's';
 
 // A letter and its value: a plain number (the fast, common case) or an expression.
 struct Word {
@@ -58,6 +60,7 @@ struct Assignment {
   std::optional<std::uint32_t> name{};  // index into Block::names
   ExpressionRange index{};
   ExpressionRange value{};
+  std::optional<VariableKind> defines{};  // DEF REAL LENGTH=5: a variable of the subprogram
 };
 
 struct Comment {

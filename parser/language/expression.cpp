@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -71,6 +72,8 @@ std::optional<Domain> domain_of(Operation operation, double a, double b) {
   switch (operation) {
     case Operation::divide:
       return Domain{b != 0.0, "division of {0} by zero", "check the divisor before dividing"};
+    case Operation::whole_quotient:
+      return Domain{b != 0.0, "{0} DIV zero", "check the divisor before DIV"};
     case Operation::modulo:
       return Domain{b != 0.0, "{0} MOD zero", "check the divisor before MOD"};
     case Operation::power:
@@ -128,6 +131,8 @@ double apply(Operation operation, double a, double b) {
       return std::pow(a, b);
     case Operation::modulo:
       return modulo(a, b);
+    case Operation::whole_quotient:
+      return std::trunc(a / b);
     case Operation::equal:
       return same(a, b) ? 1.0 : 0.0;
     case Operation::not_equal:
@@ -168,6 +173,10 @@ double apply(Operation operation, double a, double b) {
       return std::floor(a);
     case Operation::fup:
       return std::ceil(a);
+    case Operation::least:
+      return std::min(a, b);
+    case Operation::greatest:
+      return std::max(a, b);
     case Operation::logarithm:
       return std::log(a);
     case Operation::exponential:
@@ -200,7 +209,8 @@ double apply(Operation operation, double a, double b) {
 
 constexpr bool takes_two(Operation operation) {
   return (operation >= Operation::add && operation <= Operation::remainder) ||
-         operation == Operation::arc_tangent;
+         operation == Operation::arc_tangent || operation == Operation::least ||
+         operation == Operation::greatest;
 }
 
 Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
@@ -209,9 +219,9 @@ Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
 }
 
 const char* operator_text(Operation operation) {
-  constexpr std::array kText{"+",     "-",     "*",    "/",     "**",   " MOD ", " EQ ",
-                             " NE ",  " GT ",  " GE ", " LT ",  " LE ", " AND ", " OR ",
-                             " XOR ", " AND ", " OR ", " XOR ", " MOD "};
+  constexpr std::array kText{"+",    "-",     "*",     "/",    "**",    " MOD ", " DIV ",
+                             " EQ ", " NE ",  " GT ",  " GE ", " LT ",  " LE ",  " AND ",
+                             " OR ", " XOR ", " AND ", " OR ", " XOR ", " MOD "};
   return kText.at(static_cast<std::size_t>(operation) - static_cast<std::size_t>(Operation::add));
 }
 

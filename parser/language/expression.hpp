@@ -33,7 +33,8 @@ enum class Operation : std::uint8_t {
   divide,
   power,
   modulo,
-  equal,  // 1 or 0; within 1e-4, as RS-274 compares
+  whole_quotient,  // DIV, without its remainder
+  equal,           // 1 or 0; within 1e-4, as RS-274 compares
   not_equal,
   greater,
   greater_or_equal,
@@ -57,6 +58,8 @@ enum class Operation : std::uint8_t {
   round,
   fix,
   fup,
+  least,  // of two
+  greatest,
   logarithm,
   exponential,
   truncate,

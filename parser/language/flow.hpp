@@ -15,12 +15,14 @@
 //                 endrepeat
 //   leave_loop    o1 break
 //   next_turn     o1 continue
-//   subprogram    o1 sub                                 PROC
+//   subprogram    o1 sub
+//   program                                              %_N_NAME_SPF, PROC
 //   end_sub       o1 endsub [v]                          RET                  LBL 0
 //   give_back     o1 return [v]                          RET
 //   call          o1 call [a] ..                         NAME, NAME P3        CALL LBL 1, CALL PGM
 //   label                                                NAME:                LBL 1
 //   jump                             GOTO n, IF [c] ..   GOTOF NAME           FN 9: .. GOTO LBL 1
+//   choice                                               CASE R1 OF 1 GOTOF A
 //   only_if                          IF [c] THEN #1=2
 //   repeat_part                                          REPEAT A B P=3       CALL LBL 1 REP 3
 //
@@ -33,6 +35,7 @@
 #include <vector>
 
 #include "parser/language/expression.hpp"
+#include "parser/language/variable_kind.hpp"
 
 namespace frustum::parser {
 
@@ -51,6 +54,8 @@ enum class FlowKind : std::uint8_t {
   call,
   label,
   jump,
+  program,  // what follows is a program of that name, up to the next one
+  choice,   // a jump for each value
   only_if,  // the settings and words of its block count when the condition holds
   repeat_part,
 };
@@ -66,6 +71,27 @@ enum class Turns : std::uint8_t {
 // Where a jump looks for its label.
 enum class Search : std::uint8_t { forward, backward, forward_then_backward, from_start };
 
+// How far a repeated part goes.
+enum class PartEnd : std::uint8_t {
+  here,       // up to the statement
+  last,       // with the block of the last label, or of the first when there is none
+  end_label,  // up to ENDLABEL, where there is one, else as `here`
+};
+
+// One of the values of a choice; without a value, what holds for all others.
+struct Choice {
+  ExpressionRange value{};
+  std::string label{};
+  Search search = Search::from_start;
+};
+
+// What a program is called with.
+struct FormalParameter {
+  std::uint32_t name = 0;  // index into Block::names
+  VariableKind kind = VariableKind::real;
+  ExpressionRange otherwise{};  // what it is when the call gives none; 0 without
+};
+
 struct FlowStatement {
   FlowKind kind = FlowKind::label;
   std::uint32_t column = 0;
@@ -79,8 +105,13 @@ struct FlowStatement {
   ExpressionRange limit{};
   std::uint32_t variable = 0;  // index into Block::names
   Search search = Search::from_start;
-  std::vector<ExpressionRange> arguments{};  // of a call
-  std::string last_label{};                  // of a repeated part; empty: up to this block
+  bool may_be_missing = false;               // a jump that goes on when there is no such label
+  std::vector<ExpressionRange> arguments{};  // of a call; empty where one is left out
+  std::vector<FormalParameter> parameters{};
+  bool keeps_modes = false;  // of a program: its caller's modes come back
+  std::vector<Choice> choices{};
+  std::string last_label{};  // of a repeated part
+  PartEnd part_end = PartEnd::here;
 };
 
 }  // namespace frustum::parser

@@ -17,23 +17,26 @@ std::string spelling_of(std::string_view name) {
 
 }  // namespace
 
-Result<int> Parameters::index_of(double number) {
+Result<int> Parameters::index_of(double number, const ParameterRules& rules) {
   // A computed index may be off by rounding; RS-274 forgives 1e-4.
   const double nearest = std::round(number);
   if (std::abs(number - nearest) > 1e-4) {
-    return error(fmt::format("parameter #{} is not a whole number", decimal_text(number)),
-                 "use ROUND, FIX or FUP on the computed number");
+    return error(
+        fmt::format("parameter {}{} is not a whole number", rules.prefix, decimal_text(number)),
+        rules.prefix == '#' ? "use ROUND, FIX or FUP on the computed number"
+                            : "use ROUND or TRUNC on the computed number");
   }
-  if (nearest < 1.0 || nearest > kMaxParameterNumber) {
-    return error(fmt::format("parameter #{} does not exist", decimal_text(nearest)),
-                 fmt::format("parameters are #1 to #{}", kMaxParameterNumber));
+  if (nearest < rules.first || nearest > rules.last) {
+    return error(
+        fmt::format("parameter {}{} does not exist", rules.prefix, decimal_text(nearest)),
+        fmt::format("parameters are {0}{1} to {0}{2}", rules.prefix, rules.first, rules.last));
   }
   return static_cast<int>(nearest);
 }
 
 Result<double> Parameters::read(double number) const {
   if (rules_.unset_is_vacant && number == 0.0) return kVacant;
-  auto index = index_of(number);
+  auto index = index_of(number, rules_);
   if (!index) return std::move(index).error();
   if (system_ != nullptr) {
     if (const auto kept = system_->number(*index)) {
@@ -60,17 +63,59 @@ Result<double> Parameters::read(double number) const {
 }
 
 Result<double> Parameters::read(std::string_view name) const {
+  if (const auto number = number_in(name)) return read(*number);
   const Named& all = named(name);
   const auto found = all.find(name);
   if (found == all.end() && system_ != nullptr) {
     if (const auto kept = system_->named(name)) return *kept;
   }
   if (found == all.end()) {
+    if (rules_.names_are_defined) {
+      const bool system = name.starts_with('$');
+      return error(fmt::format("{} {}", name, system ? "has no value here" : "is not defined"),
+                   system ? "it is known once the program has moved the axis in this frame"
+                          : "define it before: DEF REAL and its name");
+    }
     const std::string spelled = spelling_of(name);
     return error(fmt::format("parameter {} has no value", spelled),
                  fmt::format("set it on an earlier block: {}=...", spelled));
   }
   return found->second;
+}
+
+std::optional<double> Parameters::number_in(std::string_view name) const {
+  if (!rules_.names_are_defined || name.size() < 2 || name.front() != rules_.prefix) {
+    return std::nullopt;
+  }
+  double number = 0.0;
+  for (const char c : name.substr(1)) {
+    if (c < '0' || c > '9') return std::nullopt;
+    number = 10.0 * number + (c - '0');
+  }
+  return number;
+}
+
+void Parameters::set(std::string_view name, double value) {
+  if (const auto number = number_in(name)) {
+    if (const auto index = index_of(*number, rules_)) set(*index, value);
+    return;
+  }
+  if (const auto kind = locals_.back().kinds.find(name); kind != locals_.back().kinds.end()) {
+    if (kind->second == VariableKind::whole) value = std::round(value);
+    if (kind->second == VariableKind::truth) value = value != 0.0 ? 1.0 : 0.0;
+  }
+  named(name).insert_or_assign(std::string(name), value);
+}
+
+void Parameters::define(std::string_view name, VariableKind kind, double value) {
+  locals_.back().kinds.insert_or_assign(std::string(name), kind);
+  set(name, value);
+}
+
+bool Parameters::can_set(std::string_view name) const {
+  if (!rules_.names_are_defined) return true;
+  if (const auto number = number_in(name)) return index_of(*number, rules_).has_value();
+  return named(name).contains(name);
 }
 
 bool Parameters::has(std::string_view name) const {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/language/variable_kind.hpp"
 
 namespace frustum::parser {
 
@@ -31,6 +32,11 @@ struct ParameterRules {
   bool unset_is_vacant = false;
   // From this number on they are the controller's own: one that it does not keep cannot be read. 0: none are.
   int first_system = 0;
+  char prefix = '#';  // how numbers are spelled
+  int first = 1;
+  int last = kMaxParameterNumber;
+  // R5 names the number 5; other names are set only when they were defined (Sinumerik).
+  bool names_are_defined = false;
 };
 
 // The parameters that a controller keeps itself; no value for what it does not keep, NaN for what it keeps and the
@@ -58,12 +64,14 @@ class Parameters {
   [[nodiscard]] Result<double> read(std::string_view name) const;
   [[nodiscard]] bool has(std::string_view name) const;
   // The number as an index, when a parameter of that number can exist.
-  [[nodiscard]] static Result<int> index_of(double number);
+  [[nodiscard]] static Result<int> index_of(double number, const ParameterRules& rules = {});
 
   void set(int index, double value) { numbered(index)[index] = value; }
-  void set(std::string_view name, double value) {
-    named(name).insert_or_assign(std::string(name), value);
-  }
+  void set(std::string_view name, double value);
+  // A variable of the subprogram at work, which keeps its kind: whole numbers are rounded.
+  void define(std::string_view name, VariableKind kind, double value);
+  [[nodiscard]] bool can_set(std::string_view name) const;
+  [[nodiscard]] const ParameterRules& rules() const { return rules_; }
 
   // A call: #1, #2, .. are `arguments` until the matching leave().
   void enter(std::span<const double> arguments);
@@ -75,10 +83,13 @@ class Parameters {
   struct Locals {
     Numbered numbered{};
     Named named{};
+    std::map<std::string, VariableKind, std::less<>> kinds{};
   };
+  // The number that a name such as R5 stands for.
+  [[nodiscard]] std::optional<double> number_in(std::string_view name) const;
   [[nodiscard]] bool is_local(int index) const { return index <= rules_.locals; }
   [[nodiscard]] bool is_local(std::string_view name) const {
-    return rules_.named_locals && !name.starts_with('_');
+    return rules_.named_locals && (rules_.names_are_defined || !name.starts_with('_'));
   }
   [[nodiscard]] Numbered& numbered(int index) {
     return is_local(index) ? locals_.back().numbered : numbered_;

@@ -11,7 +11,7 @@ namespace frustum::parser {
 namespace {
 
 // What follows a flow word.
-enum class FlowForm : std::uint8_t { alone, condition, branch, until, steps, target };
+enum class FlowForm : std::uint8_t { alone, condition, branch, until, steps, target, part, choice };
 struct FlowWord {
   std::string_view name;
   FlowKind kind;
@@ -29,11 +29,16 @@ constexpr std::array kFlowWords{
     FlowWord{"ENDFOR", FlowKind::end_loop},
     FlowWord{"LOOP", FlowKind::loop, FlowForm::alone, Turns::until_end},
     FlowWord{"ENDLOOP", FlowKind::end_loop},
-    FlowWord{"REPEAT", FlowKind::loop, FlowForm::alone, Turns::until_end},
+    FlowWord{"REPEAT", FlowKind::loop, FlowForm::part, Turns::until_end},
+    FlowWord{"REPEATB", FlowKind::repeat_part, FlowForm::part},
+    FlowWord{"CASE", FlowKind::choice, FlowForm::choice},
+    FlowWord{"RET", FlowKind::give_back},
     FlowWord{"UNTIL", FlowKind::end_loop, FlowForm::until},
     FlowWord{"GOTOF", FlowKind::jump, FlowForm::target, Turns::while_true, Search::forward},
     FlowWord{"GOTOB", FlowKind::jump, FlowForm::target, Turns::while_true, Search::backward},
     FlowWord{"GOTO", FlowKind::jump, FlowForm::target, Turns::while_true,
+             Search::forward_then_backward},
+    FlowWord{"GOTOC", FlowKind::jump, FlowForm::target, Turns::while_true,
              Search::forward_then_backward},
 };
 const FlowWord* flow_word(std::string_view name) {
@@ -69,12 +74,17 @@ class FlowReader {
         read_steps();
         break;
       case FlowForm::target:
-        read_target(word.name);
+        block_.flow->label = read_target(word.name);
+        block_.flow->may_be_missing = word.name == "GOTOC";
+        break;
+      case FlowForm::part:
+        read_part(word.name);
+        break;
+      case FlowForm::choice:
+        read_choices();
         break;
     }
-    if (word.name == "REPEAT" && !in_.at_end() && in_.peek() != ';') {
-      in_.fail(column, "REPEAT of labelled blocks is not simulated", "write them in FOR or LOOP");
-    } else if (!in_.at_end() && in_.peek() != ';') {
+    if (!in_.at_end() && in_.peek() != ';') {
       in_.fail_unexpected(fmt::format("{} stands alone in its block", word.name));
     }
   }
@@ -110,15 +120,59 @@ class FlowReader {
     (void)in_.name();
     block_.flow->kind = FlowKind::jump;
     block_.flow->search = jump->search;
-    read_target(jump->name);
+    block_.flow->may_be_missing = jump->name == "GOTOC";
+    block_.flow->label = read_target(jump->name);
   }
 
-  void read_target(std::string_view whose) {
+  std::string read_target(std::string_view whose) {
     const std::uint32_t column = in_.column();
-    block_.flow->label = in_.name();
-    if (!in_.failed() && block_.flow->label.empty()) {
+    std::string label = in_.name();
+    if (!in_.failed() && label.empty()) {
       in_.fail(column, fmt::format("{} has no label", whose),
                fmt::format("write for example {} LABEL1 or {} N100", whose, whose));
+    }
+    return label;
+  }
+
+  // REPEAT A, REPEAT A B, REPEATB A, each with P=3 or without; REPEAT alone is a loop.
+  void read_part(std::string_view whose) {
+    const bool one_block = whose == "REPEATB";
+    if (!one_block && (in_.at_end() || in_.peek() == ';')) return;
+    block_.flow->kind = FlowKind::repeat_part;
+    block_.flow->label = read_target(whose);
+    block_.flow->part_end = one_block ? PartEnd::last : PartEnd::end_label;
+    if (!one_block && !in_.at_end() && in_.peek() != ';' && in_.next_name() != "P") {
+      block_.flow->last_label = read_target(whose);
+      block_.flow->part_end = PartEnd::last;
+    }
+    if (!in_.take_name("P")) return;
+    if (!in_.take('=')) in_.fail(in_.column(), "P has no =", "write the number of repeats as P=3");
+    block_.flow->condition = draft_.read_expression(ExpressionLevel::sum);
+  }
+
+  // CASE R1 OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C.
+  void read_choices() {
+    read_condition("CASE");
+    if (!in_.take_name("OF")) {
+      in_.fail(in_.column(), "CASE has no OF", "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B");
+    }
+    while (!in_.at_end() && in_.peek() != ';') {
+      Choice choice;
+      const bool others = in_.take_name("DEFAULT");
+      if (!others) choice.value = draft_.read_expression(ExpressionLevel::operand);
+      const std::uint32_t column = in_.column();
+      const FlowWord* jump = flow_word(in_.name());
+      if (jump == nullptr || jump->form != FlowForm::target) {
+        in_.fail(column, "a value of CASE has no jump", "write 1 GOTOF LABEL1");
+        return;
+      }
+      choice.search = jump->search;
+      choice.label = read_target(jump->name);
+      block_.flow->choices.push_back(std::move(choice));
+      if (others) return;
+    }
+    if (block_.flow->choices.empty()) {
+      in_.fail(in_.column(), "CASE has no values", "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B");
     }
   }
 
@@ -126,8 +180,9 @@ class FlowReader {
   void read_steps() {
     const std::uint32_t column = in_.column();
     const std::string name = in_.name();
-    if (!is_r_parameter(name) || !in_.take('=')) {
-      in_.fail(column, "FOR has no R parameter to count", "write FOR R1=1 TO 5");
+    if ((!is_r_parameter(name) && !is_variable(name)) || !in_.take('=')) {
+      in_.fail(column, "FOR has no R parameter to count",
+               "write FOR R1=1 TO 5, or count in a variable of DEF INT");
       return;
     }
     block_.flow->variable = draft_.add_name(name);

@@ -8,6 +8,7 @@
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/block_draft.hpp"
 #include "parser/reading/block_reader.hpp"
+#include "parser/reading/sinumerik_call.hpp"
 #include "parser/reading/sinumerik_flow.hpp"
 #include "parser/reading/sinumerik_swivel.hpp"
 #include "parser/reading/sinumerik_values.hpp"
@@ -23,13 +24,16 @@ struct Address {
   const char* spelled;
 };
 // Words that are written with = and longer than their letter.
-constexpr std::array kAddresses{Address{"A3", 'a', "A3="}, Address{"B3", 'b', "B3="},
-                                Address{"C3", 'c', "C3="}, Address{"CR", 'R', "CR="},
-                                Address{"TURN", 'e', "TURN="}};
+constexpr std::array kAddresses{Address{"A3", 'a', "A3="},     Address{"B3", 'b', "B3="},
+                                Address{"C3", 'c', "C3="},     Address{"CR", 'R', "CR="},
+                                Address{"TURN", 'e', "TURN="}, Address{"RPL", 'R', "RPL="}};
+// Settings that change nothing that is simulated.
+constexpr std::array<const char*, 8> kSettings{"SPOS", "SPOSA", "ADIS",   "ADISPOS",
+                                               "LIMS", "OVR",   "OVRRAP", "ACC"};
 
 // Statements that take anything in brackets and change nothing that is simulated.
-constexpr std::array<const char*, 7> kEvents{"CYCLE832",    "WORKPIECE", "FGROUP", "FGREF",
-                                             "GROUP_BEGIN", "GROUP_END", "EXTERN"};
+constexpr std::array<const char*, 6> kEvents{"CYCLE832", "WORKPIECE",   "FGROUP",
+                                             "FGREF",    "GROUP_BEGIN", "GROUP_END"};
 
 class SinumerikReader {
  public:
@@ -45,11 +49,7 @@ class SinumerikReader {
  private:
   void read_start() {
     if (in_.take('%')) {
-      block_.tape_mark = true;
-      const std::uint32_t column = in_.column();
-      std::string name = in_.text_to();
-      if (!name.empty()) block_.comments.push_back({column, false, std::move(name), nullptr});
-      return;
+      return read_sinumerik_head(draft_);
     }
     if (in_.take('/')) {
       block_.deletable = true;
@@ -58,7 +58,10 @@ class SinumerikReader {
       }
     }
     const std::uint32_t column = in_.column();
-    if (in_.take(':') || (in_.peek() == 'N' && in_.letters() == "N")) {
+    const bool numbered = in_.take(':') || (in_.peek() == 'N' && in_.letters() == "N");
+    // NORM is a word.
+    if (!numbered) in_.go_to(column);
+    if (numbered) {
       const auto digits = in_.digits();
       std::uint32_t number = 0;
       std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -87,9 +90,14 @@ class SinumerikReader {
     const std::string letters = in_.letters();
     const char next = in_.peek_byte();
     if (letters.size() == 1 && letters != "_") {
+      if (letters == "R" && in_.take('[')) return read_indexed_setting(column);
       if (next >= '0' && next <= '9') {
         const auto digits = in_.digits();
         const bool extended = in_.peek() == '=';
+        // Leading zeros count: L1 is not L01.
+        if (letters == "L" && !extended) {
+          return read_sinumerik_call(draft_, letters + std::string(digits), column);
+        }
         if (extended) return read_extended(letters + std::string(digits), column);
         in_.go_to(column);
         (void)in_.letters();
@@ -110,6 +118,15 @@ class SinumerikReader {
       in_.fail(column, "R has no =", "write R1=value to set a parameter, X=R1 to use one");
       return;
     }
+    if (letter == 'G') {
+      // The limits of the spindle and of the working area have words of their own.
+      const std::uint32_t start = in_.column();
+      const auto digits = in_.digits();
+      if (digits == "25" || digits == "26") {
+        return draft_.add_event(digits == "25" ? "G25" : "G26", column, in_.text_to(";"));
+      }
+      in_.go_to(start);
+    }
     Word word;
     word.letter = letter;
     word.column = column;
@@ -128,6 +145,17 @@ class SinumerikReader {
       word.decimal_point = number->decimal_point;
     }
     block_.words.push_back(word);
+  }
+
+  // R[R1+1]=5
+  void read_indexed_setting(std::uint32_t column) {
+    Assignment setting;
+    setting.column = column;
+    setting.index = draft_.read_expression(ExpressionLevel::sum);
+    if (!in_.take(']')) in_.fail(in_.column(), "the index is not closed", "close it with ]");
+    if (!in_.take('=')) in_.fail(column, "R has no =", "write R[R1]=value to set a parameter");
+    setting.value = draft_.read_expression(ExpressionLevel::sum);
+    block_.assignments.push_back(setting);
   }
 
   // A3=, R1=: a letter, digits and =.
@@ -163,13 +191,16 @@ class SinumerikReader {
     if (in_.peek() == ':') return read_sinumerik_label(draft_, name, column);
     if (read_sinumerik_flow(draft_, name, column)) return;
     if (name == "MSG") return read_event("message", column, true);
-    if (name == "SPOS" || name == "SPOSA") {
-      if (!in_.take('=')) return in_.fail(column, name + " has no =", "write SPOS=0");
-      return draft_.add_event("SPOS", column, in_.text_to(";"));
+    for (const char* setting : kSettings) {
+      if (name == setting) return read_setting(setting, column);
     }
     if (name == "CYCLE800") return read_sinumerik_swivel(draft_, column);
+    if (name == "PROC") return read_sinumerik_procedure(draft_, column);
+    if (name == "DEF") return read_sinumerik_definition(draft_, column);
+    if (name == "EXTERN") return draft_.add_event("EXTERN", column, in_.text_to(";"));
     for (const char* event : kEvents) {
-      if (name == event) return read_event(event, column, false);
+      if (name != event) continue;
+      return in_.peek() == '[' ? read_setting(event, column) : read_event(event, column, false);
     }
     if (const Code* code = find_code(Dialect::sinumerik, name); code != nullptr) {
       add_code(block_, *code, column);
@@ -186,7 +217,34 @@ class SinumerikReader {
       in_.fail(column, name + " is not simulated", std::string(remedy));
       return;
     }
+    if (in_.peek() == '=' && is_variable(name)) {
+      in_.take('=');
+      draft_.begin_setting(name, column);
+      (void)draft_.read_expression(ExpressionLevel::disjunction);
+      return draft_.end_setting();
+    }
+    const bool first = block_.words.empty() && block_.assignments.empty() && !block_.flow;
+    if (first && name.size() > 1) return read_sinumerik_call(draft_, name, column);
     in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
+  }
+
+  // ADIS=0.1, read and kept as text.
+  void read_setting(const char* name, std::uint32_t column) {
+    if (in_.take('[')) {
+      (void)in_.text_to("]");
+      in_.take(']');
+    }
+    if (!in_.take('=')) {
+      return in_.fail(column, fmt::format("{} has no =", name), fmt::format("write {}=0", name));
+    }
+    const std::uint32_t from = in_.column();
+    // SPOS=DC(30) says how it turns.
+    for (const std::string_view measure : {"AC", "IC", "DC", "ACP", "ACN"}) {
+      if (in_.take_name(measure)) break;
+    }
+    (void)draft_.read_expression(ExpressionLevel::sum);
+    const auto text = in_.text().substr(from - 1, in_.column() - from);
+    draft_.add_event(name, column, std::string(text.substr(0, text.find_last_not_of(" \t\r") + 1)));
   }
 
   // NAME(...), kept as text.

@@ -91,10 +91,11 @@ class SwivelReader {
       words.push_back(word);
     } else if (i == 0 && (word.number != 0.0 || !word.expression.empty())) {
       draft_.add_event("CYCLE800", column, "the retract before the swivel");
-    } else if (i == kSwivelStatus && (!word.expression.empty() ||
-                                      static_cast<long>(std::min(word.number, 1e6)) % 10 == 1)) {
-      in_.fail(column, "CYCLE800 on top of another swivel is not simulated",
-               "give the whole turn in one call: 0 as the third parameter");
+    } else if (i == kSwivelStatus && !word.expression.empty()) {
+      in_.fail(column, "the status of CYCLE800 is computed",
+               "write 0 for a new swivel, 1 for one on top of the last");
+    } else if (i == kSwivelStatus && static_cast<long>(std::min(word.number, 1e6)) % 10 == 1) {
+      words.push_back({kSwivelOnTop, false, column, 1.0, {}, Measure::modal, "_ST="});
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace frustum::parser {
 namespace {
@@ -25,6 +26,7 @@ constexpr std::array kOperators{
     BinaryOperator{product, "*", Operation::multiply},
     BinaryOperator{product, "/", Operation::divide},
     BinaryOperator{product, "MOD", Operation::modulo},
+    BinaryOperator{product, "DIV", Operation::whole_quotient},
 };
 constexpr std::array kFunctions{
     ExpressionFunction{"SIN", Operation::sine},
@@ -38,10 +40,82 @@ constexpr std::array kFunctions{
     ExpressionFunction{"ROUND", Operation::round},
     ExpressionFunction{"LN", Operation::logarithm},
     ExpressionFunction{"EXP", Operation::exponential},
+    ExpressionFunction{"TRUNC", Operation::truncate},
+    ExpressionFunction{"ROUNDUP", Operation::fup},
+    ExpressionFunction{"MINVAL", Operation::least, 2},
+    ExpressionFunction{"MAXVAL", Operation::greatest, 2},
 };
+struct Constant {
+  std::string_view name;
+  double value;
+};
+constexpr std::array kConstants{Constant{"TRUE", 1.0}, Constant{"FALSE", 0.0}};
+
+// What the control knows itself: those of an axis, as $P_EP[X], and those of the program.
+constexpr std::array<std::string_view, 2> kOfAnAxis{"P_EP", "AA_IW"};
+constexpr std::array<std::string_view, 4> kOfTheProgram{"P_TOOLNO", "P_F", "P_S", "P_SDIR"};
+
+void read_system_variable(ExpressionReader& reader, std::uint32_t column) {
+  LineScanner& in = reader.in();
+  std::string name = in.name();
+  const auto is_in = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (name == "PI") return reader.push_number(std::numbers::pi, column);
+  const bool of_an_axis = is_in(kOfAnAxis);
+  if (!of_an_axis && !is_in(kOfTheProgram)) {
+    in.fail(column, fmt::format("${} is not simulated", name),
+            "known are $P_EP[X] $AA_IW[X] $P_TOOLNO $P_F $P_S $P_SDIR $PI; else give a number");
+    return;
+  }
+  if (of_an_axis) {
+    const bool opens = in.take('[');
+    const std::uint32_t place = in.column();
+    const std::string axis = in.name();
+    if (!opens || axis.size() != 1 || std::string_view("XYZABC").find(axis) == std::string::npos ||
+        !in.take(']')) {
+      in.fail(place, fmt::format("${} without its axis", name), fmt::format("write ${}[X]", name));
+      return;
+    }
+    name += "[" + axis + "]";
+  }
+  reader.push_name("$" + name, column);
+}
+
+void close_index(LineScanner& in) {
+  if (!in.take(']')) in.fail(in.column(), "the index is not closed", "close it with ]");
+}
 
 bool read_variable(ExpressionReader& reader, const std::string& name, std::uint32_t column) {
-  if (!is_r_parameter(name)) return false;
+  LineScanner& in = reader.in();
+  if (name.empty()) {
+    if (!in.take('$')) return false;
+    read_system_variable(reader, column);
+    return true;
+  }
+  const auto* constant = std::find_if(kConstants.begin(), kConstants.end(),
+                                      [&](const Constant& c) { return c.name == name; });
+  if (constant != kConstants.end()) {
+    reader.push_number(constant->value, column);
+    return true;
+  }
+  if (name == "R" && in.take('[')) {
+    reader.append(sum);
+    close_index(in);
+    reader.push(Operation::parameter, column);
+    return true;
+  }
+  if (!is_r_parameter(name) && !is_variable(name)) return false;
+  if (in.peek() == '(') {
+    in.fail(
+        column, fmt::format("unknown function {}", name),
+        "known are SIN COS TAN ASIN ACOS ATAN2 SQRT ABS ROUND ROUNDUP TRUNC LN EXP MINVAL MAXVAL");
+    return true;
+  }
+  if (in.peek() == '[') {
+    in.fail(column, fmt::format("{} is an array", name), "use R parameters: R[10+R1]");
+    return true;
+  }
   reader.push_name(name, column);
   return true;
 }
@@ -55,7 +129,7 @@ constexpr ExpressionSpelling kSpelling{
     .no_operand_hint = "write a number, an R parameter, a function or an expression in ( )",
     .unknown_operand = "unknown operand {}",
     .unknown_operand_hint =
-        "known are R parameters and SIN COS TAN ASIN ACOS ATAN2 SQRT ABS ROUND LN EXP",
+        "known are R parameters, variables of DEF and functions such as SIN(30)",
     .too_deep_hint = "compute a part into an R parameter",
     .single_equals_hint = "compare by ==",
 };
@@ -75,6 +149,11 @@ const ExpressionSpelling& sinumerik_expressions() { return kSpelling; }
 bool is_r_parameter(std::string_view name) {
   return name.size() > 1 && name.front() == 'R' &&
          name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+bool is_variable(std::string_view name) {
+  const auto is_letter = [](char c) { return c == '_' || (c >= 'A' && c <= 'Z'); };
+  return name.size() > 1 && is_letter(name[0]) && is_letter(name[1]);
 }
 
 void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name) {

@@ -16,6 +16,9 @@ namespace frustum::parser {
 // R and digits.
 [[nodiscard]] bool is_r_parameter(std::string_view name);
 
+// As DEF names them: two letters or _ at least, then digits too.
+[[nodiscard]] bool is_variable(std::string_view name);
+
 // What is behind the = of the word `name`: an expression, or AC() IC() DC() around one.
 void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name);
 

@@ -16,7 +16,7 @@ constexpr std::size_t kZ = 2;
 using ToolOffset = std::array<double, kAxisLetters.size()>;
 
 // The turn, and what is added besides the origin of X Y Z and the tool's length.
-WordFrame frame_of(const WorkOffset& datum, const ToolOffset& tool) {
+WordFrame data_frame(const WorkOffset& datum, const ToolOffset& tool) {
   WordFrame frame;
   if (datum.rotation != 0.0) frame.turn.rotation = rotation_z(datum.rotation);
   frame.turn.translation = Vec3(tool[0], tool[1], 0.0);
@@ -66,7 +66,7 @@ bool follows_words(const ModalState& state, AxisLetter axis) {
 
 void BlockExecutor::place_datum(const WorkOffset& datum) {
   state_.datum = datum;
-  state_.offset_frame = frame_of(datum, state_.compensation.offset().value_or(ToolOffset{}));
+  state_.offset_frame = data_frame(datum, state_.compensation.offset().value_or(ToolOffset{}));
 }
 
 // With Fanuc's external offset, which is added to all.

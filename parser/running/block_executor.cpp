@@ -156,8 +156,8 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
     }
     return Movement{non_modal, mode, non_modal_code.column};
   }
-  for (const CodeGroup group :
-       {CodeGroup::tilted_plane, CodeGroup::scaling, CodeGroup::mirror, CodeGroup::hole_cycle}) {
+  for (const CodeGroup group : {CodeGroup::tilted_plane, CodeGroup::program_frame,
+                                CodeGroup::scaling, CodeGroup::mirror, CodeGroup::hole_cycle}) {
     const Code* frame = words[group].code;
     if (frame != nullptr && !frame->arguments.empty()) {
       return Movement{non_modal, MotionMode::none, 0};
@@ -266,10 +266,14 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
     const auto value = evaluate(context, setting.value);
     if (!value) return in_this_block(value.error().front());
     int index = 0;
+    if (setting.name && !setting.defines && !parameters_.can_set(block.names[*setting.name])) {
+      return fail(setting.column, fmt::format("{} is not defined", block.names[*setting.name]),
+                  "define it before: DEF REAL and its name; parameters are R0 to R999");
+    }
     if (!setting.name) {
       const auto number = evaluate(context, setting.index);
       if (!number) return in_this_block(number.error().front());
-      const auto checked = Parameters::index_of(*number);
+      const auto checked = Parameters::index_of(*number, rules_.parameters);
       if (!checked) {
         return fail(setting.column, checked.error().front().message, checked.error().front().hint);
       }
@@ -279,7 +283,9 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& name = block.assignments[i].name;
-    if (name) {
+    if (const auto kind = block.assignments[i].defines) {
+      parameters_.define(block.names[*name], *kind, values[i].second);
+    } else if (name) {
       parameters_.set(block.names[*name], values[i].second);
     } else {
       const std::uint32_t column = block.assignments[i].column;
@@ -435,10 +441,10 @@ BlockExecutor::Outcome BlockExecutor::keep_modes(const BlockWords& words) {
   SavedModes& saved = saved_modes_.back();
   switch (static_cast<SavedModesWord>(code.code->value)) {
     case SavedModesWord::save:
-      saved = {state_, false};
+      saved = {state_, false, false};
       break;
     case SavedModesWord::save_for_call:
-      saved = {state_, true};
+      saved = {state_, true, false};
       break;
     case SavedModesWord::drop:
       saved = {};
@@ -461,13 +467,20 @@ void BlockExecutor::restore_modes(std::uint32_t column) {
   state_.distance = saved.distance;
   state_.arc_distance = saved.arc_distance;
   state_.feed_mode = saved.feed_mode;
-  state_.feed = saved.feed;
+  const bool all = !saved_modes_.back().of_g_words;
+  if (all) {
+    state_.feed = saved.feed;
+  } else {
+    state_.motion = saved.motion;
+    if (rules_.planes_end_frames) set_program_frame(saved.program_frame);
+  }
   state_.retract_to_initial = saved.retract_to_initial;
   state_.surface_speed = saved.surface_speed;
   if (state_.work_offset != saved.work_offset) {
     // It was in force before, so that there is nothing to complain of.
     static_cast<void>(select_work_offset(saved.work_offset, column));
   }
+  if (!all) return;
   if (state_.spindle != saved.spindle || state_.spindle_speed != saved.spindle_speed) {
     state_.spindle = saved.spindle;
     state_.spindle_speed = saved.spindle_speed;

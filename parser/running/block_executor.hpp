@@ -83,6 +83,8 @@ class BlockExecutor {
   // After a block that could not be carried out: the axes that it names are where it says, as far as that is
   // plain, and not known otherwise.
   void pass_over(const Block& block);
+  // The modes of G words and the frame come back at the end of the call at work (SAVE).
+  void keep_modes_for_call() { saved_modes_.back() = {state_, true, true}; }
 
  private:
   struct Done {};
@@ -134,6 +136,11 @@ class BlockExecutor {
   void change_word_frame(const WordFrame& next);
   [[nodiscard]] Outcome shift_words(const BlockWords& words, NonModal how);
   [[nodiscard]] Outcome turn_words(const BlockWords& words);
+  [[nodiscard]] Outcome change_program_frame(const BlockWords& words);
+  [[nodiscard]] Result<ProgramFrame> frame_of(const BlockWords& words, FrameWord word) const;
+  [[nodiscard]] Result<ProgramFrame> scaling_of(const BlockWords& words) const;
+  void set_program_frame(const ProgramFrame& next);
+  [[nodiscard]] Result<Pose> plane_below(const BlockWords& words) const;
   [[nodiscard]] Outcome check_word_frame(const Movement& movement) const;
 
   // What lies between words and axes, and positions that follow it (block_datum.cpp).
@@ -229,6 +236,7 @@ class BlockExecutor {
   struct SavedModes {
     std::optional<ModalState> state{};
     bool comes_back = false;
+    bool of_g_words = false;  // feed, spindle and coolant stay as they are
   };
   std::vector<SavedModes> saved_modes_{1};
   SystemParameters system_{rules_.dialect, state_, position_, data_};

@@ -63,6 +63,19 @@ std::optional<std::array<int, 3>> axis_sequence(int mode) {
   return axes;
 }
 
+// The turn of a swivel mode: axis by axis, or by solid angles: about Z, then the new Y.
+std::optional<Mat3> swivelled(int mode, const Vec3& angles) {
+  constexpr int kSolidAngles = 64;
+  if ((mode & 192) == kSolidAngles) return Mat3(turn(2, angles[0]) * turn(1, angles[1]));
+  const auto axes = axis_sequence(mode);
+  if (!axes) return std::nullopt;
+  Mat3 rotation = Mat3::Identity();
+  for (std::size_t i = 0; i < axes->size(); ++i) {
+    rotation = rotation * turn(axes->at(i), angles[static_cast<Eigen::Index>(i)]);
+  }
+  return rotation;
+}
+
 }  // namespace
 
 bool BlockExecutor::guides_tip(const BlockWords& words) const {
@@ -185,6 +198,18 @@ Vec3 BlockExecutor::vector_of(const BlockWords& words, std::string_view letters)
   return {words[letters[0]].value, words[letters[1]].value, words[letters[2]].value};
 }
 
+// What a tilted plane is given in: the offset's coordinates, or, on top of the last plane, its words.
+Result<Pose> BlockExecutor::plane_below(const BlockWords& words) const {
+  if (!words.has(kSwivelOnTop)) return Pose{Mat3::Identity(), Vec3::Zero()};
+  const ProgramFrame& frame = state_.program_frame;
+  if (frame.scale != 1.0 || frame.linear.determinant() < 0.0) {
+    return fail(words[kSwivelOnTop].column, "a swivel on top of a scaled or mirrored frame",
+                "end SCALE and MIRROR before, by TRANS alone");
+  }
+  const Pose within{frame.linear, frame.origin};
+  return state_.tilted ? state_.tilt * within : within;
+}
+
 BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) {
   const GivenCode& tilt = words[CodeGroup::tilted_plane];
   if (tilt.code == nullptr) return Done{};
@@ -204,21 +229,23 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
     change_word_frame(straight);
     if (!state_.tilted) return Done{};
   }
+  // A new plane begins without programmable frame; on top of the last one, it begins where its words are.
+  const auto below = plane_below(words);
+  if (!below) return below.error();
+  if (rules_.planes_end_frames) set_program_frame({});
   Pose plane{Mat3::Identity(), Vec3::Zero()};
   if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale();
   if (kind == TiltWord::swivel) {
     const auto mode = whole(words, 'Q', 0, 255);
     if (!mode) return mode.error();
-    const auto axes = axis_sequence(*mode);
-    if (!axes) {
+    const auto rotation = swivelled(*mode, vector_of(words, "ABC") * kRadPerDeg);
+    if (!rotation) {
       return fail(words['Q'].column, fmt::format("swivel mode {} is not simulated", *mode),
-                  "turn axis by axis: mode 57 turns about X, then Y, then Z");
+                  "turn axis by axis, mode 57: X, then Y, then Z; or by solid angles, mode 64");
     }
-    const Vec3 angles = vector_of(words, "ABC") * kRadPerDeg;
-    for (std::size_t i = 0; i < axes->size(); ++i) {
-      plane.rotation = plane.rotation * turn(axes->at(i), angles[static_cast<Eigen::Index>(i)]);
-    }
+    plane.rotation = *rotation;
     plane.translation += plane.rotation * (vector_of(words, "uvw") * unit_scale());
+    plane = *below * plane;
   }
   const bool aligns = words.has('d') && words['d'].value != 0.0;
   if (kind != TiltWord::off || state_.tilted || aligns) {
@@ -275,6 +302,7 @@ BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
   if (auto done = set_work_offset(words); !done) return done;
   if (auto done = set_mirror(words); !done) return done;
   if (auto done = set_scaling(words); !done) return done;
+  if (auto done = change_program_frame(words); !done) return done;
   if (auto done = set_tilted_plane(words); !done) return done;
   set_polar_mode(words);
   set_paths(words);

@@ -287,6 +287,9 @@ BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLe
   const bool absolute = measure == Measure::modal ? state_.distance == DistanceMode::absolute
                                                   : measure != Measure::incremental;
   if (absolute) {
+    LetterSet placed;
+    placed.add(letter);
+    state_.placed_in_other_frame = state_.placed_in_other_frame.without(placed);
     position_.set(axis, value);
     return Done{};
   }
@@ -294,6 +297,12 @@ BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLe
     return fail(words[letter].column,
                 fmt::format("{} is incremental, but {}", words.text_of(letter),
                             position_.why_unknown(axis)),
+                fmt::format("program {} once in absolute coordinates (G90) first", letter));
+  }
+  if (state_.placed_in_other_frame.has(letter)) {
+    return fail(words[letter].column,
+                fmt::format("{} is incremental, but the frame has changed since {} was programmed",
+                            words.text_of(letter), letter),
                 fmt::format("program {} once in absolute coordinates (G90) first", letter));
   }
   position_.set(axis, *position_[axis] + value);

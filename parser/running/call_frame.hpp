@@ -73,7 +73,8 @@ struct CallFrame {
   SourcePlace named{};  // where its name stands
   std::uint64_t runs_left = 1;
   bool has_locals = false;
-  bool opened = false;  // a block that does something has been reached
+  bool opened = false;              // a block that does something has been reached
+  std::vector<double> arguments{};  // for the head of the program; vacant where left out
   std::vector<CountedLoop> loops{};
   std::vector<RepeatedPart> parts{};
   // Those at work in this program, innermost last. Moves of a macro called by one of them call those before it.

@@ -9,11 +9,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "parser/language/letter_set.hpp"
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
 #include "parser/running/control_data.hpp"
 #include "parser/running/feature_frame.hpp"
 #include "parser/running/hole_cycle.hpp"
+#include "parser/running/program_frame.hpp"
 #include "parser/running/word_frame.hpp"
 
 namespace frustum::parser {
@@ -99,6 +101,8 @@ struct ModalState {
   std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last
   std::optional<PolarMode> polar{};       // G16
   WordFrame word_frame{};
+  ProgramFrame program_frame{};            // of Sinumerik, which is its word frame
+  LetterSet placed_in_other_frame{};       // axes that no absolute word has placed since it changed
   std::optional<WordFrame> frame_below{};  // of the words before G68.2: that plane lies in it
   std::optional<Vec3> pole{};              // CC
   std::optional<Heading> heading{};        // of the last move

@@ -85,6 +85,10 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
       return repeat(block);
     case FlowKind::label:
       return block.words.empty() && block.assignments.empty() ? std::nullopt : execute(block);
+    case FlowKind::program:
+      return receive(block);
+    case FlowKind::choice:
+      return choose(block);
     case FlowKind::only_if: {
       const auto condition = holds(block, flow);
       if (!condition) return condition.error().front();
@@ -166,6 +170,10 @@ ProgramRun::Failure ProgramRun::enter_loop(const Block& block, const Landmark& h
     const auto limit = value_of(block, flow.limit);
     if (!limit) return limit.error().front();
     const std::string& variable = block.names[flow.variable];
+    if (!executor_.parameters().can_set(variable)) {
+      return at(block, flow.column, fmt::format("{} is not defined", variable),
+                "define it before: DEF INT and its name");
+    }
     executor_.parameters().set(variable, *first);
     goes = *first <= *limit;
     if (goes) loops.push_back({here.place.offset, 0.0, variable, *limit});
@@ -228,6 +236,10 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   }
   std::vector<double> arguments;
   for (const ExpressionRange& argument : flow.arguments) {
+    if (argument.empty()) {
+      arguments.push_back(kVacant);
+      continue;
+    }
     const auto value = value_of(block, argument);
     if (!value) return value.error().front();
     arguments.push_back(*value);
@@ -235,6 +247,9 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   const auto count = count_of(block, flow.condition);
   if (!count) return count.error().front();
   if (*count == 0) return std::nullopt;
+  if (rules_.subprograms_are_programs) {
+    return call_program(block, *name, std::move(arguments), *count);
+  }
   const auto holder = program_with(*name);
   const Landmark* entry = holder == nullptr ? nullptr : holder->map().target(*name);
   if (holder != nullptr && !holder->map().faults().empty()) return holder->map().faults().front();
@@ -252,8 +267,79 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   return std::nullopt;
 }
 
+// A program with its head in a file that is open, or in one of its own.
+ProgramRun::Failure ProgramRun::call_program(const Block& block, const std::string& name,
+                                             std::vector<double> arguments, std::uint64_t count) {
+  std::shared_ptr<LoadedProgram> holder = frame().program;
+  if (holder->map().head(name) == nullptr) holder = main_;
+  if (holder->map().head(name) == nullptr) holder = file_of(name);
+  if (holder == nullptr) {
+    return at(
+        block, block.flow->column, fmt::format("no subprogram {}", name),
+        fmt::format("write it behind the program, under %_N_{0}_SPF, or in a file {0}.spf", name));
+  }
+  const Landmark* head = holder->map().head(name);
+  CallFrame next{holder,
+                 BlockCursor(holder->program()),
+                 name,
+                 "RET",
+                 head == nullptr ? TextPlace{} : head->place,
+                 head == nullptr ? SourcePlace{1, 1} : SourcePlace{head->place.line, head->column},
+                 count,
+                 true};
+  next.arguments = std::move(arguments);
+  if (auto failure = push_call(block, block.flow->column, std::move(next))) return failure;
+  executor_.parameters().enter({});
+  return std::nullopt;
+}
+
+// PROC NAME(REAL WIDTH, INT COUNT=2): what the call gave gets its names.
+ProgramRun::Failure ProgramRun::receive(const Block& block) {
+  const FlowStatement& flow = *block.flow;
+  if (frames_.size() == 1) return std::nullopt;
+  const std::vector<double>& given = frame().arguments;
+  // A head without PROC takes none, which the call cannot know.
+  if (given.size() > flow.parameters.size() && !block.tape_mark) {
+    return at(block, flow.column,
+              fmt::format("{} is called with {} arguments and has {} parameters", frame().name,
+                          given.size(), flow.parameters.size()),
+              "name the parameters in PROC, or leave arguments out");
+  }
+  if (flow.keeps_modes && frame().runs_left > 0) executor_.keep_modes_for_call();
+  for (std::size_t i = 0; i < flow.parameters.size(); ++i) {
+    const FormalParameter& parameter = flow.parameters[i];
+    double value = i < given.size() ? given[i] : kVacant;
+    if (is_vacant(value) && !parameter.otherwise.empty()) {
+      const auto otherwise = value_of(block, parameter.otherwise);
+      if (!otherwise) return otherwise.error().front();
+      value = *otherwise;
+    }
+    executor_.parameters().define(block.names[parameter.name], parameter.kind,
+                                  is_vacant(value) ? 0.0 : value);
+  }
+  return std::nullopt;
+}
+
+// CASE: the first value that is the condition's.
+ProgramRun::Failure ProgramRun::choose(const Block& block) {
+  const auto value = value_of(block, block.flow->condition);
+  if (!value) return value.error().front();
+  for (const Choice& choice : block.flow->choices) {
+    if (!choice.value.empty()) {
+      const auto candidate = value_of(block, choice.value);
+      if (!candidate) return candidate.error().front();
+      // Constants are whole numbers.
+      if (std::abs(*candidate - *value) > 1e-4) continue;
+    }
+    return go_to_label(block, choice.label, choice.search);
+  }
+  return std::nullopt;
+}
+
 ProgramRun::Failure ProgramRun::give_back(const Block& block) {
   const FlowStatement& flow = *block.flow;
+  if (frames_.size() == 1 && rules_.subprograms_are_programs)
+    return end_program(block, flow.column);
   // Klartext passes the end of a subprogram that was not called.
   if (frames_.size() == 1 && rules_.dialect == Dialect::heidenhain) return std::nullopt;
   if (frames_.size() == 1) {
@@ -278,7 +364,7 @@ std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search s
   };
   constexpr auto kEnd = std::numeric_limits<std::uint64_t>::max();
   if (!number) {
-    const Landmark* target = frame().program->map().target(label);
+    const Landmark* target = frame().program->map().target(label, here);
     if (target == nullptr) return std::nullopt;
     const bool behind = target->place.offset > here.offset;
     if ((search == Search::forward && !behind) || (search == Search::backward && behind))
@@ -303,12 +389,19 @@ ProgramRun::Failure ProgramRun::jump(const Block& block) {
   }
   const auto label = label_of(block, flow);
   if (!label) return label.error().front();
-  if (!block_number_of(*label) && !frame().program->map().faults().empty()) {
+  return go_to_label(block, *label, flow.search);
+}
+
+ProgramRun::Failure ProgramRun::go_to_label(const Block& block, const std::string& label,
+                                            Search search) {
+  const FlowStatement& flow = *block.flow;
+  if (!block_number_of(label) && !frame().program->map().faults().empty()) {
     return frame().program->map().faults().front();
   }
-  const auto target = find_label(*label, flow.search);
+  const auto target = find_label(label, search);
+  if (!target && flow.may_be_missing) return std::nullopt;
   if (!target) {
-    return at(block, flow.column, fmt::format("there is no {} to go to", *label),
+    return at(block, flow.column, fmt::format("there is no {} to go to", label),
               "the jump names a block or label of this program");
   }
   frame().cursor.go_to(*target);
@@ -316,14 +409,39 @@ ProgramRun::Failure ProgramRun::jump(const Block& block) {
   return std::nullopt;
 }
 
+// What is behind the last block of a repeated part.
+std::optional<std::uint64_t> ProgramRun::end_of_part(const FlowStatement& flow, TextPlace begin) {
+  const TextPlace here = frame().cursor.block_place();
+  const ProgramMap& map = frame().program->map();
+  if (flow.part_end == PartEnd::last) {
+    const auto last =
+        find_label(flow.last_label.empty() ? flow.label : flow.last_label, flow.search);
+    if (!last) return std::nullopt;
+    BlockCursor cursor(frame().program->program());
+    cursor.go_to(*last);
+    (void)cursor.next();
+    return cursor.place().offset;
+  }
+  if (flow.part_end == PartEnd::end_label) {
+    const bool before = begin.offset < here.offset;
+    const Landmark* end =
+        map.end_label(begin, before ? here.offset : std::numeric_limits<std::uint64_t>::max());
+    if (end != nullptr) return end->behind.offset;
+    if (!before) return std::nullopt;
+  }
+  return here.offset;
+}
+
 ProgramRun::Failure ProgramRun::repeat(const Block& block) {
   const FlowStatement& flow = *block.flow;
   const auto count = count_of(block, flow.condition);
   if (!count) return count.error().front();
   const auto begin = find_label(flow.label, flow.search);
-  const auto end = flow.last_label.empty() ? std::optional(frame().cursor.block_place())
-                                           : find_label(flow.last_label, flow.search);
-  if (!begin || !end || end->offset < begin->offset) {
+  if (begin && !frame().program->map().faults().empty() && rules_.subprograms_are_programs) {
+    return frame().program->map().faults().front();
+  }
+  const auto end = begin ? end_of_part(flow, *begin) : std::nullopt;
+  if (!end || *end < begin->offset) {
     return at(
         block, flow.column,
         fmt::format("there is no part {} to repeat",
@@ -331,8 +449,13 @@ ProgramRun::Failure ProgramRun::repeat(const Block& block) {
         "name labels of this program, the earlier one first");
   }
   if (*count == 0) return std::nullopt;
+  if (frame().parts.size() >= options_.max_call_depth) {
+    return at(block, flow.column,
+              fmt::format("more than {} repeats within each other", options_.max_call_depth),
+              "does a repeated part hold its own repeat?");
+  }
   const TextPlace behind = frame().cursor.place();
-  frame().parts.push_back({*begin, end->offset, behind, *count - 1});
+  frame().parts.push_back({*begin, *end, behind, *count - 1});
   frame().cursor.go_to(*begin);
   return std::nullopt;
 }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "parser/reading/block_cursor.hpp"
 
 namespace frustum::parser {
 namespace {
+
+constexpr std::string_view kEndLabel = "ENDLABEL";
 
 // What a statement is called in messages, and how its end is.
 struct Wording {
@@ -63,6 +66,7 @@ bool closes(FlowKind kind) {
 
 ProgramMap::ProgramMap(const Program& program) {
   BlockCursor cursor(program);
+  std::size_t programs = 0;
   while (true) {
     const auto block = cursor.next();
     if (!block) continue;
@@ -71,8 +75,9 @@ ProgramMap::ProgramMap(const Program& program) {
     if ((*block)->program)
       programs_.emplace(*(*block)->program, Numbered{place, (*block)->program_column});
     if (const auto& flow = (*block)->flow) {
+      if (flow->kind == FlowKind::program) ++programs;
       landmarks_.push_back(
-          {place, cursor.place(), flow->kind, flow->turns, flow->column, flow->label});
+          {place, cursor.place(), flow->kind, flow->turns, flow->column, flow->label, programs});
     }
   }
   pair(program);
@@ -99,17 +104,24 @@ void ProgramMap::pair(const Program& program) {
               fmt::format("{}{} has no end", wording(begin.kind).begin, named(begin)),
               fmt::format("close it with its {}", wording(begin.kind).end));
   };
+  const auto twice = [&](const Landmark& here, const Landmark& first) {
+    add_fault(program, here, fmt::format("{} is already on line {}", here.label, first.place.line),
+              "give each its own name");
+  };
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     Landmark& here = landmarks_[i];
     here.begin = here.next = here.end = i;
-    if (here.kind == FlowKind::subprogram || here.kind == FlowKind::label) {
-      const auto [first, fresh] = targets_.emplace(here.label, i);
-      if (!fresh) {
-        add_fault(program, here,
-                  fmt::format("{} is already on line {}", here.label,
-                              landmarks_[first->second].place.line),
-                  "give each its own name");
-      }
+    if (here.kind == FlowKind::program) {
+      // PROC NAME behind %_N_NAME_SPF is the same program.
+      const bool again = i > 0 && landmarks_[i - 1].kind == FlowKind::program &&
+                         landmarks_[i - 1].label == here.label;
+      const auto [first, fresh] = heads_.emplace(here.label, i);
+      if (!fresh && !again) twice(here, landmarks_[first->second]);
+    } else if ((here.kind == FlowKind::subprogram || here.kind == FlowKind::label) &&
+               here.label != kEndLabel) {
+      const auto [first, fresh] = labels_.emplace(std::pair(here.program, here.label), i);
+      if (!fresh) twice(here, landmarks_[first->second]);
+      targets_.emplace(here.label, i);
     }
     // `while` behind the body of a `do` of the same label is its end.
     if (here.kind == FlowKind::loop && here.turns == Turns::while_true && !open.empty()) {
@@ -189,6 +201,33 @@ const Landmark& ProgramMap::at(TextPlace place) const {
 const Landmark* ProgramMap::target(std::string_view label) const {
   const auto found = targets_.find(label);
   return found == targets_.end() ? nullptr : &landmarks_[found->second];
+}
+
+const Landmark* ProgramMap::head(std::string_view name) const {
+  const auto found = heads_.find(name);
+  return found == heads_.end() ? nullptr : &landmarks_[found->second];
+}
+
+const Landmark* ProgramMap::target(std::string_view label, TextPlace from) const {
+  const auto found = labels_.find(std::pair(program_at(from), std::string(label)));
+  return found == labels_.end() ? nullptr : &landmarks_[found->second];
+}
+
+const Landmark* ProgramMap::end_label(TextPlace from, std::uint64_t to) const {
+  const auto found =
+      std::find_if(landmarks_.begin(), landmarks_.end(), [&](const Landmark& landmark) {
+        return landmark.place.offset > from.offset && landmark.place.offset < to &&
+               landmark.program == program_at(from) && landmark.label == kEndLabel;
+      });
+  return found == landmarks_.end() ? nullptr : &*found;
+}
+
+std::size_t ProgramMap::program_at(TextPlace place) const {
+  const auto behind = std::upper_bound(landmarks_.begin(), landmarks_.end(), place.offset,
+                                       [](std::uint64_t offset, const Landmark& landmark) {
+                                         return offset < landmark.place.offset;
+                                       });
+  return behind == landmarks_.begin() ? 0 : std::prev(behind)->program;
 }
 
 }  // namespace frustum::parser

@@ -14,6 +14,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "parser/language/flow.hpp"
@@ -28,6 +29,7 @@ struct Landmark {
   Turns turns = Turns::while_true;
   std::uint32_t column = 0;
   std::string label{};
+  std::size_t program = 0;  // of the file, that of the first header is 1
   // Indices of what belongs to it: the beginning of its statement (of a loop, for break and continue), the next
   // part of it, and its end.
   std::size_t begin = 0;
@@ -47,6 +49,12 @@ class ProgramMap {
   [[nodiscard]] const Landmark& at(TextPlace place) const;
   // The subprogram or label of that name; null when there is none.
   [[nodiscard]] const Landmark* target(std::string_view label) const;
+  // The same, a label being one of the program that `from` lies in.
+  [[nodiscard]] const Landmark* target(std::string_view label, TextPlace from) const;
+  // What begins the program of that name within the file; null when there is none.
+  [[nodiscard]] const Landmark* head(std::string_view name) const;
+  // The first ENDLABEL between two places of a program; null when there is none.
+  [[nodiscard]] const Landmark* end_label(TextPlace from, std::uint64_t to) const;
   // The program that O and a number begin.
   struct Numbered {
     TextPlace place{};
@@ -60,7 +68,12 @@ class ProgramMap {
                  std::string hint);
 
   std::vector<Landmark> landmarks_{};
+  [[nodiscard]] std::size_t program_at(TextPlace place) const;
+
   std::map<std::string, std::size_t, std::less<>> targets_{};
+  std::map<std::string, std::size_t, std::less<>> heads_{};
+  // The labels of each program where a file has several.
+  std::map<std::pair<std::size_t, std::string>, std::size_t> labels_{};
   std::map<std::uint32_t, Numbered> programs_{};
   Diagnostics faults_{};
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <utility>
 
 namespace frustum::parser {
@@ -17,6 +18,11 @@ std::string known_programs(const ProgramMap& map) {
   std::string names = "the file holds";
   for (const auto& entry : map.programs()) names += fmt::format(" O{}", entry.first);
   return names;
+}
+
+std::string small(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
 }
 
 bool does_something(const Block& block) {
@@ -60,8 +66,7 @@ Result<RunSummary> ProgramRun::operator()() {
 }
 
 ProgramRun::Failure ProgramRun::run_next() {
-  repeat_part_that_ended();
-  auto next = frame().cursor.next();
+  auto next = next_block();
   if (!next) {
     if (goes_on(next.error().front())) return std::nullopt;
     syntax_failed_ = !options_.go_on;
@@ -154,14 +159,31 @@ void ProgramRun::return_from_call() {
   executor_.read_from(frame().program->place_file());
 }
 
-void ProgramRun::repeat_part_that_ended() {
+Result<const Block*> ProgramRun::next_block() {
   CallFrame& here = frame();
-  while (!here.parts.empty() && here.cursor.place().offset == here.parts.back().end) {
+  auto next = here.cursor.next();
+  while (next && !here.parts.empty() &&
+         (*next == nullptr || here.cursor.block_place().offset >= here.parts.back().end)) {
     RepeatedPart& part = here.parts.back();
-    if (part.turns_left-- > 0) return here.cursor.go_to(part.begin);
-    here.cursor.go_to(part.behind);
-    here.parts.pop_back();
+    const bool again = part.turns_left > 0;
+    here.cursor.go_to(again ? part.begin : part.behind);
+    if (again) {
+      --part.turns_left;
+    } else {
+      here.parts.pop_back();
+    }
+    next = here.cursor.next();
+    if (again) break;
   }
+  return next;
+}
+
+ProgramRun::Failure ProgramRun::end_program(const Block& block, std::uint32_t column) {
+  SourcePlace place = block.place_of(column);
+  place.file = frame().program->place_file();
+  sink_(Motion{std::move(place), Stop{StopKind::program_end}});
+  frames_.clear();
+  return std::nullopt;
 }
 
 ProgramRun::Failure ProgramRun::follow(const Block& block, const NextBlock& next) {
@@ -182,6 +204,9 @@ ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const EndProgram&
 }
 
 ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram& leave) {
+  if (frames_.size() == 1 && rules_.subprograms_are_programs) {
+    return end_program(block, leave.column);
+  }
   if (frames_.size() == 1) return repeat_main_program(block, leave);
   if (!leave.block_number) {
     return_from_call();
@@ -282,7 +307,11 @@ std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
   if (!fresh) return place->second;
   for (const auto& folder : options_.search_path) {
     for (const std::string_view pattern : rules_.file_names) {
-      const auto file = folder / fmt::format(fmt::runtime(pattern), name);
+      auto file = folder / fmt::format(fmt::runtime(pattern), name);
+      // Names that a control writes in capitals are often small in the names of files.
+      if (!std::filesystem::is_regular_file(file)) {
+        file = folder / fmt::format(fmt::runtime(pattern), small(name));
+      }
       if (!std::filesystem::is_regular_file(file)) continue;
       auto program = open_program(file, rules_.dialect);
       if (!program) continue;

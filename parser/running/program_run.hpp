@@ -31,7 +31,8 @@ class ProgramRun {
   // The end of the text, a tape mark, or the next program: fine for a main program only.
   [[nodiscard]] Failure run_off(const Block* end);
   void return_from_call();
-  void repeat_part_that_ended();
+  // The next block, behind the repeated parts that have ended.
+  [[nodiscard]] Result<const Block*> next_block();
 
   // What the words of a block ask for: M98, M99, M30.
   [[nodiscard]] Failure follow(const Block& block, const NextBlock& next);
@@ -48,8 +49,16 @@ class ProgramRun {
   [[nodiscard]] Failure turn_loop(const Block& block, const Landmark& here);
   [[nodiscard]] Failure call(const Block& block);
   [[nodiscard]] Failure give_back(const Block& block);
+  [[nodiscard]] Failure call_program(const Block& block, const std::string& name,
+                                     std::vector<double> arguments, std::uint64_t count);
+  [[nodiscard]] Failure receive(const Block& block);
+  [[nodiscard]] Failure choose(const Block& block);
   [[nodiscard]] Failure jump(const Block& block);
+  [[nodiscard]] Failure go_to_label(const Block& block, const std::string& label, Search search);
+  [[nodiscard]] Failure end_program(const Block& block, std::uint32_t column);
   [[nodiscard]] Failure repeat(const Block& block);
+  [[nodiscard]] std::optional<std::uint64_t> end_of_part(const FlowStatement& flow,
+                                                         TextPlace begin);
   [[nodiscard]] std::optional<TextPlace> find_label(std::string_view label, Search search);
 
   [[nodiscard]] Failure execute(const Block& block);

@@ -193,6 +193,24 @@ Value modal_variable(const ModalState& state, int index) {
   return found == kModal.end() ? std::nullopt : found->value(state);
 }
 
+// $P_EP[X]: where the last block ended; $AA_IW[X]: where the axis is, which is the same when the block runs.
+Value sinumerik_variable(const SystemParameters& of, std::string_view name) {
+  for (const std::string_view start : {"$P_EP[", "$AA_IW["}) {
+    if (!name.starts_with(start)) continue;
+    const auto axis = std::string_view("XYZABC").find(name[start.size()]);
+    return position_of(of, kAxisLetters.at(axis));
+  }
+  if (name == "$P_TOOLNO") return of.state.tool;
+  if (name == "$P_F") return of.state.feed ? of.state.feed->as_written : 0.0;
+  if (name == "$P_S") return of.state.spindle_speed;
+  if (name == "$P_SDIR") {
+    // 3 clockwise, 4 counterclockwise, 5 off: as the M words.
+    constexpr std::array kWords{5.0, 3.0, 4.0};
+    return kWords.at(static_cast<std::size_t>(of.state.spindle));
+  }
+  return std::nullopt;
+}
+
 constexpr int kLinuxcncPosition = 5420;
 constexpr int kFanucPosition = 5001;
 constexpr int kFanucPositionNow = 5041;  // with the length of the tool
@@ -216,6 +234,7 @@ Value SystemParameters::number(int index) const {
 }
 
 Value SystemParameters::named(std::string_view name) const {
+  if (dialect == Dialect::sinumerik) return sinumerik_variable(*this, name);
   if (dialect != Dialect::linuxcnc) return std::nullopt;
   const auto found = std::find_if(kNamed.begin(), kNamed.end(),
                                   [name](const Named& entry) { return entry.name == name; });

@@ -115,9 +115,9 @@ constexpr Mistake kFanuc[] = {
 };
 
 constexpr Mistake kSinumerik[] = {
-    {"G1 X=R5 F100\n", "1:6: error: parameter R5 has no value"},
+    {"G1 X=R5 F100+\n", "1:13: error: unexpected '+'"},
     {"G0 X1 foo\n", "1:7: error: unknown word FOO"},
-    {"TRANS X5\n", "1:1: error: TRANS is not simulated"},
+    {"TOFRAME\n", "1:1: error: TOFRAME is not simulated"},
     {"IF\n", "1:3: error: IF has no condition"},
     {"IF R1=1\nENDIF\n", "1:7: error: unexpected '1'"},
     {"R1=0\nIF R1==1\n", "2:1: error: if has no end"},
@@ -127,7 +127,7 @@ constexpr Mistake kSinumerik[] = {
     {"GOTOF\n", "1:6: error: GOTOF has no label"},
     {"GOTOF NOWHERE\n", "1:1: error: there is no NOWHERE to go to"},
     {"BACK:\nGOTOF BACK\n", "2:1: error: there is no BACK to go to"},
-    {"REPEAT PART1 P=3\n", "1:1: error: REPEAT of labelled blocks is not simulated"},
+    {"REPEAT PART1 P=3\n", "1:1: error: there is no part PART1 to repeat"},
     {"G0 X0 GOTOF NAME\n", "1:7: error: a statement behind other words"},
     {"LOOP R1\nENDLOOP\n", "1:6: error: unexpected 'R'"},
     {"GOTOF END\n", "1:1: error: there is no END to go to"},
@@ -144,8 +144,9 @@ constexpr Mistake kSinumerik[] = {
     {"G0 A2=30\n", "1:4: error: A2= is not simulated"},
     {"G41 X0\n", "1:1: error: G41 is not simulated"},
     {"CYCLE800(1,\"T\",0,128,0,0,0,1,2,3)\n", "1:18: error: swivel mode 128 is not simulated"},
-    {"CYCLE800(1,\"T\",1,57,0,0,0,1,2,3)\n",
-     "1:16: error: CYCLE800 on top of another swivel is not simulated"},
+    {"CYCLE800(1,\"T\",R1,57,0,0,0,1,2,3)\n", "1:16: error: the status of CYCLE800 is computed"},
+    {"SCALE X2 Y2 Z2\nCYCLE800(1,\"T\",1,57,0,0,0,1,2,3)\n",
+     "2:16: error: a swivel on top of a scaled or mirrored frame"},
     {"CYCLE800(0\n", "1:1: error: the bracket of CYCLE800 is not closed"},
     {"CYCLE800(0,\"T\",0,57,0,0,0,0,0,0,0,0,0,0,0,0,0)\n",
      "1:45: error: CYCLE800 has too many parameters"},
@@ -173,7 +174,7 @@ constexpr Mistake kSinumerik[] = {
     {"STOPRE G74 X1=0\n", "1:12: error: X1= is not simulated"},
     {"G331 Z5\n", "1:1: error: unknown word G331"},
     {"G507\n", "1:1: error: G507 is not simulated"},
-    {"CR5\n", "1:1: error: unknown word CR5"},
+    {"CR5\n", "1:1: error: no subprogram CR5"},
     {"#1=2\n", "1:1: error: unexpected '#'"},
 };
 
