@@ -10,6 +10,7 @@
 
 #include "parser/dialect.hpp"
 #include "parser/dialects/code.hpp"
+#include "parser/dialects/radius_rules.hpp"
 #include "parser/language/parameters.hpp"
 
 namespace frustum::parser {
@@ -89,6 +90,7 @@ struct DialectRules {
   std::string_view known_letters{};
   ParameterRules parameters{};
   CycleRules cycles{};
+  RadiusRules radius{};
   LetterSet polar_words{};
   std::span<const DataWord> data_words{};
   // A parameter that is written counts at once, not from the next change of work offset on.

@@ -15,6 +15,8 @@ constexpr std::array kCodes{
     modal('G', 40, non_modal, NonModal::dwell, LetterSet("PXU")),
     modal('G', 531, non_modal, NonModal::align),
     modal('G', 680, tilted_plane, TiltWord::turn, LetterSet("XYZIJKR")),
+    modal('G', 410, radius_compensation, RadiusWord::left, LetterSet("D")),
+    modal('G', 420, radius_compensation, RadiusWord::right, LetterSet("D")),
     modal('G', 430, length_compensation, LengthWord::length, kOffsetWord),
     modal('G', 434, length_compensation, LengthWord::tool_centre_point, kOffsetWord),
     modal('G', 435, length_compensation, LengthWord::tool_vectors, kOffsetWord),
@@ -61,7 +63,8 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
     RefusedCode{'G', 281, 289, "return to home with G28"},
     RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
-    RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
+    RefusedCode{'G', 411, 419, "use G41 D, in a plane"},
+    RefusedCode{'G', 421, 429, "use G42 D, in a plane"},
     RefusedCode{'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
     RefusedCode{'G', 542, 549, "use G54 to G59"},
     RefusedCode{'G', 591, 599, "use G54 to G59"},
@@ -82,13 +85,12 @@ constexpr std::string_view kNeedsVectors =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), "
     "and "
     "the tool vector of G0 and G1 after G43.4 or G43.5";
-constexpr std::string_view kNoRadius = "cutter radius compensation is not simulated; leave D out";
 
 constexpr std::array kLetters{
     LetterUse{'A', kNeedsMotion},
     LetterUse{'B', kNeedsMotion},
     LetterUse{'C', kNeedsMotion},
-    LetterUse{'D', kNoRadius},
+    LetterUse{'D', "D belongs to G41, G42 and G96"},
     LetterUse{'H', "H belongs to G43, G43.4 and G43.5"},
     LetterUse{'I', kNeedsVectors},
     LetterUse{'J', kNeedsVectors},
@@ -120,6 +122,7 @@ constexpr DialectRules kRules{
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
     .parameters = {.locals = 33, .unset_is_vacant = true, .first_system = 1000},
     .cycles = {.tool_shift_by_q = true},
+    .radius = {.source = RadiusSource::last_d},
     .data_words = kDataWords,
     .parameters_count_at_once = true,
     .data_follow_distance_mode = true,

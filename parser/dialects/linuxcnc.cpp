@@ -12,8 +12,16 @@ using enum CodeGroup;
 constexpr LetterSet kOffsetWord{"H"};
 constexpr std::array kCodes{
     modal('G', 40, non_modal, NonModal::dwell, LetterSet("P")),
+    modal('G', 50, motion, MotionMode::cubic_spline),
+    modal('G', 51, motion, MotionMode::quadratic_spline),
+    modal('G', 52, motion, MotionMode::nurbs),
+    modal('G', 53, motion, MotionMode::nurbs_end),
     modal('G', 922, non_modal, NonModal::shift_suspend),
     modal('G', 923, non_modal, NonModal::shift_resume),
+    modal('G', 410, radius_compensation, RadiusWord::left, LetterSet("D")),
+    modal('G', 420, radius_compensation, RadiusWord::right, LetterSet("D")),
+    modal('G', 411, radius_compensation, RadiusWord::left_by_diameter, LetterSet("DL")),
+    modal('G', 421, radius_compensation, RadiusWord::right_by_diameter, LetterSet("DL")),
     modal('G', 430, length_compensation, LengthWord::length_only, kOffsetWord),
     modal('G', 431, length_compensation, LengthWord::dynamic, kAxisWords),
     modal('G', 432, length_compensation, LengthWord::additional, kAxisWords | kOffsetWord),
@@ -75,8 +83,6 @@ constexpr std::array kDataWords{
 
 // What would change the part and is not simulated.
 constexpr std::array kRefusedCodes{
-    RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
-    RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
     RefusedCode{'G', 433, 439, "use G43 H, and M428 for tool-tip control"},
     RefusedCode{'G', 171, 171, "U V W are not simulated; use G17"},
     RefusedCode{'G', 181, 181, "U V W are not simulated; use G18"},
@@ -87,21 +93,20 @@ constexpr std::array kRefusedCodes{
 constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
 constexpr std::string_view kNeedsArc =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K)";
-constexpr std::string_view kNoRadius = "cutter radius compensation is not simulated; leave D out";
 
 constexpr std::array kLetters{
     LetterUse{'A', kNeedsMotion},
     LetterUse{'B', kNeedsMotion},
     LetterUse{'C', kNeedsMotion},
-    LetterUse{'D', kNoRadius},
+    LetterUse{'D', "D belongs to G41, G42, G41.1, G42.1 and G96"},
     LetterUse{'E', "E belongs to G76 and M66 to M68"},
     LetterUse{'H', "H belongs to G43, G43.2 and G76"},
     LetterUse{'I', kNeedsArc},
     LetterUse{'J', kNeedsArc},
     LetterUse{'K', kNeedsArc},
-    LetterUse{'L', "L belongs to G10 and M98"},
-    LetterUse{'P', "P belongs to G4, G2, G3, G10, G64, M98 and M100 to M199"},
-    LetterUse{'Q', "Q belongs to G64, G10, M61 and M100 to M199"},
+    LetterUse{'L', "L belongs to canned cycles, G5.2, G10 and M98"},
+    LetterUse{'P', "P belongs to G4, G2, G3, G5, G5.2, G10, G64, M98 and M100 to M199"},
+    LetterUse{'Q', "Q belongs to G5, G64, G10, M61 and M100 to M199"},
     LetterUse{'R', "R belongs to G2, G3 and G10"},
     LetterUse{'X', kNeedsMotion},
     LetterUse{'Y', kNeedsMotion},
@@ -127,6 +132,15 @@ constexpr DialectRules kRules{
                .words_end_with_their_g_word = true,
                .feed_out_to_clearance = true,
                .start_from_initial = true},
+    .radius = {.entry = EntryRule::beside_its_end,
+               .entry_may_be_arc = true,
+               .entry_comes_first = true,
+               .straight_below = 0.05,
+               .source = RadiusSource::d_or_tool_in_spindle,
+               .in_yz = false,
+               .may_be_repeated = false,
+               .ends_with_program = true,
+               .any_move_leaves = true},
     .polar_words = LetterSet("pq"),
     .data_words = kDataWords,
     .file_names = kFiles,

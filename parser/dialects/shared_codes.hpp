@@ -39,7 +39,7 @@ inline constexpr std::array kIsoCodes{
     modal('G', 170, CodeGroup::plane, Plane::xy),
     modal('G', 180, CodeGroup::plane, Plane::zx),
     modal('G', 190, CodeGroup::plane, Plane::yz),
-    modal('G', 400, CodeGroup::radius_compensation, 0),
+    modal('G', 400, CodeGroup::radius_compensation, RadiusWord::off),
     modal('G', 540, CodeGroup::work_offset, 1),
     modal('G', 550, CodeGroup::work_offset, 2),
     modal('G', 560, CodeGroup::work_offset, 3),

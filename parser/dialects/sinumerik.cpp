@@ -23,6 +23,8 @@ constexpr std::array kCodes{
     modal('G', 710, unit, LengthUnit::millimetre),
     modal('G', 7000, unit, LengthUnit::inch),
     modal('G', 7100, unit, LengthUnit::millimetre),
+    modal('G', 410, radius_compensation, RadiusWord::left),
+    modal('G', 420, radius_compensation, RadiusWord::right),
     modal('G', 5000, work_offset, 0),
     modal('G', 5050, work_offset, 5),
     modal('G', 5060, work_offset, 6),
@@ -37,9 +39,8 @@ constexpr std::array kCodes{
     passed('G', 6010),  // when an exact stop is reached
     passed('G', 6020),
     passed('G', 6030),
+    passed('G', 4500),  // arcs round outer corners, as they always are here
     passed('G', 970),
-    passed('G', 4500),  // corners of radius compensation
-    passed('G', 4510),
     passed('G', 6200),  // slower in corners
     passed('G', 6210),
     modal('M', 170, subprogram, SubprogramWord::leave),
@@ -110,7 +111,6 @@ constexpr std::array kCodes{
     passed("CFTCP"),
     passed("CFC"),
     passed("CFIN"),
-    passed("KONT"),
     passed("NORM"),
     passed("FNORM"),
 };
@@ -119,7 +119,7 @@ constexpr std::array kCodes{
 constexpr std::array kRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
     RefusedCode{'G', 330, 359, "leave threading out of the simulated program"},
-    RefusedCode{'G', 410, 429, "program the path of the tool centre and use G40"},
+    RefusedCode{'G', 4510, 4510, "go round outer corners by an arc: G450"},
     RefusedCode{'G', 740, 759, "move to the positions with SUPA and D0"},
     RefusedCode{'G', 1100, 1129, "write positions in X, Y and Z"},
     RefusedCode{'G', 5070, 5990, "use G54 to G57, G505 and G506"},
@@ -188,6 +188,7 @@ constexpr std::array kRefusedWords{
     RefusedWord{"PCALL", kNoFlow},
     RefusedWord{"MCALL", kNoFlow},
     RefusedWord{"GOTOS", "write a loop: LOOP and ENDLOOP"},
+    RefusedWord{"KONT", "approach and leave the contour straight: NORM"},
     RefusedWord{"CIP", "write the arc with G2 or G3"},
     RefusedWord{"CT", "write the arc with G2 or G3"},
     RefusedWord{"DIAMON", "give X as a radius: DIAMOF"},

@@ -14,6 +14,10 @@ enum class MotionMode : std::uint8_t {
   linear,
   arc_clockwise,
   arc_counterclockwise,
+  cubic_spline,      // G5
+  quadratic_spline,  // G5.1
+  nurbs,             // G5.2: a control point
+  nurbs_end,         // G5.3
   // Synchronised with the spindle, and probing: threading_cycle.hpp, block_threads.cpp, block_moves.cpp.
   thread,
   rigid_tap,
@@ -37,6 +41,8 @@ enum class MotionMode : std::uint8_t {
   fine_bore
 };
 enum class DistanceMode : std::uint8_t { absolute, incremental };
+// Of the contour, along the way of the tool.
+enum class ToolSide : std::uint8_t { left, right };
 // G70 of Sinumerik leaves feeds in mm.
 enum class LengthUnit : std::uint8_t { millimetre, inch, inch_but_feeds };
 

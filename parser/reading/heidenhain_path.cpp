@@ -143,8 +143,11 @@ class PathReader {
     }
     if (name == "R") return read_radius(statement, path, column);
     if (name == "RL" || name == "RR") {
-      return in_.fail(column, name + " is not simulated",
-                      "program the path of the tool centre and use R0");
+      if (!path.axes || path.vector) {
+        return in_.fail(column, fmt::format("{} in {} is not simulated", name, statement),
+                        "radius compensation belongs to L, C, CR, CT, LP, CP and CTP");
+      }
+      return add_code(block_, *find_code(Dialect::heidenhain, name), column);
     }
     if (path.feed && name.starts_with('F')) return read_feed(name, column);
     if (name.empty()) {

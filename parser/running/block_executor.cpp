@@ -29,6 +29,19 @@ LetterSet centre_letters(Plane plane) {
   return kLetters.at(static_cast<std::size_t>(plane));
 }
 
+LetterSet letters_of_spline(MotionMode mode) {
+  switch (mode) {
+    case MotionMode::cubic_spline:
+      return kAxisWords | LetterSet("IJPQ");
+    case MotionMode::quadratic_spline:
+      return kAxisWords | LetterSet("IJ");
+    case MotionMode::nurbs:
+      return kAxisWords | LetterSet("PL");
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 BlockExecutor::BlockExecutor(Dialect dialect, const AxisTarget& start, ControlData data,
@@ -48,6 +61,13 @@ BlockExecutor::BlockExecutor(Dialect dialect, const AxisTarget& start, ControlDa
 }
 
 Result<Flow> BlockExecutor::execute(const Block& block) {
+  auto flow = carry_out(block);
+  auto failure = std::exchange(failure_, std::nullopt);
+  if (flow && failure) return *std::move(failure);
+  return flow;
+}
+
+Result<Flow> BlockExecutor::carry_out(const Block& block) {
   block_ = &block;
   moved_ = false;
   if (const Word* macro = macro_word(block)) {
@@ -59,6 +79,10 @@ Result<Flow> BlockExecutor::execute(const Block& block) {
   const auto movement = movement_of(*words);
   if (!movement) return movement.error();
   if (auto done = check_claims(*words, *movement); !done) return std::move(done).error();
+
+  if (auto done = check_radius_compensation(*words, *movement); !done) {
+    return std::move(done).error();
+  }
 
   report_comments(block);
   if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
@@ -163,6 +187,10 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
       return Movement{non_modal, MotionMode::none, 0};
     }
   }
+  const bool of_nurbs = mode == MotionMode::nurbs || mode == MotionMode::nurbs_end;
+  if (motion_code.code != nullptr && of_nurbs) {
+    return Movement{non_modal, mode, motion_code.column};
+  }
   const GivenCode& length = words[CodeGroup::length_compensation];
   const bool axes_of_tool =
       length.code != nullptr && !(length.code->arguments & kAxisWords).empty();
@@ -199,6 +227,11 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
       if (movement.motion == MotionMode::linear) letters.add('t');
       return letters;
     }
+    case MotionMode::cubic_spline:
+    case MotionMode::quadratic_spline:
+    case MotionMode::nurbs:
+    case MotionMode::nurbs_end:
+      return letters_of_spline(movement.motion);
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise: {
       const LetterSet letters = kAxisWords | LetterSet("RPet") | rules_.polar_words |
@@ -527,6 +560,11 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   const GivenCode& stop = words[CodeGroup::stop];
   if (stop.code != nullptr) {
     const auto kind = static_cast<StopKind>(stop.code->value);
+    if (kind == StopKind::program_end) {
+      auto done = end_radius_compensation(block_->place_of(stop.column));
+      if (!done) return std::move(done).error();
+      if (auto failure = spline_without_end()) return *failure;
+    }
     emit(stop.column, Stop{kind});
     if (kind == StopKind::program_end) return Flow{EndProgram{}};
   }
@@ -567,11 +605,18 @@ void BlockExecutor::emit(std::uint32_t column, Command command) {
   moved_ = moved_ || std::holds_alternative<Traverse>(command) ||
            std::holds_alternative<LinearFeed>(command) ||
            std::holds_alternative<ArcFeed>(command) || std::holds_alternative<HomeReturn>(command);
-  if (!state_.word_frame.is_identity()) state_.word_frame.place(command);
-  if (!state_.offset_frame.is_identity()) state_.offset_frame.place(command);
   SourcePlace place = block_->place_of(column);
   place.file = file_;
-  sink_(Motion{std::move(place), std::move(command)});
+  Motion motion{std::move(place), std::move(command)};
+  if (!radius_.is_on()) return send(std::move(motion));
+  auto failure = radius_.take(std::move(motion), to_sink_);
+  if (failure && !failure_) failure_ = std::move(failure);
+}
+
+void BlockExecutor::send(Motion&& motion) {
+  if (!state_.word_frame.is_identity()) state_.word_frame.place(motion.command);
+  if (!state_.offset_frame.is_identity()) state_.offset_frame.place(motion.command);
+  sink_(std::move(motion));
 }
 
 void BlockExecutor::pass_over(const Block& block) {

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -31,6 +32,8 @@
 #include "parser/running/control_data.hpp"
 #include "parser/running/modal_state.hpp"
 #include "parser/running/program_position.hpp"
+#include "parser/running/radius_compensation.hpp"
+#include "parser/running/spline.hpp"
 #include "parser/running/system_parameters.hpp"
 #include "parser/running/threading_cycle.hpp"
 
@@ -61,6 +64,7 @@ using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram
 
 class BlockExecutor {
  public:
+  struct Done {};
   BlockExecutor(const BlockExecutor&) = delete;  // its parameters look at its state
   BlockExecutor& operator=(const BlockExecutor&) = delete;
   BlockExecutor(Dialect dialect, const AxisTarget& start, ControlData data, const MotionSink& sink);
@@ -75,6 +79,9 @@ class BlockExecutor {
   [[nodiscard]] bool moved() const { return moved_; }
   // #1 to #33 of the macro at work.
   [[nodiscard]] std::vector<double> local_values() const;
+  using Outcome = Result<Done>;
+  // The program ends without a word that says so.
+  [[nodiscard]] Outcome end_of_text();
   // A call of a subprogram and its end; modes saved by M73 come back.
   void enter_call();
   void leave_call();
@@ -87,8 +94,6 @@ class BlockExecutor {
   void keep_modes_for_call() { saved_modes_.back() = {state_, true, true}; }
 
  private:
-  struct Done {};
-  using Outcome = Result<Done>;
   // What of the block moves axes, and how.
   struct Movement {
     NonModal non_modal = NonModal::none;
@@ -105,7 +110,16 @@ class BlockExecutor {
   [[nodiscard]] Outcome check_claims(const BlockWords& words, const Movement& movement) const;
   [[nodiscard]] Result<int> whole(const BlockWords& words, char letter, int least, int most) const;
 
+  [[nodiscard]] Outcome check_radius_compensation(const BlockWords& words,
+                                                  const Movement& movement) const;
+
   // Doing.
+  [[nodiscard]] Result<Flow> carry_out(const Block& block);
+  [[nodiscard]] Result<double> radius_for(const BlockWords& words);
+  [[nodiscard]] Outcome set_radius_compensation(const BlockWords& words);
+  void switch_radius_off(std::uint32_t column);
+  [[nodiscard]] Outcome end_radius_compensation(const SourcePlace& place);
+  [[nodiscard]] AxisTarget leaving_contour(const BlockWords& words, AxisTarget end);
   [[nodiscard]] Outcome set_parameters(const Block& block);
   [[nodiscard]] Outcome set_numbered(std::uint32_t column, int index, double value);
   void report_events(const BlockWords& words);
@@ -184,6 +198,17 @@ class BlockExecutor {
                                                        const Movement& movement) const;
   [[nodiscard]] Outcome cut_thread(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome probe(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome check_spline(const BlockWords& words, const Movement& movement) const;
+  [[nodiscard]] Outcome move_along_spline(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_along_cubic(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_along_quadratic(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome add_nurbs_point(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome move_along_nurbs(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome trace_spline(const BlockWords& words, const Movement& movement,
+                                     std::span<const ControlPoint> points, int order);
+  [[nodiscard]] Outcome check_open_nurbs(const Movement& movement) const;
+  [[nodiscard]] std::optional<Diagnostic> spline_without_end() const;
+  [[nodiscard]] Vec2 place_in_plane() const;
   [[nodiscard]] Outcome set_cycle(const BlockWords& words, const Movement& movement,
                                   AxisLetter depth_axis);
   [[nodiscard]] Outcome run_cycle(const BlockWords& words, const Movement& movement);
@@ -225,6 +250,7 @@ class BlockExecutor {
   [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
   [[nodiscard]] Diagnostic in_this_block(Diagnostic diagnostic) const;
   void emit(std::uint32_t column, Command command);
+  void send(Motion&& motion);
 
   const DialectRules& rules_;
   const MotionSink& sink_;
@@ -244,6 +270,22 @@ class BlockExecutor {
   const Block* block_ = nullptr;  // at work
   std::shared_ptr<const std::string> file_{};
   bool moved_ = false;  // the block has moved an axis
+  RadiusCompensation radius_{};
+  const RadiusCompensation::Sink to_sink_ = [this](Motion&& motion) { send(std::move(motion)); };
+  SourcePlace radius_place_{};  // where it was switched on
+  // Behind G40, where the tool is in the plane, until a move in it.
+  AxisTarget radius_exit_{};
+  bool arc_waits_for_exit_ = false;
+  // The control points since G5.2.
+  struct Nurbs {
+    SourcePlace place{};
+    int order = 0;
+    std::vector<ControlPoint> points{};
+  };
+  std::optional<Nurbs> nurbs_{};
+  // From where the last G5 ended to the first control point of the next, if that follows.
+  std::optional<Vec2> spline_leads_{};
+  std::optional<Diagnostic> failure_{};  // of a motion that could not be made
 };
 
 }  // namespace frustum::parser

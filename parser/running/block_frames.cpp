@@ -298,6 +298,7 @@ BlockExecutor::Outcome BlockExecutor::set_frames(const BlockWords& words) {
                      state_.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
       RetractWord::initial;
   state_.arc_distance = words.value_or(CodeGroup::arc_distance, state_.arc_distance);
+  if (auto done = set_radius_compensation(words); !done) return done;
   if (auto done = set_compensation(words); !done) return done;
   if (auto done = set_work_offset(words); !done) return done;
   if (auto done = set_mirror(words); !done) return done;

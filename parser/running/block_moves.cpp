@@ -18,8 +18,9 @@ constexpr double kSecondsPerMinute = 60.0;
 constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 
 const char* motion_name(MotionMode motion, Dialect dialect) {
-  constexpr std::array kNames{"", "G0", "G1", "G2", "G3"};
-  constexpr std::array kPlain{"", "a rapid move", "a cutting move", "an arc", "an arc"};
+  constexpr std::array kNames{"", "G0", "G1", "G2", "G3", "G5", "G5.1", "G5.2", "G5.3"};
+  constexpr std::array kPlain{"",         "a rapid move", "a cutting move", "an arc",  "an arc",
+                              "a spline", "a spline",     "a spline",       "a spline"};
   if (is_cycle(motion)) return "a canned cycle";
   if (motion >= MotionMode::probe_towards) return "a probing move";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
@@ -58,6 +59,16 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   state_.motion = motion_of(words);
   if (auto done = check_feature(movement); !done) return done;
   if (!is_cycle(state_.motion)) state_.cycle.reset();
+  if (auto done = check_open_nurbs(movement); !done) return done;
+  const bool stands = movement.motion == MotionMode::none && movement.non_modal == NonModal::none;
+  if (!stands && movement.motion != MotionMode::cubic_spline) spline_leads_.reset();
+  const bool places = is_cycle(movement.motion) || (movement.non_modal != NonModal::none &&
+                                                    movement.non_modal != NonModal::dwell &&
+                                                    movement.non_modal != NonModal::pole);
+  if (places) {
+    radius_exit_ = {};
+    arc_waits_for_exit_ = false;
+  }
   if (movement.non_modal == NonModal::home) return go_home(words, 1);
   if (movement.non_modal == NonModal::second_home) return go_home(words, 2);
   if (movement.non_modal == NonModal::keep_home) return keep_point(0, movement.column);
@@ -71,6 +82,7 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);
   }
+  if (is_spline(movement.motion)) return move_along_spline(words, movement);
   if (is_cycle(movement.motion)) return run_cycle(words, movement);
   if (rules_.holes_at_moves && state_.hole_cycle.on && movement.motion != MotionMode::none) {
     return make_hole(words, movement);
@@ -108,7 +120,7 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
   if (auto done = set_tool_axis(words); !done) return done;
   if (auto done = check_word_frame(movement); !done) return done;
   keep_heading(before);
-  const AxisTarget end = end_of(words);
+  const AxisTarget end = leaving_contour(words, end_of(words));
   if (movement.motion == MotionMode::traverse) {
     emit(movement.column, Traverse{end, state_.tool_axis, Coordinates::program});
     return Done{};
@@ -121,6 +133,10 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
 
 BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
                                                      const Movement& movement) {
+  if (arc_waits_for_exit_) {
+    return fail(movement.column, "the first move after radius compensation is an arc",
+                "leave the contour by a straight move");
+  }
   const PlaneAxes axes = axes_of(state_.plane);
   for (const int axis : {axes.u, axes.v}) {
     const auto letter = static_cast<AxisLetter>(axis);

@@ -229,7 +229,8 @@ BlockExecutor::Outcome BlockExecutor::check_word_frame(const Movement& movement)
                 "program X, Y and Z once, in absolute coordinates, after the frame is turned");
   }
   const bool arc = movement.motion == MotionMode::arc_clockwise ||
-                   movement.motion == MotionMode::arc_counterclockwise;
+                   movement.motion == MotionMode::arc_counterclockwise ||
+                   is_spline(movement.motion);
   if (arc && !(state_.word_frame.keeps(state_.plane) && state_.offset_frame.keeps(state_.plane))) {
     return fail(movement.column, "an arc in a plane that the frame turns",
                 "write it as straight moves, or turn the frame about the normal of the plane");

@@ -84,6 +84,8 @@ struct ModalState {
   FeedMode feed_mode = FeedMode::per_minute;
   std::optional<FeedWord> feed{};
   Compensation compensation{};
+  std::optional<ToolSide> tool_side{};  // G41, G42; absent: G40
+  std::optional<int> radius_number{};   // the last D of a radius compensation
   int work_offset = 1;
   // Of the work offset in force: its origin, as far as the program knows it, and from it and the tool the frame between
   // the words' frame and the axes: the turn, the tool's offset along X and Y, the rotary offsets.

@@ -116,6 +116,11 @@ ProgramRun::Failure ProgramRun::execute(const Block& block) {
   return std::visit([&](const auto& wish) { return follow(block, wish); }, *flow);
 }
 
+Diagnostic ProgramRun::in_main(Diagnostic diagnostic) const {
+  diagnostic.file = main_->program().file;
+  return diagnostic;
+}
+
 Diagnostic ProgramRun::in_this_file(Diagnostic diagnostic) const {
   diagnostic.file = frames_.back().program->program().file;
   return diagnostic;
@@ -135,6 +140,7 @@ ProgramRun::Failure ProgramRun::run_off(const Block* end) {
               "end the main program with M30");
   }
   frames_.clear();
+  if (auto done = executor_.end_of_text(); !done) return in_main(std::move(done).error().front());
   return std::nullopt;
 }
 

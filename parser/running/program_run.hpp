@@ -62,6 +62,7 @@ class ProgramRun {
   [[nodiscard]] std::optional<TextPlace> find_label(std::string_view label, Search search);
 
   [[nodiscard]] Failure execute(const Block& block);
+  [[nodiscard]] Diagnostic in_main(Diagnostic diagnostic) const;
   [[nodiscard]] Diagnostic in_this_file(Diagnostic diagnostic) const;
   [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
   [[nodiscard]] Result<bool> holds(const Block& block, const FlowStatement& flow);

@@ -21,8 +21,8 @@ Value position_of(const SystemParameters& of, AxisLetter axis) {
 }
 
 double motion_word(MotionMode mode) {
-  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  330.0, 331.0, 760.0,
-                               382.0, 383.0, 384.0, 385.0, 730.0, 740.0, 810.0, 820.0,
+  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  50.0,  51.0,  52.0,  53.0,  330.0,
+                               331.0, 760.0, 382.0, 383.0, 384.0, 385.0, 730.0, 740.0, 810.0, 820.0,
                                830.0, 840.0, 850.0, 860.0, 870.0, 880.0, 890.0, 760.0};
   return kTenths.at(static_cast<std::size_t>(mode));
 }
@@ -93,7 +93,11 @@ constexpr std::array kNamed{
           [](const SystemParameters& of) -> Value { return yes(of.state.diameter); }},
     Named{"_lathe_radius_mode",
           [](const SystemParameters& of) -> Value { return yes(!of.state.diameter); }},
-    Named{"_ccomp", [](const SystemParameters& /*of*/) -> Value { return 400.0; }},
+    Named{"_ccomp",
+          [](const SystemParameters& of) -> Value {
+            if (!of.state.tool_side) return 400.0;
+            return *of.state.tool_side == ToolSide::left ? 410.0 : 420.0;
+          }},
     Named{"_spindle_on",
           [](const SystemParameters& of) -> Value {
             return yes(of.state.spindle != SpindleDirection::off);

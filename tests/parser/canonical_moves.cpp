@@ -249,15 +249,22 @@ std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
   Walk walk;
   double spindle = 0.0;
   bool surface_speed = false;
+  std::uint32_t spline_line = 0;  // whose moves trace the spline that was told
   for (const Motion& motion : motions) {
+    const auto* event = std::get_if<Event>(&motion.command);
+    if (event != nullptr && event->name == "spline") {
+      spline_line = motion.place.line;
+      moves.push_back({"spline", {std::stod(event->text)}});
+    }
+    const bool traces = std::holds_alternative<LinearFeed>(motion.command) ||
+                        std::holds_alternative<ArcFeed>(motion.command);
+    if (event == nullptr && !traces) spline_line = 0;
     if (const auto* change = std::get_if<SpindleChange>(&motion.command)) {
       spindle = signed_speed(change->direction, change->speed);
     }
-    if (const auto* event = std::get_if<Event>(&motion.command)) {
-      surface_speed = surface_speed || event->name == "surface_speed";
-    }
+    surface_speed = surface_speed || (event != nullptr && event->name == "surface_speed");
     auto move = std::visit(walk, motion.command);
-    if (!move) continue;
+    if (!move || (traces && motion.place.line == spline_line)) continue;
     if (!surface_speed) move->spindle = spindle;
     moves.push_back(*std::move(move));
   }
@@ -321,6 +328,8 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
       moves.push_back({"probe", printed.axes(), printed.unit});
     } else if (call == "ARC_FEED") {
       moves.push_back(printed.arc());
+    } else if (call == "NURBS_FEED") {
+      moves.push_back({"spline", {printed.numbers.at(0)}});
     } else if (call == "DWELL") {
       moves.push_back({"dwell", {printed.numbers.at(0)}});
     } else if (call == "CHANGE_TOOL" || call == "CHANGE_TOOL_NUMBER") {

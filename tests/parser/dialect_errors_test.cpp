@@ -77,11 +77,11 @@ constexpr Mistake kLinuxcnc[] = {
     {"G54.1 P1\n", "1:1: error: unknown word G54.1"},
     {"M100 R1\n", "1:6: error: R1 has no meaning in this block"},
     {"M200\n", "1:1: error: unknown word M200"},
-    {"G5 X1\n", "1:1: error: G5 is not simulated"},
+    {"G5 X1\n", "1:1: error: the start of the spline is not known: X has not been programmed yet"},
     {"G81 Z-1 R2\n", "1:1: error: the cycle starts at an unknown Z: Z has not been programmed yet"},
     {"G92 X0\n", "1:5: error: G92 says where X is, but X has not been programmed yet"},
     {"O100 sub\n", "1:1: error: subprogram 100 has no end"},
-    {"G41 D1\n", "1:1: error: G41 is not simulated"},
+    {"G41 D1\n", "1:5: error: the tool table has no tool 1"},
     {"G0 A1 E5\n", "1:7: error: E5 has no meaning in this block"},
     {"G52\n", "1:1: error: G52 names no axis"},
     {"G1 X1\n", "1:1: error: G1 without a feed rate"},
@@ -142,7 +142,7 @@ constexpr Mistake kSinumerik[] = {
     {"T1 D1 M6\nG0 SUPA Z0\n",
      "2:4: error: SUPA with a tool length or TRAORI would place the tool's tip"},
     {"G0 A2=30\n", "1:4: error: A2= is not simulated"},
-    {"G41 X0\n", "1:1: error: G41 is not simulated"},
+    {"G41 X0\n", "1:5: error: X0 has no meaning in this block"},
     {"CYCLE800(1,\"T\",0,128,0,0,0,1,2,3)\n", "1:18: error: swivel mode 128 is not simulated"},
     {"CYCLE800(1,\"T\",R1,57,0,0,0,1,2,3)\n", "1:16: error: the status of CYCLE800 is computed"},
     {"SCALE X2 Y2 Z2\nCYCLE800(1,\"T\",1,57,0,0,0,1,2,3)\n",
@@ -179,7 +179,7 @@ constexpr Mistake kSinumerik[] = {
 };
 
 constexpr Mistake kHeidenhain[] = {
-    {"L X+1 RL F100\n", "1:7: error: RL is not simulated"},
+    {"L X+1 RL F100\n", "1:7: error: RL without a tool in the spindle"},
     {"L X+1 F100 X+2\n", "1:12: error: X is given twice in a block"},
     {"L Q1\n", "1:3: error: Q has no meaning in L"},
     {"CALL LBL 1\n", "1:1: error: no subprogram 1"},

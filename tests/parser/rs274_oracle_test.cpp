@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/units.hpp"
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
 #include "parser/tool_table.hpp"

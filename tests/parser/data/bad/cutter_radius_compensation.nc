@@ -1,2 +1,2 @@
-; 2:1: error: G41 is not simulated (hint: program the path of the tool centre and use G40)
+; 2:5: error: the tool table has no tool 1 (hint: give the tool's diameter in the tool table)
 G41 D1
