@@ -33,6 +33,7 @@ constexpr std::array kCodes{
     modal('G', 100, non_modal, NonModal::data, LetterSet("LPRXYZABC")),
     modal('G', 300, non_modal, NonModal::second_home, kAxisWords | LetterSet("P")),
     modal('G', 541, work_offset, kExtendedWorkOffset, LetterSet("P")),
+    passed('G', 50, CodeGroup::event, LetterSet("P")),        // high-speed machining
     passed('G', 51, CodeGroup::event, kSmoothingWords),       // look-ahead contour control
     passed('G', 80, CodeGroup::event, kSmoothingWords),       // look-ahead control
     passed('G', 90),                                          // exact stop on this block
@@ -60,7 +61,9 @@ constexpr std::array kDataWords{
 
 // What would change the part and is not simulated.
 constexpr std::array kRefusedCodes{
-    RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
+    RefusedCode{'G', 52, 69, "write splines as short G1 blocks"},
+    RefusedCode{'G', 71, 79, "write the path in X Y Z of the work, not on the unrolled cylinder"},
+    RefusedCode{'G', 121, 139, "write the path in X Y Z of the work, with C where it turns"},
     RefusedCode{'G', 281, 289, "return to home with G28"},
     RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
     RefusedCode{'G', 411, 419, "use G41 D, in a plane"},

@@ -7,6 +7,13 @@
 #include "parser/running/block_executor.hpp"
 
 namespace frustum::parser {
+namespace {
+
+// What the control takes.
+constexpr double kLeastScale = 1e-5;
+constexpr double kMostScale = 1e4;
+
+}  // namespace
 
 // The tool stays where it is; its coordinates change.
 void BlockExecutor::change_word_frame(const WordFrame& next) {
@@ -167,6 +174,10 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   if (!(next.scale > 0.0)) {
     return fail(words[given].column, fmt::format("{} is not above zero", words.text_of(given)),
                 "give a factor above zero, and mirror axes by G51.1");
+  }
+  if (!(next.scale >= kLeastScale && next.scale <= kMostScale)) {
+    return fail(words[given].column, fmt::format("{} is out of range", words.text_of(given)),
+                "give a factor from 0.00001 to 10000");
   }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
     const auto i = static_cast<Eigen::Index>(axis);
