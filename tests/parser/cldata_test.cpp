@@ -290,6 +290,8 @@ TEST(CldataCycles, PeckTapBoreAndDwell) {
   EXPECT_EQ(path_behind_start("CYCLE/DEEP,DEPTH,10,STEP,6,MMPM,80,CLEAR,2\nGOTO/0,0,0\n"),
             (Path{"rapid 0 0 2", "feed 0 0 -4", "rapid 0 0 2", "rapid 0 0 -3.746", "feed 0 0 -10",
                   "rapid 0 0 2"}));
+  EXPECT_EQ(path_behind_start("CYCLE/DEEP,DEPTH,4,STEP,6,MMPM,80,CLEAR,2,DWELL,1\nGOTO/0,0,0\n"),
+            (Path{"rapid 0 0 2", "feed 0 0 -4", "dwell", "rapid 0 0 2"}));
   EXPECT_EQ(
       path_behind_start("CYCLE/DRILL,BRKCHP,DEPTH,10,STEP,6,MMPM,80,CLEAR,2\nGOTO/0,0,0\n"),
       (Path{"rapid 0 0 2", "feed 0 0 -4", "rapid 0 0 -3.746", "feed 0 0 -10", "rapid 0 0 2"}));
