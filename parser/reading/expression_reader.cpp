@@ -11,7 +11,9 @@ constexpr ExpressionLevel tighter(ExpressionLevel level) {
   return static_cast<ExpressionLevel>(static_cast<std::uint8_t>(level) + 1);
 }
 
-bool is_name(std::string_view spelling) { return spelling.front() >= 'A'; }
+bool is_name(std::string_view spelling) {
+  return spelling.front() >= 'A' && spelling.front() <= 'Z';
+}
 
 }  // namespace
 

@@ -14,7 +14,8 @@ BlockNumbers::BlockNumbers(const Program& program) {
     if (!block) continue;
     if (*block == nullptr) break;
     const TextPlace place = cursor.block_place();
-    if ((*block)->program) program_starts_.push_back(place.offset);
+    // The next program of the file has numbers of its own.
+    if ((*block)->program || (*block)->tape_mark) program_starts_.push_back(place.offset);
     if ((*block)->number) numbers_.push_back({*(*block)->number, place});
   }
   std::sort(numbers_.begin(), numbers_.end(), [](const Numbered& a, const Numbered& b) {

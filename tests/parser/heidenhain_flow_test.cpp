@@ -23,6 +23,7 @@ TEST(HeidenhainFlow, ComputesWithParameters) {
             (std::vector<double>{6, 4, 3, 6, -2}));
   EXPECT_EQ(x_of("Q1 = (2 + 3) * 4 - SQRT 16 / 2\nL X+Q1 FMAX\nL IX-Q1 FMAX\n"),
             (std::vector<double>{18, 0}));
+  EXPECT_EQ(x_of("Q1 = 3 * 2 ^ 2 + 1\nL X+Q1 FMAX\n"), (std::vector<double>{13}));
   const auto found = x_of(
       "FN 6: Q1 = SIN +30\nFN 7: Q2 = COS +60\nFN 5: Q3 = SQRT +9\nL X+Q1 FMAX\nL X+Q2 FMAX\n"
       "L X+Q3 FMAX\n");
