@@ -34,6 +34,7 @@ void add_identify(CLI::App& program, int& exit_code);
 void add_design(CLI::App& program, int& exit_code);
 void add_program(CLI::App& program, int& exit_code);
 void add_parse(CLI::App& program, int& exit_code);
+void add_check(CLI::App& program, int& exit_code);
 void add_post(CLI::App& program, int& exit_code);
 void add_pose(CLI::App& program, int& exit_code);
 void add_cut(CLI::App& program, int& exit_code);

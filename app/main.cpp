@@ -16,9 +16,9 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", FRUSTUM_VERSION);
   int exit_code = kDone;
   for (const Subcommand add :
-       {add_run, add_sensitivity, add_identify, add_design, add_program, add_parse, add_post,
-        add_diff, add_compensate, add_pose, add_cut, add_measure, add_cmm, add_fit, add_machines,
-        add_errors, add_volumetric}) {
+       {add_run, add_sensitivity, add_identify, add_design, add_program, add_parse, add_check,
+        add_post, add_diff, add_compensate, add_pose, add_cut, add_measure, add_cmm, add_fit,
+        add_machines, add_errors, add_volumetric}) {
     add(program, exit_code);
   }
   try {  // exceptions are internal faults: user input is answered with diagnostics

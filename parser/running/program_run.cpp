@@ -94,9 +94,11 @@ ProgramRun::Failure ProgramRun::run_next() {
     return std::nullopt;
   }
   statement_ran_ = statement_ran_ || block.flow.has_value();
+  const std::size_t calls = frames_.size();
   auto failure = block.flow ? follow_statement(block) : execute(block);
   if (!failure || !goes_on(*failure)) return failure;
-  executor_.pass_over(block);
+  // A subprogram that has been left took its block with it.
+  if (frames_.size() == calls) executor_.pass_over(block);
   return std::nullopt;
 }
 

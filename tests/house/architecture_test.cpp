@@ -20,9 +20,9 @@ namespace {
 // Floors of the tower. A room may include a room of a lower floor, never one of its own.
 const std::map<std::string, int>& floors() {
   static const std::map<std::string, int> kFloors{
-      {"core", 1},   {"parser", 2}, {"metrology", 2},   {"kinematics", 3},
-      {"post", 4},   {"cutter", 4}, {"stock", 5},       {"programs", 7},
-      {"report", 7}, {"trials", 8}, {"calibration", 9}, {"app", 10}};
+      {"core", 1},   {"parser", 2},      {"metrology", 2}, {"kinematics", 3}, {"post", 4},
+      {"lint", 4},   {"cutter", 4},      {"stock", 5},     {"programs", 7},   {"report", 7},
+      {"trials", 8}, {"calibration", 9}, {"app", 10}};
   return kFloors;
 }
 

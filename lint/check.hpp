@@ -1,0 +1,76 @@
+// The checks that a program is held against: what each is called and how grave it is.
+//
+// Units : none
+// Errors: none; check_named() returns nothing for an unknown name
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/diagnostic.hpp"
+
+namespace frustum::lint {
+
+// In the order of kChecks (check.cpp).
+enum class Check : std::uint8_t {
+  program_error,
+  missing_subprogram,
+  missing_label,
+  recursion,
+  endless_loop,
+  unused_subprogram,
+  unused_label,
+  unreachable_code,
+  duplicate_number,
+  no_program_end,
+  parameter_unset,
+  vacant_word,
+  not_simulated,
+  feed_missing,
+  feed_high,
+  feed_low,
+  inverse_time_speed,
+  spindle_off,
+  tool_missing,
+  length_missing,
+  length_of_other_tool,
+  arc_radii,
+  arc_full_by_radius,
+  arc_nearly_full,
+  arc_tiny,
+  arc_huge,
+  short_segments,
+  tip_control_off,
+  rotary_with_length,
+  end_tip_control,
+  end_incremental,
+  end_inverse_time,
+  end_tilted_plane,
+  end_shifted_frame,
+  end_spindle,
+  end_coolant,
+  end_no_retract,
+  setup_assumed,
+  unknown_axis,
+  unreachable_orientation,
+  machine_refuses,
+  over_travel,
+  rotary_over_travel,
+  axis_too_slow,
+};
+
+struct CheckInfo {
+  Check check;
+  std::string_view id;  // "over-travel", as --disable and SARIF have it
+  Severity severity;    // a finding may be graver or milder
+  std::string_view title;
+  bool needs_machine = false;
+};
+
+[[nodiscard]] std::span<const CheckInfo> all_checks();
+[[nodiscard]] const CheckInfo& info_of(Check check);
+[[nodiscard]] std::optional<Check> check_named(std::string_view id);
+
+}  // namespace frustum::lint

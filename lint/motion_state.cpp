@@ -1,0 +1,114 @@
+#include "lint/motion_state.hpp"
+
+#include <cmath>
+
+namespace frustum::lint {
+namespace {
+
+using parser::AxisLetter;
+using parser::AxisTarget;
+
+constexpr std::array kLinear{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
+// Below any written digit.
+constexpr double kStands = 1e-9;  // mm, rad
+
+// Up along Z and nothing else: how a tool leaves a cut by feed.
+bool goes_up(const AxisTarget& from, const AxisTarget& to) {
+  const auto& z0 = from[AxisLetter::Z];
+  const auto& z1 = to[AxisLetter::Z];
+  return z0 && z1 && *z1 > *z0 && from[AxisLetter::X] == to[AxisLetter::X] &&
+         from[AxisLetter::Y] == to[AxisLetter::Y];
+}
+
+}  // namespace
+
+std::optional<AxisLetter> moving_axis(const AxisTarget& from, const AxisTarget& to, bool rotary) {
+  for (const AxisLetter axis : parser::kAxisLetters) {
+    if (is_rotary(axis) != rotary || !from[axis] || !to[axis]) continue;
+    if (std::abs(*from[axis] - *to[axis]) > kStands) return axis;
+  }
+  return std::nullopt;
+}
+bool linear_axis_moves(const AxisTarget& from, const AxisTarget& to) {
+  return moving_axis(from, to, false).has_value();
+}
+bool rotary_axis_moves(const AxisTarget& from, const AxisTarget& to) {
+  return moving_axis(from, to, true).has_value();
+}
+
+void MotionState::follow(const parser::Motion& motion) {
+  std::visit([this](const auto& command) { after(command); }, motion.command);
+  if (!std::holds_alternative<parser::Event>(motion.command)) place = motion.place;
+  if (std::holds_alternative<parser::LinearFeed>(motion.command) ||
+      std::holds_alternative<parser::ArcFeed>(motion.command)) {
+    last_cut = motion.place;
+  }
+}
+
+void MotionState::forget_linear() {
+  for (const AxisLetter axis : kLinear) position[axis].reset();
+}
+
+void MotionState::place_at(const AxisTarget& end, parser::Coordinates coordinates) {
+  if (coordinates == parser::Coordinates::program) {
+    position = end;
+    return;
+  }
+  for (const AxisLetter axis : parser::kAxisLetters) {
+    if (end[axis]) position[axis].reset();
+  }
+}
+
+void MotionState::after(const parser::Traverse& move) {
+  const bool first = !position[AxisLetter::Z] || !position[AxisLetter::X];
+  retracted = retracted || first || move.coordinates == parser::Coordinates::machine ||
+              linear_axis_moves(position, move.end);
+  place_at(move.end, move.coordinates);
+}
+void MotionState::after(const parser::HomeReturn& move) {
+  retracted = true;
+  for (const AxisLetter axis : parser::kAxisLetters) {
+    if (move.axes.at(static_cast<std::size_t>(axis))) position[axis].reset();
+  }
+}
+void MotionState::after(const parser::LinearFeed& move) {
+  cuts = true;
+  retracted = move.coordinates == parser::Coordinates::machine || goes_up(position, move.end);
+  place_at(move.end, move.coordinates);
+}
+void MotionState::after(const parser::ArcFeed& move) {
+  cuts = true;
+  retracted = false;
+  position = move.end;
+}
+void MotionState::after(const parser::Probe& /*move*/) {
+  // Where the probe has met the part nobody knows.
+  position = {};
+}
+void MotionState::after(const parser::ToolChange& change) {
+  tool = change.tool;
+  ++compensation_changes;
+}
+void MotionState::after(const parser::CompensationChange& change) {
+  compensation = change;
+  ++compensation_changes;
+  forget_linear();
+}
+void MotionState::after(const parser::SpindleChange& change) {
+  spindle = change;
+  ++spindle_changes;
+}
+void MotionState::after(const parser::TiltedPlaneChange& change) {
+  tilted = change.program_from_plane.has_value();
+  forget_linear();
+}
+void MotionState::after(const parser::WorkOffsetChange& /*change*/) { position = {}; }
+void MotionState::after(const parser::AlignToPlane& /*align*/) { position = {}; }
+void MotionState::after(const parser::Stop& stop) {
+  ended = ended || stop.kind == parser::StopKind::program_end;
+}
+void MotionState::after(const parser::Event& event) {
+  surface_speed = surface_speed || event.name == "surface_speed";
+}
+
+}  // namespace frustum::lint

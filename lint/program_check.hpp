@@ -1,0 +1,48 @@
+// Holds a program against all checks, in one run of it.
+//
+// The program is read once for its structure (program_structure.hpp) and run once, past the blocks that cannot be run; the
+// motions go through each check and, where there is a machine, through its controller. Repeats are counted, so that a
+// program of any size gives a list that a person reads.
+//
+// Units : as of the checks
+// Shape : memory does not grow with the program, but for its labels and subprograms
+// Errors: none: what is wrong with the program is a finding
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "kinematics/controller.hpp"
+#include "kinematics/machine.hpp"
+#include "lint/finding_list.hpp"
+#include "parser/interpreter.hpp"
+#include "parser/program.hpp"
+
+namespace frustum::lint {
+
+struct CheckOptions {
+  parser::InterpreterOptions run{};              // `watch` and `go_on` are the check's own
+  const kinematics::Machine* machine = nullptr;  // null: the checks that need one are left out
+  kinematics::Setup setup{};
+  std::set<Check> disabled{};
+  // A loop or jump that comes more often than this is taken for one that never ends.
+  std::uint64_t most_turns = 1'000'000;
+};
+
+struct CheckReport {
+  std::vector<Finding> findings{};
+  // Findings of a check beyond kMostPlaces.
+  std::map<Check, std::uint64_t> left_out{};
+  std::uint64_t blocks = 0;   // that were run
+  std::uint64_t motions = 0;  // that they commanded
+
+  [[nodiscard]] std::size_t count(Severity severity) const;
+};
+
+[[nodiscard]] CheckReport check_program(const parser::Program& program,
+                                        const CheckOptions& options);
+
+}  // namespace frustum::lint

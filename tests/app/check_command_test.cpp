@@ -1,0 +1,123 @@
+// frustum check and what frustum parse says of a program that cannot be run to its end.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/command_line.hpp"
+
+namespace frustum {
+namespace {
+
+using nlohmann::json;
+
+class CheckCommandSystem : public CommandLine {
+ protected:
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(folder_ / file, std::ios::binary) << text;
+  }
+};
+
+const std::string kGood =
+    "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG0 Z60\nM5\nM30\n";
+
+TEST_F(CheckCommandSystem, PassesAProgramWithNothingWrong) {
+  write("part.nc", kGood);
+  const Outcome outcome = run("check part.nc --machine iwf-bc --tool-length 1=100");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  EXPECT_EQ(outcome.out, "0 errors, 0 warnings, 0 notes in 8 blocks that ran\n");
+  EXPECT_NE(outcome.err.find("note: read as fanuc"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run("check part.nc --quiet").err, "");
+}
+
+TEST_F(CheckCommandSystem, TellsPlaceMessageAndLineAsACompilerDoes) {
+  write("part.nc", "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X412 Y0 Z50\nG0 X0\nM5\nM30\n");
+  const Outcome outcome = run("check part.nc --machine iwf-bc --tool-length 1=100");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(
+      outcome.out.find("part.nc:4:1: error: X goes to 412.000 mm, 12.000 mm beyond its travel of "
+                       "-400 to 400 mm [over-travel]\n     4 | G0 X412 Y0 Z50\n       | ^\n"),
+      std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(CheckCommandSystem, LeavesTheMachineOutWithANote) {
+  write("part.nc", "G0 X9999\nM30\n");
+  const Outcome outcome = run("check part.nc");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  EXPECT_NE(outcome.err.find("no --machine"), std::string::npos) << outcome.err;
+}
+
+TEST_F(CheckCommandSystem, FailsOnWarningsWhenTold) {
+  write("part.nc", "G0 X1\nG91\nM30\n");
+  EXPECT_EQ(run("check part.nc").exit_code, 0);
+  EXPECT_EQ(run("check part.nc --fail-on warning").exit_code, 1);
+  EXPECT_EQ(run("check part.nc --fail-on warning --disable end-incremental").exit_code, 0);
+}
+
+TEST_F(CheckCommandSystem, PrintsOneJsonDocument) {
+  write("part.nc", "G0 X1\nG1 X2\nM30\n");
+  const Outcome outcome = run("check part.nc --json --machine iwf-bc");
+  EXPECT_EQ(outcome.exit_code, 1);
+  const json doc = json::parse(outcome.out);
+  EXPECT_EQ(doc["status"], "fail");
+  EXPECT_EQ(doc["machine"], "iwf-bc");
+  EXPECT_EQ(doc["findings"][0]["id"], "feed-missing");
+  EXPECT_EQ(doc["findings"][0]["line"], 2);
+}
+
+TEST_F(CheckCommandSystem, WritesSarif) {
+  write("part.nc", "G0 X1\nG1 X2\nM30\n");
+  EXPECT_EQ(run("check part.nc --sarif found.sarif").exit_code, 1);
+  const json doc = json::parse(read(folder_ / "found.sarif"));
+  EXPECT_EQ(doc["version"], "2.1.0");
+  const json& result = doc["runs"][0]["results"][0];
+  EXPECT_EQ(result["ruleId"], "feed-missing");
+  EXPECT_EQ(result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "part.nc");
+}
+
+TEST_F(CheckCommandSystem, RefusesWhatIsWrongWithTheCommand) {
+  write("part.nc", kGood);
+  for (const char* words :
+       {"check no-such.nc", "check part.nc --machine no-such", "check",
+        "check part.nc --disable spindel-off", "check part.nc --fail-on note"}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_FALSE(outcome.err.empty()) << words;
+    EXPECT_EQ(outcome.out, "") << words;
+  }
+  EXPECT_NE(run("check part.nc --disable spindel-off").err.find("spindle-off"), std::string::npos);
+}
+
+TEST_F(CheckCommandSystem, FindsSubprogramsInTheFoldersThatAreNamed) {
+  fs::create_directories(folder_ / "macros");
+  write("macros/O9010.nc", "O9010\nG1 X5\nM99\n");
+  write("part.nc", "G65 P9010\nM30\n");
+  EXPECT_NE(run("check part.nc").out.find("[missing-subprogram]"), std::string::npos);
+  const Outcome outcome = run("check part.nc --search macros");
+  EXPECT_NE(outcome.out.find("macros/O9010.nc:2:1: error: G1 without a feed rate [feed-missing]\n"
+                             "     2 | G1 X5\n"),
+            std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(CheckCommandSystem, ListsItsChecks) {
+  const Outcome outcome = run("check --list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("over-travel (error, with a machine): "), std::string::npos);
+}
+
+TEST_F(CheckCommandSystem, ParseEndsItsLinesWithTheError) {
+  write("part.nc", "G0 X1\nG1 X2\n");
+  const Outcome outcome = run("parse part.nc --canon --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("part.nc:2:1: error: G1 without a feed rate"), std::string::npos);
+  std::istringstream lines(outcome.out);
+  std::string first, last;
+  std::getline(lines, first);
+  std::getline(lines, last);
+  EXPECT_EQ(json::parse(first)["type"], "traverse");
+  EXPECT_EQ(json::parse(last)["type"], "error");
+  EXPECT_EQ(json::parse(last)["line"], 2);
+}
+
+}  // namespace
+}  // namespace frustum

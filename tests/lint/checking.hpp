@@ -1,0 +1,46 @@
+// Checks NC text in tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinematics/machine.hpp"
+#include "lint/program_check.hpp"
+
+namespace frustum::lint {
+
+[[nodiscard]] inline CheckReport checked(std::string_view text, const CheckOptions& options = {},
+                                         parser::Dialect dialect = parser::Dialect::fanuc) {
+  CheckOptions quick = options;
+  quick.most_turns = 1000;
+  return check_program({"part.nc", dialect, parser::ProgramText(std::string(text))}, quick);
+}
+
+[[nodiscard]] inline std::vector<Finding> of(const CheckReport& report, std::string_view id) {
+  std::vector<Finding> found;
+  for (const Finding& finding : report.findings) {
+    if (info_of(finding.check).id == id) found.push_back(finding);
+  }
+  return found;
+}
+
+[[nodiscard]] inline std::string ids(const CheckReport& report) {
+  std::string text;
+  for (const Finding& finding : report.findings) {
+    text += std::to_string(finding.line) + ":" + std::string(info_of(finding.check).id) + " ";
+  }
+  return text;
+}
+
+[[nodiscard]] inline kinematics::Machine shipped(const std::string& name) {
+  const std::string folder = std::string(FRUSTUM_SOURCE_DIR) + "/machines/";
+  auto machine = kinematics::Machine::load(folder + name + ".toml");
+  if (!machine) throw std::runtime_error(to_string(machine.error().front()));
+  return *std::move(machine);
+}
+
+}  // namespace frustum::lint
