@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "kinematics/chain.hpp"
 #include "kinematics/controller.hpp"
@@ -24,11 +25,18 @@ AxisTarget target(std::initializer_list<std::pair<AxisLetter, double>> words) {
   return t;
 }
 
+void add(Motions& motions, std::uint32_t line, Command command) {
+  Motion& motion = motions.emplace_back();
+  motion.place.line = line;
+  motion.place.column = 1;
+  motion.command = std::move(command);
+}
+
 // Numbers the motions as lines.
 Motions lines(std::initializer_list<Command> commands) {
   Motions motions;
   for (const Command& c : commands) {
-    motions.push_back({{static_cast<std::uint32_t>(motions.size() + 1), 1}, c});
+    add(motions, static_cast<std::uint32_t>(motions.size() + 1), c);
   }
   return motions;
 }
@@ -232,9 +240,9 @@ Result<Execution> pole_passage(const Machine& machine, double beside, Orientatio
                            Traverse{target({{X, -20}, {Y, 0}, {Z, 80}}), lean(-0.2)}});
   // Vector blocks as a programming system writes them, one of them from before the pole to behind it.
   for (int i = 1; i <= 20; ++i) {
-    motions.push_back({{static_cast<std::uint32_t>(100 + i), 1},
-                       LinearFeed{target({{X, -20 + 2.0 * i}}), lean(-0.2 + 0.02 * i),
-                                  Coordinates::program, feed(1500)}});
+    add(motions, static_cast<std::uint32_t>(100 + i),
+        LinearFeed{target({{X, -20 + 2.0 * i}}), lean(-0.2 + 0.02 * i), Coordinates::program,
+                   feed(1500)});
   }
   return run(machine, motions);
 }
@@ -272,13 +280,13 @@ Motions wandering(int blocks) {
   Motions motions = lines({ToolChange{1}, kTcp, Traverse{target({{X, 0}, {Y, 0}, {Z, 80}})}});
   for (int i = 0; i < blocks; ++i) {
     const double t = 0.01 * i;
-    motions.push_back({{static_cast<std::uint32_t>(10 + i), 1},
-                       LinearFeed{.end = target({{X, 40 * std::sin(t)},
-                                                 {Y, 30 * std::cos(1.3 * t)},
-                                                 {B, -20 + 5 * std::sin(2 * t)},
-                                                 {C, 30 * std::sin(0.7 * t)}}),
-                                  .feed = feed(4000)}});
-    if (i % 700 == 699) motions.push_back({{1, 1}, Dwell{0.5}});
+    add(motions, static_cast<std::uint32_t>(10 + i),
+        LinearFeed{.end = target({{X, 40 * std::sin(t)},
+                                  {Y, 30 * std::cos(1.3 * t)},
+                                  {B, -20 + 5 * std::sin(2 * t)},
+                                  {C, 30 * std::sin(0.7 * t)}}),
+                   .feed = feed(4000)});
+    if (i % 700 == 699) add(motions, 1, Dwell{0.5});
   }
   return motions;
 }
