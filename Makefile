@@ -23,7 +23,7 @@ help:
 	@echo 'make clean         remove build/ and out/'
 
 setup:
-	@scripts/setup $(if $(filter 1,$(ORACLE)),--with-oracle)
+	@scripts/setup $(if $(filter 1,$(ORACLE)),--with-oracle) $(if $(filter fuzz,$(MAKECMDGOALS)),--with-fuzz)
 
 build/%/build.ninja: CMakePresets.json | setup
 	cmake --preset $*
