@@ -18,6 +18,9 @@ std::string spelling_of(std::string_view name) {
 }  // namespace
 
 Result<int> Parameters::index_of(double number, const ParameterRules& rules) {
+  if (is_vacant(number)) {
+    return error("the number of the parameter is vacant", "set it on an earlier block");
+  }
   // A computed index may be off by rounding; RS-274 forgives 1e-4.
   const double nearest = std::round(number);
   if (std::abs(number - nearest) > 1e-4) {
@@ -35,7 +38,7 @@ Result<int> Parameters::index_of(double number, const ParameterRules& rules) {
 }
 
 Result<double> Parameters::read(double number) const {
-  if (rules_.unset_is_vacant && number == 0.0) return kVacant;
+  if (rules_.unset_is_vacant && (number == 0.0 || is_vacant(number))) return kVacant;
   auto index = index_of(number, rules_);
   if (!index) return std::move(index).error();
   if (system_ != nullptr) {

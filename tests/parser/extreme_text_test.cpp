@@ -3,6 +3,7 @@
 
 #include <ctime>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Extreme {
   std::string text;
   std::string complaint;  // the first, without the hint
 };
+void PrintTo(const Extreme& extreme, std::ostream* out) { *out << extreme.name; }
 
 using enum Dialect;
 const std::vector<Extreme> kExtremes{
@@ -42,6 +44,8 @@ const std::vector<Extreme> kExtremes{
      "1:4: error: X is too large"},
     {"HeidenhainBeyondMachines", heidenhain, "L IX+1" + std::string(300, '0'),
      "1:3: error: IX is too large"},
+    {"FanucVacantParameterNumber", fanuc, "#[#1]=5",
+     "1:1: error: the number of the parameter is vacant"},
     {"FanucBlockNumber", fanuc, "N" + kDigits, "1:2: error: the number is too large"},
     {"LinuxcncBlockNumber", linuxcnc, "N" + kDigits, "1:2: error: the number is too large"},
     {"SinumerikBlockNumber", sinumerik, "N" + kDigits + " G0",
