@@ -1,0 +1,203 @@
+// Feed, tool, spindle, coolant and dwell, and the modes that calls keep: what neither moves an axis nor changes a frame.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "parser/running/block_executor.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxTool = 99'999'999;
+constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kSecondsPerMinute = 60.0;
+
+}  // namespace
+
+BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
+  const auto mode = words.value_or(CodeGroup::feed_mode, state_.feed_mode);
+  if (mode != state_.feed_mode) state_.feed.reset();
+  state_.feed_mode = mode;
+  if (const GivenCode& source = words[CodeGroup::feed_source]; source.code != nullptr) {
+    if (!state_.tool_feed) {
+      return fail(source.column, source.code->name() + " without a feed in the tool call",
+                  "give F in TOOL CALL, or a number here");
+    }
+    state_.feed = state_.tool_feed;
+  }
+  if (!words.has('F')) return Done{};
+  const double feed = words['F'].value;
+  if (feed < 0.0) {
+    return fail(words['F'].column, fmt::format("{} is negative", words.text_of('F')),
+                "give a feed above zero");
+  }
+  const bool in_inches = state_.unit == LengthUnit::inch && mode != FeedMode::inverse_time;
+  const double scale = in_inches ? kMmPerInch : 1.0;
+  const auto given = feed > 0.0 ? std::optional(FeedWord{feed, feed * scale}) : std::nullopt;
+  // The feed of a tool call waits for F AUTO.
+  const bool of_tool = rules_.dialect == Dialect::heidenhain && words.has(CodeGroup::tool_change);
+  (of_tool ? state_.tool_feed : state_.feed) = given;
+  return Done{};
+}
+
+// In LinuxCNC the tool table has all the tools there are; T0 is no tool.
+BlockExecutor::Outcome BlockExecutor::check_tool_exists(int tool, std::uint32_t column) const {
+  const bool listed = rules_.dialect == Dialect::linuxcnc && data_.tools_are_listed;
+  if (!listed || tool == 0 || data_.tools.contains(tool)) return Done{};
+  return fail(column, fmt::format("tool {} is not in the tool table", tool),
+              fmt::format("add a line T{} to the tool table", tool));
+}
+
+BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
+  if (words.has('T')) {
+    const auto tool = whole(words, 'T', 0, kMaxTool);
+    if (!tool) return tool.error();
+    if (auto done = check_tool_exists(*tool, words['T'].column); !done) return done;
+    state_.selected_tool = *tool;
+  }
+  const GivenCode& change = words[CodeGroup::tool_change];
+  if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
+    if (!words.has('Q')) {
+      return fail(change.column, change.code->name() + " without a tool",
+                  fmt::format("give the tool that is in the spindle, for example {} Q1",
+                              change.code->name()));
+    }
+    const auto tool = whole(words, 'Q', 0, kMaxTool);
+    if (!tool) return tool.error();
+    if (auto done = check_tool_exists(*tool, words['Q'].column); !done) return done;
+    state_.tool = data_.tool = *tool;
+    emit(change.column, ToolChange{state_.tool});
+  } else if (change.code != nullptr) {
+    if (!state_.selected_tool) {
+      return fail(change.column, change.code->name() + " without a tool",
+                  "give T on this block or before");
+    }
+    if (state_.spindle != SpindleDirection::off) {
+      state_.spindle = SpindleDirection::off;
+      emit(change.column, SpindleChange{state_.spindle, state_.spindle_speed});
+    }
+    state_.tool = data_.tool = *state_.selected_tool;
+    emit(change.column, ToolChange{state_.tool});
+  }
+  return Done{};
+}
+
+void BlockExecutor::set_spindle_and_coolant(const BlockWords& words, bool speed) {
+  const GivenCode& spindle = words[CodeGroup::spindle];
+  if (spindle.code != nullptr || (speed && state_.spindle != SpindleDirection::off)) {
+    state_.spindle = words.value_or(CodeGroup::spindle, state_.spindle);
+    emit(spindle.code != nullptr ? spindle.column : words['S'].column,
+         SpindleChange{state_.spindle, state_.spindle_speed});
+  }
+  const GivenCode& coolant = words[CodeGroup::coolant];
+  if (coolant.code != nullptr && !coolant.code->event) {
+    state_.flood = static_cast<CoolantWord>(coolant.code->value) == CoolantWord::flood;
+    emit(coolant.column, CoolantChange{state_.flood});
+  }
+}
+
+BlockExecutor::Outcome BlockExecutor::dwell(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  const DwellWord* given = nullptr;
+  for (const DwellWord& word : rules_.dwell) {
+    if (!words.has(word.letter)) continue;
+    if (given != nullptr) {
+      return fail(
+          words[word.letter].column,
+          fmt::format("{} has both {} and {}", code.code->name(), given->letter, word.letter),
+          "give one time");
+    }
+    given = &word;
+  }
+  if (given == nullptr) {
+    return fail(code.column, code.code->name() + " without a time", std::string(rules_.dwell_hint));
+  }
+  const GivenWord& time = words[given->letter];
+  if (time.value < 0.0) {
+    return fail(time.column, fmt::format("{} is negative", words.text_of(given->letter)),
+                "a dwell takes a time that is not negative");
+  }
+  if (given->unit == DwellUnit::revolutions && state_.spindle_speed <= 0.0) {
+    return fail(time.column, "a dwell in revolutions with no spindle speed",
+                "give a spindle speed before");
+  }
+  const bool milliseconds =
+      given->unit == DwellUnit::milliseconds_without_point && !time.decimal_point;
+  emit(code.column, Dwell{milliseconds ? time.value / kMillisecondsPerSecond
+                          : given->unit == DwellUnit::revolutions
+                              ? time.value * kSecondsPerMinute / state_.spindle_speed
+                              : time.value});
+  return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::keep_modes(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::saved_modes];
+  if (code.code == nullptr) return Done{};
+  SavedModes& saved = saved_modes_.back();
+  switch (static_cast<SavedModesWord>(code.code->value)) {
+    case SavedModesWord::save:
+      saved = {state_, false, false};
+      break;
+    case SavedModesWord::save_for_call:
+      saved = {state_, true, false};
+      break;
+    case SavedModesWord::drop:
+      saved = {};
+      break;
+    case SavedModesWord::restore:
+      if (!saved.state) {
+        return fail(code.column, "there are no saved modes", "save them with M70 or M73 before");
+      }
+      restore_modes(code.column);
+      break;
+  }
+  return Done{};
+}
+
+void BlockExecutor::restore_modes(std::uint32_t column) {
+  const ModalState& saved = *saved_modes_.back().state;
+  state_.plane = saved.plane;
+  state_.unit = saved.unit;
+  state_.diameter = saved.diameter;
+  state_.distance = saved.distance;
+  state_.arc_distance = saved.arc_distance;
+  state_.feed_mode = saved.feed_mode;
+  const bool all = !saved_modes_.back().of_g_words;
+  if (all) {
+    state_.feed = saved.feed;
+  } else {
+    state_.motion = saved.motion;
+    if (rules_.planes_end_frames) set_program_frame(saved.program_frame);
+  }
+  state_.retract_to_initial = saved.retract_to_initial;
+  state_.surface_speed = saved.surface_speed;
+  if (state_.work_offset != saved.work_offset) {
+    // It was in force before, so that there is nothing to complain of.
+    static_cast<void>(select_work_offset(saved.work_offset, column));
+  }
+  if (!all) return;
+  if (state_.spindle != saved.spindle || state_.spindle_speed != saved.spindle_speed) {
+    state_.spindle = saved.spindle;
+    state_.spindle_speed = saved.spindle_speed;
+    emit(column, SpindleChange{state_.spindle, state_.spindle_speed});
+  }
+  if (state_.flood != saved.flood) {
+    state_.flood = saved.flood;
+    emit(column, CoolantChange{state_.flood});
+  }
+}
+
+void BlockExecutor::enter_call() {
+  saved_modes_.emplace_back();
+  ++system_.call_level;
+}
+
+void BlockExecutor::leave_call() {
+  if (saved_modes_.back().state && saved_modes_.back().comes_back) restore_modes(1);
+  saved_modes_.pop_back();
+  --system_.call_level;
+}
+
+}  // namespace frustum::parser
