@@ -1,12 +1,9 @@
-// LinuxCNC tool tables (.tbl).
+// The cutters of a LinuxCNC tool table (.tbl), whose text parser/tool_table.hpp reads.
 //
-// Model    : one tool a line: words of a letter and a number in any order (T tool, P pocket, Z length,
-//            D diameter; X Y A B C U V W offsets, I J angles and Q orientation of lathe tools are read over),
-//            then ';' and a remark. A table knows no shape: a tool is taken as a flat end mill. Lines without
-//            a length or diameter above 0 (probes, empty pockets) give no tool
-// Units    : mm, as the table of a metric machine has them; `mm_per_unit` scales those of others
-// Errors   : file, line and column of a word that is none, a letter that no table has, a letter twice on a
-//            line, a tool number that is none or stands on two lines, a table without tools
+// Model    : a table knows no shape: a tool is taken as a flat end mill of its D and Z. Lines without a length or
+//            diameter above 0 (probes, empty pockets) give no tool
+// Units    : mm, as the table of a metric machine has them
+// Errors   : those of the table, and one without tools
 #pragma once
 
 #include <filesystem>
@@ -18,9 +15,7 @@
 namespace frustum::cutter {
 
 [[nodiscard]] Result<ToolList> read_tool_table(std::string_view text,
-                                               const std::filesystem::path& file,
-                                               double mm_per_unit = 1.0);
-[[nodiscard]] Result<ToolList> load_tool_table(const std::filesystem::path& file,
-                                               double mm_per_unit = 1.0);
+                                               const std::filesystem::path& file);
+[[nodiscard]] Result<ToolList> load_tool_table(const std::filesystem::path& file);
 
 }  // namespace frustum::cutter
