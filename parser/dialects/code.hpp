@@ -102,7 +102,18 @@ enum class ScalingWord : std::uint8_t { off, on };
 enum class MirrorWord : std::uint8_t { off, on };
 enum class RetractWord : std::uint8_t { initial, level };
 // What is done at each hole that the program names by itself: hole_cycle.hpp.
-enum class HoleWord : std::uint8_t { off, on, drill, peck, break_chip, tap, bore };
+// `deep` and `deep_pecks` are those of deep_hole.hpp, 203 and 205.
+enum class HoleWord : std::uint8_t {
+  off,
+  on,
+  drill,
+  peck,
+  break_chip,
+  tap,
+  bore,
+  deep,
+  deep_pecks
+};
 // The programmable frame: the first four replace it, the others go on within it.
 enum class FrameWord : std::uint8_t {
   shift,
@@ -126,6 +137,7 @@ enum class TiltWord : std::uint8_t {
   vectors,         // X along A B C, Z along I J K
   points,          // X from X Y Z to I J K, Y to the side of u v w
   relative,        // a turn A, B or C in the frame at work
+  projected,       // the lines of the plane above X and Y, turned by I and J; X turned by K
 };
 
 struct Code {

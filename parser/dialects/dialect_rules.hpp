@@ -101,6 +101,9 @@ struct DialectRules {
   bool planes_end_frames = false;
   // Subprograms are programs with a head of their own, or files without; every end of a program returns from one.
   bool subprograms_are_programs = false;
+  // A program that is called has a file of its own, which the word of its end (END PGM) returns from. Labels and the
+  // unit belong to their file, and M2 and M30 have no place in one that is called.
+  bool calls_whole_files = false;
   // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
   std::span<const std::string_view> file_names{};
 };

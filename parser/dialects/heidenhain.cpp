@@ -36,20 +36,26 @@ constexpr std::array kCodes{
     named("CYCL DEF 8", mirror, MirrorWord::on, LetterSet("XYZ")),
     named("CYCL DEF 8 OFF", mirror, MirrorWord::off),
     named("CYCL DEF 11", scaling, ScalingWord::on, LetterSet("XYZP")),
+    named("CYCL DEF 26", scaling, ScalingWord::on, LetterSet("XYZIJK")),
+    named("CYCL DEF 19", tilted_plane, TiltWord::spatial, LetterSet("ABCd")),
+    named("CYCL DEF 19 OFF", tilted_plane, TiltWord::off),
     named("CYCL DEF 10", tilted_plane, TiltWord::turn, LetterSet("XYR")),
     named("CYCL DEF 200", hole_cycle, HoleWord::drill, kHoleWords),
     named("CYCL DEF 201", hole_cycle, HoleWord::bore, kHoleWords),
     named("CYCL DEF 207", hole_cycle, HoleWord::tap, kHoleWords),
+    named("CYCL DEF 203", hole_cycle, HoleWord::deep, kHoleWords | LetterSet("DLKH")),
+    named("CYCL DEF 205", hole_cycle, HoleWord::deep_pecks, kHoleWords | LetterSet("DLEHgh")),
     named("CYCL CALL", hole_call, 0),
     modal('M', 990, hole_call, 0),
     named("FN 14", raised_error, 0, LetterSet("E")),
     named("DWELL", non_modal, NonModal::dwell, LetterSet("P")),
-    named("PLANE SPATIAL", tilted_plane, TiltWord::spatial, LetterSet("ABCd")),
-    named("PLANE EULER", tilted_plane, TiltWord::turns, LetterSet("IJKd")),
-    named("PLANE VECTOR", tilted_plane, TiltWord::vectors, LetterSet("ABCIJKd")),
-    named("PLANE POINTS", tilted_plane, TiltWord::points, LetterSet("XYZIJKuvwd")),
-    named("PLANE RELATIV", tilted_plane, TiltWord::relative, LetterSet("ABCd")),
-    named("PLANE RESET", tilted_plane, TiltWord::off, LetterSet("d")),
+    named("PLANE SPATIAL", tilted_plane, TiltWord::spatial, LetterSet("ABCdm")),
+    named("PLANE PROJECTED", tilted_plane, TiltWord::projected, LetterSet("IJKdm")),
+    named("PLANE EULER", tilted_plane, TiltWord::turns, LetterSet("IJKdm")),
+    named("PLANE VECTOR", tilted_plane, TiltWord::vectors, LetterSet("ABCIJKdm")),
+    named("PLANE POINTS", tilted_plane, TiltWord::points, LetterSet("XYZIJKuvwdm")),
+    named("PLANE RELATIV", tilted_plane, TiltWord::relative, LetterSet("ABCdm")),
+    named("PLANE RESET", tilted_plane, TiltWord::off, LetterSet("dm")),
     named("FUNCTION TCPM", tool_tip, TipWord::on),
     named("FUNCTION RESET TCPM", tool_tip, TipWord::off),
     named("PATHCTRL AXIS", orientation_path, OrientationPath::rotary_axes),
@@ -102,11 +108,14 @@ constexpr std::array kLetters{
     LetterUse{'b', kNeedsTcpm},
     LetterUse{'c', kNeedsTcpm},
     LetterUse{'d', "it belongs to PLANE"},
+    LetterUse{'m', "it belongs to PLANE"},
     LetterUse{'p', "PR gives a radius in LP, CP and CTP"},
     LetterUse{'q', "PA gives an angle in LP, CP and CTP"},
     LetterUse{'t', "FT gives the time of a cutting block"},
 };
 constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
+
+constexpr std::array<std::string_view, 2> kFiles{"{}.h", "{}.H"};
 
 constexpr DialectRules kRules{
     .dialect = Dialect::heidenhain,
@@ -123,7 +132,10 @@ constexpr DialectRules kRules{
     .always_claimed = LetterSet("FST"),
     .letters = kLetters,
     .known_letters = "X Y Z A B C F FT M R",
+    .parameters = {.local_names = "QL"},
     .polar_words = LetterSet("pq"),
+    .calls_whole_files = true,
+    .file_names = kFiles,
 };
 
 }  // namespace

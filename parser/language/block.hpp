@@ -6,6 +6,8 @@
 //   A to Z   as ISO programs write them
 //   a b c    the tool vector where it has words of its own (A3= B3= C3=, TX TY TZ)
 //   d        a tilted plane turns the rotary axes to its normal (0: it does not)
+//   m        they turn with the tip of the tool held where it is (MOVE)
+//   D L K E H g h  of a deep hole: hole_cycle.hpp
 //   t        the duration of the block in seconds (FT)
 //   e        full turns of an arc beyond the first (TURN=)
 //   p q      radius and angle of a polar position (@ ^, PR PA)

@@ -112,6 +112,8 @@ struct FlowStatement {
   std::vector<Choice> choices{};
   std::string last_label{};  // of a repeated part
   PartEnd part_end = PartEnd::here;
+  bool of_file = false;   // a call names a whole program, which has a file of its own (CALL PGM)
+  bool by_cycle = false;  // and is made later, where a cycle is called (CYCL DEF 12)
 };
 
 }  // namespace frustum::parser

@@ -24,8 +24,10 @@ namespace frustum::parser {
 constexpr int kMaxParameterNumber = 99999;
 
 struct ParameterRules {
-  int locals = 0;              // #1 up to this number belong to the subprogram
-  bool named_locals = false;   // so do names without _ before them
+  int locals = 0;             // #1 up to this number belong to the subprogram
+  bool named_locals = false;  // so do names without _ before them
+  // Names that begin so belong to the program file at work (Klartext's QL); all other names are of the whole run.
+  std::string_view local_names{};
   bool unset_is_zero = false;  // a number that was never set reads as 0
   // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but vacant ones, and a
   // word of that value is not given at all (Custom Macro).
@@ -89,6 +91,7 @@ class Parameters {
   [[nodiscard]] std::optional<double> number_in(std::string_view name) const;
   [[nodiscard]] bool is_local(int index) const { return index <= rules_.locals; }
   [[nodiscard]] bool is_local(std::string_view name) const {
+    if (!rules_.local_names.empty()) return name.starts_with(rules_.local_names);
     return rules_.named_locals && (rules_.names_are_defined || !name.starts_with('_'));
   }
   [[nodiscard]] Numbered& numbered(int index) {

@@ -1,6 +1,7 @@
 // Q parameters, FN, labels and calls of Klartext.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -139,8 +140,12 @@ class FlowReader {
 
   // CALL LBL 1, CALL LBL 1 REP 3.
   void read_call(std::uint32_t column) {
+    if (in_.take_name("PGM")) return read_program_call(false);
     if (!in_.take_name("LBL")) {
-      return in_.fail(column, "CALL without LBL is not simulated", "write CALL LBL 1");
+      const std::string what = in_.name();
+      return in_.fail(column,
+                      fmt::format("CALL {} is not simulated", what.empty() ? "alone" : what),
+                      "write CALL LBL 1, or CALL PGM and the name of a program");
     }
     draft_.begin_flow(FlowKind::call, column);
     read_label_name();
@@ -150,6 +155,34 @@ class FlowReader {
       // Older controls show how many are left.
       if (in_.take('/')) (void)in_.digits();
     }
+    end_statement(draft_);
+  }
+
+  void read_program_call(bool by_cycle) {
+    const std::uint32_t column = in_.column();
+    const bool quoted = in_.take('"');
+    std::string name = in_.text_to(quoted ? "\"" : ";");
+    if (quoted && !in_.take('"')) {
+      return in_.fail(column, "the name is not closed", "close it with \"");
+    }
+    if (const auto folder = name.find_last_of("\\/:"); folder != std::string::npos) {
+      name.erase(0, folder + 1);
+    }
+    const std::size_t point = name.find_last_of('.');
+    const std::string ending = point == std::string::npos ? ".H" : name.substr(point);
+    name.resize(std::min(point, name.size()));
+    if (name.empty() || name.find_first_not_of(". ") == std::string::npos) {
+      return in_.fail(column, "the call names no program",
+                      "write CALL PGM and a name: CALL PGM SLOT.H");
+    }
+    if (ending != ".H" && ending != ".h") {
+      return in_.fail(column, fmt::format("a program {} is called from Klartext", ending),
+                      "call programs in Klartext, whose names end in .H");
+    }
+    draft_.begin_flow(FlowKind::call, column);
+    block_.flow->label = std::move(name);
+    block_.flow->of_file = true;
+    block_.flow->by_cycle = by_cycle;
     end_statement(draft_);
   }
 
@@ -211,6 +244,9 @@ void read_heidenhain_label(BlockDraft& draft, std::uint32_t column) {
 }
 void read_heidenhain_call(BlockDraft& draft, std::uint32_t column) {
   FlowReader(draft).read_call(column);
+}
+void read_heidenhain_program_call(BlockDraft& draft, bool by_cycle) {
+  FlowReader(draft).read_program_call(by_cycle);
 }
 
 }  // namespace frustum::parser

@@ -24,6 +24,8 @@ struct PlaneForm {
 constexpr std::array kSpatial{PlaneWord{"SPA", 'A'}, PlaneWord{"SPB", 'B'}, PlaneWord{"SPC", 'C'}};
 constexpr std::array kEuler{PlaneWord{"EULPR", 'I'}, PlaneWord{"EULNU", 'J'},
                             PlaneWord{"EULROT", 'K'}};
+constexpr std::array kProjected{PlaneWord{"PROPR", 'I'}, PlaneWord{"PROMIN", 'J'},
+                                PlaneWord{"ROT", 'K'}};
 constexpr std::array kVectors{PlaneWord{"BX", 'A'}, PlaneWord{"BY", 'B'}, PlaneWord{"BZ", 'C'},
                               PlaneWord{"NX", 'I'}, PlaneWord{"NY", 'J'}, PlaneWord{"NZ", 'K'}};
 constexpr std::array kPoints{PlaneWord{"P1X", 'X'}, PlaneWord{"P1Y", 'Y'}, PlaneWord{"P1Z", 'Z'},
@@ -31,6 +33,7 @@ constexpr std::array kPoints{PlaneWord{"P1X", 'X'}, PlaneWord{"P1Y", 'Y'}, Plane
                              PlaneWord{"P3X", 'u'}, PlaneWord{"P3Y", 'v'}, PlaneWord{"P3Z", 'w'}};
 constexpr std::array kForms{
     PlaneForm{"SPATIAL", "PLANE SPATIAL", 3, "three angles: SPA, SPB and SPC", kSpatial},
+    PlaneForm{"PROJECTED", "PLANE PROJECTED", 3, "three angles: PROPR, PROMIN and ROT", kProjected},
     PlaneForm{"EULER", "PLANE EULER", 3, "three angles: EULPR, EULNU and EULROT", kEuler},
     PlaneForm{"VECTOR", "PLANE VECTOR", 6, "two vectors: BX BY BZ and NX NY NZ", kVectors},
     PlaneForm{"POINTS", "PLANE POINTS", 9, "three points: P1X P1Y P1Z to P3Z", kPoints},
@@ -46,13 +49,19 @@ class PlaneReader {
     const std::string kind = in_.name();
     const auto* form = std::find_if(kForms.begin(), kForms.end(),
                                     [&](const PlaneForm& known) { return known.kind == kind; });
+    if (kind == "AXIAL") {
+      return in_.fail(column, "PLANE AXIAL is not simulated",
+                      "which plane the axes' positions give is the machine's to know: use PLANE "
+                      "SPATIAL SPA SPB SPC");
+    }
     if (form == kForms.end()) {
       return in_.fail(column, fmt::format("PLANE {} is not simulated", kind),
-                      "use PLANE SPATIAL SPA SPB SPC, EULER, VECTOR, POINTS, RELATIV or RESET");
+                      "use PLANE SPATIAL SPA SPB SPC, PROJECTED, EULER, VECTOR, POINTS, RELATIV or "
+                      "RESET");
     }
     add_code(block_, *find_code(Dialect::heidenhain, form->code), column);
     std::size_t given = 0;
-    bool behaviour = false;
+    std::string behaviour;
     while (!in_.at_end()) {
       const std::uint32_t place = in_.column();
       if (in_.peek() == ';') {
@@ -65,12 +74,14 @@ class PlaneReader {
         continue;
       }
       const std::string name = in_.letters();
-      if (name == "TURN" || name == "STAY") {
-        behaviour = true;
+      if (name == "TURN" || name == "STAY" || name == "MOVE") {
+        if (!behaviour.empty()) {
+          return in_.fail(place, fmt::format("{} beside {}", name, behaviour),
+                          "say once whether the axes turn: TURN, MOVE or STAY");
+        }
+        behaviour = name;
         if (name == "TURN") add_number(block_, 'd', 1.0, place, "TURN ");
-      } else if (name == "MOVE") {
-        in_.fail(place, "PLANE ... MOVE is not simulated",
-                 "retract the tool and use TURN, or STAY and turn the axes by L");
+        if (name == "MOVE") add_number(block_, 'm', 1.0, place, "MOVE ");
       } else {
         read_plane_option(name, place);
       }
@@ -83,9 +94,13 @@ class PlaneReader {
           fmt::format("PLANE {} needs {}", kind, form->what.substr(0, form->what.find(':'))),
           fmt::format("give {}", form->what.substr(form->what.find(':') + 2)));
     }
-    if (!behaviour) {
-      in_.fail(column, fmt::format("PLANE {} does not say whether the axes turn", kind),
-               "end it with TURN or STAY");
+    if (behaviour.empty()) {
+      return in_.fail(column, fmt::format("PLANE {} does not say whether the axes turn", kind),
+                      "end it with TURN, MOVE or STAY");
+    }
+    if (behaviour == "MOVE" && distance_ != 0.0) {
+      in_.fail(distance_column_, fmt::format("DIST {} with MOVE is not simulated", distance_),
+               "hold the tip itself, by DIST0, or retract the tool and use TURN");
     }
   }
 
@@ -121,7 +136,12 @@ class PlaneReader {
     }
     if (name == "MB" || name == "DIST" || name == "ABST") {
       if (in_.take_name("MAX")) return pass("PLANE MB", "MAX");
-      return pass("PLANE MB", fmt::format("{}", in_.signed_number(name, place)));
+      const double value = in_.signed_number(name, place);
+      if (name != "MB") {
+        distance_ = value;
+        distance_column_ = place;
+      }
+      return pass(name == "MB" ? "PLANE MB" : "PLANE DIST", fmt::format("{}", value));
     }
     if (name == "SEQ" || name == "SYM") {
       const char sign = in_.peek();
@@ -135,12 +155,16 @@ class PlaneReader {
     }
     if (name.empty()) return in_.fail_unexpected("write PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY");
     in_.fail(place, fmt::format("{} has no meaning in PLANE", name),
-             "known are the words of its form, TURN, STAY, MB, F, SEQ, SYM, TABLE ROT, COORD ROT");
+             "known are the words of its form, TURN, MOVE, STAY, MB, DIST, F, SEQ, SYM, TABLE ROT, "
+             "COORD ROT");
   }
 
   BlockDraft& draft_;
   LineScanner& in_;
   Block& block_;
+  // Of MOVE: how far in front of the tip the point lies that is held.
+  double distance_ = 0.0;
+  std::uint32_t distance_column_ = 0;
 };
 
 }  // namespace

@@ -28,6 +28,9 @@ void read_heidenhain_plane(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_function(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_cycle(BlockDraft& draft, std::uint32_t column);
 
+// A call of the program file that is named next: TNC:\\WORK\\SLOT.H, "SLOT.H", SLOT. Folders of the control are left out.
+void read_heidenhain_program_call(BlockDraft& draft, bool by_cycle);
+
 [[nodiscard]] const ExpressionSpelling& heidenhain_expressions();
 // Q1, QL1, QR1
 [[nodiscard]] bool is_q_parameter(std::string_view name);

@@ -370,6 +370,12 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   const GivenCode& stop = words[CodeGroup::stop];
   if (stop.code != nullptr) {
     const auto kind = static_cast<StopKind>(stop.code->value);
+    const bool called = rules_.calls_whole_files && file_ != nullptr;
+    if (kind == StopKind::program_end && called) {
+      if (stop.code->letter == kNamedWord) return Flow{LeaveSubprogram{stop.column, {}, true}};
+      return fail(stop.column, stop.code->name() + " in a program that is called",
+                  "end it with END PGM, which goes back to the caller");
+    }
     if (kind == StopKind::program_end) {
       auto done = end_radius_compensation(block_->place_of(stop.column));
       if (!done) return std::move(done).error();
@@ -377,6 +383,9 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
     }
     emit(stop.column, Stop{kind});
     if (kind == StopKind::program_end) return Flow{EndProgram{}};
+  }
+  if (words.has(CodeGroup::hole_call) && !state_.hole_cycle.program.empty()) {
+    return Flow{CallFile{state_.hole_cycle.program, words[CodeGroup::hole_call].column}};
   }
   const GivenCode& subprogram = words[CodeGroup::subprogram];
   const auto word = words.value_or(CodeGroup::subprogram, SubprogramWord::none);

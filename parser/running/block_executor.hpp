@@ -49,6 +49,12 @@ struct EndProgram {};
 struct LeaveSubprogram {
   std::uint32_t column = 0;
   std::optional<std::uint32_t> block_number{};  // where the caller goes on
+  bool of_file = false;                         // the end of a whole program (END PGM)
+};
+// A whole program, in a file of its own.
+struct CallFile {
+  std::string name{};
+  std::uint32_t column = 0;
 };
 struct CallSubprogram {
   std::uint32_t program = 0;
@@ -60,7 +66,8 @@ struct CallSubprogram {
   bool modal = false;  // G66: not now, but after each block that moves
 };
 struct EndModalCall {};  // G67
-using Flow = std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram, EndModalCall>;
+using Flow =
+    std::variant<NextBlock, EndProgram, LeaveSubprogram, CallSubprogram, CallFile, EndModalCall>;
 
 class BlockExecutor {
  public:
@@ -85,13 +92,17 @@ class BlockExecutor {
   // A call of a subprogram and its end; modes saved by M73 come back.
   void enter_call();
   void leave_call();
+  // The program that a call of the cycle runs from now on (CYCL DEF 12).
+  void set_called_program(std::string name);
   // The file that the blocks from now on are of, as SourcePlace::file has it.
   void read_from(std::shared_ptr<const std::string> file) { file_ = std::move(file); }
   // After a block that could not be carried out: the axes that it names are where it says, as far as that is
   // plain, and not known otherwise.
   void pass_over(const Block& block);
   // The modes of G words and the frame come back at the end of the call at work (SAVE).
-  void keep_modes_for_call() { saved_modes_.back() = {state_, true, true}; }
+  void keep_modes_for_call() {
+    saved_modes_.back() = {state_, true, true, saved_modes_.back().unit};
+  }
 
  private:
   // What of the block moves axes, and how.
@@ -136,6 +147,7 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_work_offset(const BlockWords& words);
   [[nodiscard]] Outcome set_tilted_plane(const BlockWords& words);
   [[nodiscard]] Outcome set_plane(const BlockWords& words);
+  [[nodiscard]] Outcome turn_to_plane(const BlockWords& words);
   [[nodiscard]] Outcome set_feature(const BlockWords& words);
   [[nodiscard]] Outcome check_feature(const Movement& movement) const;
   [[nodiscard]] Outcome turn_in_space(const BlockWords& words);
@@ -217,6 +229,7 @@ class BlockExecutor {
   void drill(const std::vector<CycleStep>& steps, std::uint32_t column, const PlaceInHole& place,
              const Feed& feed, const Feed& feed_out);
   [[nodiscard]] Outcome set_hole_cycle(const BlockWords& words);
+  [[nodiscard]] Outcome set_deep_hole(const BlockWords& words, HoleWord word);
   [[nodiscard]] Outcome make_hole(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome call_hole_cycle(const BlockWords& words);
   void drill_from_top(const Vec3& top, const std::optional<Vec3>& from, bool turns,
@@ -262,7 +275,8 @@ class BlockExecutor {
   struct SavedModes {
     std::optional<ModalState> state{};
     bool comes_back = false;
-    bool of_g_words = false;  // feed, spindle and coolant stay as they are
+    bool of_g_words = false;                   // feed, spindle and coolant stay as they are
+    LengthUnit unit = LengthUnit::millimetre;  // at the call
   };
   std::vector<SavedModes> saved_modes_{1};
   SystemParameters system_{rules_.dialect, state_, position_, data_};

@@ -247,7 +247,7 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
     plane.translation += plane.rotation * (vector_of(words, "uvw") * unit_scale());
     plane = *below * plane;
   }
-  const bool aligns = words.has('d') && words['d'].value != 0.0;
+  const bool aligns = (words.has('d') && words['d'].value != 0.0) || words.has('m');
   if (kind != TiltWord::off || state_.tilted || aligns) {
     forget(kLinearWords, PositionLoss::tilted_plane);
   }
@@ -257,7 +257,7 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
     emit(tilt.column, TiltedPlaneChange{plane});
   }
   if (aligns) {
-    if (auto done = align(tilt.column); !done) return done;
+    if (auto done = turn_to_plane(words); !done) return done;
   }
   if (kind == TiltWord::off) {
     state_.tilted = false;
@@ -274,6 +274,28 @@ BlockExecutor::Outcome BlockExecutor::align(std::uint32_t column) {
   forget(kAxisWords, PositionLoss::tilted_plane);
   state_.tool_axis.reset();
   return Done{};
+}
+
+// TURN and MOVE; STAY leaves the axes where they are. MOVE holds the tip, as tool-tip control does.
+BlockExecutor::Outcome BlockExecutor::turn_to_plane(const BlockWords& words) {
+  const std::uint32_t column = words[CodeGroup::tilted_plane].column;
+  if (!words.has('m')) return words.has('d') ? align(column) : Outcome{Done{}};
+  const Compensation before = state_.compensation;
+  if (!before.length) {
+    return fail(words['m'].column, "MOVE holds the tip of a tool, but no tool is called",
+                "call a tool before, or use TURN");
+  }
+  const auto hold = [&](bool tip) -> Outcome {
+    Compensation next = before;
+    next.tip = before.tip || tip;
+    if (next == state_.compensation) return Done{};
+    if (auto done = change_compensation(words, next); !done) return done;
+    emit(column, told(next));
+    return Done{};
+  };
+  if (auto done = hold(true); !done) return done;
+  if (auto done = align(column); !done) return done;
+  return hold(false);
 }
 
 void BlockExecutor::set_paths(const BlockWords& words) {

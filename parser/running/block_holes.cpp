@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string_view>
 
 #include "parser/running/block_executor.hpp"
 #include "parser/running/canned_cycle.hpp"
@@ -11,6 +13,7 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::array kSpatial{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
+constexpr int kMaxBreaks = 99'999;
 constexpr double kSameAxis = 1e-9;  // the sine of the angle between two tool axes
 
 MotionMode kind_of(HoleWord word, bool dwells) {
@@ -95,12 +98,61 @@ BlockExecutor::Outcome BlockExecutor::set_hole_cycle(const BlockWords& words) {
                 fmt::format("{} lies below where feeding begins", words.text_of('v')),
                 "give a height above it");
   }
+  if (word == HoleWord::deep || word == HoleWord::deep_pecks) return set_deep_hole(words, word);
   const bool steps = cycle.kind == MotionMode::peck || cycle.kind == MotionMode::peck_short;
   if (steps && cycle.level + cycle.depth > kMostPecks * cycle.peck) {
     return fail(words['Q'].column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
                 "give a larger step");
   }
   return Done{};
+}
+
+BlockExecutor::Outcome BlockExecutor::set_deep_hole(const BlockWords& words, HoleWord word) {
+  for (const char letter : std::string_view("QDLHEgh")) {
+    if (words[letter].value >= 0.0) continue;
+    return fail(words[letter].column, fmt::format("{} is negative", words.text_of(letter)),
+                "lengths of a peck count downwards without a sign");
+  }
+  HoleCycle& cycle = state_.hole_cycle;
+  const auto length = [&](char letter, double otherwise) {
+    return words.has(letter) ? words[letter].value * unit_scale() : otherwise;
+  };
+  DeepHole hole;
+  hole.depth = cycle.depth;
+  hole.first = length('Q', 0.0);
+  hole.decrement = length('D', 0.0);
+  hole.least = length('L', 0.0);
+  hole.chip = length('H', hole.chip);
+  hole.break_each = length('E', 0.0);
+  hole.dwell = cycle.dwell;
+  hole.dwell_above = cycle.dwell_above;
+  const bool in_pecks = word == HoleWord::deep_pecks;
+  hole.first_stop = in_pecks ? length('g', 0.2) : cycle.clear;
+  hole.last_stop = in_pecks ? length('h', hole.first_stop) : cycle.clear;
+  hole.clears_by_feed = !in_pecks;
+  hole.leaves_by_feed = !in_pecks || words.has('W');
+  if (words.has('K')) {
+    const auto breaks = whole(words, 'K', 0, kMaxBreaks);
+    if (!breaks) return breaks.error();
+    hole.breaks = *breaks;
+  }
+  const double pecks = peck_count(hole);
+  if (!std::isfinite(pecks)) {
+    return fail(words['D'].column, "the pecks shrink to nothing above the bottom",
+                "give the least one: Q205=1");
+  }
+  if (pecks > kMostPecks) {
+    return fail(words[words.has('E') ? 'E' : 'Q'].column,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks),
+                "give a larger step");
+  }
+  cycle.deep = hole;
+  return Done{};
+}
+
+void BlockExecutor::set_called_program(std::string name) {
+  state_.hole_cycle = {};
+  state_.hole_cycle.program = std::move(name);
 }
 
 // The words name the top of the hole; the tool comes from where it is, over the hole and down.
@@ -177,14 +229,15 @@ void BlockExecutor::drill_from_top(const Vec3& top, const std::optional<Vec3>& f
     depths.peck_from = 0.0;
     depths.dwell_above = cycle.dwell_above;
   }
-  drill(steps_at_hole(cycle.kind, depths), column, place, cycle.feed,
-        cycle.feed_out.value_or(cycle.feed));
+  drill(cycle.deep ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
+                   : steps_at_hole(cycle.kind, depths),
+        column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
 }
 
 // CYCL CALL, M99: at the place where the tool is.
 BlockExecutor::Outcome BlockExecutor::call_hole_cycle(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::hole_call];
-  if (code.code == nullptr) return Done{};
+  if (code.code == nullptr || !state_.hole_cycle.program.empty()) return Done{};
   if (!state_.hole_cycle.on) {
     return fail(code.column, code.code->name() + " without a cycle",
                 "define it before, for example by CYCL DEF 200");

@@ -138,13 +138,13 @@ BlockExecutor::Outcome BlockExecutor::keep_modes(const BlockWords& words) {
   SavedModes& saved = saved_modes_.back();
   switch (static_cast<SavedModesWord>(code.code->value)) {
     case SavedModesWord::save:
-      saved = {state_, false, false};
+      saved = {state_, false, false, saved.unit};
       break;
     case SavedModesWord::save_for_call:
-      saved = {state_, true, false};
+      saved = {state_, true, false, saved.unit};
       break;
     case SavedModesWord::drop:
-      saved = {};
+      saved = {.unit = saved.unit};
       break;
     case SavedModesWord::restore:
       if (!saved.state) {
@@ -190,12 +190,13 @@ void BlockExecutor::restore_modes(std::uint32_t column) {
 }
 
 void BlockExecutor::enter_call() {
-  saved_modes_.emplace_back();
+  saved_modes_.push_back({.unit = state_.unit});
   ++system_.call_level;
 }
 
 void BlockExecutor::leave_call() {
   if (saved_modes_.back().state && saved_modes_.back().comes_back) restore_modes(1);
+  if (rules_.calls_whole_files) state_.unit = saved_modes_.back().unit;
   saved_modes_.pop_back();
   --system_.call_level;
 }

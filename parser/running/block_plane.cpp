@@ -1,11 +1,16 @@
 // PLANE of Klartext: tilted planes by angles, vectors, points, and on top of each other. The datum stays.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/units.hpp"
 #include "parser/running/block_executor.hpp"
+#include "parser/running/feature_frame.hpp"
 
 namespace frustum::parser {
 namespace {
+
+constexpr double kRightAngle = 90.0;
 
 Mat3 turn(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
 
@@ -46,6 +51,21 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
       rotation = turn(2, angles[0]) * turn(0, angles[1]) * turn(2, angles[2]);
       break;
     }
+    case TiltWord::projected: {
+      for (const char letter : {'I', 'J'}) {
+        if (std::abs(words[letter].value) < kRightAngle) continue;
+        return fail(words[letter].column, fmt::format("{} is out of range", words.text_of(letter)),
+                    "the angles of the lines go from above -90 to below 90 degrees");
+      }
+      FeatureWords lines{.form = FeatureForm::projection};
+      lines.parts[0] = FeaturePart{.numbers = vector_of(words, "IJK") * kRadPerDeg};
+      const auto plane = feature_frame(lines);
+      if (!plane) {
+        return fail(code.column, plane.error().front().message, plane.error().front().hint);
+      }
+      rotation = plane->rotation;
+      break;
+    }
     case TiltWord::vectors:
       rotation = axes_along(vector_of(words, "ABC"), vector_of(words, "IJK"));
       break;
@@ -70,7 +90,7 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
                        : "give B a direction across N, both longer than zero");
   }
   if (auto done = tilt(code, Pose::rotated(*rotation), within); !done) return done;
-  return words.has('d') ? align(code.column) : Outcome{Done{}};
+  return turn_to_plane(words);
 }
 
 }  // namespace frustum::parser

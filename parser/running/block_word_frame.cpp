@@ -141,10 +141,15 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::scaling];
   if (code.code == nullptr) return Done{};
   WordFrame next = state_.word_frame;
+  const bool klartext = rules_.dialect == Dialect::heidenhain;
   if (next.turns()) {
     return fail(code.column, fmt::format("{} within a turned frame", code.code->name()),
-                "scale first and turn then, and end them the other way round: G69, then G50");
+                klartext ? "end the rotation before, by CYCL DEF 10.1 ROT+0, and begin it again"
+                         : "scale first and turn then, and end them the other way round: G69, then "
+                           "G50");
   }
+  // Of Klartext an axis that is not named keeps its factor.
+  const double kept = next.scale;
   next.scale = 1.0;
   next.scale_centre.setZero();
   change_word_frame(next);
@@ -164,6 +169,13 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
       continue;
     }
     const bool missing = !words.has(letter);
+    if (klartext && missing && factor(given) == kept) continue;
+    if (klartext) {
+      return fail(words[missing ? given : letter].column,
+                  fmt::format("{} scales one axis other than the rest",
+                              words.text_of(missing ? given : letter)),
+                  "circles would be none: give X, Y and Z one factor, or CYCL DEF 11.1 SCL 0.99");
+    }
     return fail(words[missing ? given : letter].column,
                 missing
                     ? fmt::format("{} scales without {}", code.code->name(), letter)

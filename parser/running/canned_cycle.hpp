@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "core/units.hpp"
-#include "parser/running/modal_state.hpp"
+#include "parser/language/modes.hpp"
 
 namespace frustum::parser {
 

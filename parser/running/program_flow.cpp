@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxArguments = 30;
 constexpr double kMaxTurns = 1e9;
+constexpr const char* kEndOfLabel = "LBL 0";
 
 std::string unlabelled(std::string_view kind, const std::string& label) {
   return label.empty() ? std::string(kind) : fmt::format("{} {}", kind, label);
@@ -250,20 +251,28 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   if (rules_.subprograms_are_programs) {
     return call_program(block, *name, std::move(arguments), *count);
   }
-  const auto holder = program_with(*name);
+  if (flow.of_file) {
+    if (!flow.by_cycle) return follow(block, CallFile{*name, flow.column});
+    executor_.set_called_program(*name);
+    return std::nullopt;
+  }
+  const auto holder = rules_.calls_whole_files ? frame().program : program_with(*name);
   const Landmark* entry = holder == nullptr ? nullptr : holder->map().target(*name);
+  // Labels share the parameters of their file.
+  const bool has_locals = !rules_.calls_whole_files;
   if (holder != nullptr && !holder->map().faults().empty()) return holder->map().faults().front();
   if (entry == nullptr) {
     return at(block, flow.column, unlabelled("no subprogram", *name),
-              options_.search_path.empty() ? "define it in the program"
-                                           : "define it in the program or in a file of its name");
+              options_.search_path.empty() || rules_.calls_whole_files
+                  ? "define it in the program"
+                  : "define it in the program or in a file of its name");
   }
   CallFrame next{holder,        BlockCursor(holder->program()),
-                 *name,         rules_.dialect == Dialect::heidenhain ? "LBL 0" : "endsub",
+                 *name,         rules_.calls_whole_files ? kEndOfLabel : "endsub",
                  entry->behind, {entry->place.line, entry->column},
-                 *count,        true};
+                 *count,        has_locals};
   if (auto failure = push_call(block, flow.column, std::move(next))) return failure;
-  executor_.parameters().enter(arguments);
+  if (has_locals) executor_.parameters().enter(arguments);
   return std::nullopt;
 }
 
@@ -341,7 +350,7 @@ ProgramRun::Failure ProgramRun::give_back(const Block& block) {
   if (frames_.size() == 1 && rules_.subprograms_are_programs)
     return end_program(block, flow.column);
   // Klartext passes the end of a subprogram that was not called.
-  if (frames_.size() == 1 && rules_.dialect == Dialect::heidenhain) return std::nullopt;
+  if (rules_.calls_whole_files && frame().end != kEndOfLabel) return std::nullopt;
   if (frames_.size() == 1) {
     return at(block, flow.column, "return outside a subprogram", "end the main program with M2");
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <system_error>
 #include <utility>
 
 namespace frustum::parser {
@@ -12,12 +13,20 @@ namespace {
 // P00032000: three times O2000.
 constexpr std::uint32_t kRepeatsFactor = 10'000;
 
+constexpr const char* kEndOfFile = "END PGM";
+
 std::string known_programs(const ProgramMap& map) {
   if (map.programs().empty())
     return "the file holds no subprogram; begin one with O and its number";
   std::string names = "the file holds";
   for (const auto& entry : map.programs()) names += fmt::format(" O{}", entry.first);
   return names;
+}
+
+// A name that is too long for the file system is none of a file.
+bool is_file(const std::filesystem::path& path) {
+  std::error_code unreadable;
+  return std::filesystem::is_regular_file(path, unreadable);
 }
 
 std::string small(std::string name) {
@@ -110,6 +119,7 @@ ProgramRun::Failure ProgramRun::execute(const Block& block) {
   auto flow = executor_.execute(block);
   if (!flow) return in_this_file(std::move(flow).error().front());
   const bool calls_or_leaves = std::holds_alternative<CallSubprogram>(*flow) ||
+                               std::holds_alternative<CallFile>(*flow) ||
                                std::holds_alternative<LeaveSubprogram>(*flow);
   if (calls_or_leaves && executor_.moved() && !frame().modal_macros.empty()) {
     return at(block, 1, "a call or M99 beside a move, which calls the macro of G66",
@@ -216,6 +226,8 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram
     return end_program(block, leave.column);
   }
   if (frames_.size() == 1) return repeat_main_program(block, leave);
+  // Of a subprogram within the file, which has not ended.
+  if (leave.of_file && frame().end != kEndOfFile) return run_off(nullptr);
   if (!leave.block_number) {
     return_from_call();
     return std::nullopt;
@@ -263,6 +275,21 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
 ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) {
   if (!call.modal) return call_numbered(block, std::move(call), false);
   frame().modal_macros.push_back({std::move(call)});
+  return std::nullopt;
+}
+
+// CALL PGM: the file from its start to its END PGM.
+ProgramRun::Failure ProgramRun::follow(const Block& block, const CallFile& call) {
+  const auto holder = file_of(call.name);
+  if (holder == nullptr) {
+    return at(
+        block, call.column, fmt::format("there is no program {}", call.name),
+        fmt::format("it is looked for beside this one and in the search path, as {}.h", call.name));
+  }
+  CallFrame next{holder, BlockCursor(holder->program()), call.name, kEndOfFile, {}, {1, 1}, 1,
+                 true};
+  if (auto failure = push_call(block, call.column, std::move(next))) return failure;
+  executor_.parameters().enter({});
   return std::nullopt;
 }
 
@@ -317,10 +344,8 @@ std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
     for (const std::string_view pattern : rules_.file_names) {
       auto file = folder / fmt::format(fmt::runtime(pattern), name);
       // Names that a control writes in capitals are often small in the names of files.
-      if (!std::filesystem::is_regular_file(file)) {
-        file = folder / fmt::format(fmt::runtime(pattern), small(name));
-      }
-      if (!std::filesystem::is_regular_file(file)) continue;
+      if (!is_file(file)) file = folder / fmt::format(fmt::runtime(pattern), small(name));
+      if (!is_file(file)) continue;
       auto program = open_program(file, rules_.dialect);
       if (!program) continue;
       place->second = std::make_shared<LoadedProgram>(*std::move(program),

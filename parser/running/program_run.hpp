@@ -39,6 +39,7 @@ class ProgramRun {
   [[nodiscard]] Failure follow(const Block& block, const EndProgram& end);
   [[nodiscard]] Failure follow(const Block& block, const LeaveSubprogram& leave);
   [[nodiscard]] Failure follow(const Block& block, CallSubprogram call);
+  [[nodiscard]] Failure follow(const Block& block, const CallFile& call);
   [[nodiscard]] Failure follow(const Block& block, const EndModalCall& end);
   [[nodiscard]] Failure call_numbered(const Block& block, CallSubprogram call, bool by_modal);
   [[nodiscard]] Failure repeat_main_program(const Block& block, const LeaveSubprogram& leave);
