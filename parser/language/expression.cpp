@@ -218,22 +218,6 @@ Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
   return diagnostic;
 }
 
-const char* operator_text(Operation operation) {
-  constexpr std::array kText{"+",    "-",     "*",     "/",    "**",    " MOD ", " DIV ",
-                             " EQ ", " NE ",  " GT ",  " GE ", " LT ",  " LE ",  " AND ",
-                             " OR ", " XOR ", " AND ", " OR ", " XOR ", " MOD "};
-  return kText.at(static_cast<std::size_t>(operation) - static_cast<std::size_t>(Operation::add));
-}
-
-std::string function_text(Operation operation, const std::string& argument) {
-  for (const std::span<const FunctionName> table : {function_names(), macro_function_names()}) {
-    for (const FunctionName& function : table) {
-      if (function.operation == operation) return fmt::format("{}[{}]", function.name, argument);
-    }
-  }
-  return argument;
-}
-
 }  // namespace
 
 std::span<const FunctionName> function_names() { return kFunctions; }
@@ -292,45 +276,6 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
     }
   }
   return stack[0];
-}
-
-std::string to_text(std::span<const ExpressionStep> steps, std::span<const std::string> names) {
-  std::vector<std::string> stack;
-  for (const ExpressionStep& step : steps) {
-    if (step.operation == Operation::number) {
-      stack.push_back(decimal_text(step.number));
-      continue;
-    }
-    if (step.operation == Operation::named_parameter) {
-      stack.push_back(fmt::format("#<{}>", names[static_cast<std::size_t>(step.number)]));
-      continue;
-    }
-    if (step.operation == Operation::exists) {
-      stack.push_back(fmt::format("EXISTS[#<{}>]", names[static_cast<std::size_t>(step.number)]));
-      continue;
-    }
-    std::string right;
-    if (takes_two(step.operation)) {
-      right = std::move(stack.back());
-      stack.pop_back();
-    }
-    std::string& left = stack.back();
-    if (step.operation == Operation::parameter) {
-      const bool plain = left.find_first_not_of("0123456789") == std::string::npos;
-      left = fmt::format(fmt::runtime(plain || left.front() == '#' ? "#{}" : "#[{}]"), left);
-    } else if (step.operation == Operation::negate) {
-      const bool bare =
-          left.front() == '#' || left.front() == '[' || std::isalpha(left.front()) != 0;
-      left = fmt::format(fmt::runtime(bare ? "-{}" : "-[{}]"), left);
-    } else if (step.operation == Operation::arc_tangent) {
-      left = fmt::format("ATAN[{}]/[{}]", left, right);
-    } else if (takes_two(step.operation)) {
-      left = fmt::format("[{}{}{}]", left, operator_text(step.operation), right);
-    } else {
-      left = function_text(step.operation, left);
-    }
-  }
-  return stack.empty() ? std::string{} : stack.front();
 }
 
 std::string decimal_text(double value) {

@@ -98,10 +98,6 @@ struct ExpressionContext {
 // The diagnostic has a column but neither file nor line.
 [[nodiscard]] Result<double> evaluate(const ExpressionContext& context, ExpressionRange range);
 
-// The expression as NC text; reading it again gives the same steps.
-[[nodiscard]] std::string to_text(std::span<const ExpressionStep> steps,
-                                  std::span<const std::string> names);
-
 // The shortest decimal text (no exponent) that reads back as exactly `value`.
 [[nodiscard]] std::string decimal_text(double value);
 

@@ -31,7 +31,7 @@ std::string CldataRecord::text_from(std::size_t first) const {
   std::string text;
   for (std::size_t i = first; i < arguments.size(); ++i) {
     if (!text.empty()) text += ',';
-    text += arguments[i].is_number() ? fmt::format("{}", arguments[i].number) : arguments[i].word;
+    text += arguments[i].is_number() ? decimal_text(arguments[i].number) : arguments[i].word;
   }
   return text;
 }

@@ -245,7 +245,7 @@ class CycleReader {
       turns = true;
       if (name == "FMAX" || name == "FAUTO") continue;
       const double value = in_.signed_number(name, place);
-      if (clearance) draft_.add_event("CYCL DEF 19 SETUP", place, fmt::format("{}", value));
+      if (clearance) draft_.add_event("CYCL DEF 19 SETUP", place, decimal_text(value));
     }
     for (const char angle : {'A', 'B', 'C'}) {
       if (off || in_.failed() || given.find(angle) != std::string::npos) continue;

@@ -23,7 +23,8 @@ class FunctionReader {
     if (kind == "MODE") return note(draft_, "FUNCTION MODE", column, in_.text_to(";"));
     if (kind == "DWELL") {
       const std::uint32_t place = in_.column();
-      if (!in_.take_name("TIME")) {
+      // The number may follow without a blank: TIME2.
+      if (in_.letters() != "TIME") {
         return in_.fail(place, "FUNCTION DWELL without TIME", "write FUNCTION DWELL TIME2");
       }
       return add_dwell(draft_, in_.signed_number("TIME", place), column);

@@ -211,7 +211,7 @@ class PathReader {
     if (in_.letters() != "F" || in_.next_name() == "MAX") return in_.go_to(feed_column);
     // The feed of the balancing moves.
     block_.comments.push_back(
-        {feed_column, false, fmt::format("F{}", in_.signed_number("F", feed_column)), "M128"});
+        {feed_column, false, "F" + decimal_text(in_.signed_number("F", feed_column)), "M128"});
   }
 
   void add_measured(char letter, Measure measure, const char* spelled, std::uint32_t column) {

@@ -141,7 +141,7 @@ class PlaneReader {
         distance_ = value;
         distance_column_ = place;
       }
-      return pass(name == "MB" ? "PLANE MB" : "PLANE DIST", fmt::format("{}", value));
+      return pass(name == "MB" ? "PLANE MB" : "PLANE DIST", decimal_text(value));
     }
     if (name == "SEQ" || name == "SYM") {
       const char sign = in_.peek();

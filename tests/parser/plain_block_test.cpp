@@ -8,6 +8,7 @@
 
 #include "parser/reading/grammar.hpp"
 #include "tests/parser/random_program.hpp"
+#include "tests/parser/same_block.hpp"
 
 namespace frustum::parser {
 namespace {

@@ -1,12 +1,10 @@
 #include "parser/program.hpp"
-#include "parser/language/block_text.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "parser/canonical_json.hpp"
-#include "tests/parser/random_program.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {
@@ -67,24 +65,6 @@ TEST(Program, RemembersLinesAndEntries) {
 TEST(Program, OfNoTextHasNoBlocks) {
   EXPECT_TRUE(blocks_of(*parse_program("", "part.nc")).empty());
   EXPECT_TRUE(blocks_of(*parse_program("\n\n  \n", "part.nc")).empty());
-}
-
-// Law: reading what was printed gives the same blocks, and printing that the same text.
-TEST(ProgramLaws, PrintThenParseIsTheIdentity) {
-  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
-    const std::vector<Block> blocks = random_blocks(seed);
-    const std::string text = to_text(blocks);
-    const auto again = parse_program(text, "random.nc");
-    ASSERT_TRUE(again) << "seed " << seed << "\n" << text << to_string(again.error().front());
-    const std::vector<Block> read = blocks_of(*again);
-    ASSERT_EQ(read.size(), blocks.size()) << "seed " << seed << "\n" << text;
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      ASSERT_TRUE(same_block(read[i], blocks[i])) << "seed " << seed << "\n"
-                                                  << to_text(blocks[i]) << "\n"
-                                                  << to_text(read[i]);
-    }
-    ASSERT_EQ(to_text(read), text) << "seed " << seed;
-  }
 }
 
 }  // namespace

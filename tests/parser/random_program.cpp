@@ -11,46 +11,67 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::string_view kLetters = "ABCDEFGHIJKLMPQRSTUVWXYZ";
+// What the dialects compute alike, and what each has of its own.
 constexpr std::array kOneOperand{
-    Operation::negate,   Operation::sine,       Operation::cosine,      Operation::tangent,
-    Operation::arc_sine, Operation::arc_cosine, Operation::square_root, Operation::absolute,
-    Operation::round,    Operation::truncate,   Operation::round_away,  Operation::from_bcd,
-    Operation::to_bcd,   Operation::as_it_is,   Operation::logarithm,   Operation::exponential,
-    Operation::parameter};
-constexpr std::array kTwoOperands{Operation::add,     Operation::subtract,   Operation::multiply,
-                                  Operation::divide,  Operation::power,      Operation::remainder,
-                                  Operation::bit_and, Operation::bit_or,     Operation::bit_xor,
-                                  Operation::less,    Operation::arc_tangent};
+    Operation::negate,   Operation::sine,        Operation::cosine,    Operation::tangent,
+    Operation::arc_sine, Operation::arc_cosine,  Operation::absolute,  Operation::square_root,
+    Operation::round,    Operation::exponential, Operation::logarithm, Operation::parameter};
+constexpr std::array kTwoOperands{
+    Operation::add,   Operation::subtract,         Operation::multiply, Operation::divide,
+    Operation::power, Operation::arc_tangent,      Operation::equal,    Operation::not_equal,
+    Operation::less,  Operation::greater_or_equal, Operation::greater,  Operation::less_or_equal};
+constexpr std::array kMacroOneOperand{Operation::truncate, Operation::round_away,
+                                      Operation::from_bcd, Operation::to_bcd, Operation::as_it_is};
+constexpr std::array kMacroTwoOperands{Operation::remainder, Operation::bit_and, Operation::bit_or,
+                                       Operation::bit_xor};
+constexpr std::array kRs274OneOperand{Operation::fix, Operation::fup};
+constexpr std::array kRs274TwoOperands{Operation::modulo, Operation::logical_and,
+                                       Operation::logical_or, Operation::logical_xor};
 
-void push_expression(Dice& dice, Block& block, int depth) {
+template <std::size_t N, std::size_t M>
+Operation any(Dice& dice, const std::array<Operation, N>& common,
+              const std::array<Operation, M>& own) {
+  const std::size_t choice = dice.below(N + M);
+  return choice < N ? common.at(choice) : own.at(choice - N);
+}
+Operation one_operand(Dice& dice, Dialect dialect) {
+  return dialect == Dialect::fanuc ? any(dice, kOneOperand, kMacroOneOperand)
+                                   : any(dice, kOneOperand, kRs274OneOperand);
+}
+Operation two_operands(Dice& dice, Dialect dialect) {
+  return dialect == Dialect::fanuc ? any(dice, kTwoOperands, kMacroTwoOperands)
+                                   : any(dice, kTwoOperands, kRs274TwoOperands);
+}
+
+void push_expression(Dice& dice, Block& block, Dialect dialect, int depth) {
   const double leaf = depth == 0 ? 1.0 : 0.3;
   if (dice.chance(leaf)) {
     if (dice.chance(0.2)) {
       const std::array<std::string, 4> names{"a", "depth", "_x1", "tool-length"};
       block.names.push_back(names.at(dice.below(names.size())));
-      block.steps.push_back(
-          {Operation::named_parameter, 0, static_cast<double>(block.names.size() - 1)});
+      block.steps.push_back({dice.chance(0.2) ? Operation::exists : Operation::named_parameter, 0,
+                             static_cast<double>(block.names.size() - 1)});
     } else {
       block.steps.push_back({Operation::number, 0, dice.number()});
     }
     return;
   }
-  push_expression(dice, block, depth - 1);
+  push_expression(dice, block, dialect, depth - 1);
   if (dice.chance(0.5)) {
-    block.steps.push_back({kOneOperand.at(dice.below(kOneOperand.size())), 0, 0.0});
+    block.steps.push_back({one_operand(dice, dialect), 0, 0.0});
   } else {
-    push_expression(dice, block, depth - 1);
-    block.steps.push_back({kTwoOperands.at(dice.below(kTwoOperands.size())), 0, 0.0});
+    push_expression(dice, block, dialect, depth - 1);
+    block.steps.push_back({two_operands(dice, dialect), 0, 0.0});
   }
 }
 
-ExpressionRange add_expression(Dice& dice, Block& block) {
+ExpressionRange add_expression(Dice& dice, Block& block, Dialect dialect) {
   const auto first = static_cast<std::uint32_t>(block.steps.size());
-  push_expression(dice, block, 3);
+  push_expression(dice, block, dialect, 3);
   return {first, static_cast<std::uint32_t>(block.steps.size()) - first};
 }
 
-Word random_word(Dice& dice, Block& block) {
+Word random_word(Dice& dice, Block& block, Dialect dialect) {
   Word word;
   word.letter = kLetters[dice.below(kLetters.size())];
   if (dice.chance(0.7)) {
@@ -58,7 +79,7 @@ Word random_word(Dice& dice, Block& block) {
     word.decimal_point = word.number != std::floor(word.number) || dice.chance(0.3);
     return word;
   }
-  word.expression = add_expression(dice, block);
+  word.expression = add_expression(dice, block, dialect);
   // A number by itself is no expression.
   if (word.expression.count == 1 && block.steps.back().operation == Operation::number) {
     word.number = block.steps.back().number;
@@ -69,15 +90,15 @@ Word random_word(Dice& dice, Block& block) {
   return word;
 }
 
-Assignment random_setting(Dice& dice, Block& block) {
+Assignment random_setting(Dice& dice, Block& block, Dialect dialect) {
   Assignment setting;
   if (dice.chance(0.3)) {
     block.names.emplace_back("width");
     setting.name = static_cast<std::uint32_t>(block.names.size() - 1);
   } else {
-    setting.index = add_expression(dice, block);
+    setting.index = add_expression(dice, block, dialect);
   }
-  setting.value = add_expression(dice, block);
+  setting.value = add_expression(dice, block, dialect);
   return setting;
 }
 
@@ -92,7 +113,7 @@ Comment random_comment(Dice& dice, bool to_line_end) {
   return comment;
 }
 
-Block random_block(Dice& dice, std::uint32_t line) {
+Block random_block(Dice& dice, std::uint32_t line, Dialect dialect) {
   Block block;
   block.line = line;
   if (dice.chance(0.02)) {
@@ -102,29 +123,15 @@ Block random_block(Dice& dice, std::uint32_t line) {
     if (dice.chance(0.4)) block.number = static_cast<std::uint32_t>(dice.below(100'000'000));
     // Program numbers must not repeat, so they follow the lines.
     if (dice.chance(0.05)) block.program = line;
-    for (std::size_t i = dice.below(7); i > 0; --i) block.words.push_back(random_word(dice, block));
+    for (std::size_t i = dice.below(7); i > 0; --i)
+      block.words.push_back(random_word(dice, block, dialect));
     for (std::size_t i = dice.below(3); i > 0; --i) {
-      block.assignments.push_back(random_setting(dice, block));
+      block.assignments.push_back(random_setting(dice, block, dialect));
     }
   }
   while (dice.chance(0.2)) block.comments.push_back(random_comment(dice, false));
   if (dice.chance(0.1)) block.comments.push_back(random_comment(dice, true));
   return block;
-}
-
-bool same_range(const Block& a, ExpressionRange in_a, const Block& b, ExpressionRange in_b) {
-  if (in_a.count != in_b.count) return false;
-  for (std::uint32_t i = 0; i < in_a.count; ++i) {
-    const ExpressionStep& left = a.steps[in_a.first + i];
-    const ExpressionStep& right = b.steps[in_b.first + i];
-    if (left.operation != right.operation) return false;
-    const bool same = left.operation == Operation::named_parameter
-                          ? a.names[static_cast<std::size_t>(left.number)] ==
-                                b.names[static_cast<std::size_t>(right.number)]
-                          : left.number == right.number;
-    if (!same) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -153,38 +160,15 @@ double Dice::number() {
   return sign * value + 0.0;
 }
 
-std::vector<Block> random_blocks(std::uint64_t seed) {
+std::vector<Block> random_blocks(std::uint64_t seed, Dialect dialect) {
   Dice dice(seed);
   std::vector<Block> blocks;
   std::uint32_t line = 0;
   for (std::size_t i = dice.below(12); i > 0; --i) {
-    Block block = random_block(dice, ++line);
+    Block block = random_block(dice, ++line, dialect);
     if (!block.empty()) blocks.push_back(std::move(block));
   }
   return blocks;
-}
-
-bool same_block(const Block& a, const Block& b) {
-  const auto same_word = [&](const Word& left, const Word& right) {
-    return left.letter == right.letter && left.number == right.number &&
-           left.decimal_point == right.decimal_point &&
-           same_range(a, left.expression, b, right.expression);
-  };
-  const auto same_setting = [&](const Assignment& left, const Assignment& right) {
-    if (left.name.has_value() != right.name.has_value()) return false;
-    if (left.name && a.names[*left.name] != b.names[*right.name]) return false;
-    return same_range(a, left.index, b, right.index) && same_range(a, left.value, b, right.value);
-  };
-  const auto same_comment = [](const Comment& left, const Comment& right) {
-    return left.text == right.text && left.to_line_end == right.to_line_end;
-  };
-  return a.tape_mark == b.tape_mark && a.deletable == b.deletable && a.number == b.number &&
-         a.program == b.program &&
-         std::equal(a.words.begin(), a.words.end(), b.words.begin(), b.words.end(), same_word) &&
-         std::equal(a.assignments.begin(), a.assignments.end(), b.assignments.begin(),
-                    b.assignments.end(), same_setting) &&
-         std::equal(a.comments.begin(), a.comments.end(), b.comments.begin(), b.comments.end(),
-                    same_comment);
 }
 
 }  // namespace frustum::parser

@@ -1,10 +1,9 @@
-// Random programs as the grammar may produce them, and whether two blocks say the same.
+// Random blocks as the grammar of RS-274 may produce them: words, settings, comments.
 //
 // Randomness is keyed by the seed alone, so that a failure names the program that caused it.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "parser/program.hpp"
@@ -29,9 +28,7 @@ class Dice {
   std::uint64_t index_ = 0;
 };
 
-[[nodiscard]] std::vector<Block> random_blocks(std::uint64_t seed);
-
-// Equal but for columns, and for how names and expressions are numbered.
-[[nodiscard]] bool same_block(const Block& a, const Block& b);
+// Of Fanuc or LinuxCNC.
+[[nodiscard]] std::vector<Block> random_blocks(std::uint64_t seed, Dialect dialect);
 
 }  // namespace frustum::parser

@@ -1,0 +1,198 @@
+// APT CLDATA: a record a line, and before a GOTO the RAPID or MOVARC that speaks about it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/pose.hpp"
+#include "core/units.hpp"
+#include "parser/writing/block_parts.hpp"
+#include "parser/writing/block_writer.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr double kNoTurn = 1e-6;  // full turns: rounding of the points
+
+// The words of a hole cycle, as records name them.
+struct CycleWord {
+  char letter;
+  std::string_view written;
+};
+constexpr std::array kCycleWords{
+    CycleWord{'Z', "FEDTO"},  CycleWord{'R', "RAPTO"},  CycleWord{'u', "CLEAR"},
+    CycleWord{'f', "PERMIN"}, CycleWord{'r', "PERREV"}, CycleWord{'I', "RTRCTO,AUTO"},
+    CycleWord{'v', "RTRCTO"}, CycleWord{'Q', "STEP"},   CycleWord{'P', "DWELL"}};
+
+// What records are written by: the unit, whether TLAXIS was given, the last place.
+struct Pen {
+  bool inches = false;
+  bool tool_axis = false;
+  std::optional<Vec3> at{};
+};
+
+class RecordWriter {
+ public:
+  RecordWriter(const Block& block, Pen& pen) : block_(block), pen_(pen) {
+    for (const Word& word : block.words) {
+      if (name_.empty()) name_ = named_word(word);
+    }
+  }
+
+  [[nodiscard]] std::string operator()() {
+    std::string text = label() + record();
+    // Behind a record, what it said that is not simulated.
+    for (const Comment& comment : block_.comments) {
+      if (comment.event == nullptr || is_label(comment)) continue;
+      if (std::string_view(comment.event) == "TLAXIS") pen_.tool_axis = true;
+      text += name_.empty() ? event_text(comment) : "," + comment.text;
+    }
+    for (const Comment& comment : block_.comments) {
+      if (comment.event == nullptr) text += (text.empty() ? "$$ " : " $$ ") + comment.text;
+    }
+    return text;
+  }
+
+ private:
+  static bool is_label(const Comment& comment) {
+    return comment.event != nullptr && std::string_view(comment.event) == "label";
+  }
+  static std::string event_text(const Comment& comment) {
+    const std::string_view event = comment.event;
+    if (event == "END-OF-PATH") return "END" + comment.text;
+    return fmt::format("{}/{}", event == "message" ? "PPRINT" : event, comment.text);
+  }
+
+  // A)
+  [[nodiscard]] std::string label() const {
+    const auto found = std::ranges::find_if(block_.comments, is_label);
+    return found == block_.comments.end() ? "" : found->text + ")";
+  }
+
+  [[nodiscard]] std::string record() {
+    const bool rapid = name_.starts_with("RAPID ");
+    const std::string_view place = rapid ? name_.substr(6) : name_;
+    if (place == "GOTO" || place == "FROM") return moved(rapid, place, take_position());
+    if (place == "GODLTA") return moved(rapid, place, take_step());
+    if (name_.starts_with("CIRCLE")) {
+      const std::string arc = circle();
+      return arc + "\nGOTO/" + take_position();
+    }
+    if (name_.starts_with("UNITS/")) take_unit();
+    if (name_ == "GOHOME") pen_.at.reset();
+    if (name_.starts_with("FEDRAT")) {
+      return fmt::format("FEDRAT/{},{}", numbers("F"),
+                         name_.ends_with("MMPR") ? "PERREV" : "PERMIN");
+    }
+    if (name_.starts_with("SPINDL/")) {
+      const std::string speeds = numbers("S");
+      return fmt::format("SPINDL/{}{}{}", speeds, speeds.empty() ? "" : ",", name_.substr(7));
+    }
+    if (name_ == "LOADTL") return "LOADTL/" + numbers("T");
+    if (name_ == "DELAY") return "DELAY/" + numbers("P");
+    if (name_ == "DELAY REV") return fmt::format("DELAY/{},REV", numbers("S"));
+    if (name_.starts_with("CYCLE/")) return cycle();
+    return std::string(name_);
+  }
+
+  static std::string moved(bool rapid, std::string_view word, const std::string& numbers) {
+    return fmt::format("{}{}/{}", rapid ? "RAPID\n" : "", word, numbers);
+  }
+
+  // The numbers of these letters in the order of the words.
+  [[nodiscard]] std::string numbers(std::string_view letters) const {
+    std::string text;
+    for (const Word& word : block_.words) {
+      const bool wanted = letters.find(word.letter) != std::string_view::npos;
+      if (wanted) text += (text.empty() ? "" : ",") + decimal_text(word.number);
+    }
+    return text;
+  }
+  [[nodiscard]] double number(char letter) const {
+    const auto found = std::ranges::find(block_.words, letter, &Word::letter);
+    return found == block_.words.end() ? 0.0 : found->number;
+  }
+  [[nodiscard]] bool has(char letter) const {
+    return std::ranges::find(block_.words, letter, &Word::letter) != block_.words.end();
+  }
+  [[nodiscard]] Vec3 point() const { return {number('X'), number('Y'), number('Z')}; }
+
+  [[nodiscard]] std::string take_position() {
+    pen_.at = point();
+    // Without a vector of its own the place would have that of TLAXIS.
+    return numbers("XYZabc") + (pen_.tool_axis && !has('c') ? ",0,0,1" : "");
+  }
+  // Steps of zero are no words.
+  [[nodiscard]] std::string take_step() {
+    if (pen_.at) *pen_.at += point();
+    return fmt::format("{},{},{}", decimal_text(number('X')), decimal_text(number('Y')),
+                       decimal_text(number('Z')));
+  }
+  void take_unit() {
+    const bool inches = name_ == "UNITS/INCHES";
+    if (inches != pen_.inches) pen_.at.reset();
+    pen_.inches = inches;
+  }
+
+  // Its centre has words in the plane alone, so that the axis is the letter without one. The angle tells full turns
+  // from none.
+  [[nodiscard]] std::string circle() const {
+    const bool counterclockwise = name_ == "CIRCLE+";
+    constexpr std::string_view kCentre = "IJK";
+    std::array<double, 3> centre{};
+    std::array<int, 3> axis{};
+    for (std::size_t i = 0; i < centre.size(); ++i) {
+      centre.at(i) = number(kCentre[i]);
+      if (!has(kCentre[i])) axis.at(i) = counterclockwise ? 1 : -1;
+    }
+    return fmt::format("MOVARC/{},{},{},{},0,ANGLE,{}", decimal_text(centre[0]),
+                       decimal_text(centre[1]), decimal_text(centre[2]), fmt::join(axis, ","),
+                       decimal_text(kDegreesPerTurn * turns(counterclockwise)));
+  }
+
+  // Full turns of the arc, the last one from the angle between its ends.
+  [[nodiscard]] double turns(bool counterclockwise) const {
+    if (!pen_.at) return 1.0;
+    std::array<int, 2> plane{0, 1};
+    if (!has('I')) plane = {1, 2};
+    if (!has('J')) plane = {2, 0};
+    const auto arm = [&](const Vec3& place) {
+      return Eigen::Vector2d(place[plane[0]] - number("IJK"[plane[0]]),
+                             place[plane[1]] - number("IJK"[plane[1]]));
+    };
+    const Eigen::Vector2d from = arm(*pen_.at);
+    const Eigen::Vector2d to = arm(point());
+    const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    double part = (counterclockwise ? angle : -angle) / (2.0 * std::numbers::pi);
+    if (part <= kNoTurn) part += 1.0;
+    return part + (has('P') ? number('P') - 1.0 : 0.0);
+  }
+
+  [[nodiscard]] std::string cycle() const {
+    std::string text(name_);
+    for (const Word& word : block_.words) {
+      const auto* written = std::ranges::find(kCycleWords, word.letter, &CycleWord::letter);
+      if (written == kCycleWords.end()) continue;
+      text += fmt::format(",{}", written->written);
+      if (word.letter != 'I') text += "," + decimal_text(word.number);
+    }
+    return text;
+  }
+
+  static constexpr double kDegreesPerTurn = 360.0;
+
+  const Block& block_;
+  Pen& pen_;
+  std::string_view name_{};
+};
+
+}  // namespace
+
+BlockWriter cldata_writer() {
+  return [pen = Pen{}](const Block& block) mutable { return RecordWriter(block, pen)(); };
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,286 @@
+// Klartext: a statement and its elements, parameters, labels and calls.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "parser/reading/heidenhain_statements.hpp"
+#include "parser/writing/block_parts.hpp"
+#include "parser/writing/block_writer.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using enum ExpressionLevel;
+
+constexpr double kTipControl = 128.0;  // M128, which may have the feed of its moves behind it
+
+// Words of the code table that are elements of a line, no statements.
+constexpr std::array<std::string_view, 6> kElements{
+    "R0", "RL", "RR", "F AUTO", "PATHCTRL AXIS", "PATHCTRL VECTOR"};
+// Statements that are written in another way, and axes without a name of their own that the reader adds to them.
+struct Spelling {
+  std::string_view code;
+  std::string_view written;
+  std::string_view implied{};
+};
+constexpr std::array kSpellings{
+    Spelling{"DWELL", "FUNCTION DWELL"},
+    Spelling{"BEGIN PGM MM", "BEGIN PGM"},
+    Spelling{"BEGIN PGM INCH", "BEGIN PGM"},
+    Spelling{"FN 14", "FN 14:"},
+    Spelling{"CYCL DEF 7", "CYCL DEF 7.1"},
+    Spelling{"CYCL DEF 8", "CYCL DEF 8.1"},
+    Spelling{"CYCL DEF 8 OFF", "CYCL DEF 8.1"},
+    Spelling{"CYCL DEF 10", "CYCL DEF 10.1", "XY"},
+    Spelling{"CYCL DEF 11", "CYCL DEF 11.1", "XYZ"},
+    Spelling{"CYCL DEF 19", "CYCL DEF 19.1"},
+    Spelling{"CYCL DEF 19 OFF", "CYCL DEF 19.1"},
+    Spelling{"CYCL DEF 26", "CYCL DEF 26.1", "XYZ"},
+};
+// Known and not simulated: what stands before and behind their text.
+struct EventForm {
+  std::string_view event;
+  std::string_view before;
+  std::string_view behind{};
+};
+constexpr std::array kEvents{
+    EventForm{"structure", "* - "},
+    EventForm{"BEGIN PGM", ""},
+    EventForm{"M128", ""},
+    EventForm{"PLANE MB", "MB "},
+    EventForm{"PLANE SEQ", "SEQ"},
+    EventForm{"PLANE ROT", "", " ROT"},
+    EventForm{"CYCL DEF 7", "CYCL DEF 7.0 "},
+    EventForm{"CYCL DEF 8", "CYCL DEF 8.0 "},
+    EventForm{"CYCL DEF 9", "CYCL DEF 9.0 "},
+    EventForm{"CYCL DEF 10", "CYCL DEF 10.0 "},
+    EventForm{"CYCL DEF 11", "CYCL DEF 11.0 "},
+    EventForm{"FN 15", "FN 15: "},
+    EventForm{"FN 16", "FN 16: "},
+    EventForm{"CYCL DEF 12", "CYCL DEF 12.0 "},
+    EventForm{"CYCL DEF 19", "CYCL DEF 19.0 "},
+    EventForm{"CYCL DEF 19 SETUP", "SETUP "},
+    EventForm{"CYCL DEF 26", "CYCL DEF 26.0 "},
+    EventForm{"PLANE DIST", "DIST "},
+};
+
+ExpressionStyle style_with(std::span<const BinaryOperator> operators) {
+  return {.operators = operators,
+          .functions = heidenhain_expressions().functions,
+          .open = "(",
+          .close = ")",
+          .call_open = " ",
+          .argument = operand};
+}
+const ExpressionStyle& style() {
+  static const ExpressionStyle kStyle = style_with(heidenhain_expressions().operators);
+  return kStyle;
+}
+// The sides of a comparison are operands, as those of a power.
+const ExpressionStyle& comparing_style() {
+  static const std::vector<BinaryOperator> kOperators = [] {
+    const auto usual = heidenhain_expressions().operators;
+    std::vector<BinaryOperator> operators(usual.begin(), usual.end());
+    operators.insert(operators.end(), {{power, "EQU", Operation::equal},
+                                       {power, "NE", Operation::not_equal},
+                                       {power, "GT", Operation::greater},
+                                       {power, "LT", Operation::less}});
+    return operators;
+  }();
+  static const ExpressionStyle kStyle = style_with(kOperators);
+  return kStyle;
+}
+
+std::string with_sign(std::string value) {
+  return value.starts_with('-') ? value : "+" + std::move(value);
+}
+
+// 5, "SLOT"
+std::string label_text(const std::string& label) {
+  const bool number = label.find_first_not_of("0123456789") == std::string::npos;
+  return number ? label : fmt::format("\"{}\"", label);
+}
+
+std::string event_text(const Comment& comment) {
+  const std::string_view event = comment.event;
+  const auto* form = std::ranges::find(kEvents, event, &EventForm::event);
+  if (form == kEvents.end()) return fmt::format("{} {}", event, comment.text);
+  return fmt::format("{}{}{}", form->before, comment.text, form->behind);
+}
+
+bool is_feed_of_tip_control(const Comment& comment) {
+  return comment.event != nullptr && std::string_view(comment.event) == "M128";
+}
+
+class TextOfBlock {
+ public:
+  TextOfBlock(const Block& block, std::string& program) : block_(block), program_(program) {}
+
+  std::string operator()() {
+    if (block_.number) text_.add(fmt::format("{}", *block_.number));
+    if (block_.deletable) text_.add("/");
+    if (block_.flow) text_.add(flow_text(*block_.flow));
+    find_statement();
+    text_.add(name_);
+    add_elements();
+    for (const Assignment& setting : block_.assignments) text_.add(setting_text(setting));
+    for (const Comment& comment : block_.comments) {
+      if (comment.event == nullptr || is_feed_of_tip_control(comment)) continue;
+      if (std::string_view(comment.event) == "BEGIN PGM") {
+        program_ = comment.text.substr(0, comment.text.find(' '));
+      }
+      text_.add(event_text(comment));
+    }
+    text_.add(ending_);
+    add_comments();
+    return text_.take();
+  }
+
+ private:
+  // The word that names the statement, and what stands at the end of its line.
+  void find_statement() {
+    for (const Word& word : block_.words) {
+      const std::string_view code = named_word(word);
+      if (code.empty() || std::ranges::find(kElements, code) != kElements.end()) continue;
+      statement_ = &word;
+      return name_statement(std::string(code));
+    }
+    // A tool call without a tool.
+    const bool calls = !block_.words.empty() &&
+                       (block_.words.front().letter == 'S' || block_.words.front().letter == 'F');
+    if (calls) name_ = "TOOL CALL";
+  }
+
+  void name_statement(const std::string& code) {
+    name_ = code;
+    const auto* spelling = std::ranges::find(kSpellings, code, &Spelling::code);
+    if (spelling != kSpellings.end()) {
+      name_ = spelling->written;
+      implied_ = spelling->implied;
+    } else if (code == "END PGM" && !program_.empty()) {
+      name_ += " " + program_;
+    } else if (code.starts_with("PLANE ")) {
+      if (!has('d') && !has('m')) ending_ = "STAY";
+    }
+    for (const std::string_view ending : {" FMAX", " DR+", " DR-"}) {
+      if (!name_.ends_with(ending)) continue;
+      name_.resize(name_.size() - ending.size());
+      ending_ = ending.substr(1);
+    }
+    const bool path = name_ == "L" || name_ == "C" || name_ == "CT";
+    if (path && (has(kPolarRadius) || has(kPolarAngle))) name_ += 'P';
+  }
+
+  [[nodiscard]] bool has(char letter) const {
+    return std::ranges::find(block_.words, letter, &Word::letter) != block_.words.end();
+  }
+
+  void add_elements() {
+    auto tip_feed = std::ranges::find_if(block_.comments, is_feed_of_tip_control);
+    for (const Word& word : block_.words) {
+      const bool implied =
+          word.spelled == nullptr && implied_.find(word.letter) != std::string_view::npos;
+      if (&word == statement_ || implied) continue;
+      text_.add(element_text(word));
+      const bool tip_control = word.letter == 'M' && word.number == kTipControl;
+      if (!tip_control || tip_feed == block_.comments.end()) continue;
+      text_.add(event_text(*tip_feed));
+      tip_feed = std::find_if(tip_feed + 1, block_.comments.end(), is_feed_of_tip_control);
+    }
+  }
+
+  // X+10, IX-Q1, F500, TX+0.5.
+  [[nodiscard]] std::string element_text(const Word& word) const {
+    if (word.letter == kNamedWord) return std::string(named_word(word));
+    if (word.letter == kTangential) return "";
+    if (word.letter == 'd') return name_.starts_with("PLANE") ? "TURN" : "FMAX";
+    if (word.letter == 'm') return "MOVE";
+    // The axes that are mirrored have no numbers.
+    if (name_ == "CYCL DEF 8.1") return std::string(1, word.letter);
+    const std::string name = word.spelled != nullptr ? word.spelled : std::string(1, word.letter);
+    const std::string value = word.expression.empty()
+                                  ? decimal_text(word.number)
+                                  : range_text(style(), block_, word.expression, operand);
+    if (word.letter == 'T') return value;
+    const bool bare = word.expression.empty() &&
+                      std::string_view("FSMt").find(word.letter) != std::string_view::npos;
+    return name + (bare ? value : with_sign(value));
+  }
+
+  [[nodiscard]] std::string setting_text(const Assignment& setting) const {
+    const std::string& name = block_.names[*setting.name];
+    const auto steps = steps_of(block_, setting.value);
+    // The one computation that formulas do not have: the angle from 0 to 360 degrees.
+    if (steps.back().operation == Operation::modulo) return angle_text(name, setting.value);
+    return fmt::format("{} = {}", name, range_text(style(), block_, setting.value, sum));
+  }
+
+  // FN 13: Q1 = +Q2 ANG +Q3, which ends with the operations of ANG and MOD 360.
+  [[nodiscard]] std::string angle_text(const std::string& name, ExpressionRange range) const {
+    ExpressionStyle angle = style_with(comparing_style().operators);
+    constexpr std::array kAngle{BinaryOperator{power, "ANG", Operation::arc_tangent}};
+    std::vector<BinaryOperator> operators(angle.operators.begin(), angle.operators.end());
+    operators.insert(operators.end(), kAngle.begin(), kAngle.end());
+    angle.operators = operators;
+    range.count -= 2;
+    return fmt::format("FN 13: {} = {}", name, range_text(angle, block_, range, power));
+  }
+
+  [[nodiscard]] std::string flow_text(const FlowStatement& flow) const {
+    switch (flow.kind) {
+      case FlowKind::label:
+      case FlowKind::give_back:
+        return "LBL " + label_text(flow.label);
+      case FlowKind::call:
+        if (!flow.of_file) return "CALL LBL " + label_text(flow.label);
+        return fmt::format("{} PGM \"{}.H\"", flow.by_cycle ? "CYCL DEF 12.1" : "CALL", flow.label);
+      case FlowKind::repeat_part:
+        return fmt::format("CALL LBL {} REP {}", label_text(flow.label),
+                           range_text(style(), block_, flow.condition, operand));
+      default:
+        return jump_text(flow);
+    }
+  }
+
+  // FN 9: IF +Q1 EQU +Q3 GOTO LBL 5
+  [[nodiscard]] std::string jump_text(const FlowStatement& flow) const {
+    constexpr std::array kComparisons{Operation::equal, Operation::not_equal, Operation::greater,
+                                      Operation::less};
+    const Operation comparison = steps_of(block_, flow.condition).back().operation;
+    const auto fn = 9 + (std::ranges::find(kComparisons, comparison) - kComparisons.begin());
+    return fmt::format("FN {}: IF {} GOTO LBL {}", fn,
+                       range_text(comparing_style(), block_, flow.condition, power),
+                       label_text(flow.label));
+  }
+
+  // Each to the end of a line.
+  void add_comments() {
+    bool commented = false;
+    for (const Comment& comment : block_.comments) {
+      if (comment.event != nullptr) continue;
+      if (commented) text_.add("~\n");
+      text_.add(";" + comment.text);
+      commented = true;
+    }
+  }
+
+  const Block& block_;
+  std::string& program_;  // of BEGIN PGM
+  SpacedText text_{};
+  const Word* statement_ = nullptr;
+  std::string name_{};
+  std::string ending_{};
+  std::string_view implied_{};
+};
+
+}  // namespace
+
+BlockWriter heidenhain_writer() {
+  return [program = std::string()](const Block& block) mutable {
+    return TextOfBlock(block, program)();
+  };
+}
+
+}  // namespace frustum::parser

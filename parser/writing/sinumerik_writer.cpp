@@ -1,0 +1,151 @@
+// Sinumerik: address words, settings, definitions, calls with arguments.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "parser/reading/sinumerik_values.hpp"
+#include "parser/writing/block_parts.hpp"
+#include "parser/writing/block_writer.hpp"
+#include "parser/writing/sinumerik_statement.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using enum ExpressionLevel;
+
+// CYCLE800(1,"",0,57,...): its words stand behind its name.
+constexpr std::array<std::string_view, 16> kSwivel{
+    "_FR", "_TC", "_ST=", "_MODE=", "_X0=", "_Y0=",  "_Z0=",  "_A=",
+    "_B=", "_C=", "_X1=", "_Y1=",   "_Z1=", "_DIR=", "_FR_I", "_DMODE"};
+
+// Events that are written NAME=text, and NAME text; else NAME(text).
+constexpr std::array<std::string_view, 8> kSettings{"SPOS", "SPOSA", "ADIS",   "ADISPOS",
+                                                    "LIMS", "OVR",   "OVRRAP", "ACC"};
+constexpr std::array<std::string_view, 3> kOpenTexts{"G25", "G26", "EXTERN"};
+
+template <std::size_t N>
+bool is_in(const std::array<std::string_view, N>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::size_t swivel_slot(const Word& word) {
+  const auto* found =
+      word.spelled == nullptr ? kSwivel.end() : std::ranges::find(kSwivel, word.spelled);
+  return static_cast<std::size_t>(found - kSwivel.begin());
+}
+
+bool is_retract(const Comment& comment) {
+  return comment.event != nullptr && std::string_view(comment.event) == "CYCLE800";
+}
+
+// What holds quotes itself was written without quotes around it.
+std::string call_text(std::string_view name, const std::string& text) {
+  const bool quotes = text.find('"') != std::string::npos;
+  const bool bare = quotes || (name != "MSG" && text.find(')') == std::string::npos);
+  if (!bare) return fmt::format("{}(\"{}\")", name, text);
+  return fmt::format("{}({}{})", name, text.starts_with('"') ? "\"\"" : "", text);
+}
+
+std::string comment_text(const Comment& comment) {
+  if (comment.event == nullptr) return ";" + comment.text;
+  const std::string_view event = comment.event;
+  if (is_retract(comment)) return "";  // a parameter of the cycle
+  if (is_in(kSettings, event)) return fmt::format("{}={}", event, comment.text);
+  if (is_in(kOpenTexts, event)) return fmt::format("{} {}", event, comment.text);
+  return call_text(event == "message" ? "MSG" : event, comment.text);
+}
+
+class TextOfBlock {
+ public:
+  explicit TextOfBlock(const Block& block) : block_(block), style_(sinumerik_style()) {}
+
+  std::string operator()() const {
+    if (block_.tape_mark) return head_text();
+    SpacedText text;
+    if (block_.deletable) text.add("/");
+    if (block_.number) text.add(fmt::format("N{}", *block_.number));
+    if (block_.flow) text.add(sinumerik_statement(block_));
+    for (const Word& word : block_.words) {
+      if (named_word(word).starts_with("CYCLE800")) {
+        text.add(swivel_text(named_word(word)));
+      } else if (swivel_slot(word) == kSwivel.size()) {
+        text.add(word_text(word));
+      }
+    }
+    text.add(settings_text());
+    for (const Comment& comment : block_.comments) text.add(comment_text(comment));
+    return text.take();
+  }
+
+ private:
+  // %_N_PART_MPF, which the statement has the name from.
+  [[nodiscard]] std::string head_text() const {
+    return "%" + (block_.comments.empty() ? std::string() : block_.comments.front().text);
+  }
+
+  [[nodiscard]] std::string value_text(const Word& word) const {
+    const std::string value = word.expression.empty()
+                                  ? decimal_text(word.number)
+                                  : range_text(style_, block_, word.expression, sum);
+    const std::string_view measure = sinumerik_measure(word.measure);
+    return measure.empty() ? value : fmt::format("{}({})", measure, value);
+  }
+
+  // X10, X=0.5, X=R1, A3=1, TRAORI. What is behind a = has no decimal point that matters. R5 and L5 would be a
+  // parameter and a call.
+  [[nodiscard]] std::string word_text(const Word& word) const {
+    if (word.letter == kNamedWord) return std::string(named_word(word));
+    const std::string value = value_text(word);
+    if (word.spelled != nullptr) return word.spelled + value;
+    const bool plain = word.expression.empty() && word.measure == Measure::modal;
+    const bool has_point = value.find('.') != std::string::npos;
+    const bool needs_sign = !plain || word.letter == 'R' || word.letter == 'L';
+    if (needs_sign || has_point != word.decimal_point) {
+      if (plain && word.decimal_point) return fmt::format("{}{}.", word.letter, value);
+      return fmt::format("{}={}", word.letter, value);
+    }
+    return word.letter + value;
+  }
+
+  [[nodiscard]] std::string swivel_text(std::string_view word) const {
+    std::array<std::string, kSwivel.size()> slots;
+    if (std::ranges::any_of(block_.comments, is_retract)) slots.front() = "1";
+    if (word == "CYCLE800()") {
+      return slots.front().empty() ? std::string(word) : "CYCLE800(1,\"0\")";
+    }
+    slots[1] = "\"\"";
+    for (const Word& parameter : block_.words) {
+      const std::size_t slot = swivel_slot(parameter);
+      if (slot < slots.size()) slots.at(slot) = value_text(parameter);
+    }
+    return fmt::format("CYCLE800({})", fmt::join(slots, ","));
+  }
+
+  // R1=2 R[R1]=3 WIDTH=4, DEF REAL WIDTH=4, DEPTH=0
+  [[nodiscard]] std::string settings_text() const {
+    std::string text;
+    for (const Assignment& setting : block_.assignments) {
+      if (setting.defines) {
+        text += text.empty() ? fmt::format("DEF {} ", sinumerik_type(*setting.defines)) : ",";
+      } else if (!text.empty()) {
+        text += ' ';
+      }
+      text += setting.name ? block_.names[*setting.name]
+                           : fmt::format("R[{}]", range_text(style_, block_, setting.index, sum));
+      text += "=" + range_text(style_, block_, setting.value, disjunction);
+    }
+    return text;
+  }
+
+  const Block& block_;
+  const ExpressionStyle& style_;
+};
+
+}  // namespace
+
+BlockWriter sinumerik_writer() {
+  return [](const Block& block) { return TextOfBlock(block)(); };
+}
+
+}  // namespace frustum::parser
