@@ -70,6 +70,9 @@ enum class NonModal : std::uint8_t {
   second_home,  // G30
   keep_home,    // G28.1: where the axes are is home from now on
   keep_second_home,
+  skip,            // G31: a probing move that may meet nothing
+  check_home,      // G27
+  from_home,       // G29: by the place that G28 went by
   data,            // G10
   shift_to_place,  // G92: so that the tool is where the words say
   shift,           // G52

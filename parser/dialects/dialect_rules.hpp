@@ -93,6 +93,8 @@ struct DialectRules {
   RadiusRules radius{};
   LetterSet polar_words{};
   std::span<const DataWord> data_words{};
+  // The word of the way per revolution of a thread (G33).
+  char thread_lead = 'K';
   // A parameter that is written counts at once, not from the next change of work offset on.
   bool parameters_count_at_once = false;
   // G10 in G91 adds to what is there.

@@ -32,6 +32,10 @@ constexpr std::array kCodes{
     modal('G', 690, tilted_plane, TiltWord::off),
     modal('G', 100, non_modal, NonModal::data, LetterSet("LPRXYZABC")),
     modal('G', 300, non_modal, NonModal::second_home, kAxisWords | LetterSet("P")),
+    modal('G', 270, non_modal, NonModal::check_home, kAxisWords),
+    modal('G', 290, non_modal, NonModal::from_home, kAxisWords),
+    modal('G', 310, non_modal, NonModal::skip),
+    modal('G', 330, motion, MotionMode::thread),
     modal('G', 541, work_offset, kExtendedWorkOffset, LetterSet("P")),
     passed('G', 50, CodeGroup::event, LetterSet("P")),        // high-speed machining
     passed('G', 51, CodeGroup::event, kSmoothingWords),       // look-ahead contour control
@@ -65,7 +69,9 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'G', 71, 79, "write the path in X Y Z of the work, not on the unrolled cylinder"},
     RefusedCode{'G', 121, 139, "write the path in X Y Z of the work, with C where it turns"},
     RefusedCode{'G', 281, 289, "return to home with G28"},
-    RefusedCode{'G', 310, 389, "leave threading and probing out of the simulated program"},
+    RefusedCode{'G', 311, 319, "probe by G31 and the end of the move"},
+    RefusedCode{'G', 320, 329, "cut threads by G33, F the way of one revolution"},
+    RefusedCode{'G', 331, 389, "leave threading cycles and measuring out of the simulated program"},
     RefusedCode{'G', 411, 419, "use G41 D, in a plane"},
     RefusedCode{'G', 421, 429, "use G42 D, in a plane"},
     RefusedCode{'G', 431, 439, "use G43 H, G43.4 H or G43.5 H"},
@@ -79,8 +85,8 @@ constexpr std::array kRefusedCodes{
         "where the tool points is the machine's to know: give the frame by G68.2 X Y Z I J K"},
     RefusedCode{'G', 681, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
-    RefusedCode{'G', 270, 279, "return to home with G28, which needs no check"},
-    RefusedCode{'G', 290, 299, "go back with G0 blocks"},
+    RefusedCode{'G', 271, 279, "check the reference point by G27"},
+    RefusedCode{'G', 291, 299, "go back by G29 or G0 blocks"},
     RefusedCode{'G', 750, 759, "write the cycle out as G0 and G1 blocks"},
 };
 constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
@@ -127,6 +133,7 @@ constexpr DialectRules kRules{
     .cycles = {.tool_shift_by_q = true},
     .radius = {.source = RadiusSource::last_d},
     .data_words = kDataWords,
+    .thread_lead = 'F',
     .parameters_count_at_once = true,
     .data_follow_distance_mode = true,
     .file_names = kFiles,

@@ -155,6 +155,23 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
     }
     return Movement{non_modal, MotionMode::none, non_modal_code.column};
   }
+  if (non_modal == NonModal::skip || non_modal == NonModal::check_home ||
+      non_modal == NonModal::from_home) {
+    if (motion_code.code != nullptr && mode != MotionMode::traverse) {
+      return fail(motion_code.column,
+                  fmt::format("{} and {} both use the axis words", non_modal_code.code->name(),
+                              motion_code.code->name()),
+                  "write two blocks");
+    }
+    if ((words.given() & kAxisWords).empty()) {
+      const std::string name = non_modal_code.code->name();
+      return fail(non_modal_code.column, name + " names no axis",
+                  fmt::format("give the end of the move, for example {} Z0", name));
+    }
+    const bool skips = non_modal == NonModal::skip;
+    return Movement{non_modal, skips ? MotionMode::probe_towards_if_any : MotionMode::none,
+                    non_modal_code.column};
+  }
   if (non_modal != NonModal::none && non_modal != NonModal::machine_coordinates &&
       motion_code.code == nullptr) {
     return Movement{non_modal, MotionMode::none, non_modal_code.column};
@@ -203,7 +220,7 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
       // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
       return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
     case MotionMode::thread:
-      return kAxisWords | LetterSet("K");
+      return rules_.thread_lead == 'K' ? kAxisWords | LetterSet("K") : kAxisWords;
     case MotionMode::rigid_tap:
       return kLinearWords | LetterSet("K");
     case MotionMode::thread_cycle:
@@ -293,6 +310,11 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
     const auto value = evaluate(context, setting.value);
     if (!value) return in_this_block(value.error().front());
     int index = 0;
+    if (setting.name && system_.keeps(block.names[*setting.name])) {
+      return fail(setting.column,
+                  fmt::format("parameter #<{}> can only be read", block.names[*setting.name]),
+                  "it tells the position, a mode or what a call gave back; use a name of your own");
+    }
     if (setting.name && !setting.defines && !parameters_.can_set(block.names[*setting.name])) {
       return fail(setting.column, fmt::format("{} is not defined", block.names[*setting.name]),
                   "define it before: DEF REAL and its name; parameters are R0 to R999");

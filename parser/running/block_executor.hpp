@@ -195,6 +195,8 @@ class BlockExecutor {
   // Reference points and machine coordinates (block_points.cpp).
   [[nodiscard]] Outcome keep_point(std::size_t point, std::uint32_t column);
   [[nodiscard]] Outcome go_home(const BlockWords& words, std::size_t point);
+  [[nodiscard]] Outcome check_home(const BlockWords& words);
+  [[nodiscard]] Outcome come_from_home(const BlockWords& words);
   void go_to_axis_positions(const AxisTarget& point, LetterSet named, std::uint32_t column);
   void return_to_point(std::size_t point, LetterSet axes, std::uint32_t column);
   [[nodiscard]] Outcome move(const BlockWords& words, const Movement& movement);

@@ -73,6 +73,8 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (movement.non_modal == NonModal::second_home) return go_home(words, 2);
   if (movement.non_modal == NonModal::keep_home) return keep_point(0, movement.column);
   if (movement.non_modal == NonModal::keep_second_home) return keep_point(1, movement.column);
+  if (movement.non_modal == NonModal::check_home) return check_home(words);
+  if (movement.non_modal == NonModal::from_home) return come_from_home(words);
   if (movement.non_modal == NonModal::data) return set_data(words);
   if (movement.non_modal == NonModal::align) return align(movement.column);
   if (movement.non_modal == NonModal::pole) return set_pole(words);

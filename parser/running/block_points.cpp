@@ -1,6 +1,7 @@
 // Moves to reference points (G28, G30) and in machine coordinates (G53), and the points that a program stores.
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 
 #include "parser/running/block_executor.hpp"
@@ -31,7 +32,50 @@ BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words, std::size
   if (!(position_.target() == before)) {
     emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
   }
+  for (const AxisLetter axis : kAxisLetters) {
+    if (named.has(to_char(axis))) state_.way_home[axis] = position_[axis];
+  }
   return_to_point(point, named, column);
+  return Done{};
+}
+
+// G27: by rapid to where the words say, which the control holds against the reference point.
+BlockExecutor::Outcome BlockExecutor::check_home(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  if (auto done = set_targets(words); !done) return done;
+  if (auto done = check_word_frame({NonModal::none, MotionMode::traverse, code.column}); !done) {
+    return done;
+  }
+  emit(code.column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
+  std::string axes;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (words.has(to_char(axis))) axes += to_char(axis);
+  }
+  emit(code.column, Event{code.code->name(), std::move(axes)});
+  return Done{};
+}
+
+// G29: the axes named go by rapid to the place that G28 or G30 went by, then to the end. Steps count from that place.
+BlockExecutor::Outcome BlockExecutor::come_from_home(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    if (!state_.way_home[axis]) {
+      return fail(words[letter].column,
+                  fmt::format("{} goes by the place of G28, which has none for {}",
+                              code.code->name(), letter),
+                  fmt::format("give {} of the place in G28 or G30 before, in G90", letter));
+    }
+    position_.set(axis, *state_.way_home[axis]);
+  }
+  const Movement rapid{NonModal::none, MotionMode::traverse, code.column};
+  if (auto done = check_word_frame(rapid); !done) return done;
+  const AxisTarget way = position_.target();
+  emit(code.column, Traverse{way, state_.tool_axis, Coordinates::program});
+  if (auto done = set_targets(words); !done) return done;
+  if (position_.target() == way) return Done{};
+  emit(code.column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
   return Done{};
 }
 

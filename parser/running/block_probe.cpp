@@ -1,4 +1,4 @@
-// Probing: G38.2 to G38.5.
+// Probing: G38.2 to G38.5, and Fanuc's G31.
 #include "parser/running/block_executor.hpp"
 
 #include "core/units.hpp"
@@ -36,7 +36,7 @@ BlockExecutor::Outcome BlockExecutor::probe(const BlockWords& words, const Movem
     const auto& value = position_[axis];
     if (value) parameters_.set(index, *value / (is_rotary(axis) ? kRadPerDeg : unit_scale()));
   }
-  parameters_.set(kProbeMet, 0.0);
+  if (rules_.dialect == Dialect::linuxcnc) parameters_.set(kProbeMet, 0.0);
   return Done{};
 }
 

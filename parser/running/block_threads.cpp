@@ -22,11 +22,12 @@ Result<double> BlockExecutor::lead_of(const BlockWords& words, const Movement& m
   const std::string name = words[CodeGroup::motion].code == nullptr
                                ? std::string("a thread")
                                : words[CodeGroup::motion].code->name();
-  if (!words.has(letter)) {
+  const bool goes_on = letter == 'F' && !words.has(CodeGroup::motion) && state_.feed;
+  if (!words.has(letter) && !goes_on) {
     return fail(movement.column, fmt::format("{} without {}", name, letter),
                 fmt::format("give {}, the way of one revolution, on each such block", letter));
   }
-  const double lead = words[letter].value * unit_scale();
+  const double lead = goes_on ? state_.feed->scaled : words[letter].value * unit_scale();
   if (!(lead > 0.0)) {
     return fail(words[letter].column, fmt::format("{} is not above zero", words.text_of(letter)),
                 "the lead is above zero; the spindle's direction makes a thread left-handed");
@@ -40,8 +41,11 @@ Result<double> BlockExecutor::lead_of(const BlockWords& words, const Movement& m
 
 BlockExecutor::Outcome BlockExecutor::move_along_thread(const BlockWords& words,
                                                         const Movement& movement) {
-  const auto lead = lead_of(words, movement, 'K');
+  const auto lead = lead_of(words, movement, rules_.thread_lead);
   if (!lead) return lead.error();
+  if (rules_.thread_lead == 'F' && state_.feed_mode == FeedMode::inverse_time) {
+    return fail(movement.column, "a thread in G93, where F is a time", "cut it in G94 or G95");
+  }
   if ((words.given() & kAxisWords).empty()) {
     return fail(movement.column, "a thread without an end", "give X Y Z of its end");
   }

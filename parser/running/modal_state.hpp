@@ -104,6 +104,7 @@ struct ModalState {
   std::optional<PolarMode> polar{};       // G16
   WordFrame word_frame{};
   ProgramFrame program_frame{};            // of Sinumerik, which is its word frame
+  AxisTarget way_home{};                   // the place that the last G28 or G30 went by
   LetterSet placed_in_other_frame{};       // axes that no absolute word has placed since it changed
   std::optional<WordFrame> frame_below{};  // of the words before G68.2: that plane lies in it
   std::optional<Vec3> pole{};              // CC

@@ -130,10 +130,18 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
     case FlowKind::end_loop:
       return turn_loop(block, here);
     case FlowKind::leave_loop:
-      frame().cursor.go_to(map[here.end].behind);
-      return std::nullopt;
     case FlowKind::next_turn:
-      frame().cursor.go_to(map[here.end].place);
+      if (map[here.begin].turns == Turns::counted) {
+        return at(
+            block, flow.column,
+            fmt::format("{} of a repeat", here.kind == FlowKind::leave_loop ? "break" : "continue"),
+            "it belongs to while and do: count the turns in a while loop");
+      }
+      if (here.kind == FlowKind::next_turn) {
+        frame().cursor.go_to(map[here.end].place);
+        return std::nullopt;
+      }
+      frame().cursor.go_to(map[here.end].behind);
       return std::nullopt;
     case FlowKind::subprogram:
       // Reached by the blocks before it: a definition, which runs when it is called.

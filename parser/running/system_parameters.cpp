@@ -121,6 +121,34 @@ constexpr std::array kNamed{
     Named{"_vminor", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
 };
 
+// Other names that LinuxCNC keeps to itself, whose values are the machine's or a call's.
+constexpr std::array<std::string_view, 26> kKeptNames{"_line",
+                                                      "_retract_r_plane",
+                                                      "_retract_old_z",
+                                                      "_spindle_rpm_mode",
+                                                      "_spindle_css_mode",
+                                                      "_mist",
+                                                      "_speed_override",
+                                                      "_feed_override",
+                                                      "_adaptive_feed",
+                                                      "_feed_hold",
+                                                      "_u",
+                                                      "_v",
+                                                      "_w",
+                                                      "_current_pocket",
+                                                      "_selected_pocket",
+                                                      "_remap_level",
+                                                      "_value",
+                                                      "_value_returned",
+                                                      "_abs_x",
+                                                      "_abs_y",
+                                                      "_abs_z",
+                                                      "_abs_a",
+                                                      "_abs_b",
+                                                      "_abs_c",
+                                                      "_abs_u",
+                                                      "_abs_v"};
+
 // #4001 to #4130: the word of each group that is in force.
 struct ModalVariable {
   int index;
@@ -243,6 +271,13 @@ Value SystemParameters::named(std::string_view name) const {
   const auto found = std::find_if(kNamed.begin(), kNamed.end(),
                                   [name](const Named& entry) { return entry.name == name; });
   return found == kNamed.end() ? std::nullopt : found->value(*this);
+}
+
+bool SystemParameters::keeps(std::string_view name) const {
+  if (dialect != Dialect::linuxcnc || !name.starts_with('_')) return false;
+  return std::any_of(kNamed.begin(), kNamed.end(),
+                     [name](const Named& entry) { return entry.name == name; }) ||
+         std::find(kKeptNames.begin(), kKeptNames.end(), name) != kKeptNames.end();
 }
 
 }  // namespace frustum::parser

@@ -28,6 +28,8 @@ class SystemParameters final : public KeptParameters {
 
   [[nodiscard]] std::optional<double> number(int index) const override;
   [[nodiscard]] std::optional<double> named(std::string_view name) const override;
+  // Whether a program may not set the name.
+  [[nodiscard]] bool keeps(std::string_view name) const;
 
   Dialect dialect;
   const ModalState& state;

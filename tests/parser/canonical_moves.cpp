@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "core/units.hpp"
@@ -39,9 +40,45 @@ CanonicalMove said(const std::string& kind, std::string_view text) {
   return move;
 }
 
-std::optional<double> rate_of(const Feed& feed) {
-  const bool written = feed.mode != FeedMode::inverse_time && !feed.synchronised;
-  return written ? std::optional(feed.value) : std::nullopt;
+using Place = std::vector<std::optional<double>>;
+
+// Of X Y Z, else of A B C; absent where one of them is not known.
+std::optional<double> straight_length(const Place& from, const Place& to) {
+  for (const std::size_t first : {0U, 3U}) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + 3; ++i) {
+      if (!from[i] && !to[i]) continue;
+      if (!from[i] || !to[i]) return std::nullopt;
+      sum += (*to[i] - *from[i]) * (*to[i] - *from[i]);
+    }
+    if (sum > 0.0) return std::sqrt(sum);
+  }
+  return 0.0;
+}
+
+// Of an arc in the plane of the axes u, v about `centre`, with its helix along w.
+std::optional<double> arc_length(const Place& from, const Place& to, const ArcFeed& arc,
+                                 const std::array<double, 2>& centre,
+                                 const std::array<std::size_t, 3>& axes) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (const std::size_t axis : axes) {
+    if (!from[axis] || !to[axis]) return std::nullopt;
+  }
+  const auto angle = [&](const Place& place) {
+    return std::atan2(*place[axes[1]] - centre[1], *place[axes[0]] - centre[0]);
+  };
+  const double radius = std::hypot(*from[axes[0]] - centre[0], *from[axes[1]] - centre[1]);
+  double swept = std::fmod((angle(to) - angle(from)) * (arc.turns > 0 ? 1.0 : -1.0), kTurn);
+  if (swept <= 1e-9) swept += kTurn;
+  swept += kTurn * (std::abs(arc.turns) - 1);
+  return std::hypot(radius * swept, *to[axes[2]] - *from[axes[2]]);
+}
+
+// In mm or degrees a minute; rs274 makes it of the length of the move where F is the inverse of its time.
+std::optional<double> rate_of(const Feed& feed, std::optional<double> length) {
+  if (feed.synchronised) return std::nullopt;
+  if (feed.mode != FeedMode::inverse_time) return feed.value;
+  return length ? std::optional(feed.value * *length) : std::nullopt;
 }
 
 double signed_speed(SpindleDirection direction, double speed) {
@@ -57,8 +94,9 @@ class Walk {
     return CanonicalMove{"traverse", arrive(move.end, move.coordinates)};
   }
   std::optional<CanonicalMove> operator()(const LinearFeed& move) {
+    const Place before{place_.begin(), place_.end()};
     CanonicalMove result{"feed", arrive(move.end, move.coordinates)};
-    result.rate = rate_of(move.feed);
+    result.rate = rate_of(move.feed, straight_length(before, result.values));
     if (move.feed.synchronised) {
       result.kind = "thread";
       result.values.emplace_back(move.feed.value);
@@ -66,11 +104,14 @@ class Walk {
     return result;
   }
   std::optional<CanonicalMove> operator()(const Probe& move) {
+    const Place before{place_.begin(), place_.end()};
     CanonicalMove result{"probe", arrive(move.end, Coordinates::program)};
-    result.rate = rate_of(move.feed);
+    result.rate = rate_of(move.feed, straight_length(before, result.values));
     return result;
   }
   std::optional<CanonicalMove> operator()(const ArcFeed& arc) {
+    constexpr std::array<std::array<std::size_t, 3>, 3> kPlanes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+    const Place before{place_.begin(), place_.end()};
     CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(arc.plane))),
                        arrive(arc.end, Coordinates::program)};
     const std::size_t normal = arc.plane == Plane::xy ? 2 : arc.plane == Plane::zx ? 1 : 0;
@@ -79,7 +120,13 @@ class Walk {
       move.values.push_back(in_machine(i, arc.center[static_cast<Eigen::Index>(i)]));
     }
     move.values.emplace_back(arc.turns);
-    move.rate = rate_of(arc.feed);
+    const auto& axes = kPlanes.at(static_cast<std::size_t>(arc.plane));
+    const auto centre_u = in_machine(axes[0], arc.center[static_cast<Eigen::Index>(axes[0])]);
+    const auto centre_v = in_machine(axes[1], arc.center[static_cast<Eigen::Index>(axes[1])]);
+    const bool known = centre_u && centre_v;
+    move.rate =
+        rate_of(arc.feed, known ? arc_length(before, move.values, arc, {*centre_u, *centre_v}, axes)
+                                : std::nullopt);
     return move;
   }
   std::optional<CanonicalMove> operator()(const Stop& stop) {

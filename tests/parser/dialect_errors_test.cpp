@@ -64,6 +64,13 @@ constexpr Mistake kLinuxcnc[] = {
      "2:1: error: the reference point is where the axes are, but only the setup knows where G54 "
      "lies"},
     {"G30 G1 X5 F1\n", "1:5: error: G30 and G1 both use the axis words"},
+    {"#<_x> = 1\n", "1:1: error: parameter #<_x> can only be read"},
+    {"G0 X1 #<_Metric>=1\n", "1:7: error: parameter #<_metric> can only be read"},
+    {"o1 sub\no1 endsub [3]\no1 call\n#<_value>=2\n",
+     "4:1: error: parameter #<_value> can only be read"},
+    {"#<_call_level>=1\n", "1:1: error: parameter #<_call_level> can only be read"},
+    {"o1 repeat [3]\no1 break\no1 endrepeat\n", "2:1: error: break of a repeat"},
+    {"o1 repeat [3]\no1 continue\no1 endrepeat\n", "2:1: error: continue of a repeat"},
     {"#5400=1\n", "1:1: error: parameter #5400 can only be read"},
     {"#5420=1\n", "1:1: error: parameter #5420 can only be read"},
     {"#1=#5221\n", "1:4: error: the value of #5221 is the setup's and not known here"},
