@@ -162,7 +162,11 @@ class Controller::State {
     spindle_speed_ = spindle_on_ ? change.speed : 0.0;
   }
   void execute(const parser::OrientationPathChange& change) { orientation_path_ = change.path; }
-  void execute(const parser::RotaryPathChange& change) { rotary_path_ = change.path; }
+  void execute(const parser::RotaryPathChange& change) {
+    for (std::size_t i = 0; i < change.axes.size(); ++i) {
+      if (change.axes.at(i)) rotary_paths_.at(i) = change.path;
+    }
+  }
   void execute(const parser::TiltedPlaneChange& change) {
     plane_ = change.program_from_plane;
     place_words();
@@ -332,9 +336,8 @@ class Controller::State {
     AxisPositions end = q_;
     for (const AxisLetter letter : kRotaryAxes) {
       if (!target[letter]) continue;
-      end[letter] = rotary_path_ == parser::RotaryPath::shortest
-                        ? best_turn(*machine_.joint(letter), *target[letter], q_[letter])
-                        : *target[letter];
+      end[letter] = turn_to(*machine_.joint(letter), *target[letter], q_[letter],
+                            rotary_paths_.at(static_cast<std::size_t>(letter) - 3));
     }
     return end;
   }
@@ -465,7 +468,7 @@ class Controller::State {
   LengthCompensation compensation_ = LengthCompensation::off;
   double compensated_length_ = 0.0;
   parser::OrientationPath orientation_path_ = parser::OrientationPath::rotary_axes;
-  parser::RotaryPath rotary_path_ = parser::RotaryPath::as_programmed;
+  std::array<parser::RotaryPath, 3> rotary_paths_{};  // A, B, C
   int tool_ = 0;
   bool spindle_on_ = false;
   double spindle_speed_ = 0.0;  // 1/min

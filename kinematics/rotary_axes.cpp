@@ -67,6 +67,22 @@ double best_turn(const Joint& joint, double angle, double near) {
   return nearest;
 }
 
+double turn_to(const Joint& joint, double word, double near, parser::RotaryPath path) {
+  // What a position in degrees with six decimals may be off, and no rotary axis resolves.
+  constexpr double kThere = 1e-8;
+  switch (path) {
+    case parser::RotaryPath::as_programmed:
+      return word;
+    case parser::RotaryPath::shortest:
+      return best_turn(joint, word, near);
+    case parser::RotaryPath::positive:
+      return near - kThere + std::fmod(std::fmod(word - near + kThere, kTurn) + kTurn, kTurn);
+    case parser::RotaryPath::negative:
+      return near + kThere - std::fmod(std::fmod(near + kThere - word, kTurn) + kTurn, kTurn);
+  }
+  return word;
+}
+
 RotaryAxes::RotaryAxes(const Machine& machine) {
   // In the order in which they turn the tool axis as seen from the table, each by +q: the work chain from
   // the table inwards, then the tool chain outwards.

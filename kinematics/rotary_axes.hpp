@@ -90,6 +90,9 @@ inline constexpr double kMostTurned = 2000.0 * std::numbers::pi;
 [[nodiscard]] double nearest_turn(double angle, double near);
 // The full turn within travel that is nearest to `near`; the nearest of all if none is within.
 [[nodiscard]] double best_turn(const Joint& joint, double angle, double near);
+// Where a word turns the axis that stands at `near`. In one direction it turns by less than a full turn, and not
+// at all when it is there but for rounding.
+[[nodiscard]] double turn_to(const Joint& joint, double word, double near, parser::RotaryPath path);
 [[nodiscard]] bool within_travel(const Joint& joint, double position);
 
 }  // namespace frustum::kinematics

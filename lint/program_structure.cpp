@@ -154,6 +154,9 @@ class Structure {
 
   void follow(const Block& block) {
     const parser::FlowStatement& flow = *block.flow;
+    if (!flow.block_label.empty() && flow.block_label != kEndOfPart) {
+      labels_.emplace(flow.block_label, Definition{block.place_of(1), "label " + flow.block_label});
+    }
     switch (flow.kind) {
       case FlowKind::subprogram:
         // A file that begins with it is that subprogram.

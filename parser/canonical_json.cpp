@@ -19,7 +19,7 @@ constexpr std::array kDirections{"off", "clockwise", "counterclockwise"};
 constexpr std::array kLengthModes{"off", "length", "tool_centre_point"};
 constexpr std::array kFeedModes{"per_minute", "inverse_time", "per_revolution"};
 constexpr std::array kOrientationPaths{"rotary_axes", "great_circle"};
-constexpr std::array kRotaryPaths{"as_programmed", "shortest"};
+constexpr std::array kRotaryPaths{"as_programmed", "shortest", "positive", "negative"};
 constexpr std::array kStopKinds{"program_stop", "optional_stop", "program_end"};
 
 template <typename Names, typename Enum>
@@ -133,6 +133,11 @@ void add(Json& json, const OrientationPathChange& change) {
 void add(Json& json, const RotaryPathChange& change) {
   json["type"] = "rotary_path";
   json["path"] = name_in(kRotaryPaths, change.path);
+  if (change.axes == RotaryPathChange{}.axes) return;
+  json["axes"] = Json::array();
+  for (std::size_t i = 0; i < change.axes.size(); ++i) {
+    if (change.axes.at(i)) json["axes"].push_back(std::string(1, "ABC"[i]));
+  }
 }
 void add(Json& json, const TiltedPlaneChange& change) {
   json["type"] = "tilted_plane";

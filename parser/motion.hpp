@@ -139,11 +139,12 @@ enum class OrientationPath : std::uint8_t { rotary_axes, great_circle };
 struct OrientationPathChange {
   OrientationPath path = OrientationPath::rotary_axes;
 };
-// How a rotary axis turns to a programmed position: to that very value, or the shortest way to that
-// angle (M126, DC()).
-enum class RotaryPath : std::uint8_t { as_programmed, shortest };
+// How a rotary axis turns to a programmed position: to that very value, or to that angle, the shortest way
+// (M126, DC()), or always in one direction (ACP(), ACN()), by less than a full turn.
+enum class RotaryPath : std::uint8_t { as_programmed, shortest, positive, negative };
 struct RotaryPathChange {
   RotaryPath path = RotaryPath::as_programmed;
+  std::array<bool, 3> axes{true, true, true};  // A, B, C: whose path it is; the others keep theirs
 };
 // G68.2, CYCLE800, PLANE SPATIAL: words are from now on coordinates of this frame; absent: G69.
 struct TiltedPlaneChange {

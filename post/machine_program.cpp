@@ -145,7 +145,11 @@ class Planner {
     orientation_ = change.path;
     if (options_.great_circle) emit(change);
   }
-  void follow(const parser::RotaryPathChange& change) { rotary_path_ = change.path; }
+  void follow(const parser::RotaryPathChange& change) {
+    for (std::size_t i = 0; i < change.axes.size(); ++i) {
+      if (change.axes.at(i)) rotary_paths_.at(i) = change.path;
+    }
+  }
   void follow(const parser::TiltedPlaneChange& change) { plane_ = change.program_from_plane; }
   void follow(const parser::AlignToPlane& /*align*/) {
     if (!plane_) {
@@ -463,10 +467,9 @@ class Planner {
 
   // A rotary word, with the full turns that a rewind took off, or the shortest way.
   [[nodiscard]] double turned(AxisLetter letter, double word) const {
-    if (rotary_path_ == parser::RotaryPath::shortest) {
-      return kinematics::best_turn(*machine_.joint(letter), word, q_[letter]);
-    }
-    return word + turns_[letter];
+    const auto path = rotary_paths_.at(static_cast<std::size_t>(letter) - 3);
+    if (path == parser::RotaryPath::as_programmed) return word + turns_[letter];
+    return kinematics::turn_to(*machine_.joint(letter), word, q_[letter], path);
   }
 
   // Rotary words as they are while the axes are on the solution that the program means; else the positions
@@ -728,7 +731,7 @@ class Planner {
   int offset_ = 1;
   std::optional<Pose> plane_{};
   parser::OrientationPath orientation_ = parser::OrientationPath::rotary_axes;
-  parser::RotaryPath rotary_path_ = parser::RotaryPath::as_programmed;
+  std::array<parser::RotaryPath, 3> rotary_paths_{};  // A, B, C
   parser::SpindleChange spindle_{};
   bool flood_ = false;
   bool ended_ = false;

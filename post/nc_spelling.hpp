@@ -58,7 +58,7 @@ struct NcSpelling {
   std::string_view leave_tool_centre_point;
   bool compensation_by_tool;  // the length is that of the tool in the spindle
   std::array<std::string_view, 2> orientation_paths;  // rotary axes linear, great circle
-  std::array<std::string_view, 2> rotary_paths;       // as programmed, shortest
+  std::array<std::string_view, 4> rotary_paths;       // as programmed, shortest, in one direction
   std::string_view tool_change, tool_change_with_speed;
   std::string_view speed;  // of the spindle, beside the word that starts it
   std::array<std::string_view, 3> spindle;

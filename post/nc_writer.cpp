@@ -328,8 +328,11 @@ class NcWriter {
   }
   void write(const parser::RotaryPathChange& change) {
     const std::string_view word = spelling_.rotary_paths.at(index_of(change.path));
-    if (word.empty() && change.path == parser::RotaryPath::shortest) {
-      refuse("rotary axes that take the shortest way", "write the positions that they turn to");
+    const bool all = change.axes == parser::RotaryPathChange{}.axes;
+    if ((word.empty() || !all) && change.path != parser::RotaryPath::as_programmed) {
+      refuse(change.path == parser::RotaryPath::shortest ? "rotary axes that take the shortest way"
+                                                         : "rotary axes that turn in one direction",
+             "write the positions that they turn to");
       return;
     }
     lines(word);

@@ -37,6 +37,7 @@ enum class CodeGroup : std::uint8_t {
   scaling,
   mirror,
   orientation_path,
+  orientation_reference,
   rotary_path,
   path_control,
   retract,

@@ -61,7 +61,8 @@ constexpr std::array kCodes{
     named("MIRROR", program_frame, FrameWord::mirror, kLinearWords),
     named("AMIRROR", program_frame, FrameWord::mirror_within, kLinearWords),
     named("CYCLE800()", tilted_plane, TiltWord::off),
-    passed("ORIWKS"),  // directions are of the workpiece, as they always are here
+    named("ORIWKS", orientation_reference, OrientationReference::workpiece),
+    named("ORIMKS", orientation_reference, OrientationReference::machine),
     passed("STOPRE"),
     passed("FFWON"),
     passed("FFWOF"),
@@ -180,7 +181,6 @@ constexpr std::array kRefusedWords{
     RefusedWord{"LONGHOLE", kNoCycles},
     RefusedWord{"HOLES1", kNoCycles},
     RefusedWord{"HOLES2", kNoCycles},
-    RefusedWord{"ORIMKS", "give directions in the workpiece frame: ORIWKS"},
     RefusedWord{"ORIEULER", "give directions by A3= B3= C3="},
     RefusedWord{"ORIRPY", "give directions by A3= B3= C3="},
     RefusedWord{"CALL", kNoFlow},

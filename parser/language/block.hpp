@@ -36,7 +36,9 @@ enum class Measure : std::uint8_t {
   modal,        // as G90 or G91 says
   absolute,     // AC()
   incremental,  // IC(), IX
-  shortest      // DC(): absolute, by the shorter way round
+  shortest,     // DC(): absolute, by the shorter way round
+  positive,     // ACP(): absolute, in the positive direction
+  negative      // ACN()
 };
 
 constexpr char kNamedWord = '@';

@@ -41,6 +41,8 @@ enum class MotionMode : std::uint8_t {
   fine_bore
 };
 enum class DistanceMode : std::uint8_t { absolute, incremental };
+// Whose frame the directions of the tool are in.
+enum class OrientationReference : std::uint8_t { workpiece, machine };
 // Of the contour, along the way of the tool.
 enum class ToolSide : std::uint8_t { left, right };
 // G70 of Sinumerik leaves feeds in mm.

@@ -1,5 +1,7 @@
 #include "parser/reading/block_draft.hpp"
 
+#include <utility>
+
 #include "parser/dialects/code_table.hpp"
 
 namespace frustum::parser {
@@ -13,8 +15,15 @@ void BlockDraft::read_value(Word& word, ExpressionLevel level) {
   block.steps.pop_back();
 }
 
+bool BlockDraft::labelled() const {
+  return block.flow && block.flow->kind == FlowKind::label && block.words.empty() &&
+         block.assignments.empty();
+}
+
 void BlockDraft::begin_flow(FlowKind kind, std::uint32_t column) {
+  std::string label = labelled() ? block.flow->label : std::string{};
   block.flow.emplace();
+  block.flow->block_label = std::move(label);
   block.flow->kind = kind;
   block.flow->column = column;
 }

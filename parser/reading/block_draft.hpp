@@ -36,6 +36,8 @@ struct BlockDraft {
   }
   // An expression becomes the word's value; a plain number needs no expression.
   void read_value(Word& word, ExpressionLevel level);
+  // A label is all that there is so far; a statement may follow it.
+  [[nodiscard]] bool labelled() const;
   void begin_flow(FlowKind kind, std::uint32_t column);
   // name = expression; the = is read already.
   void begin_setting(const std::string& name, std::uint32_t column);

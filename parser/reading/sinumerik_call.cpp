@@ -48,8 +48,9 @@ std::string read_variable_name(LineScanner& in) {
   return name;
 }
 
-bool stands_alone(BlockDraft& draft, std::uint32_t column) {
+bool stands_alone(BlockDraft& draft, std::uint32_t column, bool behind_label = true) {
   const Block& block = draft.block;
+  if (behind_label && draft.labelled()) return true;
   if (!block.flow && block.words.empty() && block.assignments.empty()) return true;
   draft.in.fail(column, "a statement behind other words", "write it in a block of its own");
   return false;
@@ -76,7 +77,7 @@ void read_sinumerik_head(BlockDraft& draft) {
 
 void read_sinumerik_procedure(BlockDraft& draft, std::uint32_t column) {
   LineScanner& in = draft.in;
-  if (!stands_alone(draft, column)) return;
+  if (!stands_alone(draft, column, false)) return;
   draft.begin_flow(FlowKind::program, column);
   FlowStatement& flow = *draft.block.flow;
   const std::uint32_t place = in.column();

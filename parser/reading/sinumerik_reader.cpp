@@ -223,7 +223,8 @@ class SinumerikReader {
       (void)draft_.read_expression(ExpressionLevel::disjunction);
       return draft_.end_setting();
     }
-    const bool first = block_.words.empty() && block_.assignments.empty() && !block_.flow;
+    const bool first =
+        block_.words.empty() && block_.assignments.empty() && (!block_.flow || draft_.labelled());
     if (first && name.size() > 1) return read_sinumerik_call(draft_, name, column);
     in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
   }

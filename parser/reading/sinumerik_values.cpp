@@ -138,9 +138,10 @@ struct MeasureName {
   std::string_view name;
   Measure measure;
 };
-constexpr std::array kMeasures{MeasureName{"AC", Measure::absolute},
-                               MeasureName{"IC", Measure::incremental},
-                               MeasureName{"DC", Measure::shortest}};
+constexpr std::array kMeasures{
+    MeasureName{"AC", Measure::absolute}, MeasureName{"IC", Measure::incremental},
+    MeasureName{"DC", Measure::shortest}, MeasureName{"ACP", Measure::positive},
+    MeasureName{"ACN", Measure::negative}};
 
 }  // namespace
 
@@ -161,10 +162,6 @@ void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name
   const bool rotary = name == "A" || name == "B" || name == "C";
   const std::string found = in.next_name();
   const std::uint32_t column = in.column();
-  if (found == "ACP" || found == "ACN") {
-    in.fail(column, found + " is not simulated", "use DC(), the shorter way, or AC()");
-    return;
-  }
   if (in.peek() == '"') {
     in.fail(column, fmt::format("{} has a name instead of a number", name),
             "tools go by their numbers here: T1");
@@ -176,8 +173,8 @@ void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name
   if (measured) {
     (void)in.name();
     word.measure = measure->measure;
-    if (word.measure == Measure::shortest && !rotary) {
-      in.fail(column, "DC() is for rotary axes", "write AC() or the plain value");
+    if (word.measure >= Measure::shortest && !rotary) {
+      in.fail(column, found + "() is for rotary axes", "write AC() or the plain value");
       return;
     }
     if (!in.take('(')) {

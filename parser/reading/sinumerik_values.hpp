@@ -1,7 +1,7 @@
 // How Sinumerik programs write values: R1*2, SIN(30), AC(5), IC(R1).
 //
 // Units : none; values are as written
-// Errors: an operand, bracket or = that is missing, ACP and ACN; at the draft's scanner
+// Errors: an operand, bracket or = that is missing, DC() of a linear axis; at the draft's scanner
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ namespace frustum::parser {
 // As DEF names them: two letters or _ at least, then digits too.
 [[nodiscard]] bool is_variable(std::string_view name);
 
-// What is behind the = of the word `name`: an expression, or AC() IC() DC() around one.
+// What is behind the = of the word `name`: an expression, or AC() IC() DC() ACP() ACN() around one.
 void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name);
 
 }  // namespace frustum::parser

@@ -255,7 +255,9 @@ class BlockExecutor {
   [[nodiscard]] Outcome lead_on(const Movement& movement, ArcWords& arc) const;
   void keep_heading(const AxisTarget& before);
   [[nodiscard]] AxisTarget end_of(const BlockWords& words) const;
-  void announce_rotary_path(const BlockWords& words, std::uint32_t column);
+  [[nodiscard]] Result<RotaryPath> rotary_path_of(const BlockWords& words, char letter) const;
+  [[nodiscard]] Outcome announce_rotary_paths(const BlockWords& words, std::uint32_t column);
+  [[nodiscard]] Outcome check_orientation_reference(const BlockWords& words) const;
   [[nodiscard]] Outcome check_tool_length(const Movement& movement) const;
   [[nodiscard]] Outcome set_tool_axis(const BlockWords& words);
   [[nodiscard]] Result<Feed> feed_for(const BlockWords& words, const Movement& movement,

@@ -300,14 +300,20 @@ BlockExecutor::Outcome BlockExecutor::turn_to_plane(const BlockWords& words) {
 
 void BlockExecutor::set_paths(const BlockWords& words) {
   const GivenCode& orientation = words[CodeGroup::orientation_path];
+  if (const GivenCode& reference = words[CodeGroup::orientation_reference];
+      reference.code != nullptr) {
+    state_.orientation_reference = static_cast<OrientationReference>(reference.code->value);
+    emit(reference.column, Event{reference.code->name(), {}});
+  }
   if (orientation.code != nullptr) {
+    state_.orientation_path = static_cast<OrientationPath>(orientation.code->value);
     emit(orientation.column,
          OrientationPathChange{static_cast<OrientationPath>(orientation.code->value)});
   }
   const GivenCode& rotary = words[CodeGroup::rotary_path];
   if (rotary.code != nullptr) {
     state_.rotary_path = static_cast<RotaryPath>(rotary.code->value);
-    state_.announced_rotary_path = state_.rotary_path;
+    state_.announced_rotary_paths.fill(state_.rotary_path);
     emit(rotary.column, RotaryPathChange{state_.rotary_path});
   }
 }

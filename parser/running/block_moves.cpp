@@ -80,7 +80,9 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (movement.non_modal == NonModal::pole) return set_pole(words);
   if (movement.non_modal == NonModal::start) return set_start(words);
   if (movement.non_modal >= NonModal::shift_to_place) return shift_words(words, movement.non_modal);
-  if (movement.motion != MotionMode::none) announce_rotary_path(words, movement.column);
+  if (movement.motion != MotionMode::none) {
+    if (auto done = announce_rotary_paths(words, movement.column); !done) return done;
+  }
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(words, movement);
   }
@@ -253,40 +255,11 @@ BlockExecutor::Outcome BlockExecutor::set_start(const BlockWords& words) {
   return Done{};
 }
 
-void BlockExecutor::announce_rotary_path(const BlockWords& words, std::uint32_t column) {
-  if ((words.given() & kRotaryWords).empty()) return;
-  RotaryPath path = state_.rotary_path;
-  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
-    const char letter = "ABC"[i];
-    if (!words.has(letter)) continue;
-    const Measure measure = words[letter].measure;
-    // A step from a place known but for full turns goes on from there.
-    const bool steps = measure == Measure::incremental && state_.loose.at(i);
-    if (measure == Measure::shortest || steps) path = RotaryPath::shortest;
-  }
-  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
-    if (words.has("ABC"[i])) state_.loose.at(i) = path == RotaryPath::shortest;
-  }
-  if (path == state_.announced_rotary_path) return;
-  state_.announced_rotary_path = path;
-  emit(column, RotaryPathChange{path});
-}
-
 BlockExecutor::Outcome BlockExecutor::check_tool_length(const Movement& movement) const {
   if (!state_.compensation.tip || state_.compensation.length) return Done{};
   return fail(
       movement.column, "the tool-tip control is on, but no tool length is in force",
       rules_.tool_brings_length ? "call a tool before the move" : "give G43 H before the move");
-}
-
-// Axes that went the shorter way are left where they are until they are named again.
-AxisTarget BlockExecutor::end_of(const BlockWords& words) const {
-  AxisTarget end = position_.target();
-  for (std::size_t i = 0; i < state_.loose.size(); ++i) {
-    const char letter = "ABC"[i];
-    if (state_.loose.at(i) && !words.has(letter)) end[static_cast<AxisLetter>(3 + i)].reset();
-  }
-  return end;
 }
 
 double BlockExecutor::unit_scale() const {
@@ -355,6 +328,7 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
 
 BlockExecutor::Outcome BlockExecutor::set_tool_axis(const BlockWords& words) {
   const char first = words.first_of(LetterSet(rules_.vector_letters));
+  if (auto done = check_orientation_reference(words); !done) return done;
   if (first == 0) return Done{};
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
     return fail(words[rotary].column,

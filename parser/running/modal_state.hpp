@@ -92,12 +92,15 @@ struct ModalState {
   WorkOffset datum{};
   WordFrame offset_frame{};
   std::optional<int> selected_tool{};
-  int tool = 0;                                                  // in the spindle
-  std::optional<FeedWord> tool_feed{};                           // of TOOL CALL, for F AUTO
-  RotaryPath rotary_path = RotaryPath::as_programmed;            // M126
-  RotaryPath announced_rotary_path = RotaryPath::as_programmed;  // the last one in the motions
+  int tool = 0;                                        // in the spindle
+  std::optional<FeedWord> tool_feed{};                 // of TOOL CALL, for F AUTO
+  RotaryPath rotary_path = RotaryPath::as_programmed;  // M126
+  std::array<RotaryPath, 3> announced_rotary_paths{};  // of A, B, C: the last ones in the motions
   // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
   std::array<bool, 3> loose{};
+  // ORIMKS: directions of the tool are the machine's, whatever frame the words are in.
+  OrientationReference orientation_reference = OrientationReference::workpiece;
+  OrientationPath orientation_path = OrientationPath::rotary_axes;
   bool tilted = false;
   Pose tilt{};                            // of the tilted plane
   std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last

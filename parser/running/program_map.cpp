@@ -78,6 +78,10 @@ ProgramMap::ProgramMap(const Program& program) {
       if (flow->kind == FlowKind::program) ++programs;
       landmarks_.push_back(
           {place, cursor.place(), flow->kind, flow->turns, flow->column, flow->label, programs});
+      if (!flow->block_label.empty()) {
+        landmarks_.push_back(
+            {place, cursor.place(), FlowKind::label, flow->turns, 1, flow->block_label, programs});
+      }
     }
   }
   pair(program);

@@ -211,6 +211,30 @@ TEST(ControllerRotary, TurnsTheShortestWayWhenTold) {
   };
   EXPECT_NEAR(turn(RotaryPath::shortest), 15.0, 1e-9);
   EXPECT_NEAR(turn(RotaryPath::as_programmed), 345.0, 1e-9);
+  EXPECT_NEAR(turn(RotaryPath::positive), 15.0, 1e-9);
+  EXPECT_NEAR(turn(RotaryPath::negative), 345.0, 1e-9);
+}
+
+TEST(ControllerRotary, TurnsInOneDirectionAndNotAtAllWhenItIsThere) {
+  const auto turn = [](RotaryPath path, double from, double to) {
+    const auto e = run(shipped("iwf-bc"), lines({ToolChange{1}, Traverse{target({{C, from}})},
+                                                 RotaryPathChange{path, {false, false, true}},
+                                                 Traverse{target({{C, to}})}}));
+    return e ? (e->axes[2].axes[C] - e->axes[1].axes[C]) / kDeg : 1e9;
+  };
+  EXPECT_NEAR(turn(RotaryPath::positive, 30, 10), 340.0, 1e-9);
+  EXPECT_NEAR(turn(RotaryPath::negative, 30, 10), -20.0, 1e-9);
+  EXPECT_NEAR(turn(RotaryPath::positive, 30, 750), 0.0, 1e-6);
+  EXPECT_NEAR(turn(RotaryPath::positive, 30.0000001, 30), 0.0, 1e-6);
+  EXPECT_NEAR(turn(RotaryPath::negative, 29.9999999, 30), 0.0, 1e-6);
+  EXPECT_NEAR(turn(RotaryPath::negative, 30, 31), -359.0, 1e-9);
+  // The other axes keep theirs.
+  const auto e =
+      run(shipped("iwf-bc"),
+          lines({ToolChange{1}, RotaryPathChange{RotaryPath::positive, {true, true, false}},
+                 Traverse{target({{C, 350}})}, Traverse{target({{C, 5}})}}));
+  ASSERT_TRUE(e);
+  EXPECT_NEAR(e->axes[2].axes[C] / kDeg, 5.0, 1e-9);
 }
 
 TEST(ControllerRotary, KeepsTheToolAxisOnTheGreatCircleWhenTold) {

@@ -182,10 +182,13 @@ TEST(Sinumerik, LeavesAxesThatWentTheShorterWayWhereTheyAre) {
   EXPECT_FALSE(moves[2].end[C].has_value());
   EXPECT_EQ(moves[3].end[C], 360 * kRadPerDeg);
   EXPECT_EQ(moves[4].end[C], 0.0);
+  // A goes to its values all the time.
   std::vector<RotaryPath> paths;
-  for (const auto& change : all_of<RotaryPathChange>(all)) paths.push_back(change.path);
-  EXPECT_EQ(paths, (std::vector{RotaryPath::shortest, RotaryPath::as_programmed,
-                                RotaryPath::shortest, RotaryPath::as_programmed}));
+  for (const auto& change : all_of<RotaryPathChange>(all)) {
+    paths.push_back(change.path);
+    EXPECT_EQ(change.axes, (std::array{false, false, true}));
+  }
+  EXPECT_EQ(paths, (std::vector{RotaryPath::shortest, RotaryPath::as_programmed}));
 }
 
 TEST(Sinumerik, SwivelsAboutTheAxesInTheOrderOfTheMode) {

@@ -53,6 +53,21 @@ TEST(SinumerikProgram, LabelsBelongToTheirProgram) {
       (Places{3}));
 }
 
+TEST(SinumerikProgram, LabelsStandBeforeStatements) {
+  const std::string l1 = "M30\n%_N_L1_SPF\nG0 X9\nM17\n";
+  EXPECT_EQ(x_of("GOTOF DONE\nG0 X1\nDONE: L1\nG0 X2\n" + l1), (Places{9, 2}));
+  EXPECT_EQ(x_of("DONE: L1 P2\n" + l1), (Places{9, 9}));
+  EXPECT_EQ(x_of("R1=3\nGOTOF HERE\nG0 X1\nHERE: IF R1==3\nG0 X2\nELSE\nG0 X3\nENDIF\n"),
+            (Places{2}));
+  EXPECT_EQ(x_of("AGAIN: R1=R1+1\nG0 X=R1\nBACK: IF R1<3 GOTOB AGAIN\nG0 X9\n"),
+            (Places{1, 2, 3, 9}));
+  EXPECT_EQ(x_of("AA: FOR R1=1 TO 2\nG0 X=R1\nENDFOR\nR2=R2+1\nIF R2<2 GOTOB AA\n"),
+            (Places{1, 2, 1, 2}));
+  EXPECT_EQ(x_of("AA: G0 X1\nBB: REPEAT AA P=1\nX5\n"), (Places{1, 1, 5}));
+  EXPECT_EQ(x_of("%_N_MAIN_MPF\nOUT2: SUB2(4)\nM30\nPROC SUB2(REAL XX)\nG0 X=XX\nRET\n"),
+            (Places{4}));
+}
+
 TEST(SinumerikProgram, FindsSubprogramsInFiles) {
   const auto folder = std::filesystem::temp_directory_path() / "frustum_sinumerik_program";
   std::filesystem::create_directories(folder);
