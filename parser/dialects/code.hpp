@@ -45,6 +45,7 @@ enum class CodeGroup : std::uint8_t {
   saved_modes,
   hole_cycle,
   hole_call,
+  drilling_cycle,
   raised_error,
   tool_change,
   spindle,
@@ -65,8 +66,11 @@ enum class NonModal : std::uint8_t {
   dwell,
   home,
   machine_coordinates,
-  align,        // the rotary axes to the normal of the tilted plane
-  pole,         // the centre of the arcs that follow
+  align,           // the rotary axes to the normal of the tilted plane
+  pole,            // the centre of the arcs that follow
+  pole_from_here,  // what polar positions count from: from where the tool is, the origin, or the last pole
+  pole_from_origin,
+  pole_from_pole,
   start,        // where the tool is before the program moves it
   second_home,  // G30
   keep_home,    // G28.1: where the axes are is home from now on
@@ -81,6 +85,9 @@ enum class NonModal : std::uint8_t {
   shift_suspend,
   shift_resume
 };
+[[nodiscard]] constexpr bool is_pole(NonModal word) {
+  return word >= NonModal::pole && word <= NonModal::pole_from_pole;
+}
 // G65 and G66 are read by themselves, since their letters are arguments.
 enum class SubprogramWord : std::uint8_t { none, call, leave, macro, end_modal };
 // From length_only on they leave the tool-tip switch as it is.
@@ -117,6 +124,18 @@ enum class HoleWord : std::uint8_t {
   bore,
   deep,
   deep_pecks
+};
+// What is done at the hole where the tool is: drilling_cycle.hpp.
+enum class DrillingWord : std::uint8_t {
+  drill,          // CYCLE81
+  drill_dwell,    // CYCLE82
+  peck,           // CYCLE83
+  tap,            // CYCLE84
+  ream,           // CYCLE85: in and out by feeds of its own
+  bore_oriented,  // CYCLE86: the tool leaves the wall before it goes back
+  bore_stop,      // CYCLE87: stops for the operator, CYCLE88 after a dwell
+  bore_dwell,
+  bore  // CYCLE89: feeds out
 };
 // The programmable frame: the first four replace it, the others go on within it.
 enum class FrameWord : std::uint8_t {

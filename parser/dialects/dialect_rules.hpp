@@ -42,6 +42,17 @@ struct CycleRules {
   bool start_from_initial = false;
 };
 
+// How polar positions are written.
+struct PolarRules {
+  bool about_pole = false;      // else about the origin, in G17
+  bool origin_is_pole = false;  // while none is given
+  // Left out, radius and angle stay as they were written last; where the tool is elsewhere that is an error.
+  bool words_stay = false;
+  std::string_view radius{};
+  std::string_view angle{};
+  std::string_view pole{};  // the word that gives one
+};
+
 // What G10 sets, by its L word.
 enum class DataInput : std::uint8_t {
   tool_table,       // L0: it is read again
@@ -92,6 +103,11 @@ struct DialectRules {
   CycleRules cycles{};
   RadiusRules radius{};
   LetterSet polar_words{};
+  PolarRules polar{};
+  // A thread has its lead in the centre word of the axis that it runs along.
+  bool leads_by_axis = false;
+  // Arcs may lead on from the move before.
+  bool arcs_lead_on = false;
   std::span<const DataWord> data_words{};
   // The word of the way per revolution of a thread (G33).
   char thread_lead = 'K';

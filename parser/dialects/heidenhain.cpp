@@ -134,6 +134,8 @@ constexpr DialectRules kRules{
     .known_letters = "X Y Z A B C F FT M R",
     .parameters = {.local_names = "QL"},
     .polar_words = LetterSet("pq"),
+    .polar = {.about_pole = true, .radius = "PR", .angle = "PA", .pole = "CC"},
+    .arcs_lead_on = true,
     .calls_whole_files = true,
     .file_names = kFiles,
 };

@@ -17,6 +17,9 @@ constexpr std::string_view kNoCorners =
     "write the corner, chamfer or rounding out as G1, G2 and G3";
 constexpr std::string_view kNoCycles = "write the cycle out as G0 and G1 blocks";
 constexpr std::string_view kNoFlow = "write the blocks out in the order in which they run";
+constexpr std::string_view kNoThreads = "tap with CYCLE84, or leave threading out of the program";
+constexpr LetterSet kPoleWords{"XYZpq"};
+constexpr LetterSet kDrillingWords{"zVuZdPKQrWfevmtwxeIJEkslghi"};
 constexpr std::array kCodes{
     modal('G', 40, non_modal, NonModal::dwell),
     modal('G', 700, unit, LengthUnit::inch_but_feeds),
@@ -43,6 +46,22 @@ constexpr std::array kCodes{
     passed('G', 970),
     passed('G', 6200),  // slower in corners
     passed('G', 6210),
+    modal('G', 1100, non_modal, NonModal::pole_from_here, kPoleWords),
+    modal('G', 1110, non_modal, NonModal::pole_from_origin, kPoleWords),
+    modal('G', 1120, non_modal, NonModal::pole_from_pole, kPoleWords),
+    modal('G', 330, motion, MotionMode::thread),
+    named("CT", motion, MotionMode::arc_tangential),
+    named("CIP", motion, MotionMode::arc_through),
+    named("MCALL", hole_call, 0),
+    named("CYCLE81", drilling_cycle, DrillingWord::drill, kDrillingWords),
+    named("CYCLE82", drilling_cycle, DrillingWord::drill_dwell, kDrillingWords),
+    named("CYCLE83", drilling_cycle, DrillingWord::peck, kDrillingWords),
+    named("CYCLE84", drilling_cycle, DrillingWord::tap, kDrillingWords),
+    named("CYCLE85", drilling_cycle, DrillingWord::ream, kDrillingWords),
+    named("CYCLE86", drilling_cycle, DrillingWord::bore_oriented, kDrillingWords),
+    named("CYCLE87", drilling_cycle, DrillingWord::bore_stop, kDrillingWords),
+    named("CYCLE88", drilling_cycle, DrillingWord::bore_dwell, kDrillingWords),
+    named("CYCLE89", drilling_cycle, DrillingWord::bore, kDrillingWords),
     modal('M', 170, subprogram, SubprogramWord::leave),
     modal('G', 1530, non_modal, NonModal::machine_coordinates),
     named("SUPA", non_modal, NonModal::machine_coordinates),
@@ -119,10 +138,11 @@ constexpr std::array kCodes{
 // What would change the part and is not simulated.
 constexpr std::array kRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
-    RefusedCode{'G', 330, 359, "leave threading out of the simulated program"},
+    RefusedCode{'G', 340, 359, "write a thread of constant lead: G33"},
+    RefusedCode{'G', 630, 639, kNoThreads},
+    RefusedCode{'G', 3310, 3329, kNoThreads},
     RefusedCode{'G', 4510, 4510, "go round outer corners by an arc: G450"},
     RefusedCode{'G', 740, 759, "move to the positions with SUPA and D0"},
-    RefusedCode{'G', 1100, 1129, "write positions in X, Y and Z"},
     RefusedCode{'G', 5070, 5990, "use G54 to G57, G505 and G506"},
     RefusedCode{'G', 960, 969, "give the spindle speed in revolutions per minute"},
 };
@@ -161,13 +181,7 @@ constexpr std::array kRefusedWords{
     RefusedWord{"TOFFL", "give the tool's true size in the job"},
     RefusedWord{"MEAS", "leave probing out of the simulated program"},
     RefusedWord{"MEAW", "leave probing out of the simulated program"},
-    RefusedWord{"CYCLE81", kNoCycles},
-    RefusedWord{"CYCLE82", kNoCycles},
-    RefusedWord{"CYCLE83", kNoCycles},
-    RefusedWord{"CYCLE84", kNoCycles},
     RefusedWord{"CYCLE840", kNoCycles},
-    RefusedWord{"CYCLE85", kNoCycles},
-    RefusedWord{"CYCLE86", kNoCycles},
     RefusedWord{"CYCLE61", kNoCycles},
     RefusedWord{"CYCLE62", kNoCycles},
     RefusedWord{"CYCLE63", kNoCycles},
@@ -186,17 +200,19 @@ constexpr std::array kRefusedWords{
     RefusedWord{"CALL", kNoFlow},
     RefusedWord{"EXTCALL", kNoFlow},
     RefusedWord{"PCALL", kNoFlow},
-    RefusedWord{"MCALL", kNoFlow},
     RefusedWord{"GOTOS", "write a loop: LOOP and ENDLOOP"},
     RefusedWord{"KONT", "approach and leave the contour straight: NORM"},
-    RefusedWord{"CIP", "write the arc with G2 or G3"},
-    RefusedWord{"CT", "write the arc with G2 or G3"},
+    RefusedWord{"SF", "write threads of one start, which begin at the spindle's mark"},
     RefusedWord{"DIAMON", "give X as a radius: DIAMOF"},
 };
 
-constexpr std::string_view kNeedsIsoMotion = "axis words need a motion word: G0, G1, G2 or G3";
+constexpr std::string_view kNeedsIsoMotion =
+    "axis words need a motion word: G0, G1, G2, G3, CIP, CT or G33";
 constexpr std::string_view kNeedsArc =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K)";
+constexpr std::string_view kNeedsPolar =
+    "AP= and RP= are the end of G0, G1, G2, G3 and CT, or a pole behind G110, G111 and G112";
+constexpr std::string_view kNeedsThrough = "I1= J1= K1= give a point of the arc behind CIP";
 constexpr std::string_view kNeedsTraori = "A3= B3= C3= give the tool vector after TRAORI";
 
 constexpr std::array kLetters{
@@ -207,14 +223,19 @@ constexpr std::array kLetters{
     LetterUse{'I', kNeedsArc},
     LetterUse{'J', kNeedsArc},
     LetterUse{'K', kNeedsArc},
-    LetterUse{'P', "TURN= belongs to G2 and G3"},
-    LetterUse{'R', "CR= belongs to G2 and G3"},
+    LetterUse{'R', "CR= belongs to G2 and G3, RPL= to ROT"},
     LetterUse{'X', kNeedsIsoMotion},
     LetterUse{'Y', kNeedsIsoMotion},
     LetterUse{'Z', kNeedsIsoMotion},
     LetterUse{'a', kNeedsTraori},
     LetterUse{'b', kNeedsTraori},
     LetterUse{'c', kNeedsTraori},
+    LetterUse{'e', "TURN= belongs to G2 and G3"},
+    LetterUse{'p', kNeedsPolar},
+    LetterUse{'q', kNeedsPolar},
+    LetterUse{'u', kNeedsThrough},
+    LetterUse{'v', kNeedsThrough},
+    LetterUse{'w', kNeedsThrough},
 };
 constexpr std::array kDwell{DwellWord{'F', DwellUnit::seconds},
                             DwellWord{'S', DwellUnit::revolutions}};
@@ -235,13 +256,22 @@ constexpr DialectRules kRules{
     .machine_coordinates_keep_length = true,
     .always_claimed = LetterSet("FSTD"),
     .letters = kLetters,
-    .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN",
+    .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP I1 J1 K1",
     .parameters = {.named_locals = true,
                    .unset_is_zero = true,
                    .prefix = 'R',
                    .first = 0,
                    .last = 999,
                    .names_are_defined = true},
+    .polar_words = LetterSet("pq"),
+    .polar = {.about_pole = true,
+              .origin_is_pole = true,
+              .words_stay = true,
+              .radius = "RP",
+              .angle = "AP",
+              .pole = "G111"},
+    .leads_by_axis = true,
+    .arcs_lead_on = true,
     .planes_end_frames = true,
     .subprograms_are_programs = true,
     .file_names = kFileNames,

@@ -14,6 +14,8 @@ enum class MotionMode : std::uint8_t {
   linear,
   arc_clockwise,
   arc_counterclockwise,
+  arc_tangential,    // CT
+  arc_through,       // CIP
   cubic_spline,      // G5
   quadratic_spline,  // G5.1
   nurbs,             // G5.2: a control point
@@ -40,6 +42,10 @@ enum class MotionMode : std::uint8_t {
   bore_dwell,
   fine_bore
 };
+// About the normal of the plane.
+[[nodiscard]] constexpr bool is_arc_in_plane(MotionMode mode) {
+  return mode >= MotionMode::arc_clockwise && mode <= MotionMode::arc_tangential;
+}
 enum class DistanceMode : std::uint8_t { absolute, incremental };
 // Whose frame the directions of the tool are in.
 enum class OrientationReference : std::uint8_t { workpiece, machine };

@@ -9,6 +9,7 @@
 #include "parser/reading/block_draft.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/sinumerik_call.hpp"
+#include "parser/reading/sinumerik_cycle.hpp"
 #include "parser/reading/sinumerik_flow.hpp"
 #include "parser/reading/sinumerik_swivel.hpp"
 #include "parser/reading/sinumerik_values.hpp"
@@ -24,9 +25,11 @@ struct Address {
   const char* spelled;
 };
 // Words that are written with = and longer than their letter.
-constexpr std::array kAddresses{Address{"A3", 'a', "A3="},     Address{"B3", 'b', "B3="},
-                                Address{"C3", 'c', "C3="},     Address{"CR", 'R', "CR="},
-                                Address{"TURN", 'e', "TURN="}, Address{"RPL", 'R', "RPL="}};
+constexpr std::array kAddresses{
+    Address{"A3", 'a', "A3="}, Address{"B3", 'b', "B3="},     Address{"C3", 'c', "C3="},
+    Address{"CR", 'R', "CR="}, Address{"TURN", 'e', "TURN="}, Address{"RPL", 'R', "RPL="},
+    Address{"AP", 'q', "AP="}, Address{"RP", 'p', "RP="},     Address{"I1", 'u', "I1="},
+    Address{"J1", 'v', "J1="}, Address{"K1", 'w', "K1="}};
 // Settings that change nothing that is simulated.
 constexpr std::array<const char*, 8> kSettings{"SPOS", "SPOSA", "ADIS",   "ADISPOS",
                                                "LIMS", "OVR",   "OVRRAP", "ACC"};
@@ -195,6 +198,8 @@ class SinumerikReader {
       if (name == setting) return read_setting(setting, column);
     }
     if (name == "CYCLE800") return read_sinumerik_swivel(draft_, column);
+    if (name == "MCALL") return read_sinumerik_modal_call(draft_, column);
+    if (is_sinumerik_cycle(name)) return read_sinumerik_cycle(draft_, name, column);
     if (name == "PROC") return read_sinumerik_procedure(draft_, column);
     if (name == "DEF") return read_sinumerik_definition(draft_, column);
     if (name == "EXTERN") return draft_.add_event("EXTERN", column, in_.text_to(";"));

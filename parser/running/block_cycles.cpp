@@ -212,8 +212,9 @@ void BlockExecutor::drill(const std::vector<CycleStep>& steps, std::uint32_t col
           position_.set(axis, point[static_cast<Eigen::Index>(axis)]);
         }
         if (step.action == CycleAction::feed) {
-          emit(column, LinearFeed{position_.target(), state_.tool_axis, Coordinates::program,
-                                  step.value > depth ? feed_out : feed});
+          Feed now = step.value > depth ? feed_out : feed;
+          now.value *= step.share;
+          emit(column, LinearFeed{position_.target(), state_.tool_axis, Coordinates::program, now});
         } else if (!(before == position_.target())) {
           emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
         }
@@ -230,6 +231,7 @@ void BlockExecutor::drill(const std::vector<CycleStep>& steps, std::uint32_t col
         turn(turned);
         break;
       case CycleAction::reverse_spindle:
+        if (step.value > 0.0) state_.spindle_speed = step.value;
         turn(turned == SpindleDirection::clockwise ? SpindleDirection::counterclockwise
                                                    : SpindleDirection::clockwise);
         break;

@@ -184,7 +184,7 @@ void BlockExecutor::follow_datum(const ModalState& before, const AxisTarget& axe
     }
   }
   if (!(state_.datum == before.datum) || state_.work_offset != before.work_offset) {
-    state_.pole.reset();
+    lose_pole();
   }
   arrive(axes);
 }

@@ -14,7 +14,7 @@
 namespace frustum::parser {
 namespace {
 
-constexpr LetterSet kMoveWords{"XYZABCIJKRabcpq"};
+constexpr LetterSet kMoveWords{"XYZABCIJKRabcpquvw"};
 constexpr int kMaxProgramNumber = 99'999'999;
 constexpr int kMaxRepeats = 99'999;
 
@@ -126,6 +126,7 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
   if (auto done = set_frames(*words); !done) return std::move(done).error();
   if (auto done = move(*words, *movement); !done) return std::move(done).error();
   if (auto done = call_hole_cycle(*words); !done) return std::move(done).error();
+  if (auto done = call_drilling_cycle(*words); !done) return std::move(done).error();
   return finish(*words);
 }
 
@@ -191,8 +192,9 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
     }
     return Movement{non_modal, mode, non_modal_code.column};
   }
-  for (const CodeGroup group : {CodeGroup::tilted_plane, CodeGroup::program_frame,
-                                CodeGroup::scaling, CodeGroup::mirror, CodeGroup::hole_cycle}) {
+  for (const CodeGroup group :
+       {CodeGroup::tilted_plane, CodeGroup::program_frame, CodeGroup::scaling, CodeGroup::mirror,
+        CodeGroup::hole_cycle, CodeGroup::drilling_cycle}) {
     const Code* frame = words[group].code;
     if (frame != nullptr && !frame->arguments.empty()) {
       return Movement{non_modal, MotionMode::none, 0};
@@ -220,6 +222,7 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
       // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
       return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
     case MotionMode::thread:
+      if (rules_.leads_by_axis) return kAxisWords | LetterSet("IJK");
       return rules_.thread_lead == 'K' ? kAxisWords | LetterSet("K") : kAxisWords;
     case MotionMode::rigid_tap:
       return kLinearWords | LetterSet("K");
@@ -243,6 +246,13 @@ LetterSet BlockExecutor::motion_words(const BlockWords& words, const Movement& m
     case MotionMode::nurbs:
     case MotionMode::nurbs_end:
       return letters_of_spline(movement.motion);
+    case MotionMode::arc_through:
+    case MotionMode::arc_tangential: {
+      LetterSet letters = kAxisWords;
+      letters = letters | (movement.motion == MotionMode::arc_through ? LetterSet("uvw")
+                                                                      : rules_.polar_words);
+      return guides_tip(words) ? letters | LetterSet(rules_.vector_letters) : letters;
+    }
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise: {
       const LetterSet letters = kAxisWords | LetterSet("RPet") | rules_.polar_words |

@@ -206,6 +206,9 @@ class BlockExecutor {
   [[nodiscard]] Outcome move_along_arc(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Result<double> lead_of(const BlockWords& words, const Movement& movement,
                                        char letter) const;
+  [[nodiscard]] char lead_letter(const BlockWords& words) const;
+  [[nodiscard]] Result<double> lead_along_way(const BlockWords& words, double lead,
+                                              const AxisTarget& before) const;
   [[nodiscard]] Outcome move_along_thread(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome tap_rigidly(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Result<ThreadingCycle> threading_cycle(const BlockWords& words,
@@ -234,6 +237,17 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_deep_hole(const BlockWords& words, HoleWord word);
   [[nodiscard]] Outcome make_hole(const BlockWords& words, const Movement& movement);
   [[nodiscard]] Outcome call_hole_cycle(const BlockWords& words);
+  [[nodiscard]] Result<double> drilling_dwell(const BlockWords& words, char letter,
+                                              bool turns) const;
+  [[nodiscard]] Result<int> drilling_modes(const BlockWords& words) const;
+  [[nodiscard]] Result<DrillingCycle> drilling_heights(const BlockWords& words) const;
+  [[nodiscard]] Outcome set_pecks(const BlockWords& words, DrillingCycle& cycle) const;
+  [[nodiscard]] Outcome set_tap(const BlockWords& words, DrillingCycle& cycle) const;
+  [[nodiscard]] Result<std::optional<SpindleDirection>> drilling_direction(
+      const BlockWords& words) const;
+  [[nodiscard]] Result<DrillingCycle> drilling_cycle_of(const BlockWords& words) const;
+  [[nodiscard]] Outcome call_drilling_cycle(const BlockWords& words);
+  [[nodiscard]] Outcome drill_here(const DrillingCycle& cycle, std::uint32_t column);
   void drill_from_top(const Vec3& top, const std::optional<Vec3>& from, bool turns,
                       std::uint32_t column);
   [[nodiscard]] Result<CallSubprogram> called_program(const BlockWords& words) const;
@@ -250,7 +264,20 @@ class BlockExecutor {
   [[nodiscard]] Outcome set_polar_target(const BlockWords& words);
   [[nodiscard]] Outcome set_place_in_plane(const BlockWords& words);
   [[nodiscard]] Outcome check_polar_arc(const BlockWords& words) const;
+  [[nodiscard]] Outcome set_pole_in_plane(const BlockWords& words, NonModal from);
+  void lose_pole();
+  [[nodiscard]] Result<Pole> pole_for(std::uint32_t column) const;
   [[nodiscard]] Outcome set_target_about_pole(const BlockWords& words);
+  [[nodiscard]] Outcome check_place_about_pole(const BlockWords& words, const Pole& pole,
+                                               double radius, double angle) const;
+  [[nodiscard]] Outcome turn_about_pole(const BlockWords& words, const Movement& movement,
+                                        ArcWords& arc) const;
+  [[nodiscard]] Result<Vec3> point_between(const BlockWords& words, const Movement& movement,
+                                           const Vec3& start, const Vec3& end) const;
+  [[nodiscard]] Outcome move_through_point(const BlockWords& words, const Movement& movement);
+  [[nodiscard]] Outcome cut_into_chords(const BlockWords& words, const Movement& movement,
+                                        const AxisTarget& before, const Vec3& arm,
+                                        const Vec3& centre, const Vec3& turn, Feed feed);
   [[nodiscard]] Outcome check_turned_angle(const BlockWords& words, const ArcWords& arc) const;
   [[nodiscard]] Outcome lead_on(const Movement& movement, ArcWords& arc) const;
   void keep_heading(const AxisTarget& before);

@@ -18,9 +18,11 @@ constexpr double kSecondsPerMinute = 60.0;
 constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 
 const char* motion_name(MotionMode motion, Dialect dialect) {
-  constexpr std::array kNames{"", "G0", "G1", "G2", "G3", "G5", "G5.1", "G5.2", "G5.3"};
-  constexpr std::array kPlain{"",         "a rapid move", "a cutting move", "an arc",  "an arc",
-                              "a spline", "a spline",     "a spline",       "a spline"};
+  constexpr std::array kNames{"",    "G0", "G1",   "G2",   "G3",  "CT",
+                              "CIP", "G5", "G5.1", "G5.2", "G5.3"};
+  constexpr std::array kPlain{"",         "a rapid move", "a cutting move", "an arc",
+                              "an arc",   "an arc",       "an arc",         "a spline",
+                              "a spline", "a spline",     "a spline"};
   if (is_cycle(motion)) return "a canned cycle";
   if (motion >= MotionMode::probe_towards) return "a probing move";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
@@ -62,9 +64,9 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (auto done = check_open_nurbs(movement); !done) return done;
   const bool stands = movement.motion == MotionMode::none && movement.non_modal == NonModal::none;
   if (!stands && movement.motion != MotionMode::cubic_spline) spline_leads_.reset();
-  const bool places = is_cycle(movement.motion) || (movement.non_modal != NonModal::none &&
-                                                    movement.non_modal != NonModal::dwell &&
-                                                    movement.non_modal != NonModal::pole);
+  const bool places = is_cycle(movement.motion) ||
+                      (movement.non_modal != NonModal::none &&
+                       movement.non_modal != NonModal::dwell && !is_pole(movement.non_modal));
   if (places) {
     radius_exit_ = {};
     arc_waits_for_exit_ = false;
@@ -78,6 +80,7 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   if (movement.non_modal == NonModal::data) return set_data(words);
   if (movement.non_modal == NonModal::align) return align(movement.column);
   if (movement.non_modal == NonModal::pole) return set_pole(words);
+  if (is_pole(movement.non_modal)) return set_pole_in_plane(words, movement.non_modal);
   if (movement.non_modal == NonModal::start) return set_start(words);
   if (movement.non_modal >= NonModal::shift_to_place) return shift_words(words, movement.non_modal);
   if (movement.motion != MotionMode::none) {
@@ -99,7 +102,10 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
       return move_straight(words, movement);
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise:
+    case MotionMode::arc_tangential:
       return move_along_arc(words, movement);
+    case MotionMode::arc_through:
+      return move_through_point(words, movement);
     case MotionMode::thread:
       return move_along_thread(words, movement);
     case MotionMode::rigid_tap:
@@ -173,14 +179,17 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     arc_words.centre.at(i) = words[letter].value * unit_scale() -
                              (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);
   }
-  if (words.has(kTangential)) {
+  const bool polar = rules_.polar.about_pole && words.first_of(LetterSet("pq")) != 0;
+  if (words.has(kTangential) || movement.motion == MotionMode::arc_tangential) {
     if (auto done = lead_on(movement, arc_words); !done) return done;
+  } else if (polar && !rules_.arcs_turn_about_pole) {
+    if (auto done = turn_about_pole(words, movement, arc_words); !done) return done;
   } else if (rules_.arcs_turn_about_pole && !words.has('R')) {
     if (!state_.pole) {
       return fail(movement.column, "the arc has no centre", "give the centre by CC before");
     }
     arc_words.centre_is_absolute = true;
-    arc_words.centre = {(*state_.pole)[0], (*state_.pole)[1], std::nullopt};
+    arc_words.centre = {state_.pole->at[0], state_.pole->at[1], std::nullopt};
   }
   if (words.has('R')) arc_words.radius = words['R'].value * unit_scale();
 
@@ -195,11 +204,11 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     position_.set(static_cast<AxisLetter>(axis), arc->end[axis]);
   }
   int turns = 1;
-  if (words[kPolarAngle].measure == Measure::incremental) {
+  if (rules_.arcs_turn_about_pole && words[kPolarAngle].measure == Measure::incremental) {
     if (auto done = check_turned_angle(words, arc_words); !done) return done;
     turns = started_turns(words[kPolarAngle].value);
   }
-  if (rules_.arcs_turn_about_pole) {
+  if (rules_.arcs_lead_on) {
     const Vec3 arm = arc->end - arc->centre;
     const Vec3 along = Vec3::Unit(axes.w).cross(arm) * (arc_words.clockwise ? -1.0 : 1.0);
     state_.heading = Heading{spatial(position_.target(), Vec3::Zero()), along};
@@ -218,27 +227,6 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
   if (!feed) return feed.error();
   emit(movement.column, ArcFeed{end_of(words), arc->centre, state_.plane,
                                 arc_words.clockwise ? -turns : turns, state_.tool_axis, *feed});
-  return Done{};
-}
-
-BlockExecutor::Outcome BlockExecutor::set_pole(const BlockWords& words) {
-  Vec3 pole = state_.pole.value_or(spatial(position_.target(), Vec3::Zero()));
-  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
-    const char letter = to_char(axis);
-    const bool relative = words.has(letter) && words[letter].measure == Measure::incremental;
-    const bool as_before = !words.has(letter) && !state_.pole;
-    if ((relative || as_before) && !position_[axis]) {
-      return fail(words[CodeGroup::non_modal].column,
-                  fmt::format("the pole needs a position, but {}", position_.why_unknown(axis)),
-                  fmt::format("give {} of the pole without I", letter));
-    }
-    if (!words.has(letter)) continue;
-    pole[static_cast<Eigen::Index>(axis)] =
-        words[letter].value * unit_scale() + (relative ? *position_[axis] : 0.0);
-  }
-  // CC alone is where the tool stands.
-  if ((words.given() & LetterSet("XY")).empty()) pole = spatial(position_.target(), pole);
-  state_.pole = pole;
   return Done{};
 }
 
@@ -310,8 +298,7 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
     }
     state_.tool_axis.reset();
   }
-  if (auto done =
-          rules_.arcs_turn_about_pole ? set_target_about_pole(words) : set_polar_target(words);
+  if (auto done = rules_.polar.about_pole ? set_target_about_pole(words) : set_polar_target(words);
       !done) {
     return done;
   }
@@ -372,7 +359,10 @@ void BlockExecutor::forget(LetterSet axes, PositionLoss loss) {
   for (const AxisLetter axis : kAxisLetters) {
     if (axes.has(to_char(axis))) position_.forget(axis, loss, block_->line);
   }
-  if (axes.has('X')) state_.pole.reset();
+  // Moves of the machine leave a pole in the words' frame.
+  const bool stays = rules_.polar.origin_is_pole && loss != PositionLoss::work_offset &&
+                     loss != PositionLoss::tilted_plane && loss != PositionLoss::turned_frame;
+  if (axes.has('X') && !stays) lose_pole();
 }
 
 }  // namespace frustum::parser

@@ -24,10 +24,11 @@ constexpr std::array kGroupsOff{CodeGroup::length_compensation,
                                 CodeGroup::tool_change,
                                 CodeGroup::scaling,
                                 CodeGroup::mirror,
-                                CodeGroup::hole_call};
+                                CodeGroup::hole_call,
+                                CodeGroup::drilling_cycle};
 
 bool leaves_contour(NonModal word) {
-  return word != NonModal::none && word != NonModal::dwell && word != NonModal::pole;
+  return word != NonModal::none && word != NonModal::dwell && !is_pole(word);
 }
 
 std::string_view off_word(Dialect dialect) { return dialect == Dialect::heidenhain ? "R0" : "G40"; }
@@ -49,13 +50,15 @@ BlockExecutor::Outcome BlockExecutor::check_radius_compensation(const BlockWords
   if (non_modal.code != nullptr && leaves_contour(static_cast<NonModal>(non_modal.code->value))) {
     return refuse(non_modal);
   }
-  if (movement.motion > MotionMode::arc_counterclockwise) {
-    return fail(movement.column,
-                fmt::format("{} with radius compensation on",
-                            is_cycle(movement.motion)    ? "a canned cycle"
-                            : is_spline(movement.motion) ? "a spline"
-                                                         : "a thread or a probing move"),
-                fmt::format("switch it off before, by {}", off_word(rules_.dialect)));
+  if (movement.motion > MotionMode::arc_tangential) {
+    return fail(
+        movement.column,
+        fmt::format("{} with radius compensation on", is_cycle(movement.motion) ? "a canned cycle"
+                                                      : is_spline(movement.motion) ? "a spline"
+                                                      : movement.motion == MotionMode::arc_through
+                                                          ? "an arc through a point"
+                                                          : "a thread or a probing move"),
+        fmt::format("switch it off before, by {}", off_word(rules_.dialect)));
   }
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
     return fail(words[rotary].column,

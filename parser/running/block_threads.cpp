@@ -39,19 +39,61 @@ Result<double> BlockExecutor::lead_of(const BlockWords& words, const Movement& m
   return lead;
 }
 
+// Where I J K are the leads along X Y Z: the one of the axis that the thread runs along.
+char BlockExecutor::lead_letter(const BlockWords& words) const {
+  if (!rules_.leads_by_axis) return rules_.thread_lead;
+  const char given = words.first_of(LetterSet("IJK"));
+  return given != 0 ? given : 'K';
+}
+
+// The way of one revolution from that of its longest axis.
+Result<double> BlockExecutor::lead_along_way(const BlockWords& words, double lead,
+                                             const AxisTarget& before) const {
+  const char letter = lead_letter(words);
+  const auto along = static_cast<AxisLetter>(letter - 'I');
+  for (const char other : {'I', 'J', 'K'}) {
+    if (other == letter || !words.has(other)) continue;
+    return fail(words[other].column, fmt::format("{} beside {}", words.text_of(other), letter),
+                "give one lead, that along the longer way");
+  }
+  Vec3 way = Vec3::Zero();
+  bool known = true;
+  for (const AxisLetter axis : kSpatialAxes) {
+    if (!words.has(to_char(axis))) continue;
+    known = known && before[axis].has_value();
+    way[static_cast<Eigen::Index>(axis)] = *position_[axis] - before[axis].value_or(0.0);
+  }
+  const bool alone = words.has(to_char(along)) &&
+                     (words.given() & kLinearWords)
+                         .without(LetterSet({&"XYZ"[static_cast<std::size_t>(along)], 1}))
+                         .empty();
+  if (alone) return lead;
+  const double longest = std::abs(way[static_cast<Eigen::Index>(along)]);
+  if (known && longest > 0.0 && longest >= way.cwiseAbs().maxCoeff()) {
+    return lead * (way.norm() / longest);
+  }
+  return fail(words[letter].column,
+              fmt::format("{} is the lead along {}, which is not the way of the thread",
+                          words.text_of(letter), to_char(along)),
+              "give I along X, J along Y, K along Z, of the axis with the longest way");
+}
+
 BlockExecutor::Outcome BlockExecutor::move_along_thread(const BlockWords& words,
                                                         const Movement& movement) {
-  const auto lead = lead_of(words, movement, rules_.thread_lead);
+  auto lead = lead_of(words, movement, lead_letter(words));
   if (!lead) return lead.error();
   if (rules_.thread_lead == 'F' && state_.feed_mode == FeedMode::inverse_time) {
     return fail(movement.column, "a thread in G93, where F is a time", "cut it in G94 or G95");
   }
+  const AxisTarget before = position_.target();
   if ((words.given() & kAxisWords).empty()) {
     return fail(movement.column, "a thread without an end", "give X Y Z of its end");
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = check_word_frame(movement); !done) return done;
+  if (rules_.leads_by_axis) lead = lead_along_way(words, *lead, before);
+  if (!lead) return lead.error();
   emit(movement.column,
        LinearFeed{end_of(words), state_.tool_axis, Coordinates::program, synchronised(*lead)});
   return Done{};

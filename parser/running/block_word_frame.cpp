@@ -26,7 +26,7 @@ void BlockExecutor::change_word_frame(const WordFrame& next) {
     }
   }
   state_.word_frame = next;
-  state_.pole.reset();
+  lose_pole();
 }
 
 BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonModal how) {
@@ -251,9 +251,7 @@ BlockExecutor::Outcome BlockExecutor::check_word_frame(const Movement& movement)
                 fmt::format("a move in a turned frame, but {}", position_.why_unknown(axis)),
                 "program X, Y and Z once, in absolute coordinates, after the frame is turned");
   }
-  const bool arc = movement.motion == MotionMode::arc_clockwise ||
-                   movement.motion == MotionMode::arc_counterclockwise ||
-                   is_spline(movement.motion);
+  const bool arc = is_arc_in_plane(movement.motion) || is_spline(movement.motion);
   if (arc && !(state_.word_frame.keeps(state_.plane) && state_.offset_frame.keeps(state_.plane))) {
     return fail(movement.column, "an arc in a plane that the frame turns",
                 "write it as straight moves, or turn the frame about the normal of the plane");

@@ -55,8 +55,9 @@ enum class CycleAction : std::uint8_t {
 };
 struct CycleStep {
   CycleAction action = CycleAction::rapid;
-  double value = 0.0;    // depth of a move, seconds of a dwell
+  double value = 0.0;    // depth of a move, seconds of a dwell, another speed of a reversed spindle
   bool shifted = false;  // a move to the hole's place shifted by I J, or back from it
+  double share = 1.0;    // of the feed
 };
 
 // More pecks than this are taken for a mistake.

@@ -13,6 +13,7 @@
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
 #include "parser/running/control_data.hpp"
+#include "parser/running/drilling_cycle.hpp"
 #include "parser/running/feature_frame.hpp"
 #include "parser/running/hole_cycle.hpp"
 #include "parser/running/program_frame.hpp"
@@ -74,6 +75,15 @@ struct Heading {
   Vec3 along = Vec3::Zero();
 };
 
+// What polar positions count from, and those of LP and CP; with radius and angle as they were written last.
+struct Pole {
+  Vec3 at = Vec3::Zero();
+  Plane plane = Plane::xy;
+  bool given = true;  // else the origin stands for it
+  std::optional<double> radius{};
+  std::optional<double> angle{};
+};
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   Plane plane = Plane::xy;
@@ -110,11 +120,13 @@ struct ModalState {
   AxisTarget way_home{};                   // the place that the last G28 or G30 went by
   LetterSet placed_in_other_frame{};       // axes that no absolute word has placed since it changed
   std::optional<WordFrame> frame_below{};  // of the words before G68.2: that plane lies in it
-  std::optional<Vec3> pole{};              // CC
+  std::optional<Pole> pole{};              // CC, G110 to G112
+  bool pole_lost = false;                  // it was one of another frame
   std::optional<Heading> heading{};        // of the last move
   std::optional<CannedCycle> cycle{};
   HoleCycle hole_cycle{};
-  bool retract_to_initial = true;  // G98; G99: to R
+  std::optional<DrillingCycle> drilling{};  // MCALL
+  bool retract_to_initial = true;           // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;
   double spindle_speed = 0.0;
   bool surface_speed = false;  // G96: S is a cutting speed, which the spindle follows
