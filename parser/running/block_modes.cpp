@@ -169,6 +169,11 @@ void BlockExecutor::restore_modes(std::uint32_t column) {
     state_.feed = saved.feed;
   } else {
     state_.motion = saved.motion;
+    state_.orientation_reference = saved.orientation_reference;
+    if (state_.orientation_path != saved.orientation_path) {
+      state_.orientation_path = saved.orientation_path;
+      emit(column, OrientationPathChange{saved.orientation_path});
+    }
     if (rules_.planes_end_frames) set_program_frame(saved.program_frame);
   }
   state_.retract_to_initial = saved.retract_to_initial;
