@@ -12,10 +12,7 @@
 namespace frustum::parser {
 namespace {
 
-struct Parameter {
-  char letter;
-  const char* spelled;
-};
+using Parameter = CycleParameter;
 constexpr Parameter kBack{'z', "RTP="};
 constexpr Parameter kReference{'V', "RFP="};
 constexpr Parameter kClearance{'u', "SDIS="};
@@ -112,6 +109,11 @@ const Cycle* cycle_of(std::string_view name) {
 }
 
 }  // namespace
+
+std::span<const CycleParameter> sinumerik_cycle_parameters(std::string_view name) {
+  const Cycle* cycle = cycle_of(name);
+  return cycle == nullptr ? std::span<const CycleParameter>{} : cycle->parameters;
+}
 
 bool is_sinumerik_cycle(std::string_view name) { return cycle_of(name) != nullptr; }
 

@@ -5,12 +5,20 @@
 // Errors: a bracket that is missing, parameters too many, MCALL of something else; at the draft's scanner
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "parser/reading/block_draft.hpp"
 
 namespace frustum::parser {
+
+struct CycleParameter {
+  char letter;
+  const char* spelled;  // "RTP="
+};
+// In the order of the call; empty for what is none of the cycles.
+[[nodiscard]] std::span<const CycleParameter> sinumerik_cycle_parameters(std::string_view name);
 
 [[nodiscard]] bool is_sinumerik_cycle(std::string_view name);
 // What is behind the name.

@@ -137,6 +137,10 @@ std::string_view sinumerik_measure(Measure measure) {
       return "IC";
     case Measure::shortest:
       return "DC";
+    case Measure::positive:
+      return "ACP";
+    case Measure::negative:
+      return "ACN";
     case Measure::modal:
       break;
   }
@@ -154,6 +158,9 @@ std::string_view sinumerik_type(VariableKind kind) {
   }
 }
 
-std::string sinumerik_statement(const Block& block) { return StatementWriter(block)(); }
+std::string sinumerik_statement(const Block& block) {
+  const std::string& label = block.flow->block_label;
+  return (label.empty() ? "" : label + ": ") + StatementWriter(block)();
+}
 
 }  // namespace frustum::parser

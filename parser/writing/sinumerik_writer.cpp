@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "parser/reading/sinumerik_cycle.hpp"
 #include "parser/reading/sinumerik_values.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
@@ -66,8 +70,13 @@ class TextOfBlock {
     if (block_.deletable) text.add("/");
     if (block_.number) text.add(fmt::format("N{}", *block_.number));
     if (block_.flow) text.add(sinumerik_statement(block_));
+    const auto cycle = cycle_parameters();
     for (const Word& word : block_.words) {
-      if (named_word(word).starts_with("CYCLE800")) {
+      if (is_sinumerik_cycle(named_word(word))) {
+        text.add(cycle_text(named_word(word), cycle));
+      } else if (slot_in(cycle, word) < cycle.size()) {
+        continue;  // a parameter of the cycle
+      } else if (named_word(word).starts_with("CYCLE800")) {
         text.add(swivel_text(named_word(word)));
       } else if (swivel_slot(word) == kSwivel.size()) {
         text.add(word_text(word));
@@ -106,6 +115,35 @@ class TextOfBlock {
       return fmt::format("{}={}", word.letter, value);
     }
     return word.letter + value;
+  }
+
+  // Of the drilling cycle of the block; none without one.
+  [[nodiscard]] std::span<const CycleParameter> cycle_parameters() const {
+    for (const Word& word : block_.words) {
+      if (is_sinumerik_cycle(named_word(word))) return sinumerik_cycle_parameters(named_word(word));
+    }
+    return {};
+  }
+
+  static std::size_t slot_in(std::span<const CycleParameter> parameters, const Word& word) {
+    const auto found = std::ranges::find_if(parameters, [&](const CycleParameter& parameter) {
+      return word.spelled != nullptr && word.letter == parameter.letter &&
+             std::string_view(word.spelled) == parameter.spelled;
+    });
+    return static_cast<std::size_t>(found - parameters.begin());
+  }
+
+  // CYCLE82(10,0,2,-15,,1)
+  [[nodiscard]] std::string cycle_text(std::string_view name,
+                                       std::span<const CycleParameter> parameters) const {
+    std::vector<std::string> slots;
+    for (const Word& word : block_.words) {
+      const std::size_t slot = slot_in(parameters, word);
+      if (slot == parameters.size()) continue;
+      slots.resize(std::max(slots.size(), slot + 1));
+      slots.at(slot) = value_text(word);
+    }
+    return fmt::format("{}({})", name, fmt::join(slots, ","));
   }
 
   [[nodiscard]] std::string swivel_text(std::string_view word) const {

@@ -67,9 +67,10 @@ class Comparison {
   }
   [[nodiscard]] bool same(const FlowStatement& a, const FlowStatement& b) const {
     const bool stepped = a.kind == FlowKind::loop && a.turns == Turns::stepped;
-    return a.kind == b.kind && a.label == b.label && same(a.label_value, b.label_value) &&
-           same(a.condition, b.condition) && a.negated == b.negated && a.turns == b.turns &&
-           same(a.limit, b.limit) && a.search == b.search && a.last_label == b.last_label &&
+    return a.kind == b.kind && a.label == b.label && a.block_label == b.block_label &&
+           same(a.label_value, b.label_value) && same(a.condition, b.condition) &&
+           a.negated == b.negated && a.turns == b.turns && same(a.limit, b.limit) &&
+           a.search == b.search && a.last_label == b.last_label &&
            a.may_be_missing == b.may_be_missing && a.part_end == b.part_end &&
            a.keeps_modes == b.keeps_modes && a.of_file == b.of_file && a.by_cycle == b.by_cycle &&
            all(a.choices, b.choices,
