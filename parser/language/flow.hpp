@@ -101,6 +101,7 @@ struct FlowStatement {
   std::string label{};
   // Of the block itself, before the statement: DONE: L1.
   std::string block_label{};
+  std::uint32_t block_label_column = 0;
   ExpressionRange label_value{};
   ExpressionRange condition{};
   bool negated = false;  // UNTIL

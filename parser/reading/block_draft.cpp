@@ -21,9 +21,12 @@ bool BlockDraft::labelled() const {
 }
 
 void BlockDraft::begin_flow(FlowKind kind, std::uint32_t column) {
-  std::string label = labelled() ? block.flow->label : std::string{};
-  block.flow.emplace();
-  block.flow->block_label = std::move(label);
+  FlowStatement statement;
+  if (labelled()) {
+    statement.block_label = std::move(block.flow->label);
+    statement.block_label_column = block.flow->column;
+  }
+  block.flow = std::move(statement);
   block.flow->kind = kind;
   block.flow->column = column;
 }
