@@ -155,7 +155,8 @@ class Structure {
   void follow(const Block& block) {
     const parser::FlowStatement& flow = *block.flow;
     if (!flow.block_label.empty() && flow.block_label != kEndOfPart) {
-      labels_.emplace(flow.block_label, Definition{block.place_of(1), "label " + flow.block_label});
+      labels_.emplace(flow.block_label, Definition{block.place_of(flow.block_label_column),
+                                                   "label " + flow.block_label});
     }
     switch (flow.kind) {
       case FlowKind::subprogram:

@@ -79,8 +79,8 @@ ProgramMap::ProgramMap(const Program& program) {
       landmarks_.push_back(
           {place, cursor.place(), flow->kind, flow->turns, flow->column, flow->label, programs});
       if (!flow->block_label.empty()) {
-        landmarks_.push_back(
-            {place, cursor.place(), FlowKind::label, flow->turns, 1, flow->block_label, programs});
+        landmarks_.push_back({place, cursor.place(), FlowKind::label, flow->turns,
+                              flow->block_label_column, flow->block_label, programs});
       }
     }
   }
