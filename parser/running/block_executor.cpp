@@ -125,8 +125,9 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
   }
   if (auto done = set_frames(*words); !done) return std::move(done).error();
   if (auto done = move(*words, *movement); !done) return std::move(done).error();
-  if (auto done = call_hole_cycle(*words); !done) return std::move(done).error();
-  if (auto done = call_drilling_cycle(*words); !done) return std::move(done).error();
+  auto drilled =
+      rules_.dialect == Dialect::sinumerik ? call_drilling_cycle(*words) : call_hole_cycle(*words);
+  if (!drilled) return std::move(drilled).error();
   return finish(*words);
 }
 
