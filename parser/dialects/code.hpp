@@ -46,6 +46,7 @@ enum class CodeGroup : std::uint8_t {
   hole_cycle,
   hole_call,
   drilling_cycle,
+  corner,
   raised_error,
   tool_change,
   spindle,
@@ -108,6 +109,7 @@ enum class CoolantWord : std::uint8_t { off, flood };
 enum class DiameterWord : std::uint8_t { radius, diameter };
 enum class SpeedWord : std::uint8_t { revolutions, surface };
 enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
+enum class CornerWord : std::uint8_t { rounding, chamfer };
 enum class PolarWord : std::uint8_t { off, on };
 enum class ScalingWord : std::uint8_t { off, on };
 enum class MirrorWord : std::uint8_t { off, on };

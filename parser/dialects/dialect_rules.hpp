@@ -96,6 +96,8 @@ struct DialectRules {
   bool arcs_turn_about_pole = false;
   // While a hole cycle is on, each move names the top of a hole.
   bool holes_at_moves = false;
+  // Words of their own round or break the corner between two moves.
+  bool inserts_corners = false;
   LetterSet always_claimed{};  // words that have a meaning in every block
   std::span<const LetterUse> letters{};
   std::string_view known_letters{};

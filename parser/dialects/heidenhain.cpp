@@ -26,6 +26,8 @@ constexpr std::array kCodes{
     named("CR DR-", motion, MotionMode::arc_clockwise),
     named("CR DR+", motion, MotionMode::arc_counterclockwise),
     named("CT", motion, MotionMode::arc_counterclockwise, LetterSet("k")),
+    named("RND", corner, CornerWord::rounding, LetterSet("Rf")),
+    named("CHF", corner, CornerWord::chamfer, LetterSet("Rf")),
     named("TOOL CALL", tool_change, 0),
     named("F AUTO", feed_source, 0),
     named("R0", radius_compensation, RadiusWord::off),
@@ -83,8 +85,6 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'M', 1380, 1449, "use FUNCTION TCPM or M128"},
 };
 constexpr std::array kRefusedWords{
-    RefusedWord{"CHF", "write the chamfer as an L block"},
-    RefusedWord{"RND", "write the rounding as C or CR"},
     RefusedWord{"APPR", "write the approach as L and C blocks"},
     RefusedWord{"DEP", "write the departure as L and C blocks"},
     RefusedWord{"CYCL", "write the cycle out as L blocks"},
@@ -129,6 +129,7 @@ constexpr DialectRules kRules{
     .dwell_hint = "give the time in seconds",
     .tool_brings_length = true,
     .arcs_turn_about_pole = true,
+    .inserts_corners = true,
     .always_claimed = LetterSet("FST"),
     .letters = kLetters,
     .known_letters = "X Y Z A B C F FT M R",

@@ -230,6 +230,25 @@ class PathReader {
 
 }  // namespace
 
+void read_heidenhain_corner(BlockDraft& draft, const std::string& statement, std::uint32_t column) {
+  LineScanner& in = draft.in;
+  add_code(draft.block, *find_code(Dialect::heidenhain, statement), column);
+  const bool rounds = statement == "RND";
+  const std::uint32_t place = in.column();
+  if (rounds && in.letters() != "R") {
+    return in.fail(place, "RND has no radius", "write RND R5");
+  }
+  add_value(draft, 'R', rounds ? "R" : statement, place, rounds ? "R" : "");
+  const std::uint32_t feed_place = in.column();
+  if (in.peek() == 'F') {
+    if (in.letters() != "F") {
+      return in.fail(feed_place, "the feed of " + statement + " is no number",
+                     "give F and a number, or leave it out");
+    }
+    add_value(draft, 'f', "F", feed_place, "F");
+  }
+  end_statement(draft);
+}
 void read_heidenhain_path(BlockDraft& draft, const std::string& statement, std::uint32_t column) {
   PathReader(draft).read_path(statement, column);
 }

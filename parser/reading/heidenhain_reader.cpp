@@ -19,8 +19,9 @@ constexpr std::string_view kLineHint =
 
 constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
 // By their first words.
-constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL", "BEGIN", "END",
-                                 "BLK", "STOP", "FN",    "LBL",      "CALL", "M3",    "Q1"};
+constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL", "BEGIN",
+                                 "END", "BLK",  "STOP",  "FN",       "LBL",  "CALL",
+                                 "M3",  "Q1",   "RND",   "CHF"};
 
 class HeidenhainReader {
  public:
@@ -51,6 +52,7 @@ class HeidenhainReader {
     if (std::find(kPaths.begin(), kPaths.end(), name) != kPaths.end()) {
       return read_heidenhain_path(draft_, name, column);
     }
+    if (name == "RND" || name == "CHF") return read_heidenhain_corner(draft_, name, column);
     if (name == "CC") return read_heidenhain_pole(draft_, column);
     if (name == "TOOL") return read_heidenhain_tool(draft_, column);
     if (name == "PLANE") return read_heidenhain_plane(draft_, column);

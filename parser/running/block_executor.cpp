@@ -57,6 +57,8 @@ BlockExecutor::BlockExecutor(Dialect dialect, const AxisTarget& start, ControlDa
 Result<Flow> BlockExecutor::execute(const Block& block) {
   auto flow = carry_out(block);
   auto failure = std::exchange(failure_, std::nullopt);
+  // What has been made before a mistake counts.
+  if (!flow || failure) corners_.release(to_radius_);
   if (flow && failure) return *std::move(failure);
   return flow;
 }
@@ -77,7 +79,7 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
   if (auto done = check_radius_compensation(*words, *movement); !done) {
     return std::move(done).error();
   }
-
+  if (auto done = insert_corner(*words); !done) return std::move(done).error();
   report_comments(block);
   if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
       raised.code != nullptr) {
@@ -195,7 +197,7 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   }
   for (const CodeGroup group :
        {CodeGroup::tilted_plane, CodeGroup::program_frame, CodeGroup::scaling, CodeGroup::mirror,
-        CodeGroup::hole_cycle, CodeGroup::drilling_cycle}) {
+        CodeGroup::hole_cycle, CodeGroup::drilling_cycle, CodeGroup::corner}) {
     const Code* frame = words[group].code;
     if (frame != nullptr && !frame->arguments.empty()) {
       return Movement{non_modal, MotionMode::none, 0};
@@ -460,6 +462,12 @@ void BlockExecutor::emit(std::uint32_t column, Command command) {
   SourcePlace place = block_->place_of(column);
   place.file = file_;
   Motion motion{std::move(place), std::move(command)};
+  if (!rules_.inserts_corners) return pass_to_radius(std::move(motion));
+  auto failure = corners_.take(std::move(motion), to_radius_);
+  if (failure && !failure_) failure_ = std::move(failure);
+}
+
+void BlockExecutor::pass_to_radius(Motion&& motion) {
   if (!radius_.is_on()) return send(std::move(motion));
   auto failure = radius_.take(std::move(motion), to_sink_);
   if (failure && !failure_) failure_ = std::move(failure);

@@ -30,6 +30,7 @@
 #include "parser/running/block_words.hpp"
 #include "parser/running/canned_cycle.hpp"
 #include "parser/running/control_data.hpp"
+#include "parser/running/corner_insertion.hpp"
 #include "parser/running/modal_state.hpp"
 #include "parser/running/program_position.hpp"
 #include "parser/running/radius_compensation.hpp"
@@ -96,6 +97,8 @@ class BlockExecutor {
   void set_called_program(std::string name);
   // The file that the blocks from now on are of, as SourcePlace::file has it.
   void read_from(std::shared_ptr<const std::string> file) { file_ = std::move(file); }
+  // The run ends here: no motion waits for the block behind it any more.
+  void settle() { corners_.release(to_radius_); }
   // After a block that could not be carried out: the axes that it names are where it says, as far as that is
   // plain, and not known otherwise.
   void pass_over(const Block& block);
@@ -294,6 +297,8 @@ class BlockExecutor {
   [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
   [[nodiscard]] Diagnostic in_this_block(Diagnostic diagnostic) const;
   void emit(std::uint32_t column, Command command);
+  [[nodiscard]] Outcome insert_corner(const BlockWords& words);
+  void pass_to_radius(Motion&& motion);
   void send(Motion&& motion);
 
   const DialectRules& rules_;
@@ -315,6 +320,10 @@ class BlockExecutor {
   const Block* block_ = nullptr;  // at work
   std::shared_ptr<const std::string> file_{};
   bool moved_ = false;  // the block has moved an axis
+  CornerInsertion corners_{};
+  const CornerInsertion::Sink to_radius_ = [this](Motion&& motion) {
+    pass_to_radius(std::move(motion));
+  };
   RadiusCompensation radius_{};
   const RadiusCompensation::Sink to_sink_ = [this](Motion&& motion) { send(std::move(motion)); };
   SourcePlace radius_place_{};  // where it was switched on

@@ -214,6 +214,14 @@ BlockExecutor::Outcome BlockExecutor::end_radius_compensation(const SourcePlace&
 }
 
 BlockExecutor::Outcome BlockExecutor::end_of_text() {
+  if (const auto& corner = corners_.corner()) {
+    Diagnostic open = error(corner->name + " with no move behind it",
+                            "write an L or C block behind it, or leave it out");
+    open.line = static_cast<int>(corner->place.line);
+    open.column = static_cast<int>(corner->place.column);
+    return open;
+  }
+  corners_.release(to_radius_);
   if (auto failure = spline_without_end()) return *failure;
   return end_radius_compensation(radius_place_);
 }

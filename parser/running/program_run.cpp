@@ -63,6 +63,7 @@ Result<RunSummary> ProgramRun::operator()() {
   while (!frames_.empty()) {
     auto failure = run_next();
     if (!failure) continue;
+    executor_.settle();
     Diagnostics failures{*std::move(failure)};
     if (syntax_failed_) {
       // The rest of the text is read for its own mistakes, so that they are mended together.
@@ -71,6 +72,7 @@ Result<RunSummary> ProgramRun::operator()() {
     }
     return failures;
   }
+  executor_.settle();
   return RunSummary{executor_.state(), blocks_};
 }
 

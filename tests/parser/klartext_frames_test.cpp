@@ -138,8 +138,6 @@ TEST(KlartextFrameErrors, SayWhereWhatAndTheRemedy) {
       {"CYCL DEF 26.1 X2 SCL2\n", "1:18: error: SCL has no meaning in CYCL DEF 26"},
       {"CYCL DEF 10.1 ROT+10\nCYCL DEF 26.1 X2 Y2 Z2\n",
        "2:1: error: CYCL DEF 26 within a turned frame"},
-      {"RND R5\n", "1:1: error: RND is not simulated"},
-      {"CHF 2\n", "1:1: error: CHF is not simulated"},
   };
   for (const Wrong& wrong : mistakes) {
     const auto lines = complaints(wrong.text, {}, Dialect::heidenhain);
