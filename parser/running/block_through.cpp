@@ -18,8 +18,8 @@ constexpr double kInPlane = 1e-6;  // mm: below every control's increment
 // A circle through three points that deviate by less from a line is not told by written coordinates.
 constexpr double kOnLine = 1e-9;
 // How far a chord stays within its arc, a tenth of what a control resolves.
-constexpr double kSagitta = 1e-4;  // mm
-constexpr double kMostChords = 100'000.0;
+constexpr double kSagitta = 1e-4;         // mm
+constexpr double kMostChords = 10'000.0;  // a full circle of 2 m
 
 struct SpaceArc {
   Vec3 centre;
