@@ -92,6 +92,12 @@ struct DialectRules {
   bool home_without_axes_is_all = false;
   // F beside G20 or G21 counts in the unit before the block.
   bool feed_precedes_unit = false;
+  // Inches a minute that F1 of an inch program is.
+  double inch_feed = 1.0;
+  // The feed of a tool call is in force from there on; F AUTO takes it up again.
+  bool tool_brings_feed = false;
+  // M words, by ten times their numbers, that count when the move of their block is done.
+  std::span<const int> words_behind_move{};
   // Arcs without centre words or radius turn about the last pole (CC).
   bool arcs_turn_about_pole = false;
   // While a hole cycle is on, each move names the top of a hole.

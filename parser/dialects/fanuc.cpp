@@ -126,6 +126,7 @@ constexpr DialectRules kRules{
     .vector_hint = "switch it on with G43.4 or G43.5",
     .dwell = kDwell,
     .dwell_hint = "give P in milliseconds, or X in seconds",
+    .words_behind_move = kStopsBehindMove,
     .always_claimed = LetterSet("FST"),
     .letters = kLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",

@@ -113,6 +113,8 @@ constexpr std::array kLetters{
     LetterUse{'q', "PA gives an angle in LP, CP and CTP"},
     LetterUse{'t', "FT gives the time of a cutting block"},
 };
+// M5, M9, M127, M129, M137, and the tool change that is only told.
+constexpr std::array kBehindMove{50, 60, 90, 1270, 1290, 1370};
 constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
 
 constexpr std::array<std::string_view, 2> kFiles{"{}.h", "{}.H"};
@@ -128,6 +130,9 @@ constexpr DialectRules kRules{
     .dwell = kDwell,
     .dwell_hint = "give the time in seconds",
     .tool_brings_length = true,
+    .inch_feed = 0.1,
+    .tool_brings_feed = true,
+    .words_behind_move = kBehindMove,
     .arcs_turn_about_pole = true,
     .inserts_corners = true,
     .always_claimed = LetterSet("FST"),

@@ -254,6 +254,7 @@ constexpr DialectRules kRules{
     .dwell_hint = "give F in seconds, or S in revolutions",
     .tool_brings_length = true,
     .machine_coordinates_keep_length = true,
+    .words_behind_move = kStopsBehindMove,
     .always_claimed = LetterSet("FSTD"),
     .letters = kLetters,
     .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP I1 J1 K1",

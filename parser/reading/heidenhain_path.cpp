@@ -79,6 +79,9 @@ class PathReader {
       word += " FMAX";
     }
     block_.words.front().number = row_of(*find_code(Dialect::heidenhain, word));
+    if (statement == "CP" && !has_angle_) {
+      return in_.fail(column, "CP has no angle", "give PA or IPA; a full turn is IPA+360 DR+");
+    }
     if (statement == "CR" && !has_radius_) {
       in_.fail(column, "CR has no radius", "give R and the radius, for example R+10");
     }
@@ -125,6 +128,7 @@ class PathReader {
       return add_measured(element->letter, Measure::incremental, element->spelled, column);
     }
     if (const PolarElement* element = find(kPolar, name); path.polar && element != nullptr) {
+      has_angle_ = has_angle_ || element->letter == kPolarAngle;
       return add_measured(element->letter, element->measure, element->name.data(), column);
     }
     if (const Element* element = find(kToolVector, name); path.vector && element != nullptr) {
@@ -226,6 +230,7 @@ class PathReader {
   char sense_ = 0;
   bool rapid_ = false;
   bool has_radius_ = false;
+  bool has_angle_ = false;
 };
 
 }  // namespace

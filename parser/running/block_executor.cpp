@@ -74,6 +74,8 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
   if (!words) return std::move(words).error();
   const auto movement = movement_of(*words);
   if (!movement) return movement.error();
+  const auto behind_move = words_behind_move(*words, *movement);
+  if (!behind_move) return behind_move.error();
   if (auto done = check_claims(*words, *movement); !done) return std::move(done).error();
 
   if (auto done = check_radius_compensation(*words, *movement); !done) {
@@ -130,6 +132,9 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
   auto drilled =
       rules_.dialect == Dialect::sinumerik ? call_drilling_cycle(*words) : call_hole_cycle(*words);
   if (!drilled) return std::move(drilled).error();
+  if (*behind_move) {
+    if (auto done = set_behind_move(**behind_move); !done) return std::move(done).error();
+  }
   return finish(*words);
 }
 
@@ -213,7 +218,11 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   if (axes_of_tool && motion_code.code == nullptr) {
     return Movement{non_modal, MotionMode::none, 0};
   }
-  if (move_words.empty()) return Movement{non_modal, MotionMode::none, 0};
+  // Without an end the arc about the pole goes once round.
+  const bool circle =
+      rules_.arcs_turn_about_pole && motion_code.code != nullptr &&
+      (mode == MotionMode::arc_clockwise || mode == MotionMode::arc_counterclockwise);
+  if (move_words.empty() && !circle) return Movement{non_modal, MotionMode::none, 0};
   const std::uint32_t column =
       motion_code.code != nullptr ? motion_code.column : words[words.first_of(move_words)].column;
   return Movement{non_modal, mode, column};

@@ -3,7 +3,7 @@
 //
 // Order within a block, RS-274's: comments; parameters; units (LinuxCNC: behind F); feed mode; F; S; T; M6; M3 M4 M5; M7
 // M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or
-// the motion; stops and calls.
+// the motion; M words that count behind it; stops and calls.
 // Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc
 // centres, R and F; never rotary words, tool vectors, or the F of a purely rotary move.
 // Errors: with line, column and hint; the file is left to the caller. Nothing of the block that
@@ -140,6 +140,10 @@ class BlockExecutor {
   void restore_modes(std::uint32_t column);
   [[nodiscard]] Outcome keep_modes(const BlockWords& words);
   [[nodiscard]] Outcome set_feed(const BlockWords& words);
+  [[nodiscard]] double feed_scale(FeedMode mode) const;
+  [[nodiscard]] Result<std::optional<BlockWords>> words_behind_move(BlockWords& words,
+                                                                    const Movement& movement) const;
+  [[nodiscard]] Outcome set_behind_move(const BlockWords& words);
   [[nodiscard]] Outcome set_tool(const BlockWords& words);
   [[nodiscard]] Outcome check_tool_exists(int tool, std::uint32_t column) const;
   void set_spindle_and_coolant(const BlockWords& words, bool speed);

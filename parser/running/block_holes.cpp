@@ -68,13 +68,13 @@ BlockExecutor::Outcome BlockExecutor::set_hole_cycle(const BlockWords& words) {
   cycle.peck = words['Q'].value * scale;
   cycle.dwell = words['P'].value;
   const char feed = words.has('r') ? 'r' : 'f';
-  cycle.feed = {words[feed].value * scale,
-                feed == 'r' ? FeedMode::per_revolution : FeedMode::per_minute};
+  const FeedMode mode = feed == 'r' ? FeedMode::per_revolution : FeedMode::per_minute;
+  cycle.feed = {words[feed].value * feed_scale(mode), mode};
   if (from_surface) {
     cycle.top = words['V'].value * scale;
     cycle.dwell_above = words['w'].value;
     cycle.back = std::max(cycle.back.value_or(0.0), cycle.clear);
-    if (words['W'].value > 0.0) cycle.feed_out = Feed{words['W'].value * scale, cycle.feed.mode};
+    if (words['W'].value > 0.0) cycle.feed_out = Feed{words['W'].value * feed_scale(mode), mode};
     if (depth <= 0.0) {
       return fail(words['z'].column, fmt::format("{} is not below zero", words.text_of('z')),
                   "the depth counts from the surface, downwards: Q201=-20");

@@ -33,12 +33,42 @@ BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
     return fail(words['F'].column, fmt::format("{} is negative", words.text_of('F')),
                 "give a feed above zero");
   }
-  const bool in_inches = state_.unit == LengthUnit::inch && mode != FeedMode::inverse_time;
-  const double scale = in_inches ? kMmPerInch : 1.0;
-  const auto given = feed > 0.0 ? std::optional(FeedWord{feed, feed * scale}) : std::nullopt;
-  // The feed of a tool call waits for F AUTO.
-  const bool of_tool = rules_.dialect == Dialect::heidenhain && words.has(CodeGroup::tool_change);
-  (of_tool ? state_.tool_feed : state_.feed) = given;
+  state_.feed = feed > 0.0 ? std::optional(FeedWord{feed, feed * feed_scale(mode)}) : std::nullopt;
+  // F AUTO comes back to that of the tool.
+  if (rules_.tool_brings_feed && words.has(CodeGroup::tool_change)) state_.tool_feed = state_.feed;
+  return Done{};
+}
+
+// Lengths in mm that a feed counts in.
+double BlockExecutor::feed_scale(FeedMode mode) const {
+  if (state_.unit != LengthUnit::inch || mode == FeedMode::inverse_time) return 1.0;
+  return mode == FeedMode::per_minute ? rules_.inch_feed * kMmPerInch : kMmPerInch;
+}
+
+Result<std::optional<BlockWords>> BlockExecutor::words_behind_move(BlockWords& words,
+                                                                   const Movement& movement) const {
+  const bool goes_home =
+      movement.non_modal == NonModal::home || movement.non_modal == NonModal::second_home;
+  const bool moves =
+      movement.motion != MotionMode::none || goes_home || words.has(CodeGroup::hole_call);
+  if (!moves || rules_.words_behind_move.empty()) return std::optional<BlockWords>{};
+  auto behind = words.set_aside(rules_.words_behind_move);
+  if (behind && behind->has(CodeGroup::feed_mode) && words.has('F')) {
+    const GivenCode& mode = (*behind)[CodeGroup::feed_mode];
+    return fail(words['F'].column,
+                fmt::format("{} beside {}, which counts when the move is done", words.text_of('F'),
+                            mode.code->name()),
+                fmt::format("write {} before, in a block of its own", mode.code->name()));
+  }
+  return behind;
+}
+
+BlockExecutor::Outcome BlockExecutor::set_behind_move(const BlockWords& words) {
+  if (auto done = set_feed(words); !done) return done;
+  set_spindle_and_coolant(words, false);
+  report_events(words);
+  if (auto done = set_compensation(words); !done) return done;
+  set_paths(words);
   return Done{};
 }
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace frustum::parser {
 namespace {
@@ -64,6 +66,32 @@ std::string BlockWords::name_of(char letter) const {
 
 std::string BlockWords::text_of(char letter) const {
   return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
+}
+
+std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
+  const auto is_meant = [tenths](const GivenCode& given) {
+    return given.code != nullptr && given.code->letter == 'M' &&
+           std::find(tenths.begin(), tenths.end(), given.code->tenths) != tenths.end();
+  };
+  std::optional<BlockWords> aside;
+  const auto others = [&]() -> BlockWords& {
+    if (!aside) aside.emplace().block_ = block_;
+    return *aside;
+  };
+  for (const CodeGroup group : {CodeGroup::spindle, CodeGroup::coolant, CodeGroup::feed_mode,
+                                CodeGroup::tool_tip, CodeGroup::rotary_path}) {
+    const auto slot = static_cast<std::size_t>(group);
+    if (is_meant(codes_[slot])) others().codes_[slot] = std::exchange(codes_[slot], {});
+  }
+  for (auto event = events_.begin(); event != events_.end();) {
+    if (!is_meant(*event)) {
+      ++event;
+      continue;
+    }
+    others().events_.push_back(*event);
+    event = events_.erase(event);
+  }
+  return aside;
 }
 
 Result<BlockWords> read_words(const Block& block, const Parameters& parameters, Dialect dialect) {

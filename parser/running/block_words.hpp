@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/result.hpp"
@@ -47,6 +49,8 @@ class BlockWords {
   }
   // Codes that are known but not simulated.
   [[nodiscard]] const std::vector<GivenCode>& events() const { return events_; }
+  // The M words among `tenths` (ten times their numbers) leave the block, when there are any.
+  [[nodiscard]] std::optional<BlockWords> set_aside(std::span<const int> tenths);
   // Words whose value is vacant: they count as not given.
   [[nodiscard]] const std::vector<GivenCode>& vacant() const { return vacant_; }
   // The first word of the block among `letters`, by column.

@@ -243,7 +243,7 @@ TEST(Heidenhain, ScalesInchPrograms) {
       last_of<LinearFeed>(run(Dialect::heidenhain, "0 BEGIN PGM A INCH\n1 L X+1 C+90 F10\n"));
   EXPECT_EQ(move.end[X], 25.4);
   EXPECT_EQ(move.end[C], 90 * kRadPerDeg);
-  EXPECT_EQ(move.feed.value, 254.0);
+  EXPECT_EQ(move.feed.value, 25.4);
 }
 
 TEST(Heidenhain, CountsLinesOverContinuations) {

@@ -1,0 +1,158 @@
+// Klartext: feeds of inch programs and of tool calls, M words that count when the move of their block is done (and
+// those of Fanuc and Sinumerik), arcs without an end.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/units.hpp"
+#include "tests/parser/running.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using enum AxisLetter;
+
+std::vector<Motion> run(const std::string& text, Dialect dialect = Dialect::heidenhain) {
+  return motions(text, {}, dialect);
+}
+std::string complaint(const std::string& text) {
+  const auto lines = complaints(text, {}, Dialect::heidenhain);
+  return lines.empty() ? std::string() : lines.front();
+}
+
+std::vector<double> feeds(const std::string& text) {
+  std::vector<double> found;
+  for (const LinearFeed& feed : all_of<LinearFeed>(run(text))) found.push_back(feed.feed.value);
+  return found;
+}
+
+// One letter a command: what is moved, and what is switched before and behind it.
+std::string order(const std::string& text, Dialect dialect = Dialect::heidenhain) {
+  std::string letters;
+  for (const Motion& motion : run(text, dialect)) {
+    const Command& command = motion.command;
+    if (std::holds_alternative<Traverse>(command)) letters += 'r';
+    if (std::holds_alternative<HomeReturn>(command)) letters += 'h';
+    if (std::holds_alternative<LinearFeed>(command)) letters += 'f';
+    if (std::holds_alternative<Dwell>(command)) letters += 'd';
+    if (std::holds_alternative<ToolChange>(command)) letters += 'T';
+    if (const auto* event = std::get_if<Event>(&command))
+      letters += event->name == "M6" ? '6' : 'e';
+    if (const auto* spindle = std::get_if<SpindleChange>(&command)) {
+      letters += spindle->direction == SpindleDirection::off ? 's' : 'S';
+    }
+    if (const auto* coolant = std::get_if<CoolantChange>(&command)) {
+      letters += coolant->flood ? 'C' : 'c';
+    }
+    if (const auto* change = std::get_if<CompensationChange>(&command)) {
+      letters += change->mode == LengthCompensation::tool_centre_point ? 'G' : 'g';
+    }
+    if (const auto* path = std::get_if<RotaryPathChange>(&command)) {
+      letters += path->path == RotaryPath::shortest ? 'P' : 'p';
+    }
+    if (const auto* stop = std::get_if<Stop>(&command)) {
+      letters += stop->kind == StopKind::program_end ? '.' : '!';
+    }
+  }
+  return letters;
+}
+
+TEST(KlartextFeeds, OfInchProgramsAreTenthsOfAnInch) {
+  const std::string head = "BEGIN PGM T INCH\nTOOL CALL 1 Z S1000 F20\nL X+1 Y+2 Z+3 FMAX M3\n";
+  const auto found = feeds(head + "L X+2\nL X+3 F10\nL Z+1 F AUTO\n");
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_DOUBLE_EQ(found[0], 20 * 2.54);
+  EXPECT_DOUBLE_EQ(found[1], 25.4);
+  EXPECT_DOUBLE_EQ(found[2], 20 * 2.54);
+  // Rotary axes alone in degrees a minute; M136 in inches a revolution; FT is a time.
+  EXPECT_DOUBLE_EQ(feeds(head + "L C+2 F10\n").back(), 10.0);
+  EXPECT_DOUBLE_EQ(feeds(head + "M136\nL X+2 F0.01\n").back(), 0.254);
+  EXPECT_DOUBLE_EQ(feeds(head + "L X+2 FT2\n").back(), 30.0);
+  EXPECT_DOUBLE_EQ(feeds("BEGIN PGM T MM\nL X+1 F10\n").back(), 10.0);
+  // Of cycles: the feeds of drilling in tenths of an inch, the pitch in inches.
+  const auto drilled = feeds(
+      head + "CYCL DEF 201 Q200=0.1 Q201=-1 Q206=10 Q211=0 Q208=30 Q203=0 Q204=2\nCYCL CALL\n");
+  ASSERT_EQ(drilled.size(), 2U);
+  EXPECT_DOUBLE_EQ(drilled[0], 25.4);
+  EXPECT_DOUBLE_EQ(drilled[1], 76.2);
+  EXPECT_DOUBLE_EQ(
+      feeds(head + "CYCL DEF 207 Q200=0.1 Q201=-1 Q239=0.05 Q203=0 Q204=2\nCYCL CALL\n").front(),
+      1.27);
+}
+
+TEST(KlartextFeeds, OfToolCallsAreInForce) {
+  EXPECT_EQ(feeds("TOOL CALL 1 Z S100 F50\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\nL X+2 F70\nL X+3\n"
+                  "L X+4 F AUTO\nTOOL CALL 2 Z S100\nL X+5 M3\nTOOL CALL 2 Z F90\nL X+6\n"),
+            (std::vector<double>{50, 70, 70, 50, 50, 90}));
+  EXPECT_EQ(complaint("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\n"),
+            "3:1: error: a cutting move without a feed rate (hint: give F on this block or before, "
+            "above zero)");
+}
+
+TEST(KlartextOrder, StopsCountWhenTheMoveIsDone) {
+  EXPECT_EQ(order("L X+1 FMAX M3\nL X+2 F10 M8\nL X+3 M5 M9\n"), "SrCffsc");
+  EXPECT_EQ(order("L X+1 FMAX M13\nL X+3 F10 M9\nL X+1 FMAX M5\n"), "SCrfcrs");
+  EXPECT_EQ(order("L X+1 FMAX M3\nM5\nL Z+1 FMAX M6\nL X+2 FMAX M5 M30\n"), "Srsr6rs.");
+  EXPECT_EQ(order("L X+1 FMAX M3\nL Z+1 FMAX M91 M5\nSTOP M5\n"), "Srrss!");
+}
+
+TEST(KlartextOrder, TipControlAndTheShorterWayBeginBeforeTheMoveAndEndBehindIt) {
+  EXPECT_EQ(order("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+10 R0 FMAX M3\nM128\n"
+                  "L X+10 Y+0 Z+10 B+10 C+20 F100\nL B+0 C+0 F500 M129\nL X+0 Y+0 Z+10\n"),
+            "TgSrGffgf");
+  EXPECT_EQ(order("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+10 B+1 FMAX M128\n"), "TgGr");
+  EXPECT_EQ(order("L C+10 FMAX M126\nL C+350 FMAX M127\nL C+10 FMAX\n"), "Prrpr");
+  // A vector in the block that ends the control is one still.
+  EXPECT_EQ(order("TOOL CALL 1 Z S100\nM128\nLN X+1 Y+0 Z+0 TX+0 TY+0.6 TZ+0.8 F10 M129\n"),
+            "TgGfg");
+}
+
+TEST(KlartextOrder, FeedsByTheRevolutionEndBehindTheMove) {
+  const auto all = all_of<LinearFeed>(
+      run("TOOL CALL 1 Z S100\nM136\nL X+1 F0.2\nL X+2 M137\nL X+3 F100\nL X+4 F0.1 M136\n"));
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[1].feed.mode, FeedMode::per_revolution);
+  EXPECT_EQ(all[1].feed.value, 0.2);
+  EXPECT_EQ(all[2].feed.mode, FeedMode::per_minute);
+  EXPECT_EQ(all[3].feed.mode, FeedMode::per_revolution);
+  EXPECT_EQ(complaint("M136\nL X+1 F100 M137\n"),
+            "2:7: error: F100 beside M137, which counts when the move is done (hint: write M137 "
+            "before, in a block of its own)");
+  EXPECT_EQ(complaint("M136\nL X+1 F0.1\nL X+2 M137\nL X+3\n"),
+            "4:1: error: a cutting move without a feed rate (hint: give F on this block or before, "
+            "above zero)");
+}
+
+TEST(OrderOfWords, StopsBesideAMoveAreTheDialects) {
+  const std::string program = "S100 M3\nG1 X1 F10 M8\nG1 X2 M5 M9\n";
+  for (const Dialect dialect : {Dialect::fanuc, Dialect::sinumerik}) {
+    EXPECT_EQ(order(program, dialect), "SCffsc");
+    EXPECT_EQ(order("S100 M3\nG0 Z5 M5\nM3\nM5\nM30\n", dialect), "SrsSs.");
+  }
+  EXPECT_EQ(order("S100 M3\nG28 Z0 M5 M9\nG4 P100 M5\n", Dialect::fanuc), "Srhscsd");
+  // LinuxCNC has an order of its own: spindle and coolant before the move.
+  EXPECT_EQ(order(program, Dialect::linuxcnc), "SCfscf");
+}
+
+TEST(KlartextArcs, WithoutAnEndGoOnceRound) {
+  const std::string head = "L X+10 Y+0 Z+2 FMAX\nCC X+0 Y+0\n";
+  const auto circle = last_of<ArcFeed>(run(head + "C DR+ F100\n"));
+  EXPECT_EQ(circle.turns, 1);
+  EXPECT_EQ(circle.end[X], 10.0);
+  EXPECT_EQ(circle.end[Y], 0.0);
+  EXPECT_EQ(circle.center[0], 0.0);
+  EXPECT_EQ(circle.feed.value, 100.0);
+  EXPECT_EQ(last_of<ArcFeed>(run(head + "C DR- F100\n")).turns, -1);
+  EXPECT_EQ(complaint(head + "CP DR- F100\n"),
+            "3:1: error: CP has no angle (hint: give PA or IPA; a full turn is IPA+360 DR+)");
+  EXPECT_EQ(complaint(head + "CT F100\n"),
+            "3:1: error: the arc leads on from no move (hint: move along a contour in the plane "
+            "before it)");
+  EXPECT_EQ(complaint("CC X+0 Y+0\nC DR+ F100\n").substr(0, 44),
+            "2:1: error: the start of the arc is not know");
+  EXPECT_EQ(last_of<ArcFeed>(run(head + "CP IPA-360 DR- F100\n")).turns, -1);
+}
+
+}  // namespace
+}  // namespace frustum::parser
