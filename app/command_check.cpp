@@ -29,6 +29,8 @@ struct Options {
   std::vector<std::string> disabled{};
   std::string fail_on = "error";
   std::string sarif{};
+  std::string tools{};  // a tool table
+  bool inch_machine = false;
   bool block_delete = false;
   bool json = false;
   bool quiet = false;
@@ -80,19 +82,22 @@ int check_file(const Options& options) {
   check.run.search_path.insert(check.run.search_path.end(), options.search.begin(),
                                options.search.end());
   check.run.block_delete = options.block_delete;
-  std::optional<Workshop> workshop;
-  if (!options.workshop.machine.empty() || !options.workshop.job.empty()) {
-    auto made = workshop_of(options.workshop);
-    if (!made) return refuse(made.error());
-    workshop = *std::move(made);
-    check.machine = &workshop->machine;
-    check.setup = workshop->setup;
+  const auto bench = bench_of(options.workshop);
+  if (!bench) return refuse(bench.error());
+  if (bench->machine) check.machine = &*bench->machine;
+  check.setup = bench->setup;
+  check.run.tools = bench->tools;
+  if (options.inch_machine) check.run.machine_unit = parser::LengthUnit::inch;
+  if (!options.tools.empty()) {
+    auto tools = parser::read_tool_table(options.tools, check.run.machine_unit);
+    if (!tools) return refuse(tools.error());
+    check.run.tools = *std::move(tools);
   }
   if (!options.quiet) {
     if (!nc->reason.empty()) {
       std::cerr << "note: read as " << name_of(nc->program.dialect) << " (" << nc->reason << ")\n";
     }
-    if (!workshop) std::cerr << "note: no --machine: travels and axes are not checked\n";
+    if (!bench->machine) std::cerr << "note: no --machine: travels and axes are not checked\n";
   }
 
   const lint::CheckReport report = lint::check_program(nc->program, check);
@@ -106,7 +111,7 @@ int check_file(const Options& options) {
   if (options.json) {
     std::cout << lint::json_of(report,
                                {options.file, name_of(nc->program.dialect),
-                                workshop ? workshop->machine.name() : std::string(), passed});
+                                bench->machine ? bench->machine->name() : std::string(), passed});
   } else {
     std::cout << lint::text_of(report, lines);
   }
@@ -126,8 +131,15 @@ void add_check(CLI::App& program, int& exit_code) {
           "--dialect", o->dialect,
           "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised)")
       ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
-  command->add_option("--search", o->search,
-                      "Folder with subprograms, repeated (that of the program comes first)");
+  command->add_option(
+      "--tools", o->tools,
+      "LinuxCNC tool table: lengths and diameters; G43, M6 and M61 take its tools alone");
+  command->add_flag("--inch-machine", o->inch_machine,
+                    "The tool table and parameters such as #5221 count in inches (default: mm)");
+  command
+      ->add_option("--search,--search-path", o->search,
+                   "Folder with subprograms, repeated (that of the program comes first)")
+      ->check(CLI::ExistingDirectory);
   command->add_flag("--block-delete", o->block_delete, "Leave out blocks that begin with /");
   command->add_option("--disable", o->disabled, "Leave out a check, by its id; repeated");
   command

@@ -81,9 +81,9 @@ nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
 int diff(const Options& options) {
   auto workshop = workshop_of(options.workshop);
   if (!workshop) return refuse(workshop.error());
-  auto first = motions_of_file(options.first, options.first_dialect);
+  auto first = motions_of_file(options.first, options.first_dialect, workshop->tools);
   if (!first) return refuse(first.error());
-  auto second = motions_of_file(options.second, options.second_dialect);
+  auto second = motions_of_file(options.second, options.second_dialect, workshop->tools);
   if (!second) return refuse(second.error());
   for (const int tool : unmeasured_tools(workshop->setup, {*first, *second})) {
     workshop->setup.tools[tool].length = kAssumedLength;

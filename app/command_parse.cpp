@@ -71,8 +71,10 @@ void add_parse(CLI::App& program, int& exit_code) {
                       "LinuxCNC tool table: G43, M6 and M61 take its tools alone");
   command->add_flag("--inch-machine", options->inch_machine,
                     "The tool table and parameters such as #5221 count in inches (default: mm)");
-  command->add_option("--search-path", options->search_path,
-                      "Folder with subprograms, after the program's own; may be repeated");
+  command
+      ->add_option("--search,--search-path", options->search_path,
+                   "Folder with subprograms, after the program's own; may be repeated")
+      ->check(CLI::ExistingDirectory);
   command->footer("Example: frustum parse cone.nc --canon");
   command->callback([options, &exit_code] { exit_code = parse_file(*options); });
 }

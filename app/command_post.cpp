@@ -57,7 +57,7 @@ int post_process(const Options& options) {
   }
   const auto workshop = workshop_of(options.workshop);
   if (!workshop) return refuse(workshop.error());
-  const auto motions = motions_of_file(options.file, options.dialect);
+  const auto motions = motions_of_file(options.file, options.dialect, workshop->tools);
   if (!motions) return refuse(motions.error());
   const auto dialect = *parser::dialect_named(options.to);
   const auto plan = post::plan_for_machine(workshop->machine, workshop->setup, *motions,

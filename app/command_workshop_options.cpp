@@ -11,8 +11,11 @@ void add_workshop_options(CLI::App& command, WorkshopWords& words) {
                      "Machine file, or the name of a shipped machine (default: the job's)");
   command.add_option("--job", words.job, "Takes machine, tool lengths and work offsets from a job");
   command.add_option("--tool-length", words.tool_lengths, "NUMBER=LENGTH in mm, repeated");
-  command.add_option("--offset", words.offsets,
-                     "G54=X,Y,Z: program origin in the table frame, mm, repeated (G54=0,0,0)");
+  command.add_option("--tool-diameter", words.tool_diameters,
+                     "NUMBER=DIAMETER in mm, which G41 and G42 count with, repeated");
+  command.add_option(
+      "--offset", words.offsets,
+      "G54=X,Y,Z (G59.1=, G54.1P1=): program origin in the table frame, mm, repeated (G54=0,0,0)");
 }
 
 }  // namespace frustum::app

@@ -1,6 +1,7 @@
 #include "app/nc_file.hpp"
 
 #include <cctype>
+#include <utility>
 
 #include "parser/dialect.hpp"
 #include "parser/interpreter.hpp"
@@ -9,10 +10,13 @@
 namespace frustum::app {
 
 Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,
-                                                    const std::string& dialect_name) {
+                                                    const std::string& dialect_name,
+                                                    parser::ToolTable tools) {
   const auto nc = open_nc(file, dialect_name);
   if (!nc) return nc.error();
-  return parser::motions_of(nc->program, options_for(file));
+  parser::InterpreterOptions options = options_for(file);
+  options.tools = std::move(tools);
+  return parser::motions_of(nc->program, options);
 }
 
 Result<NcFile> open_nc(const std::string& file, const std::string& dialect_name) {

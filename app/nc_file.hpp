@@ -22,9 +22,10 @@ struct NcFile {
 // Subprograms are looked for beside the program.
 [[nodiscard]] parser::InterpreterOptions options_for(const std::string& file);
 
-// `dialect` as --dialect writes it; empty: recognised.
+// `dialect` as --dialect writes it; empty: recognised. Radius compensation counts with `tools`.
 [[nodiscard]] Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,
-                                                                  const std::string& dialect);
+                                                                  const std::string& dialect,
+                                                                  parser::ToolTable tools);
 
 // A name that controllers take, from a file's: letters, digits and _.
 [[nodiscard]] std::string program_name(const std::filesystem::path& file);

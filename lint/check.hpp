@@ -41,6 +41,8 @@ enum class Check : std::uint8_t {
   arc_nearly_full,
   arc_tiny,
   arc_huge,
+  radius_gouge,
+  radius_compensation,
   short_segments,
   tip_control_off,
   rotary_with_length,

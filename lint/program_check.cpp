@@ -63,6 +63,7 @@ class ProgramCheck {
     short_segments_.finish(findings_);
     if (travel_) travel_->finish();
     // The modes at the end say something only of a program that came there.
+    if (state_.place.line == 0) state_.place = last_block_;
     if (summary && !broken_off_) check_end(state_, summary->state, program_.dialect, findings_);
     return {findings_.sorted(), findings_.left_out(), blocks_, motions_};
   }
@@ -70,6 +71,7 @@ class ProgramCheck {
  private:
   bool see(const parser::BlockAhead& ahead) {
     ++blocks_;
+    last_block_ = {ahead.block.line, 1, ahead.file};
     reads_.see(ahead, findings_);
     if (!comes_round(ahead)) return true;
     SourcePlace place = ahead.block.place_of(ahead.block.flow ? ahead.block.flow->column : 1);
@@ -126,9 +128,9 @@ class ProgramCheck {
 
   void see(const parser::Event& event, const SourcePlace& place) {
     // What the interpreter says for itself.
-    constexpr std::array<std::string_view, 8> kTold{"comment",       "message",   "block_delete",
-                                                    "surface_speed", "BEGIN PGM", "PARTNO",
-                                                    "debug",         "structure"};
+    constexpr std::array<std::string_view, 9> kTold{
+        "comment", "message", "block_delete", "surface_speed",      "BEGIN PGM",
+        "PARTNO",  "debug",   "structure",    "radius_compensation"};
     if (std::find(kTold.begin(), kTold.end(), event.name) != kTold.end()) return;
     // The first line of a cycle of Klartext; what the others say is simulated.
     if (event.name.starts_with("CYCL DEF") && event.name != "CYCL DEF 32") return;
@@ -155,6 +157,7 @@ class ProgramCheck {
   std::uint64_t most_turns_;
   WrongLines wrong_lines_{};
   std::map<FindingList::Key, std::uint64_t> turns_{};
+  SourcePlace last_block_{1, 1, nullptr};
   std::uint64_t errors_ = 0;
   std::uint64_t blocks_ = 0;
   std::uint64_t motions_ = 0;

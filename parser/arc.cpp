@@ -16,6 +16,8 @@ constexpr double kRelativeRadiusTolerance = 0.001;  // of the radius
 constexpr double kLargestRadiusTolerance = 0.5;     // mm
 // Shorter than any controller's increment: an arc that ends so near its start is a full circle.
 constexpr double kFullCircleGap = 1e-6;  // mm
+// A difference of just the tolerance is allowed, whatever its last digits.
+constexpr double kRounding = 1e-9;  // mm
 
 double tolerance_at(double radius) {
   return std::max(kRadiusTolerance,
@@ -77,7 +79,7 @@ Result<Arc> arc_by_centre(const ArcWords& words) {
                  fmt::format("{} lead from the start to the centre", centre_words(words.plane)));
   }
   const double difference = std::abs(at_start - at_end);
-  if (difference > tolerance_at(std::max(at_start, at_end))) {
+  if (difference > tolerance_at(std::max(at_start, at_end)) + kRounding) {
     return error(fmt::format("the start of the arc is {} from the centre, its end {}: {} apart",
                              mm(at_start), mm(at_end), mm(difference)),
                  fmt::format("allowed are 0.01 mm, or 0.1 % of the radius up to 0.5 mm; "

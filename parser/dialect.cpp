@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 namespace frustum::parser {
 namespace {
@@ -21,7 +22,8 @@ struct Sign {
   std::string_view text;
   Where where;
 };
-// What no other dialect writes; the first line that has one decides.
+// What no other dialect writes; the first line that has one decides. # stands for digits, a blank for any number of
+// blanks or none.
 constexpr std::array kSigns{
     Sign{Dialect::heidenhain, "BEGIN PGM", Where::start},
     Sign{Dialect::heidenhain, "TOOL CALL", Where::start},
@@ -32,7 +34,14 @@ constexpr std::array kSigns{
     Sign{Dialect::heidenhain, "L X", Where::start},
     Sign{Dialect::heidenhain, "L Z", Where::start},
     Sign{Dialect::heidenhain, "LN X", Where::start},
+    Sign{Dialect::heidenhain, "CC X", Where::start},
+    Sign{Dialect::heidenhain, "LBL #", Where::start},
+    Sign{Dialect::heidenhain, "CALL LBL", Where::start},
+    Sign{Dialect::heidenhain, "FN #:", Where::start},
+    Sign{Dialect::heidenhain, "Q# =", Where::start},
     Sign{Dialect::cldata, "PARTNO", Where::start},
+    Sign{Dialect::cldata, "PPRINT", Where::start},
+    Sign{Dialect::cldata, "MACHIN", Where::start},
     Sign{Dialect::cldata, "$$", Where::start},
     Sign{Dialect::cldata, "GOTO/", Where::start},
     Sign{Dialect::cldata, "GOTO /", Where::start},
@@ -60,6 +69,36 @@ constexpr std::array kSigns{
     Sign{Dialect::sinumerik, "G710", Where::word},
     Sign{Dialect::sinumerik, "G641", Where::word},
     Sign{Dialect::sinumerik, "G642", Where::word},
+    Sign{Dialect::sinumerik, "R# =", Where::word},
+    Sign{Dialect::sinumerik, "CR =", Where::word},
+    Sign{Dialect::sinumerik, "X =", Where::word},
+    Sign{Dialect::sinumerik, "Y =", Where::word},
+    Sign{Dialect::sinumerik, "Z =", Where::word},
+    Sign{Dialect::sinumerik, "T = \"", Where::word},
+    Sign{Dialect::sinumerik, "CYCLE#(", Where::word},
+    Sign{Dialect::sinumerik, "MCALL", Where::start},
+    Sign{Dialect::sinumerik, "TRANS X", Where::start},
+    Sign{Dialect::sinumerik, "TRANS Y", Where::start},
+    Sign{Dialect::sinumerik, "TRANS Z", Where::start},
+    Sign{Dialect::sinumerik, "ATRANS ", Where::start},
+    Sign{Dialect::sinumerik, "AROT ", Where::start},
+    Sign{Dialect::sinumerik, "DEF REAL", Where::start},
+    Sign{Dialect::sinumerik, "DEF INT", Where::start},
+    Sign{Dialect::sinumerik, "DEF BOOL", Where::start},
+    Sign{Dialect::sinumerik, "PROC ", Where::start},
+    Sign{Dialect::sinumerik, "GOTOF", Where::word},
+    Sign{Dialect::sinumerik, "GOTOB", Where::word},
+    Sign{Dialect::sinumerik, "ENDIF", Where::start},
+    Sign{Dialect::sinumerik, "ENDFOR", Where::start},
+    Sign{Dialect::sinumerik, "ENDLOOP", Where::start},
+    Sign{Dialect::linuxcnc, "O# SUB", Where::start},
+    Sign{Dialect::linuxcnc, "O# CALL", Where::start},
+    Sign{Dialect::linuxcnc, "O# IF", Where::start},
+    Sign{Dialect::linuxcnc, "O# WHILE", Where::start},
+    Sign{Dialect::linuxcnc, "O# DO", Where::start},
+    Sign{Dialect::linuxcnc, "O# REPEAT", Where::start},
+    Sign{Dialect::linuxcnc, "G38.2", Where::word},
+    Sign{Dialect::linuxcnc, "G38.3", Where::word},
     Sign{Dialect::linuxcnc, "M428", Where::word},
     Sign{Dialect::linuxcnc, "M429", Where::word},
     Sign{Dialect::linuxcnc, "O<", Where::start},
@@ -120,28 +159,58 @@ std::string_view behind_number(std::string_view code) {
   return code;
 }
 
-bool stands_in(std::string_view code, const Sign& sign) {
-  if (sign.where == Where::start) return behind_number(code).starts_with(sign.text);
-  for (std::size_t at = code.find(sign.text); at != std::string_view::npos;
-       at = code.find(sign.text, at + 1)) {
-    const std::size_t end = at + sign.text.size();
+// The end of the sign where the code begins with it.
+std::optional<std::size_t> end_of_sign(std::string_view code, std::string_view sign) {
+  std::size_t at = 0;
+  const auto skip = [&](auto test) {
+    const std::size_t before = at;
+    while (at < code.size() && test(code[at])) ++at;
+    return at > before;
+  };
+  for (const char wanted : sign) {
+    if (wanted == ' ') {
+      skip([](char c) { return c == ' ' || c == '\t'; });
+    } else if (wanted == '#') {
+      if (!skip(is_digit)) return std::nullopt;
+    } else if (at >= code.size() || code[at++] != wanted) {
+      return std::nullopt;
+    }
+  }
+  return at;
+}
+
+// The sign as the code has it.
+std::optional<std::string_view> find_sign(std::string_view code, const Sign& sign) {
+  const std::string_view first = behind_number(code);
+  if (sign.where == Where::start) {
+    const auto length = end_of_sign(first, sign.text);
+    return length ? std::optional(first.substr(0, *length)) : std::nullopt;
+  }
+  if (first.starts_with(';')) return std::nullopt;  // a remark
+  for (std::size_t at = code.find(sign.text.front()); at != std::string_view::npos;
+       at = code.find(sign.text.front(), at + 1)) {
+    const auto length = end_of_sign(code.substr(at), sign.text);
+    if (!length) continue;
+    const std::size_t end = at + *length;
     const bool begins = at == 0 || !is_letter(code[at - 1]);
     const bool ends = end >= code.size() || !(is_digit(code[end]) && is_digit(sign.text.back()));
-    if (begins && ends) return true;
+    if (begins && ends) return code.substr(at, *length);
   }
-  return false;
+  return std::nullopt;
 }
 
 std::optional<RecognisedDialect> by_content(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const char line_end = text.find('\n') == std::string_view::npos ? '\r' : '\n';
   for (int line = 1; line <= kLines && !text.empty(); ++line) {
     const std::size_t end = std::min(text.find(line_end), text.size());
     const std::string code = code_of(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     for (const Sign& sign : kSigns) {
-      if (!stands_in(code, sign)) continue;
-      std::string_view shown = sign.text;
-      if (shown.ends_with(' ')) shown.remove_suffix(1);
+      const auto found = find_sign(code, sign);
+      if (!found) continue;
+      const std::string_view shown = found->substr(0, found->find_last_not_of(" \t") + 1);
       return RecognisedDialect{sign.dialect, fmt::format("line {}: {}", line, shown)};
     }
   }

@@ -57,6 +57,8 @@ struct InterpreterOptions {
   std::vector<std::filesystem::path> search_path{};
   // A program that runs more blocks than this, by repeats within repeats, is taken for a mistake.
   std::uint64_t max_blocks = 100'000'000;
+  // So is one that runs more than this without giving a motion or an event.
+  std::uint64_t max_idle_blocks = 2'000'000;
   // Looks on: called before each block that is run or passed over; false ends the run there.
   std::function<bool(const BlockAhead&)> watch{};
   // Takes the error of a block that cannot be run, which is then passed over as if it were not there; false

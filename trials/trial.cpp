@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "parser/interpreter.hpp"
@@ -106,7 +107,12 @@ Result<CommandedRun> commanded_run(const Machine& machine, const TestPiece& piec
   tell(options, Stage::parse);
   const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
   if (!program) return program.error();
-  auto motions = parser::motions_of(*program);
+  // Subprograms lie beside the program.
+  const auto folder = std::filesystem::path(piece.program_file).parent_path();
+  parser::InterpreterOptions interpreter;
+  interpreter.tools = diameters_of(piece);
+  interpreter.search_path = {folder};
+  auto motions = parser::motions_of(*program, interpreter);
   if (!motions) return motions.error();
   CommandedRun run;
   run.motions = *std::move(motions);
@@ -174,6 +180,17 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
 std::string_view name_of(Stage stage) {
   constexpr std::string_view kNames[] = {"parse", "execute", "cut", "find collisions", "measure"};
   return kNames[static_cast<std::size_t>(stage)];
+}
+
+parser::ToolTable diameters_of(const TestPiece& piece) {
+  parser::ToolTable tools;
+  for (const auto& [number, cutter] : piece.tools) {
+    parser::Tool tool;
+    tool.diameter = cutter.diameter.value;
+    tool.has_length = false;
+    tools.emplace(number, tool);
+  }
+  return tools;
 }
 
 kinematics::Setup setup_of(const TestPiece& piece) {

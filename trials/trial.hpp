@@ -19,6 +19,7 @@
 #include "kinematics/slowed_blocks.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
+#include "parser/tool_table.hpp"
 #include "programs/test_piece.hpp"
 #include "stock/collision.hpp"
 #include "stock/workpiece.hpp"
@@ -58,6 +59,8 @@ struct TrialOptions {
   std::function<void(Stage)> on_stage{};
 };
 
+// The diameters that radius compensation counts with; the lengths are the setup's.
+[[nodiscard]] parser::ToolTable diameters_of(const programs::TestPiece& piece);
 // What the controller knows of the piece: placement, offsets and tools.
 [[nodiscard]] kinematics::Setup setup_of(const programs::TestPiece& piece);
 

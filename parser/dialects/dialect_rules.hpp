@@ -38,6 +38,9 @@ struct CycleRules {
   bool feed_out_to_clearance = false;        // taps and G89 leave by feed all the way
   // Q shifts the tool of G76 and G87 along the plane's first axis; G87 then bores up from R to Z.
   bool tool_shift_by_q = false;
+  // R and the depth are steps or places by the mode of the block that gives them, whatever the mode at a later hole.
+  bool words_keep_their_mode = false;
+  bool cancel_brings_motion_back = false;  // behind G80 the G0 to G3 before the cycle is in force
   // Each block begins at the depth before the first hole: with G98 the move to the next hole goes up there.
   bool start_from_initial = false;
 };

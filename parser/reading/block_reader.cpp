@@ -1,10 +1,29 @@
 #include "parser/reading/block_reader.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "parser/reading/cldata_record.hpp"
 #include "parser/reading/grammar.hpp"
 #include "parser/reading/macro_reader.hpp"
 #include "parser/reading/o_word_reader.hpp"
 
 namespace frustum::parser {
+namespace {
+
+// PPRINT COSTS 5 $
+bool is_text_record(std::string_view line) {
+  std::string word;
+  for (const char c : line.substr(std::min(line.find_first_not_of(" \t"), line.size()))) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isalpha(letter) == 0) break;
+    word += static_cast<char>(std::toupper(letter));
+  }
+  return cldata_text_word(word) != nullptr;
+}
+
+}  // namespace
 
 BlockReader reader_of(Dialect dialect) {
   switch (dialect) {
@@ -29,7 +48,8 @@ std::size_t continuation_mark(std::string_view line, Dialect dialect) {
     return last != std::string_view::npos && line[last] == '~' ? last : std::string_view::npos;
   }
   if (dialect != Dialect::cldata) return std::string_view::npos;
-  // A $ continues the statement, also before a comment; $$ begins one; PPRINT is text to its end.
+  // A $ continues the statement, also before a comment; $$ begins one.
+  if (is_text_record(line)) return std::string_view::npos;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] != '$') continue;
     return line.substr(i).starts_with("$$") ? std::string_view::npos : i;

@@ -22,9 +22,7 @@
 namespace frustum::parser {
 namespace {
 
-// Records that are text to their end, and those whose arguments change nothing that is simulated.
-constexpr std::array<const char*, 8> kTexts{"PARTNO", "PPRINT", "INSERT", "REMARK",
-                                            "LETTER", "DISPLY", "PPFUN",  "TPRINT"};
+// Records whose arguments change nothing that is simulated.
 constexpr std::array<const char*, 32> kEvents{
     "CUTTER", "TOOLNO", "MACHIN", "INTOL",  "OUTTOL", "TOLER",  "LEADER", "OPNAME",
     "SELECT", "PLABEL", "LINTOL", "SEQNO",  "TLDATA", "MSYS",   "PAINT",  "CLDIST",
@@ -121,16 +119,13 @@ class CldataReader {
   }
 
   bool take_text() {
-    for (const char* text : kTexts) {
-      // The word may run into its text: PARTNOFLANGE.
-      if (!record_.word.starts_with(text)) continue;
-      in_.go_to(record_.column + static_cast<std::uint32_t>(std::string_view(text).size()));
-      in_.take('/');
-      const bool message = std::string_view(text) == "PPRINT";
-      block_.comments.push_back({record_.column, false, in_.text_to(), message ? "message" : text});
-      return true;
-    }
-    return false;
+    const char* text = cldata_text_word(record_.word);
+    if (text == nullptr) return false;
+    in_.go_to(record_.column + static_cast<std::uint32_t>(std::string_view(text).size()));
+    in_.take('/');
+    const bool message = std::string_view(text) == "PPRINT";
+    block_.comments.push_back({record_.column, false, in_.text_to(), message ? "message" : text});
+    return true;
   }
 
   bool take_note() {
@@ -145,7 +140,10 @@ class CldataReader {
 
   bool note(const char* event) {
     in_.take('/');
-    block_.comments.push_back({record_.column, false, in_.text_to("$"), event});
+    // Of all lines that it goes over.
+    std::string text = in_.text_to("$");
+    while (!in_.at_end() && in_.peek() != '$') text += in_.text_to("$");
+    block_.comments.push_back({record_.column, false, std::move(text), event});
     if (!take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
     return true;
   }
@@ -234,7 +232,7 @@ class CldataReader {
     std::vector<std::string> words;
     for (const Handler& handler : handlers()) words.emplace_back(handler.word);
     for (const std::string_view word : cldata_setting_words()) words.emplace_back(word);
-    words.insert(words.end(), kTexts.begin(), kTexts.end());
+    for (const char* word : cldata_text_words()) words.emplace_back(word);
     words.insert(words.end(), kEvents.begin(), kEvents.end());
     return words;
   }

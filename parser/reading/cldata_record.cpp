@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace frustum::parser {
 namespace {
+
+constexpr std::array<const char*, 8> kTexts{"PARTNO", "PPRINT", "INSERT", "REMARK",
+                                            "LETTER", "DISPLY", "PPFUN",  "TPRINT"};
 
 double read_number(LineScanner& in, std::uint32_t column) {
   const bool negative = in.take('-');
@@ -26,6 +30,15 @@ double read_number(LineScanner& in, std::uint32_t column) {
 }
 
 }  // namespace
+
+std::span<const char* const> cldata_text_words() { return kTexts; }
+
+const char* cldata_text_word(std::string_view record) {
+  for (const char* text : kTexts) {
+    if (record.starts_with(text)) return text;
+  }
+  return nullptr;
+}
 
 std::string CldataRecord::text_from(std::size_t first) const {
   std::string text;

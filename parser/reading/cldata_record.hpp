@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,11 @@ struct CldataRecord {
     return {arguments[first].number, arguments[first + 1].number, arguments[first + 2].number};
   }
 };
+
+// Records that are text to their end: PARTNO, PPRINT.
+[[nodiscard]] std::span<const char* const> cldata_text_words();
+// The one that a record begins with, in upper case; null when there is none. It may run into its text: PARTNOFLANGE.
+[[nodiscard]] const char* cldata_text_word(std::string_view record);
 
 // The arguments from here on, separated by commas.
 [[nodiscard]] std::vector<CldataArgument> read_cldata_arguments(LineScanner& in);

@@ -231,10 +231,31 @@ std::size_t statement_start(std::string_view text) {
   return std::string_view::npos;
 }
 
+// Where a second block begins behind the ; that ends the first: G0X1.;G1X2. A remark stands apart: G0X1. ; X2.
+std::size_t second_block(std::string_view text) {
+  const std::size_t remark = std::min(text.find('('), text.size());
+  for (std::size_t at = text.find(';'); at < remark; at = text.find(';', at + 1)) {
+    const auto is = [&](std::size_t place, auto test) {
+      return place < remark && test(static_cast<unsigned char>(text[place])) != 0;
+    };
+    const bool behind_word = at > 0 && !is(at - 1, [](int c) { return std::isspace(c); });
+    const bool word = is(at + 1, [](int c) { return std::isalpha(c); }) &&
+                      is(at + 2, [](int c) { return std::isdigit(c) || c == '-' || c == '.'; });
+    if (behind_word && word) return at + 1;
+  }
+  return std::string_view::npos;
+}
+
 }  // namespace
 
 Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
   if (auto plain = read_plain_block(text, line)) return *std::move(plain);
+  if (const std::size_t second = second_block(text); second != std::string_view::npos) {
+    Diagnostic twice = error("a second block behind ;", "start a line for each block");
+    twice.line = static_cast<int>(line);
+    twice.column = static_cast<int>(second) + 1;
+    return twice;
+  }
   const std::size_t start = statement_start(text);
   if (start == std::string_view::npos) return parse_block(text, line, Arithmetic::custom_macro);
   return MacroReader(text, line, start)();

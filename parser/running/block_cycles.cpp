@@ -53,6 +53,10 @@ BlockExecutor::Outcome BlockExecutor::set_cycle(const BlockWords& words, const M
   };
   read('R', cycle.level, unit_scale());
   read(depth_letter, cycle.bottom, unit_scale());
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  const bool any_block = !rules_.cycles.words_keep_their_mode;
+  if (any_block || words.has('R')) cycle.level_is_step = incremental;
+  if (any_block || words.has(depth_letter)) cycle.bottom_is_step = incremental;
   read('Q', cycle.peck, unit_scale());
   const bool milliseconds =
       rules_.dialect == Dialect::fanuc && words.has('P') && !words['P'].decimal_point;
@@ -112,15 +116,14 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   const auto feed = feed_for(words, movement, true);
   if (!feed) return feed.error();
 
-  const bool incremental = state_.distance == DistanceMode::incremental;
   CycleDepths depths;
-  depths.level = *cycle.level + (incremental ? cycle.initial : 0.0);
-  depths.bottom = *cycle.bottom + (incremental ? depths.level : 0.0);
+  depths.level = *cycle.level + (cycle.level_is_step ? cycle.initial : 0.0);
+  depths.bottom = *cycle.bottom + (cycle.bottom_is_step ? depths.level : 0.0);
   depths.clear = state_.retract_to_initial ? std::max(cycle.initial, depths.level) : depths.level;
   depths.feed_out = rules_.cycles.feed_out_to_clearance ? depths.clear : depths.level;
   depths.peck = cycle.peck.value_or(0.0);
   depths.dwell = cycle.dwell.value_or(0.0);
-  depths.back = cycle.back.value_or(0.0) + (incremental ? depths.bottom : 0.0);
+  depths.back = cycle.back.value_or(0.0) + (cycle.bottom_is_step ? depths.bottom : 0.0);
   if (needs_peck(cycle.last) && depths.level - depths.bottom > kMostPecks * depths.peck) {
     return fail(movement.column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
                 "give a larger Q");

@@ -139,8 +139,10 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
 }
 
 MotionMode BlockExecutor::motion_of(const BlockWords& words) const {
-  const bool cancelled = words.has(CodeGroup::cycle);
-  return words.value_or(CodeGroup::motion, cancelled ? MotionMode::none : state_.motion);
+  const MotionMode behind_cancel =
+      rules_.cycles.cancel_brings_motion_back ? state_.before_cycle : MotionMode::none;
+  return words.value_or(CodeGroup::motion,
+                        words.has(CodeGroup::cycle) ? behind_cancel : state_.motion);
 }
 
 Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& words) const {
@@ -485,6 +487,7 @@ void BlockExecutor::pass_to_radius(Motion&& motion) {
 void BlockExecutor::send(Motion&& motion) {
   if (!state_.word_frame.is_identity()) state_.word_frame.place(motion.command);
   if (!state_.offset_frame.is_identity()) state_.offset_frame.place(motion.command);
+  ++motions_;
   sink_(std::move(motion));
 }
 

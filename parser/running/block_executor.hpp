@@ -85,6 +85,8 @@ class BlockExecutor {
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   // Whether the last block has moved an axis.
   [[nodiscard]] bool moved() const { return moved_; }
+  // How many motions have gone out.
+  [[nodiscard]] std::uint64_t motions() const { return motions_; }
   // #1 to #33 of the macro at work.
   [[nodiscard]] std::vector<double> local_values() const;
   using Outcome = Result<Done>;
@@ -307,6 +309,7 @@ class BlockExecutor {
 
   const DialectRules& rules_;
   const MotionSink& sink_;
+  std::uint64_t motions_ = 0;
   ControlData data_;
   std::map<int, std::array<std::optional<double>, 3>> told_origins_{};  // as the motions have them
   ModalState state_;

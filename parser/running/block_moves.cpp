@@ -60,7 +60,10 @@ BlockExecutor::Outcome BlockExecutor::move(const BlockWords& words, const Moveme
   // Axis words or not, the motion word stays in force for the blocks after.
   state_.motion = motion_of(words);
   if (auto done = check_feature(movement); !done) return done;
-  if (!is_cycle(state_.motion)) state_.cycle.reset();
+  if (!is_cycle(state_.motion)) {
+    state_.cycle.reset();
+    state_.before_cycle = state_.motion;
+  }
   if (auto done = check_open_nurbs(movement); !done) return done;
   const bool stands = movement.motion == MotionMode::none && movement.non_modal == NonModal::none;
   if (!stands && movement.motion != MotionMode::cubic_spline) spline_leads_.reset();

@@ -49,12 +49,14 @@ struct FeedWord {
   double scaled = 0.0;  // in mm/min when per minute
 };
 
-// The words of the canned cycle at work, in mm and seconds as the program's distance mode counts them.
+// The words of the canned cycle at work, in mm and seconds. Steps count from `initial` and from the level.
 struct CannedCycle {
   MotionMode last = MotionMode::none;
   double initial = 0.0;  // depth before the first hole
   std::optional<double> level{};
   std::optional<double> bottom{};
+  bool level_is_step = false;
+  bool bottom_is_step = false;
   std::optional<double> peck{};
   std::optional<double> dwell{};
   std::optional<double> shift_u{};
@@ -86,6 +88,7 @@ struct Pole {
 
 struct ModalState {
   MotionMode motion = MotionMode::none;
+  MotionMode before_cycle = MotionMode::none;  // the last motion that was no canned cycle
   Plane plane = Plane::xy;
   LengthUnit unit = LengthUnit::millimetre;
   bool diameter = false;  // G7: X words are twice the position

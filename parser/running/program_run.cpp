@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <system_error>
 #include <utility>
@@ -41,7 +42,8 @@ bool does_something(const Block& block) {
 ControlData data_before(const InterpreterOptions& options) {
   ControlData data;
   data.tools = options.tools;
-  data.tools_are_listed = !options.tools.empty();
+  data.tools_are_listed = std::any_of(options.tools.begin(), options.tools.end(),
+                                      [](const auto& tool) { return tool.second.has_length; });
   data.work_offsets = options.work_offsets;
   data.reference_points = options.reference_points;
   data.unit = options.machine_unit;
@@ -90,11 +92,7 @@ ProgramRun::Failure ProgramRun::run_next() {
     frame().opened = true;
     if (frames_.size() == 1) frame().entry = frame().cursor.block_place();
   }
-  if (++blocks_ > options_.max_blocks) {
-    return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks),
-              "look for repeats within repeats, for loops whose condition never changes, and for "
-              "M99 in the main program");
-  }
+  if (auto endless = count_block(block)) return endless;
   if (options_.watch &&
       !options_.watch({block, frame().program->place_file(), frames_.size() - 1})) {
     frames_.clear();
@@ -111,6 +109,23 @@ ProgramRun::Failure ProgramRun::run_next() {
   // A subprogram that has been left took its block with it.
   if (frames_.size() == calls) executor_.pass_over(block);
   return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::count_block(const Block& block) {
+  constexpr const char* kRemedy =
+      "look for repeats within repeats, for loops whose condition never changes, and for M99 in "
+      "the main program";
+  if (++blocks_ > options_.max_blocks) {
+    return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
+  }
+  if (executor_.motions() != motions_) {
+    motions_ = executor_.motions();
+    blocks_at_motion_ = blocks_;
+  }
+  if (blocks_ - blocks_at_motion_ <= options_.max_idle_blocks) return std::nullopt;
+  return at(block, 1,
+            fmt::format("more than {} blocks have run without a motion", options_.max_idle_blocks),
+            kRemedy);
 }
 
 bool ProgramRun::goes_on(const Diagnostic& failure) const {

@@ -27,6 +27,8 @@ class ProgramRun {
   using Failure = std::optional<Diagnostic>;
 
   [[nodiscard]] Failure run_next();
+  // Tells a program that does not end.
+  [[nodiscard]] Failure count_block(const Block& block);
   [[nodiscard]] bool goes_on(const Diagnostic& failure) const;
   // The end of the text, a tape mark, or the next program: fine for a main program only.
   [[nodiscard]] Failure run_off(const Block* end);
@@ -85,6 +87,9 @@ class ProgramRun {
   std::map<std::string, std::shared_ptr<LoadedProgram>> files_{};
   std::vector<CallFrame> frames_{};
   std::uint64_t blocks_ = 0;
+  // Motions so far, and the blocks before the last of them.
+  std::uint64_t motions_ = 0;
+  std::uint64_t blocks_at_motion_ = 0;
   bool statement_ran_ = false;  // since the main program began, or began again by M99
   bool syntax_failed_ = false;
   // The else that a branch whose condition did not hold goes on with, by the offset of its block.

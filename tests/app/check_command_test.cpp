@@ -46,6 +46,30 @@ TEST_F(CheckCommandSystem, LeavesTheMachineOutWithANote) {
   EXPECT_NE(outcome.err.find("no --machine"), std::string::npos) << outcome.err;
 }
 
+TEST_F(CheckCommandSystem, CompensatesRadiiWithTheToolsThatItIsTold) {
+  write("part.nc",
+        "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG41 D1 X20\nX40\nG40 X60\n"
+        "G0 Z60\nM5\nM30\n");
+  const Outcome without = run("check part.nc");
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_NE(without.out.find("part.nc:6:5: error: the tool table has no tool 1"), std::string::npos)
+      << without.out;
+  EXPECT_EQ(run("check part.nc --tool-diameter 1=10").exit_code, 0);
+  write("tools.tbl", "T1 P1 D10 Z100\n");
+  EXPECT_EQ(run("check part.nc --tools tools.tbl").exit_code, 0);
+  EXPECT_EQ(run("check part.nc --tool-diameter 1=-1").exit_code, 2);
+}
+
+// What is said of the setup is read with a machine and without.
+TEST_F(CheckCommandSystem, RefusesASetupThatIsNone) {
+  write("part.nc", kGood);
+  for (const char* words : {"--offset foo", "--offset G99=1,2,3", "--offset G54.1P0=1,2,3",
+                            "--tool-length 1", "--tool-length a=b", "--search nowhere"}) {
+    EXPECT_NE(run(std::string("check part.nc ") + words).exit_code, 0) << words;
+  }
+  EXPECT_EQ(run("check part.nc --offset G54.1P1=1,2,3 --offset G59.1=0,0,0").exit_code, 0);
+}
+
 TEST_F(CheckCommandSystem, FailsOnWarningsWhenTold) {
   write("part.nc", "G0 X1\nG91\nM30\n");
   EXPECT_EQ(run("check part.nc").exit_code, 0);

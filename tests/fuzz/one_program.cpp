@@ -9,6 +9,9 @@
 
 #include "parser/canonical_json.hpp"
 #include "parser/interpreter.hpp"
+#include "parser/program.hpp"
+#include "parser/writing/block_text.hpp"
+#include "tests/parser/same_block.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 constexpr std::uint64_t kMaxBlocks = 10'000;
 constexpr int kMostToCheck = 2000;  // motions; the sanitizers make it slow
 constexpr std::size_t kMaxCalls = 32;
+constexpr std::size_t kMostToPrint = 4096;  // bytes
 
 // JSON has no infinities: they are written as null, which no motion has.
 bool has_null(const nlohmann::json& json) {
@@ -42,11 +46,24 @@ void check(const Diagnostics& failures, bool of_syntax) {
   }
 }
 
+// What is printed reads back as the same blocks.
+void check_printing(const Program& program) {
+  const std::vector<Block> blocks = blocks_of(program);
+  const std::string text = to_text(blocks, program.dialect);
+  const auto again = parse_program(text, "printed", program.dialect);
+  if (!again) throw std::runtime_error("what was printed is not read: " + text);
+  const std::vector<Block> read = blocks_of(*again);
+  if (!std::equal(blocks.begin(), blocks.end(), read.begin(), read.end(), same_block)) {
+    throw std::runtime_error("what was printed reads as other blocks: " + text);
+  }
+}
+
 }  // namespace
 
 void run_one_program(std::string_view text, Dialect dialect) {
   const auto program = parse_program(text, "fuzz", dialect);
   if (!program) return check(program.error(), true);
+  if (text.size() <= kMostToPrint) check_printing(*program);
   InterpreterOptions options;
   options.max_blocks = kMaxBlocks;
   options.max_call_depth = kMaxCalls;

@@ -49,6 +49,8 @@ TEST_P(EachCheck, CanBeLeftOut) {
 }
 
 const std::string kCut = "G1 Z-1 F200\n";
+// Along X with a tool of 5 mm radius on its left.
+const std::string kSide = "G10 L12 P1 R5\nG41 D1\nG1 X20 F100\nX40\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Checks, EachCheck,
@@ -94,6 +96,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"arc-tiny", whole("G2 X0.01 Y0 I0.005 J0 F200\n"), 5, "0.005 mm",
              whole("G2 X1 Y0 I0.5 J0 F200\n")},
         Case{"arc-huge", whole("G2 X1 Y0 R20000 F200\n"), 5, "20 m", whole("G2 X1 Y0 R200 F200\n")},
+        Case{"radius-gouge", whole(kSide + "G3 X42 Y0 I1\nG1 X60\nG40 X80\n"), 9, "of radius 5",
+             whole(kSide + "G3 X60 Y0 I10\nG1 X70\nG40 X80\n")},
+        Case{"radius-compensation", whole("G41 D7\nG1 X20 F100\nG40 X30\n"), 5, "no tool 7",
+             whole(kSide + "G40 X60\n")},
         Case{"short-segments", whole(kCut + "X0.001\nX0.002\nX1\n"), 6,
              "2 cutting moves are shorter", whole(kCut + "X0.1\n")},
         Case{"tip-control-off", whole("G0 C0\nG1 X10 C90 F200\n"), 6, "X and C cut together",

@@ -112,6 +112,15 @@ TEST(CldataWords, TellWhatTheyDoNotSimulate) {
                                             "message|DONE"}));
 }
 
+// $ continues any record but those that are text to their end.
+TEST(CldataWords, GoOnOnTheNextLineButForTexts) {
+  const auto events =
+      all_of<Event>(run("CUTTER/ 10.0,  2.0,$\n 0.0, 50.0 $$ mill\nPPRINT COSTS 5 $\n"));
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0].name + "|" + events[0].text, "CUTTER|10.0,  2.0,0.0, 50.0");
+  EXPECT_EQ(events[2].name + "|" + events[2].text, "message|COSTS 5 $");
+}
+
 TEST(CldataWords, GiveFeedsInEveryOrderAndUnit) {
   const auto feed = [](const std::string& record, const char* unit = "MM") {
     const Feed found = last_of<LinearFeed>(run(std::string("UNITS/") + unit +

@@ -98,6 +98,8 @@ constexpr Mistake kLinuxcnc[] = {
 };
 
 constexpr Mistake kFanuc[] = {
+    {"O1;G0X1.;G1X2.F100;\n", "1:4: error: a second block behind ;"},
+    {"G0X1.;X2.\n", "1:7: error: a second block behind ;"},
     {"G10 L2 P7 X0\n", "1:8: error: P7 is out of range"},
     {"G10 L3 P1 X0\n", "1:5: error: G10 L3 is not known"},
     {"G10 L2 P1 R5\n", "1:11: error: R5 has no meaning with G10 L2"},

@@ -78,6 +78,20 @@ TEST(Dialect, IsRecognisedByTheNameWhenTheContentIsSilent) {
   EXPECT_EQ(found("a.nc").reason, "nothing says otherwise");
 }
 
+TEST(Dialect, IsRecognisedBehindAByteOrderMarkAndByWordsWithNumbers) {
+  const auto reason = [](std::string_view text) { return recognise_dialect(text, "a.txt").reason; };
+  EXPECT_EQ(reason("\xEF\xBB\xBF\x30 BEGIN PGM A MM\n"), "line 1: BEGIN PGM");
+  EXPECT_EQ(reason("G0 X0\no100 sub\n"), "line 2: O100 SUB");
+  EXPECT_EQ(reason("N5 R12=5.5\n"), "line 1: R12=");
+  EXPECT_EQ(reason("G2 X10 Y0 CR = 10\n"), "line 1: CR =");
+  EXPECT_EQ(reason("T=\"MILL\" M6\n"), "line 1: T=\"");
+  EXPECT_EQ(reason("CYCLE82(5,0)\n"), "line 1: CYCLE82(");
+  EXPECT_EQ(reason("MCALL CYCLE81(5,0)\n"), "line 1: MCALL");
+  EXPECT_EQ(reason("12 Q5 = +60\n"), "line 1: Q5 =");
+  EXPECT_EQ(reason("PPRINT/X=5\n"), "line 1: PPRINT");
+  EXPECT_EQ(reason("; X=5\n#<x>=5\n"), "nothing says otherwise");
+}
+
 TEST(Dialect, IsNotRecognisedByWordsOfComments) {
   EXPECT_EQ(recognise_dialect("(TRAORI, GOTO/1,2,3)\nG0 X0 ; TRAORI\n", "a.nc").reason,
             "nothing says otherwise");

@@ -50,6 +50,17 @@ TEST(FanucCycle, BackBoreEntersBesideTheHoleAndCutsUp) {
             "rapid 7 6 9; rapid 5 6 9; on; ");
 }
 
+// A row of holes: R and Z keep the meaning of the block that gave them.
+TEST(FanucCycle, KeepsItsLevelsWhenTheModeOfDistanceChanges) {
+  EXPECT_EQ(steps("G0 X0 Y0 Z100\nS1 M3\nG99 G81 X1 Z-10 R2 F10\nG91 X10 K2\n"),
+            "rapid 0 0 100; on; rapid 1 0 100; rapid 1 0 2; feed 1 0 -10; rapid 1 0 2; "
+            "rapid 11 0 2; feed 11 0 -10; rapid 11 0 2; rapid 21 0 2; feed 21 0 -10; "
+            "rapid 21 0 2; ");
+  EXPECT_EQ(steps("G0 X0 Y0 Z100\nS1 M3\nG91 G99 G81 X1 Z-5 R-98 F10\nG90 X10\n"),
+            "rapid 0 0 100; on; rapid 1 0 100; rapid 1 0 2; feed 1 0 -3; rapid 1 0 2; "
+            "rapid 10 0 2; feed 10 0 -3; rapid 10 0 2; ");
+}
+
 TEST(FanucCycle, RepeatsByK) {
   EXPECT_EQ(
       all_of<LinearFeed>(motions("G0 X0 Y0 Z9\nG91 G99 G81 X10 R-7 Z-5 K3 F50\nG80\n")).size(), 3U);

@@ -218,9 +218,13 @@ TEST(Interpreter, AcceptsTheSafeLineOfPostProcessors) {
                   .empty());
 }
 
-TEST(Interpreter, CancelsTheMotionByG80Alone) {
-  EXPECT_EQ(state_after("G1\nG80\n").motion, MotionMode::none);
+// In LinuxCNC G80 ends any motion; Fanuc has cycles in a group of their own.
+TEST(Interpreter, CancelsTheMotionOrTheCycleByG80) {
+  EXPECT_EQ(complaints("G0 X1\nG80\nX5\n", {}, Dialect::linuxcnc).size(), 1U);
+  EXPECT_EQ(state_after("G1\nG80\n").motion, MotionMode::linear);
   EXPECT_EQ(state_after("G80 G0\n").motion, MotionMode::traverse);
+  const char* holes = "G0 X0 Y0 Z10\nS1 M3\nG81 X1 Z-1 R1 F10\nG80\nX8\n";
+  EXPECT_EQ(last_of<Traverse>(motions(holes)).end[AxisLetter::X], 8.0);
 }
 
 TEST(Interpreter, ReadsEveryWorkOffset) {
@@ -229,6 +233,18 @@ TEST(Interpreter, ReadsEveryWorkOffset) {
     numbers.push_back(change.number);
   }
   EXPECT_EQ(numbers, (std::vector<int>{1, 2, 3, 4, 5, 6}));
+}
+
+// A loop that computes on and on without a motion is told long before the limit of all blocks.
+TEST(Interpreter, TellsALoopThatDoesNotEnd) {
+  const char* loop = "G0 X0\n#1=0\nWHILE[#1 LT 900]DO1\n#1=#1+1\nEND1\nG0 X1\n";
+  InterpreterOptions options;
+  options.max_idle_blocks = 1000;
+  const auto told = complaints(loop, options);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("more than 1000 blocks have run without a motion"), std::string::npos);
+  options.max_idle_blocks = 3000;
+  EXPECT_TRUE(complaints(loop, options).empty());
 }
 
 TEST(Interpreter, CountsTheBlocksItRan) {
