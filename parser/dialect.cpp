@@ -75,7 +75,7 @@ constexpr std::array kSigns{
     Sign{Dialect::sinumerik, "Y =", Where::word},
     Sign{Dialect::sinumerik, "Z =", Where::word},
     Sign{Dialect::sinumerik, "T = \"", Where::word},
-    Sign{Dialect::sinumerik, "CYCLE#(", Where::word},
+    Sign{Dialect::sinumerik, "CYCLE#", Where::word},
     Sign{Dialect::sinumerik, "MCALL", Where::start},
     Sign{Dialect::sinumerik, "TRANS X", Where::start},
     Sign{Dialect::sinumerik, "TRANS Y", Where::start},
