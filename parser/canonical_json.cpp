@@ -34,14 +34,19 @@ double degrees_of(double radians) {
   return rounded * kRadPerDeg == radians ? rounded : degrees;
 }
 
-Json json_of(const Vec3& vector) { return Json::array({vector.x(), vector.y(), vector.z()}); }
+// Turned frames leave -0 behind, which means no more than 0.
+double plain(double value) { return value + 0.0; }
+
+Json json_of(const Vec3& vector) {
+  return Json::array({plain(vector.x()), plain(vector.y()), plain(vector.z())});
+}
 
 Json json_of(const AxisTarget& target) {
   Json json = Json::object();
   for (const AxisLetter axis : kAxisLetters) {
     if (!target[axis]) continue;
     json[std::string(1, to_char(axis))] =
-        is_rotary(axis) ? degrees_of(*target[axis]) : *target[axis];
+        plain(is_rotary(axis) ? degrees_of(*target[axis]) : *target[axis]);
   }
   return json;
 }

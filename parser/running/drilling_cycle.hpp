@@ -10,7 +10,7 @@
 // Units : mm, mm/min, seconds
 // Shape : pecks() below RFP, rising, the last one the whole depth
 // Errors: none; the words are checked by the caller
-// Source: SINUMERIK 840D, programming guide of the cycles, 11.02, drilling cycles
+// Source: SINUMERIK 840D, programming guide of the cycles, drilling cycles
 #pragma once
 
 #include <optional>

@@ -86,7 +86,7 @@ TEST(Dialect, IsRecognisedBehindAByteOrderMarkAndByWordsWithNumbers) {
   EXPECT_EQ(reason("G2 X10 Y0 CR = 10\n"), "line 1: CR =");
   EXPECT_EQ(reason("T=\"MILL\" M6\n"), "line 1: T=\"");
   EXPECT_EQ(reason("CYCLE82(5,0)\n"), "line 1: CYCLE82");
-  EXPECT_EQ(reason("MCALL CYCLE81(5,0)\n"), "line 1: MCALL");
+  EXPECT_EQ(reason("MCALL CYCLE81(5,0)\n"), "line 1: CYCLE81");
   EXPECT_EQ(reason("12 Q5 = +60\n"), "line 1: Q5 =");
   EXPECT_EQ(reason("PPRINT/X=5\n"), "line 1: PPRINT");
   EXPECT_EQ(reason("; X=5\n#<x>=5\n"), "nothing says otherwise");
