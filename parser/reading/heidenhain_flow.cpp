@@ -149,7 +149,13 @@ class FlowReader {
     }
     draft_.begin_flow(FlowKind::call, column);
     read_label_name();
-    if (in_.take_name("REP")) {
+    const std::uint32_t place = in_.column();
+    constexpr std::string_view kRepeat = "REP";
+    const bool repeats = in_.letters().starts_with(kRepeat);
+    in_.go_to(place);
+    if (repeats) {
+      // REP 6, REP6, REPQ1
+      in_.go_to(place + static_cast<std::uint32_t>(kRepeat.size()));
       block_.flow->kind = FlowKind::repeat_part;
       block_.flow->condition = draft_.read_expression(ExpressionLevel::operand);
       // Older controls show how many are left.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <vector>
 
@@ -23,10 +24,18 @@ constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL", "BE
                                  "END", "BLK",  "STOP",  "FN",       "LBL",  "CALL",
                                  "M3",  "Q1",   "RND",   "CHF"};
 
+std::string in_capitals(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
 class HeidenhainReader {
  public:
   HeidenhainReader(std::string_view text, std::uint32_t line, std::string& program)
-      : draft_(text, line, heidenhain_expressions()), program_(program) {}
+      : draft_(text, line, heidenhain_expressions()), program_(program) {
+    in_.read_decimal_commas();
+  }
 
   Result<Block> operator()() {
     if (const auto digits = in_.digits(); !digits.empty()) {
@@ -91,7 +100,7 @@ class HeidenhainReader {
     std::string text = in_.text_to(";");
     const std::string called = text.substr(0, text.find(' '));
     if (name == "END") {
-      if (!program_.empty() && called != program_) {
+      if (!program_.empty() && in_capitals(called) != in_capitals(program_)) {
         return in_.fail(place, fmt::format("END PGM {} of the program {}", called, program_),
                         "BEGIN PGM and END PGM have the same name");
       }
@@ -99,8 +108,9 @@ class HeidenhainReader {
       return end_statement(draft_);
     }
     program_ = called;
-    const bool metric = text.ends_with(" MM") || text == "MM";
-    if (!metric && !text.ends_with(" INCH") && text != "INCH") {
+    const std::string unit = in_capitals(text.substr(text.find_last_of(' ') + 1));
+    const bool metric = unit == "MM";
+    if (!metric && unit != "INCH") {
       return in_.fail(place, "BEGIN PGM has no unit", "end it with MM or INCH");
     }
     add_code(block_, *find_code(Dialect::heidenhain, metric ? "BEGIN PGM MM" : "BEGIN PGM INCH"),

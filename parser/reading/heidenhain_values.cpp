@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <numbers>
 
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain_statements.hpp"
@@ -26,12 +27,28 @@ constexpr std::array kFunctions{
     ExpressionFunction{"ACOS", Operation::arc_cosine},
     ExpressionFunction{"SQRT", Operation::square_root},
     ExpressionFunction{"ABS", Operation::absolute},
-    ExpressionFunction{"INT", Operation::fix},
+    ExpressionFunction{"INT", Operation::truncate},
     ExpressionFunction{"LN", Operation::logarithm},
     ExpressionFunction{"EXP", Operation::exponential},
 };
 
 bool read_variable(ExpressionReader& reader, const std::string& name, std::uint32_t column) {
+  if (name == "PI") {
+    reader.push_number(std::numbers::pi, column);
+    return true;
+  }
+  if (name == "SQ") {
+    reader.append(operand);
+    reader.push_number(2.0, column);
+    reader.push(Operation::power, column);
+    return true;
+  }
+  if (name == "NEG") {
+    reader.push_number(0.0, column);
+    reader.append(operand);
+    reader.push(Operation::subtract, column);
+    return true;
+  }
   if (!is_q_parameter(name)) return false;
   reader.push_name(name, column);
   return true;
@@ -45,8 +62,10 @@ constexpr ExpressionSpelling kSpelling{
     .read_variable = read_variable,
     .no_operand = "this is no parameter",
     .no_operand_hint = "parameters are Q1, QL1 and QR1",
-    .unknown_operand = "{} is no parameter",
-    .unknown_operand_hint = "parameters are Q1, QL1 and QR1",
+    .unknown_operand = "{} is no parameter and no function",
+    .unknown_operand_hint =
+        "parameters are Q1, QL1 and QR1; functions SIN COS TAN ASIN ACOS SQ SQRT LN EXP NEG ABS "
+        "INT; and PI",
     .too_deep_hint = "compute a part before",
     .open_bracket_is_told = true,
 };

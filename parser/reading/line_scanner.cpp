@@ -105,7 +105,9 @@ std::optional<ScannedNumber> LineScanner::number() {
     return place_ > first;
   };
   bool any = has_digits();
-  const bool point = peek_byte() == '.';
+  const bool comma = any && decimal_commas_ && peek_byte() == ',' && place_ + 1 < text_.size() &&
+                     is_digit(text_[place_ + 1]);
+  const bool point = comma || peek_byte() == '.';
   if (point) {
     ++place_;
     any = has_digits() || any;
@@ -114,7 +116,8 @@ std::optional<ScannedNumber> LineScanner::number() {
     place_ = start;
     return std::nullopt;
   }
-  const std::string digits(text_.substr(start, place_ - start));
+  std::string digits(text_.substr(start, place_ - start));
+  if (comma) digits[digits.find(',')] = '.';
   ScannedNumber found{0.0, point};
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), found.value);
   // Out of range is also what is too small, which is 0.

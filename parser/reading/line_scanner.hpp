@@ -26,6 +26,8 @@ class LineScanner {
  public:
   LineScanner(std::string_view text, std::uint32_t line);
 
+  // Numbers may have a comma for a decimal point: 1,5.
+  void read_decimal_commas() { decimal_commas_ = true; }
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] bool at_end();
   // The next character that is not blank, in upper case; 0 at the end.
@@ -71,6 +73,7 @@ class LineScanner {
   std::string_view text_;
   std::uint32_t line_ = 0;
   std::size_t place_ = 0;
+  bool decimal_commas_ = false;
   std::optional<Diagnostic> failure_{};
 };
 

@@ -29,6 +29,10 @@ const char* motion_name(MotionMode motion, Dialect dialect) {
   return (letters ? kNames : kPlain).at(static_cast<std::size_t>(motion));
 }
 
+std::string_view absolute_words(Dialect dialect) {
+  return dialect == Dialect::heidenhain ? "without I" : "in absolute coordinates (G90)";
+}
+
 // Whether X, Y or Z moves between two targets; an axis first placed now counts as moving.
 bool moves_linearly(const AxisTarget& before, const AxisTarget& after) {
   for (const AxisLetter axis : kSpatialAxes) {
@@ -157,7 +161,9 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
       return fail(
           movement.column,
           fmt::format("the start of the arc is not known: {}", position_.why_unknown(letter)),
-          "move to the start with G0 or G1 in G90 first");
+          rules_.dialect == Dialect::heidenhain
+              ? "move to the start by L before, with X and Y without I"
+              : "move to the start with G0 or G1 in G90 first");
     }
   }
   if (auto done = check_tool_length(movement); !done) return done;
@@ -279,13 +285,13 @@ BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLe
     return fail(words[letter].column,
                 fmt::format("{} is incremental, but {}", words.text_of(letter),
                             position_.why_unknown(axis)),
-                fmt::format("program {} once in absolute coordinates (G90) first", letter));
+                fmt::format("program {} once {} first", letter, absolute_words(rules_.dialect)));
   }
   if (state_.placed_in_other_frame.has(letter)) {
     return fail(words[letter].column,
                 fmt::format("{} is incremental, but the frame has changed since {} was programmed",
                             words.text_of(letter), letter),
-                fmt::format("program {} once in absolute coordinates (G90) first", letter));
+                fmt::format("program {} once {} first", letter, absolute_words(rules_.dialect)));
   }
   position_.set(axis, *position_[axis] + value);
   return Done{};

@@ -185,7 +185,8 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   next.scale = factor(given);
   if (!(next.scale > 0.0)) {
     return fail(words[given].column, fmt::format("{} is not above zero", words.text_of(given)),
-                "give a factor above zero, and mirror axes by G51.1");
+                fmt::format("give a factor above zero, and mirror axes by {}",
+                            klartext ? "CYCL DEF 8" : "G51.1"));
   }
   if (!(next.scale >= kLeastScale && next.scale <= kMostScale)) {
     return fail(words[given].column, fmt::format("{} is out of range", words.text_of(given)),
@@ -214,9 +215,12 @@ BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
   if (code.code == nullptr) return Done{};
   WordFrame next = state_.word_frame;
   if (next.turns() || next.scale != 1.0) {
-    return fail(code.column, fmt::format("{} within a turned or scaled frame", code.code->name()),
-                "mirror first, then scale, then turn, and end them the other way round: G69, G50, "
-                "G50.1");
+    return fail(
+        code.column, fmt::format("{} within a turned or scaled frame", code.code->name()),
+        rules_.dialect == Dialect::heidenhain
+            ? "end them before (CYCL DEF 10.1 ROT+0, 11.1 SCL 1), mirror, and begin them again"
+            : "mirror first, then scale, then turn, and end them the other way round: G69, "
+              "G50, G50.1");
   }
   const bool on = static_cast<MirrorWord>(code.code->value) == MirrorWord::on;
   const bool all = (words.given() & kLinearWords).empty();

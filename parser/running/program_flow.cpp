@@ -85,6 +85,10 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
     case FlowKind::repeat_part:
       return repeat(block);
     case FlowKind::label:
+      // A control for Klartext looks at all labels before it runs.
+      if (rules_.calls_whole_files && !frame().program->map().faults().empty()) {
+        return frame().program->map().faults().front();
+      }
       return block.words.empty() && block.assignments.empty() ? std::nullopt : execute(block);
     case FlowKind::program:
       return receive(block);

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FN Q1 = +1\n", "1:1: error: FN has no number"},
         Mistake{"Q1 + 2\n", "1:4: error: Q1 has no ="},
         Mistake{"Q1 = (2 + 3\n", "1:6: error: the bracket is not closed"},
-        Mistake{"Q1 = FOO\n", "1:6: error: FOO is no parameter"}));
+        Mistake{"Q1 = FOO\n", "1:6: error: FOO is no parameter and no function"}));
 
 }  // namespace
 }  // namespace frustum::parser

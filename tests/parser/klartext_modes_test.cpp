@@ -2,6 +2,7 @@
 // those of Fanuc and Sinumerik), arcs without an end.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -133,6 +134,59 @@ TEST(OrderOfWords, StopsBesideAMoveAreTheDialects) {
   EXPECT_EQ(order("S100 M3\nG28 Z0 M5 M9\nG4 P100 M5\n", Dialect::fanuc), "Srhscsd");
   // LinuxCNC has an order of its own: spindle and coolant before the move.
   EXPECT_EQ(order(program, Dialect::linuxcnc), "SCfscf");
+}
+
+TEST(KlartextForms, RepeatsMayFollowWithoutABlank) {
+  for (const char* repeats : {"REP2", "REP 2", "REPQ106", "REP Q106", "rep2"}) {
+    EXPECT_EQ(order(std::string("Q106 = 2\nLBL 1\nL X+1 FMAX\nCALL LBL 1 ") + repeats + "\n"),
+              "rrr")
+        << repeats;
+  }
+}
+
+TEST(KlartextForms, LettersMayBeSmall) {
+  EXPECT_EQ(feeds("begin pgm a mm\nl x+1 f10\nend pgm A mm\n"), std::vector<double>{10});
+  EXPECT_DOUBLE_EQ(feeds("begin pgm a inch\nl x+1 f10\n").front(), 25.4);
+  EXPECT_EQ(complaint("begin pgm a cm\n").substr(0, 37), "1:11: error: BEGIN PGM has no unit (h");
+}
+
+TEST(KlartextForms, NumbersMayHaveCommas) {
+  const auto move = last_of<Traverse>(run("Q1 = 0,25 * 4\nL X+1,5 Y-0,125 Z+Q1 FMAX\n"));
+  EXPECT_EQ(move.end[X], 1.5);
+  EXPECT_EQ(move.end[Y], -0.125);
+  EXPECT_EQ(move.end[Z], 1.0);
+  EXPECT_EQ(complaint("L X+1, Y+2 FMAX\n").substr(0, 26), "1:6: error: unexpected ','");
+}
+
+TEST(KlartextForms, FormulasHaveSquaresNegationsAndPi) {
+  const auto value = [](const std::string& formula) {
+    return *last_of<Traverse>(run("Q2 = 3\nQ1 = " + formula + "\nL X+Q1 FMAX\n")).end[X];
+  };
+  EXPECT_DOUBLE_EQ(value("SQ 10 - 3^3"), 73.0);
+  EXPECT_DOUBLE_EQ(value("SQ (Q2 + 1) * 2"), 32.0);
+  EXPECT_DOUBLE_EQ(value("NEG Q2 * 2"), -6.0);
+  EXPECT_DOUBLE_EQ(value("2 * PI * SQ NEG Q2"), 18.0 * std::acos(-1.0));
+  EXPECT_DOUBLE_EQ(value("INT -2.5"), -2.0);
+  EXPECT_DOUBLE_EQ(value("INT 2.5"), 2.0);
+  EXPECT_EQ(complaint("Q1 = FOO Q2\n").substr(0, 50),
+            "1:6: error: FOO is no parameter and no function (h");
+}
+
+TEST(KlartextLabels, MayNotBeThereTwice) {
+  EXPECT_EQ(complaint("LBL 1\nLBL 0\nL X+1 FMAX\nLBL 1\nLBL 0\n"),
+            "4:1: error: 1 is already on line 1 (hint: give each its own name)");
+  EXPECT_EQ(order("LBL 1\nLBL 0\nLBL 2\nL X+1 FMAX\nLBL 0\n"), "r");
+}
+
+TEST(KlartextHints, SpeakKlartext) {
+  EXPECT_EQ(
+      complaint("CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+30\nCYCL DEF 8.0 MIRROR IMAGE\n"
+                "CYCL DEF 8.1 X\n"),
+      "4:1: error: CYCL DEF 8 within a turned or scaled frame (hint: end them before (CYCL DEF "
+      "10.1 ROT+0, 11.1 SCL 1), mirror, and begin them again)");
+  EXPECT_EQ(complaint("L IX+5 FMAX\n"),
+            "1:3: error: IX5 is incremental, but X has not been programmed yet (hint: program X "
+            "once without I first)");
 }
 
 TEST(KlartextArcs, WithoutAnEndGoOnceRound) {
