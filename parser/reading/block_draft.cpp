@@ -15,9 +15,14 @@ void BlockDraft::read_value(Word& word, ExpressionLevel level) {
   block.steps.pop_back();
 }
 
+bool BlockDraft::begun() const {
+  return block.flow || !block.words.empty() || !block.assignments.empty() ||
+         !block.comments.empty();
+}
+
 bool BlockDraft::labelled() const {
   return block.flow && block.flow->kind == FlowKind::label && block.words.empty() &&
-         block.assignments.empty();
+         block.assignments.empty() && block.comments.empty();
 }
 
 void BlockDraft::begin_flow(FlowKind kind, std::uint32_t column) {

@@ -38,6 +38,8 @@ struct BlockDraft {
   void read_value(Word& word, ExpressionLevel level);
   // A label is all that there is so far; a statement may follow it.
   [[nodiscard]] bool labelled() const;
+  // Whether anything but / and N stands before.
+  [[nodiscard]] bool begun() const;
   void begin_flow(FlowKind kind, std::uint32_t column);
   // name = expression; the = is read already.
   void begin_setting(const std::string& name, std::uint32_t column);

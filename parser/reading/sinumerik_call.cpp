@@ -49,9 +49,8 @@ std::string read_variable_name(LineScanner& in) {
 }
 
 bool stands_alone(BlockDraft& draft, std::uint32_t column, bool behind_label = true) {
-  const Block& block = draft.block;
   if (behind_label && draft.labelled()) return true;
-  if (!block.flow && block.words.empty() && block.assignments.empty()) return true;
+  if (!draft.begun()) return true;
   draft.in.fail(column, "a statement behind other words", "write it in a block of its own");
   return false;
 }

@@ -97,8 +97,7 @@ class FlowReader {
 
  private:
   void begin_flow(FlowKind kind, std::uint32_t column) {
-    const bool behind = block_.flow || !block_.words.empty() || !block_.assignments.empty();
-    if (behind && (!draft_.labelled() || kind == FlowKind::label)) {
+    if (draft_.begun() && (!draft_.labelled() || kind == FlowKind::label)) {
       in_.fail(column, "a statement behind other words", "write it in a block of its own");
       return;
     }

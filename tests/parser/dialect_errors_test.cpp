@@ -124,6 +124,8 @@ constexpr Mistake kFanuc[] = {
 };
 
 constexpr Mistake kSinumerik[] = {
+    {"MSG(\"x\") SLOT\n", "1:10: error: a statement behind other words"},
+    {"MSG(\"x\") GOTOF A\n", "1:10: error: a statement behind other words"},
     {"G1 X=R5 F100+\n", "1:13: error: unexpected '+'"},
     {"G0 X1 foo\n", "1:7: error: unknown word FOO"},
     {"TOFRAME\n", "1:1: error: TOFRAME is not simulated"},
