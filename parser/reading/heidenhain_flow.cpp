@@ -172,7 +172,7 @@ class FlowReader {
       return in_.fail(column, "the name is not closed", "close it with \"");
     }
     if (const auto folder = name.find_last_of("\\/:"); folder != std::string::npos) {
-      name.erase(0, folder + 1);
+      name.erase(0, std::min(name.find_first_not_of(' ', folder + 1), name.size()));
     }
     const std::size_t point = name.find_last_of('.');
     const std::string ending = point == std::string::npos ? ".H" : name.substr(point);

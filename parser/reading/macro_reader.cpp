@@ -135,11 +135,19 @@ class MacroReader {
     read_expression(flow_.condition);
   }
 
+  // The block without the statement, which is blanked out.
+  Result<Block> around() {
+    std::string text(text_);
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(start_),
+              text.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
+    auto read = parse_block(text, block_.line, Arithmetic::custom_macro);
+    if (!read || !read->tape_mark) return read;
+    in_.fail_unexpected("% stands alone on its line");
+    return in_.finish(std::move(block_));
+  }
+
   Result<Block> around_statement() {
-    std::string around(text_);
-    std::fill(around.begin() + static_cast<std::ptrdiff_t>(start_),
-              around.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
-    auto read = parse_block(around, block_.line, Arithmetic::custom_macro);
+    auto read = around();
     if (!read) return read;
     Block whole = *std::move(read);
     const bool acts = !whole.words.empty() || !whole.assignments.empty();
@@ -156,10 +164,7 @@ class MacroReader {
   }
 
   Result<Block> around_output() {
-    std::string around(text_);
-    std::fill(around.begin() + static_cast<std::ptrdiff_t>(start_),
-              around.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
-    auto read = parse_block(around, block_.line, Arithmetic::custom_macro);
+    auto read = around();
     if (read) read->comments.insert(read->comments.begin(), comment_);
     return read;
   }

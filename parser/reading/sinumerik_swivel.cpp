@@ -36,6 +36,12 @@ class SwivelReader {
   explicit SwivelReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
 
   void read(std::uint32_t column) {
+    const auto is_swivel = [](const Word& word) {
+      return word.letter == kNamedWord && code_at(word.number).word.starts_with("CYCLE800");
+    };
+    if (std::any_of(block_.words.begin(), block_.words.end(), is_swivel)) {
+      return in_.fail(column, "CYCLE800 twice in a block", "write two blocks");
+    }
     const bool bare = !in_.take('(');
     std::string data = "0";
     std::string written;

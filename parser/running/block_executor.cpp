@@ -207,7 +207,7 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
         CodeGroup::hole_cycle, CodeGroup::drilling_cycle, CodeGroup::corner}) {
     const Code* frame = words[group].code;
     if (frame != nullptr && !frame->arguments.empty()) {
-      return Movement{non_modal, MotionMode::none, 0};
+      return Movement{non_modal, MotionMode::none, non_modal_code.column};
     }
   }
   const bool of_nurbs = mode == MotionMode::nurbs || mode == MotionMode::nurbs_end;
@@ -218,13 +218,14 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   const bool axes_of_tool =
       length.code != nullptr && !(length.code->arguments & kAxisWords).empty();
   if (axes_of_tool && motion_code.code == nullptr) {
-    return Movement{non_modal, MotionMode::none, 0};
+    return Movement{non_modal, MotionMode::none, non_modal_code.column};
   }
   // Without an end the arc about the pole goes once round.
   const bool circle =
       rules_.arcs_turn_about_pole && motion_code.code != nullptr &&
       (mode == MotionMode::arc_clockwise || mode == MotionMode::arc_counterclockwise);
-  if (move_words.empty() && !circle) return Movement{non_modal, MotionMode::none, 0};
+  if (move_words.empty() && !circle)
+    return Movement{non_modal, MotionMode::none, non_modal_code.column};
   const std::uint32_t column =
       motion_code.code != nullptr ? motion_code.column : words[words.first_of(move_words)].column;
   return Movement{non_modal, mode, column};

@@ -98,6 +98,8 @@ constexpr Mistake kLinuxcnc[] = {
 };
 
 constexpr Mistake kFanuc[] = {
+    {"DO1%\n", "1:4: error: unexpected %"},
+    {"POPEN %\n", "1:7: error: unexpected %"},
     {"O1;G0X1.;G1X2.F100;\n", "1:4: error: a second block behind ;"},
     {"G0X1.;X2.\n", "1:7: error: a second block behind ;"},
     {"G10 L2 P7 X0\n", "1:8: error: P7 is out of range"},
@@ -124,6 +126,7 @@ constexpr Mistake kFanuc[] = {
 };
 
 constexpr Mistake kSinumerik[] = {
+    {"CYCLE800() CYCLE800()\n", "1:12: error: CYCLE800 twice in a block"},
     {"MSG(\"x\") SLOT\n", "1:10: error: a statement behind other words"},
     {"MSG(\"x\") GOTOF A\n", "1:10: error: a statement behind other words"},
     {"G1 X=R5 F100+\n", "1:13: error: unexpected '+'"},
