@@ -57,6 +57,17 @@ TEST_F(CutCommandSystem, ShowsThePartAtAnyMoment) {
   EXPECT_EQ(cut("--point 0,5,0")["made_by"]["line"], 7);
 }
 
+// The shoulder lies on the contour: the radius is that of the job's tool, and the contour in a file of its own.
+TEST_F(CutCommandSystem, CompensatesTheRadiusOfTheJobsTool) {
+  write_plate();
+  std::ofstream(folder_ / "plate.nc") << "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\n"
+                                         "G0 X-60 Y0 Z10\nG0 Z-5\nM98 P7\nG0 Z10\nM30\n";
+  std::ofstream(folder_ / "O7.nc") << "O7\nG1 G41 D1 X-50 Y10 F600\nX60\nG40 X80\nM99\n";
+  EXPECT_NEAR(cut("--removal removal.csv --pitch 1")["removal"]["volume_mm3"].get<double>(), 4000.0,
+              1e-3);
+  EXPECT_EQ(cut("--point 0,10,-2")["made_by"]["on_surface"], true);
+}
+
 TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
   write_plate();
   cut("--mesh film.ply --pitch 2 --snapshots 4");
