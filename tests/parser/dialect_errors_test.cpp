@@ -98,8 +98,8 @@ constexpr Mistake kLinuxcnc[] = {
 };
 
 constexpr Mistake kFanuc[] = {
-    {"DO1%\n", "1:4: error: unexpected %"},
-    {"POPEN %\n", "1:7: error: unexpected %"},
+    {"DO1%\n", "1:4: error: unexpected '%'"},
+    {"POPEN %\n", "1:7: error: unexpected '%'"},
     {"O1;G0X1.;G1X2.F100;\n", "1:4: error: a second block behind ;"},
     {"G0X1.;X2.\n", "1:7: error: a second block behind ;"},
     {"G10 L2 P7 X0\n", "1:8: error: P7 is out of range"},
