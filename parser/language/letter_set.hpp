@@ -4,6 +4,7 @@
 // Errors: none
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string_view>
 
@@ -27,6 +28,11 @@ class LetterSet {
   [[nodiscard]] constexpr LetterSet without(LetterSet other) const {
     return of(bits_ & ~other.bits_);
   }
+  // The first of the alphabet, capitals before small letters; of an empty set none.
+  [[nodiscard]] constexpr char first() const {
+    return static_cast<char>('A' + std::countr_zero(bits_));
+  }
+  [[nodiscard]] constexpr LetterSet without_first() const { return of(bits_ & (bits_ - 1)); }
   constexpr void add(char letter) { bits_ |= bit(letter); }
 
  private:

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -287,9 +288,9 @@ BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
     twice = twice | (claimed & letters);
     claimed = claimed | letters;
   };
-  for (std::size_t group = 0; group < kCodeGroups; ++group) {
-    const Code* code = words[static_cast<CodeGroup>(group)].code;
-    if (code != nullptr && !code->event) claim(code->arguments);
+  for (std::uint64_t groups = words.groups(); groups != 0; groups &= groups - 1) {
+    const Code* code = words[static_cast<CodeGroup>(std::countr_zero(groups))].code;
+    if (!code->event) claim(code->arguments);
   }
   for (const GivenCode& event : words.events()) claim(event.code->arguments);
   claim(motion_words(words, movement));

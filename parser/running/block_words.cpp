@@ -33,12 +33,11 @@ Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, d
 }  // namespace
 
 char BlockWords::first_of(LetterSet letters) const {
-  const LetterSet wanted = letters & given_;
-  if (wanted.empty()) return 0;
   char first = 0;
   std::uint32_t first_column = std::numeric_limits<std::uint32_t>::max();
-  for (char letter = 'A'; letter <= 'z'; ++letter) {
-    if (!wanted.has(letter) || (*this)[letter].column >= first_column) continue;
+  for (LetterSet wanted = letters & given_; !wanted.empty(); wanted = wanted.without_first()) {
+    const char letter = wanted.first();
+    if ((*this)[letter].column >= first_column) continue;
     first = letter;
     first_column = (*this)[letter].column;
   }
@@ -68,6 +67,12 @@ std::string BlockWords::text_of(char letter) const {
   return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
 }
 
+namespace {
+std::uint64_t bit_of(CodeGroup group) {
+  return std::uint64_t{1} << static_cast<std::size_t>(group);
+}
+}  // namespace
+
 std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
   const auto is_meant = [tenths](const GivenCode& given) {
     return given.code != nullptr && given.code->letter == 'M' &&
@@ -81,7 +86,10 @@ std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
   for (const CodeGroup group : {CodeGroup::spindle, CodeGroup::coolant, CodeGroup::feed_mode,
                                 CodeGroup::tool_tip, CodeGroup::rotary_path}) {
     const auto slot = static_cast<std::size_t>(group);
-    if (is_meant(codes_[slot])) others().codes_[slot] = std::exchange(codes_[slot], {});
+    if ((groups_ & bit_of(group)) == 0 || !is_meant(codes_[slot])) continue;
+    others().codes_[slot] = std::exchange(codes_[slot], {});
+    groups_ &= ~bit_of(group);
+    others().groups_ |= bit_of(group);
   }
   for (auto event = events_.begin(); event != events_.end();) {
     if (!is_meant(*event)) {
@@ -142,6 +150,7 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
                 "leave one of them out, or write two blocks");
     }
     place = {code, word.column};
+    words.groups_ |= bit_of(code->group);
   }
   return words;
 }

@@ -47,6 +47,8 @@ class BlockWords {
     const Code* code = (*this)[group].code;
     return code == nullptr || code->event ? otherwise : static_cast<Value>(code->value);
   }
+  // The groups that the block has a code of, a bit each.
+  [[nodiscard]] std::uint64_t groups() const { return groups_; }
   // Codes that are known but not simulated.
   [[nodiscard]] const std::vector<GivenCode>& events() const { return events_; }
   // The M words among `tenths` (ten times their numbers) leave the block, when there are any.
@@ -68,7 +70,9 @@ class BlockWords {
   const Block* block_ = nullptr;
   std::array<GivenWord, 'z' - 'A' + 1> values_{};
   LetterSet given_{};
+  static_assert(kCodeGroups <= 64);
   std::array<GivenCode, kCodeGroups> codes_{};
+  std::uint64_t groups_ = 0;
   std::vector<GivenCode> events_{};
   std::vector<GivenCode> vacant_{};
 };

@@ -24,7 +24,7 @@ void set_point(AxisTarget& target, const Vec3& point) {
 
 }  // namespace
 
-bool WordFrame::turns() const { return !turn.rotation.isIdentity(0.0); }
+bool WordFrame::turns() const { return turn.rotation != Mat3::Identity(); }
 
 bool WordFrame::is_identity() const {
   return shift.isZero(0.0) && turn.translation.isZero(0.0) &&
