@@ -33,6 +33,11 @@ class FlowReader {
     if (!number || !in_.take(':')) {
       return in_.fail(column, "FN has no number", "write FN 0: Q5 = +60");
     }
+    constexpr double kLastFn = 99.0;
+    if (number->value > kLastFn || number->decimal_point) {
+      return in_.fail(column, fmt::format("FN {} is not known", decimal_text(number->value)),
+                      "known are FN 0 to FN 16");
+    }
     const auto fn = static_cast<int>(number->value);
     constexpr std::array kComparisons{Operation::equal, Operation::not_equal, Operation::greater,
                                       Operation::less};
@@ -177,7 +182,7 @@ class FlowReader {
     const std::size_t point = name.find_last_of('.');
     const std::string ending = point == std::string::npos ? ".H" : name.substr(point);
     name.resize(std::min(point, name.size()));
-    if (name.empty() || name.find_first_not_of(". ") == std::string::npos) {
+    if (name.find_first_not_of(". ") == std::string::npos || name.find('"') != std::string::npos) {
       return in_.fail(column, "the call names no program",
                       "write CALL PGM and a name: CALL PGM SLOT.H");
     }

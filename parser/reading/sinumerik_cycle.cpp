@@ -120,6 +120,12 @@ bool is_sinumerik_cycle(std::string_view name) { return cycle_of(name) != nullpt
 void read_sinumerik_cycle(BlockDraft& draft, const std::string& name, std::uint32_t column) {
   LineScanner& in = draft.in;
   const auto parameters = cycle_of(name)->parameters;
+  const auto is_cycle = [](const Word& word) {
+    return word.letter == kNamedWord && is_sinumerik_cycle(code_at(word.number).word);
+  };
+  if (std::any_of(draft.block.words.begin(), draft.block.words.end(), is_cycle)) {
+    return in.fail(column, name + " beside another cycle", "write two blocks");
+  }
   add_code(draft.block, *find_code(Dialect::sinumerik, name), column);
   if (!in.take('(')) {
     in.fail(column, name + " has no parameters",

@@ -124,7 +124,8 @@ class SinumerikReader {
     if (letter == 'G') {
       // The limits of the spindle and of the working area have words of their own.
       const std::uint32_t start = in_.column();
-      const auto digits = in_.digits();
+      std::string_view digits = in_.digits();
+      digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
       if (digits == "25" || digits == "26") {
         return draft_.add_event(digits == "25" ? "G25" : "G26", column, in_.text_to(";"));
       }

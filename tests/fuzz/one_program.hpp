@@ -11,7 +11,8 @@
 
 namespace frustum::parser {
 
-// Reads it and runs at most 10,000 blocks of it.
+// Reads it and runs at most 10,000 blocks of it. With FUZZ_PRINTING in the environment short programs are printed
+// and read again, too.
 void run_one_program(std::string_view text, Dialect dialect);
 
 }  // namespace frustum::parser

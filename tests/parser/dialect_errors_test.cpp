@@ -126,6 +126,7 @@ constexpr Mistake kFanuc[] = {
 };
 
 constexpr Mistake kSinumerik[] = {
+    {"CYCLE81(9,0,2,-5) CYCLE82(9,0,2,-5)\n", "1:19: error: CYCLE82 beside another cycle"},
     {"CYCLE800() CYCLE800()\n", "1:12: error: CYCLE800 twice in a block"},
     {"MSG(\"x\") SLOT\n", "1:10: error: a statement behind other words"},
     {"MSG(\"x\") GOTOF A\n", "1:10: error: a statement behind other words"},
@@ -266,6 +267,9 @@ constexpr Mistake kSinumerik[] = {
 };
 
 constexpr Mistake kHeidenhain[] = {
+    {"CALL PGM A\"B\n", "1:10: error: the call names no program"},
+    {"FN 12345678: Q1 = +1\n", "1:1: error: FN 12345678 is not known"},
+    {"FN 1.5: Q1 = +1\n", "1:1: error: FN 1.5 is not known"},
     {"L X+1 RL F100\n", "1:7: error: RL without a tool in the spindle"},
     {"L X+1 F100 X+2\n", "1:12: error: X is given twice in a block"},
     {"L Q1\n", "1:3: error: Q has no meaning in L"},
