@@ -10,6 +10,10 @@
 namespace frustum::parser {
 namespace {
 
+std::uint64_t bit_of(CodeGroup group) {
+  return std::uint64_t{1} << static_cast<std::size_t>(group);
+}
+
 constexpr double kLargestValue = 1e15;
 
 Diagnostic at(const Block& block, std::uint32_t column, std::string message, std::string hint) {
@@ -66,12 +70,6 @@ std::string BlockWords::name_of(char letter) const {
 std::string BlockWords::text_of(char letter) const {
   return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
 }
-
-namespace {
-std::uint64_t bit_of(CodeGroup group) {
-  return std::uint64_t{1} << static_cast<std::size_t>(group);
-}
-}  // namespace
 
 std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
   const auto is_meant = [tenths](const GivenCode& given) {
