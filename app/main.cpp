@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "app/console.hpp"
+#include "app/view/console.hpp"
 
 int main(int argc, char** argv) {
   using namespace frustum::app;  // NOLINT: main is the whole program

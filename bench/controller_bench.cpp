@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "kinematics/controller.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/model/machine.hpp"
 
 namespace frustum::kinematics {
 namespace {

@@ -1,14 +1,14 @@
 // Material removal: how soon a workpiece is ready, probes by the second, meshes, and how a probe's time grows
 // with the program. Goals (two cores): cone ready in 0.1 s, 200,000 exact probes by the second and core,
-// 2,000,000 retraced ones, its mesh at 0.25 mm in 2 s; a million freeform blocks ready in 10 s and 4 GiB, probes no worse than log N.
+// 2,000,000 continued ones, its mesh at 0.25 mm in 2 s; a million freeform blocks ready in 10 s and 4 GiB, probes no worse than log N.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <memory>
 
 #include "bench/cut_scenes.hpp"
-#include "cutter/retrace.hpp"
-#include "stock/surface_mesh.hpp"
+#include "cutter/search/contact_continuation.hpp"
+#include "stock/mesh/surface_mesh.hpp"
 
 namespace frustum::bench {
 namespace {
@@ -47,7 +47,7 @@ void cone_exact_probes(benchmark::State& state) {
 BENCHMARK(cone_exact_probes);
 
 // The same probes on a machine whose table is 10 um and 20 urad off.
-void cone_retraced_probes(benchmark::State& state) {
+void cone_continued_probes(benchmark::State& state) {
   const stock::Workpiece part = ConeScene::cut(kConeBlocks);
   const cutter::SweptCutter& nominal = part.removed();
   ToolPath path = nominal.path();
@@ -55,14 +55,15 @@ void cone_retraced_probes(benchmark::State& state) {
   for (ToolPose& pose : path.poses)
     pose = {turn * pose.tip + Vec3(0.0, 0.01, 0.0), turn * pose.axis};
   const auto changed = cutter::ChangedPath::on(nominal, std::move(path));
-  std::vector<cutter::ContactTrail> trails;
+  std::vector<cutter::ContactContinuation> continuations;
   for (std::uint64_t k = 0; k < 4096; ++k) {
     const auto ray = ConeScene::probe(k);
-    trails.push_back(cutter::trail_of(nominal, ray, 0.0, *nominal.end_of_void(ray, 0.0, 10.0)));
+    continuations.push_back(
+        cutter::continuation_of(nominal, ray, 0.0, *nominal.end_of_void(ray, 0.0, 10.0)));
   }
   std::size_t k = 0, followed = 0;
   for (auto _ : state) {
-    const auto met = changed->follow(trails[k++ % trails.size()]);
+    const auto met = changed->follow(continuations[k++ % continuations.size()]);
     followed += met.has_value() ? 1U : 0U;
     benchmark::DoNotOptimize(met);
   }
@@ -93,7 +94,7 @@ void freeform_ready(benchmark::State& state) {
     const stock::Workpiece part(FreeformScene::blank(), *std::move(swept));
     state.counters["MiB"] = resident() - before;
   }
-  state.counters["blocks"] = static_cast<double>(path.stretches.size());
+  state.counters["blocks"] = static_cast<double>(path.segments.size());
 }
 BENCHMARK(freeform_ready)->Arg(1'000'000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
 

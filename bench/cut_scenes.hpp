@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::bench {
 
@@ -20,7 +20,7 @@ inline void add_pose(ToolPath& path, const ToolPose& pose) {
   if (path.poses.size() < 2) return;
   const auto block = static_cast<std::uint32_t>(path.blocks.size());
   path.blocks.push_back({.source_line = block + 1, .tool = 1});
-  path.stretches.push_back({static_cast<std::uint32_t>(path.poses.size() - 2), block});
+  path.segments.push_back({static_cast<std::uint32_t>(path.poses.size() - 2), block});
 }
 
 inline cutter::Cutter end_mill(cutter::CutterType type, double diameter, double flutes) {

@@ -9,7 +9,7 @@
 
 #include "core/random.hpp"
 #include "metrology/fit/association.hpp"
-#include "metrology/fit/extreme_association.hpp"
+#include "metrology/fit/minimax/extreme_association.hpp"
 
 namespace frustum::metrology {
 namespace {

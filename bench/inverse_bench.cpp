@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
-#include "kinematics/inverse.hpp"
-#include "kinematics/orientation_path.hpp"
-#include "kinematics/rotary_plan.hpp"
+#include "kinematics/controller/orientation_path.hpp"
+#include "kinematics/model/chain.hpp"
+#include "kinematics/model/inverse.hpp"
+#include "kinematics/model/rotary_plan.hpp"
 
 namespace frustum::kinematics {
 namespace {

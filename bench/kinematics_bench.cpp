@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
-#include "kinematics/error_gain.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/errors/error_gain.hpp"
+#include "kinematics/model/chain.hpp"
+#include "kinematics/model/machine.hpp"
 
 namespace frustum::kinematics {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/cut_scenes.hpp"
-#include "stock/surface_mesh.hpp"
+#include "stock/mesh/surface_mesh.hpp"
 
 namespace {
 
@@ -35,9 +35,9 @@ std::vector<manifold::Manifold> hulls(const kinematics::ToolPath& path, int face
     }
   };
   std::vector<manifold::Manifold> all;
-  for (const kinematics::Stretch& stretch : path.stretches) {
+  for (const kinematics::PathSegment& segment : path.segments) {
     std::vector<manifold::vec3> points;
-    for (const kinematics::ToolPose& pose : {path.from(stretch), path.to(stretch)}) {
+    for (const kinematics::ToolPose& pose : {path.from(segment), path.to(segment)}) {
       add_ring(points, pose, 0.0);
       add_ring(points, pose, 50.0);
     }

@@ -20,8 +20,17 @@ endif()
 add_library(frustum_flags INTERFACE)
 target_compile_features(frustum_flags INTERFACE cxx_std_20)
 target_compile_options(
-  frustum_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
+  frustum_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off
                           $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# Sources that are compiled together see each other's helpers: a local of the same name is no mistake then, and
+# a nameless namespace no longer belongs to the main file.
+if(FRUSTUM_UNITY)
+  target_compile_options(
+    frustum_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local;-Wno-subobject-linkage,-Wshadow>)
+else()
+  target_compile_options(frustum_flags INTERFACE -Wshadow)
+endif()
 
 # Our own assertions stay on in optimised builds (a wrong part is worse than a slow one); those of the
 # libraries, which sit in inner loops, do not.

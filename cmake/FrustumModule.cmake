@@ -1,20 +1,33 @@
-# frustum_module(NAME SOURCES a.cpp ... [USES frustum::core ...] [PRIVATE_USES ...])
+# frustum_module(NAME SOURCES a.cpp ... [HOT b.cpp ...] [ALONE c.cpp ...] [USES frustum::core ...]
+#                [PRIVATE_USES ...])
 #
 # One room: a static library frustum_NAME with alias frustum::NAME. USES are the arrows of the house;
-# PRIVATE_USES are libraries that only the room's .cpp files see.
+# PRIVATE_USES are libraries that only the room's .cpp files see. HOT sources run in innermost loops and are
+# compiled for speed; ALONE sources read headers so large, or are read with definitions of their own, that
+# they are compiled one at a time.
 function(frustum_module name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATE_USES" ${ARGN})
-  add_library(frustum_${name} STATIC ${ROOM_SOURCES})
-  add_library(frustum::${name} ALIAS frustum_${name})
-  set_target_properties(frustum_${name} PROPERTIES EXPORT_NAME ${name})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;HOT;ALONE;USES;PRIVATE_USES" ${ARGN})
+  set(room frustum_${name})
+  add_library(${room} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
+  frustum_unity(${room} 10 ${ROOM_SOURCES})
+  if(ROOM_HOT)
+    # Inlined as far as it goes, which what comes out of precompiled headers, made for -O2, is not.
+    add_library(${room}_hot OBJECT ${ROOM_HOT})
+    frustum_unity(${room}_hot 5 ${ROOM_HOT})
+    target_compile_options(${room}_hot PRIVATE $<$<CONFIG:Release>:-O3>)
+    target_include_directories(${room}_hot PRIVATE "${PROJECT_SOURCE_DIR}")
+    target_link_libraries(${room}_hot PRIVATE ${ROOM_USES} frustum_flags ${ROOM_PRIVATE_USES})
+    target_sources(${room} PRIVATE $<TARGET_OBJECTS:${room}_hot>)
+  endif()
+  add_library(frustum::${name} ALIAS ${room})
+  set_target_properties(${room} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(
-    frustum_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                           $<INSTALL_INTERFACE:include/frustum>)
-  target_compile_features(frustum_${name} PUBLIC cxx_std_20)
+    ${room} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/frustum>)
+  target_compile_features(${room} PUBLIC cxx_std_20)
   target_link_libraries(
-    frustum_${name}
+    ${room}
     PUBLIC ${ROOM_USES}
     PRIVATE $<BUILD_INTERFACE:frustum_flags> ${ROOM_PRIVATE_USES})
-  frustum_precompile(frustum_${name})
+  frustum_precompile(${room})
   set_property(GLOBAL APPEND PROPERTY FRUSTUM_ROOMS ${name})
 endfunction()

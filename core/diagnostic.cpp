@@ -6,8 +6,19 @@
 
 namespace frustum {
 
+Diagnostic error(DiagnosticId id, std::string message, std::string hint) {
+  return {.id = id, .message = std::move(message), .hint = std::move(hint)};
+}
+
 Diagnostic error(std::string message, std::string hint) {
   return {.message = std::move(message), .hint = std::move(hint)};
+}
+
+Diagnostic warning(DiagnosticId id, std::string message, std::string hint) {
+  return {.severity = Severity::warning,
+          .id = id,
+          .message = std::move(message),
+          .hint = std::move(hint)};
 }
 
 Diagnostic warning(std::string message, std::string hint) {

@@ -113,12 +113,21 @@ const Node* TomlTable::find(std::string_view key, bool required) const {
   for (const auto& [name, child] : table.entries) {
     if (name == key) return &child;
   }
-  if (required) fail(key, "this key is missing");
+  if (required) fail(key, "missing-key"_id, "this key is missing");
   return nullptr;
 }
 
 void TomlTable::fail(std::string_view key, std::string message, std::string hint) const {
-  Diagnostic diagnostic = frustum::error(std::move(message), std::move(hint));
+  fail(key, "bad-value"_id, std::move(message), std::move(hint));
+}
+
+void TomlTable::fail(std::string_view key, const Diagnostic& found) const {
+  fail(key, found.id, found.message, found.hint);
+}
+
+void TomlTable::fail(std::string_view key, DiagnosticId id, std::string message,
+                     std::string hint) const {
+  Diagnostic diagnostic = frustum::error(id, std::move(message), std::move(hint));
   diagnostic.file = state_->file.string();
   diagnostic.key = joined(path_, key);
   const Node* place = node_;
@@ -157,7 +166,7 @@ std::string TomlTable::text(std::string_view key) const {
   const Node* node = find(key, true);
   if (node == nullptr) return {};
   if (const auto* text = std::get_if<std::string>(&node->value)) return *text;
-  fail(key, fmt::format("expected text, found {}", kind_of(*node)));
+  fail(key, "wrong-type"_id, fmt::format("expected text, found {}", kind_of(*node)));
   return {};
 }
 
@@ -188,9 +197,9 @@ std::size_t TomlTable::choice_or(std::string_view key, const std::vector<std::st
 
 double TomlTable::bounded(std::string_view key, double value, Bound bound) const {
   if (bound == Bound::positive && !(value > 0.0)) {
-    fail(key, fmt::format("must be greater than 0, is {:g}", value));
+    fail(key, "out-of-range"_id, fmt::format("must be greater than 0, is {:g}", value));
   } else if (bound == Bound::non_negative && !(value >= 0.0)) {
-    fail(key, fmt::format("must not be negative, is {:g}", value));
+    fail(key, "out-of-range"_id, fmt::format("must not be negative, is {:g}", value));
   }
   return value;
 }
@@ -199,7 +208,7 @@ double TomlTable::number(std::string_view key, Bound bound) const {
   const Node* node = find(key, true);
   if (node == nullptr) return 1.0;
   if (const auto value = as_number(*node)) return bounded(key, *value, bound);
-  fail(key, fmt::format("expected a finite number, found {}", kind_of(*node)));
+  fail(key, "wrong-type"_id, fmt::format("expected a finite number, found {}", kind_of(*node)));
   return 1.0;
 }
 
@@ -214,7 +223,7 @@ std::int64_t TomlTable::integer(std::string_view key, Bound bound) const {
     bounded(key, static_cast<double>(*whole), bound);
     return *whole;
   }
-  fail(key, fmt::format("expected a whole number, found {}", kind_of(*node)));
+  fail(key, "wrong-type"_id, fmt::format("expected a whole number, found {}", kind_of(*node)));
   return 1;
 }
 
@@ -226,7 +235,7 @@ bool TomlTable::boolean_or(std::string_view key, bool fallback) const {
   const Node* node = find(key, false);
   if (node == nullptr) return fallback;
   if (const auto* flag = std::get_if<bool>(&node->value)) return *flag;
-  fail(key, fmt::format("expected true or false, found {}", kind_of(*node)));
+  fail(key, "wrong-type"_id, fmt::format("expected true or false, found {}", kind_of(*node)));
   return fallback;
 }
 
@@ -237,10 +246,11 @@ std::optional<ParsedQuantity> TomlTable::read_quantity(std::string_view key) con
   if (const auto* text = std::get_if<std::string>(&node->value)) {
     const auto parsed = parse_quantity(*text);
     if (parsed) return *parsed;
-    fail(key, parsed.error().front().message, parsed.error().front().hint);
+    fail(key, parsed.error().front());
     return std::nullopt;
   }
-  fail(key, fmt::format("expected a number or text with a unit, found {}", kind_of(*node)));
+  fail(key, "wrong-type"_id,
+       fmt::format("expected a number or text with a unit, found {}", kind_of(*node)));
   return std::nullopt;
 }
 
@@ -284,13 +294,14 @@ std::vector<double> TomlTable::numbers(std::string_view key) const {
       if (const auto value = as_number(item)) {
         values.push_back(*value);
       } else {
-        fail(key, fmt::format("expected finite numbers only, found {}", kind_of(item)));
+        fail(key, "wrong-type"_id,
+             fmt::format("expected finite numbers only, found {}", kind_of(item)));
         return values;
       }
     }
     return values;
   }
-  fail(key, fmt::format("expected an array of numbers, found {}", kind_of(*node)));
+  fail(key, "wrong-type"_id, fmt::format("expected an array of numbers, found {}", kind_of(*node)));
   return values;
 }
 
@@ -300,7 +311,7 @@ std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size
   const std::string expected = fmt::format("expected a list of rows of {} numbers each", width);
   const Node::Array* items = node->array();
   if (items == nullptr) {
-    fail(key, fmt::format("{}, found {}", expected, kind_of(*node)));
+    fail(key, "wrong-type"_id, fmt::format("{}, found {}", expected, kind_of(*node)));
     return {};
   }
   std::vector<std::vector<double>> rows;
@@ -315,7 +326,7 @@ std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size
         continue;
       }
     }
-    fail(key, fmt::format("{}; row {} is not", expected, rows.size() + 1));
+    fail(key, "wrong-type"_id, fmt::format("{}; row {} is not", expected, rows.size() + 1));
     return {};
   }
   return rows;
@@ -326,7 +337,8 @@ Vec3 TomlTable::vector(std::string_view key) const {
   const std::vector<double> values = numbers(key);
   if (values.size() == 3) return {values[0], values[1], values[2]};
   if (state_->diagnostics.size() == before) {
-    fail(key, fmt::format("expected three numbers [x, y, z], found {}", values.size()));
+    fail(key, "wrong-type"_id,
+         fmt::format("expected three numbers [x, y, z], found {}", values.size()));
   }
   return Vec3::Zero();
 }
@@ -342,14 +354,14 @@ std::vector<std::string> TomlTable::texts_or(std::string_view key,
   std::vector<std::string> words;
   const Node::Array* items = node->array();
   if (items == nullptr) {
-    fail(key, fmt::format("expected an array of texts, found {}", kind_of(*node)));
+    fail(key, "wrong-type"_id, fmt::format("expected an array of texts, found {}", kind_of(*node)));
     return words;
   }
   for (const Node& item : *items) {
     if (const auto* text = std::get_if<std::string>(&item.value)) {
       words.push_back(*text);
     } else {
-      fail(key, fmt::format("expected texts only, found {}", kind_of(item)));
+      fail(key, "wrong-type"_id, fmt::format("expected texts only, found {}", kind_of(item)));
     }
   }
   return words;
@@ -373,7 +385,7 @@ bool TomlTable::is_number(std::string_view key) const {
 TomlTable TomlTable::table(std::string_view key) const {
   const Node* node = find(key, true);
   if (node != nullptr && node->table() == nullptr) {
-    fail(key, fmt::format("expected a table, found {}", kind_of(*node)));
+    fail(key, "wrong-type"_id, fmt::format("expected a table, found {}", kind_of(*node)));
     node = nullptr;
   }
   return {state_, node, joined(path_, key)};
@@ -390,13 +402,14 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   if (node == nullptr) return found;
   const Node::Array* items = node->array();
   if (items == nullptr) {
-    fail(key, fmt::format("expected an array of tables, found {}", kind_of(*node)),
+    fail(key, "wrong-type"_id, fmt::format("expected an array of tables, found {}", kind_of(*node)),
          fmt::format("write [[{}]]", joined(path_, key)));
     return found;
   }
   for (std::size_t i = 0; i < items->size(); ++i) {
     if ((*items)[i].table() == nullptr) {
-      fail(key, fmt::format("expected tables only, found {}", kind_of((*items)[i])));
+      fail(key, "wrong-type"_id,
+           fmt::format("expected tables only, found {}", kind_of((*items)[i])));
       continue;
     }
     found.push_back(
@@ -461,7 +474,8 @@ Diagnostics TomlDocument::finish() const {
         std::vector<std::string> known = table->asked;
         std::sort(known.begin(), known.end());
         known.erase(std::unique(known.begin(), known.end()), known.end());
-        TomlTable(root_.state_, &node, path).fail(name, "unknown key", suggestion(name, known));
+        TomlTable(root_.state_, &node, path)
+            .fail(name, "unknown-key"_id, "unknown key", suggestion(name, known));
       } else {
         self(self, child, joined(path, name));
       }

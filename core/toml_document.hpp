@@ -87,7 +87,11 @@ class TomlTable {
   // Whether no error has been noted in this table so far.
   [[nodiscard]] bool is_sound() const;
   // Notes an error at a key of this table (or at the table itself when the key is absent or empty).
+  void fail(std::string_view key, DiagnosticId id, std::string message,
+            std::string hint = {}) const;
   void fail(std::string_view key, std::string message, std::string hint = {}) const;
+  // What is wrong with the value was found elsewhere.
+  void fail(std::string_view key, const Diagnostic& found) const;
 
  private:
   friend class TomlDocument;

@@ -1,4 +1,4 @@
-// A directed line with unit direction, and the stretch of it that matters.
+// A directed line with unit direction, and the segment of it that matters.
 // Units: mm along the direction.
 #pragma once
 

@@ -4,14 +4,13 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "parser/arc.hpp"
 
 namespace frustum::lint {
 namespace {
 
 using parser::AxisLetter;
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 std::optional<double> distance(const parser::AxisTarget& from, const parser::AxisTarget& to) {
   double sum = 0.0;

@@ -47,11 +47,12 @@ constexpr std::array kRules{
             [](const MotionState& state, const ModalState&) { return state.tilted; },
             "the program ends in a tilted plane",
             "cancel it before the end: G69, CYCLE800(), PLANE RESET"},
-    EndRule{
-        Check::end_shifted_frame,
-        [](const MotionState&, const ModalState& modes) { return !modes.word_frame.is_identity(); },
-        "the program ends with a shift or turn of its coordinates in force",
-        "cancel it before the end: G69, G52 X0 Y0 Z0, G92.1, TRANS"},
+    EndRule{Check::end_shifted_frame,
+            [](const MotionState&, const ModalState& modes) {
+              return !modes.programmed_frame.is_identity();
+            },
+            "the program ends with a shift or turn of its coordinates in force",
+            "cancel it before the end: G69, G52 X0 Y0 Z0, G92.1, TRANS"},
     EndRule{Check::end_spindle,
             [](const MotionState& state, const ModalState&) {
               return state.spindle.direction != parser::SpindleDirection::off;

@@ -1,6 +1,6 @@
 // What the checks have found, each once.
 //
-// A check raises a finding under a key of its own (a place, a feed, a stretch between two changes of a mode); what
+// A check raises a finding under a key of its own (a place, a feed, a segment between two changes of a mode); what
 // comes again under the same key is counted. A check keeps kMostPlaces findings; those beyond are counted too.
 //
 // Units : none

@@ -7,8 +7,8 @@ namespace {
 
 using parser::AxisLetter;
 using parser::AxisTarget;
+using parser::kLinearAxes;
 
-constexpr std::array kLinear{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 // Below any written digit.
 constexpr double kStands = 1e-9;  // mm, rad
 
@@ -46,7 +46,7 @@ void MotionState::follow(const parser::Motion& motion) {
 }
 
 void MotionState::forget_linear() {
-  for (const AxisLetter axis : kLinear) position[axis].reset();
+  for (const AxisLetter axis : kLinearAxes) position[axis].reset();
 }
 
 void MotionState::place_at(const AxisTarget& end, parser::Coordinates coordinates) {

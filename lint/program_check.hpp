@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/controller.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/model/machine.hpp"
 #include "lint/finding_list.hpp"
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"

@@ -70,7 +70,7 @@ struct Definition {
 };
 
 // Blocks behind an end, up to where something may bring the program there.
-struct Stretch {
+struct PathSegment {
   SourcePlace place{};
   std::string end{};  // "M30 on line 12"
   std::uint64_t blocks = 0;
@@ -102,7 +102,7 @@ class Structure {
       if (*next == nullptr) break;
       see(**next);
     }
-    close_stretch();
+    close_segment();
   }
 
   void tell_syntax(const Diagnostic& error, FindingList& findings) {
@@ -124,14 +124,14 @@ class Structure {
     if (has_code(block, 'M', 98) || has_code(block, 'G', 65) || has_code(block, 'G', 66)) {
       call_by_number(block);
     }
-    if (block.program || block.tape_mark || block.flow) close_stretch();
-    if (stretch_) {
-      if (block.number) stretch_->numbers.emplace_back(*block.number, stretch_->blocks);
+    if (block.program || block.tape_mark || block.flow) close_segment();
+    if (segment_) {
+      if (block.number) segment_->numbers.emplace_back(*block.number, segment_->blocks);
       if (acts) {
-        if (stretch_->blocks++ == 0) stretch_->place = {block.line, 1, nullptr};
+        if (segment_->blocks++ == 0) segment_->place = {block.line, 1, nullptr};
       }
     } else if (!block.flow && !block.deletable) {
-      open_stretch(block);
+      open_segment(block);
     }
     anything_ = anything_ || acts || block.program || block.flow;
   }
@@ -193,17 +193,17 @@ class Structure {
     named_.insert(label);
   }
 
-  void open_stretch(const Block& block) {
+  void open_segment(const Block& block) {
     for (const double code : {30.0, 2.0, 99.0}) {
       if (!has_code(block, 'M', code)) continue;
-      stretch_.emplace();
-      stretch_->end = fmt::format("M{:g} on line {}", code, block.line);
+      segment_.emplace();
+      segment_->end = fmt::format("M{:g} on line {}", code, block.line);
       return;
     }
   }
-  void close_stretch() {
-    if (stretch_ && stretch_->blocks > 0) stretches_.push_back(*std::move(stretch_));
-    stretch_.reset();
+  void close_segment() {
+    if (segment_ && segment_->blocks > 0) segments_.push_back(*std::move(segment_));
+    segment_.reset();
   }
 
   void tell_unused(FindingList& findings) const {
@@ -228,19 +228,19 @@ class Structure {
   }
 
   void tell_unreachable(FindingList& findings) const {
-    for (const Stretch& stretch : stretches_) {
-      std::uint64_t blocks = stretch.blocks;
-      for (const auto& [number, before] : stretch.numbers) {
+    for (const PathSegment& segment : segments_) {
+      std::uint64_t blocks = segment.blocks;
+      for (const auto& [number, before] : segment.numbers) {
         if (!computed_label_ && !numbers_jumped_to_.contains(number)) continue;
         blocks = before;
         break;
       }
       if (blocks == 0) continue;
       findings.raise(
-          Check::unreachable_code, FindingList::key_of(stretch.place), stretch.place, [&] {
+          Check::unreachable_code, FindingList::key_of(segment.place), segment.place, [&] {
             return Words{
                 fmt::format("{} {} behind {} never run{}", blocks, blocks == 1 ? "block" : "blocks",
-                            stretch.end, blocks == 1 ? "s" : ""),
+                            segment.end, blocks == 1 ? "s" : ""),
                 "leave out what is not wanted, or move the end"};
           });
     }
@@ -278,8 +278,8 @@ class Structure {
   std::set<std::uint32_t> numbers_jumped_to_{};
   bool computed_call_ = false;
   bool computed_label_ = false;
-  std::optional<Stretch> stretch_{};
-  std::vector<Stretch> stretches_{};
+  std::optional<PathSegment> segment_{};
+  std::vector<PathSegment> segments_{};
   WrongLines wrong_lines_{};
 };
 

@@ -11,8 +11,8 @@
 
 #include "core/golden_section.hpp"
 #include "core/units.hpp"
-#include "kinematics/block_motion.hpp"
-#include "kinematics/inverse.hpp"
+#include "kinematics/controller/block_motion.hpp"
+#include "kinematics/model/inverse.hpp"
 #include "lint/run_errors.hpp"
 
 namespace frustum::lint {
@@ -43,7 +43,7 @@ struct Reach {
   double hi = 0.0;
 };
 
-// A stretch of moves with one axis beyond one of its limits.
+// A segment of moves with one axis beyond one of its limits.
 struct Excursion {
   SourcePlace first{};
   SourcePlace worst{};

@@ -1,6 +1,6 @@
 // The program on a machine: axes beyond their travels, axes that cannot follow the feed, what the controller refuses.
 //
-// Model    : the controller of kinematics/controller.hpp executes every motion, whatever lies behind the travels, and each
+// Model    : the controller of kinematics/controller/controller.hpp executes every motion, whatever lies behind the travels, and each
 //            move is looked at along its whole way. What goes on being outside is one finding, with the worst place
 // Units    : mm, rad
 // Shape    : O(1) memory; a bent move is looked at in its parts and its peaks between them are searched
@@ -12,8 +12,8 @@
 #include <functional>
 #include <memory>
 
-#include "kinematics/controller.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/model/machine.hpp"
 #include "lint/finding_list.hpp"
 #include "parser/motion.hpp"
 

@@ -22,6 +22,8 @@ namespace frustum::parser {
 enum class AxisLetter : std::uint8_t { X, Y, Z, A, B, C };  // NOLINT: the letters of the programs
 inline constexpr std::array kAxisLetters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z,
                                          AxisLetter::A, AxisLetter::B, AxisLetter::C};
+inline constexpr std::array kLinearAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
+inline constexpr std::array kRotaryAxes{AxisLetter::A, AxisLetter::B, AxisLetter::C};
 [[nodiscard]] constexpr char to_char(AxisLetter axis) {
   return "XYZABC"[static_cast<std::size_t>(axis)];
 }

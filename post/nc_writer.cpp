@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/units.hpp"
 #include "parser/arc.hpp"
 #include "post/nc_spelling.hpp"
@@ -20,8 +21,6 @@ using parser::Feed;
 using parser::FeedMode;
 using parser::LengthCompensation;
 using parser::Motion;
-
-constexpr double kSecondsPerMinute = 60.0;
 
 template <typename Enum>
 constexpr std::size_t index_of(Enum value) {

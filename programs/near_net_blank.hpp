@@ -9,7 +9,7 @@
 // Source   : ours
 #pragma once
 
-#include "stock/blank.hpp"
+#include "stock/solid/blank.hpp"
 
 namespace frustum::programs {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "cutter/cutter.hpp"
-#include "kinematics/controller.hpp"
+#include "cutter/body/cutter.hpp"
+#include "kinematics/controller/controller.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "parser/dialect.hpp"
-#include "stock/blank.hpp"
+#include "stock/solid/blank.hpp"
 
 namespace frustum::programs {
 

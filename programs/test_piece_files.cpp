@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "core/whole_file.hpp"
-#include "cutter/cutter_file.hpp"
+#include "cutter/body/cutter_file.hpp"
 
 namespace frustum::programs {
 namespace {

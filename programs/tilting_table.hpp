@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 
 namespace frustum::programs {
 

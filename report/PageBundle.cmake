@@ -41,13 +41,13 @@ else()
     VERBATIM)
 endif()
 
-# page_bundle.cpp embeds the bundle and the template.
+# html/page_bundle.cpp embeds the bundle and the template.
 set(page_template "${page_source}/template.html")
 set_source_files_properties(
-  page_bundle.cpp
+  html/page_bundle.cpp
   PROPERTIES OBJECT_DEPENDS "${page_bundle}/page.js;${page_bundle}/page.css;${page_template}")
 set_property(
-  SOURCE page_bundle.cpp
+  SOURCE html/page_bundle.cpp
   PROPERTY COMPILE_DEFINITIONS FRUSTUM_PAGE_SCRIPT="${page_bundle}/page.js"
            FRUSTUM_PAGE_STYLE="${page_bundle}/page.css"
            FRUSTUM_PAGE_TEMPLATE="${page_template}")

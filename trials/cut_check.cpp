@@ -20,7 +20,7 @@ PointCount count_strangers(const programs::Operation& operation, const stock::Wo
     const auto surface = surface_at_point(workpiece, workpiece_from_datum.point(p.point),
                                           workpiece_from_datum.direction(p.normal));
     if (!surface) continue;  // a noisy measurement may be off the surface
-    if (!surface->stretch) {
+    if (!surface->segment) {
       ++count.uncut;
     } else if (surface->source_line < operation.first_line ||
                surface->source_line > operation.last_line) {

@@ -11,7 +11,7 @@
 #include "core/diagnostic.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::trials {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/geometric_errors.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/model/geometric_errors.hpp"
+#include "kinematics/model/machine.hpp"
 
 namespace frustum::trials {
 

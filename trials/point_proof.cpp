@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "stock/certificate.hpp"
+#include "stock/proof/certificate.hpp"
 #include "trials/cut_check.hpp"
 
 namespace frustum::trials {

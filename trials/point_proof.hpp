@@ -1,7 +1,7 @@
 // How near the measured points are to the true surface, and a proof of it for some of them.
 //
 // Model    : every measured point is asked from the workpiece again, along its normal; a sample of them, evenly
-//            spread over the features, goes through interval arithmetic (stock/certificate.hpp)
+//            spread over the features, goes through interval arithmetic (stock/proof/certificate.hpp)
 // Units    : mm
 // Errors   : none; a point without a surface within reach is left out
 // Accuracy : the bounds are those of stock::SurfacePoint
@@ -12,7 +12,7 @@
 #include <string>
 
 #include "metrology/measurement.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::trials {
 

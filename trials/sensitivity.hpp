@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
 #include "trials/parameter.hpp"

@@ -6,14 +6,14 @@
 #include <limits>
 #include <map>
 
-#include "cutter/contact_range.hpp"
-#include "kinematics/error_gain.hpp"
+#include "cutter/search/contact_range.hpp"
+#include "kinematics/errors/error_gain.hpp"
 #include "trials/cut_check.hpp"
 
 namespace frustum::trials {
 namespace {
 
-using cutter::PathMoment;
+using cutter::PathState;
 using cutter::SweptCutter;
 using programs::TestPiece;
 
@@ -45,13 +45,13 @@ Result<std::map<int, RadiusPair>> radius_pairs(const TestPiece& piece) {
   return pairs;
 }
 
-kinematics::AxisState axes_at(const kinematics::ToolPath& path, const PathMoment& moment) {
-  const std::uint32_t first = path.stretches[moment.stretch].first_pose;
+kinematics::AxisState axes_at(const kinematics::ToolPath& path, const PathState& program_state) {
+  const std::uint32_t first = path.segments[program_state.segment].first_pose;
   kinematics::AxisState at = path.axes[first];
   const kinematics::AxisState& next = path.axes[first + 1];
   for (const auto letter : kinematics::kAxisLetters) {
-    at.q[letter] += moment.t * (next.q[letter] - at.q[letter]);
-    at.heading[letter] += moment.t * (next.heading[letter] - at.heading[letter]);
+    at.q[letter] += program_state.t * (next.q[letter] - at.q[letter]);
+    at.heading[letter] += program_state.t * (next.heading[letter] - at.heading[letter]);
   }
   return at;
 }
@@ -66,19 +66,19 @@ class GainAtPoint {
         radii_(radii),
         workpiece_from_table_(piece.placement.table_from_workpiece().inverse().rotation) {}
 
-  // Motion of the surface point p that was cut at this moment, along its outward normal n.
-  [[nodiscard]] double operator()(const Parameter& parameter, const PathMoment& moment,
+  // Motion of the surface point p that was cut at this program_state, along its outward normal n.
+  [[nodiscard]] double operator()(const Parameter& parameter, const PathState& program_state,
                                   const Vec3& p, const Vec3& n) const {
     const kinematics::ToolPath& path = swept_.path();
-    const kinematics::Stretch& stretch = path.stretches[moment.stretch];
-    const int tool = path.blocks[stretch.block].tool;
-    const auto pose = kinematics::between(path.from(stretch), path.to(stretch), moment.t);
+    const kinematics::PathSegment& segment = path.segments[program_state.segment];
+    const int tool = path.blocks[segment.block].tool;
+    const auto pose = kinematics::between(path.from(segment), path.to(segment), program_state.t);
     if (!parameter.unit)
       return -radii_.at(tool).support_gain(std::clamp(-n.dot(pose.axis), -1.0, 1.0));
     const cutter::CutterSpec& spec = piece_.tools.at(tool);
-    const auto moved =
-        kinematics::first_order_displacement(machine_, *parameter.unit, axes_at(path, moment),
-                                             spec.length.value + spec.length_error.value);
+    const auto moved = kinematics::first_order_displacement(
+        machine_, *parameter.unit, axes_at(path, program_state),
+        spec.length.value + spec.length_error.value);
     const kinematics::PoseDisplacement in_workpiece{workpiece_from_table_ * moved.tip,
                                                     workpiece_from_table_ * moved.turn};
     return n.dot(in_workpiece.at(p - pose.tip));
@@ -122,10 +122,10 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       const Vec3 n = workpiece_from_datum.direction(feature.points[i].normal);
       const auto surface = surface_at_point(*trial.workpiece, measured, n);
       if (!surface) return lost(feature.name, i);
-      if (!surface->stretch) continue;  // the blank's own surface stays
+      if (!surface->segment) continue;  // the blank's own surface stays
       const auto contact =
-          swept.contact({surface->point + surface->s * n, -n}, surface->s, *surface->stretch);
-      const auto moments = cutter::contact_range(swept, contact, surface->point);
+          swept.contact({surface->point + surface->s * n, -n}, surface->s, *surface->segment);
+      const auto program_states = cutter::contact_range(swept, contact, surface->point);
       // The point is asked along the measured normal; what moves is the surface, along its own. The facets of
       // a program differ from the fitted element by half the angle between them.
       const double cosine = surface->normal.dot(n);
@@ -134,8 +134,8 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       const double lengthened = is_same ? 1.0 / cosine : 1.0;
       for (Eigen::Index k = 0; k < columns; ++k) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (const PathMoment& moment : moments) {
-          const double g = lengthened * gain(parameters[static_cast<std::size_t>(k)], moment,
+        for (const PathState& program_state : program_states) {
+          const double g = lengthened * gain(parameters[static_cast<std::size_t>(k)], program_state,
                                              surface->point, own);
           low = std::min(low, g);
           high = std::max(high, g);

@@ -1,10 +1,10 @@
 // How far measured surface points move when a machine error or the tool radius is not zero.
 //
 // Model    : at the envelope the derivative to time vanishes, so a point p with outward normal n, cut at a
-//            moment when the tool tip stands at tip, moves along n by
+//            program_state when the tool tip stands at tip, moves along n by
 //              machine error   n . (d_tip + d_turn x (p - tip))
 //              tool radius     - d support(-n . axis) / d radius
-//            A face that touches p over a span of moments leaves the deepest of what they would leave:
+//            A face that touches p over a span of program_states leaves the deepest of what they would leave:
 //            with g between g_min and g_max over the span, an error e moves p by odd e + even |e|,
 //            odd = (g_min + g_max) / 2, even = -(g_max - g_min) / 2
 // Units    : mm of motion per mm or rad of the parameter, along the outward normal; frame: workpiece
@@ -15,14 +15,14 @@
 //            and all. Agrees with central differences of whole trials: characteristics in
 //            tests/trials/step_sensitivity_test.cpp, single points of the five-axis cone within 3e-6 of
 //            the gain in tests/trials/surface_gain_test.cpp
-// Source   : first-order gains of the chain: kinematics/error_gain.hpp; envelope theorem
+// Source   : first-order gains of the chain: kinematics/errors/error_gain.hpp; envelope theorem
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
 
 #include "core/result.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 #include "programs/test_piece.hpp"
 #include "trials/parameter.hpp"
 #include "trials/trial.hpp"

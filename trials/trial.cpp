@@ -146,7 +146,7 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
   Trial trial;
   trial.operations = std::move(run.operations);
   trial.warnings = std::move(run.warnings);
-  if (execution->path.stretches.empty()) {
+  if (execution->path.segments.empty()) {
     Diagnostic idle = warning("the program moves no tool: the blank stays as it is",
                               "check that it is the right file");
     idle.file = piece.program_file;

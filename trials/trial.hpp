@@ -13,16 +13,16 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/controller.hpp"
-#include "kinematics/geometric_errors.hpp"
-#include "kinematics/machine.hpp"
-#include "kinematics/slowed_blocks.hpp"
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/model/geometric_errors.hpp"
+#include "kinematics/model/machine.hpp"
+#include "kinematics/path/slowed_blocks.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
 #include "parser/tool_table.hpp"
 #include "programs/test_piece.hpp"
-#include "stock/collision.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/collision/collision.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::trials {
 

@@ -5,7 +5,7 @@
 
 #include "metrology/cmm.hpp"
 #include "metrology/fit/association.hpp"
-#include "report/qif_results.hpp"
+#include "report/exchange/qif_results.hpp"
 
 namespace metrology = frustum::metrology;
 using frustum::UnitVec3;

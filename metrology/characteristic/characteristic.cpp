@@ -25,7 +25,7 @@ struct Value {
   std::optional<double> nominal{};
   RoundProfile profile{};
   std::vector<LineProfile> lines{};
-  Magnitude magnitude{};  // what the value is the size of
+  NonNegative magnitude{};  // what the value is the size of
 };
 
 class Evaluation {
@@ -84,13 +84,13 @@ class Evaluation {
   [[nodiscard]] Result<Value> round(Result<RoundProfile> profile, std::vector<Vec3> points) const {
     if (!profile) return about_section(*features_.front(), section(), profile.error());
     const double r = features_.front()->planned->radius;
-    Magnitude magnitude{{MagnitudeKind::peak_to_valley}, profile->deviation, std::move(points)};
+    NonNegative magnitude{{NonNegativeKind::peak_to_valley}, profile->deviation, std::move(points)};
     return Value{profile->peak_to_valley, form_uncertainty(u_, r), {}, std::move(*profile), {},
                  std::move(magnitude)};
   }
 
-  [[nodiscard]] static Magnitude residuals(const FittedFeature& feature) {
-    Magnitude magnitude{{MagnitudeKind::peak_to_valley}, {}, feature.all_points()};
+  [[nodiscard]] static NonNegative residuals(const FittedFeature& feature) {
+    NonNegative magnitude{{NonNegativeKind::peak_to_valley}, {}, feature.all_points()};
     for (const MeasuredPoint& p : feature.points) magnitude.parts.push_back(p.deviation);
     return magnitude;
   }
@@ -110,7 +110,7 @@ class Evaluation {
   [[nodiscard]] Value straightness() const {
     const FittedFeature& feature = *features_.front();
     const Vec3 axis = *axis_of(feature.element);
-    Magnitude off{{MagnitudeKind::twice_largest}, {}, feature.all_points()};
+    NonNegative off{{NonNegativeKind::twice_largest}, {}, feature.all_points()};
     for (const Vec3& p : off.places) {
       const Vec3 from = p - point_of(feature.element);
       const Vec3 across = from - from.dot(axis) * axis;

@@ -47,7 +47,7 @@ struct AngleFrame {
                                                         const UnitVec3& toward_apex,
                                                         const AngleFrame& angles);
 
-// The points of one section of a cone slid along the generatrix into the plane perpendicular to
+// The points of one section of a cone shifted along the generatrix into the plane perpendicular to
 // `along` through their centroid; other features' points as they are. Probed along the normal, the
 // points of a displaced or lobed cone do not lie at one height, and a circle through them would see
 // but cos^2 of the half angle of a displacement.

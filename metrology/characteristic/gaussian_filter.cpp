@@ -1,4 +1,5 @@
 #include "metrology/characteristic/gaussian_filter.hpp"
+#include "core/constants.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 namespace frustum::metrology {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSamplesPerWave = 7.0;
 // Steps of a displaced part are not quite equal.
 constexpr double kUneven = 1.05;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "metrology/characteristic/slid_line.hpp"
+#include "metrology/characteristic/best_shifted_line.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -21,7 +21,7 @@ Result<Read> read(const FittedFeature& feature, const LineAxes& axes, double ori
   const Vec3& place = planned.point;
   const double slope = planned.axis.dot(axes.across) / planned.axis.dot(axes.along);
   std::vector<PlaceOnLine> places =
-      slid(feature.points, axes, planned.normal, place.dot(axes.height));
+      shifted(feature.points, axes, planned.normal, place.dot(axes.height));
   Read out;
   out.profile.feature = planned.name;
   for (PlaceOnLine& p : places) {

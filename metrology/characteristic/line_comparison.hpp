@@ -1,6 +1,6 @@
 // Two lines against each other: how far apart and at which angle, less what is planned.
 //
-// Model    : both lines slid to their planned heights (slid_line.hpp), deviations from the planned
+// Model    : both lines shifted to their planned heights (best_shifted_line.hpp), deviations from the planned
 //            lines fitted by straight lines over the place along the first; distance = second less
 //            first at the planned point of the first; angle = atan(slope) of the second less that
 //            of the first

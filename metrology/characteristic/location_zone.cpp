@@ -53,8 +53,8 @@ Target planned_place(const PlannedFeature& planned) {
 }
 
 // How far points are off. Places are told of measured points; those of an element move together.
-Magnitude offsets(const Target& target, const std::vector<Vec3>& points) {
-  Magnitude off;
+NonNegative offsets(const Target& target, const std::vector<Vec3>& points) {
+  NonNegative off;
   for (const Vec3& p : points) {
     if (const auto* plane = std::get_if<Plane>(&target)) {
       off.parts.push_back(residual(*plane, p));
@@ -69,8 +69,8 @@ Magnitude offsets(const Target& target, const std::vector<Vec3>& points) {
     }
     off.parts.insert(off.parts.end(), apart.begin(), apart.end());
   }
-  off.rule.kind = std::holds_alternative<Plane>(target) ? MagnitudeKind::twice_largest_height
-                                                        : MagnitudeKind::twice_largest;
+  off.rule.kind = std::holds_alternative<Plane>(target) ? NonNegativeKind::twice_largest_height
+                                                        : NonNegativeKind::twice_largest;
   return off;
 }
 

@@ -4,7 +4,7 @@
 #include "metrology/characteristic/datum_element.hpp"
 #include "metrology/characteristic/feature_extent.hpp"
 #include "metrology/characteristic/zone.hpp"
-#include "metrology/fit/smallest_circle.hpp"
+#include "metrology/fit/minimax/smallest_circle.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -46,7 +46,7 @@ double range_along(const std::vector<Vec3>& points, const Vec3& direction) {
 }
 
 // How far the points are off the middle of the narrowest cylinder along that direction.
-Magnitude cylinder_around(const std::vector<Vec3>& points, const Vec3& direction) {
+NonNegative cylinder_around(const std::vector<Vec3>& points, const Vec3& direction) {
   const auto [u, v] = tangents(unit(direction));
   std::vector<Eigen::Vector2d> across;
   for (const Vec3& p : points) {
@@ -54,7 +54,7 @@ Magnitude cylinder_around(const std::vector<Vec3>& points, const Vec3& direction
     across.emplace_back(w.dot(u), w.dot(v));
   }
   const Eigen::Vector2d centre = smallest_circle(across).centre;
-  Magnitude off{{MagnitudeKind::twice_largest}, {}, {}};
+  NonNegative off{{NonNegativeKind::twice_largest}, {}, {}};
   for (const Eigen::Vector2d& p : across) {
     const Vec3 apart = (p - centre).x() * u + (p - centre).y() * v;
     off.parts.insert(off.parts.end(), apart.begin(), apart.end());
@@ -68,14 +68,15 @@ Vec3 surface_normal(const PlannedFeature& line, const Vec3& direction) {
 
 // What the points themselves need: planes for a plane, for a line on a surface and where the datum
 // leaves one direction free; a cylinder for an axis.
-Result<Magnitude> zone_of_points(const FittedFeature& feature, const Wanted& want) {
+Result<NonNegative> zone_of_points(const FittedFeature& feature, const Wanted& want) {
   if (feature.planned->kind == FeatureKind::plane) {
     if (!want.across) return heights_along(want.direction, feature.all_points());
     Constraints keep;
     keep.perpendicular_to = unit(want.datum);
     const auto zone = associated(feature, Criterion::minimum_zone, keep);
     if (!zone) return zone.error();
-    return Magnitude{{MagnitudeKind::peak_to_valley}, zone->fit.residuals, feature.all_points()};
+    return NonNegative{
+        {NonNegativeKind::peak_to_valley}, zone->fit.residuals, feature.all_points()};
   }
   if (feature.planned->kind == FeatureKind::line) {
     return heights_along(surface_normal(*feature.planned, want.direction), feature.all_points());
@@ -84,7 +85,7 @@ Result<Magnitude> zone_of_points(const FittedFeature& feature, const Wanted& wan
   if (!centres) return centres.error();
   if (want.freedom == Freedom::none) return cylinder_around(*centres, want.direction);
   const Vec3 across = want.datum - want.datum.dot(want.direction) * want.direction;
-  Magnitude heights = heights_along(across.normalized(), *centres);
+  NonNegative heights = heights_along(across.normalized(), *centres);
   heights.places.clear();
   return heights;
 }

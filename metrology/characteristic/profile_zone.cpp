@@ -61,7 +61,7 @@ Result<Zone> line_profile(const Toleranced& what) {
     for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
   }
   Zone worst;
-  Magnitude all{{MagnitudeKind::twice_largest_height}, {}, {}};
+  NonNegative all{{NonNegativeKind::twice_largest_height}, {}, {}};
   for (const std::size_t section : sections) {
     const std::vector<Vec3> points = feature.section(section);
     if (points.empty()) return about_section(feature, section, {});
@@ -91,7 +91,7 @@ Result<Zone> surface_profile(const Toleranced& what) {
   auto found = deviations(surfaces, what.planned.floating);
   if (!found) return std::move(found).error();
   Zone zone;
-  zone.magnitude = {{MagnitudeKind::twice_largest_height}, *found, {}};
+  zone.magnitude = {{NonNegativeKind::twice_largest_height}, *found, {}};
   // Near points of different surfaces are not alike.
   if (surfaces.size() == 1) zone.magnitude.places = surfaces.front().points;
   zone.value = size_of(zone.magnitude);

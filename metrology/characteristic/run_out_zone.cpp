@@ -91,7 +91,7 @@ Result<Zone> run_out_zone(const Toleranced& what) {
   if (!axis) return axis.error();
   const Turning turning(feature, *axis);
   Zone worst;
-  Magnitude readings{{MagnitudeKind::peak_to_valley}, {}, {}};
+  NonNegative readings{{NonNegativeKind::peak_to_valley}, {}, {}};
   const auto add = [&](const Zone& zone, const std::vector<Vec3>& points) {
     const std::vector<double>& parts = zone.profile.deviation;
     readings.rule.rows.push_back(points.size());

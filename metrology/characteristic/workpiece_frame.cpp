@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrology/characteristic/slid_line.hpp"
+#include "metrology/characteristic/best_shifted_line.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -15,7 +15,8 @@ Diagnostics of_frame(const PlannedFrame& frame, Diagnostics failure) {
   return failure;
 }
 
-const FittedFeature* measured(std::span<const FittedFeature> features, const std::string& name) {
+const FittedFeature* measured_feature(std::span<const FittedFeature> features,
+                                      const std::string& name) {
   const auto found = std::find_if(features.begin(), features.end(),
                                   [&](const FittedFeature& f) { return f.planned->name == name; });
   return found == features.end() ? nullptr : &*found;
@@ -26,7 +27,7 @@ Diagnostic missing(const PlannedFrame& frame, const std::string& name) {
                "measure it, or take the characteristics in this frame out of the plan");
 }
 
-Vec3 laid_into(const Vec3& direction, const Vec3& normal) {
+Vec3 laid_into_base(const Vec3& direction, const Vec3& normal) {
   return (direction - direction.dot(normal) * normal).normalized();
 }
 
@@ -42,7 +43,7 @@ Pose nominal_frame(const InspectionPlan& plan, const PlannedFrame& frame) {
   const PlannedFeature& plane = *find_feature(plan, frame.planes.front());
   const PlannedFeature& line = *find_feature(plan, frame.line);
   const Vec3 z = unit(plane.axis);
-  return {axes_of(laid_into(line.axis, z), z), line.point};
+  return {axes_of(laid_into_base(line.axis, z), z), line.point};
 }
 
 Result<Pose> workpiece_from_frame(const InspectionPlan& plan, const PlannedFrame& frame,
@@ -51,11 +52,11 @@ Result<Pose> workpiece_from_frame(const InspectionPlan& plan, const PlannedFrame
   const Vec3 nominal_z = nominal.rotation.col(2);
   std::vector<Vec3> on_planes;
   for (const std::string& name : frame.planes) {
-    const FittedFeature* feature = measured(features, name);
+    const FittedFeature* feature = measured_feature(features, name);
     if (feature == nullptr) return missing(frame, name);
     for (const MeasuredPoint& p : feature->points) on_planes.push_back(p.point);
   }
-  const FittedFeature* line = measured(features, frame.line);
+  const FittedFeature* line = measured_feature(features, frame.line);
   if (line == nullptr) return missing(frame, frame.line);
   const auto plane = fit_plane(on_planes);
   if (!plane) return of_frame(frame, plane.error());
@@ -66,14 +67,14 @@ Result<Pose> workpiece_from_frame(const InspectionPlan& plan, const PlannedFrame
   const double planned_height =
       (planned - find_feature(plan, frame.planes.front())->point).dot(nominal_z);
   const double height = plane->element.point.dot(z) + planned_height;
-  Vec3 x = laid_into(*axis_of(line->element), z);
+  Vec3 x = laid_into_base(*axis_of(line->element), z);
   Vec3 origin = Vec3::Zero();
   // The surface leans as planned in the frame that is being found: an error of 1e-3 rad in X is one
   // of 1e-6 after a round, and 1e-12 after two.
   for (int round = 0; round < 4; ++round) {
     const LineAxes axes{x, z.cross(x), z};
     const Vec3 wall = axes_of(x, z) * nominal.rotation.transpose() * line->planned->normal;
-    const auto fit = straight_line(slid(line->points, axes, wall, height));
+    const auto fit = straight_line(shifted(line->points, axes, wall, height));
     if (!fit) return of_frame(frame, fit.error());
     const double along = planned.dot(x);
     origin = along * x + (fit->offset + fit->slope * along) * axes.across + height * z;

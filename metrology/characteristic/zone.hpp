@@ -22,7 +22,7 @@ struct Zone {
   double uncertainty = 0.0;  // mm, standard
   RoundProfile profile{};
   std::vector<Harmonic> harmonics{};
-  Magnitude magnitude{};  // what the value is the size of; kind none where that is not told
+  NonNegative magnitude{};  // what the value is the size of; kind none where that is not told
 };
 
 struct Toleranced {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "metrology/fit/extreme_association.hpp"
+#include "metrology/fit/minimax/extreme_association.hpp"
 
 namespace frustum::metrology {
 

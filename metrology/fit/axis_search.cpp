@@ -117,7 +117,7 @@ std::vector<Vec3> AxisSearch::directions() const {
   return all;
 }
 
-std::vector<AxisCandidate> AxisSearch::likeliest(RoundKind kind) const {
+std::vector<AxisCandidate> AxisSearch::initial_estimates(RoundKind kind) const {
   if (keep_.axis) return {ranked(moments_, keep_.axis->axis, kind).candidate};
   if (keep_.parallel_to) return {ranked(moments_, *keep_.parallel_to, kind).candidate};
   std::vector<Ranked> all;
@@ -140,7 +140,7 @@ std::vector<AxisCandidate> AxisSearch::likeliest(RoundKind kind) const {
 
 std::vector<AxisCandidate> AxisSearch::candidates(RoundKind kind, std::size_t most) const {
   // The principal directions whatever their rank: a flat or a slender part shows its axis there.
-  std::vector<AxisCandidate> chosen = likeliest(kind);
+  std::vector<AxisCandidate> chosen = initial_estimates(kind);
   if (keep_.axis || keep_.parallel_to) return chosen;
   std::vector<Ranked> all;
   for (const Vec3& axis : directions()) all.push_back(ranked(moments_, axis, kind));

@@ -33,7 +33,7 @@ class AxisSearch {
   AxisSearch(const NormalisedPoints& local, const PrincipalDirections& principal);
 
   // The principal directions, or the one that the constraints give, each with its best point.
-  [[nodiscard]] std::vector<AxisCandidate> likeliest(RoundKind kind) const;
+  [[nodiscard]] std::vector<AxisCandidate> initial_estimates(RoundKind kind) const;
   [[nodiscard]] std::vector<AxisCandidate> candidates(RoundKind kind, std::size_t most) const;
 
  private:

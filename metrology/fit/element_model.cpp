@@ -101,7 +101,7 @@ Move move_of(const Element& element, const ElementStep& step) {
   return move;
 }
 
-Vec3 slid_on_axis(const Vec3& point, const UnitVec3& axis, const Vec3& to) {
+Vec3 shifted_on_axis(const Vec3& point, const UnitVec3& axis, const Vec3& to) {
   return point + (to - point).dot(axis.vec()) * axis.vec();
 }
 
@@ -145,12 +145,12 @@ Element moved(const Element& element, const ElementStep& step) {
       element);
 }
 
-Element slid(const Element& element, const Vec3& to) {
+Element shifted(const Element& element, const Vec3& to) {
   Element result = element;
   if (auto* line = std::get_if<Line>(&result)) {
-    line->point = slid_on_axis(line->point, line->axis, to);
+    line->point = shifted_on_axis(line->point, line->axis, to);
   } else if (auto* cylinder = std::get_if<Cylinder>(&result)) {
-    cylinder->point = slid_on_axis(cylinder->point, cylinder->axis, to);
+    cylinder->point = shifted_on_axis(cylinder->point, cylinder->axis, to);
   } else if (auto* cone = std::get_if<Cone>(&result)) {
     const double along = (to - cone->point).dot(cone->axis.vec());
     cone->point += along * cone->axis.vec();

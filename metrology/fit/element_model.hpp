@@ -56,8 +56,8 @@ struct LinearisedPoint {
 // nothing. A cone whose half angle passes 0 or 90 deg is the same cone opening the other way.
 [[nodiscard]] Element moved(const Element& element, const ElementStep& step);
 
-// The same element with its point slid along it (axis, plane) to where it is nearest `to`: there shifts
+// The same element with its point shifted along it (axis, plane) to where it is nearest `to`: there shifts
 // and tilts hardly correlate. Circles, spheres and tori stay.
-[[nodiscard]] Element slid(const Element& element, const Vec3& to);
+[[nodiscard]] Element shifted(const Element& element, const Vec3& to);
 
 }  // namespace frustum::metrology

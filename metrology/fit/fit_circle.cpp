@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "metrology/fit/constraint_steps.hpp"
-#include "metrology/fit/kept_radius.hpp"
+#include "metrology/fit/fixed_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/plane_through.hpp"
 #include "metrology/fit/round_fit.hpp"
@@ -15,7 +15,7 @@
 namespace frustum::metrology {
 namespace {
 
-constexpr Wording kWording{"circle", "a circle needs three points that differ in direction"};
+constexpr Wording kCircleWording{"circle", "a circle needs three points that differ in direction"};
 
 // Algebraic circle about a given direction: linear in centre and radius^2 - centre^2.
 Circle algebraic_circle(const NormalisedPoints& local, const UnitVec3& normal) {
@@ -47,14 +47,14 @@ std::vector<Element> starts_near(const Circle& free, const Constraints& keep) {
   return starts;
 }
 
-Result<Minimum> solve(const NormalisedPoints& local, const UnitVec3& normal) {
+Result<Minimum> solve_circle(const NormalisedPoints& local, const UnitVec3& normal) {
   const Constraints& keep = local.constraints;
   const PointBlocks all = PointBlocks::of(local);
   std::vector<Element> starts = starts_near(algebraic_circle(local, normal), keep);
-  if (keep.axis) return best_minimum(starts, local, all, kWording);
+  if (keep.axis) return best_minimum(starts, local, all, kCircleWording);
   const PrincipalDirections principal = principal_directions(local);
   auto direct = at_once(starts, local, all, principal.spread[1]);
-  if (direct) return settled(std::move(*direct), all, keep, kWording);
+  if (direct) return settled(std::move(*direct), all, keep, kCircleWording);
   if (!keep.radius) {
     for (const int i : {0, 1}) {
       const Vec3 across = principal.directions.col(i);
@@ -62,12 +62,12 @@ Result<Minimum> solve(const NormalisedPoints& local, const UnitVec3& normal) {
         starts.push_back(Circle{bend.centre, normal, bend.radius});
       }
     }
-    return best_minimum(starts, local, all, kWording);
+    return best_minimum(starts, local, all, kCircleWording);
   }
   for (const Vec3& centre : circle_centres(thinned(local, kSearched), normal, *keep.radius, 8)) {
     starts.push_back(Circle{centre, normal, *keep.radius});
   }
-  return best_minimum(starts, local, all, kWording);
+  return best_minimum(starts, local, all, kCircleWording);
 }
 
 // A circle in a coordinate plane has its normal already.
@@ -132,7 +132,8 @@ Mat3 plane_cofactor(const PlaneInformation& plane, const PlaneFreedom& freedom,
 Result<Fit<Circle>> circle_in(const NormalisedPoints& local, const UnitVec3& normal,
                               const PlaneFreedom& freedom) {
   auto found = solved(
-      local, [&](const NormalisedPoints& some) { return solve(some, normal); }, kWording.what);
+      local, [&](const NormalisedPoints& some) { return solve_circle(some, normal); },
+      kCircleWording.what);
   if (!found) return std::move(found).error();
   const auto& best = std::get<Circle>(found->element);
   // Within its plane, which goes through the centroid of the points.
@@ -159,16 +160,16 @@ Result<Fit<Circle>> circle_in(const NormalisedPoints& local, const UnitVec3& nor
 }  // namespace
 
 Result<Fit<Circle>> fit_circle(std::span<const Vec3> points, const FitOptions& options) {
-  auto local = normalise(points, {ElementKind::circle, kWording.what, 3}, options);
+  auto local = normalise(points, {ElementKind::circle, kCircleWording.what, 3}, options);
   if (!local) return std::move(local).error();
-  auto normal = plane_normal(*local, kWording.what);
+  auto normal = plane_normal(*local, kCircleWording.what);
   if (!normal) return std::move(normal).error();
   const Constraints& keep = local->constraints;
   return circle_in(*local, *normal, {!keep.parallel_to && !keep.axis, keep.perpendicular_to});
 }
 
 Result<Fit<Circle>> fit_circle_2d(std::span<const Vec3> points, const FitOptions& options) {
-  auto local = normalise(points, {ElementKind::circle, kWording.what, 3}, options);
+  auto local = normalise(points, {ElementKind::circle, kCircleWording.what, 3}, options);
   if (!local) return std::move(local).error();
   const UnitVec3 normal = coordinate_plane(points);
   if (auto problem = elsewhere(options.constraints, normal)) return *problem;

@@ -8,8 +8,8 @@
 namespace frustum::metrology {
 namespace {
 
-constexpr Wording kWording{"cone",
-                           "probe at two or more heights and around more of the circumference"};
+constexpr Wording kConeWording{"cone",
+                               "probe at two or more heights and around more of the circumference"};
 
 // Angle and radius for a given axis: the straight line through (along, away) of the points.
 Cone start_on(const AxisCandidate& candidate, const NormalisedPoints& few) {
@@ -43,11 +43,11 @@ std::vector<Element> started(const std::vector<AxisCandidate>& candidates,
   return starts_from(candidates, [&](const AxisCandidate& c) { return start_on(c, points.few); });
 }
 
-std::vector<Element> likeliest(const AxialPoints& points) {
-  return started(points.axes.likeliest(RoundKind::cone), points);
+std::vector<Element> initial_cones(const AxialPoints& points) {
+  return started(points.axes.initial_estimates(RoundKind::cone), points);
 }
 
-std::vector<Element> searched(const AxialPoints& points) {
+std::vector<Element> searched_cone(const AxialPoints& points) {
   std::vector<Element> starts;
   for (const RoundKind kind : {RoundKind::cone, RoundKind::cylinder}) {
     const auto more = started(points.axes.candidates(kind, kAxisCandidates), points);
@@ -56,14 +56,14 @@ std::vector<Element> searched(const AxialPoints& points) {
   return starts;
 }
 
-Result<Minimum> solve(const NormalisedPoints& local) {
-  return axial_minimum(local, kWording, likeliest, searched);
+Result<Minimum> solve_cone(const NormalisedPoints& local) {
+  return axial_minimum(local, kConeWording, initial_cones, searched_cone);
 }
 
 }  // namespace
 
 Result<Fit<Cone>> fit_cone(std::span<const Vec3> points, const FitOptions& options) {
-  return round_fit<Cone>(points, options, {ElementKind::cone, kWording.what, 6}, solve);
+  return round_fit<Cone>(points, options, {ElementKind::cone, kConeWording.what, 6}, solve_cone);
 }
 
 }  // namespace frustum::metrology

@@ -1,13 +1,13 @@
 #include "metrology/fit/constraint_steps.hpp"
-#include "metrology/fit/kept_radius.hpp"
+#include "metrology/fit/fixed_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/round_fit.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-constexpr Wording kWording{"cylinder",
-                           "probe at two or more heights and around more of the circumference"};
+constexpr Wording kCylinderWording{
+    "cylinder", "probe at two or more heights and around more of the circumference"};
 
 // A given radius leaves the centre on the side to which the points bend, or on the other when they
 // hardly bend.
@@ -22,15 +22,15 @@ void add_either_side(std::vector<Element>& starts, const AxisCandidate& c,
   if (keep.radius) add(-ratio);
 }
 
-std::vector<Element> likeliest(const AxialPoints& points) {
+std::vector<Element> initial_cylinders(const AxialPoints& points) {
   std::vector<Element> starts;
-  for (const AxisCandidate& c : points.axes.likeliest(RoundKind::cylinder)) {
+  for (const AxisCandidate& c : points.axes.initial_estimates(RoundKind::cylinder)) {
     add_either_side(starts, c, points.few.constraints);
   }
   return starts;
 }
 
-std::vector<Element> searched(const AxialPoints& points) {
+std::vector<Element> searched_cylinder(const AxialPoints& points) {
   const Constraints& keep = points.few.constraints;
   std::vector<Element> starts;
   for (const AxisCandidate& c : points.axes.candidates(RoundKind::cylinder, kAxisCandidates)) {
@@ -43,14 +43,15 @@ std::vector<Element> searched(const AxialPoints& points) {
   return starts;
 }
 
-Result<Minimum> solve(const NormalisedPoints& local) {
-  return axial_minimum(local, kWording, likeliest, searched);
+Result<Minimum> solve_cylinder(const NormalisedPoints& local) {
+  return axial_minimum(local, kCylinderWording, initial_cylinders, searched_cylinder);
 }
 
 }  // namespace
 
 Result<Fit<Cylinder>> fit_cylinder(std::span<const Vec3> points, const FitOptions& options) {
-  return round_fit<Cylinder>(points, options, {ElementKind::cylinder, kWording.what, 5}, solve);
+  return round_fit<Cylinder>(points, options, {ElementKind::cylinder, kCylinderWording.what, 5},
+                             solve_cylinder);
 }
 
 }  // namespace frustum::metrology

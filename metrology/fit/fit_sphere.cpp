@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrology/fit/kept_radius.hpp"
+#include "metrology/fit/fixed_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/round_fit.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-constexpr Wording kWording{"sphere", "probe a larger part of the sphere"};
+constexpr Wording kSphereWording{"sphere", "probe a larger part of the sphere"};
 
 // Algebraic sphere: linear in centre and radius^2 - centre^2.
 Sphere algebraic_sphere(const NormalisedPoints& local) {
@@ -26,8 +26,8 @@ Sphere algebraic_sphere(const NormalisedPoints& local) {
 }
 
 // A given radius leaves the centre on either side of the points, along their least spread.
-std::vector<Element> likeliest(const NormalisedPoints& local,
-                               const PrincipalDirections& principal) {
+std::vector<Element> initial_spheres(const NormalisedPoints& local,
+                                     const PrincipalDirections& principal) {
   if (!local.constraints.radius) return {algebraic_sphere(local)};
   const double radius = *local.constraints.radius;
   const double lift = std::sqrt(std::max(radius * radius - principal.spread.squaredNorm(), 0.0));
@@ -36,7 +36,7 @@ std::vector<Element> likeliest(const NormalisedPoints& local,
           Sphere{algebraic_sphere(local).point, radius}};
 }
 
-Result<Minimum> solve(const NormalisedPoints& local) {
+Result<Minimum> solve_sphere(const NormalisedPoints& local) {
   const PrincipalDirections principal = principal_directions(local);
   const std::optional<double>& radius = local.constraints.radius;
   if (principal.spread[2] < kFlat * principal.spread[0] && !radius) {
@@ -44,27 +44,27 @@ Result<Minimum> solve(const NormalisedPoints& local) {
                  "probe the sphere also away from that plane");
   }
   const PointBlocks all = PointBlocks::of(local);
-  std::vector<Element> starts = likeliest(local, principal);
+  std::vector<Element> starts = initial_spheres(local, principal);
   auto direct = at_once(starts, local, all, principal.spread[2]);
-  if (direct) return settled(std::move(*direct), all, local.constraints, kWording);
+  if (direct) return settled(std::move(*direct), all, local.constraints, kSphereWording);
   if (!radius) {
     for (const int i : {0, 1, 2}) {
       for (const Bend& bend : bends_along(principal.directions.col(i))) {
         starts.push_back(Sphere{bend.centre, bend.radius});
       }
     }
-    return best_minimum(starts, local, all, kWording);
+    return best_minimum(starts, local, all, kSphereWording);
   }
   for (const Vec3& centre : sphere_centres(thinned(local, kSearched), *radius, 8)) {
     starts.push_back(Sphere{centre, *radius});
   }
-  return best_minimum(starts, local, all, kWording);
+  return best_minimum(starts, local, all, kSphereWording);
 }
 
 }  // namespace
 
 Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points, const FitOptions& options) {
-  return round_fit<Sphere>(points, options, {ElementKind::sphere, kWording.what, 4}, solve);
+  return round_fit<Sphere>(points, options, {ElementKind::sphere, kSphereWording.what, 4}, solve_sphere);
 }
 
 }  // namespace frustum::metrology

@@ -10,7 +10,7 @@
 namespace frustum::metrology {
 namespace {
 
-constexpr Wording kWording{"torus", "probe more of the ring and more of its tube"};
+constexpr Wording kTorusWording{"torus", "probe more of the ring and more of its tube"};
 
 Torus kept(const Torus& start, const Constraints& keep) {
   return std::get<Torus>(constrained(Element(start), keep));
@@ -86,12 +86,12 @@ std::vector<Element> rings(const std::vector<AxisCandidate>& candidates,
   return starts_from(candidates, [&](const AxisCandidate& c) { return around(c, points.few); });
 }
 
-std::vector<Element> likeliest(const AxialPoints& points) {
-  return rings(points.axes.likeliest(RoundKind::cylinder), points);
+std::vector<Element> initial_toruss(const AxialPoints& points) {
+  return rings(points.axes.initial_estimates(RoundKind::cylinder), points);
 }
 
-std::vector<Element> searched(const AxialPoints& points) {
-  std::vector<Element> starts = likeliest(points);
+std::vector<Element> searched_torus(const AxialPoints& points) {
+  std::vector<Element> starts = initial_toruss(points);
   // The axis of the ring is no axis of a tube: its search keeps no direction.
   NormalisedPoints unbound = points.few;
   unbound.constraints = {};
@@ -104,14 +104,14 @@ std::vector<Element> searched(const AxialPoints& points) {
   return starts;
 }
 
-Result<Minimum> solve(const NormalisedPoints& local) {
-  return axial_minimum(local, kWording, likeliest, searched);
+Result<Minimum> solve_torus(const NormalisedPoints& local) {
+  return axial_minimum(local, kTorusWording, initial_toruss, searched_torus);
 }
 
 }  // namespace
 
 Result<Fit<Torus>> fit_torus(std::span<const Vec3> points, const FitOptions& options) {
-  return round_fit<Torus>(points, options, {ElementKind::torus, kWording.what, 7}, solve);
+  return round_fit<Torus>(points, options, {ElementKind::torus, kTorusWording.what, 7}, solve_torus);
 }
 
 }  // namespace frustum::metrology

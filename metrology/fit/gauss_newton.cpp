@@ -83,7 +83,7 @@ bool GaussNewton::converged_by_full_steps(bool by_factors) {
 
 Element GaussNewton::moved_by(const ElementStep& free) const {
   const ElementStep all = bound_ ? ElementStep(basis_ * free) : free;
-  return slid(moved(element_, all), Vec3::Zero());
+  return shifted(moved(element_, all), Vec3::Zero());
 }
 
 void GaussNewton::accept(const Element& element, const ElementGram& gram) {

@@ -143,13 +143,13 @@ double redundancy(const NormalisedPoints& local, const Minimum& found) {
 }
 
 Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
-                              AxialStarts likeliest, AxialStarts all) {
+                              AxialStarts initial_estimates, AxialStarts all) {
   const PrincipalDirections principal = principal_directions(local);
   if (auto flat = coplanar(local, principal, wording.what)) return *flat;
   const NormalisedPoints few = thinned(local, kSearched);
   const AxialPoints points{local, principal, few, AxisSearch(few, principal)};
   const PointBlocks blocks = PointBlocks::of(local);
-  auto direct = at_once(likeliest(points), local, blocks, principal.spread[2]);
+  auto direct = at_once(initial_estimates(points), local, blocks, principal.spread[2]);
   return direct ? settled(std::move(*direct), blocks, local.constraints, wording)
                 : best_minimum(all(points), local, blocks, wording);
 }

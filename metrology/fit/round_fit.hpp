@@ -50,7 +50,7 @@ template <typename Start>
                                            const NormalisedPoints& local, const PointBlocks& all,
                                            const Wording& wording);
 
-// The minimum below the likeliest of few starts, when it is so low that there is nothing to search for:
+// The minimum below the initial_estimates of few starts, when it is so low that there is nothing to search for:
 // residuals a thousandth of the least spread of the points bend no surface into another.
 [[nodiscard]] std::optional<GaussNewton> at_once(const std::vector<Element>& starts,
                                                  const NormalisedPoints& local,
@@ -75,11 +75,11 @@ struct AxialPoints {
 };
 using AxialStarts = std::vector<Element> (*)(const AxialPoints& points);
 
-// The minimum below the likeliest starts, when they fit at once, or below the best of all. Refuses points
+// The minimum below the initial_estimates starts, when they fit at once, or below the best of all. Refuses points
 // in one plane: a plane cuts cones, cylinders and tori in curves that fit many of them, unless their axis
 // is given.
 [[nodiscard]] Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
-                                            AxialStarts likeliest, AxialStarts all);
+                                            AxialStarts initial_estimates, AxialStarts all);
 
 // What `solve` finds; where it finds nothing, and would without the constraints, what they contradict.
 using Solve = std::function<Result<Minimum>(const NormalisedPoints& local)>;

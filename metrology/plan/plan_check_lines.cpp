@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
-#include "metrology/characteristic/slid_line.hpp"
+#include "metrology/characteristic/best_shifted_line.hpp"
 #include "metrology/fit/element.hpp"
 #include "metrology/plan/plan_check.hpp"
 
@@ -18,7 +18,7 @@ constexpr double kParallel = 1e-6;
 // Sine of the angle between two directions, which have lengths.
 double sine(const Vec3& a, const Vec3& b) { return unit(a).vec().cross(unit(b).vec()).norm(); }
 
-double degrees(double sine) { return std::asin(std::min(1.0, sine)) * kDegPerRad; }
+double degrees_of_sine(double sine) { return std::asin(std::min(1.0, sine)) * kDegPerRad; }
 
 bool has_directions(const PlannedFeature& line) {
   return UnitVec3::of(line.axis) && UnitVec3::of(line.normal.cross(line.axis));
@@ -76,7 +76,7 @@ void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault&
   const double climb = std::abs(unit(line->axis).vec().dot(z.vec()));
   if (climb > kParallel) {
     wrong("line", fmt::format("'{}' must run along the planes, it climbs by {:.6g} deg", line->name,
-                              degrees(climb)));
+                              degrees_of_sine(climb)));
   } else if (facing(*line, z.vec().cross(unit(line->axis).vec())) < kSlack) {
     wrong("line",
           fmt::format("the surface of '{}' faces along Z and gives no place across it", line->name),
@@ -99,7 +99,7 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
   if (const double angle = sine(first.axis, second.axis); angle > kParallel) {
     wrong("features",
           fmt::format("'{}' and '{}' must be planned parallel, they are {:.6g} deg apart",
-                      first.name, second.name, degrees(angle)));
+                      first.name, second.name, degrees_of_sine(angle)));
     return;
   }
   if (sine(first.axis, c.direction) < kSlack) {
@@ -108,8 +108,8 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
   }
   const double askew = std::abs(unit(c.direction).vec().dot(unit(first.axis).vec()));
   if (c.kind == CharacteristicKind::line_distance && askew > kParallel) {
-    wrong("direction",
-          fmt::format("must be perpendicular to the lines, it is {:.6g} deg off", degrees(askew)));
+    wrong("direction", fmt::format("must be perpendicular to the lines, it is {:.6g} deg off",
+                                   degrees_of_sine(askew)));
     return;
   }
   const auto axes = line_axes(c.kind, first.axis, c.direction);

@@ -88,7 +88,7 @@ Result<std::optional<LengthUnit>> stated_unit(std::string_view comment) {
   return text.size() > 1 && text != "in" ? length_unit(text) : std::nullopt;
 }
 
-Heading heading_of(std::string_view text) {
+ApproachDirection approach_direction_of(std::string_view text) {
   const std::string all = lower(trimmed(text));
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const auto at = all.find(open);

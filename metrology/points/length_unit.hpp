@@ -31,11 +31,11 @@ struct LengthUnit {
 [[nodiscard]] Result<std::optional<LengthUnit>> stated_unit(std::string_view comment);
 
 // A column heading and the unit in it: "x [inch]", "X(mm)", "y_um". In lower case; unit may be empty.
-struct Heading {
+struct ApproachDirection {
   std::string name{};
   std::string unit{};
 };
-[[nodiscard]] Heading heading_of(std::string_view text);
+[[nodiscard]] ApproachDirection approach_direction_of(std::string_view text);
 
 // The unit that numbers seem to be in when they span `size` where `expected` mm were planned; nothing when
 // mm will do, or no unit would.

@@ -50,7 +50,7 @@ Diagnostic at_line(int line, std::string message, std::string hint = {}) {
   return d;
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> ply_words_of(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t first = line.find_first_not_of(" \t\r", at);
@@ -62,7 +62,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 template <typename T>
-std::optional<T> number_in(std::string_view text) {
+std::optional<T> ply_number_in(std::string_view text) {
   T value{};
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -97,14 +97,14 @@ class PlyReader {
   }
 
   Fault header() {
-    const auto first = words_of(next_line());
+    const auto first = ply_words_of(next_line());
     if (first.size() != 1 || first[0] != "ply") {
       return at_line(1, "a PLY begins with the line 'ply'");
     }
     bool has_format = false;
     while (!rest_.empty()) {
       const std::string_view line = next_line();
-      const auto words = words_of(line);
+      const auto words = ply_words_of(line);
       if (words.empty() || words[0] == "obj_info") continue;
       if (words[0] == "end_header") {
         if (!has_format) return at_line(line_, "the header of the PLY names no format");
@@ -118,7 +118,7 @@ class PlyReader {
         has_format = true;
         fault = format(words[1]);
       } else if (words[0] == "element" && words.size() == 3) {
-        const auto count = number_in<std::uint64_t>(words[2]);
+        const auto count = ply_number_in<std::uint64_t>(words[2]);
         if (!count) return at_line(line_, fmt::format("'{}' is not a count", words[2]));
         elements_.push_back({std::string(words[1]), *count, {}});
       } else if (words[0] == "property" && !elements_.empty()) {
@@ -174,7 +174,7 @@ class PlyReader {
       }
       const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
       rest_.remove_prefix(word.size());
-      return number_in<double>(word);
+      return ply_number_in<double>(word);
     }
     if (rest_.size() < type.bytes) return std::nullopt;
     std::array<char, 8> raw{};

@@ -176,7 +176,7 @@ class PointReader {
     const std::vector<std::string> known{"feature", "section", "x", "y", "z", "weight"};
     columns_.clear();
     for (const Word& word : words) {
-      Heading heading = heading_of(word.text);
+      ApproachDirection heading = approach_direction_of(word.text);
       if (std::find(known.begin(), known.end(), heading.name) == known.end()) {
         return fault(word.column, fmt::format("unknown column '{}'", word.text),
                      suggestion(heading.name, known));
@@ -204,7 +204,7 @@ class PointReader {
     const Word* with = nullptr;
     const Word* without = nullptr;
     for (const Word& word : words) {
-      const Heading heading = heading_of(word.text);
+      const ApproachDirection heading = approach_direction_of(word.text);
       if (heading.name.size() == 1) (heading.unit.empty() ? without : with) = &word;
     }
     if (with == nullptr || without == nullptr) return std::nullopt;
@@ -214,7 +214,7 @@ class PointReader {
                              unit_->name));
   }
 
-  Problem unit_of_column(const Heading& heading, const Word& word) {
+  Problem unit_of_column(const ApproachDirection& heading, const Word& word) {
     if (heading.unit.empty()) return std::nullopt;
     const auto unit = length_unit(heading.unit);
     const bool is_coordinate = heading.name.size() == 1;

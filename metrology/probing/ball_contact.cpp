@@ -61,27 +61,28 @@ BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& app
   Descent descent(part, approach);
   // A direction off by d changes the centre by r d^2: the bound keeps that below 1e-12 mm.
   const double close = std::sqrt(1e-12 / approach.ball_radius);
-  std::array<Vec3, 3> trail{approach.outward, approach.outward, approach.outward};
+  std::array<Vec3, 3> continuation{approach.outward, approach.outward, approach.outward};
   constexpr int kMost = 30;  // extrapolation every third step makes it two or three rounds
   for (int i = 0; i < kMost; ++i) {
-    const auto touch = descent.ray(trail[2]);
+    const auto touch = descent.ray(continuation[2]);
     if (!touch) {
       if (i == 0) return {why_missed(part, approach), Vec3::Zero()};
       break;  // a shifted ray left the part: the ball rests on its edge
     }
     const Vec3 next = touch->normal;
-    if ((next - trail[2]).norm() < close) {
+    if ((next - continuation[2]).norm() < close) {
       return {ContactState::contact, descent.centre()};
     }
-    trail = {trail[1], trail[2], next};
+    continuation = {continuation[1], continuation[2], next};
     if (i % 3 != 2) continue;
     // Linear convergence has a constant ratio; sum the rest of the series.
-    const Vec3 before = trail[1] - trail[0];
-    const Vec3 after = trail[2] - trail[1];
+    const Vec3 before = continuation[1] - continuation[0];
+    const Vec3 after = continuation[2] - continuation[1];
     const double ratio = after.dot(before) / std::max(before.squaredNorm(), 1e-300);
-    if (std::abs(ratio) < 0.98) trail[2] = (trail[2] + ratio / (1.0 - ratio) * after).normalized();
+    if (std::abs(ratio) < 0.98)
+      continuation[2] = (continuation[2] + ratio / (1.0 - ratio) * after).normalized();
   }
-  descent.search_arc(trail[1], trail[2]);
+  descent.search_arc(continuation[1], continuation[2]);
   return {ContactState::contact, descent.centre()};
 }
 

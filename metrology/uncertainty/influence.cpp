@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "metrology/characteristic/best_shifted_line.hpp"
 #include "metrology/characteristic/characteristic.hpp"
 #include "metrology/characteristic/evaluation.hpp"
-#include "metrology/characteristic/slid_line.hpp"
 #include "metrology/characteristic/workpiece_frame.hpp"
 #include "metrology/uncertainty/fit_response.hpp"
 

@@ -6,7 +6,7 @@
 #include "core/random.hpp"
 #include "metrology/characteristic/evaluation.hpp"
 #include "metrology/probing/cmm_errors.hpp"
-#include "metrology/uncertainty/magnitude_interval.hpp"
+#include "metrology/uncertainty/non_negative_interval.hpp"
 #include "metrology/uncertainty/refit.hpp"
 #include "metrology/uncertainty/uncertainty.hpp"
 
@@ -56,10 +56,10 @@ class Tally {
 
   void begin() {
     values_.clear();
-    if (rule_.kind != MagnitudeKind::none) noise_.resize(parts_.size(), kBlockOfDraws);
+    if (rule_.kind != NonNegativeKind::none) noise_.resize(parts_.size(), kBlockOfDraws);
   }
   void add(const CharacteristicResult& drawn) {
-    if (rule_.kind != MagnitudeKind::none) {
+    if (rule_.kind != NonNegativeKind::none) {
       const auto& parts = drawn.magnitude.parts;
       noise_.col(static_cast<Eigen::Index>(values_.size())) =
           Eigen::Map<const Eigen::VectorXd>(parts.data(), parts_.size()) - parts_;
@@ -68,7 +68,7 @@ class Tally {
     values_.push_back(2.0 * value_ - drawn.value);
   }
   void end() {
-    if (rule_.kind == MagnitudeKind::none) {
+    if (rule_.kind == NonNegativeKind::none) {
       blocks_.push_back(of_values(values_));
       return;
     }

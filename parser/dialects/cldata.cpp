@@ -9,13 +9,13 @@ namespace {
 
 using enum CodeGroup;
 
-constexpr LetterSet kOffsetWord{"H"};
-constexpr LetterSet kHoleWords{"ZRuvQPfrI"};
-constexpr std::array kCodes{
+constexpr LetterSet kCldataOffsetWord{"H"};
+constexpr LetterSet kCldataHoleWords{"ZRuvQPfrI"};
+constexpr std::array kCldataCodes{
     named("UNITS/MM", unit, LengthUnit::millimetre),
     named("UNITS/INCHES", unit, LengthUnit::inch),
-    named("MULTAX/ON", length_compensation, LengthWord::tool_vectors, kOffsetWord),
-    named("MULTAX/OFF", length_compensation, LengthWord::length, kOffsetWord),
+    named("MULTAX/ON", length_compensation, LengthWord::tool_vectors, kCldataOffsetWord),
+    named("MULTAX/OFF", length_compensation, LengthWord::length, kCldataOffsetWord),
     named("LOADTL", tool_change, 0),
     named("SPINDL/CLW", spindle, SpindleDirection::clockwise),
     named("SPINDL/CCLW", spindle, SpindleDirection::counterclockwise),
@@ -39,11 +39,11 @@ constexpr std::array kCodes{
     named("DELAY REV", non_modal, NonModal::dwell),
     named("CYCLE/OFF", hole_cycle, HoleWord::off),
     named("CYCLE/ON", hole_cycle, HoleWord::on),
-    named("CYCLE/DRILL", hole_cycle, HoleWord::drill, kHoleWords),
-    named("CYCLE/DEEP", hole_cycle, HoleWord::peck, kHoleWords),
-    named("CYCLE/BRKCHP", hole_cycle, HoleWord::break_chip, kHoleWords),
-    named("CYCLE/TAP", hole_cycle, HoleWord::tap, kHoleWords),
-    named("CYCLE/BORE", hole_cycle, HoleWord::bore, kHoleWords),
+    named("CYCLE/DRILL", hole_cycle, HoleWord::drill, kCldataHoleWords),
+    named("CYCLE/DEEP", hole_cycle, HoleWord::peck, kCldataHoleWords),
+    named("CYCLE/BRKCHP", hole_cycle, HoleWord::break_chip, kCldataHoleWords),
+    named("CYCLE/TAP", hole_cycle, HoleWord::tap, kCldataHoleWords),
+    named("CYCLE/BORE", hole_cycle, HoleWord::bore, kCldataHoleWords),
     named("STOP", stop, StopKind::program_stop),
     named("OPSTOP", stop, StopKind::optional_stop),
     named("END", stop, StopKind::program_end),
@@ -55,7 +55,7 @@ constexpr std::string_view kTipPath = "let the CAM system write the path of the 
 constexpr std::string_view kWherePartIs =
     "let the CAM system write the path where the part is, or set the work offset in the job";
 constexpr std::string_view kTiltByVector = "give tool vectors in GOTO after MULTAX/ON";
-constexpr std::array kRefusedWords{
+constexpr std::array kCldataRefusedWords{
     RefusedWord{"CUTCOM", kTipPath},
     RefusedWord{"SWITCH", kTipPath},
     RefusedWord{"TRANS", kWherePartIs},
@@ -80,32 +80,32 @@ constexpr std::array kRefusedWords{
     RefusedWord{"TLRGT", kTipPath},
 };
 
-constexpr std::array kLetters{
+constexpr std::array kCldataLetters{
     LetterUse{'a', "tool vectors need MULTAX/ON"},
     LetterUse{'b', "tool vectors need MULTAX/ON"},
     LetterUse{'c', "tool vectors need MULTAX/ON"},
 };
-constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds},
-                            DwellWord{'S', DwellUnit::revolutions}};
+constexpr std::array kCldataDwell{DwellWord{'P', DwellUnit::seconds},
+                                  DwellWord{'S', DwellUnit::revolutions}};
 
-constexpr DialectRules kRules{
+constexpr DialectRules kCldataRules{
     .dialect = Dialect::cldata,
-    .codes = {kCodes},
-    .refused_words = kRefusedWords,
+    .codes = {kCldataCodes},
+    .refused_words = kCldataRefusedWords,
     .vector_letters = "abc",
     .vector_spelling = "i, j, k",
     .vector_hint = "switch it on with MULTAX/ON",
-    .dwell = kDwell,
+    .dwell = kCldataDwell,
     .dwell_hint = "write DELAY/seconds or DELAY/n,REV",
     .tool_brings_length = true,
     .home_without_axes_is_all = true,
     .holes_at_moves = true,
     .always_claimed = LetterSet("FST"),
-    .letters = kLetters,
+    .letters = kCldataLetters,
 };
 
 }  // namespace
 
-const DialectRules& cldata_rules() { return kRules; }
+const DialectRules& cldata_rules() { return kCldataRules; }
 
 }  // namespace frustum::parser

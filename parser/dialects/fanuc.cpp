@@ -9,17 +9,17 @@ namespace {
 
 using enum CodeGroup;
 
-constexpr LetterSet kOffsetWord{"H"};
+constexpr LetterSet kFanucOffsetWord{"H"};
 constexpr LetterSet kSmoothingWords{"PQR"};
-constexpr std::array kCodes{
+constexpr std::array kFanucCodes{
     modal('G', 40, non_modal, NonModal::dwell, LetterSet("PXU")),
     modal('G', 531, non_modal, NonModal::align),
     modal('G', 680, tilted_plane, TiltWord::turn, LetterSet("XYZIJKR")),
     modal('G', 410, radius_compensation, RadiusWord::left, LetterSet("D")),
     modal('G', 420, radius_compensation, RadiusWord::right, LetterSet("D")),
-    modal('G', 430, length_compensation, LengthWord::length, kOffsetWord),
-    modal('G', 434, length_compensation, LengthWord::tool_centre_point, kOffsetWord),
-    modal('G', 435, length_compensation, LengthWord::tool_vectors, kOffsetWord),
+    modal('G', 430, length_compensation, LengthWord::length, kFanucOffsetWord),
+    modal('G', 434, length_compensation, LengthWord::tool_centre_point, kFanucOffsetWord),
+    modal('G', 435, length_compensation, LengthWord::tool_vectors, kFanucOffsetWord),
     modal('G', 490, length_compensation, LengthWord::off),
     modal('G', 682, tilted_plane, TiltWord::feature, LetterSet("XYZIJKPQR")),
     modal('G', 684, tilted_plane, TiltWord::feature_within, LetterSet("XYZIJKPQR")),
@@ -53,7 +53,7 @@ constexpr std::array kCodes{
     modal('M', 990, subprogram, SubprogramWord::leave, LetterSet("P")),
 };
 
-constexpr std::array kDataWords{
+constexpr std::array kFanucDataWords{
     DataWord{1, DataInput::length, LetterSet("R")},
     DataWord{2, DataInput::work_offset, kAxisWords},
     DataWord{10, DataInput::length, LetterSet("R")},
@@ -64,7 +64,7 @@ constexpr std::array kDataWords{
 };
 
 // What would change the part and is not simulated.
-constexpr std::array kRefusedCodes{
+constexpr std::array kFanucRefusedCodes{
     RefusedCode{'G', 52, 69, "write splines as short G1 blocks"},
     RefusedCode{'G', 71, 79, "write the path in X Y Z of the work, not on the unrolled cylinder"},
     RefusedCode{'G', 121, 139, "write the path in X Y Z of the work, with C where it turns"},
@@ -89,16 +89,17 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'G', 291, 299, "go back by G29 or G0 blocks"},
     RefusedCode{'G', 750, 759, "write the cycle out as G0 and G1 blocks"},
 };
-constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
+constexpr std::string_view kFanucNeedsMotion =
+    "axis words need a motion word (G0, G1, G2, G3) or G28";
 constexpr std::string_view kNeedsVectors =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), "
     "and "
     "the tool vector of G0 and G1 after G43.4 or G43.5";
 
-constexpr std::array kLetters{
-    LetterUse{'A', kNeedsMotion},
-    LetterUse{'B', kNeedsMotion},
-    LetterUse{'C', kNeedsMotion},
+constexpr std::array kFanucLetters{
+    LetterUse{'A', kFanucNeedsMotion},
+    LetterUse{'B', kFanucNeedsMotion},
+    LetterUse{'C', kFanucNeedsMotion},
     LetterUse{'D', "D belongs to G41, G42 and G96"},
     LetterUse{'H', "H belongs to G43, G43.4 and G43.5"},
     LetterUse{'I', kNeedsVectors},
@@ -109,41 +110,42 @@ constexpr std::array kLetters{
     LetterUse{'Q', "Q belongs to G5.1, G8, G64, G68.2, G73, G76, G83 and G87"},
     LetterUse{'R', "R belongs to G2, G3 and G10"},
     LetterUse{'U', "U belongs to G4"},
-    LetterUse{'X', kNeedsMotion},
-    LetterUse{'Y', kNeedsMotion},
-    LetterUse{'Z', kNeedsMotion},
+    LetterUse{'X', kFanucNeedsMotion},
+    LetterUse{'Y', kFanucNeedsMotion},
+    LetterUse{'Z', kFanucNeedsMotion},
 };
-constexpr std::array kDwell{DwellWord{'P', DwellUnit::milliseconds_without_point},
-                            DwellWord{'X', DwellUnit::seconds}, DwellWord{'U', DwellUnit::seconds}};
-constexpr std::array<std::string_view, 3> kFiles{"{}", "{}.nc", "{}.NC"};
+constexpr std::array kFanucDwell{DwellWord{'P', DwellUnit::milliseconds_without_point},
+                                 DwellWord{'X', DwellUnit::seconds},
+                                 DwellWord{'U', DwellUnit::seconds}};
+constexpr std::array<std::string_view, 3> kFanucFiles{"{}", "{}.nc", "{}.NC"};
 
-constexpr DialectRules kRules{
+constexpr DialectRules kFanucRules{
     .dialect = Dialect::fanuc,
-    .codes = {kCodes, kMachineCodes, kIsoCodes, kRs274Codes},
-    .refused_codes = kRefusedCodes,
+    .codes = {kFanucCodes, kMachineCodes, kIsoCodes, kRs274Codes},
+    .refused_codes = kFanucRefusedCodes,
     .vector_letters = "IJK",
     .vector_spelling = "I J K",
     .vector_hint = "switch it on with G43.4 or G43.5",
-    .dwell = kDwell,
+    .dwell = kFanucDwell,
     .dwell_hint = "give P in milliseconds, or X in seconds",
     .words_behind_move = kStopsBehindMove,
     .always_claimed = LetterSet("FST"),
-    .letters = kLetters,
+    .letters = kFanucLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
     .parameters = {.locals = 33, .unset_is_vacant = true, .first_system = 1000},
     .cycles = {.tool_shift_by_q = true,
                .words_keep_their_mode = true,
                .cancel_brings_motion_back = true},
     .radius = {.source = RadiusSource::last_d},
-    .data_words = kDataWords,
+    .data_words = kFanucDataWords,
     .thread_lead = 'F',
     .parameters_count_at_once = true,
     .data_follow_distance_mode = true,
-    .file_names = kFiles,
+    .file_names = kFanucFiles,
 };
 
 }  // namespace
 
-const DialectRules& fanuc_rules() { return kRules; }
+const DialectRules& fanuc_rules() { return kFanucRules; }
 
 }  // namespace frustum::parser

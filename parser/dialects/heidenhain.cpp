@@ -9,8 +9,8 @@ namespace {
 
 using enum CodeGroup;
 
-constexpr LetterSet kHoleWords{"zuvVQwPfrW"};
-constexpr std::array kCodes{
+constexpr LetterSet kHeidenhainHoleWords{"zuvVQwPfrW"};
+constexpr std::array kHeidenhainCodes{
     passed('M', 60),  // the change itself is TOOL CALL
     named("BEGIN PGM MM", unit, LengthUnit::millimetre),
     named("BEGIN PGM INCH", unit, LengthUnit::inch),
@@ -42,11 +42,12 @@ constexpr std::array kCodes{
     named("CYCL DEF 19", tilted_plane, TiltWord::spatial, LetterSet("ABCd")),
     named("CYCL DEF 19 OFF", tilted_plane, TiltWord::off),
     named("CYCL DEF 10", tilted_plane, TiltWord::turn, LetterSet("XYR")),
-    named("CYCL DEF 200", hole_cycle, HoleWord::drill, kHoleWords),
-    named("CYCL DEF 201", hole_cycle, HoleWord::bore, kHoleWords),
-    named("CYCL DEF 207", hole_cycle, HoleWord::tap, kHoleWords),
-    named("CYCL DEF 203", hole_cycle, HoleWord::deep, kHoleWords | LetterSet("DLKH")),
-    named("CYCL DEF 205", hole_cycle, HoleWord::deep_pecks, kHoleWords | LetterSet("DLEHgh")),
+    named("CYCL DEF 200", hole_cycle, HoleWord::drill, kHeidenhainHoleWords),
+    named("CYCL DEF 201", hole_cycle, HoleWord::bore, kHeidenhainHoleWords),
+    named("CYCL DEF 207", hole_cycle, HoleWord::tap, kHeidenhainHoleWords),
+    named("CYCL DEF 203", hole_cycle, HoleWord::deep, kHeidenhainHoleWords | LetterSet("DLKH")),
+    named("CYCL DEF 205", hole_cycle, HoleWord::deep_pecks,
+          kHeidenhainHoleWords | LetterSet("DLEHgh")),
     named("CYCL CALL", hole_call, 0),
     modal('M', 990, hole_call, 0),
     named("FN 14", raised_error, 0, LetterSet("E")),
@@ -75,7 +76,7 @@ constexpr std::array kCodes{
 };
 
 // What would change the part and is not simulated.
-constexpr std::array kRefusedCodes{
+constexpr std::array kHeidenhainRefusedCodes{
     RefusedCode{'M', 890, 899, "call the cycle by M99 or CYCL CALL at each hole"},
     RefusedCode{'M', 920, 929, "use M91, the machine's own coordinates"},
     RefusedCode{'M', 970, 1039, "write the path out as L and C blocks"},
@@ -84,7 +85,7 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'M', 1300, 1309, "program in the tilted plane, or use PLANE RESET"},
     RefusedCode{'M', 1380, 1449, "use FUNCTION TCPM or M128"},
 };
-constexpr std::array kRefusedWords{
+constexpr std::array kHeidenhainRefusedWords{
     RefusedWord{"APPR", "write the approach as L and C blocks"},
     RefusedWord{"DEP", "write the departure as L and C blocks"},
     RefusedWord{"CYCL", "write the cycle out as L blocks"},
@@ -95,7 +96,7 @@ constexpr std::string_view kNeedsStatement =
     "axis words belong to L, LN, C, CR and CC; I before one makes it incremental";
 constexpr std::string_view kNeedsTcpm = "TX TY TZ give the tool vector in LN after M128";
 
-constexpr std::array kLetters{
+constexpr std::array kHeidenhainLetters{
     LetterUse{'A', kNeedsStatement},
     LetterUse{'B', kNeedsStatement},
     LetterUse{'C', kNeedsStatement},
@@ -115,19 +116,19 @@ constexpr std::array kLetters{
 };
 // M5, M9, M127, M129, M137, and the tool change that is only told.
 constexpr std::array kBehindMove{50, 60, 90, 1270, 1290, 1370};
-constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
+constexpr std::array kHeidenhainDwell{DwellWord{'P', DwellUnit::seconds}};
 
-constexpr std::array<std::string_view, 2> kFiles{"{}.h", "{}.H"};
+constexpr std::array<std::string_view, 2> kHeidenhainFiles{"{}.h", "{}.H"};
 
-constexpr DialectRules kRules{
+constexpr DialectRules kHeidenhainRules{
     .dialect = Dialect::heidenhain,
-    .codes = {kCodes, kMachineCodes},
-    .refused_codes = kRefusedCodes,
-    .refused_words = kRefusedWords,
+    .codes = {kHeidenhainCodes, kMachineCodes},
+    .refused_codes = kHeidenhainRefusedCodes,
+    .refused_words = kHeidenhainRefusedWords,
     .vector_letters = "abc",
     .vector_spelling = "TX TY TZ",
     .vector_hint = "switch it on with M128",
-    .dwell = kDwell,
+    .dwell = kHeidenhainDwell,
     .dwell_hint = "give the time in seconds",
     .tool_brings_length = true,
     .inch_feed = 0.1,
@@ -136,18 +137,18 @@ constexpr DialectRules kRules{
     .arcs_turn_about_pole = true,
     .inserts_corners = true,
     .always_claimed = LetterSet("FST"),
-    .letters = kLetters,
+    .letters = kHeidenhainLetters,
     .known_letters = "X Y Z A B C F FT M R",
     .parameters = {.local_names = "QL"},
     .polar_words = LetterSet("pq"),
     .polar = {.about_pole = true, .radius = "PR", .angle = "PA", .pole = "CC"},
     .arcs_lead_on = true,
     .calls_whole_files = true,
-    .file_names = kFiles,
+    .file_names = kHeidenhainFiles,
 };
 
 }  // namespace
 
-const DialectRules& heidenhain_rules() { return kRules; }
+const DialectRules& heidenhain_rules() { return kHeidenhainRules; }
 
 }  // namespace frustum::parser

@@ -9,8 +9,8 @@ namespace {
 
 using enum CodeGroup;
 
-constexpr LetterSet kOffsetWord{"H"};
-constexpr std::array kCodes{
+constexpr LetterSet kLinuxCncOffsetWord{"H"};
+constexpr std::array kLinuxCncCodes{
     modal('G', 40, non_modal, NonModal::dwell, LetterSet("P")),
     modal('G', 50, motion, MotionMode::cubic_spline),
     modal('G', 51, motion, MotionMode::quadratic_spline),
@@ -22,9 +22,9 @@ constexpr std::array kCodes{
     modal('G', 420, radius_compensation, RadiusWord::right, LetterSet("D")),
     modal('G', 411, radius_compensation, RadiusWord::left_by_diameter, LetterSet("DL")),
     modal('G', 421, radius_compensation, RadiusWord::right_by_diameter, LetterSet("DL")),
-    modal('G', 430, length_compensation, LengthWord::length_only, kOffsetWord),
+    modal('G', 430, length_compensation, LengthWord::length_only, kLinuxCncOffsetWord),
     modal('G', 431, length_compensation, LengthWord::dynamic, kAxisWords),
-    modal('G', 432, length_compensation, LengthWord::additional, kAxisWords | kOffsetWord),
+    modal('G', 432, length_compensation, LengthWord::additional, kAxisWords | kLinuxCncOffsetWord),
     modal('G', 100, non_modal, NonModal::data, LetterSet("LPRXYZABCIJQ")),
     modal('G', 281, non_modal, NonModal::keep_home),
     modal('G', 300, non_modal, NonModal::second_home, kAxisWords),
@@ -72,7 +72,7 @@ constexpr auto kUserCodes = [] {
 }();
 
 constexpr LetterSet kToolAxes = kAxisWords | LetterSet("RIJQ");
-constexpr std::array kDataWords{
+constexpr std::array kLinuxCncDataWords{
     DataWord{0, DataInput::tool_table, LetterSet()},
     DataWord{1, DataInput::tool, kToolAxes},
     DataWord{2, DataInput::work_offset, kAxisWords | LetterSet("R")},
@@ -82,7 +82,7 @@ constexpr std::array kDataWords{
 };
 
 // What would change the part and is not simulated.
-constexpr std::array kRefusedCodes{
+constexpr std::array kLinuxCncRefusedCodes{
     RefusedCode{'G', 433, 439, "use G43 H, and M428 for tool-tip control"},
     RefusedCode{'G', 171, 171, "U V W are not simulated; use G17"},
     RefusedCode{'G', 181, 181, "U V W are not simulated; use G18"},
@@ -90,42 +90,43 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'G', 700, 729, "write the passes of the lathe cycle as G0 and G1 blocks"},
     RefusedCode{'M', 4300, 4300, "use M428 (tool tip) or M429 (axes)"},
 };
-constexpr std::string_view kNeedsMotion = "axis words need a motion word (G0, G1, G2, G3) or G28";
-constexpr std::string_view kNeedsArc =
+constexpr std::string_view kLinuxCncNeedsMotion =
+    "axis words need a motion word (G0, G1, G2, G3) or G28";
+constexpr std::string_view kLinuxCncNeedsArc =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K)";
 
-constexpr std::array kLetters{
-    LetterUse{'A', kNeedsMotion},
-    LetterUse{'B', kNeedsMotion},
-    LetterUse{'C', kNeedsMotion},
+constexpr std::array kLinuxCncLetters{
+    LetterUse{'A', kLinuxCncNeedsMotion},
+    LetterUse{'B', kLinuxCncNeedsMotion},
+    LetterUse{'C', kLinuxCncNeedsMotion},
     LetterUse{'D', "D belongs to G41, G42, G41.1, G42.1 and G96"},
     LetterUse{'E', "E belongs to G76 and M66 to M68"},
     LetterUse{'H', "H belongs to G43, G43.2 and G76"},
-    LetterUse{'I', kNeedsArc},
-    LetterUse{'J', kNeedsArc},
-    LetterUse{'K', kNeedsArc},
+    LetterUse{'I', kLinuxCncNeedsArc},
+    LetterUse{'J', kLinuxCncNeedsArc},
+    LetterUse{'K', kLinuxCncNeedsArc},
     LetterUse{'L', "L belongs to canned cycles, G5.2, G10 and M98"},
     LetterUse{'P', "P belongs to G4, G2, G3, G5, G5.2, G10, G64, M98 and M100 to M199"},
     LetterUse{'Q', "Q belongs to G5, G64, G10, M61 and M100 to M199"},
     LetterUse{'R', "R belongs to G2, G3 and G10"},
-    LetterUse{'X', kNeedsMotion},
-    LetterUse{'Y', kNeedsMotion},
-    LetterUse{'Z', kNeedsMotion},
+    LetterUse{'X', kLinuxCncNeedsMotion},
+    LetterUse{'Y', kLinuxCncNeedsMotion},
+    LetterUse{'Z', kLinuxCncNeedsMotion},
 };
-constexpr std::array kDwell{DwellWord{'P', DwellUnit::seconds}};
-constexpr std::array<std::string_view, 2> kFiles{"{}.ngc", "{}.nc"};
+constexpr std::array kLinuxCncDwell{DwellWord{'P', DwellUnit::seconds}};
+constexpr std::array<std::string_view, 2> kLinuxCncFiles{"{}.ngc", "{}.nc"};
 
-constexpr DialectRules kRules{
+constexpr DialectRules kLinuxCncRules{
     .dialect = Dialect::linuxcnc,
-    .codes = {kCodes, kUserCodes, kMachineCodes, kIsoCodes, kRs274Codes},
-    .refused_codes = kRefusedCodes,
+    .codes = {kLinuxCncCodes, kUserCodes, kMachineCodes, kIsoCodes, kRs274Codes},
+    .refused_codes = kLinuxCncRefusedCodes,
     .vector_letters = "abc",
-    .dwell = kDwell,
+    .dwell = kLinuxCncDwell,
     .dwell_hint = "give P in seconds",
     .home_without_axes_is_all = true,
     .feed_precedes_unit = true,
     .always_claimed = LetterSet("FST"),
-    .letters = kLetters,
+    .letters = kLinuxCncLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T X Y Z",
     .parameters = {.locals = 30, .named_locals = true, .unset_is_zero = true},
     .cycles = {.retract_to_initial = false,
@@ -142,12 +143,12 @@ constexpr DialectRules kRules{
                .ends_with_program = true,
                .any_move_leaves = true},
     .polar_words = LetterSet("pq"),
-    .data_words = kDataWords,
-    .file_names = kFiles,
+    .data_words = kLinuxCncDataWords,
+    .file_names = kLinuxCncFiles,
 };
 
 }  // namespace
 
-const DialectRules& linuxcnc_rules() { return kRules; }
+const DialectRules& linuxcnc_rules() { return kLinuxCncRules; }
 
 }  // namespace frustum::parser

@@ -20,7 +20,7 @@ constexpr std::string_view kNoFlow = "write the blocks out in the order in which
 constexpr std::string_view kNoThreads = "tap with CYCLE84, or leave threading out of the program";
 constexpr LetterSet kPoleWords{"XYZpq"};
 constexpr LetterSet kDrillingWords{"zVuZdPKQrWfevmtwxeIJEkslghi"};
-constexpr std::array kCodes{
+constexpr std::array kSinumerikCodes{
     modal('G', 40, non_modal, NonModal::dwell),
     modal('G', 700, unit, LengthUnit::inch_but_feeds),
     modal('G', 710, unit, LengthUnit::millimetre),
@@ -136,7 +136,7 @@ constexpr std::array kCodes{
 };
 
 // What would change the part and is not simulated.
-constexpr std::array kRefusedCodes{
+constexpr std::array kSinumerikRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
     RefusedCode{'G', 340, 359, "write a thread of constant lead: G33"},
     RefusedCode{'G', 630, 639, kNoThreads},
@@ -146,7 +146,7 @@ constexpr std::array kRefusedCodes{
     RefusedCode{'G', 5070, 5990, "use G54 to G57, G505 and G506"},
     RefusedCode{'G', 960, 969, "give the spindle speed in revolutions per minute"},
 };
-constexpr std::array kRefusedWords{
+constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"ROTS", kNoFrames},
     RefusedWord{"AROTS", kNoFrames},
     RefusedWord{"CROTS", kNoFrames},
@@ -208,21 +208,21 @@ constexpr std::array kRefusedWords{
 
 constexpr std::string_view kNeedsIsoMotion =
     "axis words need a motion word: G0, G1, G2, G3, CIP, CT or G33";
-constexpr std::string_view kNeedsArc =
+constexpr std::string_view kSinumerikNeedsArc =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K)";
 constexpr std::string_view kNeedsPolar =
     "AP= and RP= are the end of G0, G1, G2, G3 and CT, or a pole behind G110, G111 and G112";
 constexpr std::string_view kNeedsThrough = "I1= J1= K1= give a point of the arc behind CIP";
 constexpr std::string_view kNeedsTraori = "A3= B3= C3= give the tool vector after TRAORI";
 
-constexpr std::array kLetters{
+constexpr std::array kSinumerikLetters{
     LetterUse{'A', kNeedsIsoMotion},
     LetterUse{'B', kNeedsIsoMotion},
     LetterUse{'C', kNeedsIsoMotion},
     LetterUse{'H', "auxiliary functions H are not read; leave it out"},
-    LetterUse{'I', kNeedsArc},
-    LetterUse{'J', kNeedsArc},
-    LetterUse{'K', kNeedsArc},
+    LetterUse{'I', kSinumerikNeedsArc},
+    LetterUse{'J', kSinumerikNeedsArc},
+    LetterUse{'K', kSinumerikNeedsArc},
     LetterUse{'R', "CR= belongs to G2 and G3, RPL= to ROT"},
     LetterUse{'X', kNeedsIsoMotion},
     LetterUse{'Y', kNeedsIsoMotion},
@@ -237,26 +237,26 @@ constexpr std::array kLetters{
     LetterUse{'v', kNeedsThrough},
     LetterUse{'w', kNeedsThrough},
 };
-constexpr std::array kDwell{DwellWord{'F', DwellUnit::seconds},
-                            DwellWord{'S', DwellUnit::revolutions}};
+constexpr std::array kSinumerikDwell{DwellWord{'F', DwellUnit::seconds},
+                                     DwellWord{'S', DwellUnit::revolutions}};
 
 constexpr std::array<std::string_view, 4> kFileNames{"{}.spf", "{}.SPF", "{}.mpf", "{}.MPF"};
 
-constexpr DialectRules kRules{
+constexpr DialectRules kSinumerikRules{
     .dialect = Dialect::sinumerik,
-    .codes = {kCodes, kMachineCodes, kIsoCodes},
-    .refused_codes = kRefusedCodes,
-    .refused_words = kRefusedWords,
+    .codes = {kSinumerikCodes, kMachineCodes, kIsoCodes},
+    .refused_codes = kSinumerikRefusedCodes,
+    .refused_words = kSinumerikRefusedWords,
     .vector_letters = "abc",
     .vector_spelling = "A3= B3= C3=",
     .vector_hint = "switch it on with TRAORI",
-    .dwell = kDwell,
+    .dwell = kSinumerikDwell,
     .dwell_hint = "give F in seconds, or S in revolutions",
     .tool_brings_length = true,
     .machine_coordinates_keep_length = true,
     .words_behind_move = kStopsBehindMove,
     .always_claimed = LetterSet("FSTD"),
-    .letters = kLetters,
+    .letters = kSinumerikLetters,
     .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP I1 J1 K1",
     .parameters = {.named_locals = true,
                    .unset_is_zero = true,
@@ -280,6 +280,6 @@ constexpr DialectRules kRules{
 
 }  // namespace
 
-const DialectRules& sinumerik_rules() { return kRules; }
+const DialectRules& sinumerik_rules() { return kSinumerikRules; }
 
 }  // namespace frustum::parser

@@ -4,10 +4,10 @@
 #include <cctype>
 #include <string>
 
-#include "parser/reading/cldata_record.hpp"
-#include "parser/reading/grammar.hpp"
-#include "parser/reading/macro_reader.hpp"
-#include "parser/reading/o_word_reader.hpp"
+#include "parser/reading/cldata/cldata_record.hpp"
+#include "parser/reading/rs274/grammar.hpp"
+#include "parser/reading/rs274/macro_reader.hpp"
+#include "parser/reading/rs274/o_word_reader.hpp"
 
 namespace frustum::parser {
 namespace {

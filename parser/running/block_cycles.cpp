@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/units.hpp"
 #include "parser/arc.hpp"
 #include "parser/running/block_executor.hpp"
@@ -14,7 +15,6 @@ namespace frustum::parser {
 namespace {
 
 constexpr int kMaxHoles = 99'999;
-constexpr double kMillisecondsPerSecond = 1000.0;
 
 bool needs_peck(MotionMode cycle) {
   return cycle == MotionMode::peck || cycle == MotionMode::peck_short;
@@ -102,8 +102,9 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   const auto v = static_cast<AxisLetter>(axes.v);
   const auto w = static_cast<AxisLetter>(3 - axes.u - axes.v);
   if (auto done = check_tool_length(movement); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
-  if (state_.word_frame.scale != 1.0 || state_.word_frame.mirrors.at(static_cast<std::size_t>(w))) {
+  if (auto done = check_programmed_frame(movement); !done) return done;
+  if (state_.programmed_frame.scale != 1.0 ||
+      state_.programmed_frame.mirrors.at(static_cast<std::size_t>(w))) {
     return fail(movement.column, "a canned cycle where the depths are scaled or mirrored",
                 fmt::format("end it before, by G50 or G50.1 {}0", to_char(w)));
   }

@@ -13,7 +13,6 @@ constexpr int kMaxNumber = 99'999;
 constexpr int kFixture = 9;  // G59.3
 constexpr int kOrientations = 9;
 constexpr int kExtendedOffsets = 300;
-constexpr std::array kLinear{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 
 std::string known_inputs(const DialectRules& rules) {
   std::string text;
@@ -139,11 +138,11 @@ BlockExecutor::Outcome BlockExecutor::set_offset_here(const BlockWords& words) {
   const ModalState before = state_;
   const AxisTarget axes = axis_positions();
   place_datum({{}, offset.rotation});
-  const WordFrame frame = state_.offset_frame;
+  const ProgrammedFrame frame = state_.offset_frame;
   state_ = before;
   const auto tool = state_.compensation.offset();
   AxisTarget place = axes;  // relative to the old origin
-  for (const AxisLetter axis : kLinear) {
+  for (const AxisLetter axis : kLinearAxes) {
     const auto& origin = offset.origin[axis];
     const bool known = place[axis] && origin && (axis != AxisLetter::Z || tool);
     const bool mixed = frame.turns() && axis != AxisLetter::Z;
@@ -159,12 +158,12 @@ BlockExecutor::Outcome BlockExecutor::set_offset_here(const BlockWords& words) {
     place[axis] =
         known ? *place[axis] - *origin - (axis == AxisLetter::Z ? tool->at(2) : 0.0) : 0.0;
   }
-  AxisTarget wanted = state_.word_frame.to_words(frame.to_words(place));
+  AxisTarget wanted = state_.programmed_frame.to_words(frame.to_words(place));
   for (const AxisLetter axis : kAxisLetters) {
     const char letter = to_char(axis);
     if (words.has(letter)) wanted[axis] = scaled(axis, words[letter].value);
   }
-  const AxisTarget new_place = frame.from_words(state_.word_frame.from_words(wanted));
+  const AxisTarget new_place = frame.from_words(state_.programmed_frame.from_words(wanted));
   for (const AxisLetter axis : kAxisLetters) {
     const bool mixed = frame.turns() && !is_rotary(axis) && axis != AxisLetter::Z;
     if (!words.has(to_char(axis)) && !mixed) continue;
@@ -220,7 +219,8 @@ BlockExecutor::Outcome BlockExecutor::set_tool_offsets(const BlockWords& words, 
     state_.compensation = {};
     if (input == DataInput::tool_at_fixture) datum = data_.work_offset(kFixture);
     place_datum(datum);
-    const WordFrame own = input == DataInput::tool_at_fixture ? WordFrame{} : state_.word_frame;
+    const ProgrammedFrame own =
+        input == DataInput::tool_at_fixture ? ProgrammedFrame{} : state_.programmed_frame;
     place = state_.offset_frame.from_words(own.from_words(target));
     state_ = before;
   }

@@ -10,14 +10,13 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::array kLinear{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 constexpr std::size_t kZ = 2;
 
 using ToolOffset = std::array<double, kAxisLetters.size()>;
 
 // The turn, and what is added besides the origin of X Y Z and the tool's length.
-WordFrame data_frame(const WorkOffset& datum, const ToolOffset& tool) {
-  WordFrame frame;
+ProgrammedFrame data_frame(const WorkOffset& datum, const ToolOffset& tool) {
+  ProgrammedFrame frame;
   if (datum.rotation != 0.0) frame.turn.rotation = rotation_z(datum.rotation);
   frame.turn.translation = Vec3(tool[0], tool[1], 0.0);
   for (std::size_t i = 0; i < frame.rotary_shift.size(); ++i) {
@@ -56,7 +55,7 @@ std::optional<double> growth(const ModalState& before, const ModalState& after, 
 }
 
 bool turns(const ModalState& state) {
-  return state.word_frame.turns() || state.offset_frame.turns();
+  return state.programmed_frame.turns() || state.offset_frame.turns();
 }
 bool follows_words(const ModalState& state, AxisLetter axis) {
   return is_rotary(axis) || (!state.compensation.tip && !state.tilted);
@@ -95,7 +94,7 @@ BlockExecutor::Outcome BlockExecutor::tell_origin(int number, std::uint32_t colu
   for (std::size_t i = 0; i < setting.origin.size(); ++i) {
     setting.origin.at(i) = datum->origin[kAxisLetters.at(i)];
   }
-  auto& told = told_origins_[number];
+  auto& told = programmed_offsets_[number];
   if (told != setting.origin) emit(column, setting);
   told = setting.origin;
   return Done{};
@@ -135,7 +134,7 @@ BlockExecutor::Outcome BlockExecutor::replace_datum(std::uint32_t column) {
 
 AxisTarget BlockExecutor::axis_positions() const {
   AxisTarget axes =
-      state_.offset_frame.from_words(state_.word_frame.from_words(position_.target()));
+      state_.offset_frame.from_words(state_.programmed_frame.from_words(position_.target()));
   for (const AxisLetter axis : kAxisLetters) {
     const auto more = added(state_, axis);
     if (axes[axis] && more && follows_words(state_, axis)) {
@@ -166,7 +165,7 @@ std::string BlockExecutor::why_axis_unknown(AxisLetter axis) const {
 void BlockExecutor::follow_datum(const ModalState& before, const AxisTarget& axes,
                                  PositionLoss loss) {
   AxisTarget place =
-      before.offset_frame.from_words(before.word_frame.from_words(position_.target()));
+      before.offset_frame.from_words(before.programmed_frame.from_words(position_.target()));
   for (const AxisLetter axis : kAxisLetters) {
     const auto more = growth(before, state_, axis);
     if (place[axis] && more && (follows_words(state_, axis) || *more == 0.0)) {
@@ -175,7 +174,7 @@ void BlockExecutor::follow_datum(const ModalState& before, const AxisTarget& axe
       place[axis].reset();
     }
   }
-  const AxisTarget words = state_.word_frame.to_words(state_.offset_frame.to_words(place));
+  const AxisTarget words = state_.programmed_frame.to_words(state_.offset_frame.to_words(place));
   for (const AxisLetter axis : kAxisLetters) {
     if (words[axis]) {
       if (words[axis] != position_[axis]) position_.set(axis, *words[axis]);
@@ -193,9 +192,9 @@ void BlockExecutor::follow_datum(const ModalState& before, const AxisTarget& axe
 void BlockExecutor::arrive(const AxisTarget& axes) {
   if (turns(state_)) {
     // A turned frame mixes the coordinates: all or none.
-    for (const AxisLetter axis : kLinear) {
+    for (const AxisLetter axis : kLinearAxes) {
       if (position_[axis]) continue;
-      for (const AxisLetter other : kLinear) {
+      for (const AxisLetter other : kLinearAxes) {
         position_.forget(other, PositionLoss::machine_coordinates, block_->line);
       }
     }
@@ -209,7 +208,7 @@ void BlockExecutor::arrive(const AxisTarget& axes) {
       place[axis].reset();
     }
   }
-  const AxisTarget words = state_.word_frame.to_words(state_.offset_frame.to_words(place));
+  const AxisTarget words = state_.programmed_frame.to_words(state_.offset_frame.to_words(place));
   for (const AxisLetter axis : kAxisLetters) {
     if (position_[axis]) continue;
     if (words[axis]) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.hpp"
 #include "parser/arc.hpp"
 #include "parser/running/block_executor.hpp"
 #include "parser/running/drilling_cycle.hpp"
@@ -11,7 +12,6 @@
 namespace frustum::parser {
 namespace {
 
-constexpr double kSecondsPerMinute = 60.0;
 constexpr int kMostMode = 1'000'000'000;
 
 }  // namespace
@@ -240,7 +240,8 @@ BlockExecutor::Outcome BlockExecutor::drill_here(const DrillingCycle& cycle, std
   if (state_.tool_axis) {
     return fail(column, "a cycle with a tool vector", "tilt the plane by CYCLE800 before");
   }
-  if (state_.word_frame.scale != 1.0 || state_.word_frame.mirrors.at(static_cast<std::size_t>(w))) {
+  if (state_.programmed_frame.scale != 1.0 ||
+      state_.programmed_frame.mirrors.at(static_cast<std::size_t>(w))) {
     return fail(column, "a cycle where the depths are scaled or mirrored",
                 "end that before, by SCALE or MIRROR alone");
   }
@@ -264,7 +265,7 @@ BlockExecutor::Outcome BlockExecutor::drill_here(const DrillingCycle& cycle, std
   }
   const double speed_before = state_.spindle_speed;
   position_.set(w, cycle.level);
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   emit(column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
   if (cycle.kind == DrillingWord::tap) {
     turn(cycle.lead > 0.0 ? SpindleDirection::clockwise : SpindleDirection::counterclockwise,

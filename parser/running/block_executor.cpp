@@ -16,8 +16,6 @@ namespace frustum::parser {
 namespace {
 
 constexpr LetterSet kMoveWords{"XYZABCIJKRabcpquvw"};
-constexpr int kMaxProgramNumber = 99'999'999;
-constexpr int kMaxRepeats = 99'999;
 
 LetterSet centre_letters(Plane plane) {
   constexpr std::array kLetters{LetterSet("IJ"), LetterSet("IK"), LetterSet("JK")};
@@ -50,7 +48,7 @@ BlockExecutor::BlockExecutor(Dialect dialect, const AxisTarget& start, ControlDa
   place_datum(data_.work_offset(state_.work_offset));
   for (const auto& [number, offset] : data_.work_offsets) {
     for (std::size_t i = 0; i < 3; ++i) {
-      told_origins_[number].at(i) = offset.origin[kAxisLetters.at(i)];
+      programmed_offsets_[number].at(i) = offset.origin[kAxisLetters.at(i)];
     }
   }
 }
@@ -350,7 +348,7 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
       if (!number) return in_this_block(number.error().front());
       const auto checked = Parameters::index_of(*number, rules_.parameters);
       if (!checked) {
-        return fail(setting.column, checked.error().front().message, checked.error().front().hint);
+        return fail(setting.column, checked.error().front());
       }
       index = *checked;
     }
@@ -461,6 +459,12 @@ Diagnostic BlockExecutor::fail(std::uint32_t column, std::string message, std::s
   return in_this_block(std::move(diagnostic));
 }
 
+Diagnostic BlockExecutor::fail(std::uint32_t column, const Diagnostic& found) const {
+  Diagnostic diagnostic = error(found.id, found.message, found.hint);
+  diagnostic.column = static_cast<int>(column);
+  return in_this_block(std::move(diagnostic));
+}
+
 Diagnostic BlockExecutor::in_this_block(Diagnostic diagnostic) const {
   const SourcePlace place = block_->place_of(static_cast<std::uint32_t>(diagnostic.column));
   diagnostic.line = static_cast<int>(place.line);
@@ -487,7 +491,7 @@ void BlockExecutor::pass_to_radius(Motion&& motion) {
 }
 
 void BlockExecutor::send(Motion&& motion) {
-  if (!state_.word_frame.is_identity()) state_.word_frame.place(motion.command);
+  if (!state_.programmed_frame.is_identity()) state_.programmed_frame.place(motion.command);
   if (!state_.offset_frame.is_identity()) state_.offset_frame.place(motion.command);
   ++motions_;
   sink_(std::move(motion));

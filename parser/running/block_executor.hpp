@@ -40,6 +40,10 @@
 
 namespace frustum::parser {
 
+// The largest program number of a call, and how often one call repeats.
+constexpr int kMaxProgramNumber = 99'999'999;
+constexpr int kMaxRepeats = 99'999;
+
 using MotionSink = std::function<void(Motion&&)>;
 
 // Where the program goes after a block.
@@ -168,7 +172,7 @@ class BlockExecutor {
   [[nodiscard]] Outcome align(std::uint32_t column);
   [[nodiscard]] Outcome set_pole(const BlockWords& words);
   [[nodiscard]] Outcome set_start(const BlockWords& words);
-  void change_word_frame(const WordFrame& next);
+  void change_programmed_frame(const ProgrammedFrame& next);
   [[nodiscard]] Outcome shift_words(const BlockWords& words, NonModal how);
   [[nodiscard]] Outcome turn_words(const BlockWords& words);
   [[nodiscard]] Outcome change_program_frame(const BlockWords& words);
@@ -176,7 +180,7 @@ class BlockExecutor {
   [[nodiscard]] Result<ProgramFrame> scaling_of(const BlockWords& words) const;
   void set_program_frame(const ProgramFrame& next);
   [[nodiscard]] Result<Pose> plane_below(const BlockWords& words) const;
-  [[nodiscard]] Outcome check_word_frame(const Movement& movement) const;
+  [[nodiscard]] Outcome check_programmed_frame(const Movement& movement) const;
 
   // What lies between words and axes, and positions that follow it (block_datum.cpp).
   using ToolOffset = std::array<double, kAxisLetters.size()>;
@@ -301,6 +305,7 @@ class BlockExecutor {
   void leave_program_coordinates(LetterSet axes, PositionLoss loss);
   void forget(LetterSet axes, PositionLoss loss);
   [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
+  [[nodiscard]] Diagnostic fail(std::uint32_t column, const Diagnostic& found) const;
   [[nodiscard]] Diagnostic in_this_block(Diagnostic diagnostic) const;
   void emit(std::uint32_t column, Command command);
   [[nodiscard]] Outcome insert_corner(const BlockWords& words);
@@ -311,7 +316,8 @@ class BlockExecutor {
   const MotionSink& sink_;
   std::uint64_t motions_ = 0;
   ControlData data_;
-  std::map<int, std::array<std::optional<double>, 3>> told_origins_{};  // as the motions have them
+  std::map<int, std::array<std::optional<double>, 3>>
+      programmed_offsets_{};  // as the motions have them
   ModalState state_;
   ProgramPosition position_;
   // Modes that M70 and M73 keep, of the main program and each call.

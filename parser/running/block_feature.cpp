@@ -24,16 +24,16 @@ std::string missing_part(const FeatureWords& feature) {
 
 // The plane lies in the frame of the words at work, which is that of the words again after G69.
 BlockExecutor::Outcome BlockExecutor::tilt(const GivenCode& code, const Pose& plane, bool within) {
-  if (!within && state_.frame_below) state_.word_frame = *state_.frame_below;
-  if (state_.word_frame.is_mirrored() || state_.word_frame.scale != 1.0) {
+  if (!within && state_.frame_below) state_.programmed_frame = *state_.frame_below;
+  if (state_.programmed_frame.is_mirrored() || state_.programmed_frame.scale != 1.0) {
     return fail(code.column,
                 fmt::format("{} while the words are mirrored or scaled", code.code->name()),
                 "end that before, by G50 and G50.1");
   }
   const Pose outer = within && state_.tilted ? state_.tilt : Pose{};
-  const Pose words = state_.word_frame.turn * Pose::translated(state_.word_frame.shift);
-  if (!state_.frame_below) state_.frame_below = state_.word_frame;
-  state_.word_frame = WordFrame{.rotary_shift = state_.word_frame.rotary_shift};
+  const Pose words = state_.programmed_frame.turn * Pose::translated(state_.programmed_frame.shift);
+  if (!state_.frame_below) state_.frame_below = state_.programmed_frame;
+  state_.programmed_frame = ProgrammedFrame{.rotary_shift = state_.programmed_frame.rotary_shift};
   forget(kLinearWords, PositionLoss::tilted_plane);
   state_.tilted = true;
   state_.tilt = outer * words * plane;

@@ -49,7 +49,7 @@ bool same(const CompensationChange& a, const CompensationChange& b) {
          a.offset_number == b.offset_number && a.length == b.length;
 }
 
-Mat3 turn(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
+Mat3 turn_about(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
 
 // The order of the axes that a swivel mode names: three pairs of bits, 1 X, 2 Y, 3 Z, the first
 // axis lowest; 57 is X Y Z. Empty for the modes that do not turn axis by axis.
@@ -66,12 +66,13 @@ std::optional<std::array<int, 3>> axis_sequence(int mode) {
 // The turn of a swivel mode: axis by axis, or by solid angles: about Z, then the new Y.
 std::optional<Mat3> swivelled(int mode, const Vec3& angles) {
   constexpr int kSolidAngles = 64;
-  if ((mode & 192) == kSolidAngles) return Mat3(turn(2, angles[0]) * turn(1, angles[1]));
+  if ((mode & 192) == kSolidAngles)
+    return Mat3(turn_about(2, angles[0]) * turn_about(1, angles[1]));
   const auto axes = axis_sequence(mode);
   if (!axes) return std::nullopt;
   Mat3 rotation = Mat3::Identity();
   for (std::size_t i = 0; i < axes->size(); ++i) {
-    rotation = rotation * turn(axes->at(i), angles[static_cast<Eigen::Index>(i)]);
+    rotation = rotation * turn_about(axes->at(i), angles[static_cast<Eigen::Index>(i)]);
   }
   return rotation;
 }
@@ -219,14 +220,14 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
   if (kind >= TiltWord::spatial) return set_plane(words);
   if (kind == TiltWord::off) {
     state_.feature.reset();
-    if (state_.frame_below) state_.word_frame = *state_.frame_below;
+    if (state_.frame_below) state_.programmed_frame = *state_.frame_below;
     state_.frame_below.reset();
   }
   const bool ends_turn = rules_.dialect != Dialect::heidenhain;  // G69
-  if (kind == TiltWord::off && ends_turn && state_.word_frame.turns()) {
-    WordFrame straight = state_.word_frame;
+  if (kind == TiltWord::off && ends_turn && state_.programmed_frame.turns()) {
+    ProgrammedFrame straight = state_.programmed_frame;
     straight.turn = {};
-    change_word_frame(straight);
+    change_programmed_frame(straight);
     if (!state_.tilted) return Done{};
   }
   // A new plane begins without programmable frame; on top of the last one, it begins where its words are.

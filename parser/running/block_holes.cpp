@@ -12,7 +12,6 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::array kSpatial{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 constexpr int kMaxBreaks = 99'999;
 constexpr double kSameAxis = 1e-9;  // the sine of the angle between two tool axes
 
@@ -31,9 +30,9 @@ MotionMode kind_of(HoleWord word, bool dwells) {
   }
 }
 
-std::optional<Vec3> point_of(const AxisTarget& target) {
+std::optional<Vec3> point_of_hole(const AxisTarget& target) {
   Vec3 point;
-  for (const AxisLetter axis : kSpatial) {
+  for (const AxisLetter axis : kLinearAxes) {
     if (!target[axis]) return std::nullopt;
     point[static_cast<Eigen::Index>(axis)] = *target[axis];
   }
@@ -166,13 +165,13 @@ BlockExecutor::Outcome BlockExecutor::make_hole(const BlockWords& words, const M
     if (!words.has(letter) || words[letter].measure != Measure::incremental) continue;
     return fail(words[letter].column, "a step while a cycle is on", "name the hole by its place");
   }
-  const auto from = point_of(position_.target());
+  const auto from = point_of_hole(position_.target());
   const auto axis_before = state_.tool_axis;
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
-  const auto top = point_of(position_.target());
+  if (auto done = check_programmed_frame(movement); !done) return done;
+  const auto top = point_of_hole(position_.target());
   if (!top) return fail(movement.column, "the place of the hole is not known", "give X, Y and Z");
   const Vec3 axis = state_.tool_axis ? state_.tool_axis->vec() : Vec3::UnitZ();
   const bool turns = axis_before.has_value() != state_.tool_axis.has_value() ||
@@ -191,13 +190,13 @@ void BlockExecutor::drill_from_top(const Vec3& top, const std::optional<Vec3>& f
   // The tool has not gone to the top.
   bool must_move = !from || turns;
   if (from) {
-    for (const AxisLetter letter : kSpatial) {
+    for (const AxisLetter letter : kLinearAxes) {
       position_.set(letter, (*from)[static_cast<Eigen::Index>(letter)]);
     }
   }
   const auto rapid_to = [&](const Vec3& point) {
     const AxisTarget before = position_.target();
-    for (const AxisLetter letter : kSpatial) {
+    for (const AxisLetter letter : kLinearAxes) {
       position_.set(letter, point[static_cast<Eigen::Index>(letter)]);
     }
     if (before == position_.target() && !must_move) return;
@@ -250,8 +249,8 @@ BlockExecutor::Outcome BlockExecutor::call_hole_cycle(const BlockWords& words) {
   }
   const Movement movement{NonModal::none, MotionMode::linear, code.column};
   if (auto done = check_tool_length(movement); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
-  if (state_.word_frame.scale != 1.0 || state_.word_frame.mirrors[2]) {
+  if (auto done = check_programmed_frame(movement); !done) return done;
+  if (state_.programmed_frame.scale != 1.0 || state_.programmed_frame.mirrors[2]) {
     return fail(code.column, "a cycle where the depths are scaled or mirrored",
                 "end that before, by CYCL DEF 11.1 SCL 1 or CYCL DEF 8.1");
   }
@@ -259,7 +258,7 @@ BlockExecutor::Outcome BlockExecutor::call_hole_cycle(const BlockWords& words) {
     return fail(code.column, "a cycle with a tool vector", "tilt the plane by PLANE before");
   }
   const Vec3 top(*position_[AxisLetter::X], *position_[AxisLetter::Y], *state_.hole_cycle.top);
-  drill_from_top(top, point_of(position_.target()), false, code.column);
+  drill_from_top(top, point_of_hole(position_.target()), false, code.column);
   return Done{};
 }
 

@@ -16,8 +16,6 @@ namespace {
 constexpr std::size_t kArguments = 33;
 constexpr int kMaxTriples = 10;
 constexpr int kFirstSystemVariable = 1000;
-constexpr int kMaxProgramNumber = 99'999'999;
-constexpr int kMaxRepeats = 99'999;
 
 // Of A to Z; 0 where the letter is no argument.
 constexpr std::array<int, 26> kParameterOf{1, 2, 3, 7,  8,  9,  0,  11, 4,  5,  6,  0,  13,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.hpp"
 #include "core/units.hpp"
 #include "parser/running/block_executor.hpp"
 
@@ -11,8 +12,6 @@ namespace frustum::parser {
 namespace {
 
 constexpr int kMaxTool = 99'999'999;
-constexpr double kMillisecondsPerSecond = 1000.0;
-constexpr double kSecondsPerMinute = 60.0;
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/units.hpp"
 #include "parser/arc.hpp"
 #include "parser/running/block_executor.hpp"
@@ -13,9 +14,7 @@
 namespace frustum::parser {
 namespace {
 
-constexpr int kMaxTurns = 10'000;
-constexpr double kSecondsPerMinute = 60.0;
-constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
+constexpr int kMaxHelixTurns = 10'000;
 
 const char* motion_name(MotionMode motion, Dialect dialect) {
   constexpr std::array kNames{"",    "G0", "G1",   "G2",   "G3",  "CT",
@@ -35,7 +34,7 @@ std::string_view absolute_words(Dialect dialect) {
 
 // Whether X, Y or Z moves between two targets; an axis first placed now counts as moving.
 bool moves_linearly(const AxisTarget& before, const AxisTarget& after) {
-  for (const AxisLetter axis : kSpatialAxes) {
+  for (const AxisLetter axis : kLinearAxes) {
     if (after[axis] && before[axis] != after[axis]) return true;
   }
   return false;
@@ -46,12 +45,12 @@ int started_turns(double angle) {
   constexpr double kDegreesOfATurn = 360.0;
   constexpr double kRounding = 1e-6;
   const double turns = std::ceil(std::abs(angle) / kDegreesOfATurn - kRounding);
-  return static_cast<int>(std::clamp(turns, 1.0, static_cast<double>(kMaxTurns)));
+  return static_cast<int>(std::clamp(turns, 1.0, static_cast<double>(kMaxHelixTurns)));
 }
 
 Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
   Vec3 point = otherwise;
-  for (const AxisLetter axis : kSpatialAxes) {
+  for (const AxisLetter axis : kLinearAxes) {
     const auto slot = static_cast<Eigen::Index>(axis);
     point[slot] = target[axis].value_or(otherwise[slot]);
   }
@@ -135,7 +134,7 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   keep_heading(before);
   const AxisTarget end = leaving_contour(words, end_of(words));
   if (movement.motion == MotionMode::traverse) {
@@ -167,7 +166,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     }
   }
   if (auto done = check_tool_length(movement); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   if (auto done = check_polar_arc(words); !done) return done;
   ArcWords arc_words;
   arc_words.plane = state_.plane;
@@ -207,7 +206,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     const LetterSet shape = words.given() & LetterSet(words.has('R') ? "R" : "IJK");
     const std::uint32_t column =
         shape.empty() ? movement.column : words[words.first_of(shape)].column;
-    return fail(column, arc.error().front().message, arc.error().front().hint);
+    return fail(column, arc.error().front());
   }
   for (const int axis : {axes.u, axes.v}) {
     position_.set(static_cast<AxisLetter>(axis), arc->end[axis]);
@@ -223,12 +222,12 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     state_.heading = Heading{spatial(position_.target(), Vec3::Zero()), along};
   }
   if (words.has('P')) {
-    const auto given = whole(words, 'P', 1, kMaxTurns);
+    const auto given = whole(words, 'P', 1, kMaxHelixTurns);
     if (!given) return given.error();
     turns = *given;
   }
   if (words.has('e')) {
-    const auto more = whole(words, 'e', 0, kMaxTurns);
+    const auto more = whole(words, 'e', 0, kMaxHelixTurns);
     if (!more) return more.error();
     turns += *more;
   }
@@ -242,7 +241,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
 BlockExecutor::Outcome BlockExecutor::set_start(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::non_modal];
   std::string text;
-  for (const AxisLetter axis : kSpatialAxes) {
+  for (const AxisLetter axis : kLinearAxes) {
     const char letter = to_char(axis);
     if (!words.has(letter)) continue;
     position_.set(axis, scaled(axis, words[letter].value));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRightAngle = 90.0;
 
-Mat3 turn(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
+Mat3 turn_of_plane(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }
 
 // X as near to `x` as the normal `z` leaves it; nothing where they have no directions, or one.
 std::optional<Mat3> axes_along(const Vec3& x, const Vec3& z) {
@@ -35,7 +35,7 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::tilted_plane];
   const auto kind = static_cast<TiltWord>(code.code->value);
   const bool within = kind == TiltWord::relative;
-  const WordFrame& frame = state_.word_frame;
+  const ProgrammedFrame& frame = state_.programmed_frame;
   if (frame.turns() || frame.is_mirrored() || frame.scale != 1.0) {
     return fail(code.column, "PLANE within a rotation, mirror image or scaling",
                 "end them before, by CYCL DEF 10.1 ROT+0, 8.1 and 11.1 SCL 1");
@@ -48,7 +48,8 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
   switch (kind) {
     case TiltWord::turns: {
       const Vec3 angles = vector_of(words, "IJK") * kRadPerDeg;
-      rotation = turn(2, angles[0]) * turn(0, angles[1]) * turn(2, angles[2]);
+      rotation =
+          turn_of_plane(2, angles[0]) * turn_of_plane(0, angles[1]) * turn_of_plane(2, angles[2]);
       break;
     }
     case TiltWord::projected: {
@@ -61,7 +62,7 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
       lines.parts[0] = FeaturePart{.numbers = vector_of(words, "IJK") * kRadPerDeg};
       const auto plane = feature_frame(lines);
       if (!plane) {
-        return fail(code.column, plane.error().front().message, plane.error().front().hint);
+        return fail(code.column, plane.error().front());
       }
       rotation = plane->rotation;
       break;
@@ -78,7 +79,8 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
     default: {
       // Of `relative` one angle is given.
       const Vec3 angles = vector_of(words, "ABC") * kRadPerDeg;
-      rotation = turn(2, angles[2]) * turn(1, angles[1]) * turn(0, angles[0]);
+      rotation =
+          turn_of_plane(2, angles[2]) * turn_of_plane(1, angles[1]) * turn_of_plane(0, angles[0]);
     }
   }
   if (!rotation) {

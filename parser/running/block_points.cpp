@@ -43,7 +43,8 @@ BlockExecutor::Outcome BlockExecutor::go_home(const BlockWords& words, std::size
 BlockExecutor::Outcome BlockExecutor::check_home(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::non_modal];
   if (auto done = set_targets(words); !done) return done;
-  if (auto done = check_word_frame({NonModal::none, MotionMode::traverse, code.column}); !done) {
+  if (auto done = check_programmed_frame({NonModal::none, MotionMode::traverse, code.column});
+      !done) {
     return done;
   }
   emit(code.column, Traverse{position_.target(), state_.tool_axis, Coordinates::program});
@@ -70,7 +71,7 @@ BlockExecutor::Outcome BlockExecutor::come_from_home(const BlockWords& words) {
     position_.set(axis, *state_.way_home[axis]);
   }
   const Movement rapid{NonModal::none, MotionMode::traverse, code.column};
-  if (auto done = check_word_frame(rapid); !done) return done;
+  if (auto done = check_programmed_frame(rapid); !done) return done;
   const AxisTarget way = position_.target();
   emit(code.column, Traverse{way, state_.tool_axis, Coordinates::program});
   if (auto done = set_targets(words); !done) return done;

@@ -19,7 +19,7 @@ BlockExecutor::Outcome BlockExecutor::probe(const BlockWords& words, const Movem
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   const AxisTarget end = end_of(words);
   if (position_.target() == before) {
     return fail(movement.column, "the probing move ends where it starts",

@@ -26,7 +26,7 @@ void BlockExecutor::set_program_frame(const ProgramFrame& next) {
     return;
   }
   state_.program_frame = next;
-  change_word_frame(next.word_frame());
+  change_programmed_frame(next.programmed_frame());
   // A step from a place that was written in another frame would be ambiguous.
   state_.placed_in_other_frame = kAxisWords;
 }

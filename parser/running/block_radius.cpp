@@ -153,7 +153,7 @@ BlockExecutor::Outcome BlockExecutor::set_radius_compensation(const BlockWords& 
       (word == RadiusWord::left || word == RadiusWord::left_by_diameter) == (*radius > 0.0);
   const ToolSide side = left ? ToolSide::left : ToolSide::right;
   // The path is made in words, which the frame scales.
-  const double in_words = std::abs(*radius) / state_.word_frame.scale;
+  const double in_words = std::abs(*radius) / state_.programmed_frame.scale;
   if (radius_.is_on()) {
     const bool same = radius_.setting().side == side && radius_.setting().radius == in_words;
     if (same && rules_.radius.may_be_repeated) return Done{};
@@ -163,7 +163,7 @@ BlockExecutor::Outcome BlockExecutor::set_radius_compensation(const BlockWords& 
                     radius_place_.line),
         fmt::format("switch it off before, by {} and a straight move", off_word(rules_.dialect)));
   }
-  if (!state_.word_frame.keeps(state_.plane) || !state_.offset_frame.keeps(state_.plane)) {
+  if (!state_.programmed_frame.keeps(state_.plane) || !state_.offset_frame.keeps(state_.plane)) {
     return fail(code.column, code.code->name() + " in a plane that the frame turns",
                 "turn the frame about the normal of the plane");
   }

@@ -9,7 +9,7 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::string_view kRotaryLetters = "ABC";
-constexpr double kTurn = 360.0;
+constexpr double kTurnInDegrees = 360.0;
 
 }  // namespace
 
@@ -35,8 +35,8 @@ Result<RotaryPath> BlockExecutor::rotary_path_of(const BlockWords& words, char l
     return state_.rotary_path;
   }
   // A step from a place known but for full turns goes on from there.
-  if (std::abs(word.value) <= kTurn / 2.0) return RotaryPath::shortest;
-  if (std::abs(word.value) < kTurn) {
+  if (std::abs(word.value) <= kTurnInDegrees / 2.0) return RotaryPath::shortest;
+  if (std::abs(word.value) < kTurnInDegrees) {
     return word.value > 0.0 ? RotaryPath::positive : RotaryPath::negative;
   }
   return fail(
@@ -89,7 +89,8 @@ BlockExecutor::Outcome BlockExecutor::check_orientation_reference(const BlockWor
   const char first = vector != 0 ? vector : words.first_of(kRotaryWords);
   if (first == 0 || !state_.compensation.tip) return Done{};
   const std::uint32_t column = words[first].column;
-  const bool turned = state_.tilted || state_.word_frame.turns() || state_.offset_frame.turns();
+  const bool turned =
+      state_.tilted || state_.programmed_frame.turns() || state_.offset_frame.turns();
   if (vector != 0 && turned) {
     return fail(column, "a tool vector of the machine (ORIMKS) in a frame that is turned",
                 "give the vector in the frame of the words, with ORIWKS, or end the frame before");

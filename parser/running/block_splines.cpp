@@ -41,7 +41,7 @@ BlockExecutor::Outcome BlockExecutor::check_spline(const BlockWords& words,
         "move to the start with G0 or G1 in G90 first");
   }
   if (auto done = check_tool_length(movement); !done) return done;
-  return check_word_frame(movement);
+  return check_programmed_frame(movement);
 }
 
 BlockExecutor::Outcome BlockExecutor::move_along_spline(const BlockWords& words,

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kMaxPasses = 10'000.0;
 constexpr double kMostSlide = 80.0;  // degrees
-constexpr std::array kSpatialAxes{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 
 Feed synchronised(double lead) { return {lead, FeedMode::per_revolution, true}; }
 
@@ -58,7 +57,7 @@ Result<double> BlockExecutor::lead_along_way(const BlockWords& words, double lea
   }
   Vec3 way = Vec3::Zero();
   bool known = true;
-  for (const AxisLetter axis : kSpatialAxes) {
+  for (const AxisLetter axis : kLinearAxes) {
     if (!words.has(to_char(axis))) continue;
     known = known && before[axis].has_value();
     way[static_cast<Eigen::Index>(axis)] = *position_[axis] - before[axis].value_or(0.0);
@@ -91,7 +90,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_thread(const BlockWords& words,
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   if (rules_.leads_by_axis) lead = lead_along_way(words, *lead, before);
   if (!lead) return lead.error();
   emit(movement.column,
@@ -106,7 +105,7 @@ BlockExecutor::Outcome BlockExecutor::tap_rigidly(const BlockWords& words,
   if ((words.given() & kLinearWords).empty()) {
     return fail(movement.column, "a thread without an end", "give X Y Z of the bottom");
   }
-  for (const AxisLetter axis : kSpatialAxes) {
+  for (const AxisLetter axis : kLinearAxes) {
     if (!words.has(to_char(axis)) || position_[axis]) continue;
     return fail(movement.column,
                 fmt::format("the tap goes back to a start that is not known: {}",
@@ -117,7 +116,7 @@ BlockExecutor::Outcome BlockExecutor::tap_rigidly(const BlockWords& words,
   const AxisTarget start = end_of(words);
   const auto before = position_;
   if (auto done = set_targets(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   const Feed feed = synchronised(*lead);
   const SpindleDirection turned = state_.spindle;
   const SpindleDirection back = turned == SpindleDirection::clockwise
@@ -138,7 +137,7 @@ Result<ThreadingCycle> BlockExecutor::threading_cycle(const BlockWords& words,
     return fail(movement.column, fmt::format("the threading cycle has no {}", letter),
                 "give P (lead), Z (end), I (crest), J (first depth) and K (full depth)");
   }
-  for (const AxisLetter axis : kSpatialAxes) {
+  for (const AxisLetter axis : kLinearAxes) {
     if (position_[axis] || axis == AxisLetter::Y) continue;
     return fail(movement.column,
                 fmt::format("the threading cycle starts at an unknown {}: {}", to_char(axis),
@@ -204,7 +203,7 @@ BlockExecutor::Outcome BlockExecutor::cut_thread(const BlockWords& words,
   if (!cycle) return cycle.error();
   const AxisTarget start = position_.target();
   if (auto done = set_targets(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   const AxisTarget end = position_.target();
   cycle->end_z = *end[AxisLetter::Z];
   const int tapers = static_cast<int>(cycle->tapers_in) + static_cast<int>(cycle->tapers_out);

@@ -12,7 +12,6 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::array kSpatial{AxisLetter::X, AxisLetter::Y, AxisLetter::Z};
 constexpr std::string_view kBetween = "uvw";
 constexpr double kInPlane = 1e-6;  // mm: below every control's increment
 // A circle through three points that deviate by less from a line is not told by written coordinates.
@@ -52,7 +51,7 @@ Result<Vec3> BlockExecutor::point_between(const BlockWords& words, const Movemen
     return fail(movement.column, "CIP without a point between",
                 "give a point of the arc by I1= J1= K1=");
   }
-  for (const AxisLetter axis : kSpatial) {
+  for (const AxisLetter axis : kLinearAxes) {
     const auto slot = static_cast<Eigen::Index>(axis);
     const char letter = kBetween[static_cast<std::size_t>(axis)];
     if (!words.has(letter)) {
@@ -77,7 +76,7 @@ BlockExecutor::Outcome BlockExecutor::move_through_point(const BlockWords& words
   }
   const AxisTarget before = end_of(words);
   Vec3 start = Vec3::Zero();
-  for (const AxisLetter axis : kSpatial) {
+  for (const AxisLetter axis : kLinearAxes) {
     const auto slot = static_cast<Eigen::Index>(axis);
     const bool named =
         words.has(to_char(axis)) || words.has(kBetween[static_cast<std::size_t>(axis)]);
@@ -92,9 +91,9 @@ BlockExecutor::Outcome BlockExecutor::move_through_point(const BlockWords& words
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = set_tool_axis(words); !done) return done;
-  if (auto done = check_word_frame(movement); !done) return done;
+  if (auto done = check_programmed_frame(movement); !done) return done;
   Vec3 end = start;
-  for (const AxisLetter axis : kSpatial) {
+  for (const AxisLetter axis : kLinearAxes) {
     end[static_cast<Eigen::Index>(axis)] = position_[axis].value_or(0.0);
   }
   const auto between = point_between(words, movement, start, end);
@@ -115,7 +114,7 @@ BlockExecutor::Outcome BlockExecutor::move_through_point(const BlockWords& words
   for (const Plane plane : {Plane::xy, Plane::zx, Plane::yz}) {
     const int w = axes_of(plane).w;
     if (std::abs(a[w]) > kInPlane || std::abs(b[w]) > kInPlane) continue;
-    if (!state_.word_frame.keeps(plane) || !state_.offset_frame.keeps(plane)) continue;
+    if (!state_.programmed_frame.keeps(plane) || !state_.offset_frame.keeps(plane)) continue;
     emit(movement.column, ArcFeed{end_of(words), arc.centre, plane, arc.normal[w] > 0.0 ? 1 : -1,
                                   state_.tool_axis, *feed});
     return Done{};
@@ -154,7 +153,7 @@ BlockExecutor::Outcome BlockExecutor::cut_into_chords(const BlockWords& words,
   for (double i = 1.0; i < count; i += 1.0) {
     const double part = angle * i / count;
     const Vec3 point = centre + std::cos(part) * arm + std::sin(part) * normal.cross(arm);
-    for (const AxisLetter axis : kSpatial) target[axis] = point[static_cast<Eigen::Index>(axis)];
+    for (const AxisLetter axis : kLinearAxes) target[axis] = point[static_cast<Eigen::Index>(axis)];
     emit(movement.column, LinearFeed{target, state_.tool_axis, Coordinates::program, feed});
   }
   emit(movement.column, LinearFeed{end, state_.tool_axis, Coordinates::program, feed});

@@ -51,7 +51,7 @@ struct CountedLoop {
   std::string variable{};  // that goes up by 1 to `limit`, instead
   double limit = 0.0;
 };
-// A stretch of blocks that runs again when its end is reached.
+// A segment of blocks that runs again when its end is reached.
 struct RepeatedPart {
   TextPlace begin{};
   std::uint64_t end = 0;

@@ -41,27 +41,27 @@ struct Row {
   int first_number;
   bool read_only = false;
 };
-constexpr int kAxes = static_cast<int>(kAxisLetters.size());
+constexpr int kAxisCount = static_cast<int>(kAxisLetters.size());
 constexpr Row kLinuxcnc[] = {
-    {5161, 2, 20, kAxes, Kept::reference_point, 0},
+    {5161, 2, 20, kAxisCount, Kept::reference_point, 0},
     {5210, 1, 1, 1, Kept::shift_counts, 0},
-    {5211, 1, 1, kAxes, Kept::shift, 0},
+    {5211, 1, 1, kAxisCount, Kept::shift, 0},
     {5220, 1, 1, 1, Kept::selected_offset, 0},
-    {5221, 9, 20, kAxes, Kept::origin, 1},
+    {5221, 9, 20, kAxisCount, Kept::origin, 1},
     {5230, 9, 20, 1, Kept::rotation, 1},
     {5400, 1, 1, 1, Kept::tool_number, 0, kReadOnly},
-    {5401, 1, 1, kAxes, Kept::tool_offset, 0, kReadOnly},
+    {5401, 1, 1, kAxisCount, Kept::tool_offset, 0, kReadOnly},
     {5410, 1, 1, 1, Kept::tool_diameter, 0, kReadOnly},
     {5411, 1, 1, 1, Kept::tool_front_angle, 0, kReadOnly},
     {5412, 1, 1, 1, Kept::tool_back_angle, 0, kReadOnly},
     {5413, 1, 1, 1, Kept::tool_orientation, 0, kReadOnly},
-    {5420, 1, 1, kAxes, Kept::position, 0, kReadOnly},
+    {5420, 1, 1, kAxisCount, Kept::position, 0, kReadOnly},
 };
 constexpr Row kFanuc[] = {
-    {5001, 1, 1, kAxes, Kept::position, 0, kReadOnly},
-    {5201, 1, 1, kAxes, Kept::origin, 0},
-    {5221, 6, 20, kAxes, Kept::origin, 1},
-    {7001, 48, 20, kAxes, Kept::origin, kExtendedWorkOffset + 1},
+    {5001, 1, 1, kAxisCount, Kept::position, 0, kReadOnly},
+    {5201, 1, 1, kAxisCount, Kept::origin, 0},
+    {5221, 6, 20, kAxisCount, Kept::origin, 1},
+    {7001, 48, 20, kAxisCount, Kept::origin, kExtendedWorkOffset + 1},
     {2001, 200, 1, 1, Kept::length, 1},
     {10001, 999, 1, 1, Kept::length, 1},
     {11001, 999, 1, 1, Kept::length_wear, 1},

@@ -12,8 +12,8 @@ namespace {
 
 using enum AxisLetter;
 
-constexpr double kStraight = 1e-6;  // sine of the angle between two moves that have no corner
-constexpr double kRounding = 1e-9;  // mm
+constexpr double kStraight = 1e-6;        // sine of the angle between two moves that have no corner
+constexpr double kCornerRounding = 1e-9;  // mm
 
 Diagnostic complaint(const SourcePlace& place, std::string message, std::string hint) {
   Diagnostic diagnostic = error(std::move(message), std::move(hint));
@@ -28,7 +28,7 @@ const AxisTarget* end_of(const Command& command) {
   if (const auto* arc = std::get_if<ArcFeed>(&command)) return &arc->end;
   return nullptr;
 }
-Feed* feed_of(Command& command) {
+Feed* feed_of_line(Command& command) {
   if (auto* feed = std::get_if<LinearFeed>(&command)) return &feed->feed;
   if (auto* arc = std::get_if<ArcFeed>(&command)) return &arc->feed;
   return nullptr;
@@ -61,7 +61,7 @@ std::optional<PathPiece> piece_of(const AxisTarget& from, const Command& command
     if (std::abs(arc->turns) != 1) return std::nullopt;
     piece.centre = arc->center.head<2>();
     piece.turns = arc->turns;
-  } else if ((piece.end - piece.start).norm() < kRounding) {
+  } else if ((piece.end - piece.start).norm() < kCornerRounding) {
     return std::nullopt;
   }
   return piece;
@@ -183,7 +183,7 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
     }
   }
   for (const int move : {0, 1}) {
-    if (fits && lost[move] <= lengths[move] + kRounding) continue;
+    if (fits && lost[move] <= lengths[move] + kCornerRounding) continue;
     return fail(
         fits
             ? fmt::format("{} takes {:.6g} mm of the {:.6g} mm of the move {} it", corner.name,
@@ -191,9 +191,9 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
             : fmt::format("{} of {:g} mm does not fit between its moves", corner.name, corner.size),
         "make it smaller");
   }
-  Feed feed = *feed_of(waiting_.front().command);
+  Feed feed = *feed_of_line(waiting_.front().command);
   if (feed.mode == FeedMode::inverse_time ||
-      feed_of(next.command)->mode == FeedMode::inverse_time) {
+      feed_of_line(next.command)->mode == FeedMode::inverse_time) {
     return fail(corner.name + " beside a move with FT", "give the moves at the corner a feed F");
   }
   if (corner.feed) feed.value = *corner.feed;

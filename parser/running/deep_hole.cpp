@@ -10,13 +10,13 @@ namespace {
 using enum CycleAction;
 
 // Of the depth: what is left below a peck is no peck of its own when it is rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kDepthRounding = 1e-12;
 
 // The depths that the pecks end at.
 std::vector<double> ends_of(const DeepHole& hole) {
   std::vector<double> ends;
   double peck = hole.first;
-  const double most = hole.depth * (1.0 - kRounding);
+  const double most = hole.depth * (1.0 - kDepthRounding);
   for (double end = peck; peck > 0.0 && end < most; end += peck) {
     ends.push_back(end);
     peck = std::max(peck - hole.decrement, std::min(hole.least, peck));
@@ -50,7 +50,7 @@ std::vector<CycleStep> steps_at_deep_hole(const DeepHole& hole, double level, do
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (hole.break_each > 0.0) {
       const double begin = depth;
-      for (int n = 1; begin + n * hole.break_each < ends[i] * (1.0 - kRounding); ++n) {
+      for (int n = 1; begin + n * hole.break_each < ends[i] * (1.0 - kDepthRounding); ++n) {
         depth = begin + n * hole.break_each;
         steps.push_back({feed, -depth});
         steps.push_back({rapid, std::min(hole.chip - depth, level)});

@@ -17,7 +17,7 @@
 #include "parser/running/feature_frame.hpp"
 #include "parser/running/hole_cycle.hpp"
 #include "parser/running/program_frame.hpp"
-#include "parser/running/word_frame.hpp"
+#include "parser/running/programmed_frame.hpp"
 
 namespace frustum::parser {
 
@@ -103,7 +103,7 @@ struct ModalState {
   // Of the work offset in force: its origin, as far as the program knows it, and from it and the tool the frame between
   // the words' frame and the axes: the turn, the tool's offset along X and Y, the rotary offsets.
   WorkOffset datum{};
-  WordFrame offset_frame{};
+  ProgrammedFrame offset_frame{};
   std::optional<int> selected_tool{};
   int tool = 0;                                        // in the spindle
   std::optional<FeedWord> tool_feed{};                 // of TOOL CALL, for F AUTO
@@ -118,14 +118,14 @@ struct ModalState {
   Pose tilt{};                            // of the tilted plane
   std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last
   std::optional<PolarMode> polar{};       // G16
-  WordFrame word_frame{};
-  ProgramFrame program_frame{};            // of Sinumerik, which is its word frame
-  AxisTarget way_home{};                   // the place that the last G28 or G30 went by
-  LetterSet placed_in_other_frame{};       // axes that no absolute word has placed since it changed
-  std::optional<WordFrame> frame_below{};  // of the words before G68.2: that plane lies in it
-  std::optional<Pole> pole{};              // CC, G110 to G112
-  bool pole_lost = false;                  // it was one of another frame
-  std::optional<Heading> heading{};        // of the last move
+  ProgrammedFrame programmed_frame{};
+  ProgramFrame program_frame{};       // of Sinumerik, which is its word frame
+  AxisTarget way_home{};              // the place that the last G28 or G30 went by
+  LetterSet placed_in_other_frame{};  // axes that no absolute word has placed since it changed
+  std::optional<ProgrammedFrame> frame_below{};  // of the words before G68.2: that plane lies in it
+  std::optional<Pole> pole{};                    // CC, G110 to G112
+  bool pole_lost = false;                        // it was one of another frame
+  std::optional<Heading> heading{};    // of the last move
   std::optional<CannedCycle> cycle{};
   HoleCycle hole_cycle{};
   std::optional<DrillingCycle> drilling{};  // MCALL

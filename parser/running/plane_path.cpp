@@ -1,4 +1,5 @@
 #include "parser/running/plane_path.hpp"
+#include "core/constants.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 namespace frustum::parser {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // A point that lies this little behind the end of an arc is its end, not a turn away from it.
 constexpr double kSamePoint = 1e-9;  // mm
 

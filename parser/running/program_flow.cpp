@@ -12,7 +12,7 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::size_t kMaxArguments = 30;
-constexpr double kMaxTurns = 1e9;
+constexpr double kMaxLoopTurns = 1e9;
 constexpr const char* kEndOfLabel = "LBL 0";
 
 std::string unlabelled(std::string_view kind, const std::string& label) {
@@ -64,7 +64,7 @@ Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange r
   const auto value = value_of(block, range);
   if (!value) return value.error();
   const double nearest = std::round(*value);
-  if (!(std::abs(*value - nearest) <= 1e-4) || nearest > kMaxTurns) {
+  if (!(std::abs(*value - nearest) <= 1e-4) || nearest > kMaxLoopTurns) {
     return at(block, block.flow->column, fmt::format("{} is no number of repeats", spelled(*value)),
               "it is a whole number up to 1000000000");
   }

@@ -60,8 +60,8 @@ ProgramFrame ProgramFrame::with(const ProgramFrame& inner) const {
 }
 
 // A word frame is mirror (scale (turn (words + shift))).
-WordFrame ProgramFrame::word_frame() const {
-  WordFrame frame;
+ProgrammedFrame ProgramFrame::programmed_frame() const {
+  ProgrammedFrame frame;
   frame.rotary_shift = rotary_shift;
   frame.scale = scale;
   Mat3 rotation = linear;

@@ -8,7 +8,7 @@
 #include <array>
 
 #include "core/pose.hpp"
-#include "parser/running/word_frame.hpp"
+#include "parser/running/programmed_frame.hpp"
 
 namespace frustum::parser {
 
@@ -29,7 +29,7 @@ struct ProgramFrame {
   // The frame whose words are those of `inner`, within this one.
   [[nodiscard]] ProgramFrame with(const ProgramFrame& inner) const;
   // The same as shift, turn, scale and mirrors of a word frame.
-  [[nodiscard]] WordFrame word_frame() const;
+  [[nodiscard]] ProgrammedFrame programmed_frame() const;
 };
 
 }  // namespace frustum::parser

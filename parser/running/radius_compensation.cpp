@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/constants.hpp"
 #include "parser/arc.hpp"
 
 namespace frustum::parser {
@@ -18,7 +19,6 @@ namespace {
 constexpr double kNoMove = 1e-9;  // mm
 // What waits is held in memory; a program that says so much between two moves has lost its contour.
 constexpr std::size_t kMaxWaiting = 10'000;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 Diagnostic at(const Motion& motion, std::string message, std::string hint) {
   Diagnostic diagnostic = error(std::move(message), std::move(hint));
@@ -34,7 +34,7 @@ AxisTarget* target_of(Command& command) {
   return nullptr;
 }
 
-Feed* feed_of(Command& command) {
+Feed* feed_of_contour(Command& command) {
   if (auto* feed = std::get_if<LinearFeed>(&command)) return &feed->feed;
   if (auto* arc = std::get_if<ArcFeed>(&command)) return &arc->feed;
   return nullptr;
@@ -215,7 +215,7 @@ void RadiusCompensation::go_round_corner(Motion& motion, const PathPiece& corner
     sink({motion.place, Traverse{end, traverse->tool_axis, traverse->coordinates}});
     return;
   }
-  Feed& feed = *feed_of(motion.command);
+  Feed& feed = *feed_of_contour(motion.command);
   ArcFeed arc{end, Vec3::Zero(), setting_->plane, corner.turns, std::nullopt, feed};
   if (feed.mode == FeedMode::inverse_time) {
     // The block takes 1/F minutes: its parts share them by their lengths.

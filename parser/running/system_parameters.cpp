@@ -191,7 +191,7 @@ constexpr std::array kModal{
         [](const ModalState& state) -> Value { return state.retract_to_initial ? 98.0 : 99.0; }},
     ModalVariable{4011,
                   [](const ModalState& state) -> Value {
-                    return state.word_frame.scale == 1.0 ? 50.0 : 51.0;
+                    return state.programmed_frame.scale == 1.0 ? 50.0 : 51.0;
                   }},
     ModalVariable{
         4013, [](const ModalState& state) -> Value { return state.surface_speed ? 96.0 : 97.0; }},
@@ -201,12 +201,12 @@ constexpr std::array kModal{
                   }},
     ModalVariable{4016,
                   [](const ModalState& state) -> Value {
-                    return state.tilted || state.word_frame.turns() ? 68.0 : 69.0;
+                    return state.tilted || state.programmed_frame.turns() ? 68.0 : 69.0;
                   }},
     ModalVariable{4017, [](const ModalState& state) -> Value { return state.polar ? 16.0 : 15.0; }},
     ModalVariable{4022,
                   [](const ModalState& state) -> Value {
-                    return state.word_frame.is_mirrored() ? 51.1 : 50.1;
+                    return state.programmed_frame.is_mirrored() ? 51.1 : 50.1;
                   }},
     ModalVariable{
         4109,
@@ -246,18 +246,18 @@ Value sinumerik_variable(const SystemParameters& of, std::string_view name) {
 constexpr int kLinuxcncPosition = 5420;
 constexpr int kFanucPosition = 5001;
 constexpr int kFanucPositionNow = 5041;  // with the length of the tool
-constexpr int kAxes = 6;
+constexpr int kAxesOfParameters = 6;
 
 }  // namespace
 
 Value SystemParameters::number(int index) const {
   const int first = dialect == Dialect::fanuc ? kFanucPosition : kLinuxcncPosition;
-  if (index >= first && index < first + kAxes) {
+  if (index >= first && index < first + kAxesOfParameters) {
     return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(index - first)));
   }
   if (dialect == Dialect::fanuc) {
     const int now = index - kFanucPositionNow;
-    if (now >= 0 && now < kAxes && !state.compensation.length) {
+    if (now >= 0 && now < kAxesOfParameters && !state.compensation.length) {
       return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(now)));
     }
     if (const Value mode = modal_variable(state, index)) return mode;

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "parser/reading/heidenhain_statements.hpp"
+#include "parser/reading/heidenhain/heidenhain_statements.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 
@@ -114,9 +114,9 @@ bool is_feed_of_tip_control(const Comment& comment) {
   return comment.event != nullptr && std::string_view(comment.event) == "M128";
 }
 
-class TextOfBlock {
+class KlartextBlock {
  public:
-  TextOfBlock(const Block& block, std::string& program) : block_(block), program_(program) {}
+  KlartextBlock(const Block& block, std::string& program) : block_(block), program_(program) {}
 
   std::string operator()() {
     if (block_.number) text_.add(fmt::format("{}", *block_.number));
@@ -279,7 +279,7 @@ class TextOfBlock {
 
 BlockWriter heidenhain_writer() {
   return [program = std::string()](const Block& block) mutable {
-    return TextOfBlock(block, program)();
+    return KlartextBlock(block, program)();
   };
 }
 

@@ -90,9 +90,9 @@ struct Style {
   ExpressionStyle spelled{};
 };
 
-class TextOfBlock {
+class Rs274Block {
  public:
-  TextOfBlock(const Block& block, Dialect dialect)
+  Rs274Block(const Block& block, Dialect dialect)
       : block_(block), style_(style_of(dialect)), linuxcnc_(dialect == Dialect::linuxcnc) {}
 
   std::string operator()() {
@@ -239,10 +239,10 @@ class TextOfBlock {
 }  // namespace
 
 BlockWriter linuxcnc_writer() {
-  return [](const Block& block) { return TextOfBlock(block, Dialect::linuxcnc)(); };
+  return [](const Block& block) { return Rs274Block(block, Dialect::linuxcnc)(); };
 }
 BlockWriter fanuc_writer() {
-  return [](const Block& block) { return TextOfBlock(block, Dialect::fanuc)(); };
+  return [](const Block& block) { return Rs274Block(block, Dialect::fanuc)(); };
 }
 
 }  // namespace frustum::parser

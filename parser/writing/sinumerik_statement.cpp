@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/reading/sinumerik_values.hpp"
+#include "parser/reading/sinumerik/sinumerik_values.hpp"
 #include "parser/writing/block_parts.hpp"
 
 namespace frustum::parser {

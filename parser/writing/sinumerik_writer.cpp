@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "parser/reading/sinumerik_cycle.hpp"
-#include "parser/reading/sinumerik_values.hpp"
+#include "parser/reading/sinumerik/sinumerik_cycle.hpp"
+#include "parser/reading/sinumerik/sinumerik_values.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 #include "parser/writing/sinumerik_statement.hpp"
@@ -60,9 +60,9 @@ std::string comment_text(const Comment& comment) {
   return call_text(event == "message" ? "MSG" : event, comment.text);
 }
 
-class TextOfBlock {
+class SinumerikBlock {
  public:
-  explicit TextOfBlock(const Block& block) : block_(block), style_(sinumerik_style()) {}
+  explicit SinumerikBlock(const Block& block) : block_(block), style_(sinumerik_style()) {}
 
   std::string operator()() const {
     if (block_.tape_mark) return head_text();
@@ -183,7 +183,7 @@ class TextOfBlock {
 }  // namespace
 
 BlockWriter sinumerik_writer() {
-  return [](const Block& block) { return TextOfBlock(block)(); };
+  return [](const Block& block) { return SinumerikBlock(block)(); };
 }
 
 }  // namespace frustum::parser

@@ -1,4 +1,4 @@
-// Normals that round what is round and keep edges sharp (see report/crease_normals.hpp), one for each
+// Normals that round what is round and keep edges sharp (see report/picture/crease_normals.hpp), one for each
 // corner of each triangle.
 
 export function creaseNormals(positions, corners, creaseAngle) {

@@ -1,4 +1,4 @@
-// Turns back what report/packed_array.cpp wrote: base64, inflate, four byte planes, differences.
+// Turns back what report/page/packed_array.cpp wrote: base64, inflate, four byte planes, differences.
 
 export async function unpack(text, count, stride) {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));

@@ -1,4 +1,4 @@
-// frustum cut as users and scripts see it: moments, removal, limits, engines, files whole or not at all.
+// frustum cut as users and scripts see it: program_states, removal, limits, engines, files whole or not at all.
 #include <gmock/gmock.h>
 
 #include <algorithm>

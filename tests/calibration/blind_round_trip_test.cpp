@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/piece_observations.hpp"
+#include "calibration/identify/piece_observations.hpp"
 #include "core/random.hpp"
 #include "metrology/characteristic/characteristic.hpp"
-#include "programs/step_pattern.hpp"
+#include "programs/step/step_pattern.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::calibration {

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "calibration/compensated_piece.hpp"
-#include "calibration/piece_observations.hpp"
-#include "calibration/refinement.hpp"
+#include "calibration/compensate/compensated_piece.hpp"
+#include "calibration/identify/piece_observations.hpp"
+#include "calibration/identify/refinement.hpp"
 #include "core/random.hpp"
 #include "metrology/characteristic/characteristic.hpp"
-#include "programs/cone_frustum.hpp"
-#include "programs/step_pattern.hpp"
+#include "programs/cone/cone_frustum.hpp"
+#include "programs/step/step_pattern.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::calibration {

@@ -1,5 +1,5 @@
 // Compensated programs follow the nominal path on the machine with errors.
-#include "calibration/compensation.hpp"
+#include "calibration/compensate/compensation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/path_comparison.hpp"
+#include "kinematics/path/path_comparison.hpp"
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
 #include "post/nc_writer.hpp"
-#include "programs/cone_frustum.hpp"
+#include "programs/cone/cone_frustum.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::calibration {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "calibration/identification.hpp"
+#include "calibration/identify/identification.hpp"
 #include "core/random.hpp"
 #include "tests/calibration/step_patterns.hpp"
 

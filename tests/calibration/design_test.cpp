@@ -1,4 +1,4 @@
-#include "calibration/design.hpp"
+#include "calibration/design/design.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/identification.hpp"
+#include "calibration/identify/identification.hpp"
 #include "tests/calibration/step_patterns.hpp"
 
 namespace frustum::calibration {

@@ -1,4 +1,4 @@
-#include "calibration/identification.hpp"
+#include "calibration/identify/identification.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration/distributions.hpp"
+#include "calibration/identify/distributions.hpp"
 
 namespace frustum::calibration {
 namespace {

@@ -1,4 +1,4 @@
-#include "calibration/observability.hpp"
+#include "calibration/identify/observability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/identification.hpp"
-#include "calibration/sparse_basis.hpp"
+#include "calibration/identify/identification.hpp"
+#include "calibration/identify/sparse_basis.hpp"
 #include "core/random.hpp"
 #include "tests/calibration/step_patterns.hpp"
 

@@ -1,4 +1,4 @@
-#include "calibration/refinement.hpp"
+#include "calibration/identify/refinement.hpp"
 
 #include <gtest/gtest.h>
 

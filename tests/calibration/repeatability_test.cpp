@@ -1,4 +1,4 @@
-#include "calibration/repeatability.hpp"
+#include "calibration/identify/repeatability.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "calibration/identification.hpp"
-#include "calibration/information.hpp"
+#include "calibration/identify/identification.hpp"
+#include "calibration/identify/information.hpp"
 #include "core/units.hpp"
 #include "tests/calibration/step_patterns.hpp"
 

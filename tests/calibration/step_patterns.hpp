@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/observations.hpp"
-#include "calibration/step_recipes.hpp"
+#include "calibration/design/step_recipes.hpp"
+#include "calibration/identify/observations.hpp"
 
 namespace frustum::calibration {
 

@@ -1,4 +1,4 @@
-#include "calibration/step_recipes.hpp"
+#include "calibration/design/step_recipes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -54,12 +54,13 @@ bool is_normal(const IntervalSet& set) {
   return true;
 }
 
-// Every end of `result` is an end of one of the makers at the same place and under the same tag.
-bool ends_are_known(const IntervalSet& result, const std::vector<Interval>& makers) {
-  const auto known = [&makers](double at, EndTag tag) {
-    return std::any_of(makers.begin(), makers.end(), [=](const Interval& m) {
-      return (m.lo == at && m.lo_tag == tag) || (m.hi == at && m.hi_tag == tag);
-    });
+// Every end of `result` is an end of one of the originating_blocks at the same place and under the same tag.
+bool ends_are_known(const IntervalSet& result, const std::vector<Interval>& originating_blocks) {
+  const auto known = [&originating_blocks](double at, EndTag tag) {
+    return std::any_of(originating_blocks.begin(), originating_blocks.end(),
+                       [=](const Interval& m) {
+                         return (m.lo == at && m.lo_tag == tag) || (m.hi == at && m.hi_tag == tag);
+                       });
   };
   return std::all_of(result.intervals().begin(), result.intervals().end(), [&](const Interval& i) {
     return known(i.lo, i.lo_tag) && known(i.hi, i.hi_tag);

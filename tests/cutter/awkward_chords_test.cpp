@@ -1,7 +1,7 @@
 // Rays that once were answered wrongly, or never: found by proofs of surface points.
 #include <gtest/gtest.h>
 
-#include "cutter/swept_cutter.hpp"
+#include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -18,7 +18,7 @@ SweptCutter sweep(const std::string& kind, kinematics::ToolPath path) {
 double distance(const std::string& kind, const kinematics::ToolPose& pose, const Vec3& point) {
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
-  return kind_named(kind).cutter.body().outline().distance((m - z * pose.axis).norm(), z);
+  return kind_named(kind).cutter.body().generatrix().distance((m - z * pose.axis).norm(), z);
 }
 
 TEST(AwkwardChords, LeaveThroughTheTopAboveAnArc) {
@@ -60,9 +60,9 @@ TEST(AwkwardChords, PartWhileTheCutterTurns) {
     }
     const auto swept = sweep(kind, path);
     const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
-    for (const auto& stretch : path.stretches) {
+    for (const auto& segment : path.segments) {
       for (int i = 0; i <= 1000; ++i) {
-        const auto pose = kinematics::between(path.from(stretch), path.to(stretch), i / 1000.0);
+        const auto pose = kinematics::between(path.from(segment), path.to(segment), i / 1000.0);
         const auto chord = kind_named(kind).cutter.body().parts()[0].chord(pose, ray);
         if (!chord || chord->hi - chord->lo < 1e-5) continue;
         EXPECT_TRUE(covered.covers(chord->lo + 1e-6, chord->hi - 1e-6)) << kind << ' ' << i;

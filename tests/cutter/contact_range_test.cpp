@@ -1,4 +1,4 @@
-#include "cutter/contact_range.hpp"
+#include "cutter/search/contact_range.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 namespace frustum::cutter {
 namespace {
 
-// A flat cutter of radius 10 along X over several stretches of one block.
+// A flat cutter of radius 10 along X over several segments of one block.
 SweptCutter pass(const std::vector<ToolPose>& poses) {
   kinematics::ToolPath path;
   path.poses = poses;
   path.blocks = {{.source_line = 1, .tool = 1}};
-  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.stretches.push_back({i, 0});
+  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.segments.push_back({i, 0});
   const auto tool = Cutter::make(
       {.type = CutterType::flat, .diameter = {20.0}, .length = {100.0}, .flute_length = {40.0}});
   auto swept = SweptCutter::sweep(path, {{1, *tool}});
@@ -21,13 +21,13 @@ SweptCutter pass(const std::vector<ToolPose>& poses) {
 }
 
 // Place of the tip along X at a moment.
-double x_of(const SweptCutter& swept, const PathMoment& moment) {
+double x_of(const SweptCutter& swept, const PathState& moment) {
   const auto& path = swept.path();
-  const auto& stretch = path.stretches[moment.stretch];
-  return kinematics::between(path.from(stretch), path.to(stretch), moment.t).tip.x();
+  const auto& segment = path.segments[moment.segment];
+  return kinematics::between(path.from(segment), path.to(segment), moment.t).tip.x();
 }
 
-std::vector<PathMoment> range_at(const SweptCutter& swept, const Vec3& point, const Vec3& outward) {
+std::vector<PathState> range_at(const SweptCutter& swept, const Vec3& point, const Vec3& outward) {
   const Ray ray{point + 0.5 * outward, -outward};
   const IntervalSet covered = swept.along(ray, {0.0, 1.0});
   EXPECT_EQ(covered.intervals().size(), 1U);
@@ -53,7 +53,7 @@ TEST(ContactRange, AFlatEndFaceTouchesAPointForAsLongAsItIsUnderTheFace) {
   const auto range = range_at(swept, Vec3(7, 6, 0), Vec3::UnitZ());
   EXPECT_NEAR(x_of(swept, range.front()), 7.0 - 8.0, 1e-5);  // chord of the disc at y = 6
   EXPECT_NEAR(x_of(swept, range.back()), 7.0 + 8.0, 1e-5);
-  EXPECT_GE(range.size(), 4U);  // with the two ends of stretches between
+  EXPECT_GE(range.size(), 4U);  // with the two ends of segments between
 }
 
 TEST(ContactRange, ALeaningEndFaceTouchesWithItsRimOnly) {

@@ -184,7 +184,7 @@ Kind hollow() {
               false);
 }
 
-// A head, a hollowed neck and a wider collar.
+// A head, a concave neck and a wider collar.
 Kind waisted() {
   return kind("waisted",
               {.type = CutterType::profile,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cutter/cutter.hpp"
+#include "cutter/body/cutter.hpp"
 #include "tests/cutter/standing_cutters.hpp"
 
 namespace frustum::proof {

@@ -1,11 +1,11 @@
-#include "cutter/end_guard.hpp"
+#include "cutter/search/separating_plane.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cutter/swept_cutter.hpp"
+#include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -30,20 +30,20 @@ ToolPath swaying(Draw& draw, int strokes) {
 }
 
 // Of a group and all that is under it.
-std::vector<std::uint32_t> stretches_under(const PoseTree& tree, std::uint32_t index) {
+std::vector<std::uint32_t> segments_under(const PoseTree& tree, std::uint32_t index) {
   const PoseGroup& group = tree.groups()[index];
   if (group.count > 0) {
-    const auto leaf = tree.stretches().subspan(group.first, group.count);
+    const auto leaf = tree.segments().subspan(group.first, group.count);
     return {leaf.begin(), leaf.end()};
   }
-  std::vector<std::uint32_t> all = stretches_under(tree, group.children);
-  const std::vector<std::uint32_t> more = stretches_under(tree, group.children + 1);
+  std::vector<std::uint32_t> all = segments_under(tree, group.children);
+  const std::vector<std::uint32_t> more = segments_under(tree, group.children + 1);
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
-// The farthest that the body covers beyond s = 0 while it moves through a stretch, at 17 moments.
-double farthest(const Body& body, const StretchMotion& motion, const Ray& ray) {
+// The farthest that the body covers beyond s = 0 while it moves through a segment, at 17 moments.
+double farthest(const Body& body, const SegmentMotion& motion, const Ray& ray) {
   double most = -1e9;
   for (int k = 0; k <= 16; ++k) {
     for (const Profile& part : body.parts()) {
@@ -65,7 +65,7 @@ TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
       const auto swept = SweptCutter::sweep(path, {{1, kind.cutter}});
       std::vector<Box> boxes;
       std::vector<std::uint32_t> all;
-      for (std::uint32_t i = 0; i < path.stretches.size(); ++i) {
+      for (std::uint32_t i = 0; i < path.segments.size(); ++i) {
         boxes.push_back(swept->box(i));
         all.push_back(i);
       }
@@ -76,14 +76,14 @@ TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
       for (std::uint32_t part = 0; part < body.parts().size(); ++part) {
         const auto chord = body.parts()[part].chord(stands, ray);
         if (!chord) continue;
-        const EndGuard guard(body, ray, {chord->hi, part, chord->hi_face, stands}, true);
+        const SeparatingPlane guard(body, ray, {chord->hi, part, chord->hi_face, stands}, true);
         for (std::uint32_t index = 0; index < tree.groups().size(); ++index) {
           const PoseGroup& group = tree.groups()[index];
           const Overreach over = guard.overreach(group);
           if (!std::isfinite(over.most)) continue;
           double most = -1e9;
-          for (const std::uint32_t i : stretches_under(tree, index)) {
-            const StretchMotion motion(path.from(path.stretches[i]), path.to(path.stretches[i]),
+          for (const std::uint32_t i : segments_under(tree, index)) {
+            const SegmentMotion motion(path.from(path.segments[i]), path.to(path.segments[i]),
                                        body.reach());
             const double beyond = farthest(body, motion, ray) - chord->hi;
             most = std::max(most, beyond);
@@ -94,12 +94,13 @@ TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
           ++bounded;
           if (over.most <= 0.0) ++held;
           EXPECT_LE(most, std::max(0.0, over.most) + 1e-6) << kind.name << ' ' << seed;
-          if (!over.by_witness) {
-            double witness = -1e9;
+          if (!over.by_representative) {
+            double representative = -1e9;
             for (const Profile& p : body.parts()) {
-              if (const auto c = p.chord(group.witness, ray)) witness = std::max(witness, c->hi);
+              if (const auto c = p.chord(group.representative, ray))
+                representative = std::max(representative, c->hi);
             }
-            EXPECT_LE(witness, chord->hi + 1e-6) << kind.name << ' ' << seed;
+            EXPECT_LE(representative, chord->hi + 1e-6) << kind.name << ' ' << seed;
           }
         }
       }

@@ -1,11 +1,11 @@
-// Hollowed cutters: narrow rings that run-out leaves, rims, lands that lie in the ray.
+// Concave cutters: narrow rings that run-out leaves, rims, lands that lie in the ray.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "cutter/swept_cutter.hpp"
+#include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -17,7 +17,7 @@ using cutter::Cutter;
 using cutter::CutterSpec;
 using cutter::CutterType;
 using cutter::Ray;
-using cutter::StretchMotion;
+using cutter::SegmentMotion;
 using cutter::SweptCutter;
 using kinematics::ToolPath;
 using kinematics::ToolPose;
@@ -45,8 +45,8 @@ Cutter coved() {
                         .rows = {{0, 1, 0}, {3, 0, -6}, {4, 0, 0}, {4.5, 3, -2}, {7, 8, -5}}});
 }
 
-// The least signed distance over the stretch: moments a quarter of a micrometre apart near the least.
-double least_distance(const Body& body, const StretchMotion& motion, const Vec3& point) {
+// The least signed distance over the segment: moments a quarter of a micrometre apart near the least.
+double least_distance(const Body& body, const SegmentMotion& motion, const Vec3& point) {
   double least = 1e9;
   const auto look = [&](double t) {
     const double d = body.distance(motion.at(t), point);
@@ -99,7 +99,7 @@ TEST(HollowCutterLaws, EndsOfNarrowRingsLieOnTheSweep) {
         const auto swept = SweptCutter::sweep(path, {{1, tool}});
         ASSERT_TRUE(swept);
         EXPECT_LT(swept->accuracy(), 2e-5);
-        const StretchMotion motion(path, path.stretches[0], tool.body().reach());
+        const SegmentMotion motion(path, path.segments[0], tool.body().reach());
         const ToolPose at = motion.at(draw.between(0.0, 1.0));
         const Vec3 side = at.axis.cross(draw.direction()).normalized();
         const Vec3 near = at.tip + draw.between(0.0, 2.0 * run_out) * side;
@@ -129,7 +129,7 @@ TEST(HollowCutterLaws, NormalsAreSquareToTheMotion) {
       const ToolPath path = random_path(MotionFamily::five_axis, draw);
       const auto swept = SweptCutter::sweep(path, {{1, tool}});
       ASSERT_TRUE(swept);
-      const StretchMotion motion(path, path.stretches[0], tool.body().reach());
+      const SegmentMotion motion(path, path.segments[0], tool.body().reach());
       for (int k = 0; k < 10; ++k) {
         const ToolPose at = motion.at(draw.between(0.0, 1.0));
         const Vec3 side = at.axis.cross(draw.direction()).normalized();

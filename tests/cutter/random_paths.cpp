@@ -40,7 +40,7 @@ ToolPath path_through(const std::vector<ToolPose>& poses) {
   path.poses = poses;
   for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) {
     path.blocks.push_back({.source_line = i + 1, .tool = 1});
-    path.stretches.push_back({i, i});
+    path.segments.push_back({i, i});
   }
   return path;
 }

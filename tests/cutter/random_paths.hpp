@@ -10,7 +10,7 @@
 
 #include "core/pose.hpp"
 #include "core/random.hpp"
-#include "kinematics/tool_path.hpp"
+#include "kinematics/path/tool_path.hpp"
 
 namespace frustum::proof {
 
@@ -43,7 +43,7 @@ enum class MotionFamily : std::uint8_t {
   wild,           // up to 20 mm and 150 degrees
   tiny,           // down to rounding
   block_of_many,  // half a millimetre and a milliradian, as long programs have
-  crossing,       // six stretches over each other, some of no length
+  crossing,       // six segments over each other, some of no length
 };
 inline constexpr std::array kMotionFamilies = {
     MotionFamily::straight,      MotionFamily::tilted,    MotionFamily::plunge, MotionFamily::dwell,
@@ -51,7 +51,7 @@ inline constexpr std::array kMotionFamilies = {
     MotionFamily::block_of_many, MotionFamily::crossing};
 [[nodiscard]] std::string to_string(MotionFamily family);
 
-// Tool 1 through these poses; each stretch a block of its own, from line 1.
+// Tool 1 through these poses; each segment a block of its own, from line 1.
 [[nodiscard]] kinematics::ToolPath path_through(const std::vector<kinematics::ToolPose>& poses);
 [[nodiscard]] kinematics::ToolPath random_path(MotionFamily family, Draw& draw);
 

@@ -1,4 +1,4 @@
-#include "cutter/retrace.hpp"
+#include "cutter/search/contact_continuation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ Followed follow(const ToolPath& path, const Cutter& tool, const Wrong& wrong, in
     const auto contact = nominal->end_of_void(ray, 0.0, 200.0);
     if (!contact) continue;
     ++result.contacts;
-    const auto met = track->follow(trail_of(*nominal, ray, 0.0, *contact));
+    const auto met = track->follow(continuation_of(*nominal, ray, 0.0, *contact));
     if (!met) continue;
     ++result.followed;
     const auto truth = whole->end_of_void(ray, 0.0, 200.0);
@@ -164,7 +164,7 @@ TEST(RetraceLaws, AHigherPassThatComesDownIsNotMissed) {
     const Ray ray{{7.03, 0.025 * k, 2.0}, -Vec3::UnitZ()};
     const auto contact = nominal->end_of_void(ray, 0.0, 10.0);
     ASSERT_TRUE(contact);
-    const auto met = track->follow(trail_of(*nominal, ray, 0.0, *contact));
+    const auto met = track->follow(continuation_of(*nominal, ray, 0.0, *contact));
     if (!met) {
       ++nothing;
       continue;
@@ -190,7 +190,7 @@ void expect_the_truth(const Cutter& tool, const std::vector<ToolPose>& before,
   const auto contact = nominal->end_of_void(ray, start, start + 50.0);
   ASSERT_TRUE(contact);
   const auto track = ChangedPath::on(*nominal, proof::path_through(after));
-  const auto met = track->follow(trail_of(*nominal, ray, start, *contact));
+  const auto met = track->follow(continuation_of(*nominal, ray, start, *contact));
   if (!met) return;
   EXPECT_NEAR(met->s, whole->end_of_void(ray, start, start + 50.0)->s, kSame);
 }
@@ -233,7 +233,7 @@ TEST(Retrace, HollowedCuttersAreNotFollowed) {
   const Ray ray{{10.0, 6.0, 3.0}, -Vec3::UnitZ()};
   const auto contact = nominal->end_of_void(ray, 0.0, 50.0);
   ASSERT_TRUE(contact);
-  EXPECT_FALSE(track->follow(trail_of(*nominal, ray, 0.0, *contact)));
+  EXPECT_FALSE(track->follow(continuation_of(*nominal, ray, 0.0, *contact)));
 }
 
 TEST(Retrace, OtherPathsAreRefused) {
@@ -241,7 +241,7 @@ TEST(Retrace, OtherPathsAreRefused) {
   const auto nominal = SweptCutter::sweep(path, {{1, proof::kind_named("ball").cutter}});
   ToolPath shorter = path;
   shorter.poses.pop_back();
-  shorter.stretches.pop_back();
+  shorter.segments.pop_back();
   EXPECT_FALSE(ChangedPath::on(*nominal, shorter));
   ToolPath otherwise = path;
   otherwise.blocks.front().tool = 2;

@@ -138,8 +138,8 @@ Real StandingMotion::distance(const Meridian& body, const Vec3L& point, Real t) 
 
 StandingCutters::StandingCutters(Meridian body, bool is_convex, const kinematics::ToolPath& path)
     : body_(std::move(body)), is_convex_(is_convex) {
-  for (const kinematics::Stretch& stretch : path.stretches) {
-    motions_.emplace_back(path.from(stretch), path.to(stretch));
+  for (const kinematics::PathSegment& segment : path.segments) {
+    motions_.emplace_back(path.from(segment), path.to(segment));
   }
 }
 

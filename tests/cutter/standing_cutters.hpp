@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "kinematics/tool_path.hpp"
+#include "kinematics/path/tool_path.hpp"
 
 namespace frustum::proof {
 
@@ -31,7 +31,7 @@ class Meridian {
   [[nodiscard]] Real distance(Real r, Real z) const;
   [[nodiscard]] Real height() const { return last_z_; }
   [[nodiscard]] Real max_radius() const { return max_radius_; }
-  // A point of the outline, u in [0, 1], and the outward direction there or roughly so.
+  // A point of the generatrix, u in [0, 1], and the outward direction there or roughly so.
   struct Spot {
     Real r = 0, z = 0;
   };
@@ -67,9 +67,9 @@ class StandingCutters {
   // `of_interest` need not be found exactly; the search ends when one below `deep_enough` is found.
   [[nodiscard]] Real depth(const Vec3L& point, Real of_interest = 1e-5L,
                            Real deep_enough = -1e-5L) const;
-  // Signed distance at one moment of one stretch.
-  [[nodiscard]] Real distance_at(std::size_t stretch, double t, const Vec3L& point) const {
-    return motions_[stretch].distance(body_, point, t);
+  // Signed distance at one moment of one segment.
+  [[nodiscard]] Real distance_at(std::size_t segment, double t, const Vec3L& point) const {
+    return motions_[segment].distance(body_, point, t);
   }
   [[nodiscard]] const Meridian& body() const { return body_; }
   [[nodiscard]] const std::vector<StandingMotion>& motions() const { return motions_; }

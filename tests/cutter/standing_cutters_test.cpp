@@ -132,10 +132,10 @@ class DegenerateSweepsOracle : public ::testing::TestWithParam<AnyPath> {
       court_.hear(judge.along(judge.random_ray(draw), draw), fmt::format("{}, ray {}", what, k));
     }
   }
-  // Rays that slide along a hollowed body take a second each: few of them, unless all are asked for.
+  // Rays that slide along a concave body take a second each: few of them, unless all are asked for.
   [[nodiscard]] std::uint32_t paths_with_sliding_rays(std::uint32_t all) const {
-    const bool few =
-        !kind().cutter.body().carved().empty() && std::getenv("FRUSTUM_ORACLE_HOLLOWED") == nullptr;
+    const bool few = !kind().cutter.body().concave().empty() &&
+                     std::getenv("FRUSTUM_ORACLE_HOLLOWED") == nullptr;
     return few ? 2 : all;
   }
   void TearDown() override { court_.close(); }
@@ -321,7 +321,7 @@ TEST(StandingCutters, FindNothingHigherThanTimesInDenseOrder) {
     for (int k = 0; k < 10; ++k) {
       const Vec3L point = draw.point(Vec3(-12, -12, -8), Vec3(12, 12, 35)).cast<Real>();
       Real dense = 1e9L;
-      for (std::size_t s = 0; s < path.stretches.size(); ++s) {
+      for (std::size_t s = 0; s < path.segments.size(); ++s) {
         for (int i = 0; i <= 1000; ++i) {
           dense = std::min(dense, standing.distance_at(s, 1e-3 * i, point));
         }

@@ -96,14 +96,14 @@ void SweepJudge::judge_end(const Ray& ray, double s, EndTag tag, Judgement& judg
     judged.where = fmt::format("s = {}, stretch {}", s, tag);
   }
   if (tag < 0) return;
-  const auto stretch = static_cast<std::uint32_t>(tag);
-  const cutter::SweepContact contact = swept_.contact(ray, s, stretch);
-  const double off = static_cast<double>(standing_.distance_at(contact.stretch, contact.t, point));
+  const auto segment = static_cast<std::uint32_t>(tag);
+  const cutter::SweepContact contact = swept_.contact(ray, s, segment);
+  const double off = static_cast<double>(standing_.distance_at(contact.segment, contact.t, point));
   judged.worst_contact = std::max(judged.worst_contact, std::abs(off));
   // Of a hollow body a step along the normal may come near another wall.
   constexpr double kAside = 1e-3;
   const double away = static_cast<double>(standing_.distance_at(
-                          contact.stretch, contact.t,
+                          contact.segment, contact.t,
                           point + static_cast<Real>(kAside) * contact.normal.cast<Real>())) -
                       off;
   if (is_convex_) judged.worst_normal = std::max(judged.worst_normal, (kAside - away) / kAside);

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "cutter/swept_cutter.hpp"
+#include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 

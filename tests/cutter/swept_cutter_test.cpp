@@ -1,4 +1,4 @@
-#include "cutter/swept_cutter.hpp"
+#include "cutter/search/swept_cutter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "cutter/stretch_sweep.hpp"
+#include "cutter/sweep/segment_sweep.hpp"
 
 namespace frustum::cutter {
 namespace {
 
 using kinematics::PathBlock;
-using kinematics::Stretch;
+using kinematics::PathSegment;
 using kinematics::ToolPath;
 
 Cutter end_mill(CutterType type, double diameter = 12.0, double flutes = 30.0) {
@@ -27,7 +27,7 @@ ToolPath path_through(const std::vector<ToolPose>& poses) {
   ToolPath path;
   path.poses = poses;
   path.blocks = {PathBlock{.source_line = 1, .tool = 1}};
-  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.stretches.push_back({i, 0});
+  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.segments.push_back({i, 0});
   return path;
 }
 
@@ -48,7 +48,7 @@ Vec3 random_direction(std::uint32_t seed, std::uint64_t index) {
       .normalized();
 }
 
-// Union of `n` cutters standing still between times t0 and t1 of the stretch.
+// Union of `n` cutters standing still between times t0 and t1 of the segment.
 IntervalSet standing_cutters(const Profile& profile, const ToolPose& from, const ToolPose& to,
                              const Ray& ray, int n, double t0 = 0.0, double t1 = 1.0) {
   std::vector<Interval> all;
@@ -60,7 +60,7 @@ IntervalSet standing_cutters(const Profile& profile, const ToolPose& from, const
   return IntervalSet(std::move(all));
 }
 
-// 20,000 cutters over the stretch leave steps of their own spacing where an edge of the cutter does the
+// 20,000 cutters over the segment leave steps of their own spacing where an edge of the cutter does the
 // cutting; 20,000 more around the one that made each end remove them.
 IntervalSet brute_force_union(const Profile& profile, const ToolPose& from, const ToolPose& to,
                               const Ray& ray) {
@@ -128,7 +128,7 @@ TEST_P(BothCutters, AgreesWithTwentyThousandStandingCuttersOnRandomRaysThroughAF
 }
 
 TEST_P(BothCutters, NeverMissesWhatAStandingCutterCovers) {
-  // Rays that hardly touch: aimed at points near the outline of the sweep.
+  // Rays that hardly touch: aimed at points near the generatrix of the sweep.
   const ToolPose from{Vec3(0, 0, 0), Vec3::UnitZ()};
   const ToolPose to{Vec3(30, 5, 1), rotation_y(0.3) * Vec3::UnitZ()};
   const SweptCutter swept = sweep(GetParam(), {from, to});
@@ -173,7 +173,7 @@ TEST(SweptCutterLaws, WhatTurningBringsInBetweenTwoClearPosesIsFound) {
   for (int k = 0; k <= 100; ++k) {
     const Ray ray{{wall, -30.0, 0.01 * k}, Vec3::UnitY()};
     double deepest = 0.0;
-    const StretchMotion motion(poses[0], poses[1], disc->body().reach());
+    const SegmentMotion motion(poses[0], poses[1], disc->body().reach());
     for (int i = 0; i <= 1000; ++i) {
       const auto chord = disc->body().parts().front().chord(motion.at(i / 1000.0), ray);
       if (!chord) continue;

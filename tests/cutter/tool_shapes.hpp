@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cutter/cutter_spec.hpp"
+#include "cutter/body/cutter_spec.hpp"
 
 namespace frustum::cutter {
 

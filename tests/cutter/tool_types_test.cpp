@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "cutter/cutter.hpp"
-#include "cutter/cutter_file.hpp"
-#include "cutter/run_out.hpp"
-#include "cutter/tool_table.hpp"
+#include "cutter/body/cutter.hpp"
+#include "cutter/body/cutter_file.hpp"
+#include "cutter/body/run_out_envelope.hpp"
+#include "cutter/body/tool_table.hpp"
 #include "tool_shapes.hpp"
 
 namespace frustum::cutter {
@@ -26,9 +26,9 @@ Cutter made(const CutterSpec& spec) {
 }
 
 // Points along a chain, densely.
-std::vector<MeridianPoint> along(const Outline& outline, int n) {
+std::vector<MeridianPoint> along(const Generatrix& generatrix, int n) {
   std::vector<MeridianPoint> points;
-  for (const OutlineSegment& s : outline.segments()) {
+  for (const GeneratrixSegment& s : generatrix.segments()) {
     for (int i = 0; i <= n; ++i) {
       const double t = static_cast<double>(i) / n;
       MeridianPoint p{s.from.r + t * (s.to.r - s.from.r), s.from.z + t * (s.to.z - s.from.z)};
@@ -39,7 +39,7 @@ std::vector<MeridianPoint> along(const Outline& outline, int n) {
       points.push_back(p);
     }
   }
-  const MeridianPoint rim = outline.segments().back().to;
+  const MeridianPoint rim = generatrix.segments().back().to;
   for (int i = 0; i <= n; ++i) points.push_back({rim.r * i / n, rim.z});
   return points;
 }
@@ -53,14 +53,14 @@ bool contains(const Profile& part, double r, double z) {
 TEST(ToolTypesLaws, DistanceAgreesWithADenselySampledOutline) {
   std::uint64_t index = 0;
   for (const CutterSpec& spec : specimens()) {
-    const Outline outline = made(spec).body().outline();
-    const auto points = along(outline, 2000);
+    const Generatrix generatrix = made(spec).body().generatrix();
+    const auto points = along(generatrix, 2000);
     for (int i = 0; i < 60; ++i) {
-      const double r = draw(index++, 0.0, 1.3 * outline.max_radius());
-      const double z = draw(index++, -2.0, outline.height() + 2.0);
+      const double r = draw(index++, 0.0, 1.3 * generatrix.max_radius());
+      const double z = draw(index++, -2.0, generatrix.height() + 2.0);
       double nearest = 1e9;
       for (const auto& p : points) nearest = std::min(nearest, std::hypot(p.r - r, p.z - z));
-      const double d = outline.distance(r, z);
+      const double d = generatrix.distance(r, z);
       // A chord of a 2000th of a segment below 100 mm lies within 0.05 mm of its neighbours.
       EXPECT_LE(std::abs(d), nearest + 1e-12) << to_string(spec.type);
       EXPECT_NEAR(std::abs(d), nearest, 1.25e-3 / std::max(0.05, nearest) + 1e-6)
@@ -76,11 +76,11 @@ TEST(ToolTypesLaws, APointIsInsideWhenAPartOrACarvedHullWithinTheOutlineHoldsIt)
     for (int i = 0; i < 1500; ++i) {
       const double r = draw(index++, 0.0, 1.1 * body.max_radius());
       const double z = draw(index++, -0.5, i % 2 == 0 ? 2.0 : body.height() + 0.5);
-      const double d = body.outline().distance(r, z);
+      const double d = body.generatrix().distance(r, z);
       if (std::abs(d) < 1e-9) continue;
       const auto holds = [&](const Profile& p) { return contains(p, r, z); };
       const bool in_part = std::any_of(body.parts().begin(), body.parts().end(), holds);
-      const bool in_hull = std::any_of(body.carved().begin(), body.carved().end(), holds);
+      const bool in_hull = std::any_of(body.concave().begin(), body.concave().end(), holds);
       EXPECT_EQ(in_part || (in_hull && d < 0.0), d < 0.0)
           << to_string(spec.type) << " at " << r << ", " << z;
       EXPECT_FALSE(in_part && d > 0.0) << to_string(spec.type) << " at " << r << ", " << z;
@@ -91,7 +91,7 @@ TEST(ToolTypesLaws, APointIsInsideWhenAPartOrACarvedHullWithinTheOutlineHoldsIt)
 TEST(ToolTypesLaws, SupportIsTheFarthestPointOfTheOutline) {
   for (const CutterSpec& spec : specimens()) {
     const Body body = made(spec).body();
-    const auto points = along(body.outline(), 2000);
+    const auto points = along(body.generatrix(), 2000);
     for (int i = -20; i <= 20; ++i) {
       const double u = i / 20.0, across = std::sqrt(1.0 - u * u);
       double best = -1e9, reach = 0.0;
@@ -111,10 +111,10 @@ TEST(ToolTypesLaws, ArcsMeetTheirNeighboursSmoothlyWhereTheTypeSaysSo) {
                                 CutterType::taper, CutterType::barrel, CutterType::lens}) {
     for (const CutterSpec& spec : specimens()) {
       if (spec.type != type) continue;
-      const Outline outline = made(spec).body().outline();
-      const auto s = outline.segments();
+      const Generatrix generatrix = made(spec).body().generatrix();
+      const auto s = generatrix.segments();
       for (std::size_t i = 0; i + 1 < s.size(); ++i) {
-        const auto direction = [](const OutlineSegment& seg, const MeridianPoint& at) {
+        const auto direction = [](const GeneratrixSegment& seg, const MeridianPoint& at) {
           if (seg.arc_radius == 0.0) {
             const double l = std::hypot(seg.to.r - seg.from.r, seg.to.z - seg.from.z);
             return MeridianPoint{(seg.to.r - seg.from.r) / l, (seg.to.z - seg.from.z) / l};
@@ -129,7 +129,7 @@ TEST(ToolTypesLaws, ArcsMeetTheirNeighboursSmoothlyWhereTheTypeSaysSo) {
   }
 }
 
-void expect_same(const Outline& a, const Outline& b) {
+void expect_same(const Generatrix& a, const Generatrix& b) {
   for (int i = 0; i < 400; ++i) {
     const double r = draw(static_cast<std::uint64_t>(i), 0.0, 9.0);
     const double z = draw(static_cast<std::uint64_t>(i) + 1000, -1.0, 31.0);
@@ -142,22 +142,22 @@ TEST(ToolTypes, SevenParametersHoldFlatBallAndBull) {
       .type = CutterType::apt, .diameter = {12.0}, .length = {90.0}, .flute_length = {30.0}};
   CutterSpec plain = apt;
   plain.type = CutterType::flat;
-  expect_same(made(apt).body().outline(), made(plain).body().outline());
+  expect_same(made(apt).body().generatrix(), made(plain).body().generatrix());
   apt.corner_radius = apt.arc_height = {6.0};
   plain.type = CutterType::ball;
-  expect_same(made(apt).body().outline(), made(plain).body().outline());
+  expect_same(made(apt).body().generatrix(), made(plain).body().generatrix());
   apt.corner_radius = apt.arc_height = {2.0};
   apt.arc_offset = {4.0};
   plain.type = CutterType::bull;
   plain.corner_radius = {2.0};
-  expect_same(made(apt).body().outline(), made(plain).body().outline());
+  expect_same(made(apt).body().generatrix(), made(plain).body().generatrix());
 }
 
 TEST(ToolTypes, AHollowEndRisesByRadiusTimesTheTangentOfItsAngle) {
-  const Outline outline = made(specimens()[1]).body().outline();
-  EXPECT_NEAR(outline.segments().front().from.z, 10.0 * std::tan(1.7 * kRadPerDeg), 1e-14);
-  EXPECT_GT(outline.distance(0.0, 0.1), 0.0);
-  EXPECT_EQ(made(specimens()[1]).body().carved().size(), 1U);
+  const Generatrix generatrix = made(specimens()[1]).body().generatrix();
+  EXPECT_NEAR(generatrix.segments().front().from.z, 10.0 * std::tan(1.7 * kRadPerDeg), 1e-14);
+  EXPECT_GT(generatrix.distance(0.0, 0.1), 0.0);
+  EXPECT_EQ(made(specimens()[1]).body().concave().size(), 1U);
 }
 
 TEST(ToolTypes, ConvexOnesAreOnePart) {
@@ -186,9 +186,9 @@ TEST(RunOutLaws, TheBodyIsWhatTheTurningToolCovers) {
   const double offset = 0.3;
   std::uint64_t index = 500000;
   for (CutterSpec spec : specimens()) {
-    const Outline still = made(spec).body().outline();
+    const Generatrix still = made(spec).body().generatrix();
     spec.run_out = {offset};
-    const Outline turning = made(spec).body().outline();
+    const Generatrix turning = made(spec).body().generatrix();
     for (int i = 0; i < 200; ++i) {
       const double r = draw(index++, 0.0, i % 3 == 0 ? 1.0 : still.max_radius() + 0.5);
       const double z = draw(index++, -0.1, i % 2 == 0 ? 1.0 : still.height());
@@ -206,10 +206,10 @@ TEST(RunOutLaws, TheBodyIsWhatTheTurningToolCovers) {
 
 TEST(ToolTypes, ARadiusErrorOfAFreeOutlineMovesItWhole) {
   CutterSpec spec = specimens()[15];
-  const Outline nominal = made(spec).body().outline();
+  const Generatrix nominal = made(spec).body().generatrix();
   for (const double by : {0.02, -0.02}) {
     spec.radius_error = {by};
-    const Outline real = made(spec).body().outline();
+    const Generatrix real = made(spec).body().generatrix();
     for (const auto& p : along(nominal, 50)) {
       if (p.r + by < 0.0 || p.z >= nominal.height()) continue;
       EXPECT_NEAR(real.distance(p.r + by, p.z), 0.0, 1e-9);
@@ -220,9 +220,9 @@ TEST(ToolTypes, ARadiusErrorOfAFreeOutlineMovesItWhole) {
 TEST(RunOut, TiltWidensTheTipAndLeavesTheGaugePoint) {
   CutterSpec spec = specimens()[0];
   spec.run_out_tilt = 100.0_urad;
-  const Outline outline = made(spec).body().outline();
-  EXPECT_NEAR(outline.distance(6.01, 0.0), 0.0, 1e-12);
-  EXPECT_NEAR(outline.distance(6.0 + 100e-6 * 70.0, 30.0), 0.0, 1e-6);
+  const Generatrix generatrix = made(spec).body().generatrix();
+  EXPECT_NEAR(generatrix.distance(6.01, 0.0), 0.0, 1e-12);
+  EXPECT_NEAR(generatrix.distance(6.0 + 100e-6 * 70.0, 30.0), 0.0, 1e-6);
 }
 
 TEST(Cutter, ShankAndHolderStandBetweenFlutesAndGaugePoint) {
@@ -234,19 +234,19 @@ TEST(Cutter, ShankAndHolderStandBetweenFlutesAndGaugePoint) {
   spec.holder = {{20.0, 30.0, 40.0}};
   const Cutter cutter = made(spec);
   ASSERT_TRUE(cutter.shank() && cutter.holder());
-  EXPECT_NEAR(cutter.shank()->outline().distance(5.0, 46.0), 0.0, 1e-12);
+  EXPECT_NEAR(cutter.shank()->generatrix().distance(5.0, 46.0), 0.0, 1e-12);
   EXPECT_NEAR(cutter.shank()->height(), 80.0, 0.0);
-  EXPECT_NEAR(cutter.holder()->outline().distance(17.5, 90.0), 0.0, 1e-12);
+  EXPECT_NEAR(cutter.holder()->generatrix().distance(17.5, 90.0), 0.0, 1e-12);
   EXPECT_NEAR(cutter.holder()->height(), 100.0, 0.0);
 }
 
 TEST(Outline, WhatIsNoMeridianIsRefused) {
-  const auto refused = [](std::vector<OutlineSegment> chain, std::string_view why) {
-    const auto outline = Outline::make(std::move(chain));
-    ASSERT_FALSE(outline) << why;
-    EXPECT_NE(outline.error().front().message.find(why), std::string::npos)
-        << outline.error().front().message;
-    EXPECT_FALSE(outline.error().front().hint.empty());
+  const auto refused = [](std::vector<GeneratrixSegment> chain, std::string_view why) {
+    const auto generatrix = Generatrix::make(std::move(chain));
+    ASSERT_FALSE(generatrix) << why;
+    EXPECT_NE(generatrix.error().front().message.find(why), std::string::npos)
+        << generatrix.error().front().message;
+    EXPECT_FALSE(generatrix.error().front().hint.empty());
   };
   refused({}, "without segments");
   refused({line({1, 0}, {1, 5})}, "off the tool axis");

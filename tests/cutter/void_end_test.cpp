@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cutter/swept_cutter.hpp"
+#include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -26,7 +26,8 @@ ToolPath scattered_strokes(Draw& draw, int strokes) {
     poses.push_back({from.tip + draw.between(0.0, 12.0) * draw.direction(), draw.axis(0.6)});
   }
   ToolPath path = path_through(poses);
-  std::erase_if(path.stretches, [](const kinematics::Stretch& s) { return s.first_pose % 2 == 1; });
+  std::erase_if(path.segments,
+                [](const kinematics::PathSegment& s) { return s.first_pose % 2 == 1; });
   return path;
 }
 

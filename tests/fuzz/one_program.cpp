@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "parser/canonical_json.hpp"
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
 #include "parser/writing/block_text.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/same_block.hpp"
 
 namespace frustum::parser {

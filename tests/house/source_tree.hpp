@@ -8,7 +8,7 @@
 namespace frustum::house {
 
 struct Include {
-  std::string target;   // "kinematics/chain.hpp", "Eigen/Core"
+  std::string target;   // "kinematics/model/chain.hpp", "Eigen/Core"
   bool quoted = false;  // "..." rather than <...>
   int line = 0;
 };

@@ -1,11 +1,11 @@
-#include "kinematics/actual_inverse.hpp"
+#include "kinematics/model/actual_inverse.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

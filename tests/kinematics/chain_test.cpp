@@ -1,11 +1,11 @@
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "kinematics/inverse.hpp"
+#include "kinematics/model/inverse.hpp"
 #include "tests/kinematics/machines.hpp"
 #include "tests/kinematics/random_machine.hpp"
 

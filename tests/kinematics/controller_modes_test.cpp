@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "kinematics/chain.hpp"
-#include "kinematics/controller.hpp"
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {
@@ -181,7 +181,7 @@ TEST(ControllerFrames, FollowATiltedPlaneWithAndWithoutTcp) {
                  LinearFeed{.end = target({{X, 12}, {Y, 0}, {Z, 8}}), .feed = feed(600)}, arc}));
       ASSERT_TRUE(e) << name << to_string(e.error().front());
       const Pose table_from_plane = Pose::translated(Vec3(10, 20, 30)) * plane;
-      for (const Stretch& s : e->path.stretches) {
+      for (const PathSegment& s : e->path.segments) {
         const PathBlock& block = e->path.blocks[s.block];
         if (block.source_line < 6) continue;
         const ToolPose& to = e->path.to(s);
@@ -247,7 +247,7 @@ TEST(ControllerRotary, KeepsTheToolAxisOnTheGreatCircleWhenTold) {
   ASSERT_TRUE(e) << to_string(e.error().front());
   const Vec3 normal = from->vec().cross(to->vec()).normalized();
   double worst = 0.0;
-  for (const Stretch& s : e->path.stretches) {
+  for (const PathSegment& s : e->path.segments) {
     if (e->path.blocks[s.block].source_line == 5)
       worst = std::max(worst, std::abs(e->path.to(s).axis.dot(normal)));
   }
@@ -289,7 +289,7 @@ TEST(ControllerPole, PassesThroughAndBesideThePoleWithinTheLimitsOfTheAxes) {
           }
         }
         double off = 0.0;
-        for (const Stretch& s : p.stretches) {
+        for (const PathSegment& s : p.segments) {
           if (p.blocks[s.block].source_line < 100) continue;
           const Vec3 tip = p.to(s).tip - Vec3(10, 20, 30);
           off = std::max(off, std::hypot(tip.y(), tip.z() - 80.0));
@@ -353,7 +353,7 @@ TEST(ControllerErrors, PutBothSidesOfAReversalIntoThePath) {
   ASSERT_TRUE(e) << to_string(e.error().front());
   // X turns at 0 and 180 deg; each turn is a step of the full jump at one place.
   int steps = 0;
-  for (const Stretch& s : e->path.stretches) {
+  for (const PathSegment& s : e->path.segments) {
     if (e->path.blocks[s.block].source_line != 4) continue;
     const Vec3 d = e->path.to(s).tip - e->path.from(s).tip;
     if (std::abs(d.y()) < 1e-6 && std::abs(d.x()) > 5e-3) {

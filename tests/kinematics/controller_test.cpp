@@ -1,10 +1,10 @@
-#include "kinematics/controller.hpp"
+#include "kinematics/controller/controller.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "parser/interpreter.hpp"
 #include "tests/kinematics/machines.hpp"
 
@@ -45,9 +45,9 @@ TEST(Controller, KeepsTheTipWhileTheToolTurnsUnderTcp_Complaint05) {
                        "B-35 C70 F500\n");
     ASSERT_TRUE(e) << to_string(e.error().front());
     const ToolPath& path = e->path;
-    const std::uint32_t first = path.stretches.back().first_pose;
-    for (std::uint32_t i = path.stretches.size() > 400 ? first - 100 : 1; i <= first; ++i) {
-      if (path.blocks[path.stretches[i - 1].block].kind == PathKind::feed) {
+    const std::uint32_t first = path.segments.back().first_pose;
+    for (std::uint32_t i = path.segments.size() > 400 ? first - 100 : 1; i <= first; ++i) {
+      if (path.blocks[path.segments[i - 1].block].kind == PathKind::feed) {
         EXPECT_LT((path.poses[i].tip - Vec3(15, 26, 180)).norm(), 1e-9);
       }
     }
@@ -108,7 +108,7 @@ TEST(Controller, CutsArcsInTheirOwnPlane_Complaint14) {
                               "\n" + c.arc + " F100\n");
     ASSERT_TRUE(e) << to_string(e.error().front());
     double nearest = 1e9, off = 0.0;
-    for (const Stretch& s : e->path.stretches) {
+    for (const PathSegment& s : e->path.segments) {
       if (e->path.blocks[s.block].kind != PathKind::feed) continue;
       nearest = std::min(nearest, (e->path.to(s).tip - c.middle).norm());
       const Vec3 centre = Vec3(c.plane[2] == '9' ? 3 : 0, c.plane[2] == '8' ? 7 : 0, 50);

@@ -1,4 +1,4 @@
-#include "kinematics/error_gain.hpp"
+#include "kinematics/errors/error_gain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

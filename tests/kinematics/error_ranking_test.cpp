@@ -1,6 +1,6 @@
 // The error gains of the DVF 5000, as the volumetric error thesis prints them and as computed apart from
 // this program.
-#include "kinematics/error_ranking.hpp"
+#include "kinematics/errors/error_ranking.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Shapes of errors, in words and in tables: their values along the axis.
-#include "kinematics/error_shape.hpp"
+#include "kinematics/errors/error_shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/toml_document.hpp"
-#include "kinematics/error_table.hpp"
-#include "kinematics/heading.hpp"
+#include "kinematics/errors/error_table.hpp"
+#include "kinematics/path/approach_direction.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {
@@ -99,7 +99,7 @@ TEST(ErrorShape, AnAxisHasOneSettlingDistance) {
   };
   const auto one = resolved({"EXX=reversal 4um settle 0.01mm", "EYX=reversal 1um"});
   ASSERT_TRUE(one);
-  EXPECT_DOUBLE_EQ((*one)[AxisLetter::X].settling, 0.01);
+  EXPECT_DOUBLE_EQ((*one)[AxisLetter::X].lost_motion, 0.01);
   EXPECT_TRUE(one->depends_on_direction());
   const auto two = resolved({"EXX=reversal 4um settle 0.01mm", "EYX=reversal 1um settle 0.02mm"});
   ASSERT_FALSE(two);

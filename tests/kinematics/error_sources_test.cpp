@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "core/toml_document.hpp"
-#include "kinematics/chain.hpp"
-#include "kinematics/error_draw.hpp"
-#include "kinematics/error_gain.hpp"
-#include "kinematics/error_table.hpp"
-#include "kinematics/measured_errors.hpp"
+#include "kinematics/errors/error_draw.hpp"
+#include "kinematics/errors/error_gain.hpp"
+#include "kinematics/errors/error_table.hpp"
+#include "kinematics/errors/measured_errors.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

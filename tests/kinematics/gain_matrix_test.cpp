@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "kinematics/chain.hpp"
-#include "kinematics/error_gain.hpp"
+#include "kinematics/errors/error_gain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 #include "tests/kinematics/random_machine.hpp"
 

@@ -1,4 +1,4 @@
-#include "kinematics/geometric_errors.hpp"
+#include "kinematics/model/geometric_errors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kinematics/heading.hpp"
+#include "kinematics/path/approach_direction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/units.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {
@@ -17,11 +17,11 @@ namespace {
 using std::numbers::pi;
 constexpr auto kX = AxisLetter::X;
 
-HeadingTracker tracker_of(AxisLetter axis, double settling) {
+ApproachTracker tracker_of(AxisLetter axis, double lost_motion) {
   GeometricErrors errors;
   errors[axis].component[0] = ErrorFunction({ReversalTerm{1.0}});
-  errors[axis].settling = settling;
-  return HeadingTracker(errors);
+  errors[axis].lost_motion = lost_motion;
+  return ApproachTracker(errors);
 }
 
 template <typename Course>
@@ -34,7 +34,7 @@ AxisMotion along_x(Course course) {
 }
 
 TEST(HeadingTracker, FollowsOnlyAxesWhoseErrorsDependOnTheDirection) {
-  HeadingTracker none{GeometricErrors{}};
+  ApproachTracker none{GeometricErrors{}};
   EXPECT_FALSE(none.follows_any());
   const auto profile = none.follow(along_x([](double u) { return u; }), 8);
   EXPECT_EQ(profile.at(0.7), AxisPositions{});
@@ -43,7 +43,7 @@ TEST(HeadingTracker, FollowsOnlyAxesWhoseErrorsDependOnTheDirection) {
 }
 
 TEST(HeadingTracker, HasNoHeadingBeforeTheFirstMoveAndKeepsItWhileTheAxisStands) {
-  HeadingTracker tracker = tracker_of(kX, 0.0);
+  ApproachTracker tracker = tracker_of(kX, 0.0);
   const auto dwell = [](double at) { return along_x([at](double) { return at; }); };
   EXPECT_EQ(tracker.follow(dwell(3.0), 8).after(1.0)[kX], 0.0);
   const auto first = tracker.follow(along_x([](double u) { return 3.0 - u; }), 8);
@@ -60,7 +60,7 @@ TEST(HeadingTracker, HasNoHeadingBeforeTheFirstMoveAndKeepsItWhileTheAxisStands)
 
 TEST(HeadingTracker, FindsTurningPointsOfACurvedMotion) {
   for (const int parts : {5, 8, 33}) {
-    HeadingTracker tracker = tracker_of(kX, 0.0);
+    ApproachTracker tracker = tracker_of(kX, 0.0);
     // Turns at u = 0.15, 0.65; starts in -.
     const auto profile = tracker.follow(
         along_x([](double u) { return 90.0 * std::cos(2 * pi * (u + 0.35)); }), parts);
@@ -78,7 +78,7 @@ TEST(HeadingTracker, FindsTurningPointsOfACurvedMotion) {
 }
 
 TEST(HeadingTracker, FindsATurnThatHidesInTheFirstPart) {
-  HeadingTracker tracker = tracker_of(kX, 0.0);
+  ApproachTracker tracker = tracker_of(kX, 0.0);
   const auto profile =
       tracker.follow(along_x([](double u) { return -50.0 * (u - 0.02) * (u - 0.02); }), 10);
   ASSERT_EQ(profile.turning_points().size(), 2u);
@@ -86,7 +86,7 @@ TEST(HeadingTracker, FindsATurnThatHidesInTheFirstPart) {
 }
 
 TEST(HeadingTracker, TurnsWhereAnAxisLeavesItsPlateau) {
-  HeadingTracker tracker = tracker_of(kX, 0.0);
+  ApproachTracker tracker = tracker_of(kX, 0.0);
   const auto rest = [](double u) { return u < 0.3 ? u : u < 0.7 ? 0.3 : 1.0 - u; };
   const auto profile = tracker.follow(along_x(rest), 50);
   EXPECT_EQ(profile.at(0.6)[kX], 1.0);
@@ -95,7 +95,7 @@ TEST(HeadingTracker, TurnsWhereAnAxisLeavesItsPlateau) {
 }
 
 TEST(HeadingTracker, TakesRoundingForNoMotion) {
-  HeadingTracker tracker = tracker_of(kX, 0.0);
+  ApproachTracker tracker = tracker_of(kX, 0.0);
   const auto noise = [](double u) { return 100.0 + 1e-12 * std::sin(1e4 * u); };
   EXPECT_TRUE(tracker.follow(along_x(noise), 100).turning_points().empty());
   const auto ramp = [](double u) { return 10.0 * u + 1e-12 * std::sin(1e4 * u); };
@@ -103,7 +103,7 @@ TEST(HeadingTracker, TakesRoundingForNoMotion) {
 }
 
 TEST(HeadingTracker, TakesUpThePlayOverTheSettlingDistance) {
-  HeadingTracker tracker = tracker_of(kX, 2.0);
+  ApproachTracker tracker = tracker_of(kX, 2.0);
   const auto out = tracker.follow(along_x([](double u) { return 10.0 * u; }), 4);
   EXPECT_NEAR(out.at(0.05)[kX], 0.5, 1e-12);  // from the middle of the play
   EXPECT_NEAR(out.at(0.2)[kX], 1.0, 1e-12);
@@ -121,15 +121,15 @@ TEST(HeadingTracker, TakesUpThePlayOverTheSettlingDistance) {
 
 // The play operator by its own definition, marched in small steps.
 TEST(HeadingTrackerLaws, AgreeWithAMarchedPlayOperator) {
-  const double settling = 0.7;
+  const double lost_motion = 0.7;
   const auto course = [](double u) { return std::sin(9.0 * u) + 0.4 * std::sin(23.0 * u + 1.0); };
-  HeadingTracker tracker = tracker_of(kX, settling);
+  ApproachTracker tracker = tracker_of(kX, lost_motion);
   const auto profile = tracker.follow(along_x(course), 200);
   double heading = 0.0, before = course(0.0);
   const int steps = 20000;
   for (int k = 1; k <= steps; ++k) {
     const double u = static_cast<double>(k) / steps, q = course(u);
-    heading = std::clamp(heading + 2.0 * (q - before) / settling, -1.0, 1.0);
+    heading = std::clamp(heading + 2.0 * (q - before) / lost_motion, -1.0, 1.0);
     before = q;
     // 1e-6: a marched step may turn in its middle.
     ASSERT_NEAR(profile.at(u)[kX], heading, 1e-6) << u;
@@ -153,10 +153,10 @@ class ConeDeviation {
 
   [[nodiscard]] double circularity_um() const {
     constexpr int kSamples = 3600;
-    HeadingTracker tracker(errors_);
+    ApproachTracker tracker(errors_);
     const AxisMotion lap = [](double u) { return axes_at(2 * pi * u); };
-    (void)tracker.follow(lap, 72);  // the first lap settles the headings
-    const HeadingProfile profile = tracker.follow(lap, 72);
+    (void)tracker.follow(lap, 72);  // the first lap settles the approach_directions
+    const ApproachProfile profile = tracker.follow(lap, 72);
     Eigen::Matrix<double, kSamples, 3> shape;
     Eigen::Matrix<double, kSamples, 1> deviation;
     for (int k = 0; k < kSamples; ++k) {

@@ -1,4 +1,4 @@
-#include "kinematics/inverse.hpp"
+#include "kinematics/model/inverse.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

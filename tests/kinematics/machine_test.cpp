@@ -1,4 +1,4 @@
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

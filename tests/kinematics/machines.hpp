@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 
 namespace frustum::kinematics {
 

@@ -1,11 +1,11 @@
-#include "kinematics/orientation_path.hpp"
+#include "kinematics/controller/orientation_path.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

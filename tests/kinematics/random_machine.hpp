@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 
 namespace frustum::kinematics {
 

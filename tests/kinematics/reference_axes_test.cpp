@@ -1,12 +1,12 @@
-#include "kinematics/reference_axes.hpp"
+#include "kinematics/errors/reference_axes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "core/toml_document.hpp"
-#include "kinematics/chain.hpp"
-#include "kinematics/error_table.hpp"
+#include "kinematics/errors/error_table.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

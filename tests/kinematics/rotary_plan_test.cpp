@@ -1,4 +1,4 @@
-#include "kinematics/rotary_plan.hpp"
+#include "kinematics/model/rotary_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
-#include "kinematics/inverse.hpp"
+#include "kinematics/model/chain.hpp"
+#include "kinematics/model/inverse.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

@@ -1,4 +1,4 @@
-#include "kinematics/small_rotation.hpp"
+#include "kinematics/model/small_rotation.hpp"
 
 #include <gtest/gtest.h>
 

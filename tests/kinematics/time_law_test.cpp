@@ -1,4 +1,4 @@
-#include "kinematics/time_law.hpp"
+#include "kinematics/timing/time_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "kinematics/servo_lag.hpp"
+#include "kinematics/timing/servo_lag.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

@@ -1,9 +1,9 @@
-#include "kinematics/volumetric.hpp"
+#include "kinematics/errors/volumetric.hpp"
 
 #include <gtest/gtest.h>
 
-#include "kinematics/chain.hpp"
-#include "kinematics/error_ranking.hpp"
+#include "kinematics/errors/error_ranking.hpp"
+#include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

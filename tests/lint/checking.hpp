@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinematics/machine.hpp"
+#include "kinematics/model/machine.hpp"
 #include "lint/program_check.hpp"
 
 namespace frustum::lint {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "metrology/characteristic/evaluation.hpp"
-#include "metrology/uncertainty/magnitude_interval.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
+#include "metrology/uncertainty/non_negative_interval.hpp"
 
 namespace frustum::metrology::coverage {
 

@@ -60,7 +60,7 @@ TEST(ElementModelLaws, SlidingChangesThePointAlone) {
   for (std::size_t k = 0; k < kElementNames.size(); ++k) {
     const Element e = some(static_cast<ElementKind>(k), draws);
     const Vec3 to = draws.place(30.0);
-    const Element there = slid(e, to);
+    const Element there = shifted(e, to);
     const Vec3 x = draws.place(40.0);
     EXPECT_NEAR(residual(e, x), residual(there, x), 1e-12) << kElementNames[k];
     EXPECT_LE((point_of(there) - to).norm(), (point_of(e) - to).norm());

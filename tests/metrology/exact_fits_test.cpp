@@ -164,7 +164,7 @@ Difference difference(const Element& a, const Element& b) {
   Difference d;
   const UnitVec3* axis = axis_of(a);
   if (axis != nullptr) d.rad = line_angle(*axis, *axis_of(b));
-  const Element there = slid(b, point_of(a));
+  const Element there = shifted(b, point_of(a));
   const bool slides = std::holds_alternative<Line>(a) || std::holds_alternative<Cylinder>(a) ||
                       std::holds_alternative<Cone>(a);
   d.mm = slides ? off_axis(point_of(there), *axis, point_of(a))
@@ -218,7 +218,7 @@ std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   const auto flatness = [&] {
     return draws.between(0, 1) < 0.1 ? 0.0 : std::exp2(draws.between(-30, 4));
   };
-  const Vec3 stretch(draws.between(0, 1) < 0.5 ? flatness() : 1.0,
+  const Vec3 segment(draws.between(0, 1) < 0.5 ? flatness() : 1.0,
                      draws.between(0, 1) < 0.3 ? flatness() : 1.0, 1.0);
   const Vec3 centre = draws.between(0, 1) < 0.2 ? draws.place(1e3 * scale) : Vec3(0, 0, 0);
   const Pose pose = draws.pose(1.0);
@@ -226,7 +226,7 @@ std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < n; ++i) {
     Vec3 p = shell ? draws.direction().vec() : draws.place(1.0);
-    p = pose.direction(stretch.cwiseProduct(p));
+    p = pose.direction(segment.cwiseProduct(p));
     points.emplace_back(centre + scale * p);
     if (i > 0 && draws.between(0, 1) < 0.05) points.back() = points[i / 2];
   }

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "metrology/fit/association.hpp"
-#include "metrology/fit/extreme_association.hpp"
+#include "metrology/fit/minimax/extreme_association.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "metrology/characteristic/slid_line.hpp"
+#include "metrology/characteristic/best_shifted_line.hpp"
 #include "step_part.hpp"
 #include "synthetic.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "metrology/decision_rule.hpp"
-#include "metrology/uncertainty/magnitude_interval.hpp"
+#include "metrology/uncertainty/non_negative_interval.hpp"
 #include "metrology/uncertainty/refit.hpp"
 #include "step_part.hpp"
 #include "synthetic.hpp"
@@ -161,9 +161,9 @@ TEST(MagnitudeInterval, SplitsTheTailsByTheLikelihoodRatio) {
 
 TEST(MagnitudeInterval, IsTheMeasuredSizeWithoutNoise) {
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(3, 100);
-  const Eigen::VectorXd shape = ShapeEstimate({MagnitudeKind::length}, {}, none)(Vec3(3, 0, 4));
+  const Eigen::VectorXd shape = ShapeEstimate({NonNegativeKind::length}, {}, none)(Vec3(3, 0, 4));
   EXPECT_NEAR(shape[0], 0.6, 1e-12);
-  const SizeInterval found = SizeUnderNoise({MagnitudeKind::length}, none, shape).interval(5.0);
+  const SizeInterval found = SizeUnderNoise({NonNegativeKind::length}, none, shape).interval(5.0);
   EXPECT_EQ(found.low, 5.0);
   EXPECT_EQ(found.high, 5.0);
 }

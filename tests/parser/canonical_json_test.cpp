@@ -1,4 +1,4 @@
-#include "parser/canonical_json.hpp"
+#include "parser/writing/canonical_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "parser/canonical_json.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/units.hpp"
-#include "parser/canonical_json.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/random_program.hpp"
 #include "tests/parser/running.hpp"
 

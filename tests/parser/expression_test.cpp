@@ -7,7 +7,7 @@
 #include <charconv>
 #include <limits>
 
-#include "parser/reading/grammar.hpp"
+#include "parser/reading/rs274/grammar.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "parser/canonical_json.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

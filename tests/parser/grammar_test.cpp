@@ -1,4 +1,4 @@
-#include "parser/reading/grammar.hpp"
+#include "parser/reading/rs274/grammar.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/units.hpp"
-#include "parser/canonical_json.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

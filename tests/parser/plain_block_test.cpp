@@ -1,12 +1,12 @@
 // Law: a plain block is what the grammar would read.
-#include "parser/reading/plain_block.hpp"
+#include "parser/reading/rs274/plain_block.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
 
-#include "parser/reading/grammar.hpp"
+#include "parser/reading/rs274/grammar.hpp"
 #include "tests/parser/random_program.hpp"
 #include "tests/parser/same_block.hpp"
 

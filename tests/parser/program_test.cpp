@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "parser/canonical_json.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

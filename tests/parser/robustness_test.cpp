@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "parser/canonical_json.hpp"
 #include "parser/interpreter.hpp"
+#include "parser/writing/canonical_json.hpp"
 #include "tests/parser/random_program.hpp"
 
 namespace frustum::parser {

@@ -1,5 +1,5 @@
 // A program and what the post-processor makes of it move the tool alike: by independent execution.
-#include "post/machine_program.hpp"
+#include "post/planning/machine_program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "kinematics/chain.hpp"
-#include "programs/cone_frustum.hpp"
+#include "kinematics/model/chain.hpp"
+#include "programs/cone/cone_frustum.hpp"
 #include "tests/kinematics/machines.hpp"
 #include "tests/post/read_back.hpp"
 
@@ -96,12 +96,12 @@ Execution executed(const Case& c, const std::vector<Motion>& motions, double bou
 // Tool poses of the feed blocks, by line of the source.
 std::map<std::uint32_t, std::vector<ToolPose>> by_line(const Execution& done) {
   std::map<std::uint32_t, std::vector<ToolPose>> lines;
-  for (const auto& stretch : done.path.stretches) {
-    const auto& block = done.path.blocks[stretch.block];
+  for (const auto& segment : done.path.segments) {
+    const auto& block = done.path.blocks[segment.block];
     if (block.kind != kinematics::PathKind::feed) continue;
     auto& poses = lines[block.source_line];
-    if (poses.empty()) poses.push_back(done.path.from(stretch));
-    poses.push_back(done.path.to(stretch));
+    if (poses.empty()) poses.push_back(done.path.from(segment));
+    poses.push_back(done.path.to(segment));
   }
   return lines;
 }
@@ -188,7 +188,7 @@ std::map<std::uint32_t, double> minutes_by_line(const Case& c, const std::vector
   std::map<std::uint32_t, double> minutes;
   const Execution done = executed(c, motions);
   std::vector<double> lengths(done.path.blocks.size());
-  for (const auto& s : done.path.stretches) {
+  for (const auto& s : done.path.segments) {
     lengths[s.block] += (done.path.to(s).tip - done.path.from(s).tip).norm();
   }
   std::size_t block = 0;

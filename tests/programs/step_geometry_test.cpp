@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/chain.hpp"
-#include "kinematics/inverse.hpp"
+#include "kinematics/model/chain.hpp"
+#include "kinematics/model/inverse.hpp"
 #include "programs/near_net_blank.hpp"
-#include "programs/step_pattern.hpp"
+#include "programs/step/step_pattern.hpp"
 #include "programs/tilting_table.hpp"
 
 namespace frustum::programs {

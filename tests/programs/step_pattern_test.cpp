@@ -10,7 +10,7 @@
 
 #include "metrology/plan/strategy.hpp"
 #include "parser/interpreter.hpp"
-#include "programs/step_pattern.hpp"
+#include "programs/step/step_pattern.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::programs {

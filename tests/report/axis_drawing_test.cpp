@@ -1,4 +1,4 @@
-#include "report/axis_drawing.hpp"
+#include "tests/report/axis_drawing.hpp"
 
 #include <gtest/gtest.h>
 

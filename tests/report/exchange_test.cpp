@@ -5,7 +5,7 @@
 #include <limits>
 #include <pugixml.hpp>
 
-#include "report/export_file.hpp"
+#include "report/exchange/export_file.hpp"
 #include "tests/report/sample_report.hpp"
 
 namespace frustum::report {

@@ -1,4 +1,4 @@
-#include "report/html_report.hpp"
+#include "report/page/html_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

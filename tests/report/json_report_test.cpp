@@ -1,4 +1,4 @@
-#include "report/json_report.hpp"
+#include "report/exchange/json_report.hpp"
 
 #include <gtest/gtest.h>
 

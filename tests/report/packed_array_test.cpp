@@ -1,4 +1,4 @@
-#include "report/packed_array.hpp"
+#include "report/page/packed_array.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "report/picture.hpp"
+#include "report/picture/picture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "report/points_csv.hpp"
+#include "report/exchange/points_csv.hpp"
 
 #include <gtest/gtest.h>
 

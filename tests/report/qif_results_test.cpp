@@ -1,4 +1,4 @@
-#include "report/qif_results.hpp"
+#include "report/exchange/qif_results.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <set>
 
 #include "metrology/cmm.hpp"
-#include "report/exact_decimal.hpp"
+#include "report/exchange/exact_decimal.hpp"
 #include "tests/metrology/test_part.hpp"
 
 namespace frustum::report {

@@ -1,4 +1,4 @@
-#include "report/sensitivity_table.hpp"
+#include "report/page/sensitivity_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "report/setup_sheet.hpp"
+#include "report/sheet/setup_sheet.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "report/setup_drawing.hpp"
+#include "report/sheet/setup_drawing.hpp"
 
 namespace frustum::report {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "stock/blank.hpp"
-#include "stock/surface_mesh.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/mesh/surface_mesh.hpp"
+#include "stock/solid/blank.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::stock {
 namespace {

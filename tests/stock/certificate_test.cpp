@@ -1,5 +1,5 @@
 // Proofs of surface points: every kind of cutter on every kind of motion; wrong points and wrong paths.
-#include "stock/certificate.hpp"
+#include "stock/proof/certificate.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ struct Count {
 
   void add(const SurfacePoint& p, const Certificate& c) {
     ++points;
-    if (p.stretch) ++cut;
+    if (p.segment) ++cut;
     if (c.verdict == Verdict::proven) ++proven;
     if (c.verdict == Verdict::refuted) ++refuted;
     if (c.regular) ++regular;
@@ -143,7 +143,7 @@ TEST(Certificate, FindsAWrongListOfStretches) {
 }
 
 TEST(Certificate, KnowsTheMomentThatWasAskedFor) {
-  // A second stretch cuts the first one's floor away; before it the floor was there.
+  // A second segment cuts the first one's floor away; before it the floor was there.
   ToolPath both = path_through({{Vec3(-30, 0, 12), Vec3::UnitZ()},
                                 {Vec3(30, 0, 12), Vec3::UnitZ()},
                                 {Vec3(30, 0, 10), Vec3::UnitZ()},
@@ -198,7 +198,7 @@ TEST(SurfacePointBound, IsThePathsAndTheEnginesAndRounding) {
   EXPECT_LT(floor.sweep_bound, part.removed().accuracy() + 1e-11);
   EXPECT_EQ(floor.bound, 2.5e-5 + floor.sweep_bound);
   EXPECT_LT(part.removed().accuracy(), 1e-6);
-  // Hollowed cutters are less exact and say so.
+  // Concave cutters are less exact and say so.
   EXPECT_GT(cut(kind_named("hollow"), path).removed().accuracy(), 1e-5);
 }
 

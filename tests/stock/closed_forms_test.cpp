@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "stock/tri_dexel.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/dexel/tri_dexel.hpp"
+#include "stock/solid/workpiece.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 

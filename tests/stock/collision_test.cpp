@@ -1,11 +1,11 @@
-// Shanks and holders in material, at the moment they are there; rapids, many of them.
-#include "stock/collision.hpp"
+// Shanks and holders in material, at the program_state they are there; rapids, many of them.
+#include "stock/collision/collision.hpp"
 
 #include <oneapi/tbb/global_control.h>
 
 #include <numbers>
 
-#include "stock/removal.hpp"
+#include "stock/solid/removal.hpp"
 #include "tests/stock/milling.hpp"
 
 namespace frustum::stock {

@@ -1,4 +1,4 @@
-#include "stock/facet_solid.hpp"
+#include "stock/solid/facet_solid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "stock/surface_mesh.hpp"
+#include "stock/mesh/surface_mesh.hpp"
 #include "tests/stock/surface_mesh_solids.hpp"
 
 namespace frustum::stock {

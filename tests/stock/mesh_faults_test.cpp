@@ -1,4 +1,4 @@
-#include "stock/mesh_faults.hpp"
+#include "stock/polyhedral/mesh_faults.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

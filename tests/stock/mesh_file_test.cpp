@@ -1,4 +1,4 @@
-#include "stock/mesh_file.hpp"
+#include "stock/mesh/io/mesh_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

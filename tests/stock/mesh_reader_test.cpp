@@ -1,4 +1,4 @@
-#include "stock/mesh_reader.hpp"
+#include "stock/mesh/io/mesh_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::stock::testing {
 
@@ -26,7 +26,7 @@ inline kinematics::ToolPath path_through(const std::vector<kinematics::ToolPose>
   for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) {
     path.blocks.push_back(
         {.source_line = 10 * (i + 1), .tool = 1, .feed = 600.0, .duration = 10.0});
-    path.stretches.push_back({i, i});
+    path.segments.push_back({i, i});
   }
   return path;
 }

@@ -1,4 +1,4 @@
-#include "stock/polyhedral.hpp"
+#include "stock/polyhedral/polyhedral.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "stock/polyhedral_sweep.hpp"
-#include "stock/workpiece.hpp"
+#include "stock/polyhedral/polyhedral_sweep.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::stock {
 namespace {
@@ -41,7 +41,7 @@ ToolPath path_through(const std::vector<ToolPose>& poses) {
   ToolPath path;
   path.poses = poses;
   path.blocks = {{.source_line = 1, .tool = 1}};
-  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.stretches.push_back({i, 0});
+  for (std::uint32_t i = 0; i + 1 < poses.size(); ++i) path.segments.push_back({i, 0});
   return path;
 }
 
@@ -185,23 +185,23 @@ void expect_second_order(const std::string& name, const Blank& blank, const Tool
 }
 
 // The cutter feeds along X, turns in the feed direction and to the side, and sinks a little.
-ToolPath five_axis_stretch() {
+ToolPath five_axis_segment() {
   return path_through({{Vec3(-9, -1, 5), Vec3(-0.10, 0.02, 1.0).normalized()},
                        {Vec3(8, 1.5, 4), Vec3(-0.16, 0.08, 1.0).normalized()}});
 }
 
 TEST(PolyhedralReference, ConvergesToTheRaysAtSecondOrderForAFlatEndMillOnAFiveAxisStretch) {
-  expect_second_order("flat_five_axis", box(30, 24, 10), five_axis_stretch(), CutterType::flat,
+  expect_second_order("flat_five_axis", box(30, 24, 10), five_axis_segment(), CutterType::flat,
                       {16, 32, 64, 128});
 }
 
 TEST(PolyhedralReference, ConvergesToTheRaysAtSecondOrderForABallEndMillOnAFiveAxisStretch) {
-  expect_second_order("ball_five_axis", box(30, 24, 10), five_axis_stretch(), CutterType::ball,
+  expect_second_order("ball_five_axis", box(30, 24, 10), five_axis_segment(), CutterType::ball,
                       {16, 32, 64});
 }
 
 TEST(PolyhedralReference, ConvergesToTheRaysForSeveralStretchesThatCrossTheirOwnSweep) {
-  // Over itself twice, at changing depth; the third stretch turns the cutter, the fourth plunges.
+  // Over itself twice, at changing depth; the third segment turns the cutter, the fourth plunges.
   const Vec3 leaning = Vec3(-0.10, 0.05, 1.0).normalized();
   const Vec3 tilted = Vec3(-0.09, 0.03, 1.0).normalized();
   const ToolPath path = path_through({{Vec3(-20, -8, 6), leaning},
@@ -308,7 +308,7 @@ TEST(PolyhedralWorkpiece, RefusesAHollowCutterAndSaysWhoTakesIt) {
                           .length = {60.0},
                           .flute_length = {14.0},
                           .end_angle = {2.0 * kRadPerDeg}};
-  const auto cut = PolyhedralWorkpiece::cut(box(30, 24, 10), five_axis_stretch(),
+  const auto cut = PolyhedralWorkpiece::cut(box(30, 24, 10), five_axis_segment(),
                                             {{1, Cutter::make(hollow).value()}}, {});
   ASSERT_FALSE(cut);
   EXPECT_EQ(to_string(cut.error().front()),
@@ -404,7 +404,7 @@ TEST(PolyhedralWorkpiece, NothingIsLeftOfABlankThatTheCutterCoversWhole) {
 
 TEST(PolyhedralWorkpiece, RefusesWhatMakesNoSolidAndSaysWhatToDo) {
   const auto message = [](const PolyhedralOptions& options, int tool) {
-    const auto cut = PolyhedralWorkpiece::cut(box(30, 24, 10), five_axis_stretch(),
+    const auto cut = PolyhedralWorkpiece::cut(box(30, 24, 10), five_axis_segment(),
                                               {{tool, end_mill(CutterType::flat)}}, options);
     return cut ? std::string("no error") : to_string(cut.error().front());
   };

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "stock/workpiece.hpp"
+#include "stock/solid/workpiece.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -57,12 +57,12 @@ ToolPose next_pose(const std::vector<ToolPose>& poses, Draw& draw) {
   }
 }
 
-double length_left(const stock::Workpiece& left, const stock::Ray& ray, std::uint32_t stretches) {
-  return left.material_along(ray, {-200.0, 200.0}, stretches).length();
+double length_left(const stock::Workpiece& left, const stock::Ray& ray, std::uint32_t segments) {
+  return left.material_along(ray, {-200.0, 200.0}, segments).length();
 }
 
-// Along a few rays: more stretches never leave more.
-std::string grows(const stock::Workpiece& left, const Vec3& middle, std::size_t stretches,
+// Along a few rays: more segments never leave more.
+std::string grows(const stock::Workpiece& left, const Vec3& middle, std::size_t segments,
                   Draw& draw) {
   // Sweeps are 1 nm exact normal to their surface; a grazing ray is cut that much longer or shorter.
   constexpr double kGrazing = 1e-2;  // mm
@@ -70,7 +70,7 @@ std::string grows(const stock::Workpiece& left, const Vec3& middle, std::size_t 
     const stock::Ray ray{middle + draw.point(Vec3(-6, -6, -6), Vec3(6, 6, 6)), draw.direction()};
     double before = length_left(left, ray, 0);
     if (!(before >= 0.0) || !std::isfinite(before)) return "a length that is no length";
-    for (std::uint32_t n = 1; n <= stretches; ++n) {
+    for (std::uint32_t n = 1; n <= segments; ++n) {
       const double now = length_left(left, ray, n);
       if (!(now >= 0.0)) return "a negative length";
       if (now > before + kGrazing) return "more is left after more stretches";
@@ -103,8 +103,8 @@ RandomCut random_cut(std::uint64_t seed) {
   std::vector<ToolPose> poses = {
       {draw.point(Vec3(-12, -12, -4), Vec3(12, 12, 14)),
        draw.chance(0.4) ? Vec3(Vec3::UnitZ()) : draw.axis(draw.chance(0.1) ? 3.1 : 0.6)}};
-  const int stretches = draw.below(9);
-  for (int i = 0; i < stretches; ++i) poses.push_back(next_pose(poses, draw));
+  const int segments = draw.below(9);
+  for (int i = 0; i < segments; ++i) poses.push_back(next_pose(poses, draw));
   ToolPath path = path_through(poses);
   const std::vector<Kind>& kinds = cutter_kinds();
   const auto any = [&] {
@@ -127,7 +127,7 @@ std::string broken_law(const RandomCut& cut) {
   const stock::BoundingBox bounds = cut.blank.bounds();
   Draw draw(1, 78);
   if (std::string fault =
-          grows(left, 0.5 * (bounds.min + bounds.max), cut.path.stretches.size(), draw);
+          grows(left, 0.5 * (bounds.min + bounds.max), cut.path.segments.size(), draw);
       !fault.empty()) {
     return fault;
   }

@@ -7,10 +7,10 @@
 #include <map>
 #include <string>
 
-#include "cutter/cutter.hpp"
-#include "kinematics/tool_path.hpp"
-#include "stock/blank.hpp"
-#include "stock/surface_mesh.hpp"
+#include "cutter/body/cutter.hpp"
+#include "kinematics/path/tool_path.hpp"
+#include "stock/mesh/surface_mesh.hpp"
+#include "stock/solid/blank.hpp"
 
 namespace frustum::proof {
 
@@ -25,7 +25,7 @@ struct RandomCut {
 [[nodiscard]] RandomCut random_cut(std::uint64_t seed);
 
 // Cuts and meshes it. Empty, or the first law that does not hold: numbers are finite, the mesh is closed and
-// manifold, no volume is negative, and none grows with more stretches.
+// manifold, no volume is negative, and none grows with more segments.
 [[nodiscard]] std::string broken_law(const RandomCut& cut);
 
 // Empty, or why the triangles do not bound a solid: each edge once in either direction, one fan a vertex.

@@ -1,4 +1,4 @@
-#include "stock/refine_surface.hpp"
+#include "stock/mesh/refine_surface.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <vector>
 
-#include "cutter/swept_cutter.hpp"
-#include "stock/decimate_surface.hpp"
-#include "stock/workpiece.hpp"
+#include "cutter/search/swept_cutter.hpp"
+#include "stock/mesh/decimate_surface.hpp"
+#include "stock/solid/workpiece.hpp"
 #include "tests/stock/surface_mesh_solids.hpp"
 
 namespace frustum::stock {

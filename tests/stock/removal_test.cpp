@@ -1,12 +1,12 @@
-// What each block removes, what stands at any moment, and how far a surface is from its nominal.
-#include "stock/removal.hpp"
+// What each block removes, what stands at any program_state, and how far a surface is from its nominal.
+#include "stock/solid/removal.hpp"
 
 #include <oneapi/tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "stock/deviation.hpp"
+#include "stock/mesh/deviation.hpp"
 #include "tests/stock/milling.hpp"
 
 namespace frustum::stock {
@@ -120,10 +120,10 @@ TEST(Removal, RefusesPitchesThatAreNone) {
 TEST(Moment, OfALineIsAfterItsLastMotion) {
   const Workpiece part = slot();
   const auto& path = part.removed().path();
-  EXPECT_EQ(after_line(path, 9)->stretches, 0U);
-  EXPECT_EQ(after_line(path, 10)->stretches, 1U);
+  EXPECT_EQ(after_line(path, 9)->segments, 0U);
+  EXPECT_EQ(after_line(path, 10)->segments, 1U);
   EXPECT_EQ(after_line(path, 29)->source_line, 20U);
-  EXPECT_EQ(after_line(path, 1000)->stretches, end_of(path).stretches);
+  EXPECT_EQ(after_line(path, 1000)->segments, end_of(path).segments);
   EXPECT_FALSE(after_line(path, 0));
   EXPECT_DOUBLE_EQ(after_line(path, 20)->time, 20.0);
 }
@@ -131,14 +131,14 @@ TEST(Moment, OfALineIsAfterItsLastMotion) {
 TEST(Moment, OfATimeIsTheLastThatIsOver) {
   const Workpiece part = slot();
   const auto& path = part.removed().path();
-  EXPECT_EQ(at_time(path, 9.99)->stretches, 0U);
-  EXPECT_EQ(at_time(path, 10.0)->stretches, 1U);
-  EXPECT_EQ(at_time(path, 1e9)->stretches, 5U);
+  EXPECT_EQ(at_time(path, 9.99)->segments, 0U);
+  EXPECT_EQ(at_time(path, 10.0)->segments, 1U);
+  EXPECT_EQ(at_time(path, 1e9)->segments, 5U);
   EXPECT_FALSE(at_time(path, std::nan("")));
   const auto five = equally_spaced(path, 5, end_of(path));
   ASSERT_EQ(five.size(), 5U);
-  EXPECT_EQ(five[1].stretches, 2U);
-  EXPECT_EQ(five.back().stretches, 5U);
+  EXPECT_EQ(five[1].segments, 2U);
+  EXPECT_EQ(five.back().segments, 5U);
 }
 
 TEST(Moment, ShowsWhatStandsAndWhoMadeIt) {
@@ -153,16 +153,16 @@ TEST(Moment, ShowsWhatStandsAndWhoMadeIt) {
   EXPECT_DOUBLE_EQ(first_met(first), 15.0);
   EXPECT_DOUBLE_EQ(first_met(last), 18.0);
 
-  const auto floor = maker_of(first, Vec3(0.3, 0.2, -5.0004));
+  const auto floor = originating_block_of(first, Vec3(0.3, 0.2, -5.0004));
   ASSERT_TRUE(floor);
   EXPECT_EQ(floor->source_line, 10U);
   EXPECT_NEAR(floor->distance, 4e-4, 1e-9);
   EXPECT_NEAR(floor->normal.z(), 1.0, 1e-9);
-  EXPECT_FALSE(maker_of(last, Vec3(0.3, 0.2, -5.0)));
-  const auto wall = maker_of(last, Vec3(0.3, 9.0, -2.0));
+  EXPECT_FALSE(originating_block_of(last, Vec3(0.3, 0.2, -5.0)));
+  const auto wall = originating_block_of(last, Vec3(0.3, 9.0, -2.0));
   ASSERT_TRUE(wall);
   EXPECT_EQ(wall->block, 4U);
-  const auto top = maker_of(last, Vec3(20.0, 20.0, 0.0));
+  const auto top = originating_block_of(last, Vec3(20.0, 20.0, 0.0));
   ASSERT_TRUE(top);
   EXPECT_FALSE(top->block);
 }

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <optional>
 
-#include "stock/workpiece.hpp"
+#include "stock/solid/workpiece.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -30,7 +30,7 @@ const std::array kDisturbances = {Disturbance{"shift", Vec3(0.4, -0.5, 0.7), Vec
                                   Disturbance{"turn", Vec3::Zero(), Vec3(0.02, -0.03, 0.04)},
                                   Disturbance{"radius", Vec3::Zero(), Vec3::Zero(), 1.0}};
 
-// Two stretches of 12 mm that turn by 15 degrees each.
+// Two segments of 12 mm that turn by 15 degrees each.
 ToolPath five_axis_path() {
   return path_through({{Vec3(-12, -2, -3), Vec3(0.3, -0.2, 1.0).normalized()},
                        {Vec3(0, 0, -3.5), Vec3(0.1, -0.3, 1.0).normalized()},
@@ -55,8 +55,8 @@ Workpiece cut(const cutter::CutterSpec& spec, const Disturbance& by, double amou
 double gain(const Workpiece& part, const SurfacePoint& p, const cutter::CutterSpec& spec,
             const Disturbance& by, const stock::Ray& ray) {
   const ToolPath& path = part.removed().path();
-  const auto& stretch = path.stretches[*p.stretch];
-  const ToolPose pose = kinematics::between(path.from(stretch), path.to(stretch), p.t);
+  const auto& segment = path.segments[*p.segment];
+  const ToolPose pose = kinematics::between(path.from(segment), path.to(segment), p.t);
   double along_normal = p.normal.dot(by.shift + by.turn.cross(p.point));
   if (by.radius > 0.0) {
     cutter::CutterSpec larger = spec, smaller = spec;
@@ -88,7 +88,7 @@ Slopes compare(const cutter::CutterSpec& spec, const Disturbance& by) {
     const Vec3 tip = draw.point(Vec3(-10, -2, 4), Vec3(9, 3, 4));
     const stock::Ray ray{tip, (draw.direction() - 1.5 * Vec3::UnitZ()).normalized()};
     const auto here = part.first_surface(ray, {0.0, 30.0});
-    if (!here || !here->stretch || here->t < 0.05 || here->t > 0.95) continue;
+    if (!here || !here->segment || here->t < 0.05 || here->t > 0.95) continue;
     const double cosine = -here->normal.dot(ray.direction);
     if (cosine < 0.5) continue;
     const double expected = gain(part, *here, spec, by, ray);
@@ -97,7 +97,7 @@ Slopes compare(const cutter::CutterSpec& spec, const Disturbance& by) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = moved[k].first->first_surface(ray, {0.0, 30.0});
       const auto b = moved[k].second->first_surface(ray, {0.0, 30.0});
-      same = same && a && b && a->stretch == here->stretch && b->stretch == here->stretch &&
+      same = same && a && b && a->segment == here->segment && b->segment == here->segment &&
              (a->normal - b->normal).norm() < 0.2 && a->t > 0.01 && a->t < 0.99 && b->t > 0.01 &&
              b->t < 0.99;
       if (!same) break;
@@ -111,7 +111,7 @@ Slopes compare(const cutter::CutterSpec& spec, const Disturbance& by) {
   return slopes;
 }
 
-// An end is found to 4e-10 mm, and the moment that makes it to the root of that: the normal is then off by
+// An end is found to 4e-10 mm, and the program_state that makes it to the root of that: the normal is then off by
 // sqrt(2 * 4e-10 mm / 5 mm) at a radius of 5 mm.
 constexpr double kNormal = 1.5e-5;
 

@@ -13,7 +13,7 @@
 
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
-#include "stock/tri_dexel_solid.hpp"
+#include "stock/dexel/tri_dexel_solid.hpp"
 
 namespace frustum::stock::testing {
 

@@ -1,4 +1,4 @@
-#include "stock/surface_mesh.hpp"
+#include "stock/mesh/surface_mesh.hpp"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "cutter/swept_cutter.hpp"
-#include "stock/workpiece.hpp"
+#include "cutter/search/swept_cutter.hpp"
+#include "stock/solid/workpiece.hpp"
 #include "tests/stock/surface_mesh_solids.hpp"
 
 namespace frustum::stock {
@@ -245,7 +245,7 @@ Workpiece slotted_block() {
   }
   for (std::uint32_t k = 0; k < 3; ++k) {
     path.blocks.push_back({.source_line = k + 1, .tool = 1});
-    path.stretches.push_back({.first_pose = k, .block = k});
+    path.segments.push_back({.first_pose = k, .block = k});
   }
   const cutter::CutterSpec spec{
       .type = cutter::CutterType::flat, .diameter = Mm{10.0}, .length = Mm{50.0}};

@@ -1,4 +1,4 @@
-#include "stock/tri_dexel.hpp"
+#include "stock/dexel/tri_dexel.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

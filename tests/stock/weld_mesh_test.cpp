@@ -1,11 +1,11 @@
-#include "stock/weld_mesh.hpp"
+#include "stock/mesh/weld_mesh.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.hpp"
-#include "stock/facet_solid.hpp"
+#include "stock/solid/facet_solid.hpp"
 
 namespace frustum::stock {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "metrology/characteristic/characteristic.hpp"
-#include "programs/cone_frustum.hpp"
-#include "trials/tip_trace.hpp"
+#include "programs/cone/cone_frustum.hpp"
+#include "tests/trials/tip_trace.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::trials {

@@ -1,5 +1,5 @@
 // Programs that do the same, and ten seeded faults, each found and named.
-#include "post/program_difference.hpp"
+#include "post/comparing/program_difference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
-#include "post/fault.hpp"
-#include "programs/cone_frustum.hpp"
+#include "post/comparing/fault.hpp"
+#include "programs/cone/cone_frustum.hpp"
 #include "programs/in_dialect.hpp"
 #include "tests/trials/cone_trial.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "programs/step_pattern.hpp"
+#include "programs/step/step_pattern.hpp"
 #include "trials/sensitivity.hpp"
 
 namespace frustum::trials {

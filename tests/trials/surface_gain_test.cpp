@@ -92,7 +92,7 @@ class ConeCuts {
         const auto here = surface_at_point(*base_.workpiece, at, n);
         const auto a = surface_at_point(*plus.workpiece, at, n);
         const auto b = surface_at_point(*minus.workpiece, at, n);
-        if (!here || !here->stretch) continue;
+        if (!here || !here->segment) continue;
         ++d.points;
         if (!a || !b || a->source_line != here->source_line ||
             b->source_line != here->source_line) {

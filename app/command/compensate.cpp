@@ -1,0 +1,115 @@
+// frustum compensate: a job's program rewritten so that the actual tool follows the nominal path.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/job/job.hpp"
+#include "app/job/number_check.hpp"
+#include "app/view/console.hpp"
+#include "calibration/compensate/compensated_piece.hpp"
+#include "programs/in_dialect.hpp"
+#include "programs/test_piece_files.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompensateOptions {
+  std::string job{};
+  std::string out{};
+  std::string dialect{};  // empty: the program's own
+  JobOverrides overrides{};
+  double bound = 0.02;  // um
+  bool json = false;
+};
+
+// At most this is to be left, of the tip's error or in mm: the larger.
+constexpr double kShareLeft = 0.01;
+constexpr double kLeft = 5e-5;
+
+nlohmann::ordered_json as_json(const calibration::PathError& error) {
+  return {{"tip_um", error.tip * kUmPerMm}, {"axis_urad", error.axis * kUradPerRad}};
+}
+
+int report(const CompensateOptions& options, const calibration::CompensatedPiece& made,
+           const std::vector<fs::path>& files) {
+  const bool reached = made.after.tip <= std::max(kLeft, kShareLeft * made.before.tip);
+  if (options.json) {
+    nlohmann::ordered_json doc{{"files", nlohmann::ordered_json::array()},
+                               {"before", as_json(made.before)},
+                               {"after", as_json(made.after)},
+                               {"reached", reached}};
+    for (const fs::path& file : files) doc["files"].push_back(file.string());
+    std::cout << doc.dump(2) << '\n';
+  } else {
+    for (const fs::path& file : files) std::cout << file.string() << '\n';
+    const auto row = [](const char* when, const calibration::PathError& error) {
+      std::cout << fmt::format("{:<7} tip {:10.4f} um   tool axis {:10.4f} urad\n", when,
+                               error.tip * kUmPerMm, error.axis * kUradPerRad);
+    };
+    row("before", made.before);
+    row("after", made.after);
+  }
+  if (reached) return kDone;
+  std::cerr << "more than 1 % of the tip's error, and more than 0.05 um, is left\n";
+  return kOutOfTolerance;
+}
+
+int compensate(const CompensateOptions& options) {
+  const auto job = load_job(options.job, options.overrides, false);
+  if (!job) return refuse(job.error());
+  std::error_code ignored;
+  if (fs::equivalent(job->file.parent_path().empty() ? "." : job->file.parent_path(), options.out,
+                     ignored)) {
+    return refuse("the output would overwrite the job", "choose another folder for --out");
+  }
+  const auto errors = trials::errors_for(job->machine, job->errors, job->piece);
+  if (!errors) return refuse(errors.error());
+  auto made = calibration::compensated_piece(job->machine, *errors, job->piece,
+                                             {.bound = options.bound / kUmPerMm});
+  if (!made) return refuse(made.error());
+  made->piece.title += ", compensated";
+  made->piece.program_file = fs::path(job->piece.program_file).filename().string();
+  auto written = options.dialect.empty()
+                     ? programs::TranslatedPiece{made->piece, {}}
+                     : Result<programs::TranslatedPiece>(programs::in_dialect(
+                           made->piece, *parser::dialect_named(options.dialect)));
+  if (!written) return refuse(written.error());
+  const auto files = programs::write_test_piece(written->piece, job->machine_file, options.out);
+  if (!files) return refuse(files.error());
+  return report(options, *made, *files);
+}
+
+}  // namespace
+
+void add_compensate(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<CompensateOptions>();
+  CLI::App* command = program.add_subcommand(
+      "compensate", "Rewrite a job's program for the machine's errors, and prove it by running it");
+  command->add_option("job", o->job, "Job file with the machine's errors")->required();
+  command->add_option("--out", o->out, "Folder for the compensated piece: job, program and plan")
+      ->required();
+  command->add_option("--dialect", o->dialect, "Of the program written (default: its own)")
+      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain"}));
+  add_error_options(*command, o->overrides.errors);
+  command
+      ->add_option("--bound", o->bound,
+                   "Actual against nominal path within a block, um (0.02); blocks are divided")
+      ->check(positive_number(1e3));
+  command->add_flag("--json", o->json, "One JSON document on stdout and nothing else");
+  command->footer(
+      "Exit code 1 when more than 1 % of the tip's error and more than 0.05 um is left.\n"
+      "The job written has no [errors]: the machine's own are given again with --errors or "
+      "--error.\n"
+      "Example: frustum compensate piece/job.toml --errors machine.errors.toml --out compensated");
+  command->callback([o, &exit_code] { exit_code = compensate(*o); });
+}
+
+}  // namespace frustum::app

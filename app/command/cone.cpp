@@ -1,0 +1,126 @@
+// frustum program cone: writes a cone test piece.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/job/machine_files.hpp"
+#include "app/view/console.hpp"
+#include "programs/cone/cone_frustum.hpp"
+#include "programs/in_dialect.hpp"
+#include "programs/test_piece_files.hpp"
+
+namespace frustum::app {
+namespace {
+
+using programs::ConeFrustum;
+
+// What was given on the command line; the rest comes from the preset.
+struct ConeOptions {
+  std::string machine{};
+  std::string out{};
+  std::string preset = "inclined";
+  std::string dialect = "fanuc";
+  std::string form{};  // vector, where the dialect has vectors
+  std::string limits = "nas979";
+  std::string center{};
+  std::optional<double> cone_angle{}, inclination{}, orientation{}, radius{}, height{},
+      cylinder_height{}, tool_diameter{}, tool_length{}, start_angle{}, allowance{},
+      chord_tolerance{}, feed{}, speed{};
+};
+
+Result<ConeFrustum> cone_of(const ConeOptions& o) {
+  ConeFrustum cone = o.preset == "nas979" ? ConeFrustum::nas979() : ConeFrustum{};
+  const auto set_angle = [](Rad& to, const std::optional<double>& deg) {
+    if (deg) to = Rad{*deg * kRadPerDeg};
+  };
+  const auto set = [](Mm& to, const std::optional<double>& mm, double scale = 1.0) {
+    if (mm) to = Mm{*mm * scale};
+  };
+  set_angle(cone.cone_angle, o.cone_angle);
+  set_angle(cone.inclination, o.inclination);
+  set_angle(cone.orientation, o.orientation);
+  set(cone.radius, o.radius);
+  set(cone.height, o.height);
+  set(cone.cylinder_height, o.cylinder_height);
+  set(cone.tool_diameter, o.tool_diameter);
+  set(cone.tool_length, o.tool_length);
+  set(cone.allowance, o.allowance);
+  set(cone.chord_tolerance, o.chord_tolerance, 1e-3);
+  if (o.start_angle) cone.start_angle = Rad{*o.start_angle * kRadPerDeg};
+  if (o.feed) cone.feed = *o.feed;
+  if (o.speed) cone.spindle_speed = *o.speed;
+  if (!o.center.empty()) {
+    const auto center = numbers_of(o.center, 3, "--center");
+    if (!center) return center.error();
+    cone.center = Vec3((*center)[0], (*center)[1], (*center)[2]);
+  }
+  const bool no_vectors = o.form.empty() && o.dialect == "linuxcnc";
+  cone.form = o.form == "axes"                   ? programs::ProgramForm::axes
+              : o.form == "angles" || no_vectors ? programs::ProgramForm::angles
+                                                 : programs::ProgramForm::vector;
+  cone.limits = o.limits == "tenth" ? programs::ConeLimits::tenth : programs::ConeLimits::nas979;
+  return cone;
+}
+
+int write_cone(const ConeOptions& options) {
+  const auto machine_file = find_machine(options.machine, ".");
+  if (!machine_file) return refuse(machine_file.error());
+  const auto machine = kinematics::Machine::load(*machine_file);
+  if (!machine) return refuse(machine.error());
+  const auto cone = cone_of(options);
+  if (!cone) return refuse(cone.error());
+  const auto piece = programs::cone_frustum(*cone, *machine);
+  if (!piece) return refuse(piece.error());
+  const auto written = programs::in_dialect(*piece, *parser::dialect_named(options.dialect));
+  if (!written) return refuse(written.error());
+  const auto files = programs::write_test_piece(written->piece, *machine_file, options.out);
+  if (!files) return refuse(files.error());
+  for (const auto& file : *files) std::cout << file.string() << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+void add_cone(CLI::App& kinds, int& exit_code) {
+  auto o = std::make_shared<ConeOptions>();
+  CLI::App* cone = kinds.add_subcommand(
+      "cone", "The cone frustum test: NAS 979, or an inclined cone with cylinder and groove");
+  cone->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
+      ->required();
+  cone->add_option("--out", o->out,
+                   "Folder for job.toml, cone.nc (.ngc, .mpf, .h) and cone.plan.toml")
+      ->required();
+  cone->add_option("--preset", o->preset,
+                   "inclined (default) or nas979: what the options start from")
+      ->check(CLI::IsMember({"inclined", "nas979"}));
+  cone->add_option("--cone-angle", o->cone_angle, "Half apex angle, deg (45)");
+  cone->add_option("--inclination", o->inclination, "Tilt of the cone's axis, deg (30)");
+  cone->add_option("--orientation", o->orientation, "Turn about the table's Z, deg (0)");
+  cone->add_option("--radius", o->radius, "Tool-tip circle, mm (40)");
+  cone->add_option("--center", o->center,
+                   "x,y,z of that circle's centre in the table frame, mm (-65,0,150)");
+  cone->add_option("--height", o->height, "Height of the cone, mm (5)");
+  cone->add_option("--cylinder-height", o->cylinder_height, "Height of the cylinder below, mm (6)");
+  cone->add_option("--tool-diameter", o->tool_diameter, "mm (12)");
+  cone->add_option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
+  cone->add_option("--start-angle", o->start_angle, "Where the cut begins and ends, deg (0)");
+  cone->add_option("--allowance", o->allowance, "Stock left by roughing, mm (0.2)");
+  cone->add_option("--chord-tolerance", o->chord_tolerance, "Of finished circles, um (0.005)");
+  cone->add_option("--feed", o->feed, "mm/min (500)");
+  cone->add_option("--speed", o->speed, "Spindle, 1/min (8333)");
+  cone->add_option("--form", o->form,
+                   "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
+                   "positions)")
+      ->check(CLI::IsMember({"vector", "angles", "axes"}));
+  cone->add_option("--dialect", o->dialect,
+                   "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
+      ->check(CLI::IsMember({"fanuc", "linuxcnc", "sinumerik", "heidenhain"}));
+  cone->add_option("--limits", o->limits, "nas979, or tenth: a tenth of its limits")
+      ->check(CLI::IsMember({"nas979", "tenth"}));
+  cone->footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");
+  cone->callback([o, &exit_code] { exit_code = write_cone(*o); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,403 @@
+// frustum cut: the workpiece at any program_state as a mesh and a picture, and what the program did to it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/job/cut_result.hpp"
+#include "app/job/job.hpp"
+#include "app/job/job_report.hpp"
+#include "app/job/number_check.hpp"
+#include "app/job/polyhedral_engine.hpp"
+#include "app/job/trial_run.hpp"
+#include "app/view/console.hpp"
+#include "app/view/removal_csv.hpp"
+#include "core/whole_file.hpp"
+#include "report/picture/picture.hpp"
+#include "stock/mesh/decimate_surface.hpp"
+#include "stock/mesh/io/mesh_file.hpp"
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CutOptions {
+  std::string job{};
+  std::string mesh{};
+  std::string picture{};
+  std::string view{};
+  std::string size{};
+  std::string removal{};
+  std::string point{};
+  double pitch = 0.0;
+  std::uint32_t until_line = 0;  // 0: to the end
+  int snapshots = 0;
+  std::string engine = "ray";
+  PolyhedralFacets facets{};
+  double facet_tolerance_mm = 0.01;
+  bool facets_given = false;                           // one of both
+  double gouge_limit_um = 0.0, excess_limit_um = 0.0;  // 0: none
+  JobOverrides overrides{};
+  double chord = 0.0, decimate = 0.0;  // mm; 0: not asked for
+  bool json = false;
+  bool quiet = false;
+
+  [[nodiscard]] bool polyhedral() const { return engine == "polyhedral"; }
+  [[nodiscard]] bool limited() const { return gouge_limit_um > 0.0 || excess_limit_um > 0.0; }
+  [[nodiscard]] bool wants_surface() const {
+    return !mesh.empty() || !picture.empty() || limited();
+  }
+};
+
+std::optional<Diagnostic> fault_of(const CutOptions& o) {
+  if (!o.wants_surface() && o.removal.empty() && o.point.empty()) {
+    return error("nothing to write",
+                 "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp, --picture OUT.png, "
+                 "--removal OUT.csv, --point X,Y,Z or a limit");
+  }
+  if (o.polyhedral() && (o.chord > 0.0 || o.decimate > 0.0)) {
+    return error("--chord and --decimate are for the surface that rays find",
+                 "the polyhedral engine's facets follow --facets and --facet-tolerance");
+  }
+  if (!o.polyhedral() && o.facets_given) {
+    return error("--facets and --facet-tolerance are of the polyhedral engine",
+                 "add --engine polyhedral, or choose --pitch and --chord");
+  }
+  constexpr double kFinest = 1e-6;  // mm: as exact as the surface is
+  if (o.chord > 0.0 && o.chord < kFinest) {
+    return error(fmt::format("--chord {:g} mm is finer than the surface is exact", o.chord),
+                 "give 1e-6 mm or more");
+  }
+  if (o.snapshots > 0 && o.mesh.empty()) {
+    return error("snapshots need a name", "give --mesh part.ply for part_0001.ply and so on");
+  }
+  if (!o.mesh.empty()) {
+    if (const auto format = stock::mesh_format_of(o.mesh); !format) return format.error().front();
+  }
+  if (!o.picture.empty() && fs::path(o.picture).extension() != ".png") {
+    return error("pictures are written as .png, not " + o.picture);
+  }
+  if (!o.view.empty() && o.picture.empty()) {
+    return error("a view without a picture", "give --picture OUT.png");
+  }
+  if (!o.size.empty() && o.picture.empty()) {
+    return error("a size without a picture", "give --picture OUT.png");
+  }
+  if (!o.removal.empty() && fs::path(o.removal).extension() != ".csv") {
+    return error("the removal of each block is written as .csv, not " + o.removal);
+  }
+  return std::nullopt;
+}
+
+using Failure = std::optional<Diagnostics>;
+
+// --view AZIMUTH,ELEVATION in degrees.
+Failure look_from(const std::string& view, report::PictureOptions& options) {
+  const auto angles = numbers_of(view, 2, "--view");
+  if (!angles) return angles.error();
+  options.azimuth = (*angles)[0];
+  options.elevation = (*angles)[1];
+  if (std::abs(options.azimuth) <= 360.0 && std::abs(options.elevation) <= 90.0) return {};
+  return Diagnostics{error("--view " + view + " is no direction to look from",
+                           "azimuth about Z from +X within 360 deg, elevation from -90 to 90 deg")};
+}
+
+// --size WIDTH,HEIGHT in pixels; which sizes can be drawn is the picture's to say.
+Failure draw_at(const std::string& size, report::PictureOptions& options) {
+  const auto sides = numbers_of(size, 2, "--size");
+  if (!sides) return sides.error();
+  for (const double side : *sides) {
+    if (side != std::floor(side) || std::abs(side) > 1e6) {
+      return Diagnostics{
+          error("--size " + size + " is no size in pixels", "two whole numbers: 1600,1100")};
+    }
+  }
+  options.width = static_cast<int>((*sides)[0]);
+  options.height = static_cast<int>((*sides)[1]);
+  return {};
+}
+
+Result<report::PictureOptions> picture_options(const CutOptions& o) {
+  report::PictureOptions options;
+  if (!o.view.empty()) {
+    if (auto failure = look_from(o.view, options)) return *std::move(failure);
+  }
+  if (!o.size.empty()) {
+    if (auto failure = draw_at(o.size, options)) return *std::move(failure);
+  }
+  return options;
+}
+
+// Steps of the command; each fills its part of the result, or says what is wrong.
+class Cut {
+ public:
+  Cut(const CutOptions& options, const report::PictureOptions& view, const Job& job,
+      const trials::Trial& trial, TrialRun& run)
+      : options_(options), view_(view), job_(job), trial_(trial), run_(run) {}
+
+  [[nodiscard]] Result<CutResult> result() {
+    if (options_.limited() && job_.piece.plan.features.empty() && !job_.nominal) {
+      return error("a limit, but nothing that the part is judged by",
+                   "give the job an inspection plan or a [nominal] mesh");
+    }
+    if (auto failure = find_state()) return *failure;
+    result_.blank_volume = workpiece().blank().volume();
+    for (const stock::Collision& c : trial_.collisions) {
+      if (result_.until.block && c.block <= *result_.until.block) result_.collisions.push_back(c);
+    }
+    if (auto failure = find_originating_block()) return *failure;
+    if (options_.wants_surface()) {
+      if (auto failure = write_surfaces()) return *failure;
+    }
+    if (!options_.removal.empty()) {
+      if (auto failure = write_removal()) return *failure;
+    }
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] const stock::Workpiece& workpiece() const { return *trial_.workpiece; }
+  [[nodiscard]] const kinematics::ToolPath& path() const { return workpiece().removed().path(); }
+  [[nodiscard]] stock::WorkpieceAt part() const { return {workpiece(), result_.until}; }
+
+  Failure find_state() {
+    result_.until = stock::end_of(path());
+    if (options_.until_line == 0) return std::nullopt;
+    const std::string& text = job_.piece.program;
+    const auto ends = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
+    const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
+    if (options_.until_line > lines) {
+      return Diagnostics{error(
+          fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
+          "its lines are counted from 1")};
+    }
+    const auto program_state = stock::after_line(path(), options_.until_line);
+    if (!program_state) return program_state.error();
+    result_.finished = program_state->segments == result_.until.segments;
+    result_.until = *program_state;
+    return std::nullopt;
+  }
+
+  Failure find_originating_block() {
+    if (options_.point.empty()) return std::nullopt;
+    const auto words = numbers_of(options_.point, 3, "--point");
+    if (!words) return words.error();
+    result_.asked_point = Vec3((*words)[0], (*words)[1], (*words)[2]);
+    result_.originating_block = stock::originating_block_of(part(), *result_.asked_point);
+    return std::nullopt;
+  }
+
+  struct Meshed {
+    stock::SurfaceMesh mesh{};
+    std::optional<Mm> bound{};
+    // What is judged where it is not the mesh itself: decimation takes away the vertices of flat faces.
+    std::optional<stock::SurfaceMesh> whole{};
+  };
+  [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {
+    if (!options_.polyhedral()) {
+      auto mesh = finished_surface(job_, part, {options_.pitch, options_.chord});
+      if (!mesh) return mesh.error();
+      if (options_.decimate <= 0.0) return Meshed{*std::move(mesh), {}, {}};
+      auto fewer = stock::decimate_surface(*mesh, Mm{options_.decimate});
+      if (!fewer) return fewer.error();
+      judge_surface(job_, *fewer);
+      return Meshed{*std::move(fewer), {}, *std::move(mesh)};
+    }
+    auto faceted = faceted_surface(part, options_.facets);
+    if (!faceted) return faceted.error();
+    judge_surface(job_, faceted->mesh);
+    return Meshed{std::move(faceted->mesh), faceted->bound, {}};
+  }
+
+  Failure write_surfaces() {
+    run_.begin("mesh the surface");
+    if (options_.snapshots > 0) {
+      if (auto failure = write_snapshots()) return failure;
+    }
+    const auto meshed = surface_of(part());
+    run_.end();
+    if (!meshed) return meshed.error();
+    const stock::SurfaceMesh& mesh = meshed->mesh;
+    if (!options_.mesh.empty() && options_.snapshots == 0) {
+      if (const auto file = stock::write_mesh(mesh, options_.mesh); !file) return file.error();
+    }
+    if (!options_.picture.empty()) {
+      const auto file =
+          report::write_picture(options_.picture, picture_of(mesh, edge_plan()), view_);
+      if (!file) return file.error();
+    }
+    describe(*meshed);
+    return std::nullopt;
+  }
+
+  // What tells the deviations of a sharp edge's faces apart: a nominal mesh does not.
+  [[nodiscard]] metrology::InspectionPlan edge_plan() const {
+    return job_.nominal ? metrology::InspectionPlan{} : job_.piece.plan;
+  }
+
+  void describe(const Meshed& meshed) {
+    const stock::SurfaceMesh& mesh = meshed.mesh;
+    const stock::SurfaceMesh& judged = meshed.whole ? *meshed.whole : mesh;
+    // A faceted vertex is looked up where it stands, as far off the exact surface as it may be.
+    const Mm near{std::max(1e-3, meshed.bound.value_or(Mm{}).value)};
+    CutSurface surface{.vertices = mesh.vertices.size(),
+                       .triangles = mesh.triangles.size(),
+                       .measure = stock::measure(mesh),
+                       .deviations = stock::worst_deviations(part(), judged, near),
+                       .faceted_within = meshed.bound};
+    bool first = true;
+    for (const auto& d : judged.deviation) {
+      if (!d) continue;
+      surface.lowest = first ? *d : std::min(surface.lowest, *d);
+      surface.highest = first ? *d : std::max(surface.highest, *d);
+      first = false;
+    }
+    result_.surface = std::move(surface);
+  }
+
+  Failure write_snapshots() {
+    const fs::path name(options_.mesh);
+    for (const stock::ProgramState& program_state :
+         stock::equally_spaced(path(), options_.snapshots, result_.until)) {
+      const auto meshed = surface_of({workpiece(), program_state});
+      if (!meshed) return meshed.error();
+      const fs::path file =
+          name.parent_path() / fmt::format("{}_{:04}{}", name.stem().string(),
+                                           result_.snapshots.size() + 1, name.extension().string());
+      if (const auto written = stock::write_mesh(meshed->mesh, file); !written) {
+        return written.error();
+      }
+      result_.snapshots.push_back(
+          {file.string(), program_state, stock::measure(meshed->mesh).volume});
+    }
+    // The index comes last: where it is, the series is complete.
+    const auto index = write_whole_file(fs::path(name).replace_extension(".json"),
+                                        snapshot_index(result_.snapshots));
+    return index ? std::nullopt : Failure(index.error());
+  }
+
+  Failure write_removal() {
+    run_.begin("follow the removal");
+    auto removal = stock::removal_of(workpiece(), {.pitch = Mm{options_.pitch}});
+    run_.end();
+    if (!removal) return removal.error();
+    removal->resize(result_.until.block ? *result_.until.block + 1 : 0);
+    const auto file = write_whole_file(options_.removal, removal_csv(path(), *removal));
+    if (!file) return file.error();
+    RemovalTotal total{.file = options_.removal};
+    for (const stock::BlockRemoval& r : *removal) {
+      if (r.volume > 0.0) ++total.blocks;
+      total.volume += r.volume;
+    }
+    result_.removal = total;
+    return std::nullopt;
+  }
+
+  const CutOptions& options_;
+  const report::PictureOptions& view_;
+  const Job& job_;
+  const trials::Trial& trial_;
+  TrialRun& run_;
+  CutResult result_{};
+};
+
+void tell_collisions(const Job& job, const CutResult& result) {
+  for (const stock::Collision& c : result.collisions) {
+    Diagnostic told = error(collision_text(c));
+    told.file = job.piece.program_file;
+    told.line = static_cast<int>(c.source_line);
+    print(std::cerr, {told});
+  }
+}
+
+int cut(CutOptions options) {
+  if (const auto fault = fault_of(options)) return refuse({*fault});
+  const auto view = picture_options(options);
+  if (!view) return refuse(view.error());
+  options.facets.tolerance = Mm{options.facet_tolerance_mm};
+  const auto job = load_job(options.job, options.overrides, false);
+  if (!job) return refuse(job.error());
+  TrialRun run(progress_style(options.quiet || options.json));
+  const auto trial = run.trial(*job, false);
+  if (!trial) return refuse(trial.error());
+  print(std::cerr, trial->warnings);
+  auto result = Cut(options, *view, *job, *trial, run).result();
+  if (!result) return refuse(result.error());
+  if (options.gouge_limit_um > 0.0) result->limits.gouge = options.gouge_limit_um / kUmPerMm;
+  if (options.excess_limit_um > 0.0) result->limits.excess = options.excess_limit_um / kUmPerMm;
+  tell_collisions(*job, *result);
+  if (options.json) {
+    std::cout << cut_json(*result);
+  } else if (!options.quiet) {
+    std::cout << cut_text(*result);
+  }
+  return result->passes() ? kDone : kOutOfTolerance;
+}
+
+void add_options(CLI::App& command, CutOptions& o) {
+  command.add_option("job", o.job, "Job file")->required();
+  command.add_option("--mesh", o.mesh,
+                     "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
+  command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
+  command.add_option("--view", o.view,
+                     "AZIMUTH,ELEVATION the picture is seen from, deg (default: -60,32)");
+  command.add_option("--size", o.size, "WIDTH,HEIGHT of the picture, px (default: 1600,1100)");
+  command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
+      ->check(positive_number());
+  command
+      .add_option("--chord", o.chord, "Refine until the triangles leave the surface by less, mm")
+      ->check(positive_number());
+  command
+      .add_option("--decimate", o.decimate, "Take away what is not needed for this tolerance, mm")
+      ->check(positive_number());
+  command.add_option("--until-line", o.until_line, "Stop after the last motion of this NC line")
+      ->check(CLI::Range(1U, 4'000'000'000U));
+  command
+      .add_option("--snapshots", o.snapshots,
+                  "So many meshes at equal steps of time, named after --mesh, with an index .json")
+      ->check(CLI::Range(1, 9999));
+  command.add_option("--removal", o.removal,
+                     "Table to write, .csv: volume, rate and engagement of each block");
+  command.add_option("--point", o.point, "X,Y,Z: say which NC line made the surface there");
+  command
+      .add_option("--engine", o.engine, "ray: exact; polyhedral: Boolean operations, to compare")
+      ->check(CLI::IsMember({"ray", "polyhedral"}))
+      ->capture_default_str();
+  command.add_option("--facets", o.facets.facets, "Of the polyhedral engine, around the axis")
+      ->check(CLI::Range(3, 4096))
+      ->capture_default_str();
+  command
+      .add_option("--facet-tolerance", o.facet_tolerance_mm,
+                  "Of the polyhedral engine's sweeps, mm")
+      ->check(positive_number())
+      ->capture_default_str();
+  command.add_option("--gouge-limit", o.gouge_limit_um, "um: exit code 1 where more is missing")
+      ->check(positive_number());
+  command.add_option("--excess-limit", o.excess_limit_um, "um: exit code 1 where more is left")
+      ->check(positive_number());
+  add_error_options(command, o.overrides.errors);
+  command.add_option("--tool-radius-error", o.overrides.tool_radius_error, "With unit");
+  command.add_flag("--json", o.json, "One JSON document on stdout and nothing else");
+  command.add_flag("--quiet", o.quiet, "No progress, no summary");
+}
+
+}  // namespace
+
+void add_cut(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<CutOptions>();
+  CLI::App* command =
+      program.add_subcommand("cut", "Cut a job and write the workpiece at any moment");
+  add_options(*command, *options);
+  command->parse_complete_callback([command, options] {
+    options->facets_given = command->count("--facets") + command->count("--facet-tolerance") > 0;
+  });
+  command->footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
+  command->callback([options, &exit_code] { exit_code = cut(*options); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,273 @@
+// frustum design: which step patterns to cut so that a machine's errors can be told.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "app/job/identification.hpp"
+#include "app/job/machine_files.hpp"
+#include "app/job/number_check.hpp"
+#include "app/view/console.hpp"
+#include "app/view/design_view.hpp"
+
+namespace frustum::app {
+namespace {
+
+using calibration::DesignCriterion;
+
+struct DesignOptions {
+  std::string machine{};
+  std::vector<std::string> patterns{}, required{}, unknowns{};
+  std::vector<std::string> known{}, limits{};
+  std::string criterion = "d";
+  std::string e0 = "0.5 um";
+  double l_per_um = 600.0;
+  std::string center{};
+  std::optional<double> tool_diameter{}, tool_length{};
+  double raise = 0.0;
+  bool json = false;
+};
+
+// "beta_CA=5urad": an error's name and an amount that suits it, 0 or more.
+struct NamedAmount {
+  std::string name{};
+  double amount = 0.0;
+};
+Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::string& text,
+                                 const char* option) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    return error(fmt::format("{} {}: expected NAME=VALUE", option, text),
+                 "for example gamma_YX=5urad");
+  }
+  const auto parameter = trials::Parameter::named(machine, text.substr(0, equals));
+  if (!parameter) return parameter.error();
+  const std::string amount = text.substr(equals + 1);
+  double value = 0.0;
+  if (amount == "0") return NamedAmount{parameter->name, value};  // of either kind
+  if (parameter->angular) {
+    const auto angle = parse_angle(amount);
+    if (!angle) return angle.error();
+    value = angle->value;
+  } else {
+    const auto length = parse_length(amount);
+    if (!length) return length.error();
+    value = length->value;
+  }
+  if (!(value >= 0.0) || !std::isfinite(value)) {
+    return error(fmt::format("{} {}: must be 0 or more", option, text),
+                 "a standard deviation has no sign");
+  }
+  return NamedAmount{parameter->name, value};
+}
+
+// Location errors of the rotary axes, under the machine's own symbols when it has any.
+std::vector<std::string> rotary_errors(const kinematics::Machine& machine) {
+  std::vector<std::string> names;
+  const auto wanted = [](const kinematics::ErrorName& e) {
+    return e.location && kinematics::is_rotary(e.axis);
+  };
+  for (const auto& [alias, meaning] : machine.aliases()) {
+    if (wanted(meaning.error)) names.push_back(alias);
+  }
+  if (!names.empty()) return names;
+  for (const auto& e : machine.error_names()) {
+    if (wanted(e)) names.push_back(e.text());
+  }
+  return names;
+}
+
+// Reads what the command line says; every mistake is kept.
+class Request {
+ public:
+  Request(const DesignOptions& options, const kinematics::Machine& machine)
+      : options_(options), machine_(machine) {}
+
+  [[nodiscard]] Result<UnknownCauses> unknowns() {
+    std::vector<std::string> names =
+        options_.unknowns.empty() ? rotary_errors(machine_) : options_.unknowns;
+    std::vector<KnownError> known;
+    for (const std::string& text : options_.known) {
+      const auto k = keep(named_amount(machine_, text, "--known"));
+      if (!k) continue;
+      const bool again = std::any_of(known.begin(), known.end(), [&](const KnownError& other) {
+        return other.name == k->name;
+      });
+      if (again) {
+        problems_.push_back(
+            error(fmt::format("--known {}: given twice", k->name), "one value for each error"));
+      }
+      known.push_back({k->name, 0.0, k->amount});
+      if (std::find(names.begin(), names.end(), k->name) == names.end()) names.push_back(k->name);
+    }
+    const std::string radius(trials::kToolRadius);
+    if (std::find(names.begin(), names.end(), radius) == names.end()) names.push_back(radius);
+    auto all = unknown_causes(machine_, names, known);
+    if (!all) problems_.insert(problems_.end(), all.error().begin(), all.error().end());
+    if (!problems_.empty()) return problems_;
+    return all;
+  }
+
+  [[nodiscard]] metrology::CmmModel cmm() {
+    metrology::CmmModel cmm;
+    if (const auto e0 = keep(parse_length(options_.e0))) cmm.e0_mm = e0->value;
+    if (!(cmm.e0_mm > 0.0)) {
+      problems_.push_back(error(fmt::format("--e0 {}: must be a length above 0", options_.e0),
+                                "for example --e0 \"0.5 um\""));
+    }
+    cmm.length_per_error = options_.l_per_um;
+    return cmm;
+  }
+
+  [[nodiscard]] calibration::CatalogueSetup setup() {
+    calibration::CatalogueSetup setup;
+    setup.raise = options_.raise;
+    if (!options_.center.empty()) {
+      if (const auto center = keep(numbers_of(options_.center, 2, "--center"))) {
+        setup.centre = {(*center)[0], (*center)[1]};
+      }
+    }
+    if (options_.tool_diameter) setup.test.tool_diameter = {*options_.tool_diameter};
+    if (options_.tool_length) setup.test.tool_length = {*options_.tool_length};
+    return setup;
+  }
+
+  [[nodiscard]] calibration::StepDesignOptions choice() {
+    calibration::StepDesignOptions choice;
+    choice.criterion = options_.criterion == "d"   ? DesignCriterion::d_optimal
+                       : options_.criterion == "a" ? DesignCriterion::a_optimal
+                                                   : DesignCriterion::worst_unknown;
+    choice.among = options_.patterns;
+    choice.required = options_.required;
+    for (const std::string& text : options_.limits) {
+      if (const auto limit = keep(named_amount(machine_, text, "--limit"))) {
+        choice.limits[limit->name] = limit->amount;
+      }
+    }
+    // A list that nobody gave may hold what no pattern can tell apart.
+    choice.leave_out_dependent = options_.unknowns.empty();
+    return choice;
+  }
+
+  [[nodiscard]] const Diagnostics& problems() const { return problems_; }
+
+ private:
+  template <typename T>
+  std::optional<T> keep(Result<T> result) {
+    if (result) return *std::move(result);
+    problems_.insert(problems_.end(), result.error().begin(), result.error().end());
+    return std::nullopt;
+  }
+
+  const DesignOptions& options_;
+  const kinematics::Machine& machine_;
+  Diagnostics problems_;
+};
+
+// Limits of what is not among the unknowns.
+Diagnostics unused_limits(const calibration::StepDesignOptions& choice,
+                          const UnknownCauses& unknowns) {
+  Diagnostics problems;
+  for (const auto& [name, limit] : choice.limits) {
+    const bool is_unknown =
+        std::any_of(unknowns.unknowns.begin(), unknowns.unknowns.end(),
+                    [&, wanted = name](const auto& u) { return u.name == wanted; });
+    if (is_unknown) continue;
+    problems.push_back(
+        error(fmt::format("--limit {}: not one of the unknowns", name), "add it with --unknown"));
+  }
+  return problems;
+}
+
+// Constant errors of the machine that the design takes for known exactly: under the machine's own symbols
+// when it has any.
+std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
+                                       const calibration::StepDesign& design) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    const bool is_unknown =
+        std::any_of(design.unknowns.begin(), design.unknowns.end(),
+                    [&](const auto& u) { return u.name == name && !u.is_fixed(); });
+    const bool is_left_out =
+        std::find(design.left_out.begin(), design.left_out.end(), name) != design.left_out.end();
+    if (!is_unknown && !is_left_out) names.push_back(name);
+  };
+  for (const auto& [alias, meaning] : machine.aliases()) {
+    if (meaning.error.location) add(alias);
+  }
+  if (!machine.aliases().empty()) return names;
+  for (const auto& e : machine.error_names()) {
+    if (e.location) add(e.text());
+  }
+  return names;
+}
+
+int show_design(const DesignOptions& o) {
+  const auto machine = load_machine(o.machine, ".");
+  if (!machine) return refuse(machine.error());
+  Request request(o, *machine);
+  const metrology::CmmModel cmm = request.cmm();
+  const calibration::CatalogueSetup setup = request.setup();
+  const calibration::StepDesignOptions choice = request.choice();
+  const auto all = request.unknowns();
+  if (!all) return refuse(all.error());
+  if (!request.problems().empty()) return refuse(request.problems());
+  if (const Diagnostics unused = unused_limits(choice, *all); !unused.empty()) {
+    return refuse(unused);
+  }
+  const auto design =
+      calibration::step_design(*machine, all->unknowns, all->causes, cmm, setup, choice);
+  if (!design) return refuse(design.error());
+  const bool limited = !choice.limits.empty();
+  std::cout << (o.json ? design_json(*machine, *design, taken_as_zero(*machine, *design))
+                       : design_text(*machine, *design, taken_as_zero(*machine, *design), limited));
+  return design->smallest ? kDone : kOutOfTolerance;
+}
+
+}  // namespace
+
+void add_design(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<DesignOptions>();
+  CLI::App* command = program.add_subcommand(
+      "design", "Which step patterns to cut so that a machine's errors can be told apart");
+  command->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
+      ->required();
+  command
+      ->add_option("--patterns", o->patterns, "Choose from these only (default: all within travel)")
+      ->delimiter(',');
+  command->add_option("--require", o->required, "In every set: these are cut anyway")
+      ->delimiter(',');
+  command
+      ->add_option("--unknown", o->unknowns,
+                   "Machine errors to be found (default: location errors of the rotary axes); "
+                   "the tool radius error always is one")
+      ->delimiter(',');
+  command->add_option("--known", o->known,
+                      "NAME=standard uncertainty of an error known from elsewhere, for example "
+                      "gamma_YX=5urad; 0 is exact");
+  command->add_option("--limit", o->limits,
+                      "NAME=largest standard deviation wanted, for example dy_CA=1um");
+  command
+      ->add_option("--criterion", o->criterion,
+                   "d: smallest joint volume (default), a: smallest sum of variances, worst: "
+                   "smallest largest deviation")
+      ->check(CLI::IsMember({"d", "a", "worst"}));
+  command->add_option("--e0", o->e0, "CMM: E = e0 + L/k as a length (\"0.5 um\")");
+  command->add_option("--l-per-um", o->l_per_um, "CMM: k, mm of length per um of error (600)")
+      ->check(positive_number());
+  command->add_option("--center", o->center, "x,y of both workpieces' centres, mm");
+  command->add_option("--raise", o->raise, "Added to all heights above the tilt axis, mm (0)");
+  command->add_option("--tool-diameter", o->tool_diameter, "mm (20)");
+  command->add_option("--tool-length", o->tool_length, "mm (150)");
+  command->add_flag("--json", o->json, "One JSON document on stdout");
+  command->footer(
+      "Exit code 1: no set of these patterns tells all errors within the limits.\n"
+      "Example: frustum design --machine zx-yac --known gamma_YX=5urad --known alpha_ZY=5urad "
+      "--known beta_ZX=5urad");
+  command->callback([o, &exit_code] { exit_code = show_design(*o); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,141 @@
+// frustum diff: whether two NC programs move the tool the same way on one machine.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/job/machine_setup.hpp"
+#include "app/job/nc_file.hpp"
+#include "app/job/number_check.hpp"
+#include "app/view/console.hpp"
+#include "post/comparing/program_difference.hpp"
+
+namespace frustum::app {
+namespace {
+
+constexpr double kAssumedLength = 100.0;  // mm, of tools that nobody gave a length
+
+struct DiffOptions {
+  std::string first{};
+  std::string second{};
+  std::string first_dialect{};  // recognised when not given
+  std::string second_dialect{};
+  SetupWords setup_words{};
+  double tip = 2.0;    // um
+  double axis = 50.0;  // urad
+  double feed = 2.0;   // percent
+  bool json = false;
+};
+
+constexpr const char* kKinds[] = {"none", "tip", "axis", "feed", "tool", "missing", "extra"};
+
+// Tools that the programs call and that have no length yet.
+std::set<int> unmeasured_tools(const kinematics::Setup& setup,
+                               std::initializer_list<std::span<const parser::Motion>> programs) {
+  std::set<int> tools;
+  for (const auto& motions : programs) {
+    for (const parser::Motion& motion : motions) {
+      const auto* change = std::get_if<parser::ToolChange>(&motion.command);
+      if (change != nullptr && change->tool > 0 && !setup.tools.contains(change->tool))
+        tools.insert(change->tool);
+    }
+  }
+  return tools;
+}
+
+std::string in_words(const DiffOptions& options, const post::Difference& at) {
+  std::string what;
+  if (at.kind == post::DifferenceKind::feed) {
+    what = fmt::format("the time it takes is {:.4g} times that of the first", at.time_ratio);
+  } else {
+    what =
+        fmt::format("tip {:.4f} mm and tool axis {:.5f} deg apart", at.tip, at.axis * kDegPerRad);
+  }
+  std::string text = fmt::format("{}:{} and {}:{}: {}\n", options.first, at.first_line,
+                                 options.second, at.second_line, what);
+  if (!at.likely_cause.empty()) return text + "likely cause: " + at.likely_cause + '\n';
+  return text + "no single known cause explains it\n";
+}
+
+nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
+  nlohmann::ordered_json doc{{"same", found.same()},
+                             {"largest_tip_um", found.largest_tip * kUmPerMm},
+                             {"largest_axis_urad", found.largest_axis * kUradPerRad},
+                             {"largest_time_ratio", found.largest_time_ratio}};
+  if (found.same()) return doc;
+  const post::Difference& at = found.first;
+  doc["first_difference"] = {{"kind", kKinds[static_cast<std::size_t>(at.kind)]},
+                             {"first_line", at.first_line},
+                             {"second_line", at.second_line},
+                             {"tip_um", at.tip * kUmPerMm},
+                             {"axis_urad", at.axis * kUradPerRad},
+                             {"time_ratio", at.time_ratio},
+                             {"likely_cause", at.likely_cause}};
+  return doc;
+}
+
+int diff(const DiffOptions& options) {
+  auto setup_words = machine_setup_of(options.setup_words);
+  if (!setup_words) return refuse(setup_words.error());
+  auto first = motions_of_file(options.first, options.first_dialect, setup_words->tools);
+  if (!first) return refuse(first.error());
+  auto second = motions_of_file(options.second, options.second_dialect, setup_words->tools);
+  if (!second) return refuse(second.error());
+  for (const int tool : unmeasured_tools(setup_words->setup, {*first, *second})) {
+    setup_words->setup.tools[tool].length = kAssumedLength;
+    std::cerr << fmt::format(
+        "note: tool {} counts as {} mm long; --tool-length {}=.. says better\n", tool,
+        kAssumedLength, tool);
+  }
+  const post::DifferenceLimits limits{.tip = options.tip / kUmPerMm,
+                                      .axis = options.axis / kUradPerRad,
+                                      .time_ratio = options.feed / 100.0};
+  const auto found = post::compare_programs(
+      setup_words->machine, {options.first, *std::move(first), setup_words->setup},
+      {options.second, *std::move(second), setup_words->setup}, limits);
+  if (!found) return refuse(found.error());
+  if (options.json) {
+    std::cout << as_json(*found).dump(2) << '\n';
+  } else if (found->same()) {
+    std::cout << fmt::format(
+        "the programs agree: tip within {:.4f} um, tool axis within {:.4f} urad, times within "
+        "{:.3f} %\n",
+        found->largest_tip * kUmPerMm, found->largest_axis * kUradPerRad,
+        100.0 * std::abs(std::log(found->largest_time_ratio)));
+  } else {
+    std::cout << in_words(options, found->first);
+  }
+  return found->same() ? kDone : kOutOfTolerance;
+}
+
+}  // namespace
+
+void add_diff(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<DiffOptions>();
+  CLI::App* command = program.add_subcommand(
+      "diff", "Whether two NC programs, of any dialects, move the tool the same way");
+  const CLI::IsMember dialects({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
+  command->add_option("first", o->first, "Program that is right")->required();
+  command->add_option("second", o->second, "Program to compare with it")->required();
+  command->add_option("--dialect", o->first_dialect, "Of the first (default: recognised)")
+      ->check(dialects);
+  command->add_option("--second-dialect", o->second_dialect, "Of the second (default: recognised)")
+      ->check(dialects);
+  add_setup_options(*command, o->setup_words);
+  command->add_option("--tip", o->tip, "Tolerance of the tip, um (2)")->check(positive_number(1e6));
+  command->add_option("--axis", o->axis, "Tolerance of the tool axis, urad (50)")
+      ->check(positive_number(1e6));
+  command->add_option("--feed", o->feed, "Tolerance of the time that a stretch takes, percent (2)")
+      ->check(positive_number(1e3));
+  command->add_flag("--json", o->json, "One JSON document on stdout and nothing else");
+  command->footer(
+      "Only feed moves count. Exit code 1 when the programs differ.\n"
+      "Example: frustum diff cone.nc cone.mpf --machine iwf-bc --offset G54=-65,0,150");
+  command->callback([o, &exit_code] { exit_code = diff(*o); });
+}
+
+}  // namespace frustum::app

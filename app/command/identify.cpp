@@ -1,0 +1,51 @@
+// frustum identify: the machine errors that explain measured test pieces.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/view/console.hpp"
+#include "app/view/identification_view.hpp"
+
+namespace frustum::app {
+namespace {
+
+struct IdentifyOptions {
+  std::string study{};
+  bool json = false;
+};
+
+int show_identification(const IdentifyOptions& options) {
+  const auto study = load_study(options.study);
+  if (!study) return refuse(study.error());
+  const auto result = identify_study(*study);
+  if (!result) {
+    Diagnostics problems = result.error();
+    for (Diagnostic& d : problems) {
+      if (d.file.empty()) d.file = options.study;
+    }
+    return refuse(problems);
+  }
+  std::cout << (options.json ? identification_json(*study, *result)
+                             : identification_text(*study, *result));
+  const auto& identification = result->identification;
+  const bool holds = identification.observability.complete() && !identification.agreement.rejected;
+  return holds ? kDone : kOutOfTolerance;
+}
+
+}  // namespace
+
+void add_identify(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<IdentifyOptions>();
+  CLI::App* command = program.add_subcommand(
+      "identify", "Machine errors that explain measured test pieces, with uncertainties");
+  command->add_option("STUDY", o->study, "Study file: parts, measured values, what is known")
+      ->required();
+  command->add_flag("--json", o->json, "One JSON document on stdout");
+  command->footer(
+      "Exit code 1: errors that the measurements do not tell, or measurements that the machine "
+      "model does not explain.\n"
+      "Example: frustum identify examples/ibaraki-2010/study.toml");
+  command->callback([o, &exit_code] { exit_code = show_identification(*o); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,185 @@
+// frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM points.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/command/cmm_option.hpp"
+#include "app/command/unit_option.hpp"
+#include "app/job/export_request.hpp"
+#include "app/job/job.hpp"
+#include "app/job/job_report.hpp"
+#include "app/job/mesh_probe.hpp"
+#include "app/job/trial_run.hpp"
+#include "app/view/console.hpp"
+#include "metrology/points/point_file.hpp"
+#include "metrology/points/point_scale.hpp"
+#include "metrology/uncertainty/uncertainty.hpp"
+#include "report/exchange/json_report.hpp"
+#include "report/terminal_report.hpp"
+
+namespace frustum::app {
+namespace {
+
+using metrology::CmmModel;
+using metrology::InspectionPlan;
+using metrology::LengthUnit;
+
+struct MeasureOptions {
+  std::string job{};
+  std::string plan{};
+  std::string points{};
+  std::string mesh{};
+  std::string unit{};
+  CmmWords cmm{};
+  std::vector<std::string> exports{};
+  JobOverrides overrides{};
+  bool ball_centres = false;
+  bool json = false;
+  bool quiet = false;
+};
+using Files = std::vector<std::filesystem::path>;
+
+int print_report(report::RunReport& report, const InspectionPlan& plan, const Files& exports,
+                 const MeasureOptions& options) {
+  if (const Diagnostics faults = write_exports(exports, report, plan); !faults.empty()) {
+    return refuse(faults);
+  }
+  if (options.json) {
+    std::cout << report::json_report(report);
+  } else if (!options.quiet) {
+    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
+  }
+  return report.passes() ? kDone : kOutOfTolerance;
+}
+
+int measure_job(const MeasureOptions& options) {
+  const auto job = load_job(options.job, options.overrides, true);
+  if (!job) return refuse(job.error());
+  const auto exports = checked_exports(options.exports, job->exports);
+  if (!exports) return refuse(exports.error());
+  TrialRun run(progress_style(options.quiet || options.json));
+  const auto trial = run.trial(*job);
+  if (!trial) {
+    write_failed_exports(*exports, trial.error(), job->piece.plan);
+    return refuse(trial.error());
+  }
+  report::RunReport report = report_of(*job, *trial);
+  report.timings = run.timings();
+  return print_report(report, job->piece.plan, *exports, options);
+}
+
+Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
+                                                const InspectionPlan& plan,
+                                                const std::optional<LengthUnit>& unit,
+                                                const CmmModel& cmm) {
+  const auto points = metrology::read_feature_points(options.points, unit);
+  if (!points) return points.error();
+  if (auto fault = metrology::scale_fault(plan, *points)) {
+    fault->file = options.points;
+    return *std::move(fault);
+  }
+  const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
+                                            : metrology::PointMeaning::surface;
+  auto measurement = metrology::evaluate(plan, *points, meaning, cmm);
+  if (measurement && metrology::point_uncertainty(cmm).is_zero()) {
+    Diagnostic unknown =
+        warning("nothing is known of the machine that measured these points: uncertainties are 0",
+                "state its accuracy with --e0 \"1.8 um\" --l-per-um 350, or --cmm FILE");
+    unknown.severity = Severity::note;
+    measurement->diagnostics.push_back(std::move(unknown));
+  }
+  return measurement;
+}
+
+Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
+                                           const InspectionPlan& plan,
+                                           const std::optional<LengthUnit>& unit,
+                                           const CmmModel& cmm) {
+  const auto probe = read_mesh_probe(options.mesh, unit, plan);
+  if (!probe) return probe.error();
+  auto measurement = metrology::measure(plan, *probe, cmm);
+  if (measurement) return measurement;
+  Diagnostics faults = measurement.error();
+  if (auto facing = probe->facing_fault(plan)) faults.insert(faults.begin(), *std::move(facing));
+  for (Diagnostic& d : faults) {
+    if (d.file.empty()) d.file = options.mesh;
+  }
+  return faults;
+}
+
+int measure_by_plan(const MeasureOptions& options) {
+  const auto plan = metrology::load_plan(options.plan);
+  if (!plan) return refuse(plan.error());
+  const auto unit = unit_of(options.unit);
+  if (!unit) return refuse(unit.error());
+  const auto cmm = cmm_of(options.cmm);
+  if (!cmm) return refuse(cmm.error());
+  const auto exports = checked_exports(options.exports);
+  if (!exports) return refuse(exports.error());
+  auto measurement = options.mesh.empty() ? evaluated_points(options, *plan, *unit, *cmm)
+                                          : probed_mesh(options, *plan, *unit, *cmm);
+  if (!measurement) {
+    write_failed_exports(*exports, measurement.error(), *plan);
+    return refuse(measurement.error());
+  }
+  report::RunReport report;
+  report.title = plan->title;
+  report.measurement = *std::move(measurement);
+  return print_report(report, *plan, *exports, options);
+}
+
+int measure(const MeasureOptions& options) {
+  const int sources = int{!options.points.empty()} + int{!options.mesh.empty()};
+  const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
+  const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
+  if (by_plan && options.overrides.any()) {
+    return refuse("--error, --errors, --tool-radius-error and --draw go with a job",
+                  "measured points and meshes have the errors that they have");
+  }
+  if (options.ball_centres && options.points.empty()) {
+    return refuse("--ball-centres goes with --points", "leave it out");
+  }
+  if (by_job && !options.unit.empty()) {
+    return refuse("--unit goes with --points or --mesh", "a job's part is in mm; leave it out");
+  }
+  if (by_plan) return measure_by_plan(options);
+  if (by_job && options.cmm.any()) {
+    return refuse("--e0, --l-per-um and --cmm go with --points or --mesh",
+                  "a job states its machine in [inspection.cmm]");
+  }
+  if (by_job) return measure_job(options);
+  return refuse("give either a job file, or --plan and --points, or --plan and --mesh",
+                "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv | "
+                "frustum measure --plan PLAN.toml --mesh SCAN.stl");
+}
+
+}  // namespace
+
+void add_measure(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<MeasureOptions>();
+  CLI::App* command = program.add_subcommand(
+      "measure",
+      "Measure a job's part or a mesh on the virtual CMM, or evaluate points of a real CMM");
+  command->add_option("job", options->job, "Job file");
+  command->add_option("--plan", options->plan, "Inspection plan for --points or --mesh");
+  command->add_option("--points", options->points,
+                      "CSV with feature,section,x,y,z, or columns x y z or a PLY for a plan of one "
+                      "feature; mm unless the file states a unit");
+  command->add_option("--mesh", options->mesh,
+                      "STL, PLY or OBJ that is probed like a part, in the plan's frame");
+  add_unit_option(*command, options->unit);
+  add_cmm_options(*command, options->cmm);
+  command->add_flag("--ball-centres", options->ball_centres,
+                    "The points are centres of the probe ball, not surface points");
+  add_error_options(*command, options->overrides.errors);
+  command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
+  add_export_option(*command, options->exports);
+  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
+  command->add_flag("--quiet", options->quiet, "No progress, no summary");
+  command->footer(
+      "Example: frustum measure --plan cone.plan.toml --points out/points.csv --export part.qif "
+      "--export part.junit.xml");
+  command->callback([options, &exit_code] { exit_code = measure(*options); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,132 @@
+// frustum post: any NC program or CLDATA for one machine, in the language of its controller.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/job/machine_setup.hpp"
+#include "app/job/nc_file.hpp"
+#include "app/job/number_check.hpp"
+#include "app/view/console.hpp"
+#include "core/whole_file.hpp"
+#include "post/nc_spelling.hpp"
+#include "post/nc_writer.hpp"
+#include "post/planning/machine_program.hpp"
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PostOptions {
+  std::string file{};
+  SetupWords setup_words{};
+  std::string to{};
+  std::string out{};
+  std::string dialect{};  // recognised when not given
+  std::string form = "tcp";
+  std::string arcs = "keep";
+  double tolerance = 1e-3;         // mm
+  double angle_tolerance = 0.001;  // mrad
+  bool no_comments = false;
+  bool source_lines = false;
+  bool json = false;
+};
+
+post::PlanOptions plan_options(const PostOptions& options, const post::NcSpelling& spelling) {
+  post::PlanOptions plan;
+  plan.output = options.form == "axes"      ? post::OutputForm::axes
+                : options.form == "vectors" ? post::OutputForm::vectors
+                                            : post::OutputForm::tip;
+  plan.arcs = options.arcs == "none"         ? post::ArcForm::none
+              : spelling.circle_centre_block ? post::ArcForm::flat
+                                             : post::ArcForm::all;
+  plan.great_circle = !spelling.orientation_paths[1].empty();
+  plan.tolerance = Mm{options.tolerance};
+  plan.angle_tolerance = Rad{options.angle_tolerance * 1e-3};
+  return plan;
+}
+
+int post_process(const PostOptions& options) {
+  std::error_code ignored;
+  if (fs::equivalent(options.file, options.out, ignored)) {
+    return refuse("the output would overwrite the program it is made from", "choose another -o");
+  }
+  const auto setup_words = machine_setup_of(options.setup_words);
+  if (!setup_words) return refuse(setup_words.error());
+  const auto motions = motions_of_file(options.file, options.dialect, setup_words->tools);
+  if (!motions) return refuse(motions.error());
+  const auto dialect = *parser::dialect_named(options.to);
+  const auto plan = post::plan_for_machine(setup_words->machine, setup_words->setup, *motions,
+                                           plan_options(options, *post::spelling_of(dialect)));
+  if (!plan) return refuse(in_file(plan.error(), options.file));
+  const auto program = post::write_nc(plan->motions, dialect,
+                                      {.name = program_name(options.out),
+                                       .comments = !options.no_comments,
+                                       .source_lines = options.source_lines});
+  if (!program) return refuse(in_file(program.error(), options.file));
+  const auto written = write_whole_file(options.out, program->text);
+  if (!written) return refuse(written.error());
+
+  const Diagnostics warnings = in_file(plan->warnings, options.file);
+  if (options.json) {
+    nlohmann::ordered_json told{{"output", written->string()},
+                                {"dialect", parser::name_of(dialect)},
+                                {"machine", setup_words->machine.name()},
+                                {"lines", program->source_lines.size()},
+                                {"inserted_points", plan->inserted},
+                                {"rewinds", plan->rewinds},
+                                {"diagnostics", nlohmann::ordered_json::array()}};
+    for (const Diagnostic& warning : warnings) told["diagnostics"].push_back(to_string(warning));
+    std::cout << told.dump(2) << '\n';
+    return kDone;
+  }
+  print(std::cerr, warnings);
+  std::cout << fmt::format("{}: {} lines, {} points inserted, {} rewinds\n", written->string(),
+                           program->source_lines.size(), plan->inserted, plan->rewinds);
+  return kDone;
+}
+
+}  // namespace
+
+void add_post(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<PostOptions>();
+  CLI::App* command = program.add_subcommand(
+      "post", "Rewrite an NC program or APT CLDATA for a machine and its controller");
+  command->add_option("file", o->file, "Program: tool vectors, rotary words or axis positions")
+      ->required();
+  command->add_option("--to", o->to, "fanuc (or iso), linuxcnc, sinumerik, heidenhain")
+      ->required()
+      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain"}));
+  command->add_option("-o,--out", o->out, "File to write")->required();
+  command->add_option("--dialect", o->dialect, "Of the program (default: recognised)")
+      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
+  command
+      ->add_option("--output", o->form,
+                   "tcp: tip and rotary axes (default); vectors: tip and tool vector; axes: axis "
+                   "positions, tool-centre-point control off")
+      ->check(CLI::IsMember({"tcp", "vectors", "axes"}));
+  command->add_option("--arcs", o->arcs, "keep (default, where the machine can) or none")
+      ->check(CLI::IsMember({"keep", "none"}));
+  command
+      ->add_option("--tolerance", o->tolerance, "Of the tip where points are inserted, mm (0.001)")
+      ->check(positive_number(1.0));
+  command
+      ->add_option("--angle-tolerance", o->angle_tolerance,
+                   "Of the tool axis where points are inserted, mrad (0.001)")
+      ->check(positive_number(100.0));
+  add_setup_options(*command, o->setup_words);
+  command->add_flag("--no-comments", o->no_comments, "Leave comments out");
+  command->add_flag("--source-lines", o->source_lines,
+                    "Behind each block, the line of the program that it came from");
+  command->add_flag("--json", o->json, "Say what was written as JSON");
+  command->footer(
+      "Example: frustum post cone.nc --machine iwf-bc --to heidenhain --output axes "
+      "--tool-length 1=150 --offset G54=-65,0,150 -o cone.h");
+  command->callback([o, &exit_code] { exit_code = post_process(*o); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,112 @@
+// frustum run: the whole loop, from a job file to a report.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/job/export_request.hpp"
+#include "app/job/job.hpp"
+#include "app/job/job_report.hpp"
+#include "app/job/trial_run.hpp"
+#include "app/view/console.hpp"
+#include "core/whole_file.hpp"
+#include "report/exchange/json_report.hpp"
+#include "report/exchange/points_csv.hpp"
+#include "report/page/html_report.hpp"
+#include "report/terminal_report.hpp"
+
+namespace frustum::app {
+namespace {
+
+struct RunOptions {
+  std::string job{};
+  std::string out{};
+  std::vector<std::string> exports{};
+  JobOverrides overrides{};
+  bool json = false;
+  bool quiet = false;
+};
+
+// Files go to --out, else beside the job into out/.
+std::filesystem::path folder_of(const RunOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path(options.job).parent_path() / "out";
+}
+
+// Writes result.json, points.csv and the page; their names go into the report for the terminal.
+std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job,
+                                       const std::filesystem::path& folder) {
+  const auto made = output_folder(folder);
+  if (!made) return made.error();
+  std::vector<Result<std::filesystem::path>> written;
+  written.push_back(write_whole_file(folder / "result.json", report::json_report(report)));
+  written.push_back(
+      write_whole_file(folder / "points.csv", report::points_csv(report.measurement)));
+  if (job.report) written.push_back(report::write_html_report(folder / "report.html", report));
+  for (const auto& file : written) {
+    if (!file) return file.error();
+    report.files.push_back(file->string());
+  }
+  return std::nullopt;
+}
+
+int run_job(const RunOptions& options) {
+  const auto job = load_job(options.job, options.overrides, true);
+  if (!job) return refuse(job.error());
+  const auto exports = checked_exports(options.exports, job->exports);
+  if (!exports) return refuse(exports.error());
+  TrialRun run(progress_style(options.quiet || options.json));
+  auto trial = run.trial(*job);
+  if (!trial) {
+    write_failed_exports(*exports, trial.error(), job->piece.plan);
+    return refuse(trial.error());
+  }
+  report::RunReport report = report_of(*job, *trial);
+  run.begin("prove points");
+  add_proof(report, trials::prove_points(*trial->workpiece, trial->measurement));
+  if (job->report) {
+    run.begin("mesh the surface");
+    auto mesh = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), {});
+    if (!mesh) return refuse(mesh.error());
+    report.surface = picture_of(*mesh, job->piece.plan);
+    const double finished = stock::measure(*mesh).volume;
+    const double blank = trial->workpiece->blank().volume();
+    report.volumes = {blank, finished, removed_volume(blank, finished)};
+  }
+  run.end();
+  report.timings = run.timings();
+  if (const auto failure = write_files(report, *job, folder_of(options))) return refuse(*failure);
+  if (const Diagnostics faults = write_exports(*exports, report, job->piece.plan);
+      !faults.empty()) {
+    return refuse(faults);
+  }
+  if (options.json) {
+    std::cout << report::json_report(report);
+  } else if (!options.quiet) {
+    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
+  }
+  return report.passes() ? kDone : kOutOfTolerance;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand(
+      "run", "The whole loop: parse, execute with errors, cut, measure, report");
+  command->add_option("job", options->job, "Job file")->required();
+  command->add_option("--out", options->out,
+                      "Folder for report.html, result.json and points.csv "
+                      "(default: out/ beside the job)");
+  add_error_options(*command, options->overrides.errors);
+  command->add_option("--tool-radius-error", options->overrides.tool_radius_error,
+                      "Of every tool, with unit, for example 2um");
+  add_export_option(*command, options->exports);
+  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
+  command->add_flag("--quiet", options->quiet, "No progress, no summary");
+  command->footer("Example: frustum run job.toml --out out --error EX0C=10um");
+  command->callback([options, &exit_code] { exit_code = run_job(*options); });
+}
+
+}  // namespace frustum::app

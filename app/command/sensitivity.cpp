@@ -1,0 +1,106 @@
+// frustum sensitivity: derivatives of every characteristic of a job to machine errors.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/job/job.hpp"
+#include "app/job/number_check.hpp"
+#include "app/view/console.hpp"
+#include "app/view/sensitivity_view.hpp"
+#include "core/whole_file.hpp"
+#include "trials/sensitivity.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+namespace {
+
+struct SensitivityOptions {
+  std::string job{};
+  std::string out{};
+  std::string method = "analytic";
+  std::vector<std::string> parameters{};
+  std::optional<double> step_um{}, step_urad{};
+  JobOverrides overrides{};
+  bool json = false;
+};
+
+Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const Job& job) {
+  const auto names =
+      options.parameters.empty() ? trials::constant_errors(job.machine) : options.parameters;
+  const auto parameters = trials::parameters_named(job.machine, names);
+  if (!parameters) return parameters.error();
+  const auto errors = trials::errors_for(job.machine, job.errors, job.piece);
+  if (!errors) return errors.error();
+  if (options.method == "analytic") {
+    if (options.step_um || options.step_urad) {
+      return error("--step-um and --step-urad are steps of differences",
+                   "add --method differences, or leave them out");
+    }
+    return trials::sensitivity(job.machine, *errors, job.piece, *parameters, job.path_bound);
+  }
+  trials::DifferenceSteps steps;
+  if (options.step_um) steps.length = *options.step_um / kUmPerMm;
+  if (options.step_urad) steps.angle = *options.step_urad / kUradPerRad;
+  return trials::sensitivity_by_differences(job.machine, *errors, job.piece, *parameters, steps,
+                                            job.path_bound);
+}
+
+// Writes the page, the matrix and its JSON; nothing when all went well.
+std::optional<Diagnostics> write_files(const report::SensitivityTable& table,
+                                       const std::filesystem::path& folder) {
+  const auto made = output_folder(folder);
+  if (!made) return made.error();
+  for (const auto& [name, text] :
+       {std::pair{"sensitivity.json", report::sensitivity_json(table)},
+        std::pair{"sensitivity.csv", report::sensitivity_csv(table)},
+        std::pair{"sensitivity.html", report::sensitivity_html(table)}}) {
+    const auto written = write_whole_file(folder / name, text);
+    if (!written) return written.error();
+  }
+  return std::nullopt;
+}
+
+int show_sensitivity(const SensitivityOptions& options) {
+  const auto job = load_job(options.job, options.overrides, true);
+  if (!job) return refuse(job.error());
+  const auto found = derivatives(options, *job);
+  if (!found) return refuse(found.error());
+  const std::string method = options.method == "analytic" ? "analytic surface gains"
+                                                          : "central differences of whole trials";
+  const auto table = sensitivity_table(*found, job->piece.title, job->machine.title(), method);
+  if (!options.out.empty()) {
+    if (const auto failure = write_files(table, options.out)) return refuse(*failure);
+  }
+  std::cout << (options.json ? report::sensitivity_json(table)
+                             : report::sensitivity_text(table, kTableWidth));
+  return kDone;
+}
+
+}  // namespace
+
+void add_sensitivity(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<SensitivityOptions>();
+  CLI::App* command = program.add_subcommand(
+      "sensitivity", "Derivative of every characteristic to every machine error");
+  command->add_option("JOB", o->job, "Job file")->required();
+  command->add_option("--parameter", o->parameters,
+                      "Machine error or tool_radius_error; repeat it (default: all constant ones)");
+  command
+      ->add_option("--method", o->method,
+                   "analytic (one trial) or differences (two trials a parameter)")
+      ->check(CLI::IsMember({"analytic", "differences"}));
+  command->add_option("--step-um", o->step_um, "differences: step of lengths, um (1)")
+      ->check(positive_number(1000.0));
+  command->add_option("--step-urad", o->step_urad, "differences: step of angles, urad (1)")
+      ->check(positive_number(10000.0));
+  add_error_options(*command, o->overrides.errors);
+  command->add_option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");
+  command->add_option("--out", o->out, "Folder for sensitivity.html, .csv and .json");
+  command->add_flag("--json", o->json, "One JSON document on stdout");
+  command->footer("Example: frustum sensitivity job.toml --parameter beta_CA --parameter EX0C");
+  command->callback([o, &exit_code] { exit_code = show_sensitivity(*o); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,125 @@
+// frustum program step: writes a step pattern test piece and its setup sheet.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "app/job/machine_files.hpp"
+#include "app/view/console.hpp"
+#include "app/view/step_sheet.hpp"
+#include "programs/in_dialect.hpp"
+#include "programs/step/step_pattern.hpp"
+#include "programs/test_piece_files.hpp"
+
+namespace frustum::app {
+namespace {
+
+using programs::StepTest;
+
+// What was given on the command line; the rest comes from the workpiece.
+struct StepOptions {
+  std::string machine{};
+  std::string out{};
+  std::string dialect = "fanuc";
+  int workpiece = 1;
+  std::vector<std::string> patterns{};
+  std::string center{};
+  std::optional<double> tool_diameter{}, tool_length{}, allowance{}, feed{}, speed{}, tolerance{},
+      angle_tolerance{};
+  double raise = 0.0;
+};
+
+Result<StepTest> test_of(const StepOptions& o) {
+  StepTest test;
+  const auto workpiece = programs::step_workpiece(o.workpiece);
+  if (!workpiece) return error(fmt::format("there is no workpiece {}", o.workpiece), "1 or 2");
+  test.workpiece = programs::raised(*workpiece, o.raise);
+  test.patterns = o.patterns;
+  if (o.tool_diameter) test.tool_diameter = {*o.tool_diameter};
+  if (o.tool_length) test.tool_length = {*o.tool_length};
+  if (o.allowance) test.allowance = {*o.allowance};
+  if (o.feed) test.feed = *o.feed;
+  if (o.speed) test.spindle_speed = *o.speed;
+  if (o.tolerance) test.tolerance = {*o.tolerance / kUmPerMm};
+  if (o.angle_tolerance) test.angle_tolerance = {*o.angle_tolerance / kUradPerRad};
+  if (!o.center.empty()) {
+    const auto center = numbers_of(o.center, 2, "--center");
+    if (!center) return center.error();
+    test.workpiece.centre_x = (*center)[0];
+    test.workpiece.centre_y = (*center)[1];
+  }
+  return test;
+}
+
+// The setup sheet and the job name lines of the program as it is written.
+void take_lines(programs::StepPiece& made, const programs::TranslatedPiece& written) {
+  made.piece = written.piece;
+  if (written.program.source_lines.empty()) return;
+  for (programs::StepCut& cut : made.cuts) {
+    const post::LineRange lines =
+        post::lines_from(written.program, {cut.first_line, cut.last_line});
+    cut.first_line = lines.first;
+    cut.last_line = lines.last;
+  }
+}
+
+int write_step(const StepOptions& options) {
+  const auto machine_file = find_machine(options.machine, ".");
+  if (!machine_file) return refuse(machine_file.error());
+  const auto machine = kinematics::Machine::load(*machine_file);
+  if (!machine) return refuse(machine.error());
+  const auto test = test_of(options);
+  if (!test) return refuse(test.error());
+  auto made = programs::step_pattern(*test, *machine);
+  if (!made) return refuse(made.error());
+  auto written = programs::in_dialect(made->piece, *parser::dialect_named(options.dialect));
+  if (!written) return refuse(written.error());
+  take_lines(*made, *written);
+  auto files = programs::write_test_piece(made->piece, *machine_file, options.out);
+  if (!files) return refuse(files.error());
+  const auto sheet = report::write_setup_sheet(std::filesystem::path(options.out) / "setup.html",
+                                               sheet_of(*test, *made, *machine));
+  if (!sheet) return refuse(sheet.error());
+  files->push_back(*sheet);
+  for (const auto& file : *files) std::cout << file.string() << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+void add_step(CLI::App& kinds, int& exit_code) {
+  auto o = std::make_shared<StepOptions>();
+  CLI::App* step = kinds.add_subcommand(
+      "step", "Step machining patterns of Ibaraki et al. for a tilting rotary table");
+  step->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
+      ->required();
+  step->add_option("--out", o->out,
+                   "Folder for job.toml, step.nc (.ngc, .mpf, .h), step.plan.toml and setup.html")
+      ->required();
+  step->add_option("--dialect", o->dialect,
+                   "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
+      ->check(CLI::IsMember({"fanuc", "linuxcnc", "sinumerik", "heidenhain"}));
+  step->add_option("--workpiece", o->workpiece,
+                   "1: patterns 1-a 1-b 2-a 2-b (default); 2: 3 or 4, 5-a 5-b 6-a 6-b 7");
+  step->add_option("--patterns", o->patterns,
+                   "Separated by commas (default: all that the workpiece carries together)")
+      ->delimiter(',');
+  step->add_option(
+      "--center", o->center,
+      "x,y of the workpiece's centre from the crossing of the rotary axes, X along the "
+      "tilt axis, mm (1: 3.941,-96.376; 2: 3.677,-97.15)");
+  step->add_option("--raise", o->raise, "Added to all heights H above the tilt axis, mm (0)");
+  step->add_option("--tool-diameter", o->tool_diameter, "mm (20)");
+  step->add_option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
+  step->add_option("--allowance", o->allowance, "Left on every face of the blank, mm (0.5)");
+  step->add_option("--feed", o->feed, "mm/min (1000)");
+  step->add_option("--speed", o->speed, "Spindle, 1/min (5000)");
+  step->add_option("--tolerance", o->tolerance, "Of dL, dH and dL0, um (20)");
+  step->add_option("--angle-tolerance", o->angle_tolerance, "Of theta and phi, urad (100)");
+  step->footer(
+      "Example: frustum program step --machine zx-yac --patterns 1-a,2-a --workpiece 1 --out step");
+  step->callback([o, &exit_code] { exit_code = write_step(*o); });
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,20 @@
+#include "app/command/unit_option.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+namespace frustum::app {
+
+void add_unit_option(CLI::App& command, std::string& text) {
+  command.add_option("--unit", text,
+                     "Of a file that states no other: mm, um, nm, cm, m or inch (mm)");
+}
+
+Result<std::optional<metrology::LengthUnit>> unit_of(const std::string& text) {
+  if (text.empty()) return std::optional<metrology::LengthUnit>();
+  if (auto unit = metrology::length_unit(text)) return unit;
+  return error(fmt::format("--unit {}: not a unit of length", text), "mm, um, nm, cm, m or inch");
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,193 @@
+#include "app/job/cut_result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/job/job_report.hpp"
+
+namespace frustum::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+Json state_json(const stock::ProgramState& program_state) {
+  Json json{{"line", program_state.source_line}};
+  json["block"] = program_state.block ? Json(*program_state.block) : Json(nullptr);
+  json["time_s"] = program_state.time;
+  return json;
+}
+
+Json worst_json(const std::optional<stock::WorstPoint>& worst) {
+  if (!worst) return nullptr;
+  Json json{{"deviation_um", worst->deviation * kUmPerMm},
+            {"point", point_json(worst->point)},
+            {"line", worst->source_line}};
+  json["block"] = worst->block ? Json(*worst->block) : Json(nullptr);
+  return json;
+}
+
+const char* name_of(stock::CollisionBody body) {
+  constexpr const char* kNames[] = {"cutter", "shank", "holder"};
+  return kNames[static_cast<std::size_t>(body)];
+}
+
+const char* name_of(stock::CollisionKind kind) {
+  constexpr const char* kNames[] = {"rapid_through_material", "feed_with_spindle_off",
+                                    "body_in_material"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+Json collision_json(const stock::Collision& c) {
+  return {{"line", c.source_line},
+          {"text", collision_text(c)},
+          {"kind", name_of(c.kind)},
+          {"body", name_of(c.body)},
+          {"tool", c.tool},
+          {"depth_mm", c.depth},
+          {"point", point_json(c.point)},
+          {"last_line", c.last_line}};
+}
+
+Json snapshot_json(const Snapshot& snapshot) {
+  Json json{{"file", snapshot.file}};
+  json.update(state_json(snapshot.program_state));
+  json["volume_mm3"] = snapshot.volume;
+  return json;
+}
+
+Json snapshots_json(const std::vector<Snapshot>& snapshots) {
+  Json all = Json::array();
+  for (const Snapshot& s : snapshots) all.push_back(snapshot_json(s));
+  return all;
+}
+
+void add_surface(Json& json, const CutResult& result) {
+  const CutSurface& surface = *result.surface;
+  json["engine"] = surface.faceted_within ? "polyhedral" : "ray";
+  if (surface.faceted_within) json["facet_bound_um"] = surface.faceted_within->value * kUmPerMm;
+  json["vertices"] = surface.vertices;
+  json["triangles"] = surface.triangles;
+  json["closed"] = surface.measure.is_closed;
+  json["manifold"] = surface.measure.is_manifold;
+  json["volume_mm3"] = surface.measure.volume;
+  json["blank_volume_mm3"] = result.blank_volume;
+  json["removed_volume_mm3"] = removed_volume(result.blank_volume, surface.measure.volume);
+  json["vertices_with_nominal"] = surface.deviations.points;
+  json["deviation_um"] = {surface.lowest * kUmPerMm, surface.highest * kUmPerMm};
+  json["gouge"] = worst_json(surface.deviations.gouge);
+  json["excess"] = worst_json(surface.deviations.excess);
+}
+
+Json originating_block_json(const CutResult& result) {
+  Json json{{"point", point_json(*result.asked_point)}};
+  json["on_surface"] = result.originating_block.has_value();
+  if (!result.originating_block) return json;
+  json["line"] = result.originating_block->source_line;
+  json["block"] =
+      result.originating_block->block ? Json(*result.originating_block->block) : Json(nullptr);
+  json["normal"] = point_json(result.originating_block->normal);
+  return json;
+}
+
+bool exceeds(const std::optional<stock::WorstPoint>& worst, const std::optional<double>& limit) {
+  return worst && limit && std::abs(worst->deviation) > *limit;
+}
+
+std::string worst_text(const char* name, const std::optional<stock::WorstPoint>& worst,
+                       const std::optional<double>& limit) {
+  if (!worst) return "";
+  const Vec3& p = worst->point;
+  std::string text = fmt::format("{} {:.3f} um at ({:.3f}, {:.3f}, {:.3f}){}", name,
+                                 std::abs(worst->deviation) * kUmPerMm, p.x(), p.y(), p.z(),
+                                 worst->block ? fmt::format(", line {}", worst->source_line) : "");
+  if (exceeds(worst, limit)) {
+    text += fmt::format(": beyond the limit of {:g} um", *limit * kUmPerMm);
+  }
+  return text + '\n';
+}
+
+std::string surface_text(const CutResult& result) {
+  const CutSurface& s = *result.surface;
+  std::string text = fmt::format(
+      "{} vertices, {} triangles, {}\nvolume {:.3f} mm3 of {:.3f}, removed {:.3f}\n", s.vertices,
+      s.triangles,
+      s.measure.is_closed && s.measure.is_manifold ? "closed and manifold" : "NOT closed",
+      s.measure.volume, result.blank_volume, removed_volume(result.blank_volume, s.measure.volume));
+  if (s.deviations.points > 0) {
+    text += fmt::format("deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
+                        s.lowest * kUmPerMm, s.highest * kUmPerMm, s.deviations.points);
+  }
+  if (s.faceted_within) {
+    text += fmt::format("facets within {:g} um of the exact surface\n",
+                        s.faceted_within->value * kUmPerMm);
+  }
+  return text + worst_text("worst gouge", s.deviations.gouge, result.limits.gouge) +
+         worst_text("worst excess", s.deviations.excess, result.limits.excess);
+}
+
+std::string originating_block_text(const CutResult& result) {
+  if (!result.originating_block) return "no surface within 1 um of the point\n";
+  if (!result.originating_block->block) return "the point lies on the blank's own surface\n";
+  return fmt::format("the point was made by line {}, block {}\n",
+                     result.originating_block->source_line, *result.originating_block->block);
+}
+
+}  // namespace
+
+bool CutResult::passes() const {
+  const bool within = !surface || (!exceeds(surface->deviations.gouge, limits.gouge) &&
+                                   !exceeds(surface->deviations.excess, limits.excess));
+  return collisions.empty() && within && (!asked_point || originating_block);
+}
+
+std::string snapshot_index(const std::vector<Snapshot>& snapshots) {
+  std::vector<Snapshot> beside = snapshots;
+  for (Snapshot& s : beside) s.file = std::filesystem::path(s.file).filename().string();
+  return Json{{"snapshots", snapshots_json(beside)}}.dump(2) + '\n';
+}
+
+std::string cut_json(const CutResult& result) {
+  Json json = Json::object();
+  if (result.surface) add_surface(json, result);
+  json["until"] = state_json(result.until);
+  json["finished"] = result.finished;
+  json["collisions"] = result.collisions.size();
+  json["collision_list"] = Json::array();
+  for (const auto& c : result.collisions) json["collision_list"].push_back(collision_json(c));
+  if (result.asked_point) json["made_by"] = originating_block_json(result);
+  if (!result.snapshots.empty()) json["snapshots"] = snapshots_json(result.snapshots);
+  if (result.removal) {
+    json["removal"] = {{"file", result.removal->file},
+                       {"blocks", result.removal->blocks},
+                       {"volume_mm3", result.removal->volume}};
+  }
+  json["passes"] = result.passes();
+  return json.dump(2) + '\n';
+}
+
+std::string cut_text(const CutResult& result) {
+  std::string text;
+  if (!result.finished) {
+    text += fmt::format("after line {}, {:.3f} s into the program\n", result.until.source_line,
+                        result.until.time);
+  }
+  if (result.surface) text += surface_text(result);
+  if (result.asked_point) text += originating_block_text(result);
+  if (!result.snapshots.empty()) {
+    text += fmt::format("{} snapshots, {} to {}\n", result.snapshots.size(),
+                        result.snapshots.front().file, result.snapshots.back().file);
+  }
+  if (result.removal) {
+    text += fmt::format("{:.3f} mm3 removed by {} block{}: {}\n", result.removal->volume,
+                        result.removal->blocks, result.removal->blocks == 1 ? "" : "s",
+                        result.removal->file);
+  }
+  return text;
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,180 @@
+#include "app/job/identification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "calibration/design/step_geometry.hpp"
+#include "calibration/identify/refinement.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+namespace {
+
+using calibration::Cause;
+using calibration::MeasuredPiece;
+using calibration::Unknown;
+
+// What the virtual CMM of a laboratory would be when nobody states one: only for asking which further
+// patterns would help.
+metrology::CmmModel ordinary_cmm() {
+  metrology::CmmModel cmm;
+  cmm.e0_mm = 0.5e-3;
+  cmm.length_per_error = 600.0;
+  return cmm;
+}
+
+void add_tool_radius(const Study& study, UnknownCauses& all) {
+  const trials::Parameter radius{std::string(trials::kToolRadius), false, std::nullopt};
+  const bool is_listed = std::any_of(all.unknowns.begin(), all.unknowns.end(),
+                                     [&](const Unknown& u) { return u.name == radius.name; });
+  if (study.tool_radius == ToolRadius::exact || is_listed) return;
+  if (study.tool_radius == ToolRadius::common) {
+    all.unknowns.push_back({.name = radius.name});
+    all.causes.push_back({radius, std::nullopt});
+    return;
+  }
+  for (std::size_t i = 0; i < study.parts.size(); ++i) {
+    all.unknowns.push_back({.name = fmt::format("{} of {}", radius.name, study.parts[i].name)});
+    all.causes.push_back({radius, i});
+  }
+}
+
+Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
+  std::vector<MeasuredPiece> pieces;
+  for (const StudyPart& part : study.parts) {
+    const auto base = trials::errors_for(part.job.machine, part.job.errors, part.job.piece);
+    if (!base) return base.error();
+    MeasuredPiece piece{part.name,     part.job.piece, *base,
+                        part.measured, study.cmm,      part.job.path_bound};
+    if (!piece.cmm && part.job.cmm.e0_mm > 0.0) piece.cmm = part.job.cmm;
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+// Which step patterns, not measured yet, would tell the rest; nothing when the machine cuts none.
+Result<std::optional<Remedy>> remedy_for(const Study& study,
+                                         const calibration::Observations& measured,
+                                         const UnknownCauses& all) {
+  const auto catalogue = calibration::step_catalogue(study.machine(), all.unknowns, all.causes,
+                                                     study.cmm.value_or(ordinary_cmm()));
+  // On a machine that cuts no step patterns there is nothing to suggest.
+  if (!catalogue) return std::optional<Remedy>();
+  std::set<std::string> cut;
+  for (const calibration::Row& row : measured.rows) cut.insert(row.group);
+  std::vector<calibration::Candidate> candidates;
+  for (std::size_t i = 0; i < catalogue->patterns.size(); ++i) {
+    if (!cut.contains(catalogue->patterns[i].name)) candidates.push_back(catalogue->candidate(i));
+  }
+  const auto separation =
+      calibration::separating(measured, candidates, {study.floor_length, study.floor_angle});
+  if (!separation) return separation.error();
+  Remedy remedy;
+  if (separation->smallest) {
+    for (const std::size_t i : *separation->smallest) {
+      remedy.patterns.push_back(candidates[i].name);
+    }
+  }
+  for (const auto& u : catalogue->unreachable) remedy.unreachable.push_back(u.pattern);
+  return std::optional(std::move(remedy));
+}
+
+double known_value(const Study& study, const std::string& name) {
+  for (const KnownError& k : study.known) {
+    if (k.name == name) return k.value;
+  }
+  return 0.0;
+}
+
+Result<calibration::Recipe> recipe_of(const Study& study,
+                                      const calibration::RecipeVariant& variant) {
+  std::vector<calibration::StepMeasurement> measured;
+  for (const StudyPart& part : study.parts) {
+    const auto steps =
+        calibration::step_measurements(part.job.piece.plan, calibration::mean_of(part.measured));
+    measured.insert(measured.end(), steps.begin(), steps.end());
+  }
+  const calibration::KnownSquareness known{known_value(study, "gamma_YX"),
+                                           known_value(study, "alpha_ZY"),
+                                           known_value(study, "beta_ZX")};
+  return study.recipe == RecipeChoice::case_1
+             ? calibration::recipe_case_1(measured, known, variant)
+             : calibration::recipe_case_2(measured, known, variant);
+}
+
+Result<calibration::Refinement> estimate(const Study& study,
+                                         const calibration::PieceObservations& pieces) {
+  calibration::RefineOptions options;
+  options.identify.floor = {study.floor_length, study.floor_angle};
+  options.identify.degrees_of_freedom = pieces.degrees_of_freedom;
+  if (study.refine) return calibration::refine(pieces.observations, pieces.model, options);
+  calibration::Observations linear = pieces.observations;
+  linear.values -= pieces.without_unknowns;
+  auto identification = calibration::identify(linear, options.identify);
+  if (!identification) return std::move(identification).error();
+  return calibration::Refinement{*std::move(identification), {}};
+}
+
+}  // namespace
+
+Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
+                                     const std::vector<std::string>& names,
+                                     const std::vector<KnownError>& known) {
+  const auto parameters = trials::parameters_named(machine, names);
+  if (!parameters) return parameters.error();
+  UnknownCauses all;
+  for (const trials::Parameter& parameter : *parameters) {
+    Unknown unknown{.name = parameter.name, .angular = parameter.angular};
+    const auto at = std::find_if(known.begin(), known.end(),
+                                 [&](const KnownError& k) { return k.name == parameter.name; });
+    if (at != known.end()) {
+      if (at->uncertainty > 0.0) {
+        unknown.prior = calibration::Prior{at->value, at->uncertainty};
+      } else {
+        unknown.fixed = at->value;
+      }
+    }
+    all.unknowns.push_back(std::move(unknown));
+    all.causes.push_back({parameter, std::nullopt});
+  }
+  return all;
+}
+
+Result<StudyResult> identify_study(const Study& study) {
+  auto all = unknown_causes(study.machine(), study.unknowns, study.known);
+  if (!all) return std::move(all).error();
+  add_tool_radius(study, *all);
+  const auto pieces = pieces_of(study);
+  if (!pieces) return pieces.error();
+  const auto observations =
+      calibration::observations_of(study.machine(), *pieces, all->unknowns, all->causes);
+  if (!observations) return observations.error();
+  auto refined = estimate(study, *observations);
+  if (!refined) return std::move(refined).error();
+  StudyResult result;
+  result.identification = std::move(refined->identification);
+  result.changes = std::move(refined->changes);
+  result.left_out = observations->left_out;
+  auto shares = calibration::information_shares(observations->observations,
+                                                {.floor = {study.floor_length, study.floor_angle}});
+  if (!shares) return std::move(shares).error();
+  result.shares = *std::move(shares);
+  if (!result.identification.observability.complete()) {
+    auto remedy = remedy_for(study, observations->observations, *all);
+    if (!remedy) return std::move(remedy).error();
+    result.remedy = *std::move(remedy);
+  }
+  if (study.recipe != RecipeChoice::none) {
+    auto recipe = recipe_of(study, {});
+    if (!recipe) return std::move(recipe).error();
+    auto corrected = recipe_of(study, {.equation_12_corrected = true, .equation_20_with_2h = true});
+    if (!corrected) return std::move(corrected).error();
+    result.recipe = *std::move(recipe);
+    result.corrected_recipe = *std::move(corrected);
+  }
+  return result;
+}
+
+}  // namespace frustum::app

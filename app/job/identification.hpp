@@ -1,0 +1,47 @@
+// From a study file to identified machine errors: what `frustum identify` does before it prints.
+//
+// Units: mm, rad.
+// Errors: those of the trials and of the identification.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/job/study.hpp"
+#include "calibration/design/step_catalogue.hpp"
+#include "calibration/design/step_recipes.hpp"
+#include "calibration/identify/identification.hpp"
+#include "calibration/identify/information.hpp"
+#include "calibration/identify/observability.hpp"
+
+namespace frustum::app {
+
+// Step patterns that would tell what the measurements do not.
+struct Remedy {
+  std::vector<std::string> patterns{};  // the fewest that do; empty: all together do not
+  std::vector<std::string> unreachable{};
+};
+
+struct StudyResult {
+  calibration::Identification identification{};
+  std::vector<double> changes{};  // of each round of refinement, in standard uncertainties
+  calibration::InformationShares shares{};
+  std::vector<std::string> left_out{};  // measured, but without a derivative
+  std::optional<Remedy> remedy{};
+  // The published recipe as printed, and with its equations (12) and (20) put right.
+  std::optional<calibration::Recipe> recipe{}, corrected_recipe{};
+};
+
+[[nodiscard]] Result<StudyResult> identify_study(const Study& study);
+
+// Unknowns and causes of a study or a design, one by one.
+struct UnknownCauses {
+  std::vector<calibration::Unknown> unknowns{};
+  std::vector<calibration::Cause> causes{};
+};
+[[nodiscard]] Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
+                                                   const std::vector<std::string>& names,
+                                                   const std::vector<KnownError>& known);
+
+}  // namespace frustum::app

@@ -1,0 +1,40 @@
+// From a finished trial to what a report shows.
+// Units: as report/run_report.hpp. Errors: none.
+#pragma once
+
+#include <string>
+
+#include "app/job/job.hpp"
+#include "report/run_report.hpp"
+#include "stock/mesh/surface_mesh.hpp"
+#include "stock/solid/program_state.hpp"
+#include "trials/point_proof.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+
+// Everything but surface, volumes, timings and files.
+[[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
+
+// Tells in the report how near the measured points are to the true surface. A point that is refuted is an
+// error of the engine, and the run does not pass.
+void add_proof(report::RunReport& report, const trials::PointProof& proof);
+
+struct SurfaceRequest {
+  double pitch = 0.0;  // mm; 0: what the job says, or the blank's longest side / 120
+  double chord = 0.0;  // mm; 0: not refined
+};
+// The surface at the part's program_state with the deviation of each vertex.
+[[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
+                                                          const stock::WorkpieceAt& part,
+                                                          const SurfaceRequest& request);
+// Fills the deviations of a mesh: from the job's nominal mesh if it has one, or else from the plan's
+// nominal surfaces.
+void judge_surface(const Job& job, stock::SurfaceMesh& mesh);
+[[nodiscard]] std::string collision_text(const stock::Collision& collision);
+// What was cut away; a part that was not cut shows no rounding.
+[[nodiscard]] double removed_volume(double blank, double finished);
+[[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,
+                                                const metrology::InspectionPlan& plan);
+
+}  // namespace frustum::app

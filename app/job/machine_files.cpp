@@ -1,0 +1,60 @@
+#include "app/job/machine_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/spelling.hpp"
+
+namespace frustum::app {
+namespace fs = std::filesystem;
+
+// Beside the source while developing, beside the installed program afterwards.
+std::vector<fs::path> machine_folders() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  std::vector<fs::path> folders{FRUSTUM_SOURCE_MACHINES};
+  if (!program.empty()) {
+    folders.push_back(program.parent_path().parent_path() / FRUSTUM_INSTALLED_MACHINES);
+  }
+  return folders;
+}
+
+Result<fs::path> find_machine(const std::string& name, const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path written = name;
+  for (const fs::path& candidate : {folder / written, written}) {
+    if (fs::is_regular_file(candidate, ignored)) return candidate;
+  }
+  for (const fs::path& shipped : machine_folders()) {
+    const fs::path candidate = shipped / (name + ".toml");
+    if (fs::is_regular_file(candidate, ignored)) return candidate;
+  }
+  std::vector<std::string> names;
+  for (const fs::path& each : shipped_machines()) names.push_back(each.stem().string());
+  return error(fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
+               suggestion(written.stem().string(), names));
+}
+
+Result<kinematics::Machine> load_machine(const std::string& name, const fs::path& folder) {
+  const auto file = find_machine(name, folder);
+  if (!file) return file.error();
+  return kinematics::Machine::load(*file);
+}
+
+std::vector<fs::path> shipped_machines() {
+  std::error_code problem;
+  for (const fs::path& folder : machine_folders()) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder, problem)) {
+      if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    }
+    if (files.empty()) continue;
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+  return {};
+}
+
+}  // namespace frustum::app

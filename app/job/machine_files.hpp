@@ -1,0 +1,24 @@
+// Where machine files are: beside the job, in the working folder, or shipped with the program.
+// Units: none. Errors: a machine that is in none of these places, with the shipped ones that resemble it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "kinematics/model/machine.hpp"
+
+namespace frustum::app {
+
+// A path (relative to `folder`, else to the working folder), or the name of a shipped machine.
+[[nodiscard]] Result<std::filesystem::path> find_machine(const std::string& name,
+                                                         const std::filesystem::path& folder);
+[[nodiscard]] Result<kinematics::Machine> load_machine(const std::string& name,
+                                                       const std::filesystem::path& folder);
+// Where shipped machines may lie, best first; error files lie in errors/ under it.
+[[nodiscard]] std::vector<std::filesystem::path> machine_folders();
+// The shipped machine files, by name.
+[[nodiscard]] std::vector<std::filesystem::path> shipped_machines();
+
+}  // namespace frustum::app

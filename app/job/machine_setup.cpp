@@ -1,0 +1,138 @@
+#include "app/job/machine_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "app/job/job.hpp"
+#include "app/job/machine_files.hpp"
+#include "app/view/console.hpp"
+#include "core/spelling.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+namespace {
+
+// "5=120.5"
+Result<std::pair<std::string, std::string>> halves_of(const std::string& text, const char* what,
+                                                      const char* example) {
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) {
+    return std::pair{text.substr(0, equals), text.substr(equals + 1)};
+  }
+  return error(fmt::format("{} {}: expected {}", what, text, example));
+}
+
+struct ToolWord {
+  int number = 0;
+  double value = 0.0;
+};
+// "1=150" of an option.
+Result<ToolWord> tool_word(const std::string& text, const char* option, const char* example) {
+  const auto halves = halves_of(text, option, example);
+  if (!halves) return halves.error();
+  const auto number = numbers_of(halves->first, 1, option);
+  const auto value = numbers_of(halves->second, 1, option);
+  if (!number) return number.error();
+  if (!value) return value.error();
+  const double n = number->front();
+  if (!(n >= 1.0 && n <= 99999.0 && n == std::floor(n))) {
+    return error(fmt::format("{} {}: a tool is named by its number", option, text), "1 to 99999");
+  }
+  return ToolWord{static_cast<int>(n), value->front()};
+}
+
+std::optional<Diagnostic> add_tool_length(const std::string& text, kinematics::Setup& setup) {
+  const auto word = tool_word(text, "--tool-length", "NUMBER=LENGTH, for example 1=150");
+  if (!word) return word.error().front();
+  if (!(word->value >= 0.0)) {
+    return error(fmt::format("--tool-length {}: a length is not negative", text),
+                 "mm from the spindle's gauge point to the tip");
+  }
+  setup.tools[word->number].length = word->value;
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> add_tool_diameter(const std::string& text, parser::ToolTable& tools) {
+  const auto word = tool_word(text, "--tool-diameter", "NUMBER=DIAMETER, for example 1=10");
+  if (!word) return word.error().front();
+  if (!(word->value > 0.0)) {
+    return error(fmt::format("--tool-diameter {}: a diameter is above zero", text), "in mm");
+  }
+  parser::Tool& tool = tools[word->number];
+  tool.diameter = word->value;
+  tool.has_length = false;
+  return std::nullopt;
+}
+
+// G54 to G59 are 1 to 6, G59.1 to G59.3 7 to 9, G54.1 P1 and on 101 and on.
+std::optional<int> offset_number(const std::string& name) {
+  for (int number = 1; number <= 6; ++number) {
+    if (name == fmt::format("G{}", 53 + number)) return number;
+  }
+  for (int number = 1; number <= 3; ++number) {
+    if (name == fmt::format("G59.{}", number)) return 6 + number;
+  }
+  constexpr std::string_view kExtended = "G54.1P";
+  if (!name.starts_with(kExtended)) return std::nullopt;
+  const std::string digits = name.substr(kExtended.size());
+  const bool number = !digits.empty() && digits.size() <= 3 && digits.front() != '0' &&
+                      digits.find_first_not_of("0123456789") == std::string::npos;
+  if (!number) return std::nullopt;
+  return 100 + std::stoi(digits);
+}
+
+std::optional<Diagnostic> add_offset(const std::string& text, kinematics::Setup& setup) {
+  const auto halves = halves_of(text, "--offset", "G54=X,Y,Z in mm");
+  if (!halves) return halves.error().front();
+  const auto number = offset_number(halves->first);
+  if (!number) {
+    return error(fmt::format("--offset {}: no such work offset", halves->first),
+                 "G54 to G59, G59.1 to G59.3, G54.1P1 to G54.1P999");
+  }
+  const auto origin = numbers_of(halves->second, 3, "--offset");
+  if (!origin) return origin.error().front();
+  setup.work_offsets[*number] = Vec3((*origin)[0], (*origin)[1], (*origin)[2]);
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<KnownSetup> known_setup_of(const SetupWords& words) {
+  KnownSetup bench;
+  if (!words.job.empty()) {
+    auto job = load_job(words.job, {}, false);
+    if (!job) return job.error();
+    bench.setup = trials::setup_of(job->piece);
+    bench.tools = trials::diameters_of(job->piece);
+    bench.machine = job->machine;
+  } else {
+    // The table's own origin is what a program without a setup sheet means.
+    bench.setup.work_offsets[1] = Vec3::Zero();
+  }
+  for (const std::string& text : words.tool_lengths) {
+    if (auto problem = add_tool_length(text, bench.setup)) return *problem;
+  }
+  for (const std::string& text : words.tool_diameters) {
+    if (auto problem = add_tool_diameter(text, bench.tools)) return *problem;
+  }
+  for (const std::string& text : words.offsets) {
+    if (auto problem = add_offset(text, bench.setup)) return *problem;
+  }
+  if (!words.machine.empty()) {
+    auto loaded = load_machine(words.machine, ".");
+    if (!loaded) return loaded.error();
+    bench.machine = *std::move(loaded);
+  }
+  return bench;
+}
+
+Result<MachineSetup> machine_setup_of(const SetupWords& words) {
+  auto bench = known_setup_of(words);
+  if (!bench) return bench.error();
+  if (!bench->machine) return error("no machine", "name one with --machine, or a job with --job");
+  return MachineSetup{*std::move(bench->machine), std::move(bench->setup), std::move(bench->tools)};
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,41 @@
+// A machine with its work offsets and tools: from a job, and from the words of the command line.
+//
+// Units    : mm, rad inside; options in mm
+// Errors   : what is wrong with the job, a machine, a length, a diameter or an offset, naming the option
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/model/machine.hpp"
+#include "parser/tool_table.hpp"
+
+namespace frustum::app {
+
+struct SetupWords {
+  std::string machine{};                      // file or name; empty: the job's
+  std::string job{};                          // empty: none
+  std::vector<std::string> tool_lengths{};    // "1=150"
+  std::vector<std::string> tool_diameters{};  // "1=10"
+  std::vector<std::string> offsets{};         // "G54=-65,0,150"
+};
+
+// What is known without a machine.
+struct KnownSetup {
+  std::optional<kinematics::Machine> machine{};
+  kinematics::Setup setup{};
+  parser::ToolTable tools{};  // diameters alone; lengths are the setup's
+};
+[[nodiscard]] Result<KnownSetup> known_setup_of(const SetupWords& words);
+
+struct MachineSetup {
+  kinematics::Machine machine;
+  kinematics::Setup setup{};
+  parser::ToolTable tools{};
+};
+[[nodiscard]] Result<MachineSetup> machine_setup_of(const SetupWords& words);
+
+}  // namespace frustum::app

@@ -1,0 +1,207 @@
+#include "app/job/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/job/measured_values.hpp"
+#include "core/toml_document.hpp"
+#include "trials/parameter.hpp"
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+using trials::Parameter;
+
+void append(Diagnostics& all, const Diagnostics& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folder,
+                                   Diagnostics& problems) {
+  const std::string name = table.text("name");
+  const fs::path job_file = table.file_path("job");
+  const std::vector<std::string> files = table.texts_or("measured", {});
+  if (files.empty()) {
+    table.fail("measured", "no measured values",
+               "measured = [\"part-1.toml\"]: .toml values, .json results or .csv points; several "
+               "files are several parts of one kind");
+  }
+  if (!table.has("job")) return std::nullopt;
+  auto job = load_job(job_file, {}, true);
+  if (!job) {
+    append(problems, job.error());
+    return std::nullopt;
+  }
+  StudyPart part{name, *std::move(job), {}};
+  for (const std::string& file : files) {
+    if (auto measured = read_measured_part(folder / file, part.job.piece.plan)) {
+      part.measured.push_back(*std::move(measured));
+    } else {
+      append(problems, measured.error());
+    }
+  }
+  return part;
+}
+
+// An error's amount in mm or rad, checked against what the name means.
+double amount(const TomlTable& table, std::string_view key, const Parameter& parameter) {
+  return parameter.angular ? table.angle(key).value : table.length(key).value;
+}
+
+std::optional<Parameter> known_parameter(const kinematics::Machine& machine, const TomlTable& table,
+                                         const std::string& name) {
+  auto parameter = Parameter::named(machine, name);
+  if (parameter) return *std::move(parameter);
+  for (const Diagnostic& d : parameter.error()) table.fail(name, d);
+  return std::nullopt;
+}
+
+std::vector<KnownError> read_known(const TomlTable& table, const kinematics::Machine& machine) {
+  std::vector<KnownError> known;
+  for (const std::string& name : table.keys()) {
+    const bool is_table = table.is_table(name);
+    const auto parameter = known_parameter(machine, table, name);
+    if (!parameter) {
+      if (is_table) (void)table.table(name).text_or("value", "");
+      continue;
+    }
+    KnownError error{name, 0.0, 0.0};
+    if (is_table) {
+      const TomlTable entry = table.table(name);
+      error.value = amount(entry, "value", *parameter);
+      error.uncertainty = amount(entry, "uncertainty", *parameter);
+      if (error.uncertainty < 0.0) entry.fail("uncertainty", "must not be negative");
+    } else {
+      error.value = amount(table, name, *parameter);
+    }
+    known.push_back(error);
+  }
+  return known;
+}
+
+std::vector<OtherEstimate> read_others(const TomlTable& table, const kinematics::Machine& machine) {
+  std::vector<OtherEstimate> others;
+  for (const std::string& name : table.keys()) {
+    const TomlTable values = table.table(name);
+    OtherEstimate other{name, {}};
+    for (const std::string& error : values.keys()) {
+      if (const auto parameter = known_parameter(machine, values, error)) {
+        other.values[error] = amount(values, error, *parameter);
+      }
+    }
+    others.push_back(std::move(other));
+  }
+  return others;
+}
+
+// The machine's own symbols when it has any, else its location errors.
+std::vector<std::string> default_unknowns(const kinematics::Machine& machine) {
+  std::vector<std::string> names;
+  for (const auto& [alias, meaning] : machine.aliases()) names.push_back(alias);
+  if (!names.empty()) return names;
+  for (const auto& error : machine.error_names()) {
+    if (error.location) names.push_back(error.text());
+  }
+  return names;
+}
+
+void check_machines(const std::vector<StudyPart>& parts, const TomlTable& root) {
+  std::set<std::string> machines;
+  for (const StudyPart& part : parts) machines.insert(part.job.machine.name());
+  if (machines.size() > 1) {
+    root.fail("part",
+              fmt::format("the parts were cut on different machines: {} and {}", *machines.begin(),
+                          *machines.rbegin()),
+              "one study identifies one machine");
+  }
+}
+
+struct Parts {
+  std::vector<StudyPart> parts{};
+  Diagnostics problems{};
+};
+
+Parts read_parts(const TomlDocument& document) {
+  Parts found;
+  const std::vector<TomlTable> tables = document.root().tables("part");
+  if (tables.empty()) {
+    document.root().fail("part", "no part to learn from",
+                         "add [[part]] with name, job and measured");
+  }
+  for (const TomlTable& table : tables) {
+    if (auto part = read_part(table, document.folder(), found.problems)) {
+      found.parts.push_back(*std::move(part));
+    }
+  }
+  return found;
+}
+
+void read_uncertainty(const TomlTable& table, Study& study) {
+  if (const auto cmm = table.table_if("cmm")) study.cmm = metrology::read_cmm_model(*cmm);
+  if (const auto floor = table.table_if("floor")) {
+    study.floor_length = floor->length_or("length", {}, Bound::non_negative).value;
+    study.floor_angle = floor->angle_or("angle", {}, Bound::non_negative).value;
+  }
+}
+
+// Unknown errors are those listed, or all, and whatever is known of any besides.
+void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, Study& study) {
+  if (const auto unknown = root.table_if("unknown")) {
+    study.unknowns = unknown->texts_or("errors", {});
+    study.tool_radius =
+        static_cast<ToolRadius>(unknown->choice_or("tool_radius", {"common", "each", "exact"}, 0));
+  }
+  if (study.unknowns.empty()) study.unknowns = default_unknowns(machine);
+  if (const auto known = root.table_if("known")) study.known = read_known(*known, machine);
+  for (const KnownError& k : study.known) {
+    if (std::find(study.unknowns.begin(), study.unknowns.end(), k.name) == study.unknowns.end()) {
+      study.unknowns.push_back(k.name);
+    }
+  }
+  const bool radius_listed = std::find(study.unknowns.begin(), study.unknowns.end(),
+                                       trials::kToolRadius) != study.unknowns.end();
+  if (radius_listed && study.tool_radius != ToolRadius::common) {
+    root.fail("unknown",
+              "tool_radius_error is listed by name, which means one radius error for all parts",
+              "tool_radius = \"common\", or take it out of unknown.errors and [known]");
+  }
+  const auto parameters = trials::parameters_named(machine, study.unknowns);
+  if (parameters) return;
+  for (const Diagnostic& d : parameters.error()) root.fail("unknown", d);
+}
+
+}  // namespace
+
+Result<Study> load_study(const fs::path& file) {
+  auto document = TomlDocument::load(file);
+  if (!document) return document.error();
+  const TomlTable& root = document->root();
+  Parts parts = read_parts(*document);
+  // Without a machine nothing else of the file can be judged.
+  if (has_error(parts.problems)) return parts.problems;
+  if (parts.parts.empty()) return document->finish();
+
+  Study study;
+  study.file = file;
+  study.title = root.text_or("title", "");
+  study.parts = std::move(parts.parts);
+  check_machines(study.parts, root);
+  read_unknowns(root, study.machine(), study);
+  if (const auto table = root.table_if("uncertainty")) read_uncertainty(*table, study);
+  if (const auto table = root.table_if("method")) {
+    study.refine = table->boolean_or("refine", true);
+    study.recipe =
+        static_cast<RecipeChoice>(table->choice_or("recipe", {"none", "case-1", "case-2"}, 0));
+  }
+  if (const auto table = root.table_if("compare"))
+    study.others = read_others(*table, study.machine());
+  Diagnostics all = document->finish();
+  append(all, parts.problems);
+  if (has_error(all)) return all;
+  return study;
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,49 @@
+#include "app/job/trial_run.hpp"
+
+#include <chrono>
+#include <iostream>
+
+namespace frustum::app {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+TrialRun::TrialRun(report::ProgressStyle style) : progress_(std::cerr, style) {}
+
+Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
+  trials::TrialOptions options;
+  options.path_bound = job.path_bound;
+  options.time_law = job.controller.time_law;
+  options.servo_lag = job.controller.servo_lag;
+  options.measure = measure;
+  options.on_stage = [this](trials::Stage stage) { begin(std::string(name_of(stage))); };
+  auto result = run_trial(job.machine, job.errors, job.piece, job.cmm, options);
+  end();
+  if (result) return result;
+  // What no room could place belongs to the job that asked for it.
+  Diagnostics problems = result.error();
+  for (Diagnostic& d : problems) {
+    if (d.file.empty()) d.file = job.file.string();
+  }
+  return problems;
+}
+
+void TrialRun::begin(const std::string& step) {
+  end();
+  step_ = step;
+  started_ = now();
+  progress_.begin(step);
+}
+
+void TrialRun::end() {
+  if (step_.empty()) return;
+  timings_.push_back({step_, now() - started_});
+  step_.clear();
+  progress_.end();
+}
+
+}  // namespace frustum::app

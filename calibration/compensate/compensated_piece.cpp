@@ -1,0 +1,46 @@
+#include "calibration/compensate/compensated_piece.hpp"
+
+#include <utility>
+
+#include "parser/interpreter.hpp"
+#include "parser/program.hpp"
+#include "post/nc_writer.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::calibration {
+namespace {
+
+Diagnostics in_file(Diagnostics problems, const std::string& file) {
+  for (Diagnostic& d : problems) {
+    if (d.file.empty()) d.file = file;
+  }
+  return problems;
+}
+
+}  // namespace
+
+Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
+                                           const kinematics::GeometricErrors& errors,
+                                           const programs::TestPiece& piece,
+                                           const CompensationOptions& options) {
+  const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
+  if (!program) return program.error();
+  const auto motions = parser::motions_of(*program);
+  if (!motions) return motions.error();
+  auto result = compensated(machine, errors, trials::setup_of(piece), *motions, options);
+  if (!result) return in_file(std::move(result).error(), piece.program_file);
+
+  CompensatedPiece made{.piece = piece, .before = result->before, .after = result->after};
+  if (piece.dialect == parser::Dialect::cldata) made.piece.dialect = parser::Dialect::fanuc;
+  const auto text = post::write_nc(result->motions, made.piece.dialect);
+  if (!text) return in_file(text.error(), piece.program_file);
+  made.piece.program = text->text;
+  for (programs::Operation& operation : made.piece.operations) {
+    const auto lines = post::lines_from(*text, {operation.first_line, operation.last_line});
+    operation.first_line = lines.first;
+    operation.last_line = lines.last;
+  }
+  return made;
+}
+
+}  // namespace frustum::calibration

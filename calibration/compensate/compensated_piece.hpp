@@ -1,0 +1,25 @@
+// A test piece with its program compensated for a machine's errors, ready to be cut again.
+//
+// Model    : the program is compensated (compensation.hpp) and written in its own dialect; APT CLDATA, which
+//            no controller runs, becomes a Fanuc program. Operations keep their blocks
+// Units    : mm, rad
+// Errors   : those of reading, executing and writing the program, with file and NC line
+#pragma once
+
+#include "calibration/compensate/compensation.hpp"
+#include "programs/test_piece.hpp"
+
+namespace frustum::calibration {
+
+struct CompensatedPiece {
+  programs::TestPiece piece{};
+  PathError before{};
+  PathError after{};
+};
+
+[[nodiscard]] Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
+                                                         const kinematics::GeometricErrors& errors,
+                                                         const programs::TestPiece& piece,
+                                                         const CompensationOptions& options = {});
+
+}  // namespace frustum::calibration

@@ -1,0 +1,95 @@
+#include "cutter/search/separating_plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutter/sweep/segment_sweep.hpp"
+
+namespace frustum::cutter {
+
+SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end,
+                                 bool leaving)
+    : end_(ray.at(end.s)), beyond_(leaving ? ray.direction : Vec3(-ray.direction)) {
+  if (end.slab == kInAHollow) return;
+  const Profile& slab = body.slabs()[end.slab];
+  body_ = &body;
+  if (end.face >= 0) {
+    const Zone& zone = slab.zones()[static_cast<std::size_t>(end.face)];
+    if (zone.kind != ZoneKind::cone) {
+      round_ = &zone;
+      return;
+    }
+  }
+  const Facing facing = slab.facing(end.face, end.pose, end_, beyond_);
+  axial_ = facing.axial;
+  lateral_ = facing.lateral;
+  offset_ = support(lateral_, axial_);
+}
+
+double SeparatingPlane::support(double lateral, double axial) const {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Profile& slab : body_->slabs()) most = std::max(most, slab.support(lateral, axial));
+  return most;
+}
+
+// A plane that touches a convex body where the round face is has all of the body on one side.
+double SeparatingPlane::support_of_round(double lateral, double axial) const {
+  const double touched_at = round_->centre + round_->radius * axial;
+  const bool on_face = round_->z_lo <= touched_at && touched_at <= round_->z_hi && lateral > 0.0;
+  if (!on_face || !body_->is_convex()) return support(lateral, axial);
+  return lateral * round_->major + axial * round_->centre + round_->radius;
+}
+
+std::optional<SupportingPlane> SeparatingPlane::touching(const ToolPose& pose) const {
+  const Vec3 m = end_ - pose.tip;
+  const double z = m.dot(pose.axis);
+  const Vec3 across = m - z * pose.axis;
+  const double rho = across.norm();
+  SupportingPlane plane{axial_, lateral_, offset_};
+  if (round_ != nullptr) {
+    const double beside =
+        round_->major < 0.0 ? rho - round_->major : std::max(0.0, rho - round_->major);
+    const double above = z - round_->centre;
+    const double length = std::sqrt(beside * beside + above * above);
+    if (!(length > 0.0)) return std::nullopt;
+    plane.lateral = beside / length;
+    plane.axial = above / length;
+    plane.offset = support_of_round(plane.lateral, plane.axial);
+  }
+  if (plane.lateral == 0.0) return plane;
+  constexpr double kOnAxis = 1e-9;  // mm
+  if (rho < kOnAxis) return std::nullopt;
+  plane.side = across / rho;
+  return plane;
+}
+
+Overreach SeparatingPlane::overreach(const PoseGroup& group) const {
+  if (body_ == nullptr) return {};
+  const std::optional<SupportingPlane> plane = touching(group.representative);
+  if (!plane) return {};
+  const Vec3 n = plane->normal_square_to(group.representative.axis);
+  const double fall = n.dot(beyond_) - normal_turn(group);
+  if (!(fall > 0.0)) return {};
+  const Vec3 m = end_ - group.representative.tip;
+  const double room = n.dot(m) - plane->offset + kSearchTolerance;
+  return {(most_lost(*plane, group, m) - room) / fall, room < 0.0};
+}
+
+bool SeparatingPlane::holds(const SegmentMotion& motion) const {
+  constexpr double kFarTurned = 0.05;  // plane_departure() holds up to here
+  if (body_ == nullptr || motion.turn() > kFarTurned) return false;
+  const ToolPose from = motion.at(0.0), to = motion.at(1.0);
+  const std::optional<SupportingPlane> plane = touching(from);
+  if (!plane) return false;
+  const double departure =
+      motion.turn() == 0.0
+          ? 0.0
+          : motion.plane_departure(1.0, std::max((end_ - from.tip).norm(), (end_ - to.tip).norm()),
+                                   (to.tip - from.tip).norm());
+  const Vec3 n = plane->normal_square_to(from.axis);
+  if (!(n.dot(end_ - from.tip) - plane->offset + kSearchTolerance >= departure)) return false;
+  if (!(n.dot(beyond_) > 1.1 * motion.turn())) return false;
+  return plane->height(to, end_) + kSearchTolerance >= departure;
+}
+
+}  // namespace frustum::cutter

@@ -1,0 +1,61 @@
+// A plane through the end of what is covered, carried along with the cutter: proof that it goes no farther.
+//
+// Model    : where a cutter touches the end of what is covered it has a tangent plane. Another cutter near by
+//            has its own plane of that latitude, turned about its axis towards the end; if the end lies
+//            beyond that plane, and the ray leaves it, then this cutter covers nothing beyond the end. For a
+//            group of poses, or the motion from pose to pose, the plane's distance is bounded
+// Units    : mm; frame: workpiece
+// Errors   : none; false says nothing
+// Accuracy : proofs hold but for kSearchTolerance normal to the surface
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "cutter/body/body.hpp"
+#include "cutter/search/pose_tree.hpp"
+#include "cutter/search/supporting_plane.hpp"
+#include "cutter/sweep/segment_motion.hpp"
+
+namespace frustum::cutter {
+
+// Which slab of a body a cover's end lies on, and where the body stands then.
+struct EndContact {
+  double s = 0.0;          // mm along the ray
+  std::uint32_t slab = 0;  // or kInAHollow
+  ProfileFace face = kTopFace;
+  ToolPose pose{};
+};
+
+// How far along the ray a group may cover more than the end, and whether its representative may.
+struct Overreach {
+  double most = std::numeric_limits<double>::infinity();  // mm; not positive: surely nothing
+  bool by_representative = true;
+};
+
+class SeparatingPlane {
+ public:
+  // Holds nothing back: for ends that no convex slab makes.
+  SeparatingPlane() = default;
+  // `leaving`: what is covered lies before the end, else behind it.
+  SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
+
+  [[nodiscard]] Overreach overreach(const PoseGroup& group) const;
+  // Whether the moving body surely covers nothing beyond the end.
+  [[nodiscard]] bool holds(const SegmentMotion& motion) const;
+
+ private:
+  // The plane that touches the body standing there, square to the way to the end.
+  [[nodiscard]] std::optional<SupportingPlane> touching(const ToolPose& pose) const;
+  [[nodiscard]] double support(double lateral, double axial) const;
+  [[nodiscard]] double support_of_round(double lateral, double axial) const;
+
+  const Body* body_ = nullptr;  // null: no proof
+  Vec3 end_ = Vec3::Zero();
+  Vec3 beyond_ = Vec3::Zero();  // unit, along the ray, away from what is covered
+  // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the end.
+  double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
+  const Zone* round_ = nullptr;
+};
+
+}  // namespace frustum::cutter

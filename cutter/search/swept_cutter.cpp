@@ -1,0 +1,227 @@
+#include "cutter/search/swept_cutter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cutter/sweep/concave_sweep.hpp"
+#include "cutter/sweep/segment_sweep.hpp"
+#include "cutter/sweep/swept_box.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+using kinematics::PathSegment;
+using kinematics::ToolPath;
+
+constexpr double kPassedOver = 1e-9;  // mm
+
+// Least distance between a point and the body moving through it, or `least` if that is less; at most kCoarse
+// too small. No point of the body is faster than the motion says.
+class LeastDistance {
+ public:
+  LeastDistance(const Body& body, const SegmentMotion& motion, const Vec3& point, double least)
+      : body_(body), motion_(motion), point_(point), least_(least) {}
+
+  [[nodiscard]] double value() {
+    search(0.0, at(0.0), 1.0, at(1.0));
+    return least_;
+  }
+
+ private:
+  static constexpr double kCoarse = 1e-3;  // mm
+
+  [[nodiscard]] double at(double t) const { return body_.distance(motion_.at(t), point_); }
+
+  void search(double t0, double d0, double t1, double d1) {
+    const double way = motion_.travel() * (t1 - t0);
+    const double bound = 0.5 * (d0 + d1 - way);
+    if (bound >= least_) return;
+    if (way < 2.0 * kCoarse) {
+      least_ = bound;
+      return;
+    }
+    const double middle = 0.5 * (t0 + t1), d = at(middle);
+    search(t0, d0, middle, d);
+    search(middle, d, t1, d1);
+  }
+
+  const Body& body_;
+  const SegmentMotion& motion_;
+  const Vec3& point_;
+  double least_;
+};
+
+double accuracy_of(const Body& body) {
+  const double convex = 2.0 * kSearchTolerance + kMissedDepth;
+  return body.concave().empty() ? convex : convex + concave_accuracy(body);
+}
+
+}  // namespace
+
+Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tools) {
+  for (const kinematics::PathBlock& block : path.blocks) {
+    if (!tools.contains(block.tool)) {
+      Diagnostic failure =
+          error(fmt::format("tool T{} cuts but is not defined", block.tool),
+                fmt::format("add tool.{} with type, diameter and length", block.tool));
+      failure.line = static_cast<int>(block.source_line);
+      return failure;
+    }
+  }
+  if (const auto fault = half_turn(path)) return *fault;
+  return SweptCutter(std::move(path), std::move(tools));
+}
+
+SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
+    : path_(std::move(path)),
+      tools_(std::make_shared<const std::map<int, Cutter>>(std::move(tools))) {
+  body_of_block_.reserve(path_.blocks.size());
+  for (const auto& block : path_.blocks) body_of_block_.push_back(&tools_->at(block.tool).body());
+  boxes_.reserve(path_.segments.size());
+  for (const PathSegment& segment : path_.segments) {
+    const Body& body = *body_of_block_[segment.block];
+    boxes_.push_back(swept_box({0.0, body.height(), body.max_radius()},
+                               SegmentMotion(path_, segment, body.reach())));
+  }
+
+  std::map<int, std::vector<std::uint32_t>> segments_of_tool;
+  for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
+    segments_of_tool[path_.blocks[path_.segments[i].block].tool].push_back(i);
+  }
+  std::vector<ToolSweep> sweeps;
+  for (auto& [number, segments] : segments_of_tool) {
+    const Body& body = tools_->at(number).body();
+    accuracy_ = std::max(accuracy_, accuracy_of(body));
+    sweeps.push_back(
+        {.body = &body, .tree = PoseTree(path_, boxes_, std::move(segments), body.reach())});
+  }
+  sweeps_ = std::make_shared<const std::vector<ToolSweep>>(std::move(sweeps));
+}
+
+const Body& SweptCutter::body_of(std::uint32_t segment) const {
+  return *body_of_block_[path_.segments[segment].block];
+}
+
+IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first_excluded) const {
+  const RayQuestion question{&path_, ray, span, first_excluded};
+  std::vector<SweptInterval> cover;
+  for (const ToolSweep& sweep : *sweeps_) extend_swept_interval(question, sweep, cover);
+  std::vector<Interval> all;
+  all.reserve(cover.size());
+  for (const SweptInterval& c : cover) {
+    const auto lo_tag = static_cast<EndTag>(c.lo.segment),
+               hi_tag = static_cast<EndTag>(c.hi.segment);
+    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
+      all.back().hi = c.hi.s;
+      all.back().hi_tag = hi_tag;
+    } else {
+      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
+    }
+  }
+  return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
+}
+
+std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
+                                                     std::uint32_t first_excluded) const {
+  const RayQuestion question{&path_, ray, {from, to}, first_excluded};
+  SweptIntervalEnd front{.s = from};
+  bool moved = false;
+  for (bool again = true; again;) {
+    again = false;
+    for (const ToolSweep& sweep : *sweeps_)
+      again |= advance_front(question, sweep, kPassedOver, front);
+    moved |= again;
+    again = again && sweeps_->size() > 1;
+  }
+  if (!moved) return std::nullopt;
+  return contact_of(ray, front);
+}
+
+SweepContact SweptCutter::contact_of(const Ray& ray, const SweptIntervalEnd& end) const {
+  const PathSegment& at = path_.segments[end.segment];
+  const Body& body = body_of(end.segment);
+  return sweep_contact(body, SegmentMotion(path_, at, body.reach()), ray, end);
+}
+
+IntervalSet SweptCutter::core_along(const Ray& ray, std::span<const std::uint32_t> segments,
+                                    double shrunk_by) const {
+  std::vector<Interval> all;
+  for (const std::uint32_t i : segments) {
+    const PathSegment& segment = path_.segments[i];
+    const Body& body = body_of(i);
+    const SegmentMotion motion(path_, segment, body.reach());
+    const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * body.max_radius()));
+    for (int k = 0; k <= steps; ++k) {
+      for (const Chord& c : body.core(motion.at(static_cast<double>(k) / steps), ray, shrunk_by)) {
+        all.push_back({c.lo, c.hi, i, i});
+      }
+    }
+  }
+  return IntervalSet(std::move(all));
+}
+
+SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t segment) const {
+  const PathSegment& at = path_.segments[segment];
+  const Body& body = body_of(segment);
+  const SegmentMotion motion(path_, at, body.reach());
+  constexpr double kSameEnd = 1e-6;  // mm
+  SweptIntervalEnd end{.s = s, .segment = segment};
+  double nearest = std::numeric_limits<double>::infinity();
+  const ConcaveSweep concave(body, motion, ray);
+  for (std::uint32_t slab = 0; slab < body.slabs().size(); ++slab) {
+    for (const SegmentInterval& i : swept_intervals(body.slabs()[slab], motion, ray)) {
+      for (const SweptEnd& e : {i.lo, i.hi}) {
+        if (std::abs(e.s - s) >= nearest) continue;
+        if (slab >= body.parts().size() && !concave.is_of_body(e)) continue;
+        nearest = std::abs(e.s - s);
+        end = {s, segment, slab, e.t, e.face};
+      }
+    }
+  }
+  // A concave face, or a ray that grazes: then any end may be the one that rounding has chosen.
+  const double same = body.concave().empty() ? kSameEnd : kSearchTolerance;
+  if (nearest > same) {
+    end.slab = kInAHollow;
+    end.t = concave.nearest_state(s);
+  }
+  return contact_of(ray, end);
+}
+
+double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint32_t last,
+                              double enough) const {
+  double least = enough;
+  for (const ToolSweep& sweep : *sweeps_) {
+    const auto groups = sweep.tree.groups();
+    std::vector<std::uint32_t> open;
+    if (!groups.empty()) open.push_back(0);
+    while (!open.empty()) {
+      const std::uint32_t index = open.back();
+      open.pop_back();
+      const PoseGroup& group = groups[index];
+      const Vec3 beyond =
+          (group.box.min - point).cwiseMax(point - group.box.max).cwiseMax(Vec3::Zero());
+      if (beyond.norm() >= least) continue;
+      const double distance = sweep.body->distance(group.representative, point);
+      if (distance - group.shift >= least) continue;
+      if (group.count == 0) {
+        open.push_back(group.children + 1);
+        open.push_back(group.children);
+        continue;
+      }
+      for (const std::uint32_t i : sweep.tree.segments().subspan(group.first, group.count)) {
+        if (i >= first && i <= last) continue;
+        const PathSegment& segment = path_.segments[i];
+        const SegmentMotion motion(path_, segment, sweep.body->reach());
+        least = LeastDistance(*sweep.body, motion, point, least).value();
+      }
+    }
+  }
+  return least;
+}
+
+}  // namespace frustum::cutter

@@ -1,0 +1,219 @@
+#include "cutter/sweep/chord_times.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/constants.hpp"
+#include "core/golden_section.hpp"
+#include "cutter/sweep/segment_sweep.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+// A plane that contains the ray's direction, with unit normal n pointing from the body to the ray.
+struct SeparatingPlane {
+  Vec3 normal;
+  double gap;
+};
+
+// Distance from the body's supporting plane with that normal to the ray; negative: overlapping.
+double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, const Ray& ray) {
+  const double u = std::clamp(normal.dot(pose.axis), -1.0, 1.0);
+  return normal.dot(ray.origin - pose.tip) - body.support(u);
+}
+
+// A plane along the ray that has the body, on its way from a to b, on its other side but for kMissedDepth?
+// True is a proof; false says nothing. `slack`: by so much the body leaves the straight way between.
+bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
+                  const Ray& ray) {
+  // Between its ends the gap is (1 - t) A + t B or less by 4 t (1 - t) slack: least where that is
+  // A / t + B / (1 - t) = (sqrt A + sqrt B)^2 against 4 slack.
+  const auto apart = [&](const Vec3& normal) {
+    const double at_a = gap_of(normal, body, a, ray) + kMissedDepth;
+    const double at_b = gap_of(normal, body, b, ray) + kMissedDepth;
+    if (!(at_a > 0.0 && at_b > 0.0)) return false;
+    const double roots = std::sqrt(at_a) + std::sqrt(at_b);
+    return roots * roots >= 4.0 * slack;
+  };
+  // The plane between the ray and the axis, and the one that faces an end of the cutter.
+  const Vec3 across = ray.direction.cross(a.axis);
+  const double sine = across.norm();
+  if (sine > 1e-3) {
+    const double side = across.dot(ray.origin - a.tip) > 0.0 ? 1.0 : -1.0;
+    if (apart(across * (side / sine))) return true;
+  }
+  const Vec3 facing = a.axis - ray.direction.dot(a.axis) * ray.direction;
+  const double length = facing.norm();
+  if (length < 1e-3) return false;
+  return apart(facing / length) || apart(facing / -length);
+}
+
+// The best of the planes along the ray: maximises the gap over the angle of its normal.
+SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& ray) {
+  const Vec3 e1 = perpendicular_to(ray.direction);
+  const Vec3 e2 = ray.direction.cross(e1);
+  const auto normal_at = [&](double psi) -> Vec3 {
+    return std::cos(psi) * e1 + std::sin(psi) * e2;
+  };
+  const auto gap_at = [&](double psi) { return gap_of(normal_at(psi), body, pose, ray); };
+  constexpr int kCoarse = 12;
+  constexpr double kStep = 2.0 * std::numbers::pi / kCoarse;
+  double best_psi = 0.0;
+  double best_gap = -kInfinity;
+  for (int i = 0; i < kCoarse; ++i) {
+    const double g = gap_at(i * kStep);
+    if (g > best_gap) {
+      best_gap = g;
+      best_psi = i * kStep;
+    }
+  }
+  // 40 steps narrow the angle to 1e-8 rad, where the gap is flat within rounding.
+  const GoldenBracket best = golden_section([&](double psi) { return -gap_at(psi); },
+                                            best_psi - kStep, best_psi + kStep, 0.0, 40);
+  const Vec3 normal = normal_at(best.middle());
+  return {normal, gap_of(normal, body, pose, ray)};
+}
+
+}  // namespace
+
+bool overlap(const Chord& a, const Chord& b) { return a.lo <= b.hi && b.lo <= a.hi; }
+
+ChordTimes::ChordTimes(const Profile& body, const SegmentMotion& motion, const Ray& ray)
+    : body_(body), motion_(motion), ray_(ray) {
+  const int steps = static_cast<int>(std::ceil(motion_.turn() / kTurnPerSample));
+  samples_.push_back(sample(0.0));
+  for (int i = 1; i <= std::max(1, steps); ++i) {
+    const ChordSample next = sample(static_cast<double>(i) / std::max(1, steps));
+    refine_between(ChordSample(samples_.back()), next, 0);
+    samples_.push_back(next);
+  }
+}
+
+void ChordTimes::insert(std::size_t i, double t) {
+  const std::vector<ChordSample> after(samples_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                       samples_.end());
+  samples_.resize(i + 1);
+  const ChordSample middle = sample(t);
+  refine_between(ChordSample(samples_.back()), middle, 0);
+  samples_.push_back(middle);
+  refine_between(middle, after.front(), 0);
+  samples_.insert(samples_.end(), after.begin(), after.end());
+}
+
+ChordSample ChordTimes::sample(double t) const {
+  ChordSample s{.t = t, .pose = motion_.at(t)};
+  s.chord = body_.chord(s.pose, ray_);
+  return s;
+}
+
+// Appends the samples needed between two neighbours: proofs of emptiness, or ends of runs.
+void ChordTimes::refine_between(const ChordSample& a, const ChordSample& b, int depth) {
+  if (a.chord && b.chord) {
+    join(a, b, depth);
+  } else if (a.chord) {
+    const ChordSample end = end_of_run(a, b);
+    join(a, end, depth);
+    samples_.push_back(end);
+    search_beside_run(end, b, depth);
+  } else if (b.chord) {
+    const ChordSample begin = end_of_run(b, a);
+    search_beside_run(begin, a, depth);
+    samples_.push_back(begin);
+    join(begin, b, depth);
+  } else {
+    search_empty(a, b);
+  }
+}
+
+// Samples between two chords until neighbours overlap, or show a gap.
+void ChordTimes::join(const ChordSample& a, const ChordSample& b, int depth) {
+  if (overlap(*a.chord, *b.chord) || motion_.turn() == 0.0) return;
+  if (departure(a, b) < kMissedDepth || depth > 60) return;
+  const ChordSample middle = sample(0.5 * (a.t + b.t));
+  refine_between(a, middle, depth + 1);
+  samples_.push_back(middle);
+  refine_between(middle, b, depth + 1);
+}
+
+// A body that does not turn meets the ray from the one chord to the other without a break. One that turns
+// is never farther than this from it: its points run on arcs, and two of them, on the ray at either moment,
+// are moved differently.
+double ChordTimes::departure(const ChordSample& a, const ChordSample& b) const {
+  const double dt = b.t - a.t;
+  const double apart = std::max(a.chord->lo - b.chord->hi, b.chord->lo - a.chord->hi);
+  return motion_.bend() * dt * dt / 8.0 +
+         0.25 * motion_.turn() * dt * (motion_.travel() * dt + std::max(0.0, apart));
+}
+
+// Between the last moment of a run and a sample without a chord: none but what turning brings back.
+void ChordTimes::search_beside_run(const ChordSample& run_end, const ChordSample& outside,
+                                   int depth) {
+  if (motion_.turn() == 0.0) return;
+  const double dt = outside.t - run_end.t;
+  const double beyond = run_end.t + std::copysign(2.0 * resolution(), dt);
+  if (std::abs(beyond - run_end.t) >= std::abs(dt)) return;
+  const ChordSample gone = sample(beyond);
+  // The ray slides along the body, by rounding in and out: so often and no oftener.
+  if (gone.chord && depth > 60) return;
+  if (dt > 0.0) {
+    samples_.push_back(gone);
+    refine_between(gone, outside, depth + 1);
+  } else {
+    refine_between(outside, gone, depth + 1);
+    samples_.push_back(gone);
+  }
+}
+
+double ChordTimes::resolution() const {
+  return kTangentMotion / std::max(motion_.travel(), kTangentMotion);
+}
+
+// The last time with a chord between `inside` (has one) and `outside` (has none).
+ChordSample ChordTimes::end_of_run(ChordSample inside, ChordSample outside) const {
+  const double tolerance = resolution();
+  while (std::abs(outside.t - inside.t) > tolerance) {
+    const double middle_t = 0.5 * (inside.t + outside.t);
+    if (middle_t == inside.t || middle_t == outside.t) break;
+    const ChordSample middle = sample(middle_t);
+    (middle.chord ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+// Both ends have no chord: proves that there is none between, or finds one.
+void ChordTimes::search_empty(const ChordSample& a, const ChordSample& b) {
+  const double span = b.t - a.t;
+  if (0.5 * motion_.travel() * span < kMissedDepth) return;
+  const double slack = motion_.bend() * span * span / 8.0;
+  if (surely_apart(body_, a.pose, b.pose, slack, ray_)) return;
+  const ToolPose middle_pose = motion_.at(0.5 * (a.t + b.t));
+  if (!body_.chord(middle_pose, ray_, 0.5 * motion_.travel() * span)) return;
+
+  // Each separating plane holds until its gap, a nearly linear function of time, runs out.
+  const double holds_after_a = reach_of_plane(a, b, slack);
+  const double holds_before_b = reach_of_plane(b, a, slack);
+  if (holds_after_a >= holds_before_b) return;
+  const ChordSample middle = sample(0.5 * (holds_after_a + holds_before_b));
+  if (!(middle.t > a.t && middle.t < b.t)) return;
+  refine_between(a, middle, 0);
+  samples_.push_back(middle);
+  refine_between(middle, b, 0);
+}
+
+// How far from `start` towards `end` the separating plane found at `start` surely separates.
+double ChordTimes::reach_of_plane(const ChordSample& start, const ChordSample& end,
+                                  double slack) const {
+  const SeparatingPlane plane = separate(body_, start.pose, ray_);
+  if (!(plane.gap > -kMissedDepth)) return start.t;
+  const double gap_at_end = gap_of(plane.normal, body_, end.pose, ray_);
+  const double fall = plane.gap + kMissedDepth - slack;
+  const double loss = plane.gap - gap_at_end;
+  if (fall <= 0.0) return start.t;
+  if (loss <= fall) return end.t;
+  return start.t + (end.t - start.t) * fall / loss;
+}
+
+}  // namespace frustum::cutter

@@ -1,0 +1,321 @@
+#include "cutter/sweep/segment_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/constants.hpp"
+#include "core/golden_section.hpp"
+#include "cutter/sweep/chord_times.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+// Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
+constexpr double kSameState = 1e-11;
+// From here on grazing rays are looked for.
+constexpr int kOftenHalved = 6;
+// A search that needs more than this runs along the surface within rounding.
+constexpr int kMostLooks = 20000;
+// No bulge, as a number that can be divided by.
+constexpr double kNoBulge = 1e-300;
+
+// A plane that touches the body where a chord ends at one moment, and where the ray crosses it at another.
+struct RoofSide {
+  const TangentPlane& plane;
+  PlaneCrossing elsewhere;
+  double overhang = 0.0;  // of that crossing over the chord's end there
+};
+
+double bulge_of(const RoofSide& side, const SegmentMotion& motion, double dt) {
+  const double run = std::abs(side.elsewhere.value - side.plane.value) + motion.travel() * dt;
+  const double departure = motion.plane_departure(dt, motion.reach() + side.overhang, run);
+  const double along =
+      std::min(side.plane.along, side.elsewhere.along) - motion.plane_departure(dt, 1.0, 0.0);
+  return along > 0.0 ? std::max(departure / along, kNoBulge) : kInfinity;
+}
+
+// Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it there,
+// moved to the other moment, make straight lines, and turning adds at most 4 bulge x (1 - x).
+class Roof {
+ public:
+  Roof(const TangentPlane& a, PlaneCrossing a_at_b, const TangentPlane& b, PlaneCrossing b_at_a,
+       const SegmentMotion& motion, double dt)
+      : a_(a.value),
+        rise_a_(a_at_b.value - a.value),
+        b_at_a_(b_at_a.value),
+        rise_b_(b.value - b_at_a.value) {
+    if (motion.turn() > 0.0) {
+      bulge_a_ = bulge_of({a, a_at_b, std::abs(a_at_b.value - b.value)}, motion, dt);
+      bulge_b_ = bulge_of({b, b_at_a, std::abs(b_at_a.value - a.value)}, motion, dt);
+    }
+    const bool holds_a = std::isfinite(rise_a_) && std::isfinite(bulge_a_);
+    const bool holds_b = std::isfinite(rise_b_) && std::isfinite(bulge_b_);
+    if (holds_a) top_ = height_on_a(summit(rise_a_, bulge_a_));
+    if (holds_b) top_ = std::min(top_, height_on_b(summit(rise_b_, bulge_b_)));
+    holds_ = holds_a && holds_b;
+    has_ridge_ = holds_ && rise_a_ > 0.0 && rise_b_ < 0.0;
+    if (!has_ridge_) return;
+    ridge_ = std::clamp((b_at_a_ - a_) / (rise_a_ - rise_b_), 0.0, 1.0);
+    // Before the ridge a's line is the lower one but for the bulges, after it b's.
+    const double on_a = std::min(ridge_, summit(rise_a_, bulge_a_));
+    const double on_b = std::max(ridge_, summit(rise_b_, bulge_b_));
+    top_ = std::min(top_, std::max(height_on_a(on_a), height_on_b(on_b)));
+  }
+
+  [[nodiscard]] double top() const { return top_; }
+
+  // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside a top
+  // that is found already: so near that from there on the fall is surely more than the bulge.
+  [[nodiscard]] double place_to_look(int depth) const {
+    if (!holds_ || depth % 4 == 3) return 0.5;
+    if (has_ridge_ && depth % 4 == 2) return ridge_;
+    const bool rises = rise_a_ > 0.0, falls = rise_b_ < 0.0;
+    if (!rises && !falls) return 0.5;
+    const double smooth = rises && falls ? rise_a_ / (rise_a_ - rise_b_) : (rises ? 1.0 : 0.0);
+    const double fall = a_ - (b_at_a_ + rise_b_);
+    const double beside = std::min(0.5, 4.0 * std::max(bulge_a_, bulge_b_) / std::abs(fall));
+    return fall > 0.0 ? std::max(smooth, beside) : std::min(smooth, 1.0 - beside);
+  }
+
+ private:
+  // Where a line of that rise, with the bulge on it, is highest.
+  [[nodiscard]] static double summit(double rise, double bulge) {
+    return std::clamp(0.5 + rise / (8.0 * bulge), 0.0, 1.0);
+  }
+  [[nodiscard]] double height_on_a(double x) const {
+    return a_ + rise_a_ * x + 4.0 * bulge_a_ * x * (1.0 - x);
+  }
+  [[nodiscard]] double height_on_b(double x) const {
+    return b_at_a_ + rise_b_ * x + 4.0 * bulge_b_ * x * (1.0 - x);
+  }
+
+  double a_, rise_a_, b_at_a_, rise_b_;
+  double bulge_a_ = kNoBulge, bulge_b_ = kNoBulge;
+  double ridge_ = 0.5;
+  bool holds_ = false;
+  bool has_ridge_ = false;
+  double top_ = kInfinity;
+};
+
+// The highest value that one end of the chord takes: B(t) for `leaving`, -A(t) else.
+class HighestEnd {
+ public:
+  HighestEnd(const Profile& body, const SegmentMotion& motion, const Ray& ray, bool leaving,
+             double floor)
+      : body_(body), motion_(motion), ray_(ray), leaving_(leaving), floor_(floor) {}
+
+  void offer(const ChordSample& sample) {
+    const Chord& chord = *sample.chord;
+    const double value = leaving_ ? chord.hi : -chord.lo;
+    if (value > best_value_) note(value, sample.t, leaving_ ? chord.hi_face : chord.lo_face);
+  }
+
+  // Looks between two samples with chords. Nothing is lost unless gap() has a value then.
+  void search(const ChordSample& from, const ChordSample& to) {
+    if (floor_ == kInfinity) {
+      offer(from);
+    } else {
+      close_in(touched(from), touched(to), 0);
+    }
+  }
+  // The same; returns the planes that touch the body at both.
+  std::pair<TangentPlane, TangentPlane> search_with_planes(const ChordSample& from,
+                                                           const ChordSample& to) {
+    const Touched a = touched(from), b = touched(to);
+    close_in(a, b, 0);
+    return {a.plane, b.plane};
+  }
+
+  // A moment between the samples at which the body does not meet the ray.
+  [[nodiscard]] std::optional<double> gap() const { return gap_; }
+
+  [[nodiscard]] SweptEnd best() const {
+    return {leaving_ ? best_value_ : -best_value_, best_t_, best_face_};
+  }
+
+ private:
+  struct Touched {
+    double t;
+    ToolPose pose;
+    TangentPlane plane;
+    ProfileFace face;
+  };
+
+  [[nodiscard]] Touched touched(const ChordSample& s) const {
+    return {s.t, s.pose, TangentPlane(body_, s.pose, ray_, *s.chord, leaving_),
+            leaving_ ? s.chord->hi_face : s.chord->lo_face};
+  }
+
+  void note(const Touched& end) {
+    if (end.plane.value > best_value_) note(end.plane.value, end.t, end.face);
+  }
+  void note(double value, double t, ProfileFace face) {
+    best_value_ = value;
+    best_t_ = t;
+    best_face_ = face;
+  }
+
+  void close_in(const Touched& a, const Touched& b, int depth) {
+    note(a);
+    note(b);
+    const double dt = b.t - a.t;
+    if (depth > 60 || dt * motion_.travel() < kSameState) return;
+    const double along = std::max(a.plane.along, b.plane.along);
+    const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
+    const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
+                    b.plane.crossing(a.pose, ray_), motion_, dt);
+    if (roof.top() <= enough || (depth >= kOftenHalved && surely_no_deeper(a, b))) return;
+    if (motion_.turn() == 0.0 && depth >= kOftenHalved) {
+      climb(a.t, b.t);
+      return;
+    }
+    if (++looks_ > kMostLooks) return;
+    const double x = roof.place_to_look(depth);
+    const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
+    ChordSample middle{.t = t, .pose = motion_.at(t)};
+    middle.chord = body_.chord(middle.pose, ray_);
+    if (!middle.chord) {
+      // Else it is within rounding of the surface, or of an end of the run.
+      if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+      return;
+    }
+    const Touched m = touched(middle);
+    note(m);
+    close_in(a, m, depth + 1);
+    close_in(m, b, depth + 1);
+  }
+
+  // Of a body that does not turn the end of the chord is a concave function of time.
+  void climb(double lo, double hi) {
+    const auto depth = [&](double t) {
+      ChordSample at{.t = t, .pose = motion_.at(t)};
+      at.chord = body_.chord(at.pose, ray_);
+      if (!at.chord) return kInfinity;
+      const Touched end = touched(at);
+      note(end);
+      return -end.plane.value;
+    };
+    static_cast<void>(golden_section(depth, lo, hi, kSameState / motion_.travel()));
+  }
+
+  // Whether the place that is the best so far lies, at all times between two samples, above one of the planes
+  // that touch the body at them. Where rays graze, this ends what roofs over the ray cannot.
+  [[nodiscard]] bool surely_no_deeper(const Touched& a, const Touched& b) const {
+    const double best = std::max(best_value_, floor_);
+    const Vec3 point = ray_.at(leaving_ ? best : -best);
+    const double dt = b.t - a.t;
+    const double away = std::max((point - a.pose.tip).norm(), (point - b.pose.tip).norm());
+    const double bend = motion_.plane_departure(dt, away, (b.pose.tip - a.pose.tip).norm());
+    const double a0 = a.plane.height(a.pose, point), a1 = a.plane.height(b.pose, point);
+    const double b0 = b.plane.height(a.pose, point), b1 = b.plane.height(b.pose, point);
+    double least = std::max(std::min(a0, a1), std::min(b0, b1));
+    // Where a's falls below b's.
+    const double x = (a0 - b0) / ((a0 - b0) + (b1 - a1));
+    if (x > 0.0 && x < 1.0) {
+      least = std::max(least, std::min({std::max(a0, b0), std::max(a1, b1), a0 + x * (a1 - a0)}));
+    }
+    return least - bend >= -kSearchTolerance;
+  }
+
+  const Profile& body_;
+  const SegmentMotion& motion_;
+  const Ray& ray_;
+  bool leaving_;
+  double floor_;
+  double best_value_ = -kInfinity;
+  double best_t_ = 0.0;
+  ProfileFace best_face_ = kTopFace;
+  std::optional<double> gap_{};
+  int looks_ = 0;
+};
+
+// The known interval that a chord overlaps; one that holds nothing if there is none.
+Chord overlapped(std::span<const Chord> known, const Chord& chord) {
+  for (const Chord& k : known) {
+    if (overlap(k, chord)) return k;
+  }
+  return {kInfinity, -kInfinity};
+}
+
+// Both ends of a motion that turns little, where their chords overlap: then all that the ray meets hangs
+// together, whether or not it meets the body all the time.
+struct SegmentEnds {
+  ChordSample from;
+  ChordSample to;
+};
+std::optional<SegmentEnds> ends_that_overlap(const Profile& body, const SegmentMotion& motion,
+                                             const Ray& ray) {
+  if (motion.turn() > kTurnPerSample) return std::nullopt;
+  SegmentEnds ends{{0.0, motion.at(0.0)}, {1.0, motion.at(1.0)}};
+  ends.from.chord = body.chord(ends.from.pose, ray);
+  if (!ends.from.chord) return std::nullopt;
+  ends.to.chord = body.chord(ends.to.pose, ray);
+  if (!ends.to.chord || !overlap(*ends.from.chord, *ends.to.chord)) return std::nullopt;
+  return ends;
+}
+
+}  // namespace
+
+void append_swept_intervals(const Profile& body, const SegmentMotion& motion, const Ray& ray,
+                            std::span<const Chord> known, std::vector<SegmentInterval>& found) {
+  // Nearly always the ray meets the cutter at both ends of a short motion.
+  if (const auto ends = ends_that_overlap(body, motion, ray)) {
+    const Chord inside = overlapped(known, *ends->from.chord);
+    HighestEnd lo(body, motion, ray, false, -inside.lo);
+    HighestEnd hi(body, motion, ray, true, inside.hi);
+    lo.search(ends->from, ends->to);
+    hi.search(ends->from, ends->to);
+    if (!lo.gap() && !hi.gap()) {
+      found.push_back({lo.best(), hi.best()});
+      return;
+    }
+  }
+  ChordTimes times(body, motion, ray);
+  constexpr int kMostGaps = 64;
+  int gaps = 0;
+  for (std::size_t i = 0; i < times.samples().size();) {
+    if (!times.samples()[i].chord) {
+      ++i;
+      continue;
+    }
+    const Chord inside = overlapped(known, *times.samples()[i].chord);
+    HighestEnd lo(body, motion, ray, false, -inside.lo);
+    HighestEnd hi(body, motion, ray, true, inside.hi);
+    lo.offer(times.samples()[i]);
+    hi.offer(times.samples()[i]);
+    std::size_t next = i + 1;
+    for (; next < times.samples().size() && times.samples()[next].chord; ++next) {
+      const ChordSample from = times.samples()[next - 1], to = times.samples()[next];
+      lo.search(from, to);
+      hi.search(from, to);
+      if ((lo.gap() || hi.gap()) && gaps + 1 < kMostGaps) break;
+    }
+    // A body that turns may slide along the ray within rounding: gaps without end.
+    if ((lo.gap() || hi.gap()) && ++gaps < kMostGaps) {
+      times.insert(next - 1, lo.gap() ? *lo.gap() : *hi.gap());
+      continue;  // the run is shorter now
+    }
+    found.push_back({lo.best(), hi.best()});
+    i = next;
+  }
+}
+
+std::optional<LastExit> last_exit(const Profile& body, const SegmentMotion& motion,
+                                  const Ray& ray) {
+  const auto ends = ends_that_overlap(body, motion, ray);
+  if (!ends) return std::nullopt;
+  HighestEnd hi(body, motion, ray, true, -kInfinity);
+  const auto [from, to] = hi.search_with_planes(ends->from, ends->to);
+  if (hi.gap()) return std::nullopt;
+  return LastExit{hi.best(), from, to};
+}
+
+std::vector<SegmentInterval> swept_intervals(const Profile& body, const SegmentMotion& motion,
+                                           const Ray& ray) {
+  std::vector<SegmentInterval> found;
+  append_swept_intervals(body, motion, ray, {}, found);
+  return found;
+}
+
+}  // namespace frustum::cutter

@@ -1,0 +1,115 @@
+// From commanded block motions to the tool path: approach_directions, sampling, times, servo lag; streamed.
+//
+// Model    : the commanded motion of each block goes through the heading memory (direction-dependent errors),
+//            is sampled to the path bound, cut where an error jumps (both sides of the jump are in the
+//            path), and given times by the time law. With servo lag the axes follow their commands late, and
+//            the path is where they really are
+// Units    : mm, rad, s
+// Errors   : none; motions have been checked before they come here
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "kinematics/controller/block_motion.hpp"
+#include "kinematics/model/chain.hpp"
+#include "kinematics/model/geometric_errors.hpp"
+#include "kinematics/path/approach_direction.hpp"
+#include "kinematics/path/tool_path.hpp"
+#include "kinematics/timing/servo_lag.hpp"
+#include "kinematics/timing/time_law.hpp"
+
+namespace frustum::kinematics {
+
+// A part of the tool path in program order. Its first pose is the last of the part before, where the
+// path goes on.
+using PathSink = std::function<void(const ToolPath&)>;
+
+struct RecorderOptions {
+  double path_bound = 1e-5;  // mm
+  TimeLawOptions time_law{};
+  bool servo_lag = false;
+  PathSink sink{};  // without one the whole path is kept
+};
+
+struct BlockOrder {
+  BlockMotion motion{};
+  PathBlock block{};         // what is known of it beforehand
+  double tool_length = 0.0;  // mm, of the real tool
+  double reach = 0.0;        // mm above the tip up to which the bound holds
+  bool has_tool = true;      // false: it takes its time, but leaves no path
+};
+
+class PathRecorder {
+ public:
+  PathRecorder(const Machine& machine, const GeometricErrors& errors,
+               const Pose& workpiece_from_table, const AxisPositions& start,
+               RecorderOptions options);
+
+  void travel(BlockOrder order);
+  // The axes come to rest, then wait.
+  void rest(double seconds);
+  // The next pose does not continue the last one: another tool.
+  void break_chain();
+
+  // Rest, and the path that no sink has taken.
+  [[nodiscard]] ToolPath finish();
+  // s since the beginning: after finish(), all of the program.
+  [[nodiscard]] double clock() const { return clock_; }
+
+ private:
+  struct Sample {
+    double u = 0.0;
+    ToolPose pose{};
+    AxisState axes{};
+  };
+  // Waits for its times.
+  struct Pending {
+    BlockOrder order{};
+    bool starts_chain = false;
+    std::vector<Sample> samples{};
+    std::vector<double> ends{};  // u at the ends of its segments
+    std::vector<TimedSegment> segments{};
+  };
+  struct TimedPose {
+    ToolPose pose{};
+    AxisState axes{};
+    double time = 0.0;
+    AxisPositions velocity{};
+  };
+
+  [[nodiscard]] ToolPose pose_at(const AxisState& axes, double tool_length);
+  void sample(Pending& pending, const AxisMotion& motion, int parts);
+  void give_to_time_law(Pending& pending, const AxisMotion& motion, int parts);
+  void collect_times();
+  void deliver(Pending& pending);
+  [[nodiscard]] std::vector<TimedPose> timed_samples(const Pending& pending) const;
+  [[nodiscard]] std::vector<TimedPose> lagged_samples(const Pending& pending);
+  [[nodiscard]] TimedPose lagged(const AxisPositions& commanded, double seconds, double time,
+                                 double tool_length);
+  void settle(double seconds);
+  void append(const std::vector<TimedPose>& poses, bool continues);
+  void hand_over();
+
+  const Machine& machine_;
+  const GeometricErrors& errors_;
+  Pose workpiece_from_table_;
+  RecorderOptions options_;
+  std::optional<ForwardChain> chain_{};  // with the tool of chain_length_
+  double chain_length_ = 0.0;
+  ApproachTracker tracker_;
+  TimeLaw law_;
+  std::deque<Pending> pending_{};
+  bool chain_broken_ = true;  // of the motions that come in
+  ToolPose last_pose_{};      // of them
+  ToolPath path_{};
+  double clock_ = 0.0;
+  ServoLag lag_;
+  double lag_step_ = 0.0;  // s
+  double lag_tool_ = 0.0;  // mm: length of the tool whose path is on
+  bool lag_has_path_ = false;
+};
+
+}  // namespace frustum::kinematics

@@ -1,0 +1,62 @@
+// Where the tool really is: poses in the workpiece frame, close enough together.
+//
+// Between neighbouring poses of a segment the tip moves on a straight line and the axis on a great
+// circle (slerp), both uniform; that is within `bound` (default 0.01 um, measured at the tip and at the
+// upper end of the cutter) of the true motion.
+// Units: mm; frame: workpiece. The axis is the unit vector from the tip to the spindle.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "kinematics/model/axes.hpp"
+
+namespace frustum::kinematics {
+
+struct ToolPose {
+  Vec3 tip = Vec3::Zero();
+  Vec3 axis = Vec3::UnitZ();  // unit
+};
+
+// The pose a fraction t in [0, 1] of the way: tip linear, axis on the great circle.
+[[nodiscard]] ToolPose between(const ToolPose& from, const ToolPose& to, double t);
+
+enum class PathKind : std::uint8_t { rapid, feed };
+
+// One NC block's motion: what is common to all its segments.
+struct PathBlock {
+  std::uint32_t source_line = 0;
+  PathKind kind = PathKind::feed;
+  bool spindle_on = true;
+  int tool = 0;       // tool number in the spindle
+  double feed = 0.0;  // mm/min (deg/min where only rotary axes move) as programmed; 0: rapid
+  double feed_duration = 0.0;              // s, at the programmed feed; 0 for rapids
+  double duration = 0.0;                   // s, by the time law
+  std::optional<AxisLetter> limited_by{};  // the axis whose limit slowed the block below its feed
+};
+
+// From poses[first_pose] to poses[first_pose + 1].
+struct PathSegment {
+  std::uint32_t first_pose = 0;
+  std::uint32_t block = 0;
+};
+
+struct ToolPath {
+  std::vector<ToolPose> poses{};
+  std::vector<AxisState>
+      axes{};                   // commanded at each pose; empty when the path comes from elsewhere
+  std::vector<double> times{};  // s since the start of the program at each pose, by the time law
+  std::vector<AxisPositions>
+      velocities{};  // mm/s, rad/s of the commanded axes as they come to each pose
+  std::vector<PathSegment> segments{};  // in program order
+  std::vector<PathBlock> blocks{};
+  double bound = 1e-5;  // mm: the chord bound that the sampling kept
+
+  [[nodiscard]] const ToolPose& from(const PathSegment& s) const { return poses[s.first_pose]; }
+  [[nodiscard]] const ToolPose& to(const PathSegment& s) const { return poses[s.first_pose + 1]; }
+};
+
+}  // namespace frustum::kinematics

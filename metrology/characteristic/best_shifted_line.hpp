@@ -1,0 +1,51 @@
+// A line measured on a surface, brought to one height along that surface, and its straight line.
+//
+// Model    : every point slides within the plane across the line, on the nominal surface, until its
+//            height is the one wanted: the line of a leaning surface moves sideways with the height
+//            at which it is read. Then across = offset + slope along, least squares
+// Units    : mm; slope in rad (mm per mm)
+// Shape    : n >= 2 points at different places along the line
+// Errors   : points at one place along the line
+// Accuracy : first order in the tilt of the surface against its nominal, as the normal is nominal
+// Source   : ours
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/result.hpp"
+#include "metrology/measurement.hpp"
+#include "metrology/plan/inspection_plan.hpp"
+
+namespace frustum::metrology {
+
+// Unit vectors, right-handed: along x across = height.
+struct LineAxes {
+  Vec3 along = Vec3::UnitX();
+  Vec3 across = Vec3::UnitY();
+  Vec3 height = Vec3::UnitZ();
+};
+
+struct PlaceOnLine {
+  double along = 0.0;
+  double across = 0.0;
+};
+// `normal` of the surface must have a component along `across`.
+[[nodiscard]] std::vector<PlaceOnLine> shifted(std::span<const MeasuredPoint> points,
+                                               const LineAxes& axes, const Vec3& normal,
+                                               double height);
+
+struct StraightLine {
+  double offset = 0.0;  // across, at the origin of `along`
+  double slope = 0.0;
+};
+[[nodiscard]] Result<StraightLine> straight_line(std::span<const PlaceOnLine> places);
+
+// The axes in which a line kind is measured, from the planned direction of its lines: along = that;
+// across = `direction` for a distance, direction x along for an angle. Nothing when the direction
+// lies along the lines.
+[[nodiscard]] std::optional<LineAxes> line_axes(CharacteristicKind kind, const Vec3& line,
+                                                const Vec3& direction);
+
+}  // namespace frustum::metrology

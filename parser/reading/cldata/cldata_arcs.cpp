@@ -1,0 +1,334 @@
+#include "parser/reading/cldata/cldata_arcs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/units.hpp"
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/block_draft.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// CAM systems write four to six decimals.
+constexpr double kSamePlace = 0.01;    // mm
+constexpr double kAlongAnAxis = 1e-5;  // of a unit vector
+constexpr double kSameTurns = 0.02;    // of TIMES, PITCH or ANGLE and of the end
+constexpr double kNoTurn = 1e-6;       // full turns: rounding of the points
+constexpr const char* kCircleRemedy = "give the centre x,y,z, the axis i,j,k and the radius";
+
+// The axes of a plane and its normal: 0 X, 1 Y, 2 Z, a right-handed triple.
+struct Axes {
+  int u;
+  int v;
+  int w;
+};
+Axes axes_of(Plane plane) {
+  const int normal = 2 - static_cast<int>(plane);
+  return {(normal + 1) % 3, (normal + 2) % 3, normal};
+}
+
+struct InPlane {
+  double u;
+  double v;
+};
+InPlane in_plane(const Vec3& from, const Vec3& to, Plane plane) {
+  const Axes axes = axes_of(plane);
+  return {to[axes.u] - from[axes.u], to[axes.v] - from[axes.v]};
+}
+
+}  // namespace
+
+double CldataArcs::Circle::distance(const Vec3& point) const {
+  const InPlane arm = in_plane(centre, point, plane);
+  return std::hypot(arm.u, arm.v);
+}
+
+double CldataArcs::Circle::turn(const Vec3& from, const Vec3& to) const {
+  const InPlane a = in_plane(centre, from, plane);
+  const InPlane b = in_plane(centre, to, plane);
+  const double angle = std::atan2(a.u * b.v - a.v * b.u, a.u * b.u + a.v * b.v);
+  const double turns = (counterclockwise ? angle : -angle) / (2.0 * std::numbers::pi);
+  return turns > kNoTurn ? turns : turns + 1.0;
+}
+
+bool CldataArcs::set_axis(LineScanner& in, Circle& circle, const Vec3& axis, std::uint32_t column) {
+  Eigen::Index along = 0;
+  axis.cwiseAbs().maxCoeff(&along);
+  if (std::abs(std::abs(axis[along]) - 1.0) > kAlongAnAxis ||
+      std::abs(axis.norm() - 1.0) > kAlongAnAxis) {
+    in.fail(column, "the circle does not lie in a plane of X, Y, Z",
+            "give an axis i,j,k along X, Y or Z, or write the arc as GOTO records");
+    return false;
+  }
+  circle.plane = along == 2 ? Plane::xy : along == 1 ? Plane::zx : Plane::yz;
+  circle.counterclockwise = axis[along] > 0.0;
+  return true;
+}
+
+void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_t line) {
+  constexpr std::size_t kCircleNumbers = 7;
+  constexpr std::size_t kMostNumbers =
+      11;  // tolerance, fraction, diameter and corner of the cutter
+  constexpr std::array kCounts{"TIMES", "PITCH", "ANGLE"};
+  const auto& given = record.arguments;
+  const auto word = std::find_if(given.begin(), given.end(),
+                                 [](const CldataArgument& a) { return !a.is_number(); });
+  const auto numbers = static_cast<std::size_t>(word - given.begin());
+  Circle circle;
+  circle.line = line;
+  if (word != given.end()) {
+    const auto* known = std::find(kCounts.begin(), kCounts.end(), word->word);
+    if (known == kCounts.end()) {
+      return in.fail(word->column, fmt::format("{} has no meaning in {}", word->word, record.word),
+                     kCircleRemedy);
+    }
+    if (given.end() - word != 2 || !given.back().is_number() || given.back().number <= 0.0) {
+      return in.fail(word->column, fmt::format("{} has no number above zero", word->word),
+                     fmt::format("end the record with {},n", word->word));
+    }
+    circle.word = *known;
+    circle.value = given.back().number;
+    circle.column = word->column;
+  }
+  if (numbers < kCircleNumbers || numbers > kMostNumbers) {
+    return in.fail(record.column, fmt::format("{} with {} numbers", record.word, numbers),
+                   kCircleRemedy);
+  }
+  circle.centre = record.point();
+  circle.radius = given[6].number;
+  if (!set_axis(in, circle, record.point(3), given[3].column)) return;
+  const bool helix = circle.value > 0.0;
+  const bool nx = numbers > kCircleNumbers + 1;
+  circle.one_move = helix || nx || record.word == "MOVARC";
+  circle.closes = helix || !nx;
+  circle_ = circle;
+}
+
+void CldataArcs::point_along(LineScanner& in, const CldataRecord& record) {
+  if (!are_cldata_numbers(in, record, {3}, "give three numbers")) return;
+  direction_ = Direction{record.point(), record.word == "INDIRP"};
+}
+
+std::optional<std::uint32_t> CldataArcs::waits_since() const {
+  if (!circle_ || circle_->begun) return std::nullopt;
+  return circle_->line;
+}
+
+// The started turns, when what the record says and where the move ends agree.
+std::optional<int> CldataArcs::turns_of(LineScanner& in, const Circle& circle,
+                                        const CldataRecord& record, double turn, double height) {
+  constexpr double kMostTurns = 10'000.0;
+  constexpr double kDegreesOfATurn = 360.0;
+  if (circle.value == 0.0) return 1;
+  const std::string_view word = circle.word;
+  const double said = word == "TIMES"   ? circle.value
+                      : word == "PITCH" ? std::abs(height) / circle.value
+                                        : circle.value / kDegreesOfATurn;
+  const double full = std::round(said - turn);
+  if (!(full >= 0.0 && full <= kMostTurns && std::abs(said - turn - full) <= kSameTurns)) {
+    in.fail(record.column,
+            fmt::format("the arc makes {:.4g} turns by {}, but its end is {:.4g} of a turn away",
+                        said, word, turn),
+            fmt::format("correct {} on line {}, or the end", word, circle.line));
+    return std::nullopt;
+  }
+  return static_cast<int>(full) + 1;
+}
+
+std::optional<CldataArc> CldataArcs::to(LineScanner& in, const CldataRecord& record,
+                                        const std::optional<Vec3>& at, bool inches) {
+  if (!circle_) return std::nullopt;
+  const Vec3 end = record.point();
+  const int normal = axes_of(circle_->plane).w;
+  CldataArc arc{circle_->centre, end, circle_->plane, circle_->counterclockwise, 1};
+  if (!at) {  // the interpreter says so
+    circle_.reset();
+    return arc;
+  }
+  const double tolerance = kSamePlace / (inches ? kMmPerInch : 1.0);
+  const double turn = circle_->turn(*at, end);
+  const double height = end[normal] - (*at)[normal];
+  const bool flat = std::abs(height) <= tolerance;
+  if (circle_->begun) {
+    const bool on = std::abs(circle_->distance(end) - circle_->distance(*at)) <= tolerance;
+    const bool stays =
+        in_plane(*at, end, circle_->plane).u == 0.0 && in_plane(*at, end, circle_->plane).v == 0.0;
+    if (!on || stays || flat != circle_->flat || circle_->turned + turn > 1.0 + kNoTurn) {
+      circle_.reset();
+      return std::nullopt;
+    }
+  } else if (turn > 1.0 - kNoTurn && !circle_->closes) {
+    in.fail(record.column, "the arc ends where it starts: a full turn, or none?",
+            fmt::format("add TIMES,1 to the CIRCLE on line {}, or leave it out", circle_->line));
+    return std::nullopt;
+  }
+  const auto turns = turns_of(in, *circle_, record, turn, height);
+  if (!turns) return std::nullopt;
+  arc.turns = *turns;
+  circle_->begun = true;
+  circle_->flat = flat;
+  circle_->turned += turn;
+  if (circle_->one_move) circle_.reset();
+  return arc;
+}
+
+// (CIRCLE/x,y,z,r), (CIRCLE/CANON,x,y,z,i,j,k,r), (CYLNDR/...)
+std::optional<CldataArcs::Circle> CldataArcs::read_circle(LineScanner& in) {
+  const bool bracket = in.take('(');
+  const std::uint32_t shape_column = in.column();
+  CldataRecord shape{in.name(), shape_column, {}};
+  if (shape.word != "CIRCLE" && shape.word != "CYLNDR") {
+    in.fail(shape.column, "TLON without a circle",
+            "write TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z), or GOTO records");
+    return std::nullopt;
+  }
+  in.take('/');
+  if (in.take_name("CANON")) in.take(',');
+  // Behind the numbers the outer record goes on with ,ON.
+  do {
+    if (in.next_name() != "") break;
+    const std::uint32_t column = in.column();
+    shape.arguments.push_back({column, {}, in.signed_number(shape.word, column)});
+  } while (!in.failed() && in.take(','));
+  if (bracket && !in.take(')')) {
+    in.fail_unexpected("close the bracket of " + shape.word);
+    return std::nullopt;
+  }
+  const bool flat = shape.arguments.size() == 4;
+  if (!flat && shape.arguments.size() != 7) {
+    in.fail(shape.column, fmt::format("{} with {} numbers", shape.word, shape.arguments.size()),
+            "give x,y,z,r or x,y,z,i,j,k,r");
+    return std::nullopt;
+  }
+  Circle circle;
+  circle.centre = shape.point();
+  circle.radius = shape.arguments.back().number;
+  if (!flat && !set_axis(in, circle, shape.point(3), shape.arguments[3].column)) {
+    return std::nullopt;
+  }
+  return circle;
+}
+
+// ON,(LINE/x,y,z,x,y,z), ON,2,INTOF,(LINE/...), ON,(PLANE/i,j,k,d)
+std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, const Vec3& at) {
+  constexpr const char* kRemedy = "write ON,(LINE/x,y,z,x,y,z) behind the circle";
+  in.take(',');
+  if (!in.take_name("ON") || !in.take(',')) {
+    in.fail_unexpected(kRemedy);
+    return std::nullopt;
+  }
+  std::size_t which = 1;
+  const std::uint32_t which_column = in.column();
+  if (const auto count = in.number()) {
+    if ((count->value != 1.0 && count->value != 2.0) || !in.take(',') || !in.take_name("INTOF") ||
+        !in.take(',')) {
+      in.fail(which_column, "the arc ends at no intersection", "write ON,2,INTOF,(LINE/...)");
+      return std::nullopt;
+    }
+    which = static_cast<std::size_t>(count->value);
+  }
+  const bool bracket = in.take('(');
+  const std::uint32_t shape_column = in.column();
+  CldataRecord shape{in.name(), shape_column, {}};
+  const bool line = shape.word == "LINE";
+  if ((!line && shape.word != "PLANE") || !in.take('/')) {
+    in.fail_unexpected(kRemedy);
+    return std::nullopt;
+  }
+  shape.arguments = read_cldata_arguments(in);
+  if (!are_cldata_numbers(in, shape, {line ? 6U : 4U}, kRemedy)) return std::nullopt;
+  if (bracket && !in.take(')')) {
+    in.fail_unexpected("close the bracket of " + shape.word);
+    return std::nullopt;
+  }
+
+  const Axes axes = axes_of(circle.plane);
+  Vec3 foot = shape.point();  // a point of the line, then the one nearest to the centre
+  Vec3 way = line ? Vec3(shape.point(3) - foot) : Vec3(Vec3::Unit(axes.w).cross(foot));
+  if (line && circle.distance(foot) < kSamePlace &&
+      std::abs(circle.distance(shape.point(3)) - circle.radius) < kSamePlace) {
+    return shape.point(3);
+  }
+  way[axes.w] = 0.0;
+  if (way.norm() == 0.0) {
+    in.fail(shape.column, fmt::format("{} does not cross the circle", shape.word), kRemedy);
+    return std::nullopt;
+  }
+  way.normalize();
+  if (!line) {
+    const Vec3 normal = foot;
+    const double slope = normal[axes.u] * normal[axes.u] + normal[axes.v] * normal[axes.v];
+    const double level = shape.arguments[3].number - normal[axes.w] * at[axes.w];
+    foot = normal * (level / slope);
+  }
+  Vec3 arm = foot - circle.centre;
+  arm[axes.w] = 0.0;
+  arm -= way * arm.dot(way);
+  const double half = circle.radius * circle.radius - arm.squaredNorm();
+  if (!(half >= 0.0)) {
+    in.fail(shape.column, fmt::format("{} does not cross the circle", shape.word), kRemedy);
+    return std::nullopt;
+  }
+  std::array<Vec3, 2> ends{circle.centre + arm + way * std::sqrt(half),
+                           circle.centre + arm - way * std::sqrt(half)};
+  if (circle.turn(at, ends[0]) > circle.turn(at, ends[1])) std::swap(ends[0], ends[1]);
+  Vec3 end = ends.at(which - 1);
+  end[axes.w] = at[axes.w];
+  if (!end.allFinite()) {
+    in.fail(shape.column, "the end of the arc is too far away", kRemedy);
+    return std::nullopt;
+  }
+  return end;
+}
+
+std::optional<CldataArc> CldataArcs::along_line(LineScanner& in, std::uint32_t column,
+                                                const std::optional<Vec3>& at) {
+  in.take(',');
+  if (!in.take_name("GOFWD") || !in.take('/')) {
+    in.fail_unexpected("write TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z)");
+    return std::nullopt;
+  }
+  auto circle = read_circle(in);
+  if (!circle) return std::nullopt;
+  if (!at) {
+    in.fail(column, "the start of the arc is not known", "write a GOTO before it");
+    return std::nullopt;
+  }
+  if (!direction_) {
+    in.fail(column, "the arc has no direction", "write INDIRV/i,j,k before it");
+    return std::nullopt;
+  }
+  const Vec3 along = direction_->is_point ? Vec3(direction_->vector - *at) : direction_->vector;
+  direction_.reset();
+  const InPlane arm = in_plane(circle->centre, *at, circle->plane);
+  const InPlane way = in_plane(Vec3::Zero(), along, circle->plane);
+  const double sense = arm.u * way.v - arm.v * way.u;
+  if (sense == 0.0) {
+    in.fail(column, "the direction does not lead along the circle",
+            "give INDIRV/i,j,k along the circle at its start");
+    return std::nullopt;
+  }
+  circle->counterclockwise = sense > 0.0;
+  const auto end = read_end(in, *circle, *at);
+  if (!end) return std::nullopt;
+  return CldataArc{circle->centre, *end, circle->plane, circle->counterclockwise, 1};
+}
+
+void add_arc(Block& block, const CldataArc& arc, std::uint32_t column) {
+  constexpr std::array kPlanes{"plane XY", "plane ZX", "plane YZ"};
+  add_code(block, *find_code(Dialect::cldata, kPlanes.at(static_cast<std::size_t>(arc.plane))),
+           column);
+  const Axes axes = axes_of(arc.plane);
+  for (const int axis : {axes.u, axes.v}) {
+    add_number(block, "IJK"[axis], arc.centre[axis], column);
+    block.words.back().measure = Measure::absolute;
+  }
+  if (arc.turns > 1) add_number(block, 'P', arc.turns, column);
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,204 @@
+#include "parser/reading/cldata/cldata_cycle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/block_draft.hpp"
+#include "parser/reading/cldata/cldata_feed.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr const char* kForm =
+    "write CYCLE/DRILL,DEPTH,12,MMPM,100,CLEAR,3, then a GOTO for each hole";
+
+struct CycleName {
+  std::string_view word;
+  std::string_view code;
+  bool steps;
+};
+constexpr std::array kNames{
+    CycleName{"DRILL", "CYCLE/DRILL", false}, CycleName{"FACE", "CYCLE/DRILL", false},
+    CycleName{"DEEP", "CYCLE/DEEP", true},    CycleName{"BRKCHP", "CYCLE/BRKCHP", true},
+    CycleName{"TAP", "CYCLE/TAP", false},     CycleName{"BORE", "CYCLE/BORE", false},
+    CycleName{"REAM", "CYCLE/BORE", false},
+};
+
+class CycleReader {
+ public:
+  CycleReader(LineScanner& in, const CldataRecord& record, bool inches)
+      : in_(in), record_(record), given_(record.arguments), inches_(inches) {}
+
+  void operator()(Block& block) {
+    if (given_.empty() || given_[0].is_number()) return fail(record_.column, "CYCLE has no name");
+    const std::string& first = given_[0].word;
+    if (first == "OFF" || first == "ON") {
+      if (given_.size() > 1)
+        return fail(given_[1].column, "CYCLE/" + first + " takes no arguments");
+      return add_code(block, *find_code(Dialect::cldata, "CYCLE/" + first), record_.column);
+    }
+    if (!take_name()) return;
+    while (place_ < given_.size() && !in_.failed()) take_part();
+    if (!in_.failed()) add_words(block);
+  }
+
+ private:
+  struct Value {
+    std::uint32_t column = 0;
+    double number = 0.0;
+  };
+
+  void fail(std::uint32_t column, std::string message) {
+    in_.fail(column, std::move(message), kForm);
+  }
+
+  bool take_name() {
+    std::string word = given_[0].word;
+    place_ = 1;
+    // DRILL,DEEP and DRILL,BRKCHP; a word that is no cycle of its own is told below.
+    if (word == "DRILL" && given_.size() > 1 &&
+        (given_[1].word == "DEEP" || given_[1].word == "BRKCHP")) {
+      word = given_[1].word;
+      place_ = 2;
+    }
+    const auto* known = std::find_if(kNames.begin(), kNames.end(),
+                                     [&](const CycleName& name) { return name.word == word; });
+    if (known == kNames.end()) {
+      in_.fail(
+          given_[0].column, fmt::format("CYCLE/{} is not simulated", word),
+          "write the cycle out as GOTO records; known are DRILL DEEP BRKCHP FACE TAP BORE REAM");
+      return false;
+    }
+    name_ = known;
+    return true;
+  }
+
+  void take_part() {
+    const CldataArgument& part = given_[place_++];
+    if (part.is_number()) return take_bare(part);
+    if (cldata_feed_unit(part.word, inches_)) {
+      const auto number = number_behind(part);
+      if (number) set_feed(part, *number);
+      return;
+    }
+    if (part.word == "RTRCTO" && place_ < given_.size() && given_[place_].word == "AUTO") {
+      ++place_;
+      back_to_start_ = true;
+      return;
+    }
+    if (part.word == "LEAD") {
+      feed_ = number_behind(part);
+      per_revolution_ = true;
+      return;
+    }
+    std::optional<Value>* slot = part.word == "DEPTH"                             ? &depth_
+                                 : part.word == "FEDTO"                           ? &feed_to_
+                                 : part.word == "CLEAR"                           ? &clear_
+                                 : part.word == "RAPTO"                           ? &rapid_to_
+                                 : part.word == "RTRCTO" || part.word == "RETURN" ? &back_
+                                 : part.word == "STEP"                            ? &step_
+                                 : part.word == "DWELL"                           ? &dwell_
+                                                                                  : nullptr;
+    if (slot == nullptr) return fail(part.column, part.word + " has no meaning in CYCLE");
+    *slot = number_behind(part);
+    // RTRCTO,20,MANUAL
+    if (part.word == "RTRCTO" && place_ < given_.size() && given_[place_].word == "MANUAL") {
+      ++place_;
+    }
+  }
+
+  // Numbers without a word: depth, feed, clearance.
+  void take_bare(const CldataArgument& part) {
+    if (!depth_ && !feed_to_) {
+      depth_ = Value{part.column, part.number};
+    } else if (place_ < given_.size() && !feed_ && cldata_feed_unit(given_[place_].word, inches_)) {
+      set_feed(given_[place_++], Value{part.column, part.number});
+    } else if (feed_ && !clear_) {
+      clear_ = Value{part.column, part.number};
+    } else {
+      fail(part.column, fmt::format("the {} in CYCLE could mean many things", part.number));
+    }
+  }
+
+  std::optional<Value> number_behind(const CldataArgument& part) {
+    if (place_ >= given_.size() || !given_[place_].is_number()) {
+      fail(part.column, part.word + " has no number");
+      return std::nullopt;
+    }
+    const CldataArgument& number = given_[place_++];
+    return Value{number.column, number.number};
+  }
+
+  void set_feed(const CldataArgument& unit, Value number) {
+    const CldataFeedUnit meaning = *cldata_feed_unit(unit.word, inches_);
+    if (feed_) return fail(unit.column, "CYCLE has two feeds");
+    feed_ = Value{number.column, number.number * meaning.scale};
+    per_revolution_ = meaning.per_revolution;
+  }
+
+  void add_words(Block& block) {
+    if (!depth_ && !feed_to_) return fail(record_.column, "CYCLE has no depth");
+    if (!feed_) return fail(record_.column, "CYCLE has no feed");
+    if (!clear_ && !rapid_to_) return fail(record_.column, "CYCLE has no clearance");
+    if (name_->steps && (!step_ || step_->number <= 0.0)) {
+      return fail(record_.column, "CYCLE has no STEP above zero");
+    }
+    if (step_ && !name_->steps) {
+      return fail(step_->column, fmt::format("STEP has no meaning in {}", name_->code));
+    }
+    const Value depth = feed_to_ ? Value{feed_to_->column, std::abs(feed_to_->number)} : *depth_;
+    if (depth.number <= 0.0) return fail(depth.column, "the depth of CYCLE is not above zero");
+    const bool is_height = feed_to_ || !clear_;
+    const Value clear = clear_ ? *clear_ : *rapid_to_;
+    Value level = clear;
+    if (rapid_to_) level = *rapid_to_;
+    if (rapid_to_ && !is_height) level.number = clear.number - rapid_to_->number;
+    const double highest = std::max(clear.number, level.number);
+    if (level.number <= -depth.number) {
+      return fail(level.column, "CYCLE goes by rapid to below the bottom of the hole");
+    }
+    add_code(block, *find_code(Dialect::cldata, name_->code), record_.column);
+    add_number(block, 'Z', depth.number, depth.column, "depth ");
+    add_number(block, 'R', level.number, level.column, "RAPTO,");
+    add_number(block, 'u', highest, clear.column, "CLEAR,");
+    add_number(block, per_revolution_ ? 'r' : 'f', feed_->number, feed_->column, "feed ");
+    if (back_ && back_->number == 0.0) back_to_start_ = true;
+    if (back_to_start_) {
+      add_number(block, 'I', 1.0, record_.column);
+    } else if (back_) {
+      add_number(block, 'v', back_->number, back_->column, "RETURN,");
+    }
+    if (step_) add_number(block, 'Q', step_->number, step_->column, "STEP,");
+    if (dwell_) add_number(block, 'P', dwell_->number, dwell_->column, "DWELL,");
+  }
+
+  LineScanner& in_;
+  const CldataRecord& record_;
+  const std::vector<CldataArgument>& given_;
+  bool inches_;
+  const CycleName* name_ = nullptr;
+  std::size_t place_ = 0;
+  std::optional<Value> depth_{};
+  std::optional<Value> feed_to_{};
+  std::optional<Value> feed_{};
+  std::optional<Value> clear_{};
+  std::optional<Value> rapid_to_{};
+  std::optional<Value> back_{};
+  std::optional<Value> step_{};
+  std::optional<Value> dwell_{};
+  bool per_revolution_ = false;
+  bool back_to_start_ = false;
+};
+
+}  // namespace
+
+void read_cldata_cycle(LineScanner& in, const CldataRecord& record, bool inches, Block& block) {
+  CycleReader(in, record, inches)(block);
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,206 @@
+#include "parser/reading/cldata/cldata_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/block_draft.hpp"
+#include "parser/reading/cldata/cldata_feed.hpp"
+
+namespace frustum::parser {
+namespace {
+
+class SettingReader {
+ public:
+  SettingReader(LineScanner& in, const CldataRecord& record, CldataModes& modes, Block& block)
+      : in_(in), record_(record), modes_(modes), block_(block) {}
+
+  struct Handler {
+    std::string_view word;
+    void (SettingReader::*read)();
+  };
+  static std::span<const Handler> handlers();
+
+  void read_feed() {
+    const auto& given = record_.arguments;
+    const CldataArgument* number = nullptr;
+    const CldataArgument* unit = nullptr;
+    for (const CldataArgument& argument : given) {
+      const CldataArgument*& slot = argument.is_number() ? number : unit;
+      if (slot != nullptr) {
+        return in_.fail(argument.column, "FEDRAT has more than a feed and its unit",
+                        "write FEDRAT/500,MMPM");
+      }
+      slot = &argument;
+    }
+    const auto meaning = unit == nullptr ? CldataFeedUnit{modes_.feed_per_revolution, 1.0}
+                                         : cldata_feed_unit(unit->word, modes_.inches);
+    if (!meaning) {
+      return in_.fail(unit->column, fmt::format("{} has no meaning in FEDRAT", unit->word),
+                      "units are MMPM, MMPR, IPM, IPR, PERMIN and PERREV");
+    }
+    if (number == nullptr) {
+      return in_.fail(record_.column, "FEDRAT has no feed", "write FEDRAT/500,MMPM");
+    }
+    modes_.feed_per_revolution = meaning->per_revolution;
+    add(modes_.feed_per_revolution ? "FEDRAT/MMPR" : "FEDRAT/MMPM");
+    add_number(block_, 'F', number->number * meaning->scale, number->column);
+  }
+
+  void read_spindle() {
+    constexpr const char* kRemedy = "write SPINDL/RPM,5000,CLW or SPINDL/OFF";
+    struct Direction {
+      std::string_view word;
+      const char* code;
+    };
+    constexpr std::array kDirections{Direction{"CLW", "SPINDL/CLW"},
+                                     Direction{"CCLW", "SPINDL/CCLW"},
+                                     Direction{"OFF", "SPINDL/OFF"}};
+    const auto& given = record_.arguments;
+    if (given.empty()) return in_.fail(record_.column, "SPINDL says nothing", kRemedy);
+    const char* code = modes_.spindle;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const CldataArgument& argument = given[i];
+      const auto* direction =
+          std::find_if(kDirections.begin(), kDirections.end(),
+                       [&](const Direction& known) { return known.word == argument.word; });
+      if (argument.is_number()) {
+        add_number(block_, 'S', argument.number, argument.column);
+      } else if (direction != kDirections.end()) {
+        code = direction->code;
+      } else if (argument.word == "RANGE" || argument.word == "MAXRPM") {
+        // Of the gearbox.
+        block_.comments.push_back({argument.column, false, record_.text_from(i), "SPINDL"});
+        break;
+      } else if (argument.word == "SFM" || argument.word == "SMM") {
+        return in_.fail(argument.column, "SPINDL by cutting speed is not simulated",
+                        "let the CAM system write the speed as SPINDL/RPM,5000,CLW");
+      } else if (argument.word != "RPM" && argument.word != "ON") {
+        return in_.fail(argument.column, argument.word + " has no meaning in SPINDL", kRemedy);
+      }
+    }
+    if (std::string_view(code) != "SPINDL/OFF") modes_.spindle = code;
+    add(code);
+  }
+
+  void read_tool() {
+    if (record_.arguments.empty() || !record_.arguments.front().is_number()) {
+      return in_.fail(record_.column, "LOADTL has no number", "write LOADTL/1");
+    }
+    const CldataArgument& number = record_.arguments.front();
+    add("LOADTL");
+    add_number(block_, 'T', number.number, number.column, "tool ");
+    if (record_.arguments.size() == 1) return;
+    // ADJUST, LENGTH and the like: the tool's true size is in the job.
+    block_.comments.push_back({record_.arguments[1].column, false, record_.text_from(1), "LOADTL"});
+  }
+
+  void read_units() {
+    const std::string unit = record_.only_word();
+    const bool metric = unit == "MM";
+    if (!metric && unit != "INCHES" && unit != "INCH") {
+      return in_.fail(record_.column, "UNITS without MM or INCHES",
+                      "write UNITS/MM or UNITS/INCHES");
+    }
+    modes_.inches = !metric;
+    add(metric ? "UNITS/MM" : "UNITS/INCHES");
+  }
+
+  void read_multax() {
+    const std::string state = record_.only_word();
+    if (!record_.arguments.empty() && state != "ON" && state != "OFF") {
+      return in_.fail(record_.column, "MULTAX without ON or OFF", "write MULTAX/ON or MULTAX/OFF");
+    }
+    modes_.multax = state != "OFF";
+    add(modes_.multax ? "MULTAX/ON" : "MULTAX/OFF");
+  }
+
+  // The vector of GOTO records without one of their own.
+  void read_axis() {
+    if (!are_cldata_numbers(in_, record_, {3}, "give i,j,k")) return;
+    modes_.axis = record_.arguments;
+    block_.comments.push_back({record_.column, false, record_.text_from(0), "TLAXIS"});
+  }
+
+  void read_coolant() {
+    const auto& given = record_.arguments;
+    const std::string state = given.empty() ? std::string() : given.front().word;
+    constexpr std::array kOthers{"MIST", "THRU", "AIR", "TAP", "TAPKUL"};
+    const bool other = std::find(kOthers.begin(), kOthers.end(), state) != kOthers.end();
+    if (state == "ON" || state == "FLOOD") {
+      add("COOLNT/ON");
+    } else if (state == "OFF") {
+      add("COOLNT/OFF");
+    } else if (!other) {
+      return in_.fail(record_.column, "COOLNT says nothing that is known",
+                      "write COOLNT/ON, FLOOD, MIST, THRU, AIR, TAP or OFF");
+    }
+    // What kind, and the pressure.
+    if (other || given.size() > 1) {
+      const std::size_t first = other ? 0 : 1;
+      block_.comments.push_back({given[first].column, false, record_.text_from(first), "COOLNT"});
+    }
+  }
+
+  void read_delay() {
+    const auto& given = record_.arguments;
+    const bool turns = given.size() == 2 && given[1].word == "REV";
+    const bool seconds = given.size() == 1;
+    if ((!turns && !seconds) || !given.front().is_number()) {
+      return in_.fail(record_.column, record_.word + " without a time",
+                      "write DELAY/2 (seconds) or DELAY/3,REV");
+    }
+    add(turns ? "DELAY REV" : "DELAY");
+    add_number(block_, turns ? 'S' : 'P', given[0].number, given[0].column, "DELAY/");
+  }
+
+ private:
+  void add(std::string_view code) {
+    add_code(block_, *find_code(Dialect::cldata, code), record_.column);
+  }
+
+  LineScanner& in_;
+  const CldataRecord& record_;
+  CldataModes& modes_;
+  Block& block_;
+};
+
+std::span<const SettingReader::Handler> SettingReader::handlers() {
+  static constexpr std::array kHandlers{
+      Handler{"FEDRAT", &SettingReader::read_feed},
+      Handler{"SPINDL", &SettingReader::read_spindle},
+      Handler{"LOADTL", &SettingReader::read_tool},
+      Handler{"UNITS", &SettingReader::read_units},
+      Handler{"MULTAX", &SettingReader::read_multax},
+      Handler{"TLAXIS", &SettingReader::read_axis},
+      Handler{"COOLNT", &SettingReader::read_coolant},
+      Handler{"DELAY", &SettingReader::read_delay},
+      Handler{"DWELL", &SettingReader::read_delay},
+  };
+  return kHandlers;
+}
+
+}  // namespace
+
+bool read_cldata_setting(LineScanner& in, const CldataRecord& record, CldataModes& modes,
+                         Block& block) {
+  for (const SettingReader::Handler& handler : SettingReader::handlers()) {
+    if (record.word != handler.word) continue;
+    SettingReader reader(in, record, modes, block);
+    (reader.*handler.read)();
+    return true;
+  }
+  return false;
+}
+
+std::vector<std::string_view> cldata_setting_words() {
+  std::vector<std::string_view> words;
+  for (const SettingReader::Handler& handler : SettingReader::handlers()) {
+    words.push_back(handler.word);
+  }
+  return words;
+}
+
+}  // namespace frustum::parser

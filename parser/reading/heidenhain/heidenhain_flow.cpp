@@ -1,0 +1,263 @@
+// Q parameters, FN, labels and calls of Klartext.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/heidenhain/heidenhain_statements.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr const char* kFnJump = "write FN 9: IF +Q1 EQU +Q3 GOTO LBL 5";
+
+class FlowReader {
+ public:
+  explicit FlowReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
+
+  // Q1 = Q2 + 3 * SIN(Q4)
+  void read_setting(const std::string& name, std::uint32_t column) {
+    if (!in_.take('=')) {
+      return in_.fail(in_.column(), name + " has no =", fmt::format("write {} = 5", name));
+    }
+    draft_.begin_setting(name, column);
+    (void)draft_.read_expression(ExpressionLevel::sum);
+    draft_.end_setting();
+    end_statement(draft_);
+  }
+  // FN 0: Q5 = +60, FN 9: IF +Q1 EQU +Q3 GOTO LBL 5.
+  void read_fn(std::uint32_t column) {
+    const auto number = in_.number();
+    if (!number || !in_.take(':')) {
+      return in_.fail(column, "FN has no number", "write FN 0: Q5 = +60");
+    }
+    constexpr double kLastFn = 99.0;
+    if (number->value > kLastFn || number->decimal_point) {
+      return in_.fail(column, fmt::format("FN {} is not known", decimal_text(number->value)),
+                      "known are FN 0 to FN 16");
+    }
+    const auto fn = static_cast<int>(number->value);
+    constexpr std::array kComparisons{Operation::equal, Operation::not_equal, Operation::greater,
+                                      Operation::less};
+    if (fn >= 9 && fn <= 12)
+      return read_fn_jump(kComparisons.at(static_cast<std::size_t>(fn - 9)), column);
+    if (fn == 14) return read_raised_error(column);
+    if (fn == 15) return note(draft_, "FN 15", column, in_.text_to(";"));
+    if (fn == 16) return note(draft_, "FN 16", column, in_.text_to(";"));
+    const std::uint32_t place = in_.column();
+    const std::string target = in_.name();
+    if (fn > 8 && fn != 13) {
+      return in_.fail(column, fmt::format("FN {} is not simulated", fn),
+                      "known are FN 0 to FN 16; set what it would read by FN 0: Q1 = +5");
+    }
+    if (!is_q_parameter(target) || !in_.take('=')) {
+      return in_.fail(place, "FN sets no parameter", "write FN 0: Q5 = +60");
+    }
+    draft_.begin_setting(target, place);
+    const auto operand = [&] { (void)draft_.read_expression(ExpressionLevel::operand); };
+    const auto square = [&] {
+      block_.steps.push_back({Operation::number, place, 2.0});
+      push(Operation::power, place);
+    };
+    const auto with = [&](std::string_view word, const auto& combine) {
+      const std::uint32_t sign = in_.column();
+      if (!in_.take_name(word)) {
+        return in_.fail(sign, fmt::format("FN {} has no {}", fn, word),
+                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2, "
+                        "FN 8: Q5 = +5 LEN +4, FN 13: Q6 = +5 ANG +4");
+      }
+      operand();
+      if constexpr (std::is_same_v<std::decay_t<decltype(combine)>, Operation>) {
+        push(combine, sign);
+      } else {
+        combine();
+      }
+    };
+    const auto sign_with = [&](char sign, Operation operation) {
+      const std::uint32_t at = in_.column();
+      if (!in_.take(sign)) {
+        return in_.fail(at, fmt::format("FN {} has no {}", fn, sign),
+                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2");
+      }
+      operand();
+      push(operation, at);
+    };
+    const auto function = [&](std::string_view word, Operation operation) {
+      const std::uint32_t at = in_.column();
+      if (!in_.take_name(word)) {
+        return in_.fail(at, fmt::format("FN {} has no {}", fn, word), "write FN 6: Q20 = SIN -Q5");
+      }
+      operand();
+      push(operation, at);
+    };
+    if (fn == 5) {
+      function("SQRT", Operation::square_root);
+    } else if (fn == 6) {
+      function("SIN", Operation::sine);
+    } else if (fn == 7) {
+      function("COS", Operation::cosine);
+    } else {
+      operand();
+      if (fn == 1) sign_with('+', Operation::add);
+      if (fn == 2) sign_with('-', Operation::subtract);
+      if (fn == 3) sign_with('*', Operation::multiply);
+      if (fn == 4) with("DIV", Operation::divide);
+      if (fn == 8) {
+        square();
+        with("LEN", [&] {
+          square();
+          push(Operation::add, place);
+          push(Operation::square_root, place);
+        });
+      }
+      if (fn == 13) {
+        // From 0 to 360 degrees.
+        with("ANG", [&] {
+          push(Operation::arc_tangent, place);
+          block_.steps.push_back({Operation::number, place, 360.0});
+          push(Operation::modulo, place);
+        });
+      }
+    }
+    draft_.end_setting();
+    end_statement(draft_);
+  }
+
+  // FN 14: ERROR = 1000
+  void read_raised_error(std::uint32_t column) {
+    if (!in_.take_name("ERROR") || !in_.take('=')) {
+      return in_.fail(in_.column(), "FN 14 has no ERROR =", "write FN 14: ERROR = 1000");
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, "FN 14"), column);
+    add_value(draft_, 'E', "ERROR", column, "ERROR=");
+    end_statement(draft_);
+  }
+
+  void read_label(std::uint32_t column) {
+    draft_.begin_flow(FlowKind::label, column);
+    read_label_name();
+    // The end of a subprogram.
+    if (block_.flow->label == "0") block_.flow->kind = FlowKind::give_back;
+    end_statement(draft_);
+  }
+
+  // CALL LBL 1, CALL LBL 1 REP 3.
+  void read_call(std::uint32_t column) {
+    if (in_.take_name("PGM")) return read_program_call(false);
+    if (!in_.take_name("LBL")) {
+      const std::string what = in_.name();
+      return in_.fail(column,
+                      fmt::format("CALL {} is not simulated", what.empty() ? "alone" : what),
+                      "write CALL LBL 1, or CALL PGM and the name of a program");
+    }
+    draft_.begin_flow(FlowKind::call, column);
+    read_label_name();
+    const std::uint32_t place = in_.column();
+    constexpr std::string_view kRepeat = "REP";
+    const bool repeats = in_.letters().starts_with(kRepeat);
+    in_.go_to(place);
+    if (repeats) {
+      // REP 6, REP6, REPQ1
+      in_.go_to(place + static_cast<std::uint32_t>(kRepeat.size()));
+      block_.flow->kind = FlowKind::repeat_part;
+      block_.flow->condition = draft_.read_expression(ExpressionLevel::operand);
+      // Older controls show how many are left.
+      if (in_.take('/')) (void)in_.digits();
+    }
+    end_statement(draft_);
+  }
+
+  void read_program_call(bool by_cycle) {
+    const std::uint32_t column = in_.column();
+    const bool quoted = in_.take('"');
+    std::string name = in_.text_to(quoted ? "\"" : ";");
+    if (quoted && !in_.take('"')) {
+      return in_.fail(column, "the name is not closed", "close it with \"");
+    }
+    if (const auto folder = name.find_last_of("\\/:"); folder != std::string::npos) {
+      name.erase(0, std::min(name.find_first_not_of(' ', folder + 1), name.size()));
+    }
+    const std::size_t point = name.find_last_of('.');
+    const std::string ending = point == std::string::npos ? ".H" : name.substr(point);
+    name.resize(std::min(point, name.size()));
+    if (name.find_first_not_of(". ") == std::string::npos || name.find('"') != std::string::npos) {
+      return in_.fail(column, "the call names no program",
+                      "write CALL PGM and a name: CALL PGM SLOT.H");
+    }
+    if (ending != ".H" && ending != ".h") {
+      return in_.fail(column, fmt::format("a program {} is called from Klartext", ending),
+                      "call programs in Klartext, whose names end in .H");
+    }
+    draft_.begin_flow(FlowKind::call, column);
+    block_.flow->label = std::move(name);
+    block_.flow->of_file = true;
+    block_.flow->by_cycle = by_cycle;
+    end_statement(draft_);
+  }
+
+ private:
+  void read_fn_jump(Operation comparison, std::uint32_t column) {
+    if (!in_.take_name("IF")) return in_.fail(in_.column(), "FN has no IF", kFnJump);
+    draft_.begin_flow(FlowKind::jump, column);
+    // Both sides, then the comparison.
+    ExpressionRange& condition = block_.flow->condition;
+    condition = draft_.read_expression(ExpressionLevel::operand);
+    const std::uint32_t place = in_.column();
+    const std::string word = in_.name();
+    if (word != "EQU" && word != "NE" && word != "GT" && word != "LT") {
+      return in_.fail(place, "FN compares by EQU, NE, GT or LT", kFnJump);
+    }
+    condition.count += draft_.read_expression(ExpressionLevel::operand).count;
+    push(comparison, place);
+    ++condition.count;
+    if (!in_.take_name("GOTO") || !in_.take_name("LBL")) {
+      return in_.fail(in_.column(), "FN has no GOTO LBL", kFnJump);
+    }
+    read_label_name();
+    end_statement(draft_);
+  }
+
+  // 5 or "NAME".
+  void read_label_name() {
+    const std::uint32_t column = in_.column();
+    if (in_.take('"')) {
+      block_.flow->label = in_.text_to("\"");
+      if (!in_.take('"')) in_.fail(column, "the name is not closed", "close it with \"");
+    } else {
+      block_.flow->label = std::string(in_.digits());
+    }
+    if (!in_.failed() && block_.flow->label.empty()) {
+      in_.fail(column, "LBL has no number or name", "write LBL 1 or LBL \"SLOT\"");
+    }
+  }
+
+  void push(Operation operation, std::uint32_t column) {
+    if (!in_.failed()) block_.steps.push_back({operation, column, 0.0});
+  }
+
+  BlockDraft& draft_;
+  LineScanner& in_;
+  Block& block_;
+};
+
+}  // namespace
+
+void read_heidenhain_setting(BlockDraft& draft, const std::string& name, std::uint32_t column) {
+  FlowReader(draft).read_setting(name, column);
+}
+void read_heidenhain_fn(BlockDraft& draft, std::uint32_t column) {
+  FlowReader(draft).read_fn(column);
+}
+void read_heidenhain_label(BlockDraft& draft, std::uint32_t column) {
+  FlowReader(draft).read_label(column);
+}
+void read_heidenhain_call(BlockDraft& draft, std::uint32_t column) {
+  FlowReader(draft).read_call(column);
+}
+void read_heidenhain_program_call(BlockDraft& draft, bool by_cycle) {
+  FlowReader(draft).read_program_call(by_cycle);
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,80 @@
+// FUNCTION of Klartext: TCPM, MODE, DWELL.
+#include <fmt/format.h>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/heidenhain/heidenhain_statements.hpp"
+
+namespace frustum::parser {
+namespace {
+
+class FunctionReader {
+ public:
+  explicit FunctionReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
+
+  void read_function(std::uint32_t column) {
+    const std::string kind = in_.name();
+    if (kind == "RESET") {
+      if (!in_.take_name("TCPM")) {
+        return in_.fail(column, "FUNCTION RESET without TCPM", "write FUNCTION RESET TCPM");
+      }
+      add_code(block_, *find_code(Dialect::heidenhain, "FUNCTION RESET TCPM"), column);
+      return read_heidenhain_elements(draft_, "FUNCTION RESET TCPM");
+    }
+    if (kind == "MODE") return note(draft_, "FUNCTION MODE", column, in_.text_to(";"));
+    if (kind == "DWELL") {
+      const std::uint32_t place = in_.column();
+      // The number may follow without a blank: TIME2.
+      if (in_.letters() != "TIME") {
+        return in_.fail(place, "FUNCTION DWELL without TIME", "write FUNCTION DWELL TIME2");
+      }
+      return add_dwell(draft_, in_.signed_number("TIME", place), column);
+    }
+    if (kind.starts_with("TCPM")) return read_tcpm(column);
+    in_.fail(column, fmt::format("FUNCTION {} is not simulated", kind),
+             "known are FUNCTION TCPM, FUNCTION RESET TCPM, FUNCTION MODE and FUNCTION DWELL");
+  }
+
+ private:
+  void read_tcpm(std::uint32_t column) {
+    add_code(block_, *find_code(Dialect::heidenhain, "FUNCTION TCPM"), column);
+    while (!in_.at_end()) {
+      if (in_.peek() == ';') {
+        draft_.read_comment();
+        continue;
+      }
+      const std::uint32_t place = in_.column();
+      const std::string name = in_.name();
+      const std::string value = in_.name();
+      const auto refused = [&](const char* remedy) {
+        in_.fail(place, fmt::format("{} {} is not simulated", name, value), remedy);
+      };
+      if (name == "F") {
+        if (value != "TCP") refused("the feed is that of the tool tip: F TCP");
+      } else if (name == "AXIS") {
+        if (value != "POS") refused("rotary words are axis positions: AXIS POS");
+      } else if (name == "PATHCTRL" && (value == "AXIS" || value == "VECTOR")) {
+        add_code(block_, *find_code(Dialect::heidenhain, "PATHCTRL " + value), place);
+      } else if (name == "REFPNT") {
+        const bool at_tip = value == "TIP" && in_.take('-') && in_.take_name("TIP");
+        if (!at_tip) refused("the reference point is the tool tip: REFPNT TIP-TIP");
+      } else if (name.empty()) {
+        in_.fail_unexpected("write FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
+      } else {
+        in_.fail(place, fmt::format("{} has no meaning in FUNCTION TCPM", name),
+                 "write FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
+      }
+    }
+  }
+
+  BlockDraft& draft_;
+  LineScanner& in_;
+  Block& block_;
+};
+
+}  // namespace
+
+void read_heidenhain_function(BlockDraft& draft, std::uint32_t column) {
+  FunctionReader(draft).read_function(column);
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,81 @@
+// TOOL CALL and TOOL DEF of Klartext.
+#include <fmt/format.h>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/heidenhain/heidenhain_statements.hpp"
+
+namespace frustum::parser {
+namespace {
+
+class ToolReader {
+ public:
+  explicit ToolReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
+
+  void read_tool(std::uint32_t column) {
+    const std::string kind = in_.name();
+    if (kind == "DEF") return note(draft_, "TOOL DEF", column, in_.text_to(";"));
+    if (kind != "CALL")
+      return in_.fail(column, "TOOL without CALL or DEF", "write TOOL CALL 1 Z S5000");
+    const std::string next = in_.next_name();
+    if (in_.peek() == '"' || next.starts_with("QS")) {
+      return in_.fail(in_.column(), "TOOL CALL has a name instead of a number",
+                      "tools go by their numbers here: TOOL CALL 1 Z S5000");
+    }
+    const std::uint32_t place = in_.column();
+    if (is_q_parameter(next)) {
+      add_code(block_, *find_code(Dialect::heidenhain, "TOOL CALL"), column);
+      add_value(draft_, 'T', "TOOL CALL", place, "tool ");
+    } else if (const auto tool = in_.number()) {
+      add_code(block_, *find_code(Dialect::heidenhain, "TOOL CALL"), column);
+      add_number(block_, 'T', tool->value, place, "tool ");
+    }
+    while (!in_.at_end()) {
+      if (in_.peek() == ';') {
+        draft_.read_comment();
+        continue;
+      }
+      read_tool_element();
+    }
+  }
+
+ private:
+  void read_tool_element() {
+    const std::uint32_t column = in_.column();
+    std::string name = in_.letters();
+    if (name == "Z") return;
+    if (name == "X" || name == "Y") {
+      return in_.fail(column, fmt::format("tool axis {} is not simulated", name),
+                      "the tool is along Z");
+    }
+    // SQ1, FQ2
+    const bool by_parameter =
+        (name.starts_with('S') || name.starts_with('F')) && name.size() > 1 && name[1] == 'Q';
+    if (by_parameter) {
+      in_.go_to(column + 1);
+      name.resize(1);
+    }
+    if (name == "S" || name == "F") return add_value(draft_, name[0], name, column, nullptr);
+    if (name == "DL" || name == "DR") {
+      if (in_.peek_byte() == '2') (void)in_.digits();
+      if (in_.signed_number(name, column) != 0.0) {
+        in_.fail(column, name + " is not simulated", "give the tool's true size in the job");
+      }
+      return;
+    }
+    if (name.empty()) return in_.fail_unexpected("write TOOL CALL 1 Z S5000 F500");
+    in_.fail(column, fmt::format("{} has no meaning in TOOL CALL", name),
+             "known are the tool's number, Z, S, F, DL, DR, DR2");
+  }
+
+  BlockDraft& draft_;
+  LineScanner& in_;
+  Block& block_;
+};
+
+}  // namespace
+
+void read_heidenhain_tool(BlockDraft& draft, std::uint32_t column) {
+  ToolReader(draft).read_tool(column);
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,191 @@
+#include "parser/reading/rs274/o_word_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+#include "parser/reading/comment_text.hpp"
+#include "parser/reading/line_scanner.hpp"
+#include "parser/reading/rs274/blank_free_text.hpp"
+#include "parser/reading/rs274/grammar.hpp"
+#include "parser/reading/rs274/plain_block.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+// What follows a keyword.
+enum class Needs : std::uint8_t { nothing, expression, perhaps_expression, arguments };
+
+struct Keyword {
+  std::string_view name;
+  FlowKind kind;
+  Needs needs;
+  Turns turns = Turns::while_true;
+};
+constexpr std::array kKeywords{
+    Keyword{"sub", FlowKind::subprogram, Needs::nothing},
+    Keyword{"endsub", FlowKind::end_sub, Needs::perhaps_expression},
+    Keyword{"return", FlowKind::give_back, Needs::perhaps_expression},
+    Keyword{"call", FlowKind::call, Needs::arguments},
+    Keyword{"if", FlowKind::branch, Needs::expression},
+    Keyword{"elseif", FlowKind::else_branch, Needs::expression},
+    Keyword{"else", FlowKind::otherwise, Needs::nothing},
+    Keyword{"endif", FlowKind::end_branch, Needs::nothing},
+    Keyword{"while", FlowKind::loop, Needs::expression},
+    Keyword{"endwhile", FlowKind::end_loop, Needs::nothing},
+    Keyword{"do", FlowKind::loop, Needs::nothing, Turns::until_end},
+    Keyword{"repeat", FlowKind::loop, Needs::expression, Turns::counted},
+    Keyword{"endrepeat", FlowKind::end_loop, Needs::nothing},
+    Keyword{"break", FlowKind::leave_loop, Needs::nothing},
+    Keyword{"continue", FlowKind::next_turn, Needs::nothing},
+};
+constexpr std::string_view kKnown =
+    "known are sub endsub call return if elseif else endif while endwhile do repeat endrepeat "
+    "break "
+    "continue";
+
+class OWordReader {
+ public:
+  OWordReader(std::string_view text, std::uint32_t line) : in_(text, line) { block_.line = line; }
+
+  // The statement, when the block begins with one.
+  std::optional<Result<Block>> operator()() {
+    if (in_.take('/')) block_.deletable = true;
+    if (in_.take('N')) block_.number = number();
+    if (in_.take('/')) block_.deletable = true;
+    flow_.column = in_.column();
+    if (!in_.take('O')) return std::nullopt;
+    if (!read_label()) return in_.finish(std::move(block_));
+    const std::uint32_t keyword_column = in_.column();
+    const std::string keyword = lower_case(in_.letters());
+    // O100 alone begins a numbered program.
+    if (keyword.empty() && only_digits_) return std::nullopt;
+    const auto* known = std::find_if(kKeywords.begin(), kKeywords.end(),
+                                     [&](const Keyword& k) { return k.name == keyword; });
+    if (known == kKeywords.end()) {
+      in_.fail(keyword_column,
+               keyword.empty() ? "the O word has no keyword" : "unknown O word " + keyword,
+               std::string(kKnown));
+      return in_.finish(std::move(block_));
+    }
+    flow_.kind = known->kind;
+    flow_.turns = known->turns;
+    read_values(*known);
+    read_comments();
+    block_.flow = std::move(flow_);
+    return in_.finish(std::move(block_));
+  }
+
+ private:
+  bool read_label() {
+    const std::uint32_t start = in_.column();
+    if (in_.take('<')) {
+      flow_.label = lower_case(in_.bytes_to(">"));
+      std::erase_if(flow_.label, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
+      if (!in_.take('>')) in_.fail(start, "the name is not closed", "write o<name>");
+      if (flow_.label.empty()) in_.fail(start, "the O word has no name", "write o<name>");
+      return !in_.failed();
+    }
+    if (const auto digits = number()) {
+      flow_.label = std::to_string(*digits);
+      only_digits_ = true;
+      return true;
+    }
+    if (in_.peek() == '[' || in_.peek() == '#') return read_expression(flow_.label_value);
+    in_.fail(start, "O has no number or name", "write o100 or o<name>");
+    return false;
+  }
+
+  void read_values(const Keyword& keyword) {
+    const bool given = in_.peek() == '[';
+    if (keyword.needs == Needs::expression && !given) {
+      in_.fail(in_.column(), fmt::format("{} has no expression", keyword.name),
+               fmt::format("write it in brackets: {} [#1 LT 5]", keyword.name));
+    } else if (keyword.needs == Needs::nothing && given) {
+      in_.fail(in_.column(), fmt::format("{} takes no expression", keyword.name), "leave it out");
+    } else if (keyword.needs == Needs::arguments) {
+      while (in_.peek() == '[') {
+        flow_.arguments.emplace_back();
+        read_expression(flow_.arguments.back());
+      }
+    } else if (given) {
+      read_expression(flow_.condition);
+    }
+  }
+
+  void read_comments() {
+    while (!in_.at_end()) {
+      const std::uint32_t start = in_.column();
+      if (in_.take(';')) {
+        block_.comments.push_back({start, true, utf8_of(in_.bytes_to()), nullptr});
+      } else if (in_.take('(')) {
+        block_.comments.push_back({start, false, utf8_of(in_.bytes_to(")")), nullptr});
+        if (!in_.take(')')) in_.fail(start, "the comment is not closed", "close it with )");
+      } else {
+        in_.fail(start, "text behind an O word", "an O word stands alone in its block");
+      }
+    }
+  }
+
+  bool read_expression(ExpressionRange& range) {
+    append_rs274_expression(in_, block_, range);
+    return !in_.failed();
+  }
+
+  // Up to 8 digits.
+  std::optional<std::uint32_t> number() {
+    const std::uint32_t start = in_.column();
+    const std::string_view digits = in_.digits();
+    if (digits.empty()) return std::nullopt;
+    std::uint32_t value = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (read.ec != std::errc{}) {
+      in_.fail(start, "the number is too large", "N and O numbers have up to 8 digits");
+    }
+    return value;
+  }
+  static std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+  }
+
+  LineScanner in_;
+  Block block_{};
+  FlowStatement flow_{};
+  bool only_digits_ = false;
+};
+
+}  // namespace
+
+namespace {
+
+Result<Block> read_line(std::string_view text, std::uint32_t line) {
+  if (auto plain = read_plain_block(text, line)) return *std::move(plain);
+  if (text.find('o') != std::string_view::npos || text.find('O') != std::string_view::npos) {
+    if (auto statement = OWordReader(text, line)()) return *std::move(statement);
+  }
+  return parse_block(text, line);
+}
+
+}  // namespace
+
+Result<Block> read_linuxcnc_block(std::string_view text, std::uint32_t line) {
+  auto block = read_line(text, line);
+  if (block) return block;
+  // Blanks within numbers and names: seldom, so that they are looked for last. What is wrong is told of the line
+  // as it is written.
+  const BlankFreeText free = without_blanks(text);
+  auto again = read_line(free.text, line);
+  if (!again) return block;
+  restore_columns(*again, free);
+  return again;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,284 @@
+// Sinumerik part programs: address words, X=value, named words, calls with arguments.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "parser/dialects/code_table.hpp"
+#include "parser/reading/block_draft.hpp"
+#include "parser/reading/block_reader.hpp"
+#include "parser/reading/sinumerik/sinumerik_call.hpp"
+#include "parser/reading/sinumerik/sinumerik_cycle.hpp"
+#include "parser/reading/sinumerik/sinumerik_flow.hpp"
+#include "parser/reading/sinumerik/sinumerik_swivel.hpp"
+#include "parser/reading/sinumerik/sinumerik_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxBlockNumber = 99'999'999;
+
+struct Address {
+  std::string_view name;
+  char letter;
+  const char* spelled;
+};
+// Words that are written with = and longer than their letter.
+constexpr std::array kAddresses{
+    Address{"A3", 'a', "A3="}, Address{"B3", 'b', "B3="},     Address{"C3", 'c', "C3="},
+    Address{"CR", 'R', "CR="}, Address{"TURN", 'e', "TURN="}, Address{"RPL", 'R', "RPL="},
+    Address{"AP", 'q', "AP="}, Address{"RP", 'p', "RP="},     Address{"I1", 'u', "I1="},
+    Address{"J1", 'v', "J1="}, Address{"K1", 'w', "K1="}};
+// Settings that change nothing that is simulated.
+constexpr std::array<const char*, 8> kSettings{"SPOS", "SPOSA", "ADIS",   "ADISPOS",
+                                               "LIMS", "OVR",   "OVRRAP", "ACC"};
+
+// Statements that take anything in brackets and change nothing that is simulated.
+constexpr std::array<const char*, 6> kEvents{"CYCLE832", "WORKPIECE",   "FGROUP",
+                                             "FGREF",    "GROUP_BEGIN", "GROUP_END"};
+
+class SinumerikReader {
+ public:
+  SinumerikReader(std::string_view text, std::uint32_t line)
+      : draft_(text, line, sinumerik_expressions()) {}
+
+  Result<Block> operator()() {
+    read_start();
+    while (!in_.at_end()) read_element();
+    return draft_.finish();
+  }
+
+ private:
+  void read_start() {
+    if (in_.take('%')) {
+      return read_sinumerik_head(draft_);
+    }
+    if (in_.take('/')) {
+      block_.deletable = true;
+      if (const auto level = in_.digits(); level.size() > 1) {
+        in_.fail(in_.column(), "/ has a level from 0 to 9", "write /1");
+      }
+    }
+    const std::uint32_t column = in_.column();
+    const bool numbered = in_.take(':') || (in_.peek() == 'N' && in_.letters() == "N");
+    // NORM is a word.
+    if (!numbered) in_.go_to(column);
+    if (numbered) {
+      const auto digits = in_.digits();
+      std::uint32_t number = 0;
+      std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      if (!digits.empty() && digits.size() <= 8 && number <= kMaxBlockNumber) {
+        block_.number = number;
+        return;
+      }
+      if (digits.empty() && in_.peek() != '=') in_.go_to(column);
+      if (!digits.empty())
+        in_.fail(column, "the block number is too large", "N has up to 8 digits");
+    }
+  }
+
+  void read_element() {
+    const std::uint32_t column = in_.column();
+    const char first = in_.peek();
+    if (first == ';') return draft_.read_comment();
+    if (first == '$') {
+      in_.fail(column, "system variables are not read", "give a number or an R parameter");
+      return;
+    }
+    if ((first < 'A' || first > 'Z') && first != '_') {
+      in_.fail_unexpected("a block consists of words such as G1 X10 and X=R1+2; comments follow ;");
+      return;
+    }
+    const std::string letters = in_.letters();
+    const char next = in_.peek_byte();
+    if (letters.size() == 1 && letters != "_") {
+      if (letters == "R" && in_.take('[')) return read_indexed_setting(column);
+      if (next >= '0' && next <= '9') {
+        const auto digits = in_.digits();
+        const bool extended = in_.peek() == '=';
+        // Leading zeros count: L1 is not L01.
+        if (letters == "L" && !extended) {
+          return read_sinumerik_call(draft_, letters + std::string(digits), column);
+        }
+        if (extended) return read_extended(letters + std::string(digits), column);
+        in_.go_to(column);
+        (void)in_.letters();
+      }
+      return read_word(letters.front(), column);
+    }
+    in_.go_to(column);
+    read_named(in_.name(), column);
+  }
+
+  // A letter with a number or with =.
+  void read_word(char letter, std::uint32_t column) {
+    if (letter == 'N') {
+      in_.fail(column, "N is not the first word", "put the block number at the start of the block");
+      return;
+    }
+    if (letter == 'R' && in_.peek() != '=') {
+      in_.fail(column, "R has no =", "write R1=value to set a parameter, X=R1 to use one");
+      return;
+    }
+    if (letter == 'G') {
+      // The limits of the spindle and of the working area have words of their own.
+      const std::uint32_t start = in_.column();
+      std::string_view digits = in_.digits();
+      digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+      if (digits == "25" || digits == "26") {
+        return draft_.add_event(digits == "25" ? "G25" : "G26", column, in_.text_to(";"));
+      }
+      in_.go_to(start);
+    }
+    Word word;
+    word.letter = letter;
+    word.column = column;
+    if (in_.take('=')) {
+      read_sinumerik_value(draft_, word, std::string(1, letter));
+    } else {
+      const bool negative = in_.take('-');
+      if (!negative) in_.take('+');
+      const auto number = in_.number();
+      if (!number) {
+        in_.fail(column, fmt::format("{} has no number", letter),
+                 fmt::format("write {0}10 or {0}=R1+10", letter));
+        return;
+      }
+      word.number = (negative ? -number->value : number->value) + 0.0;
+      word.decimal_point = number->decimal_point;
+    }
+    block_.words.push_back(word);
+  }
+
+  // R[R1+1]=5
+  void read_indexed_setting(std::uint32_t column) {
+    Assignment setting;
+    setting.column = column;
+    setting.index = draft_.read_expression(ExpressionLevel::sum);
+    if (!in_.take(']')) in_.fail(in_.column(), "the index is not closed", "close it with ]");
+    if (!in_.take('=')) in_.fail(column, "R has no =", "write R[R1]=value to set a parameter");
+    setting.value = draft_.read_expression(ExpressionLevel::sum);
+    block_.assignments.push_back(setting);
+  }
+
+  // A3=, R1=: a letter, digits and =.
+  void read_extended(const std::string& name, std::uint32_t column) {
+    if (name.front() == 'R') {
+      in_.take('=');
+      draft_.begin_setting(name, column);
+      (void)draft_.read_expression(ExpressionLevel::sum);
+      return draft_.end_setting();
+    }
+    if (read_address(name, column)) return;
+    const bool direction = name.size() == 2 && name.front() >= 'A' && name.front() <= 'C';
+    in_.fail(column, fmt::format("{}= is not simulated", name),
+             direction ? "give the tool vector by A3= B3= C3="
+                       : "give the words of the one spindle and of X Y Z A B C without numbers");
+  }
+
+  bool read_address(const std::string& name, std::uint32_t column) {
+    const auto* address = std::find_if(kAddresses.begin(), kAddresses.end(),
+                                       [&](const Address& a) { return a.name == name; });
+    if (address == kAddresses.end() || !in_.take('=')) return false;
+    Word word;
+    word.letter = address->letter;
+    word.spelled = address->spelled;
+    word.column = column;
+    read_sinumerik_value(draft_, word, name);
+    block_.words.push_back(word);
+    return true;
+  }
+
+  void read_named(const std::string& name, std::uint32_t column) {
+    if (read_address(name, column)) return;
+    if (in_.peek() == ':') return read_sinumerik_label(draft_, name, column);
+    if (read_sinumerik_flow(draft_, name, column)) return;
+    if (name == "MSG") return read_event("message", column, true);
+    for (const char* setting : kSettings) {
+      if (name == setting) return read_setting(setting, column);
+    }
+    if (name == "CYCLE800") return read_sinumerik_swivel(draft_, column);
+    if (name == "MCALL") return read_sinumerik_modal_call(draft_, column);
+    if (is_sinumerik_cycle(name)) return read_sinumerik_cycle(draft_, name, column);
+    if (name == "PROC") return read_sinumerik_procedure(draft_, column);
+    if (name == "DEF") return read_sinumerik_definition(draft_, column);
+    if (name == "EXTERN") return draft_.add_event("EXTERN", column, in_.text_to(";"));
+    for (const char* event : kEvents) {
+      if (name != event) continue;
+      return in_.peek() == '[' ? read_setting(event, column) : read_event(event, column, false);
+    }
+    if (const Code* code = find_code(Dialect::sinumerik, name); code != nullptr) {
+      add_code(block_, *code, column);
+      if (name == "TRAORI" && in_.take('(')) {
+        if (const auto number = in_.digits(); number != "1" && !number.empty()) {
+          in_.fail(column, "TRAORI(" + std::string(number) + ") is not simulated",
+                   "there is one transformation: TRAORI or TRAORI(1)");
+        }
+        close_bracket(in_, "TRAORI");
+      }
+      return;
+    }
+    if (const auto remedy = remedy_for(Dialect::sinumerik, name); !remedy.empty()) {
+      in_.fail(column, name + " is not simulated", std::string(remedy));
+      return;
+    }
+    if (in_.peek() == '=' && is_variable(name)) {
+      in_.take('=');
+      draft_.begin_setting(name, column);
+      (void)draft_.read_expression(ExpressionLevel::disjunction);
+      return draft_.end_setting();
+    }
+    const bool first =
+        block_.words.empty() && block_.assignments.empty() && (!block_.flow || draft_.labelled());
+    if (first && name.size() > 1) return read_sinumerik_call(draft_, name, column);
+    in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
+  }
+
+  // ADIS=0.1, read and kept as text.
+  void read_setting(const char* name, std::uint32_t column) {
+    if (in_.take('[')) {
+      (void)in_.text_to("]");
+      in_.take(']');
+    }
+    if (!in_.take('=')) {
+      return in_.fail(column, fmt::format("{} has no =", name), fmt::format("write {}=0", name));
+    }
+    const std::uint32_t from = in_.column();
+    // SPOS=DC(30) says how it turns.
+    for (const std::string_view measure : {"AC", "IC", "DC", "ACP", "ACN"}) {
+      if (in_.take_name(measure)) break;
+    }
+    (void)draft_.read_expression(ExpressionLevel::sum);
+    const auto text = in_.text().substr(from - 1, in_.column() - from);
+    draft_.add_event(name, column, std::string(text.substr(0, text.find_last_not_of(" \t\r") + 1)));
+  }
+
+  // NAME(...), kept as text.
+  void read_event(const char* name, std::uint32_t column, bool message) {
+    if (!in_.take('(')) {
+      in_.fail(in_.column(), "the opening bracket is missing", "write the text in ( )");
+      return;
+    }
+    std::string text;
+    if (in_.take('"')) {
+      text = in_.text_to("\"");
+      if (!in_.take('"')) in_.fail(column, "the text is not closed", "close it with \"");
+    }
+    if (!message || text.empty()) text += in_.text_to(")");
+    close_bracket(in_, name);
+    draft_.add_event(name, column, std::move(text));
+  }
+
+  BlockDraft draft_;
+  LineScanner& in_ = draft_.in;
+  Block& block_ = draft_.block;
+};
+
+}  // namespace
+
+Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line) {
+  return SinumerikReader(text, line)();
+}
+
+}  // namespace frustum::parser

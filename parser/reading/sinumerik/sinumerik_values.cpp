@@ -1,0 +1,189 @@
+#include "parser/reading/sinumerik/sinumerik_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace frustum::parser {
+namespace {
+
+using enum ExpressionLevel;
+
+constexpr std::array kOperators{
+    BinaryOperator{disjunction, "OR", Operation::logical_or},
+    BinaryOperator{disjunction, "XOR", Operation::logical_xor},
+    BinaryOperator{conjunction, "AND", Operation::logical_and},
+    BinaryOperator{comparison, "==", Operation::equal},
+    BinaryOperator{comparison, "<>", Operation::not_equal},
+    BinaryOperator{comparison, "<=", Operation::less_or_equal},
+    BinaryOperator{comparison, "<", Operation::less},
+    BinaryOperator{comparison, ">=", Operation::greater_or_equal},
+    BinaryOperator{comparison, ">", Operation::greater},
+    BinaryOperator{sum, "+", Operation::add},
+    BinaryOperator{sum, "-", Operation::subtract},
+    BinaryOperator{product, "*", Operation::multiply},
+    BinaryOperator{product, "/", Operation::divide},
+    BinaryOperator{product, "MOD", Operation::modulo},
+    BinaryOperator{product, "DIV", Operation::whole_quotient},
+};
+constexpr std::array kFunctions{
+    ExpressionFunction{"SIN", Operation::sine},
+    ExpressionFunction{"COS", Operation::cosine},
+    ExpressionFunction{"TAN", Operation::tangent},
+    ExpressionFunction{"ASIN", Operation::arc_sine},
+    ExpressionFunction{"ACOS", Operation::arc_cosine},
+    ExpressionFunction{"ATAN2", Operation::arc_tangent, 2},
+    ExpressionFunction{"SQRT", Operation::square_root},
+    ExpressionFunction{"ABS", Operation::absolute},
+    ExpressionFunction{"ROUND", Operation::round},
+    ExpressionFunction{"LN", Operation::logarithm},
+    ExpressionFunction{"EXP", Operation::exponential},
+    ExpressionFunction{"TRUNC", Operation::truncate},
+    ExpressionFunction{"ROUNDUP", Operation::fup},
+    ExpressionFunction{"MINVAL", Operation::least, 2},
+    ExpressionFunction{"MAXVAL", Operation::greatest, 2},
+};
+struct Constant {
+  std::string_view name;
+  double value;
+};
+constexpr std::array kConstants{Constant{"TRUE", 1.0}, Constant{"FALSE", 0.0}};
+
+// What the control knows itself: those of an axis, as $P_EP[X], and those of the program.
+constexpr std::array<std::string_view, 2> kOfAnAxis{"P_EP", "AA_IW"};
+constexpr std::array<std::string_view, 4> kOfTheProgram{"P_TOOLNO", "P_F", "P_S", "P_SDIR"};
+
+void read_system_variable(ExpressionReader& reader, std::uint32_t column) {
+  LineScanner& in = reader.in();
+  std::string name = in.name();
+  const auto is_in = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (name == "PI") return reader.push_number(std::numbers::pi, column);
+  const bool of_an_axis = is_in(kOfAnAxis);
+  if (!of_an_axis && !is_in(kOfTheProgram)) {
+    in.fail(column, fmt::format("${} is not simulated", name),
+            "known are $P_EP[X] $AA_IW[X] $P_TOOLNO $P_F $P_S $P_SDIR $PI; else give a number");
+    return;
+  }
+  if (of_an_axis) {
+    const bool opens = in.take('[');
+    const std::uint32_t place = in.column();
+    const std::string axis = in.name();
+    if (!opens || axis.size() != 1 || std::string_view("XYZABC").find(axis) == std::string::npos ||
+        !in.take(']')) {
+      in.fail(place, fmt::format("${} without its axis", name), fmt::format("write ${}[X]", name));
+      return;
+    }
+    name += "[" + axis + "]";
+  }
+  reader.push_name("$" + name, column);
+}
+
+void close_index(LineScanner& in) {
+  if (!in.take(']')) in.fail(in.column(), "the index is not closed", "close it with ]");
+}
+
+bool read_variable(ExpressionReader& reader, const std::string& name, std::uint32_t column) {
+  LineScanner& in = reader.in();
+  if (name.empty()) {
+    if (!in.take('$')) return false;
+    read_system_variable(reader, column);
+    return true;
+  }
+  const auto* constant = std::find_if(kConstants.begin(), kConstants.end(),
+                                      [&](const Constant& c) { return c.name == name; });
+  if (constant != kConstants.end()) {
+    reader.push_number(constant->value, column);
+    return true;
+  }
+  if (name == "R" && in.take('[')) {
+    reader.append(sum);
+    close_index(in);
+    reader.push(Operation::parameter, column);
+    return true;
+  }
+  if (!is_r_parameter(name) && !is_variable(name)) return false;
+  if (in.peek() == '(') {
+    in.fail(
+        column, fmt::format("unknown function {}", name),
+        "known are SIN COS TAN ASIN ACOS ATAN2 SQRT ABS ROUND ROUNDUP TRUNC LN EXP MINVAL MAXVAL");
+    return true;
+  }
+  if (in.peek() == '[') {
+    in.fail(column, fmt::format("{} is an array", name), "use R parameters: R[10+R1]");
+    return true;
+  }
+  reader.push_name(name, column);
+  return true;
+}
+
+constexpr ExpressionSpelling kSpelling{
+    .operators = kOperators,
+    .functions = kFunctions,
+    .negation = "NOT",
+    .read_variable = read_variable,
+    .no_operand = "a number is missing",
+    .no_operand_hint = "write a number, an R parameter, a function or an expression in ( )",
+    .unknown_operand = "unknown operand {}",
+    .unknown_operand_hint =
+        "known are R parameters, variables of DEF and functions such as SIN(30)",
+    .too_deep_hint = "compute a part into an R parameter",
+    .single_equals_hint = "compare by ==",
+};
+
+struct MeasureName {
+  std::string_view name;
+  Measure measure;
+};
+constexpr std::array kMeasures{
+    MeasureName{"AC", Measure::absolute}, MeasureName{"IC", Measure::incremental},
+    MeasureName{"DC", Measure::shortest}, MeasureName{"ACP", Measure::positive},
+    MeasureName{"ACN", Measure::negative}};
+
+}  // namespace
+
+const ExpressionSpelling& sinumerik_expressions() { return kSpelling; }
+
+bool is_r_parameter(std::string_view name) {
+  return name.size() > 1 && name.front() == 'R' &&
+         name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+bool is_variable(std::string_view name) {
+  const auto is_letter = [](char c) { return c == '_' || (c >= 'A' && c <= 'Z'); };
+  return name.size() > 1 && is_letter(name[0]) && is_letter(name[1]);
+}
+
+void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name) {
+  LineScanner& in = draft.in;
+  const bool rotary = name == "A" || name == "B" || name == "C";
+  const std::string found = in.next_name();
+  const std::uint32_t column = in.column();
+  if (in.peek() == '"') {
+    in.fail(column, fmt::format("{} has a name instead of a number", name),
+            "tools go by their numbers here: T1");
+    return;
+  }
+  const auto* measure = std::find_if(kMeasures.begin(), kMeasures.end(),
+                                     [&](const MeasureName& m) { return m.name == found; });
+  const bool measured = measure != kMeasures.end();
+  if (measured) {
+    (void)in.name();
+    word.measure = measure->measure;
+    if (word.measure >= Measure::shortest && !rotary) {
+      in.fail(column, found + "() is for rotary axes", "write AC() or the plain value");
+      return;
+    }
+    if (!in.take('(')) {
+      in.fail(in.column(), found + " needs its value in ( )", "write X=" + found + "(1)");
+      return;
+    }
+  }
+  draft.read_value(word, sum);
+  if (measured) close_bracket(in, found);
+}
+
+}  // namespace frustum::parser

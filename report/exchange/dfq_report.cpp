@@ -1,0 +1,99 @@
+#include "report/exchange/dfq_report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "report/html/html_text.hpp"
+#include "report/number_text.hpp"
+#include "report/verdict.hpp"
+
+namespace frustum::report {
+namespace {
+
+using metrology::CharacteristicResult;
+
+// Bytes beyond ASCII belong to a character; its first byte stands for all of it.
+std::string ascii(const std::string& text) {
+  std::string out;
+  const std::string clean = readable_text(text);
+  for (std::size_t at = 0; at < clean.size(); ++at) {
+    const auto byte = static_cast<unsigned char>(clean[at]);
+    if (byte < 0x80U) {
+      out += clean[at];
+      continue;
+    }
+    if ((byte & 0xC0U) == 0x80U) continue;
+    const std::string_view character = std::string_view(clean).substr(at, 2);
+    out += character == "\u00b5" || character == "\u03bc" ? "u"
+           : character == "\u00b0"                        ? "deg"
+                                                          : "?";
+  }
+  return out;
+}
+
+// A nanometre, or its like in the other units.
+int decimals_of(const std::string& unit) {
+  struct Row {
+    std::string_view unit;
+    int decimals;
+  };
+  constexpr std::array kRows{Row{"um", 4}, Row{"mm", 7}, Row{"deg", 8}, Row{"urad", 3}};
+  for (const Row& row : kRows) {
+    if (row.unit == unit) return row.decimals;
+  }
+  return 6;
+}
+
+class DfqText {
+ public:
+  void field(const char* key, const std::string& value) {
+    text_ += fmt::format("{} {}\n", key, value);
+  }
+  void field(const char* key, std::size_t number, const std::string& value) {
+    text_ += fmt::format("{}/{} {}\n", key, number, value);
+  }
+  void decimal(const char* key, std::size_t number, double value, int decimals) {
+    if (std::isfinite(value)) field(key, number, fixed_text(value, decimals));
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
+  const int decimals = decimals_of(c.unit);
+  const double nominal = c.nominal.value_or(0.0);
+  dfq.field("K2001", n, std::to_string(n));
+  dfq.field("K2002", n, ascii(c.name));
+  dfq.field("K2022", n, std::to_string(decimals));
+  dfq.decimal("K2101", n, nominal, decimals);
+  if (c.nominal) dfq.decimal("K2110", n, nominal - c.tolerance, decimals);
+  dfq.decimal("K2111", n, nominal + c.tolerance, decimals);
+  dfq.field("K2142", n, ascii(c.unit));
+}
+
+void add_value(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
+  const bool is_measured = outcome_of(c) != Outcome::not_measured;
+  dfq.decimal("K0001", n, is_measured ? c.value : 0.0, decimals_of(c.unit));
+  dfq.field("K0002", n, is_measured ? "0" : "255");
+}
+
+}  // namespace
+
+std::string dfq_report(const RunReport& report) {
+  const auto& characteristics = report.measurement.characteristics;
+  DfqText dfq;
+  dfq.field("K0100", std::to_string(characteristics.size()));
+  dfq.field("K1001", ascii(report.title));
+  dfq.field("K1002", ascii(report.title));
+  for (std::size_t i = 0; i < characteristics.size(); ++i) describe(dfq, i + 1, characteristics[i]);
+  for (std::size_t i = 0; i < characteristics.size(); ++i) {
+    add_value(dfq, i + 1, characteristics[i]);
+  }
+  return dfq.text();
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,216 @@
+#include "report/exchange/qif_characteristics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "report/exchange/exact_decimal.hpp"
+#include "report/verdict.hpp"
+
+namespace frustum::report::qif {
+namespace {
+
+using metrology::CharacteristicResult;
+using metrology::InspectionPlan;
+using metrology::PlannedCharacteristic;
+using pugi::xml_node;
+
+// What a definition says besides the tolerance.
+enum class Zone {
+  none,         // the tolerance is a width, nothing else
+  diameter,     // a cylinder or circle
+  orientation,  // a cylinder for an axis, two planes for a plane, with its material condition
+  position,     // as the diameter, with its material condition
+  limits,       // plus and minus about a nominal
+  between       // limits of what lies between two features, along or about a direction
+};
+
+struct CharacteristicKindRow {
+  std::string_view kind;  // as plans name it
+  const char* stem;       // as QIF names it
+  Zone zone;
+};
+constexpr std::array kCharacteristicKinds{
+    CharacteristicKindRow{"roundness", "Circularity", Zone::none},
+    CharacteristicKindRow{"cylindricity", "Cylindricity", Zone::none},
+    CharacteristicKindRow{"cone_form", "Conicity", Zone::none},
+    CharacteristicKindRow{"sphericity", "Sphericity", Zone::none},
+    CharacteristicKindRow{"flatness", "Flatness", Zone::none},
+    CharacteristicKindRow{"straightness", "Straightness", Zone::diameter},
+    CharacteristicKindRow{"axis_straightness", "Straightness", Zone::diameter},
+    CharacteristicKindRow{"parallelism", "Parallelism", Zone::orientation},
+    CharacteristicKindRow{"angularity", "Angularity", Zone::orientation},
+    CharacteristicKindRow{"perpendicularity", "Perpendicularity", Zone::orientation},
+    CharacteristicKindRow{"position", "Position", Zone::position},
+    CharacteristicKindRow{"concentricity", "Concentricity", Zone::diameter},
+    CharacteristicKindRow{"coaxiality", "Coaxiality", Zone::diameter},
+    CharacteristicKindRow{"symmetry", "Symmetry", Zone::none},
+    CharacteristicKindRow{"circular_run_out", "CircularRunout", Zone::none},
+    CharacteristicKindRow{"total_run_out", "TotalRunout", Zone::none},
+    CharacteristicKindRow{"line_profile", "LineProfile", Zone::none},
+    CharacteristicKindRow{"surface_profile", "SurfaceProfile", Zone::none},
+    CharacteristicKindRow{"half_angle", "Angle", Zone::limits},
+    CharacteristicKindRow{"radius", "Radius", Zone::limits},
+    CharacteristicKindRow{"diameter", "Diameter", Zone::limits},
+    CharacteristicKindRow{"line_distance", "DistanceBetween", Zone::between},
+    CharacteristicKindRow{"line_angle", "AngleBetween", Zone::between}};
+
+CharacteristicKindRow row_of(const CharacteristicResult& result) {
+  for (const CharacteristicKindRow& row : kCharacteristicKinds) {
+    if (row.kind == result.kind) return row;
+  }
+  if (is_angle(result)) return {result.kind, "Angle", Zone::limits};
+  return {result.kind, "OtherForm", Zone::none};
+}
+
+std::string name_of_characteristic(const CharacteristicKindRow& row, const char* aspect) {
+  return std::string(row.stem) + "Characteristic" + aspect;
+}
+
+// In the document's mm or deg, from the unit of the characteristic.
+double document_value(double value, const CharacteristicResult& result) {
+  const double internal = metrology::internal_value(value, result.unit);
+  return is_angle(result) ? internal * kDegPerRad : internal;
+}
+
+const PlannedCharacteristic* planned_of(const InspectionPlan& plan, const std::string& name) {
+  for (const PlannedCharacteristic& planned : plan.characteristics) {
+    if (planned.name == name) return &planned;
+  }
+  return nullptr;
+}
+
+// A zone of that name within <ZoneShape>.
+void add_zone(xml_node definition, const char* zone) { add(add(definition, "ZoneShape"), zone); }
+
+// Two planes for a toleranced plane, a cylinder for an axis.
+const char* orientation_zone(const InspectionPlan& plan, const PlannedCharacteristic* planned) {
+  const metrology::PlannedFeature* feature = planned == nullptr || planned->features.empty()
+                                                 ? nullptr
+                                                 : find_feature(plan, planned->features.front());
+  const bool is_plane = feature != nullptr && feature->kind == metrology::FeatureKind::plane;
+  return is_plane ? "PlanarZone" : "DiametricalZone";
+}
+
+void add_definition(xml_node node, const CharacteristicKindRow& row,
+                    const CharacteristicResult& result, const char* orientation) {
+  const double tolerance = document_value(result.tolerance, result);
+  if (row.zone == Zone::limits || row.zone == Zone::between) {
+    const xml_node limits = add(node, "Tolerance");
+    add_number(limits, "MaxValue", tolerance);
+    add_number(limits, "MinValue", -tolerance);
+    add_text(limits, "DefinedAsLimit", "false");
+    return;
+  }
+  add_number(node, "ToleranceValue", tolerance);
+  if (row.zone == Zone::orientation || row.zone == Zone::position) {
+    add_text(node, "MaterialCondition", "NONE");
+  }
+  if (row.zone == Zone::orientation) add_zone(node, orientation);
+  if (row.zone == Zone::diameter || row.zone == Zone::position) add_zone(node, "DiametricalZone");
+}
+
+// Between the planned axes of the first two features, deg; 0 where there are none.
+double planned_angle(const InspectionPlan& plan, const PlannedCharacteristic* planned) {
+  if (planned == nullptr || planned->features.size() < 2) return 0.0;
+  const metrology::PlannedFeature* first = find_feature(plan, planned->features[0]);
+  const metrology::PlannedFeature* second = find_feature(plan, planned->features[1]);
+  if (first == nullptr || second == nullptr) return 0.0;
+  return std::atan2(first->axis.cross(second->axis).norm(),
+                    std::abs(first->axis.dot(second->axis))) *
+         kDegPerRad;
+}
+
+void add_nominal(xml_node node, const CharacteristicKindRow& row,
+                 const CharacteristicResult& result, const InspectionPlan& plan,
+                 const PlannedCharacteristic* planned) {
+  if (row.kind == "angularity") add_number(node, "Angle", planned_angle(plan, planned));
+  if (row.zone != Zone::limits && row.zone != Zone::between) return;
+  if (result.nominal) {
+    add_number(node, "TargetValue", document_value(*result.nominal, result));
+  }
+  if (row.zone != Zone::between) return;
+  const Vec3 direction = planned == nullptr ? Vec3(Vec3::Zero()) : planned->direction;
+  if (direction.norm() > 0.0) add_vector(node, "AnalysisVector", direction.normalized());
+  add_text(node, "AnalysisMode", is_angle(result) ? "TWODIMENSIONAL" : "ONEDIMENSIONAL");
+}
+
+// <name n=".."><Id>..</Id></name> of the characteristic's features, as far as the document holds them.
+void add_feature_ids(xml_node node, const char* name, const PlannedCharacteristic* planned,
+                     const std::map<std::string, int>& ids) {
+  if (planned == nullptr) return;
+  const xml_node list = add(node, name);
+  for (const std::string& feature : planned->features) {
+    if (const auto id = ids.find(feature); id != ids.end()) add_reference(list, "Id", id->second);
+  }
+  close_list(list);
+}
+
+std::string_view status_of(const CharacteristicResult& result) {
+  constexpr std::array<std::string_view, 4> kStatus{"PASS", "FAIL", "INDETERMINATE",
+                                                    "NOT_ANALYZED"};
+  return kStatus.at(static_cast<std::size_t>(outcome_of(result)));
+}
+
+}  // namespace
+
+CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
+                                      const metrology::Measurement& measurement, int standard,
+                                      int device, Ids& ids, const FeatureIds& features) {
+  CharacteristicIds found;
+  if (measurement.characteristics.empty()) return found;
+  const xml_node all = add(root, "Characteristics");
+  add_reference(all, "FormalStandardId", standard);
+  const xml_node definitions = add(all, "CharacteristicDefinitions");
+  const xml_node nominals = add(all, "CharacteristicNominals");
+  const xml_node items = add(all, "CharacteristicItems");
+  for (const CharacteristicResult& result : measurement.characteristics) {
+    const CharacteristicKindRow row = row_of(result);
+    const PlannedCharacteristic* planned = planned_of(plan, result.name);
+    const int definition = ids.next(), nominal = ids.next(), item = ids.next();
+    add_definition(
+        add_identified(definitions, name_of_characteristic(row, "Definition"), definition), row,
+        result, orientation_zone(plan, planned));
+    const xml_node nominal_node =
+        add_identified(nominals, name_of_characteristic(row, "Nominal"), nominal);
+    add_reference(nominal_node, "CharacteristicDefinitionId", definition);
+    add_nominal(nominal_node, row, result, plan, planned);
+    const xml_node item_node = add_identified(items, name_of_characteristic(row, "Item"), item);
+    add_text(item_node, "Name", result.name);
+    add_feature_ids(item_node, "FeatureItemIds", planned, features.items);
+    const xml_node devices = add(item_node, "MeasurementDeviceIds");
+    add_reference(devices, "Id", device);
+    close_list(devices);
+    add_reference(item_node, "CharacteristicNominalId", nominal);
+    found[result.name] = item;
+  }
+  for (const xml_node list : {definitions, nominals, items}) close_list(list);
+  return found;
+}
+
+void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
+                                  const metrology::Measurement& measurement, Ids& ids,
+                                  const FeatureIds& features, const CharacteristicIds& items) {
+  if (measurement.characteristics.empty()) return;
+  const xml_node list = add(add(results, "MeasuredCharacteristics"), "CharacteristicMeasurements");
+  for (const CharacteristicResult& result : measurement.characteristics) {
+    const PlannedCharacteristic* planned = planned_of(plan, result.name);
+    const xml_node node =
+        add_identified(list, name_of_characteristic(row_of(result), "Measurement"), ids.next());
+    add_text(add(node, "Status"), "CharacteristicStatusEnum", status_of(result));
+    add_reference(node, "CharacteristicItemId", items.at(result.name));
+    add_feature_ids(node, "FeatureMeasurementIds", planned, features.measurements);
+    if (planned != nullptr) add_algorithm(node, planned->criterion);
+    if (!std::isfinite(result.value)) continue;
+    const double standard = document_value(
+        result.simulated ? result.simulated->standard : 0.5 * result.expanded_uncertainty, result);
+    xml_node value = add_number(node, "Value", document_value(result.value, result));
+    if (std::isfinite(standard)) {
+      value.append_attribute("combinedUncertainty") = exact_decimal(standard).c_str();
+    }
+  }
+  close_list(list);
+}
+
+}  // namespace frustum::report::qif

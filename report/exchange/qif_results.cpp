@@ -1,0 +1,115 @@
+#include "report/exchange/qif_results.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <sstream>
+
+#include "core/units.hpp"
+#include "report/exchange/qif_characteristics.hpp"
+#include "report/exchange/qif_features.hpp"
+#include "report/exchange/qif_node.hpp"
+
+namespace frustum::report {
+namespace {
+
+using namespace qif;  // NOLINT: the writers of this document
+using pugi::xml_node;
+
+// FNV-1a over the bytes, then mixed so that every bit of the text reaches every bit of the number.
+std::uint64_t digest(std::string_view text, std::uint64_t start) {
+  std::uint64_t hash = start;
+  for (const char c : text) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  hash = (hash ^ (hash >> 30U)) * 0xbf58476d1ce4e5b9U;
+  hash = (hash ^ (hash >> 27U)) * 0x94d049bb133111ebU;
+  return hash ^ (hash >> 31U);
+}
+
+// A UUID of version 8 (RFC 9562: made by a rule of one's own) from the text.
+std::string uuid_of(std::string_view text) {
+  const std::uint64_t high = digest(text, 0xcbf29ce484222325U);
+  const std::uint64_t low = digest(text, 0x84222325cbf29ce4U);
+  return fmt::format("{:08x}-{:04x}-8{:03x}-{:04x}-{:012x}", high >> 32U, (high >> 16U) & 0xffffU,
+                     high & 0xfffU, 0x8000U | ((low >> 48U) & 0x3fffU), low & 0xffffffffffffU);
+}
+
+void add_standard(xml_node root, int id) {
+  const xml_node list = add(root, "StandardsDefinitions");
+  const xml_node standard = add_identified(list, "Standard", id);
+  add_text(add(standard, "Organization"), "StandardsOrganizationEnum", "ISO");
+  add_text(standard, "Designator", "1101");
+  add_text(standard, "Year", "2017");
+  close_list(list);
+}
+
+void add_unit(xml_node units, const char* quantity, const char* si_name, const char* name,
+              double factor) {
+  const xml_node unit = add(units, quantity);
+  add_text(unit, "SIUnitName", si_name);
+  add_text(unit, "UnitName", name);
+  add_number(add(unit, "UnitConversion"), "Factor", factor);
+}
+
+void add_units(xml_node root) {
+  const xml_node units = add(add(root, "FileUnits"), "PrimaryUnits");
+  add_unit(units, "AngularUnit", "radian", "degree", kRadPerDeg);
+  add_unit(units, "LinearUnit", "meter", "mm", 1e-3);
+}
+
+void add_device(xml_node root, int id) {
+  const xml_node list = add(add(root, "MeasurementResources"), "MeasurementDevices");
+  add_text(add_identified(list, "MeasurementDevice", id), "Name", "CMM");
+  close_list(list);
+}
+
+void add_results(xml_node root, const RunReport& report, const metrology::InspectionPlan& plan,
+                 Ids& ids, FeatureIds& features, const CharacteristicIds& items) {
+  const xml_node set = add(add(root, "Results"), "MeasurementResultsSet");
+  const xml_node results = add_identified(set, "MeasurementResults", ids.next());
+  add_measured_features(results, plan, report.measurement, ids, features);
+  add_measured_characteristics(results, plan, report.measurement, ids, features, items);
+  add_text(add(results, "InspectionStatus"), "InspectionStatusEnum",
+           report.passes() ? "PASS" : "FAIL");
+  close_list(set);
+}
+
+std::string text_of(const pugi::xml_document& document) {
+  std::ostringstream text;
+  document.save(text, "  ", pugi::format_default, pugi::encoding_utf8);
+  return text.str();
+}
+
+}  // namespace
+
+std::string qif_results(const RunReport& report, const metrology::InspectionPlan& plan) {
+  pugi::xml_document document;
+  xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  xml_node root = document.append_child("QIFDocument");
+  root.append_attribute("xmlns") = "http://qifstandards.org/xsd/qif3";
+  root.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
+  root.append_attribute("xsi:schemaLocation") =
+      "http://qifstandards.org/xsd/qif3 QIFApplications/QIFDocument.xsd";
+  root.append_attribute("versionQIF") = "3.0.0";
+  pugi::xml_attribute last = root.append_attribute("idMax");
+  xml_node identifier = add_text(root, "QPId", report.title);
+  add_text(add(add(root, "Header"), "Application"), "Name", "Frustum");
+  Ids ids;
+  const int standard = ids.next(), device = ids.next();
+  add_standard(root, standard);
+  add_units(root);
+  add_device(root, device);
+  FeatureIds features;
+  add_features(root, plan, ids, features);
+  const CharacteristicIds items =
+      add_characteristics(root, plan, report.measurement, standard, device, ids, features);
+  add_results(root, report, plan, ids, features, items);
+  last = ids.last();
+  identifier.text().set(uuid_of(text_of(document)).c_str());
+  return text_of(document);
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,245 @@
+// Shanks and holders against material. Along each ray of a grid the history of the material is known, piece
+// by piece: a body that reaches a piece before the block that removes it has collided.
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "cutter/search/pose_tree.hpp"
+#include "cutter/sweep/segment_motion.hpp"
+#include "cutter/sweep/swept_box.hpp"
+#include "stock/collision/collision.hpp"
+#include "stock/solid/removal.hpp"
+
+namespace frustum::stock {
+namespace {
+
+using cutter::Box;
+using cutter::Profile;
+using cutter::SegmentMotion;
+using kinematics::PathBlock;
+using kinematics::PathKind;
+using kinematics::PathSegment;
+using kinematics::ToolPath;
+
+// One body on one segment.
+struct Passage {
+  std::uint32_t segment = 0;
+  const NonCuttingBody* body = nullptr;
+};
+
+Box box_of(const NonCuttingBody& body, const ToolPath& path, const PathSegment& segment) {
+  const auto box_of_part = [&](const Profile& part) {
+    return cutter::swept_box({part.bottom(), part.height(), part.max_radius()},
+                             SegmentMotion(path, segment, part.reach()));
+  };
+  Box all = box_of_part(body.parts.front());
+  for (const Profile& part : body.parts) all = united(all, box_of_part(part));
+  return all;
+}
+
+// All passages that come near the blank, with a tree for every body to find them by ray.
+class Passages {
+ public:
+  Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies)
+      : path_(workpiece.removed().path()) {
+    for (const NonCuttingBody& body : bodies) collect(workpiece.blank().bounds(), body);
+  }
+
+  [[nodiscard]] bool empty() const { return trees_.empty(); }
+  [[nodiscard]] std::vector<Passage> near(const Ray& ray, RaySpan span) const {
+    std::vector<Passage> found;
+    for (const BodyTree& each : trees_) {
+      for (const std::uint32_t segment : segments_near(each.tree, ray, span)) {
+        found.push_back({segment, each.body});
+      }
+    }
+    return found;
+  }
+  [[nodiscard]] std::uint32_t block_index(const Passage& p) const {
+    return path_.segments[p.segment].block;
+  }
+  // What the body, shrunk by the margin, surely covers: standing bodies a quarter of a radius apart.
+  [[nodiscard]] IntervalSet core_along(const Passage& p, const Ray& ray) const {
+    const PathSegment& segment = path_.segments[p.segment];
+    std::vector<Interval> all;
+    for (const Profile& part : p.body->parts) {
+      const SegmentMotion motion(path_, segment, part.reach());
+      // All poses of the segment are within half its way of the middle.
+      if (!part.chord(motion.at(0.5), ray, 0.5 * motion.travel())) continue;
+      const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * part.max_radius()));
+      for (int k = 0; k <= steps; ++k) {
+        const auto chord =
+            part.chord(motion.at(static_cast<double>(k) / steps), ray, -kCollisionMargin);
+        if (chord) all.push_back({chord->lo, chord->hi, 0, 0});
+      }
+    }
+    return IntervalSet(std::move(all));
+  }
+
+ private:
+  struct BodyTree {
+    const NonCuttingBody* body = nullptr;
+    cutter::PoseTree tree;
+  };
+
+  void collect(const BoundingBox& blank, const NonCuttingBody& body) {
+    if (body.parts.empty()) return;
+    double reach = 0.0;
+    for (const Profile& part : body.parts) reach = std::max(reach, part.reach());
+    std::vector<Box> boxes(path_.segments.size());
+    std::vector<std::uint32_t> near_blank;
+    for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
+      const PathSegment& segment = path_.segments[i];
+      if (body.tool != path_.blocks[segment.block].tool) continue;
+      boxes[i] = box_of(body, path_, segment);
+      if (overlap(boxes[i], blank)) near_blank.push_back(i);
+    }
+    if (near_blank.empty()) return;
+    trees_.push_back({&body, cutter::PoseTree(path_, boxes, std::move(near_blank), reach)});
+  }
+
+  const ToolPath& path_;
+  std::vector<BodyTree> trees_{};
+};
+
+struct Key {
+  std::uint32_t block = 0;
+  CollisionBody body = CollisionBody::shank;
+  auto operator<=>(const Key&) const = default;
+};
+struct Longest {
+  double length = 0.0;
+  Vec3 point = Vec3::Zero();
+};
+using Hits = std::map<Key, Longest>;
+
+void keep_longer(Hits& hits, const Key& key, const Longest& hit) {
+  Longest& best = hits[key];
+  if (hit.length > best.length) best = hit;
+}
+
+// The ray's material, each piece with the block that takes it away.
+std::vector<RemovedPiece> history(const Workpiece& workpiece, const Timetable& table,
+                                  const Ray& ray, RaySpan span) {
+  std::vector<RemovedPiece> pieces = removed_along(workpiece, table, ray, span);
+  const IntervalSet stays = workpiece.material_along(ray, span);
+  for (const Interval& piece : stays.intervals()) pieces.push_back({table.blocks(), piece});
+  return pieces;
+}
+
+void examine(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
+             const Ray& ray, RaySpan span, Hits& hits) {
+  const auto near = passages.near(ray, span);
+  std::vector<RemovedPiece> pieces;
+  for (const Passage& passage : near) {
+    const IntervalSet covered = passages.core_along(passage, ray);
+    if (covered.empty()) continue;
+    if (pieces.empty()) pieces = history(workpiece, table, ray, span);
+    const std::uint32_t block = passages.block_index(passage);
+    std::vector<Interval> standing;
+    for (const RemovedPiece& r : pieces) {
+      if (r.block > block) standing.push_back(r.piece);
+    }
+    const IntervalSet met = IntervalSet(std::move(standing)).intersected(covered);
+    for (const Interval& piece : met.intervals()) {
+      keep_longer(hits, {block, passage.body->body},
+                  {piece.length(), ray.at(0.5 * (piece.lo + piece.hi))});
+    }
+  }
+}
+
+Hits hits_of_family(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
+                    const CellRays& rays) {
+  std::vector<Hits> rows(static_cast<std::size_t>(rays.count_v));
+  tbb::parallel_for(0, rays.count_v, [&](int v) {
+    for (int u = 0; u < rays.count_u; ++u) {
+      examine(workpiece, table, passages, rays.ray(u, v), rays.span(),
+              rows[static_cast<std::size_t>(v)]);
+    }
+  });
+  Hits all;
+  for (const Hits& row : rows) {
+    for (const auto& [key, hit] : row) keep_longer(all, key, hit);
+  }
+  return all;
+}
+
+// The longest overlap along the direction in which the overlap is thinnest.
+Hits thinnest(const std::array<Hits, 3>& families) {
+  Hits all;
+  for (const Hits& family : families) {
+    for (const auto& [key, hit] : family) {
+      const auto [at, is_new] = all.emplace(key, hit);
+      if (!is_new && hit.length < at->second.length) at->second = hit;
+    }
+  }
+  return all;
+}
+
+Collision described(const ToolPath& path, const Key& key, const Longest& hit) {
+  const PathBlock& block = path.blocks[key.block];
+  return {.kind = block.kind == PathKind::rapid ? CollisionKind::rapid_through_material
+                                                : CollisionKind::body_in_material,
+          .body = key.body,
+          .block = key.block,
+          .source_line = block.source_line,
+          .last_line = block.source_line,
+          .tool = block.tool,
+          .point = hit.point,
+          .depth = hit.length + kCollisionMargin};
+}
+
+double pitch_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bodies) {
+  const double side = (blank.max - blank.min).maxCoeff();
+  double pitch = side / 60.0;
+  for (const NonCuttingBody& body : bodies) {
+    for (const Profile& part : body.parts) pitch = std::min(pitch, 0.25 * part.max_radius());
+  }
+  return std::max(pitch, side / 250.0);
+}
+
+}  // namespace
+
+std::vector<Collision> find_body_collisions(const Workpiece& workpiece,
+                                            const std::vector<NonCuttingBody>& bodies) {
+  const Passages passages(workpiece, bodies);
+  if (passages.empty()) return {};
+  const ToolPath& path = workpiece.removed().path();
+  const Timetable table(path);
+  const BoundingBox blank = workpiece.blank().bounds();
+  const double pitch = pitch_for(blank, bodies);
+  std::array<Hits, 3> families;
+  for (int axis = 0; axis < 3; ++axis) {
+    families[static_cast<std::size_t>(axis)] =
+        hits_of_family(workpiece, table, passages, CellRays::over(blank, axis, pitch));
+  }
+  // Blocks that follow each other make one collision, of each body.
+  std::vector<Collision> found;
+  std::map<CollisionBody, std::pair<std::size_t, std::uint32_t>> open;  // its index and last block
+  for (const auto& [key, hit] : thinnest(families)) {
+    const Collision here = described(path, key, hit);
+    const auto before = open.find(key.body);
+    const bool goes_on = before != open.end() && before->second.second + 1 == key.block &&
+                         found[before->second.first].kind == here.kind &&
+                         found[before->second.first].tool == here.tool;
+    if (!goes_on) {
+      open[key.body] = {found.size(), key.block};
+      found.push_back(here);
+      continue;
+    }
+    Collision& whole = found[before->second.first];
+    before->second.second = key.block;
+    whole.last_line = here.source_line;
+    if (here.depth > whole.depth) {
+      whole.depth = here.depth;
+      whole.point = here.point;
+    }
+  }
+  return found;
+}
+
+}  // namespace frustum::stock

@@ -1,0 +1,74 @@
+// A solid as the surface extraction sees it: whatever answers along rays.
+//
+// material_along(ray, span) gives the intervals of the ray inside the material, clipped to the
+// span. An end's tag is the solid's own business, but -1 is reserved for the ends of the span.
+// surface_at(ray, s, tag) gives the point and the outward unit normal at such an end (never asked
+// for tag -1). A solid that finds the first surface on a ray faster than by all of its intervals says so
+// with first_surface(ray, span). All must be const, pure and callable from several threads.
+// Units: mm. Errors: none.
+#pragma once
+
+#include <concepts>
+#include <optional>
+
+#include "core/interval_set.hpp"
+#include "cutter/ray.hpp"
+#include "stock/solid/workpiece.hpp"
+
+namespace frustum::stock {
+
+template <typename S>
+concept RaySolid = requires(const S& solid, const Ray& ray, RaySpan span, double s, EndTag tag) {
+  { solid.material_along(ray, span) } -> std::convertible_to<IntervalSet>;
+  { solid.surface_at(ray, s, tag) } -> std::convertible_to<SurfacePoint>;
+};
+
+// Where the ray first enters material after span.lo; nothing when it starts inside or meets none.
+template <RaySolid S>
+std::optional<SurfacePoint> first_surface_of(const S& solid, const Ray& ray, RaySpan span) {
+  if constexpr (requires { solid.first_surface(ray, span); }) {
+    return solid.first_surface(ray, span);
+  } else {
+    const IntervalSet material = solid.material_along(ray, span);
+    if (material.empty() || material.intervals().front().lo_tag == -1) return std::nullopt;
+    const Interval& first = material.intervals().front();
+    return solid.surface_at(ray, first.lo, first.lo_tag);
+  }
+}
+
+// Refers to a RaySolid without owning it, so that the extraction is compiled once. The solid must
+// outlive the view; a view as a function parameter is the intended use.
+class SolidView {
+ public:
+  template <RaySolid S>
+  requires(!std::same_as<S, SolidView>) SolidView(
+      const S& solid)  // NOLINT(google-explicit-constructor): a view of it, as string_view
+      : solid_(&solid),
+        along_([](const void* self, const Ray& ray, RaySpan span) -> IntervalSet {
+          return static_cast<const S*>(self)->material_along(ray, span);
+        }),
+        surface_([](const void* self, const Ray& ray, double s, EndTag tag) -> SurfacePoint {
+          return static_cast<const S*>(self)->surface_at(ray, s, tag);
+        }),
+        first_([](const void* self, const Ray& ray, RaySpan span) {
+          return first_surface_of(*static_cast<const S*>(self), ray, span);
+        }) {}
+
+  [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const {
+    return along_(solid_, ray, span);
+  }
+  [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const {
+    return surface_(solid_, ray, s, tag);
+  }
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(const Ray& ray, RaySpan span) const {
+    return first_(solid_, ray, span);
+  }
+
+ private:
+  const void* solid_;
+  IntervalSet (*along_)(const void*, const Ray&, RaySpan);
+  SurfacePoint (*surface_)(const void*, const Ray&, double, EndTag);
+  std::optional<SurfacePoint> (*first_)(const void*, const Ray&, RaySpan);
+};
+
+}  // namespace frustum::stock

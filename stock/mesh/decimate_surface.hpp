@@ -1,0 +1,25 @@
+// A closed mesh with fewer triangles, within a tolerance of what it was.
+//
+// Model    : edges are collapsed, cheapest first (error quadrics), as long as every vertex that was
+//            taken away stays within half the tolerance of the triangles, and the centres
+//            of these within the tolerance of the given mesh. Vertices are kept or removed,
+//            never moved: those that stay lie as exactly as before and keep their normals and
+//            deviations. Corners stay; a vertex of a sharp edge may only go along that edge
+// Units    : mm
+// Errors   : a tolerance that is not finite and positive; a mesh that is not closed and manifold
+// Accuracy : vertices and centres are checked, as above; that triangles then lie within the
+//            tolerance all over is measured, not proven (tests/stock/refine_surface_test.cpp)
+// Source   : OpenMesh 9, Decimater (quadrics, Hausdorff and normal-flipping modules); Garland and
+//            Heckbert 1997, SIGGRAPH
+// Threads  : runs on one
+#pragma once
+
+#include "core/result.hpp"
+#include "core/units.hpp"
+#include "stock/mesh/surface_mesh.hpp"
+
+namespace frustum::stock {
+
+[[nodiscard]] Result<SurfaceMesh> decimate_surface(const SurfaceMesh& mesh, Mm tolerance);
+
+}  // namespace frustum::stock

@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "stock/mesh/open_mesh.hpp"
+#include "stock/mesh/surface_mesh.hpp"
+
+namespace frustum::stock {
+namespace {
+
+// True if no two triangles run along an edge in the same direction. OpenMesh would refuse such a
+// triangle too, but not without a line on stderr.
+bool directed_edges_differ(const SurfaceMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+  }
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+// Pieces connected through their edges.
+std::size_t count_components(const OpenMesh3& mesh) {
+  std::vector<bool> seen(mesh.n_faces(), false);
+  std::vector<OpenMesh3::FaceHandle> open;
+  std::size_t components = 0;
+  for (const auto start : mesh.faces()) {
+    if (seen[static_cast<std::size_t>(start.idx())]) continue;
+    ++components;
+    seen[static_cast<std::size_t>(start.idx())] = true;
+    open.push_back(start);
+    while (!open.empty()) {
+      const auto face = open.back();
+      open.pop_back();
+      for (const auto next : mesh.ff_range(face)) {
+        if (seen[static_cast<std::size_t>(next.idx())]) continue;
+        seen[static_cast<std::size_t>(next.idx())] = true;
+        open.push_back(next);
+      }
+    }
+  }
+  return components;
+}
+
+}  // namespace
+
+MeshMeasure measure(const SurfaceMesh& mesh) {
+  MeshMeasure found;
+  // The volume is taken about a point of the mesh, so that a part far from the origin loses no
+  // digits.
+  const Vec3 about = mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices.front();
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Vec3 a = mesh.vertices[ia] - about;
+    const Vec3 b = mesh.vertices[ib] - about;
+    const Vec3 c = mesh.vertices[ic] - about;
+    const double twice_area = (b - a).cross(c - a).norm();
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    found.volume += a.dot(b.cross(c)) / 6.0;
+    found.area += twice_area / 2.0;
+    // Height over the longest side, relative to it. A millionth: what single precision files keep.
+    if (!(twice_area > 1e-6 * longest * longest)) ++found.degenerate_triangles;
+  }
+  const bool edges_differ = directed_edges_differ(mesh);
+  const OpenMesh3 built = open_mesh_of(mesh);
+  found.is_closed = std::all_of(built.edges().begin(), built.edges().end(),
+                                [&](const auto& edge) { return !built.is_boundary(edge); });
+  found.is_manifold = edges_differ && built.n_faces() == mesh.triangles.size() &&
+                      std::all_of(built.vertices().begin(), built.vertices().end(),
+                                  [&](const auto& vertex) { return built.is_manifold(vertex); });
+  found.components = count_components(built);
+  return found;
+}
+
+}  // namespace frustum::stock

@@ -1,0 +1,187 @@
+#include "stock/mesh/surface_mesh_vertex.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace frustum::stock {
+namespace {
+
+// Normals that stay within this angle (rad) are one smooth surface: a vertex on it blunts an edge
+// that is flatter still by less than 0.1 / 8 of the pitch.
+constexpr double kSmooth = 0.1;
+// The singular values of two planes that differ by an angle are as 1 to its half, 0.05 for kSmooth;
+// less if one of them has more samples than the other. A direction below this is not determined.
+constexpr double kUndetermined = 0.03;
+// How far along its normal a face is looked for, in pitches. Faces that bend more within a cell are
+// beyond what the pitch resolves.
+constexpr double kReach = 0.25;
+// Each round takes the planes at this fraction of their distance from the vertex. Four rounds end
+// within a thousandth of the pitch, where at a pitch of 0.5 mm a face of radius 5 mm leaves its
+// plane by less than 0.03 nm.
+constexpr double kCloser = 0.15;
+constexpr int kRounds = 4;
+// Faces of a corner that cross no edge of the cell, and are found when the others do not meet on
+// the surface. At least one face does cross an edge.
+constexpr std::size_t kHiddenFaces = 2;
+constexpr std::size_t kMostSamples = 12 + kHiddenFaces;
+constexpr int kMostRows = static_cast<int>(kMostSamples);
+
+using Samples = std::span<const HermiteSample>;
+
+Vec3 mean_point(Samples samples) {
+  Vec3 sum = Vec3::Zero();
+  for (const HermiteSample& sample : samples) sum += sample.point;
+  return sum / static_cast<double>(samples.size());
+}
+
+// Zero when the normals cancel.
+Vec3 mean_normal(Samples samples) {
+  Vec3 sum = Vec3::Zero();
+  for (const HermiteSample& sample : samples) sum += sample.normal;
+  const double length = sum.norm();
+  // Rounding of twelve unit vectors is far below 1e-9; a true mean this short has no use either.
+  return length > 1e-9 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+}
+
+bool is_smooth(Samples samples) {
+  for (std::size_t a = 0; a < samples.size(); ++a) {
+    for (std::size_t b = a + 1; b < samples.size(); ++b) {
+      // The chord of two unit vectors is, to its square, their angle; it is exact for small angles.
+      if ((samples[a].normal - samples[b].normal).norm() > kSmooth) return false;
+    }
+  }
+  return true;
+}
+
+bool contains(const BoundingBox& box, const Vec3& p) {
+  return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+}
+
+// The quadratic error function's minimum: the best of highest rank that lies in `allowed`.
+Vec3 meet(Samples samples, const BoundingBox& allowed) {
+  Vec3 mean = mean_point(samples);
+  const auto rows = static_cast<Eigen::Index>(samples.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostRows, 3> normals(rows, 3);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1> distances(rows);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    normals.row(row) = samples[k].normal.transpose();
+    distances[row] = samples[k].normal.dot(samples[k].point - mean);
+  }
+  // The 3x3 normal equations by SVD: eigenvalues are squares of singular values, hence the square
+  // of the threshold. Their rounding, 1e-16 / kUndetermined^2, is 1e-13 of the pitch.
+  const Mat3 square = normals.transpose() * normals;
+  const Vec3 right = normals.transpose() * distances;
+  const Eigen::JacobiSVD<Mat3> svd(square, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3& sigma = svd.singularValues();
+  std::array<Vec3, 4> by_rank;
+  by_rank[0] = mean;
+  int rank = 0;
+  while (rank < 3 && sigma[rank] > kUndetermined * kUndetermined * sigma[0]) {
+    by_rank[static_cast<std::size_t>(rank) + 1] =
+        by_rank[static_cast<std::size_t>(rank)] +
+        svd.matrixV().col(rank) * (svd.matrixU().col(rank).dot(right) / sigma[rank]);
+    ++rank;
+  }
+  for (; rank > 0; --rank) {
+    const Vec3& point = by_rank[static_cast<std::size_t>(rank)];
+    if (contains(allowed, point)) return point;
+  }
+  return mean;
+}
+
+// The samples again, but closer to the vertex; a sample keeps its place if the surface found there
+// belongs to another face.
+void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
+                 double reach) {
+  for (HermiteSample& sample : samples) {
+    const Vec3 at = vertex + kCloser * (sample.point - vertex);
+    const auto found = nearest_surface(solid, at, sample.normal, reach);
+    // Within a cell a face turns by less than 60 degrees, or the pitch is too coarse for it anyway.
+    if (found && found->normal.dot(sample.normal) > 0.5) sample = *found;
+  }
+}
+
+// What the samples say, and what the surface answers.
+struct Answer {
+  PlacedVertex placed;
+  std::optional<HermiteSample> found;  // the surface next to the vertex
+  bool settled = false;                // it is where, and as, the samples say
+};
+
+Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBox& allowed,
+             double pitch) {
+  Vec3 vertex = mean_point(samples);
+  bool smooth = is_smooth(samples);
+  for (int round = 0; round < kRounds && !smooth; ++round) {
+    const Vec3 before = vertex;
+    vertex = meet(samples, allowed);
+    // Flat faces meet where they met before, within rounding; nothing more to learn.
+    if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
+    draw_closer(solid, samples, vertex, kReach * pitch);
+    smooth = is_smooth(samples);
+  }
+  if (!smooth) vertex = meet(samples, allowed);
+  Answer answer{{vertex, mean_normal(samples), VertexKind::averaged}, std::nullopt, false};
+  if (answer.placed.normal.isZero()) {
+    answer.placed.normal = samples.front().normal;
+    return answer;
+  }
+  answer.found = nearest_surface(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch);
+  if (!answer.found || !contains(allowed, answer.found->point)) return answer;
+  // An edge vertex is on its edge already but for what the curvature of its faces left over.
+  const bool meets = (answer.found->point - vertex).norm() < 1e-3 * pitch;
+  answer.settled = smooth ? (answer.found->normal - answer.placed.normal).norm() < kSmooth : meets;
+  const bool feature = !smooth && meets;
+  answer.placed = {answer.found->point, feature ? answer.placed.normal : answer.found->normal,
+                   feature ? VertexKind::feature : VertexKind::surface};
+  return answer;
+}
+
+}  // namespace
+
+std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point, const Vec3& normal,
+                                             double reach) {
+  // Nearly always the way there from outside is free.
+  const Ray inwards{point + reach * normal, -normal};
+  const auto met = solid.first_surface(inwards, {0.0, 2.0 * reach});
+  constexpr double kFacing = 0.5;  // cosine of 60 deg: else something else is in the way
+  if (met && met->normal.dot(normal) > kFacing) {
+    return HermiteSample{inwards.at(met->s), met->normal};
+  }
+  const Ray ray{point - reach * normal, normal};
+  const IntervalSet material = solid.material_along(ray, {0.0, 2.0 * reach});
+  const Interval* best = nullptr;
+  for (const Interval& piece : material.intervals()) {
+    if (piece.hi_tag == -1) continue;  // the end of the search, not a surface
+    if (best == nullptr || std::abs(piece.hi - reach) < std::abs(best->hi - reach)) best = &piece;
+  }
+  if (best == nullptr) return std::nullopt;
+  return HermiteSample{ray.at(best->hi), solid.surface_at(ray, best->hi, best->hi_tag).normal};
+}
+
+PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
+                          const BoundingBox& cell, double leave) {
+  const double pitch = cell.max.x() - cell.min.x();
+  const Vec3 spare = Vec3::Constant(leave * pitch);
+  const BoundingBox allowed{cell.min - spare, cell.max + spare};
+
+  std::array<HermiteSample, kMostSamples> known;
+  std::size_t count = std::min(samples.size(), kMostSamples - kHiddenFaces);
+  std::copy_n(samples.begin(), count, known.begin());
+  std::optional<PlacedVertex> first;
+  for (std::size_t hidden = 0; hidden <= kHiddenFaces; ++hidden) {
+    std::array<HermiteSample, kMostSamples> drawn = known;
+    const Answer answer = solve(solid, std::span(drawn).first(count), allowed, pitch);
+    if (answer.settled) return answer.placed;
+    if (!first) first = answer.placed;
+    if (!answer.found) break;
+    known[count++] = *answer.found;
+  }
+  return *first;
+}
+
+}  // namespace frustum::stock

@@ -1,0 +1,103 @@
+// A program_state of the program, and the workpiece as it is then.
+//
+// Model    : a program_state stands between two segments of the tool path: those before it have cut, those
+//            after it have not. Workpieces of any program_state share one sweep; nothing is cut twice
+// Units    : mm, s; frame: workpiece
+// Errors   : after_line() refuses line 0; at_time() refuses what is no time
+// Accuracy : that of Workpiece; segments are not divided, so that a program_state is at most one segment off
+// Threads  : const member functions may be called from any number of threads
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/result.hpp"
+#include "core/units.hpp"
+#include "kinematics/path/tool_path.hpp"
+#include "stock/solid/workpiece.hpp"
+
+namespace frustum::stock {
+
+// Where each block of a path begins and ends in it, by segments and by the clock.
+class Timetable {
+ public:
+  explicit Timetable(const kinematics::ToolPath& path);
+
+  // The first segment of a block, or of the next one that has any; the number of blocks is the end.
+  [[nodiscard]] std::uint32_t first_segment(std::uint32_t block) const { return first_[block]; }
+  // Seconds since the start of the program at a fraction t of a segment. Of a path without times they
+  // are the sums of the blocks' durations, segments of a block taking equally long.
+  [[nodiscard]] double time(std::uint32_t segment, double t) const;
+  // Of a segment; of the number of segments, the end of the program.
+  [[nodiscard]] double start(std::uint32_t segment) const { return starts_[segment]; }
+  [[nodiscard]] double end() const { return starts_.back(); }
+  [[nodiscard]] std::uint32_t blocks() const {
+    return static_cast<std::uint32_t>(first_.size() - 1);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<double> starts_;  // of each segment, and the end of the last
+};
+
+struct ProgramState {
+  std::uint32_t segments = 0;  // have cut
+  std::optional<std::uint32_t>
+      block{};                    // the last of them belongs to it; nothing: before the first
+  std::uint32_t source_line = 0;  // of that block
+  double time = 0.0;              // s since the start of the program
+};
+
+[[nodiscard]] ProgramState start_of(const kinematics::ToolPath& path);
+[[nodiscard]] ProgramState end_of(const kinematics::ToolPath& path);
+// Precondition: the path has that block.
+[[nodiscard]] ProgramState after_block(const kinematics::ToolPath& path, std::uint32_t block);
+// After the last motion of an NC line; of a line without motion, after that of the nearest line above
+// that has one.
+[[nodiscard]] Result<ProgramState> after_line(const kinematics::ToolPath& path, std::uint32_t line);
+// The last program_state that is not later than `seconds`.
+[[nodiscard]] Result<ProgramState> at_time(const kinematics::ToolPath& path, double seconds);
+// `count` program_states at equal steps of time, the last of them `until`.
+[[nodiscard]] std::vector<ProgramState> equally_spaced(const kinematics::ToolPath& path, int count,
+                                                       const ProgramState& until);
+
+// What of a workpiece stands at a program_state: a RaySolid. The workpiece must outlive it.
+class WorkpieceAt {
+ public:
+  WorkpieceAt(const Workpiece& workpiece, const ProgramState& program_state)
+      : workpiece_(&workpiece), program_state_(program_state) {}
+  // Finished.
+  explicit WorkpieceAt(const Workpiece& workpiece)
+      : WorkpieceAt(workpiece, end_of(workpiece.removed().path())) {}
+
+  [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const {
+    return workpiece_->material_along(ray, span, program_state_.segments);
+  }
+  [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const {
+    return workpiece_->surface_at(ray, s, tag);
+  }
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(const Ray& ray, RaySpan span) const {
+    return workpiece_->first_surface(ray, span, program_state_.segments);
+  }
+  [[nodiscard]] const Workpiece& workpiece() const { return *workpiece_; }
+  [[nodiscard]] const ProgramState& program_state() const { return program_state_; }
+
+ private:
+  const Workpiece* workpiece_;
+  ProgramState program_state_;
+};
+
+// What made the surface at a point that lies on it within `tolerance`; nothing when none is so near.
+struct OriginatingBlock {
+  std::optional<std::uint32_t> block{};  // of the tool path; nothing: the blank's own surface
+  std::uint32_t source_line = 0;         // 0: the blank
+  double distance = 0.0;                 // mm from the point to the surface, normal to it
+  Vec3 normal = Vec3::UnitZ();           // unit, out of the material
+};
+[[nodiscard]] std::optional<OriginatingBlock> originating_block_of(const WorkpieceAt& part,
+                                                                   const Vec3& point,
+                                                                   Mm tolerance = Mm{1e-3});
+
+}  // namespace frustum::stock
