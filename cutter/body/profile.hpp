@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "cutter/ray.hpp"
+#include "core/ray.hpp"
 #include "kinematics/path/tool_path.hpp"
 
 namespace frustum::cutter {

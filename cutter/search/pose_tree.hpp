@@ -15,10 +15,10 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/pose.hpp"
+#include "core/ray.hpp"
 #include "cutter/body/profile.hpp"
-#include "cutter/box.hpp"
-#include "cutter/ray.hpp"
 #include "kinematics/path/tool_path.hpp"
 
 namespace frustum::cutter {

@@ -17,9 +17,9 @@
 #include <span>
 
 #include "core/interval_set.hpp"
+#include "core/ray.hpp"
 #include "core/result.hpp"
 #include "cutter/body/cutter.hpp"
-#include "cutter/ray.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/search/sweep_contact.hpp"
 #include "kinematics/path/tool_path.hpp"

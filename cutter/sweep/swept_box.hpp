@@ -5,7 +5,7 @@
 // Accuracy : they hold all of it but for rounding (1e-12 mm)
 #pragma once
 
-#include "cutter/box.hpp"
+#include "core/box.hpp"
 #include "cutter/sweep/segment_motion.hpp"
 
 namespace frustum::cutter {

@@ -17,7 +17,6 @@
 namespace frustum::stock {
 namespace {
 
-using cutter::Box;
 using cutter::Profile;
 using cutter::SegmentMotion;
 using kinematics::PathBlock;

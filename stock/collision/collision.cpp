@@ -14,7 +14,6 @@ namespace frustum::stock {
 namespace {
 
 using cutter::Body;
-using cutter::Box;
 using cutter::Profile;
 using kinematics::PathBlock;
 using kinematics::PathKind;

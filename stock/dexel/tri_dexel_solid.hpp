@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "core/interval_set.hpp"
-#include "cutter/ray.hpp"
+#include "core/ray.hpp"
 #include "stock/solid/workpiece.hpp"
 
 namespace frustum::stock {

@@ -14,9 +14,6 @@
 namespace frustum::stock {
 namespace {
 
-using cutter::Ray;
-using cutter::RaySpan;
-
 // Faces of a box: 0..5 = -x +x -y +y -z +z; of a frustum: 4 bottom, 5 top, 6 mantle.
 constexpr EndTag kBottom = 4;
 constexpr EndTag kTop = 5;

@@ -10,11 +10,11 @@
 #include <variant>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
+#include "core/ray.hpp"
 #include "core/result.hpp"
-#include "cutter/box.hpp"
-#include "cutter/ray.hpp"
 #include "stock/solid/facet_solid.hpp"
 
 namespace frustum::stock {
@@ -49,14 +49,14 @@ struct LoftSlab {
 };
 [[nodiscard]] std::vector<LoftSlab> slabs_of(const LoftShape& shape);
 
-using BoundingBox = cutter::Box;
+using BoundingBox = Box;
 
 class Blank {
  public:
   [[nodiscard]] static Result<Blank> make(const BlankShape& shape, const Vec3& origin);
 
   // One interval at most, but of a loft several; ends are tagged with the index of the face.
-  [[nodiscard]] IntervalSet along(const cutter::Ray& ray, cutter::RaySpan span) const;
+  [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span) const;
   // Outward unit normal of the face with that tag at a point on it.
   [[nodiscard]] Vec3 normal(EndTag face, const Vec3& point) const;
   [[nodiscard]] BoundingBox bounds() const;

@@ -9,9 +9,6 @@
 namespace frustum::stock {
 namespace {
 
-using cutter::Ray;
-using cutter::RaySpan;
-
 // Fewer facets than this are not worth a box of their own.
 constexpr std::uint32_t kLeaf = 4;
 

@@ -24,7 +24,7 @@
 
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
-#include "cutter/ray.hpp"
+#include "core/ray.hpp"
 
 namespace frustum::stock {
 
@@ -37,15 +37,14 @@ class FacetSolid {
   FacetSolid(std::vector<Vec3> vertices, std::vector<Facet> facets);
 
   // Material between span.lo and span.hi; an end's tag is its facet, -1 at the ends of the span.
-  [[nodiscard]] IntervalSet along(const cutter::Ray& ray, cutter::RaySpan span) const;
+  [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span) const;
   // Where the ray first meets a facet within the span, if it meets it from outside; it asks no more of the
   // mesh than facets that are counter-clockwise seen from outside, so a scan with open borders will do.
   struct Entry {
     double s = 0.0;
     EndTag facet = -1;
   };
-  [[nodiscard]] std::optional<Entry> first_entry(const cutter::Ray& ray,
-                                                 cutter::RaySpan span) const;
+  [[nodiscard]] std::optional<Entry> first_entry(const Ray& ray, RaySpan span) const;
   [[nodiscard]] bool contains(const Vec3& point) const;
   // Outward and unit; zero for a facet without area.
   [[nodiscard]] Vec3 normal(EndTag facet) const;
@@ -73,7 +72,7 @@ class FacetSolid {
     EndTag facet = -1;
   };
   // In the order of the ray; where two solids touch, enter before leaving.
-  [[nodiscard]] std::vector<Crossing> crossings(const cutter::Ray& ray) const;
+  [[nodiscard]] std::vector<Crossing> crossings(const Ray& ray) const;
 
   // Boxes in depth-first order: the left child follows its parent.
   struct Node {

@@ -98,7 +98,7 @@ class MeetingSearch {
   [[nodiscard]] std::optional<Meeting> first(const RemovedPiece& removed, const Ray& ray) const {
     for (std::uint32_t i = table_.first_segment(removed.block);
          i < table_.first_segment(removed.block + 1); ++i) {
-      const cutter::Box& box = swept_.box(i);
+      const Box& box = swept_.box(i);
       if (!meets(box, ray, removed.piece)) continue;
       if (const auto t = first_in(i, removed, ray)) {
         const auto& segment = path_.segments[i];
@@ -111,7 +111,7 @@ class MeetingSearch {
   }
 
  private:
-  static bool meets(const cutter::Box& box, const Ray& ray, const Interval& piece) {
+  static bool meets(const Box& box, const Ray& ray, const Interval& piece) {
     const Vec3 a = ray.at(piece.lo), b = ray.at(piece.hi);
     return (a.cwiseMin(b).array() <= box.max.array()).all() &&
            (a.cwiseMax(b).array() >= box.min.array()).all();

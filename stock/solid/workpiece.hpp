@@ -16,14 +16,11 @@
 
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
-#include "cutter/ray.hpp"
+#include "core/ray.hpp"
 #include "cutter/search/swept_cutter.hpp"
 #include "stock/solid/blank.hpp"
 
 namespace frustum::stock {
-
-using cutter::Ray;
-using cutter::RaySpan;
 
 // A point of the workpiece surface, what made it, and how far it may be from the true surface, normal to it.
 struct SurfacePoint {

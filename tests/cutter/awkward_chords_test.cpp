@@ -8,7 +8,6 @@
 namespace frustum::proof {
 namespace {
 
-using cutter::Ray;
 using cutter::SweptCutter;
 
 SweptCutter sweep(const std::string& kind, kinematics::ToolPath path) {

@@ -16,7 +16,6 @@ using cutter::Body;
 using cutter::Cutter;
 using cutter::CutterSpec;
 using cutter::CutterType;
-using cutter::Ray;
 using cutter::SegmentMotion;
 using cutter::SweptCutter;
 using kinematics::ToolPath;

@@ -113,7 +113,7 @@ constexpr std::array kHairs = {0.0,   1e-12, -1e-12, 1e-9, -1e-9, 2e-6,
 
 class DegenerateSweepsOracle : public ::testing::TestWithParam<AnyPath> {
  protected:
-  using Rays = std::vector<cutter::Ray>;
+  using Rays = std::vector<Ray>;
   [[nodiscard]] const Kind& kind() const { return *GetParam().kind; }
   [[nodiscard]] double radius() const { return static_cast<double>(kind().meridian.max_radius()); }
   [[nodiscard]] double height() const { return static_cast<double>(kind().meridian.height()); }
@@ -149,14 +149,13 @@ TEST_P(DegenerateSweepsOracle, RaysTangentToTheEnvelope) {
       Draw draw(21, p);
       const kinematics::ToolPath path = random_path(family, draw);
       const SweepJudge judge(kind(), path);
-      const cutter::Ray any = judge.random_ray(draw);
+      const Ray any = judge.random_ray(draw);
       const IntervalSet met = judge.swept().along(any, {-300.0, 300.0});
       for (const Interval& i : met.intervals()) {
         const Vec3 n =
             judge.swept().contact(any, i.lo, static_cast<std::uint32_t>(i.lo_tag)).normal;
         for (const double hair : kHairs) {
-          const cutter::Ray tangent{any.at(i.lo) + hair * n,
-                                    n.cross(draw.direction()).normalized()};
+          const Ray tangent{any.at(i.lo) + hair * n, n.cross(draw.direction()).normalized()};
           court_.hear(judge.along(tangent, draw),
                       fmt::format("{} path {} hair {}", to_string(family), p, hair));
         }

@@ -8,7 +8,6 @@
 
 namespace frustum::proof {
 
-using cutter::Ray;
 using cutter::SweptCutter;
 
 namespace {

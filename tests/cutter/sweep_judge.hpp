@@ -30,16 +30,15 @@ class SweepJudge {
   SweepJudge(const Kind& kind, const kinematics::ToolPath& path);
 
   // Every end, and points between ends; s = 0 is one of them.
-  [[nodiscard]] Judgement along(const cutter::Ray& ray, Draw& draw) const;
+  [[nodiscard]] Judgement along(const Ray& ray, Draw& draw) const;
   // A ray through the neighbourhood of the sweep; half of them only just touch it.
-  [[nodiscard]] cutter::Ray random_ray(Draw& draw) const;
+  [[nodiscard]] Ray random_ray(Draw& draw) const;
 
   [[nodiscard]] const cutter::SweptCutter& swept() const { return swept_; }
 
  private:
-  void judge_point(const cutter::Ray& ray, double s, bool reported_covered,
-                   Judgement& judged) const;
-  void judge_end(const cutter::Ray& ray, double s, EndTag tag, Judgement& judged) const;
+  void judge_point(const Ray& ray, double s, bool reported_covered, Judgement& judged) const;
+  void judge_end(const Ray& ray, double s, EndTag tag, Judgement& judged) const;
 
   cutter::SweptCutter swept_;
   StandingCutters standing_;

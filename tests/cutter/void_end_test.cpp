@@ -10,7 +10,6 @@
 namespace frustum::proof {
 namespace {
 
-using cutter::Ray;
 using cutter::SweptCutter;
 using kinematics::ToolPath;
 using kinematics::ToolPose;

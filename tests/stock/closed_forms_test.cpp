@@ -19,7 +19,6 @@ namespace {
 
 using cutter::Cutter;
 using cutter::CutterType;
-using cutter::Ray;
 using cutter::SweptCutter;
 using kinematics::ToolPath;
 using kinematics::ToolPose;

@@ -14,7 +14,6 @@
 namespace frustum::stock {
 namespace {
 
-using cutter::Ray;
 using testing::BallBody;
 using testing::Body;
 using testing::box_around;

@@ -4,7 +4,7 @@
 
 #include "core/pose.hpp"
 
-namespace frustum::cutter {
+namespace frustum {
 
 struct Ray {
   Vec3 origin = Vec3::Zero();
@@ -18,4 +18,4 @@ struct RaySpan {
   double hi = 0.0;
 };
 
-}  // namespace frustum::cutter
+}  // namespace frustum

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "core/pose.hpp"
-#include "cutter/ray.hpp"
+#include "core/ray.hpp"
 
-namespace frustum::cutter {
+namespace frustum {
 
 struct Box {
   Vec3 min = Vec3::Zero();
@@ -53,4 +53,4 @@ class BoxCrossing {
   Vec3 inverse_ = Vec3::Zero();
 };
 
-}  // namespace frustum::cutter
+}  // namespace frustum
