@@ -11,7 +11,7 @@
 // Shape    : start(), any number of motions, stop(); the axes of the plane are known from the entry move on
 // Errors   : an entry that is an arc, or not longer than the radius; a concave arc or corner that the tool does not
 //            fit into, with the amount; an entry of unknown start; too many motions that wait
-// Accuracy : 1e-9 mm between contour and path (tests/parser/radius_compensation_test.cpp)
+// Accuracy : 1e-9 mm between contour and path (tests/parser/interpret/radius_compensation_test.cpp)
 // Source   : ISO 6983-1 (G40 to G42); the rules of entry and of nearly straight corners of LinuxCNC, User manual,
 //            Cutter Compensation
 #pragma once

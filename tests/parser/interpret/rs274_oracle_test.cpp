@@ -15,7 +15,7 @@
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
 #include "parser/tool_table.hpp"
-#include "tests/parser/canonical_moves.hpp"
+#include "tests/parser/interpret/canonical_moves.hpp"
 
 namespace frustum::parser {
 namespace {

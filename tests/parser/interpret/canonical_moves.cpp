@@ -1,4 +1,4 @@
-#include "tests/parser/canonical_moves.hpp"
+#include "tests/parser/interpret/canonical_moves.hpp"
 
 #include <fmt/format.h>
 
