@@ -1,4 +1,4 @@
-// Links between the documents lead somewhere.
+// Links between the documents and the paths that they name lead somewhere.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -6,18 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "tests/house/rooms.hpp"
 #include "tests/house/source_tree.hpp"
 
 namespace frustum::house {
 namespace {
 
-TEST(Documents, RelativeLinksPointToFilesThatExist) {
+std::vector<std::string> documents() {
   std::vector<std::string> files = files_of("docs", {".md"});
   for (const auto& entry : std::filesystem::directory_iterator(source_dir())) {
     if (entry.path().extension() == ".md") files.push_back(entry.path().filename().string());
   }
+  return files;
+}
+
+TEST(Documents, RelativeLinksPointToFilesThatExist) {
   const std::regex link(R"(\]\(([^)#\s]+)(#[^)]*)?\))");
-  for (const std::string& file : files) {
+  for (const std::string& file : documents()) {
     const std::string text = text_of(file);
     for (auto hit = std::sregex_iterator(text.begin(), text.end(), link);
          hit != std::sregex_iterator(); ++hit) {
@@ -27,6 +32,26 @@ TEST(Documents, RelativeLinksPointToFilesThatExist) {
       EXPECT_TRUE(std::filesystem::exists(path)) << file << " links to " << target;
     }
   }
+}
+
+// `kinematics/model/chain.hpp`, `stock/polyhedral/`, `tests/install/consumer`. A path may end in
+// .hpp and mean the source, too; `bad/*.nc` and other patterns are not held.
+TEST(Documents, PathsOfTheTreeExist) {
+  std::string folders = "tests|bench|examples|scripts|cmake|docs|machines";
+  for (const auto& [room, plan] : rooms()) folders += "|" + room;
+  const std::regex path("[`\"](?:\\.\\./)?((?:" + folders + ")/[A-Za-z0-9_./-]*)[`\"]");
+  int held = 0;
+  for (const std::string& file : documents()) {
+    if (file == "CHANGELOG.md") continue;  // names what was at its time
+    const std::string text = text_of(file);
+    for (auto hit = std::sregex_iterator(text.begin(), text.end(), path);
+         hit != std::sregex_iterator(); ++hit) {
+      const std::string name = (*hit)[1].str();
+      EXPECT_TRUE(std::filesystem::exists(source_dir() / name)) << file << " names " << name;
+      ++held;
+    }
+  }
+  EXPECT_GT(held, 20);
 }
 
 TEST(Documents, TheApiPageShowsTheExampleThatIsCompiled) {

@@ -37,11 +37,18 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
+std::vector<std::string> lines_of(const std::string& file) {
+  std::vector<std::string> lines;
+  std::istringstream in(text_of(file));
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
 std::vector<Include> includes_of(const std::string& file) {
   std::vector<Include> includes;
-  std::istringstream in(text_of(file));
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
+  int number = 0;
+  for (const std::string& line : lines_of(file)) {
+    ++number;
     const auto hash = line.find_first_not_of(" \t");
     if (hash == std::string::npos || line[hash] != '#') continue;
     const auto word = line.find("include", hash);

@@ -22,6 +22,7 @@ struct Include {
 [[nodiscard]] std::vector<std::string> files_of(const std::string& folder,
                                                 const std::vector<std::string>& extensions);
 [[nodiscard]] std::string text_of(const std::string& file);
+[[nodiscard]] std::vector<std::string> lines_of(const std::string& file);
 [[nodiscard]] std::vector<Include> includes_of(const std::string& file);
 
 }  // namespace frustum::house

@@ -1,0 +1,70 @@
+#include "tests/house/rooms.hpp"
+
+#include "tests/house/source_tree.hpp"
+
+namespace frustum::house {
+
+const std::map<std::string, Room>& rooms() {
+  static const std::map<std::string, Room> kRooms{
+      {"core", {1}},
+      {"parser",
+       {2,
+        {"language", "dialects", "reading", "running", "interpret/state", "interpret/frames",
+         "interpret/moves", "interpret/cycles", "interpret/filters", "writing"}}},
+      {"metrology", {2, {"fit", "points", "plan", "probing", "characteristic", "uncertainty"}}},
+      {"kinematics", {3, {"model", "errors", "controller", "timing", "path"}}},
+      {"post", {4, {"planning", "comparing"}}},
+      {"lint", {4}},
+      {"cutter", {4, {"body", "sweep", "search"}}},
+      {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral"}}},
+      {"programs", {6, {"cone", "step"}}},
+      {"report", {6, {"html", "page", "picture", "exchange", "sheet"}}},
+      {"trials", {7}},
+      {"calibration", {8, {"identify", "design", "compensate"}}},
+      {"app", {9, {"job", "view", "command"}}},
+  };
+  return kRooms;
+}
+
+const std::vector<UpwardArrow>& upward_arrows() {
+  static const std::vector<UpwardArrow> kArrows{
+      {"app/job", "app/view/console.hpp", "names the nearest known word"},
+      {"cutter/sweep/segment_sweep.hpp", "cutter/search/tangent_plane.hpp", "until moved"},
+      {"kinematics/controller", "kinematics/path", "until commands and paths are apart"},
+      {"kinematics/model", "kinematics/path/tool_path.hpp", "until poses are of the model"},
+      {"kinematics/model", "kinematics/errors", "the machine holds its error functions"},
+      {"metrology/characteristic", "metrology/uncertainty", "until one evaluator a characteristic"},
+      {"metrology/characteristic", "metrology/cmm.hpp", "until one evaluator a characteristic"},
+      {"metrology/characteristic", "metrology/measurement.hpp",
+       "until one evaluator a characteristic"},
+      {"metrology/characteristic", "metrology/decision_rule.hpp",
+       "until one evaluator a characteristic"},
+      {"metrology/plan", "metrology/decision_rule.hpp", "until the rule is of the plan"},
+      {"metrology/plan", "metrology/characteristic", "until checks of a plan are apart"},
+      {"metrology/points", "metrology/plan", "until planned points are below the plan"},
+      {"metrology/points", "metrology/cmm.hpp", "until planned points are below the plan"},
+  };
+  return kArrows;
+}
+
+std::string room_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
+std::string folder_of(const std::string& path) {
+  const auto first = path.find('/');
+  const auto last = path.rfind('/');
+  return first == last ? "" : path.substr(first + 1, last - first - 1);
+}
+
+std::vector<std::string> sources_of(const std::string& room) {
+  return files_of(room, {".cpp", ".hpp"});
+}
+
+std::vector<std::string> sources_of_all_rooms() {
+  std::vector<std::string> files;
+  for (const auto& [room, plan] : rooms()) {
+    for (std::string& file : sources_of(room)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+}  // namespace frustum::house
