@@ -40,7 +40,6 @@ const std::set<std::string>& above_a_limit() {
       "stock/mesh/io/mesh_reader.cpp",
       // tests of a room, one file a concept
       "tests/metrology",
-      "tests/parser",
   };
   return kPlaces;
 }
