@@ -7,7 +7,7 @@
 #include "lint/finding_list.hpp"
 #include "lint/motion_state.hpp"
 #include "parser/dialect.hpp"
-#include "parser/running/modal_state.hpp"
+#include "parser/interpret/state/modal_state.hpp"
 
 namespace frustum::lint {
 

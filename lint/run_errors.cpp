@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "parser/running/program_position.hpp"
+#include "parser/interpret/state/program_position.hpp"
 
 namespace frustum::lint {
 namespace {

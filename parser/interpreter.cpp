@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "parser/running/program_run.hpp"
+#include "parser/interpret/program_run.hpp"
 
 namespace frustum::parser {
 

@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/interpret/block_executor.hpp"
+#include "parser/interpret/state/modal_state.hpp"
 #include "parser/motion.hpp"
 #include "parser/program.hpp"
-#include "parser/running/block_executor.hpp"
-#include "parser/running/modal_state.hpp"
 #include "parser/tool_table.hpp"
 
 namespace frustum::parser {

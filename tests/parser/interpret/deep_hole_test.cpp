@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "parser/running/deep_hole.hpp"
+#include "parser/interpret/cycles/deep_hole.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

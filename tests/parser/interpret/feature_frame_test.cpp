@@ -1,5 +1,5 @@
 // The frames of tilted planes against frames worked out by hand, and the forms against each other.
-#include "parser/running/feature_frame.hpp"
+#include "parser/interpret/frames/feature_frame.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "parser/running/radius_compensation.hpp"
+#include "parser/interpret/filters/radius_compensation.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

@@ -1,5 +1,5 @@
 // Splines as arcs: how near they are, and how they join.
-#include "parser/running/spline.hpp"
+#include "parser/interpret/moves/spline.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -46,7 +46,7 @@ RC_GTEST_PROP(SplineLaws, TheArcsAreNearTheCurveAndJoinWithoutACorner, ()) {
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     RC_ASSERT((pieces[i].start - pieces[i - 1].end).norm() < 1e-9);
     const double bend =
-        std::abs(angle_between(direction_at_end(pieces[i - 1]), direction_at_start(pieces[i])));
+        std::abs(signed_angle(direction_at_end(pieces[i - 1]), direction_at_start(pieces[i])));
     RC_ASSERT(bend < 1e-4);
   }
   const double parameters = count - order + 1;

@@ -1,7 +1,7 @@
 // Moves that follow the spindle, and probing: LinuxCNC's G33, G33.1, G76, G38.2 to G38.5; G7.
 #include <gtest/gtest.h>
 
-#include "parser/running/threading_cycle.hpp"
+#include "parser/interpret/cycles/threading_cycle.hpp"
 #include "parser/writing/canonical_json.hpp"
 #include "tests/parser/running.hpp"
 

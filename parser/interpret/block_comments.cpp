@@ -1,0 +1,156 @@
+// What a block says without moving anything: comments, messages, words that are only events.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "parser/interpret/block_executor.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// Comments that speak to someone: (MSG, text), and in LinuxCNC those whose parameters are filled in.
+struct SpokenComment {
+  std::string_view prefix;
+  const char* event;
+  bool filled;
+  bool of_linuxcnc;
+};
+constexpr std::array kSpoken{
+    SpokenComment{"MSG,", "message", false, false},
+    SpokenComment{"DEBUG,", "debug", true, true},
+    SpokenComment{"PRINT,", "print", true, true},
+    SpokenComment{"LOG,", "log", true, true},
+    SpokenComment{"LOGOPEN,", "logopen", false, true},
+    SpokenComment{"LOGAPPEND,", "logappend", false, true},
+    SpokenComment{"LOGCLOSE", "logclose", false, true},
+};
+constexpr std::string_view kUnset = "######";
+
+// What stands behind the prefix, which may be written in lower case and behind blanks.
+std::optional<std::string_view> behind(std::string_view comment, std::string_view prefix) {
+  const std::size_t start = std::min(comment.find_first_not_of(" \t"), comment.size());
+  if (comment.size() - start < prefix.size()) return std::nullopt;
+  for (std::size_t i = 0; i < prefix.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(comment[start + i]);
+    if (std::toupper(byte) != prefix[i]) return std::nullopt;
+  }
+  return comment.substr(start + prefix.size());
+}
+
+std::string without_blanks_before(std::string text) {
+  text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
+  return text;
+}
+
+// %d %f %.3f, as far as the text begins with one: the decimals that it asks for, and its length.
+struct Decimals {
+  int count = 6;
+  std::size_t length = 0;
+};
+Decimals decimals_at(std::string_view text) {
+  constexpr int kOfF = 4;
+  if (text.starts_with("%d")) return {0, 2};
+  if (text.starts_with("%f")) return {kOfF, 2};
+  const bool digit = text.size() > 3 && std::isdigit(static_cast<unsigned char>(text[2])) != 0;
+  if (digit && text.starts_with("%.") && text[3] == 'f') return {text[2] - '0', 4};
+  return {};
+}
+
+// #12, #<name>: its length at the beginning of the text; 0 when there is none.
+std::size_t parameter_at(std::string_view text) {
+  if (text.starts_with("#<")) {
+    const std::size_t end = text.find('>');
+    return end == std::string_view::npos ? 0 : end + 1;
+  }
+  std::size_t length = 1;
+  while (length < text.size() && std::isdigit(static_cast<unsigned char>(text[length])) != 0) {
+    ++length;
+  }
+  return length > 1 && text.front() == '#' ? length : 0;
+}
+
+std::string lower(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    if (c != ' ' && c != '\t') {
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  return text;
+}
+
+std::string value_text(const Parameters& parameters, std::string_view name, int decimals) {
+  constexpr std::size_t kMaxDigits = 9;
+  Result<double> value = error("", "");
+  if (name[1] == '<') {
+    value = parameters.read(lower(name.substr(2, name.size() - 3)));
+  } else if (name.size() <= kMaxDigits) {
+    value = parameters.read(std::stod(std::string(name.substr(1))));
+  }
+  return value ? fmt::format("{:.{}f}", *value, decimals) : std::string(kUnset);
+}
+
+// The text with its parameters filled in.
+std::string filled(std::string_view text, const Parameters& parameters) {
+  std::string result;
+  int decimals = Decimals{}.count;
+  while (!text.empty()) {
+    const Decimals format = decimals_at(text);
+    const std::size_t name = parameter_at(text);
+    if (format.length > 0) {
+      decimals = format.count;
+      text.remove_prefix(format.length);
+    } else if (name > 0) {
+      result += value_text(parameters, text.substr(0, name), decimals);
+      text.remove_prefix(name);
+    } else {
+      result += text.front();
+      text.remove_prefix(1);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void BlockExecutor::report_comments(const Block& block) {
+  block_ = &block;
+  for (const Comment& comment : block.comments) {
+    // A ; by itself ends a block.
+    if (comment.to_line_end && comment.text.empty()) continue;
+    if (comment.event != nullptr) {
+      emit(comment.column, Event{comment.event, comment.text});
+      continue;
+    }
+    Event event{"comment", comment.text};
+    for (const SpokenComment& spoken : kSpoken) {
+      if (spoken.of_linuxcnc && rules_.dialect != Dialect::linuxcnc) continue;
+      const auto text = behind(comment.text, spoken.prefix);
+      if (!text) continue;
+      event = {spoken.event, without_blanks_before(spoken.filled ? filled(*text, parameters_)
+                                                                 : std::string(*text))};
+      break;
+    }
+    emit(comment.column, std::move(event));
+  }
+}
+
+void BlockExecutor::report_events(const BlockWords& words) {
+  for (const GivenCode& word : words.vacant()) {
+    const auto written = std::find_if(block_->words.begin(), block_->words.end(),
+                                      [&](const Word& w) { return w.column == word.column; });
+    emit(word.column, Event{"vacant", std::string(1, written->letter)});
+  }
+  for (const GivenCode& event : words.events()) {
+    std::string arguments;
+    for (char letter = 'A'; letter <= 'Z'; ++letter) {
+      if (!words.has(letter) || !event.code->arguments.has(letter)) continue;
+      if (!arguments.empty()) arguments += ' ';
+      arguments += words.text_of(letter);
+    }
+    emit(event.column, Event{event.code->name(), std::move(arguments)});
+  }
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,67 @@
+// RND and CHF of Klartext in a block: their words, and what may stand between them and the moves that they join.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "parser/interpret/block_executor.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// What may stand in the block of the second move.
+constexpr std::array kBesideMoves{CodeGroup::motion, CodeGroup::feed_source, CodeGroup::spindle,
+                                  CodeGroup::coolant, CodeGroup::corner};
+
+}  // namespace
+
+BlockExecutor::Outcome BlockExecutor::insert_corner(const BlockWords& words) {
+  if (!rules_.inserts_corners) return Done{};
+  const GivenCode& code = words[CodeGroup::corner];
+  const auto side = words.value_or(CodeGroup::radius_compensation, RadiusWord::off);
+  const bool same_side =
+      radius_.is_on() ? side == (radius_.setting().side == ToolSide::left ? RadiusWord::left
+                                                                          : RadiusWord::right)
+                      : side == RadiusWord::off;
+  if (corners_.corner()) {
+    for (std::size_t group = 0; group < kCodeGroups; ++group) {
+      const GivenCode& other = words[static_cast<CodeGroup>(group)];
+      const bool repeated =
+          other.code != nullptr && same_side && other.code->group == CodeGroup::radius_compensation;
+      const bool pole = group == static_cast<std::size_t>(CodeGroup::non_modal) &&
+                        words.value_or(CodeGroup::non_modal, NonModal::none) == NonModal::pole;
+      if (other.code == nullptr || other.code->event || repeated || pole ||
+          std::find(kBesideMoves.begin(), kBesideMoves.end(), other.code->group) !=
+              kBesideMoves.end()) {
+        continue;
+      }
+      return fail(other.column,
+                  fmt::format("{} between {} and the move behind it", other.code->name(),
+                              corners_.corner()->name),
+                  "write the moves of the contour one behind the other");
+    }
+  } else if (code.code == nullptr) {
+    corners_.release(to_radius_);
+  }
+  if (code.code == nullptr) return Done{};
+  Corner corner{.name = code.code->name()};
+  corner.rounds = static_cast<CornerWord>(code.code->value) == CornerWord::rounding;
+  corner.size = words['R'].value * unit_scale();
+  corner.place = block_->place_of(code.column);
+  corner.place.file = file_;
+  if (!(corner.size > 0.0)) {
+    return fail(words['R'].column, fmt::format("the size of {} is not above zero", corner.name),
+                "give a size above zero, or leave it out");
+  }
+  if (words.has('f')) {
+    if (!(words['f'].value > 0.0)) {
+      return fail(words['f'].column, fmt::format("{} is not above zero", words.text_of('f')),
+                  "give a feed above zero");
+    }
+    corner.feed = words['f'].value * unit_scale();
+  }
+  if (auto failure = corners_.insert(corner)) return *std::move(failure);
+  return Done{};
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,55 @@
+// Roundings and chamfers between two moves of a contour: RND and CHF of Klartext.
+//
+// Model    : a stage that the motions of a program pass before radius compensation. A cutting move in the plane waits
+//            until the next block tells whether its end is a corner to round or to break. A rounding is the arc that
+//            touches both moves inside the corner; a chamfer cuts the same length from both
+// Units    : mm
+// Shape    : take() every motion; insert() behind the first move; release() where no corner follows
+// Errors   : no cutting move in the plane on either side; moves that lead on without a corner, or go straight back; a
+//            corner that takes more of a move than there is, with the amounts; a chamfer at an arc
+// Accuracy : 1e-9 mm
+// Source   : Heidenhain conversational programming manual, path contours: RND and CHF
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "parser/interpret/filters/plane_path.hpp"
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+struct Corner {
+  std::string name{};  // of its word, for messages
+  bool rounds = false;
+  double size = 0.0;             // the radius, or the length cut from each move
+  std::optional<double> feed{};  // of the corner alone
+  SourcePlace place{};
+};
+
+class CornerInsertion {
+ public:
+  using Sink = std::function<void(Motion&&)>;
+  using Failure = std::optional<Diagnostic>;
+
+  // Whether a corner waits for the move behind it.
+  [[nodiscard]] const std::optional<Corner>& corner() const { return corner_; }
+  [[nodiscard]] Failure take(Motion&& motion, const Sink& sink);
+  [[nodiscard]] Failure insert(const Corner& corner);
+  // The move that waits is final; a corner is given up.
+  void release(const Sink& sink);
+
+ private:
+  // `piece` then begins behind the corner.
+  [[nodiscard]] Failure cut(Motion& next, PathPiece& piece, const Sink& sink);
+
+  AxisTarget reached_{};              // by the motions taken; absent where a motion lost it
+  std::vector<Motion> waiting_{};     // the move first, then what cuts nothing
+  std::optional<PathPiece> piece_{};  // of the move, when it lies in the plane
+  std::optional<Corner> corner_{};
+};
+
+}  // namespace frustum::parser

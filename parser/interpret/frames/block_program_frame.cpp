@@ -1,0 +1,101 @@
+// The programmable frame: TRANS, ROT, SCALE, MIRROR, which replace it, and ATRANS, AROT, ASCALE, AMIRROR,
+// which go on within it.
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "core/units.hpp"
+#include "parser/arc.hpp"
+#include "parser/interpret/block_executor.hpp"
+#include "parser/interpret/state/program_frame.hpp"
+
+namespace frustum::parser {
+namespace {
+
+bool goes_on(FrameWord word) {
+  return word == FrameWord::shift_within || word == FrameWord::turn_within ||
+         word == FrameWord::scale_within || word == FrameWord::mirror_within;
+}
+
+}  // namespace
+
+void BlockExecutor::set_program_frame(const ProgramFrame& next) {
+  const ProgramFrame& last = state_.program_frame;
+  if (next.linear == last.linear && next.scale == last.scale && next.origin == last.origin &&
+      next.rotary_shift == last.rotary_shift) {
+    return;
+  }
+  state_.program_frame = next;
+  change_programmed_frame(next.programmed_frame());
+  // A step from a place that was written in another frame would be ambiguous.
+  state_.placed_in_other_frame = kAxisWords;
+}
+
+BlockExecutor::Outcome BlockExecutor::change_program_frame(const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::program_frame];
+  if (code.code == nullptr) return Done{};
+  const auto word = static_cast<FrameWord>(code.code->value);
+  if ((words.given() & code.code->arguments).empty()) {
+    if (goes_on(word)) {
+      return fail(code.column, code.code->name() + " names no axis",
+                  fmt::format("give the axes, for example {} X5", code.code->name()));
+    }
+    set_program_frame({});
+    return Done{};
+  }
+  const auto frame = frame_of(words, word);
+  if (!frame) return frame.error();
+  set_program_frame(goes_on(word) ? state_.program_frame.with(*frame) : *frame);
+  return Done{};
+}
+
+Result<ProgramFrame> BlockExecutor::frame_of(const BlockWords& words, FrameWord word) const {
+  switch (word) {
+    case FrameWord::shift:
+    case FrameWord::shift_within: {
+      std::array<double, 3> rotary{};
+      for (std::size_t i = 0; i < rotary.size(); ++i) {
+        rotary.at(i) = words["ABC"[i]].value * kRadPerDeg;
+      }
+      return ProgramFrame::shift(vector_of(words, "XYZ") * unit_scale(), rotary);
+    }
+    case FrameWord::turn:
+    case FrameWord::turn_within:
+      break;
+    case FrameWord::scale:
+    case FrameWord::scale_within:
+      return scaling_of(words);
+    case FrameWord::mirror:
+    case FrameWord::mirror_within:
+      return ProgramFrame::mirror({words.has('X'), words.has('Y'), words.has('Z')});
+  }
+  if (!words.has('R')) return ProgramFrame::turn(vector_of(words, "XYZ") * kRadPerDeg);
+  if (const char axis = words.first_of(LetterSet("XYZ")); axis != 0) {
+    return fail(words[axis].column, fmt::format("{} beside RPL", words.text_of(axis)),
+                "turn in the plane by RPL, or about the axes by X Y Z");
+  }
+  Vec3 angles = Vec3::Zero();
+  angles[axes_of(state_.plane).w] = words['R'].value * kRadPerDeg;
+  return ProgramFrame::turn(angles);
+}
+
+Result<ProgramFrame> BlockExecutor::scaling_of(const BlockWords& words) const {
+  const GivenCode& code = words[CodeGroup::program_frame];
+  std::optional<double> factor;
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    const bool same = words.has(axis) && (!factor || *factor == words[axis].value);
+    if (!same) {
+      return fail(words.has(axis) ? words[axis].column : code.column,
+                  fmt::format("{} scales the axes in different ways", code.code->name()),
+                  "circles would be none: give X, Y and Z the same factor");
+    }
+    factor = words[axis].value;
+  }
+  if (!(*factor > 0.0)) {
+    return fail(words['X'].column, fmt::format("{} is no factor", words.text_of('X')),
+                "a factor is above zero; mirror by MIRROR");
+  }
+  return ProgramFrame::scaling(*factor);
+}
+
+}  // namespace frustum::parser

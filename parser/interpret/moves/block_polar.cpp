@@ -1,0 +1,116 @@
+// Places by radius and angle: @ and ^ of LinuxCNC, G16 of Fanuc.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/units.hpp"
+#include "parser/arc.hpp"
+#include "parser/interpret/block_executor.hpp"
+
+namespace frustum::parser {
+
+// @ radius and ^ angle about the origin, in the plane; what is not given stays as it is.
+BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) {
+  const char first = words.first_of(LetterSet("pq"));
+  if (first == 0) return Done{};
+  if (state_.plane != Plane::xy) {
+    return fail(words[first].column, "a polar position outside the plane of X and Y",
+                "give it in G17");
+  }
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  for (const AxisLetter axis : {u, v}) {
+    if (!words.has(to_char(axis))) continue;
+    return fail(words[to_char(axis)].column,
+                fmt::format("{} beside a polar position", words.text_of(to_char(axis))),
+                "give the place in the plane by @ and ^, or by axis words");
+  }
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  const bool from_here = incremental || !words.has(kPolarRadius) || !words.has(kPolarAngle);
+  double radius = 0.0;
+  double angle = 0.0;
+  if (from_here) {
+    for (const AxisLetter axis : {u, v}) {
+      if (position_[axis]) continue;
+      return fail(words[first].column,
+                  fmt::format("the polar position goes on from one that is not known: {}",
+                              position_.why_unknown(axis)),
+                  "give both @ and ^");
+    }
+    radius = std::hypot(*position_[u], *position_[v]);
+    angle = std::atan2(*position_[v], *position_[u]);
+    if (radius == 0.0 && !words.has(kPolarAngle)) {
+      return fail(words[first].column, "a polar position without angle, from the origin",
+                  "give ^ in degrees");
+    }
+  }
+  if (words.has(kPolarRadius)) {
+    radius = words[kPolarRadius].value * unit_scale() + (incremental ? radius : 0.0);
+  }
+  if (words.has(kPolarAngle)) {
+    angle = words[kPolarAngle].value * kRadPerDeg + (incremental ? angle : 0.0);
+  }
+  position_.set(u, radius * std::cos(angle));
+  position_.set(v, radius * std::sin(angle));
+  return Done{};
+}
+
+// The words of the plane's two axes. In G16 the first is a radius, the second an angle.
+BlockExecutor::Outcome BlockExecutor::set_place_in_plane(const BlockWords& words) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  const bool has_u = words.has(to_char(u));
+  const bool has_v = words.has(to_char(v));
+  if (!state_.polar) {
+    if (has_u) {
+      if (auto done = set_target(words, u); !done) return done;
+    }
+    return has_v ? set_target(words, v) : Outcome(Done{});
+  }
+  if (!has_u && !has_v) return Done{};
+  const bool incremental = state_.distance == DistanceMode::incremental;
+  PolarMode polar = *state_.polar;
+  if (has_u) {
+    polar.radius = words[to_char(u)].value * unit_scale();
+    polar.from_here = incremental;
+  }
+  if (has_v) {
+    polar.angle = words[to_char(v)].value * kRadPerDeg + (incremental ? polar.angle : 0.0);
+  }
+  if (!polar.radius) {
+    return fail(words[to_char(v)].column, "an angle in G16, but no radius yet",
+                fmt::format("give the radius by {}", to_char(u)));
+  }
+  Vec3 centre = Vec3::Zero();
+  for (const AxisLetter axis : {u, v}) {
+    if (!polar.from_here) continue;
+    if (!position_[axis]) {
+      return fail(words[to_char(has_u ? u : v)].column,
+                  fmt::format("the radius counts from where the tool is, but {}",
+                              position_.why_unknown(axis)),
+                  "move there with G15 and G90 before, or count from the origin in G90");
+    }
+    centre[static_cast<Eigen::Index>(axis)] = *position_[axis];
+  }
+  position_.set(u, centre[axes.u] + *polar.radius * std::cos(polar.angle));
+  position_.set(v, centre[axes.v] + *polar.radius * std::sin(polar.angle));
+  state_.polar = polar;
+  return Done{};
+}
+
+void BlockExecutor::set_polar_mode(const BlockWords& words) {
+  if (!words.has(CodeGroup::polar)) return;
+  const bool on = words.value_or(CodeGroup::polar, PolarWord::off) == PolarWord::on;
+  state_.polar = on ? std::optional(PolarMode{}) : std::nullopt;
+}
+
+BlockExecutor::Outcome BlockExecutor::check_polar_arc(const BlockWords& words) const {
+  const char centre = words.first_of(LetterSet("IJK"));
+  if (!state_.polar || centre == 0) return Done{};
+  return fail(words[centre].column, fmt::format("{} of an arc in G16", words.text_of(centre)),
+              "give the arc by its radius R, or end the polar words with G15");
+}
+
+}  // namespace frustum::parser

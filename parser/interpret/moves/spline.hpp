@@ -1,0 +1,34 @@
+// Splines of the plane as straight lines and arcs that join without a corner.
+//
+// Model    : a rational B-spline of control points with weights, order k (degree k - 1), knots uniform and clamped
+//            at both ends; k points of weight 1 are a Bezier curve. Each part of it is replaced by two arcs with
+//            its ends and its tangents there (a biarc), in halves until they are near enough
+// Units    : mm
+// Shape    : at least `order` points, order >= 2, weights above zero
+// Errors   : none; points that coincide give no pieces
+// Accuracy : `tolerance` between the curve and the pieces, looked at in 16 places of each
+// Source   : Piegl and Tiller, The NURBS Book, A3.1 and A4.1; Bolton 1975, Biarc curves, CAD 7(2)
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "parser/interpret/filters/plane_path.hpp"
+#include "parser/language/modes.hpp"
+
+namespace frustum::parser {
+
+struct ControlPoint {
+  Vec2 place = Vec2::Zero();
+  double weight = 1.0;
+};
+
+[[nodiscard]] bool is_spline(MotionMode mode);
+
+[[nodiscard]] Vec2 point_of_spline(std::span<const ControlPoint> points, int order,
+                                   double parameter);  // parameter from 0 to points - order + 1
+
+[[nodiscard]] std::vector<PathPiece> arcs_of_spline(std::span<const ControlPoint> points, int order,
+                                                    double tolerance);
+
+}  // namespace frustum::parser

@@ -1,0 +1,392 @@
+// The blocks in their order, and the calls that words make. Flow statements are in program_flow.cpp.
+#include "parser/interpret/program_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+#include <utility>
+
+namespace frustum::parser {
+namespace {
+
+// P00032000: three times O2000.
+constexpr std::uint32_t kRepeatsFactor = 10'000;
+
+constexpr const char* kEndOfFile = "END PGM";
+
+std::string known_programs(const ProgramMap& map) {
+  if (map.programs().empty())
+    return "the file holds no subprogram; begin one with O and its number";
+  std::string names = "the file holds";
+  for (const auto& entry : map.programs()) names += fmt::format(" O{}", entry.first);
+  return names;
+}
+
+// A name that is too long for the file system is none of a file.
+bool is_file(const std::filesystem::path& path) {
+  std::error_code unreadable;
+  return std::filesystem::is_regular_file(path, unreadable);
+}
+
+std::string small(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
+bool does_something(const Block& block) {
+  return !block.words.empty() || !block.assignments.empty() || block.program || block.flow;
+}
+
+ControlData data_before(const InterpreterOptions& options) {
+  ControlData data;
+  data.tools = options.tools;
+  data.tools_are_listed = std::any_of(options.tools.begin(), options.tools.end(),
+                                      [](const auto& tool) { return tool.second.has_length; });
+  data.work_offsets = options.work_offsets;
+  data.reference_points = options.reference_points;
+  data.unit = options.machine_unit;
+  return data;
+}
+
+}  // namespace
+
+ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
+                       const InterpreterOptions& options)
+    : sink_(sink),
+      options_(options),
+      rules_(rules_of(program.dialect)),
+      executor_(program.dialect, options.start, data_before(options), sink),
+      main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {}
+
+Result<RunSummary> ProgramRun::operator()() {
+  frames_.push_back({main_, BlockCursor(main_->program())});
+  while (!frames_.empty()) {
+    auto failure = run_next();
+    if (!failure) continue;
+    executor_.settle();
+    Diagnostics failures{*std::move(failure)};
+    if (syntax_failed_) {
+      // The rest of the text is read for its own mistakes, so that they are mended together.
+      const auto more = syntax_errors(frame().program->program(), frame().cursor.place());
+      failures.insert(failures.end(), more.begin(), more.end());
+    }
+    return failures;
+  }
+  executor_.settle();
+  return RunSummary{executor_.state(), blocks_};
+}
+
+ProgramRun::Failure ProgramRun::run_next() {
+  auto next = next_block();
+  if (!next) {
+    if (goes_on(next.error().front())) return std::nullopt;
+    syntax_failed_ = !options_.go_on;
+    return std::move(next).error().front();
+  }
+  if (*next == nullptr) return run_off(nullptr);
+  const Block& block = **next;
+  if (frame().opened && (block.tape_mark || block.program)) return run_off(&block);
+  if (!frame().opened && does_something(block)) {
+    frame().opened = true;
+    if (frames_.size() == 1) frame().entry = frame().cursor.block_place();
+  }
+  if (auto endless = count_block(block)) return endless;
+  if (options_.watch &&
+      !options_.watch({block, frame().program->place_file(), frames_.size() - 1})) {
+    frames_.clear();
+    return std::nullopt;
+  }
+  if (block.deletable && options_.block_delete) {
+    sink_(Motion{{block.line, 1, frame().program->place_file()}, Event{"block_delete", {}}});
+    return std::nullopt;
+  }
+  statement_ran_ = statement_ran_ || block.flow.has_value();
+  const std::size_t calls = frames_.size();
+  auto failure = block.flow ? follow_statement(block) : execute(block);
+  if (!failure || !goes_on(*failure)) return failure;
+  // A subprogram that has been left took its block with it.
+  if (frames_.size() == calls) executor_.pass_over(block);
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::count_block(const Block& block) {
+  constexpr const char* kRemedy =
+      "look for repeats within repeats, for loops whose condition never changes, and for M99 in "
+      "the main program";
+  if (++blocks_ > options_.max_blocks) {
+    return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
+  }
+  if (executor_.motions() != motions_) {
+    motions_ = executor_.motions();
+    blocks_at_motion_ = blocks_;
+  }
+  if (blocks_ - blocks_at_motion_ <= options_.max_idle_blocks) return std::nullopt;
+  return at(block, 1,
+            fmt::format("more than {} blocks have run without a motion", options_.max_idle_blocks),
+            kRemedy);
+}
+
+bool ProgramRun::goes_on(const Diagnostic& failure) const {
+  return options_.go_on && options_.go_on(Diagnostic(failure));
+}
+
+ProgramRun::Failure ProgramRun::execute(const Block& block) {
+  auto flow = executor_.execute(block);
+  if (!flow) return in_this_file(std::move(flow).error().front());
+  const bool calls_or_leaves = std::holds_alternative<CallSubprogram>(*flow) ||
+                               std::holds_alternative<CallFile>(*flow) ||
+                               std::holds_alternative<LeaveSubprogram>(*flow);
+  if (calls_or_leaves && executor_.moved() && !frame().modal_macros.empty()) {
+    return at(block, 1, "a call or M99 beside a move, which calls the macro of G66",
+              "write two blocks, or end G66 with G67 before");
+  }
+  return std::visit([&](const auto& wish) { return follow(block, wish); }, *flow);
+}
+
+Diagnostic ProgramRun::in_main(Diagnostic diagnostic) const {
+  diagnostic.file = main_->program().file;
+  return diagnostic;
+}
+
+Diagnostic ProgramRun::in_this_file(Diagnostic diagnostic) const {
+  diagnostic.file = frames_.back().program->program().file;
+  return diagnostic;
+}
+
+ProgramRun::Failure ProgramRun::run_off(const Block* end) {
+  if (frames_.size() > 1) {
+    Diagnostic failure =
+        in_this_file(error(fmt::format("subprogram {} has no {}", frame().name, frame().end),
+                           fmt::format("end the subprogram with {}", frame().end)));
+    failure.line = static_cast<int>(frame().named.line);
+    failure.column = static_cast<int>(frame().named.column);
+    return failure;
+  }
+  if (end != nullptr && end->program) {
+    return at(*end, end->program_column, fmt::format("the program runs into O{}", *end->program),
+              "end the main program with M30");
+  }
+  frames_.clear();
+  if (auto done = executor_.end_of_text(); !done) return in_main(std::move(done).error().front());
+  return std::nullopt;
+}
+
+void ProgramRun::return_from_call() {
+  CallFrame& done = frame();
+  if (--done.runs_left > 0) {
+    done.cursor.go_to(done.entry);
+    done.opened = false;
+    done.loops.clear();
+    done.parts.clear();
+    return;
+  }
+  CallFrame& caller = frames_[frames_.size() - 2];
+  if (done.is_modal) {
+    caller.modal_macros.back().call.arguments = executor_.local_values();
+  } else {
+    caller.modal_macros = std::move(done.modal_macros);
+  }
+  if (done.has_locals) executor_.parameters().leave();
+  executor_.leave_call();
+  frames_.pop_back();
+  executor_.read_from(frame().program->place_file());
+}
+
+Result<const Block*> ProgramRun::next_block() {
+  CallFrame& here = frame();
+  auto next = here.cursor.next();
+  while (next && !here.parts.empty() &&
+         (*next == nullptr || here.cursor.block_place().offset >= here.parts.back().end)) {
+    RepeatedPart& part = here.parts.back();
+    const bool again = part.turns_left > 0;
+    here.cursor.go_to(again ? part.begin : part.behind);
+    if (again) {
+      --part.turns_left;
+    } else {
+      here.parts.pop_back();
+    }
+    next = here.cursor.next();
+    if (again) break;
+  }
+  return next;
+}
+
+ProgramRun::Failure ProgramRun::end_program(const Block& block, std::uint32_t column) {
+  SourcePlace place = block.place_of(column);
+  place.file = frame().program->place_file();
+  sink_(Motion{std::move(place), Stop{StopKind::program_end}});
+  frames_.clear();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& block, const NextBlock& next) {
+  if (!next.moved || frame().modal_macros.empty()) return std::nullopt;
+  CallSubprogram call = frame().modal_macros.back().call;
+  call.column = 1;  // that of G66 is of another block
+  return call_numbered(block, std::move(call), true);
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const EndModalCall& /*end*/) {
+  if (!frame().modal_macros.empty()) frame().modal_macros.pop_back();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& /*block*/, const EndProgram& /*end*/) {
+  frames_.clear();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram& leave) {
+  if (frames_.size() == 1 && rules_.subprograms_are_programs) {
+    return end_program(block, leave.column);
+  }
+  if (frames_.size() == 1) return repeat_main_program(block, leave);
+  // Of a subprogram within the file, which has not ended.
+  if (leave.of_file && frame().end != kEndOfFile) return run_off(nullptr);
+  if (!leave.block_number) {
+    return_from_call();
+    return std::nullopt;
+  }
+  // What is left of the repeats does not run.
+  const std::string label = fmt::format("N{}", *leave.block_number);
+  Diagnostic failure = at(block, leave.column, fmt::format("there is no {} to go back to", label),
+                          "P of M99 names a block of the program that called this one");
+  frame().runs_left = 1;
+  return_from_call();
+  const auto target = find_label(label, Search::forward_then_backward);
+  if (!target) return failure;
+  frame().cursor.go_to(*target);
+  frame().parts.clear();
+  return std::nullopt;
+}
+
+// M99 of the main program runs it again from its start, or goes on at the block that P names.
+ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
+                                                    const LeaveSubprogram& leave) {
+  if (leave.block_number && rules_.dialect == Dialect::fanuc) {
+    const std::string label = fmt::format("N{}", *leave.block_number);
+    const auto target = find_label(label, Search::forward_then_backward);
+    if (!target) {
+      return at(block, leave.column, fmt::format("there is no {} to go to", label),
+                "P of M99 names a block of this program");
+    }
+    frame().cursor.go_to(*target);
+    frame().parts.clear();
+    return std::nullopt;
+  }
+  // Nothing that has run could make the next time another.
+  if (!statement_ran_ || rules_.dialect != Dialect::fanuc) {
+    return at(block, leave.column, "M99 in the main program would repeat it for ever",
+              "end the main program with M30");
+  }
+  statement_ran_ = false;
+  frame().cursor.go_to(frame().entry);
+  frame().opened = false;
+  frame().loops.clear();
+  frame().parts.clear();
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) {
+  if (!call.modal) return call_numbered(block, std::move(call), false);
+  frame().modal_macros.push_back({std::move(call)});
+  return std::nullopt;
+}
+
+// CALL PGM: the file from its start to its END PGM.
+ProgramRun::Failure ProgramRun::follow(const Block& block, const CallFile& call) {
+  const auto holder = file_of(call.name);
+  if (holder == nullptr) {
+    return at(
+        block, call.column, fmt::format("there is no program {}", call.name),
+        fmt::format("it is looked for beside this one and in the search path, as {}.h", call.name));
+  }
+  CallFrame next{holder, BlockCursor(holder->program()), call.name, kEndOfFile, {}, {1, 1}, 1,
+                 true};
+  if (auto failure = push_call(block, call.column, std::move(next))) return failure;
+  executor_.parameters().enter({});
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram call,
+                                              bool by_modal) {
+  std::shared_ptr<LoadedProgram> holder = frame().program;
+  const auto has = [&](std::uint32_t number) { return holder->map().programs().contains(number); };
+  if (!has(call.program) && !call.counted && call.program >= kRepeatsFactor &&
+      has(call.program % kRepeatsFactor)) {
+    call.count = call.program / kRepeatsFactor;
+    call.program %= kRepeatsFactor;
+  }
+  const std::string name = fmt::format("O{}", call.program);
+  if (!has(call.program)) {
+    holder = file_of(name);
+    if (holder == nullptr || !has(call.program)) {
+      return at(block, call.column, fmt::format("subprogram {} does not exist", name),
+                known_programs(frame().program->map()));
+    }
+  }
+  if (call.count == 0) return std::nullopt;
+  const auto& entry = holder->map().programs().at(call.program);
+  CallFrame next{holder,      BlockCursor(holder->program()),   name,      "M99",
+                 entry.place, {entry.place.line, entry.column}, call.count};
+  next.has_locals = call.arguments.has_value();
+  next.is_modal = by_modal;
+  if (auto failure = push_call(block, call.column, std::move(next))) return failure;
+  if (call.arguments) executor_.parameters().enter(*call.arguments);
+  return std::nullopt;
+}
+
+ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t column,
+                                          CallFrame next) {
+  if (frames_.size() > options_.max_call_depth) {
+    return at(block, column,
+              fmt::format("more than {} subprograms within each other", options_.max_call_depth),
+              fmt::format("does {} call itself?", next.name));
+  }
+  next.modal_macros = frame().modal_macros;
+  if (next.is_modal) next.modal_macros.pop_back();
+  next.cursor.go_to(next.entry);
+  frames_.push_back(std::move(next));
+  executor_.enter_call();
+  executor_.read_from(frame().program->place_file());
+  return std::nullopt;
+}
+
+std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
+  const auto [place, fresh] = files_.try_emplace(name);
+  if (!fresh) return place->second;
+  for (const auto& folder : options_.search_path) {
+    for (const std::string_view pattern : rules_.file_names) {
+      auto file = folder / fmt::format(fmt::runtime(pattern), name);
+      // Names that a control writes in capitals are often small in the names of files.
+      if (!is_file(file)) file = folder / fmt::format(fmt::runtime(pattern), small(name));
+      if (!is_file(file)) continue;
+      auto program = open_program(file, rules_.dialect);
+      if (!program) continue;
+      place->second = std::make_shared<LoadedProgram>(*std::move(program),
+                                                      LoadedProgram::Role::file_of_subprogram);
+      return place->second;
+    }
+  }
+  return nullptr;
+}
+
+std::shared_ptr<LoadedProgram> ProgramRun::program_with(const std::string& name) {
+  for (const auto& candidate : {frame().program, main_}) {
+    if (candidate->map().target(name) != nullptr) return candidate;
+  }
+  return file_of(name);
+}
+
+Diagnostic ProgramRun::at(const Block& block, std::uint32_t column, std::string message,
+                          std::string hint) const {
+  const SourcePlace place = block.place_of(column);
+  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  diagnostic.line = static_cast<int>(place.line);
+  diagnostic.column = static_cast<int>(place.column);
+  return in_this_file(std::move(diagnostic));
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,156 @@
+#include "parser/interpret/state/block_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace frustum::parser {
+namespace {
+
+std::uint64_t bit_of(CodeGroup group) {
+  return std::uint64_t{1} << static_cast<std::size_t>(group);
+}
+
+constexpr double kLargestValue = 1e15;
+
+Diagnostic at(const Block& block, std::uint32_t column, std::string message, std::string hint) {
+  const SourcePlace place = block.place_of(column);
+  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  diagnostic.line = static_cast<int>(place.line);
+  diagnostic.column = static_cast<int>(place.column);
+  return diagnostic;
+}
+
+Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, double number) {
+  const std::string name = word.letter + decimal_text(number);
+  const std::string_view remedy = remedy_for(dialect, word.letter, number);
+  if (!remedy.empty()) {
+    return at(block, word.column, name + " is not simulated", std::string(remedy));
+  }
+  return at(block, word.column, "unknown word " + name,
+            "near it are " + codes_near(dialect, word.letter, number));
+}
+
+}  // namespace
+
+char BlockWords::first_of(LetterSet letters) const {
+  char first = 0;
+  std::uint32_t first_column = std::numeric_limits<std::uint32_t>::max();
+  for (LetterSet wanted = letters & given_; !wanted.empty(); wanted = wanted.without_first()) {
+    const char letter = wanted.first();
+    if ((*this)[letter].column >= first_column) continue;
+    first = letter;
+    first_column = (*this)[letter].column;
+  }
+  return first;
+}
+
+namespace {
+
+std::string spelling_in(const Block& block, char letter) {
+  for (const Word& word : block.words) {
+    if (word.letter == letter && word.spelled != nullptr) return word.spelled;
+  }
+  return std::string(1, letter);
+}
+
+}  // namespace
+
+std::string BlockWords::name_of(char letter) const {
+  std::string name = spelling_in(*block_, letter);
+  while (name.size() > 1 && std::string_view(" =/").find(name.back()) != std::string_view::npos) {
+    name.pop_back();
+  }
+  return name;
+}
+
+std::string BlockWords::text_of(char letter) const {
+  return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
+}
+
+std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
+  const auto is_meant = [tenths](const GivenCode& given) {
+    return given.code != nullptr && given.code->letter == 'M' &&
+           std::find(tenths.begin(), tenths.end(), given.code->tenths) != tenths.end();
+  };
+  std::optional<BlockWords> aside;
+  const auto others = [&]() -> BlockWords& {
+    if (!aside) aside.emplace().block_ = block_;
+    return *aside;
+  };
+  for (const CodeGroup group : {CodeGroup::spindle, CodeGroup::coolant, CodeGroup::feed_mode,
+                                CodeGroup::tool_tip, CodeGroup::rotary_path}) {
+    const auto slot = static_cast<std::size_t>(group);
+    if ((groups_ & bit_of(group)) == 0 || !is_meant(codes_[slot])) continue;
+    others().codes_[slot] = std::exchange(codes_[slot], {});
+    groups_ &= ~bit_of(group);
+    others().groups_ |= bit_of(group);
+  }
+  for (auto event = events_.begin(); event != events_.end();) {
+    if (!is_meant(*event)) {
+      ++event;
+      continue;
+    }
+    others().events_.push_back(*event);
+    event = events_.erase(event);
+  }
+  return aside;
+}
+
+Result<BlockWords> read_words(const Block& block, const Parameters& parameters, Dialect dialect) {
+  const ExpressionContext context{block.steps, block.names, parameters};
+  BlockWords words;
+  words.block_ = &block;
+  for (const Word& word : block.words) {
+    double number = word.number;
+    if (!word.expression.empty()) {
+      auto computed = evaluate(context, word.expression);
+      if (!computed) {
+        const Diagnostic& failure = computed.error().front();
+        return at(block, static_cast<std::uint32_t>(failure.column), failure.message, failure.hint);
+      }
+      number = *computed;
+      if (is_vacant(number)) {
+        words.vacant_.push_back({nullptr, word.column});
+        continue;
+      }
+    }
+    const bool named = word.letter == kNamedWord;
+    if (word.letter != 'G' && word.letter != 'M' && !named) {
+      if (words.has(word.letter)) {
+        return at(block, word.column,
+                  fmt::format("{} is given twice in a block", words.name_of(word.letter)),
+                  "leave one of them out, or write two blocks");
+      }
+      // Beyond this sums and squares of positions would leave the range of numbers.
+      if (!(std::abs(number) <= kLargestValue)) {
+        return at(block, word.column, words.name_of(word.letter) + " is too large",
+                  "the values of words go up to 1e15");
+      }
+      words.given_.add(word.letter);
+      words.values_[BlockWords::slot(word.letter)] = {number, word.column, word.decimal_point,
+                                                      word.measure};
+      continue;
+    }
+    const Code* code = named ? &code_at(number) : find_code(dialect, word.letter, number);
+    if (code == nullptr) return unknown_code(block, dialect, word, number);
+    if (code->event) words.events_.push_back({code, word.column});
+    if (code->group == CodeGroup::event) continue;
+    GivenCode& place = words.codes_[static_cast<std::size_t>(code->group)];
+    if (place.code != nullptr) {
+      return at(block, word.column,
+                place.code == code ? fmt::format("{} is given twice in a block", code->name())
+                                   : fmt::format("{} and {} contradict each other in a block",
+                                                 place.code->name(), code->name()),
+                "leave one of them out, or write two blocks");
+    }
+    place = {code, word.column};
+    words.groups_ |= bit_of(code->group);
+  }
+  return words;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,41 @@
+// Hole cycles: defined once, done at each hole that the program names afterwards. CYCLE of CLDATA; CYCL DEF 200, 201,
+// 203, 205 and 207 of Klartext, called by CYCL CALL or M99 where the tool is.
+//
+// The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v how high it goes
+// afterwards (I: as high as before the first hole), Q the peck, P the dwell in seconds, f or r the feed.
+// Of Klartext: z the depth, below zero; V the height of the top; Q counts from the top; w the dwell above; W the feed out.
+// Of 203 and 205: D how much a peck is less than the one before, L the least peck, H how far a chip is broken, K how often
+// before the hole is cleared, E how deep each time, g and h the stops above the last depth.
+// Units : mm along the axis of the hole, from its top; seconds
+// Errors: none
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "parser/interpret/cycles/deep_hole.hpp"
+#include "parser/language/modes.hpp"
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+struct HoleCycle {
+  MotionMode kind = MotionMode::none;  // a canned cycle's; none: nothing is defined
+  bool on = false;
+  double depth = 0.0;            // below the top
+  double level = 0.0;            // where feeding begins
+  double clear = 0.0;            // where the tool comes to by rapid
+  std::optional<double> back{};  // where it goes afterwards; absent: `clear`
+  bool back_to_start = false;    // as high as before the first hole
+  double peck = 0.0;
+  double dwell = 0.0;
+  Feed feed{};
+  std::optional<Feed> feed_out{};
+  std::optional<double> top{};  // its coordinate along Z; absent: the hole's place says
+  double dwell_above = 0.0;     // seconds
+  std::optional<Vec3> start{};  // where the tool was then
+  std::optional<DeepHole> deep{};
+  std::string program{};  // a call runs this program file instead (CYCL DEF 12)
+};
+
+}  // namespace frustum::parser

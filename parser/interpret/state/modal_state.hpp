@@ -1,0 +1,142 @@
+// What an NC program has set so far and what stays set: the modes, tool, spindle and feed.
+//
+// The defaults are the state every program starts in: no motion mode, G17, G21, G90, G91.1, G94,
+// G49, G54, no feed, no tool chosen, spindle and coolant off.
+// Units: mm, rad, mm/min, 1/min.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "parser/interpret/cycles/drilling_cycle.hpp"
+#include "parser/interpret/frames/feature_frame.hpp"
+#include "parser/interpret/state/control_data.hpp"
+#include "parser/interpret/state/hole_cycle.hpp"
+#include "parser/interpret/state/program_frame.hpp"
+#include "parser/interpret/state/programmed_frame.hpp"
+#include "parser/language/letter_set.hpp"
+#include "parser/language/modes.hpp"
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+// Whether the tool's length counts, and whether the control guides the tool's tip: two switches, in
+// Fanuc's G43.4 thrown together.
+struct Compensation {
+  bool length = false;
+  bool tip = false;
+  bool tool_vectors = false;
+  int offset_number = 0;
+  // Of the tool, along the axes, where the program or its tool table gives them; else only the setup knows.
+  std::optional<std::array<double, kAxisLetters.size()>> tool_offset{};
+
+  // What is added to the positions of the axes; none where only the setup knows.
+  [[nodiscard]] std::optional<std::array<double, kAxisLetters.size()>> offset() const {
+    if (!length) return std::array<double, kAxisLetters.size()>{};
+    return tool_offset;
+  }
+  [[nodiscard]] LengthCompensation mode() const {
+    if (tip) return LengthCompensation::tool_centre_point;
+    return length ? LengthCompensation::length : LengthCompensation::off;
+  }
+  bool operator==(const Compensation&) const = default;
+};
+
+// An F word: a purely rotary move reads it in deg/min, whatever the unit of lengths.
+struct FeedWord {
+  double as_written = 0.0;
+  double scaled = 0.0;  // in mm/min when per minute
+};
+
+// The words of the canned cycle at work, in mm and seconds. Steps count from `initial` and from the level.
+struct CannedCycle {
+  MotionMode last = MotionMode::none;
+  double initial = 0.0;  // depth before the first hole
+  std::optional<double> level{};
+  std::optional<double> bottom{};
+  bool level_is_step = false;
+  bool bottom_is_step = false;
+  std::optional<double> peck{};
+  std::optional<double> dwell{};
+  std::optional<double> shift_u{};
+  std::optional<double> shift_v{};
+  std::optional<double> back{};
+};
+
+// G16: what the words of the plane's axes have said last, as radius and angle.
+struct PolarMode {
+  std::optional<double> radius{};
+  double angle = 0.0;
+  bool from_here = false;  // the radius counts from where the tool is, not from the origin
+};
+
+// Where a move in the plane has ended, and in which direction.
+struct Heading {
+  Vec3 at = Vec3::Zero();
+  Vec3 along = Vec3::Zero();
+};
+
+// What polar positions count from, and those of LP and CP; with radius and angle as they were written last.
+struct Pole {
+  Vec3 at = Vec3::Zero();
+  Plane plane = Plane::xy;
+  bool given = true;  // else the origin stands for it
+  std::optional<double> radius{};
+  std::optional<double> angle{};
+};
+
+struct ModalState {
+  MotionMode motion = MotionMode::none;
+  MotionMode before_cycle = MotionMode::none;  // the last motion that was no canned cycle
+  Plane plane = Plane::xy;
+  LengthUnit unit = LengthUnit::millimetre;
+  bool diameter = false;  // G7: X words are twice the position
+  DistanceMode distance = DistanceMode::absolute;
+  DistanceMode arc_distance = DistanceMode::incremental;
+  FeedMode feed_mode = FeedMode::per_minute;
+  std::optional<FeedWord> feed{};
+  Compensation compensation{};
+  std::optional<ToolSide> tool_side{};  // G41, G42; absent: G40
+  std::optional<int> radius_number{};   // the last D of a radius compensation
+  int work_offset = 1;
+  // Of the work offset in force: its origin, as far as the program knows it, and from it and the tool the frame between
+  // the words' frame and the axes: the turn, the tool's offset along X and Y, the rotary offsets.
+  WorkOffset datum{};
+  ProgrammedFrame offset_frame{};
+  std::optional<int> selected_tool{};
+  int tool = 0;                                        // in the spindle
+  std::optional<FeedWord> tool_feed{};                 // of TOOL CALL, for F AUTO
+  RotaryPath rotary_path = RotaryPath::as_programmed;  // M126
+  std::array<RotaryPath, 3> announced_rotary_paths{};  // of A, B, C: the last ones in the motions
+  // Rotary axes that went the shorter way: where they stand, in full turns, the machine knows.
+  std::array<bool, 3> loose{};
+  // ORIMKS: directions of the tool are the machine's, whatever frame the words are in.
+  OrientationReference orientation_reference = OrientationReference::workpiece;
+  OrientationPath orientation_path = OrientationPath::rotary_axes;
+  bool tilted = false;
+  Pose tilt{};                            // of the tilted plane
+  std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last
+  std::optional<PolarMode> polar{};       // G16
+  ProgrammedFrame programmed_frame{};
+  ProgramFrame program_frame{};       // of Sinumerik, which is its word frame
+  AxisTarget way_home{};              // the place that the last G28 or G30 went by
+  LetterSet placed_in_other_frame{};  // axes that no absolute word has placed since it changed
+  std::optional<ProgrammedFrame> frame_below{};  // of the words before G68.2: that plane lies in it
+  std::optional<Pole> pole{};                    // CC, G110 to G112
+  bool pole_lost = false;                        // it was one of another frame
+  std::optional<Heading> heading{};              // of the last move
+  std::optional<CannedCycle> cycle{};
+  HoleCycle hole_cycle{};
+  std::optional<DrillingCycle> drilling{};  // MCALL
+  bool retract_to_initial = true;           // G98; G99: to R
+  SpindleDirection spindle = SpindleDirection::off;
+  double spindle_speed = 0.0;
+  bool surface_speed = false;  // G96: S is a cutting speed, which the spindle follows
+  bool flood = false;
+  std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
+
+  [[nodiscard]] bool tool_centre_point() const { return compensation.tip; }
+};
+
+}  // namespace frustum::parser

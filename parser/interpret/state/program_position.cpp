@@ -1,0 +1,37 @@
+#include "parser/interpret/state/program_position.hpp"
+
+#include <fmt/format.h>
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::array kLossTexts{"",
+                                "G28",
+                                "the move in machine coordinates (G53)",
+                                "the change of work offset",
+                                "the change of tool length compensation",
+                                "the tool vector",
+                                "the change of the tilted plane",
+                                "the turn of the frame",
+                                kMistake};
+
+}  // namespace
+
+void ProgramPosition::forget(AxisLetter axis, PositionLoss loss, std::uint32_t line) {
+  // An axis that was not known before keeps its first cause: that is where the remedy belongs.
+  axes_[axis].reset();
+  if (!target_[axis]) return;
+  target_[axis].reset();
+  causes_.at(static_cast<std::size_t>(axis)) = {loss, line};
+}
+
+std::string ProgramPosition::why_unknown(AxisLetter axis) const {
+  const Cause& cause = causes_.at(static_cast<std::size_t>(axis));
+  if (cause.loss == PositionLoss::never_programmed) {
+    return fmt::format("{} has not been programmed yet", to_char(axis));
+  }
+  return fmt::format("{} is not known since {} on line {}", to_char(axis),
+                     kLossTexts.at(static_cast<std::size_t>(cause.loss)), cause.line);
+}
+
+}  // namespace frustum::parser

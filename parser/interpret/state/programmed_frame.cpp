@@ -1,0 +1,141 @@
+#include "parser/interpret/state/programmed_frame.hpp"
+
+#include <variant>
+
+#include "parser/arc.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr double kSameDirection = 1e-12;
+
+bool all_known(const AxisTarget& target) {
+  return target[AxisLetter::X] && target[AxisLetter::Y] && target[AxisLetter::Z];
+}
+
+Vec3 point_of(const AxisTarget& target) {
+  return {*target[AxisLetter::X], *target[AxisLetter::Y], *target[AxisLetter::Z]};
+}
+
+void set_point(AxisTarget& target, const Vec3& point) {
+  for (const AxisLetter axis : kLinearAxes) target[axis] = point[static_cast<Eigen::Index>(axis)];
+}
+
+}  // namespace
+
+bool ProgrammedFrame::turns() const { return turn.rotation != Mat3::Identity(); }
+
+bool ProgrammedFrame::is_identity() const {
+  return shift.isZero(0.0) && turn.translation.isZero(0.0) &&
+         rotary_shift == std::array<double, 3>{} && !turns() && scale == 1.0 && !is_mirrored();
+}
+
+double ProgrammedFrame::stretched(AxisLetter axis, double value) const {
+  const auto i = static_cast<std::size_t>(axis);
+  const double centre = scale_centre[static_cast<Eigen::Index>(axis)];
+  const double scaled = scale == 1.0 ? value : centre + scale * (value - centre);
+  return mirrors.at(i) ? 2.0 * *mirrors.at(i) - scaled : scaled;
+}
+
+double ProgrammedFrame::unstretched(AxisLetter axis, double value) const {
+  const auto i = static_cast<std::size_t>(axis);
+  const double centre = scale_centre[static_cast<Eigen::Index>(axis)];
+  const double scaled = mirrors.at(i) ? 2.0 * *mirrors.at(i) - value : value;
+  return scale == 1.0 ? scaled : centre + (scaled - centre) / scale;
+}
+
+Vec3 ProgrammedFrame::point(const Vec3& words) const {
+  const Vec3 turned = turn.point(words + shift);
+  Vec3 placed;
+  for (const AxisLetter axis : kLinearAxes) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    placed[i] = stretched(axis, turned[i]);
+  }
+  return placed;
+}
+
+Vec3 ProgrammedFrame::direction(const Vec3& words) const {
+  Vec3 turned = turn.direction(words);
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    if (mirrors.at(i)) turned[static_cast<Eigen::Index>(i)] *= -1.0;
+  }
+  return turned;
+}
+
+bool ProgrammedFrame::reverses(Plane plane) const {
+  const PlaneAxes axes = axes_of(plane);
+  return mirrors.at(static_cast<std::size_t>(axes.u)).has_value() !=
+         mirrors.at(static_cast<std::size_t>(axes.v)).has_value();
+}
+
+AxisTarget ProgrammedFrame::from_words(const AxisTarget& words) const {
+  AxisTarget place = words;
+  for (std::size_t i = 0; i < rotary_shift.size(); ++i) {
+    auto& angle = place[static_cast<AxisLetter>(3 + i)];
+    if (angle) *angle += rotary_shift.at(i);
+  }
+  if (!turns()) {
+    for (const AxisLetter axis : kLinearAxes) {
+      if (!place[axis]) continue;
+      const auto slot = static_cast<Eigen::Index>(axis);
+      place[axis] = stretched(axis, *place[axis] + shift[slot] + turn.translation[slot]);
+    }
+  } else if (all_known(words)) {
+    set_point(place, point(point_of(words)));
+  } else {
+    for (const AxisLetter axis : kLinearAxes) place[axis].reset();
+  }
+  return place;
+}
+
+AxisTarget ProgrammedFrame::to_words(const AxisTarget& place) const {
+  AxisTarget words = place;
+  for (std::size_t i = 0; i < rotary_shift.size(); ++i) {
+    auto& angle = words[static_cast<AxisLetter>(3 + i)];
+    if (angle) *angle -= rotary_shift.at(i);
+  }
+  if (!turns()) {
+    for (const AxisLetter axis : kLinearAxes) {
+      if (!words[axis]) continue;
+      const auto slot = static_cast<Eigen::Index>(axis);
+      words[axis] = unstretched(axis, *words[axis]) - shift[slot] - turn.translation[slot];
+    }
+  } else if (all_known(place)) {
+    Vec3 turned;
+    for (const AxisLetter axis : kLinearAxes) {
+      turned[static_cast<Eigen::Index>(axis)] = unstretched(axis, *place[axis]);
+    }
+    set_point(words, turn.inverse().point(turned) - shift);
+  } else {
+    for (const AxisLetter axis : kLinearAxes) words[axis].reset();
+  }
+  return words;
+}
+
+void ProgrammedFrame::place(Command& command) const {
+  const auto words_of = [&](auto& move) {
+    move.end = from_words(move.end);
+    if (move.tool_axis) move.tool_axis = UnitVec3::of(direction(*move.tool_axis));
+  };
+  const auto straight = [&](auto& move) {
+    if (move.coordinates == Coordinates::program) words_of(move);
+  };
+  if (auto* traverse = std::get_if<Traverse>(&command)) {
+    straight(*traverse);
+  } else if (auto* feed = std::get_if<LinearFeed>(&command)) {
+    straight(*feed);
+  } else if (auto* arc = std::get_if<ArcFeed>(&command)) {
+    words_of(*arc);
+    arc->center = point(arc->center);
+    if (reverses(arc->plane)) arc->turns = -arc->turns;
+  } else if (auto* probe = std::get_if<Probe>(&command)) {
+    words_of(*probe);
+  }
+}
+
+bool ProgrammedFrame::keeps(Plane plane) const {
+  const Vec3 normal = Vec3::Unit(axes_of(plane).w);
+  return (turn.direction(normal) - normal).norm() < kSameDirection;
+}
+
+}  // namespace frustum::parser

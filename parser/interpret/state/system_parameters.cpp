@@ -1,0 +1,283 @@
+#include "parser/interpret/state/system_parameters.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/units.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using Value = std::optional<double>;
+
+double in_program_unit(double millimetres, const ModalState& state) {
+  return state.unit == LengthUnit::millimetre ? millimetres : millimetres / kMmPerInch;
+}
+
+Value position_of(const SystemParameters& of, AxisLetter axis) {
+  const auto& value = of.position[axis];
+  if (!value) return std::nullopt;
+  return is_rotary(axis) ? *value * kDegPerRad : in_program_unit(*value, of.state);
+}
+
+double motion_word(MotionMode mode) {
+  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  50.0,  51.0,  52.0,  53.0,  330.0,
+                               331.0, 760.0, 382.0, 383.0, 384.0, 385.0, 730.0, 740.0, 810.0, 820.0,
+                               830.0, 840.0, 850.0, 860.0, 870.0, 880.0, 890.0, 760.0};
+  return kTenths.at(static_cast<std::size_t>(mode));
+}
+
+double yes(bool condition) { return condition ? 1.0 : 0.0; }
+
+// G54 to G59, then G59.1 to G59.3.
+double work_offset_word(int number) {
+  return number <= 6 ? 10.0 * (53 + number) : 590.0 + (number - 6);
+}
+
+struct Named {
+  std::string_view name;
+  Value (*value)(const SystemParameters& of);
+};
+constexpr std::array kNamed{
+    Named{"_x", [](const SystemParameters& of) { return position_of(of, AxisLetter::X); }},
+    Named{"_y", [](const SystemParameters& of) { return position_of(of, AxisLetter::Y); }},
+    Named{"_z", [](const SystemParameters& of) { return position_of(of, AxisLetter::Z); }},
+    Named{"_a", [](const SystemParameters& of) { return position_of(of, AxisLetter::A); }},
+    Named{"_b", [](const SystemParameters& of) { return position_of(of, AxisLetter::B); }},
+    Named{"_c", [](const SystemParameters& of) { return position_of(of, AxisLetter::C); }},
+    Named{"_motion_mode",
+          [](const SystemParameters& of) -> Value { return motion_word(of.state.motion); }},
+    Named{"_plane",
+          [](const SystemParameters& of) -> Value {
+            constexpr std::array kPlanes{170.0, 180.0, 190.0};
+            return kPlanes.at(static_cast<std::size_t>(of.state.plane));
+          }},
+    Named{"_metric",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.unit == LengthUnit::millimetre);
+          }},
+    Named{"_imperial",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.unit != LengthUnit::millimetre);
+          }},
+    Named{"_absolute",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.distance == DistanceMode::absolute);
+          }},
+    Named{"_incremental",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.distance == DistanceMode::incremental);
+          }},
+    Named{"_ijk_absolute_mode",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.arc_distance == DistanceMode::absolute);
+          }},
+    Named{"_inverse_time",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.feed_mode == FeedMode::inverse_time);
+          }},
+    Named{"_units_per_minute",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.feed_mode == FeedMode::per_minute);
+          }},
+    Named{"_units_per_rev",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.feed_mode == FeedMode::per_revolution);
+          }},
+    Named{
+        "_coord_system",
+        [](const SystemParameters& of) -> Value { return work_offset_word(of.state.work_offset); }},
+    Named{"_tool_offset",
+          [](const SystemParameters& of) -> Value { return yes(of.state.compensation.length); }},
+    Named{"_lathe_diameter_mode",
+          [](const SystemParameters& of) -> Value { return yes(of.state.diameter); }},
+    Named{"_lathe_radius_mode",
+          [](const SystemParameters& of) -> Value { return yes(!of.state.diameter); }},
+    Named{"_ccomp",
+          [](const SystemParameters& of) -> Value {
+            if (!of.state.tool_side) return 400.0;
+            return *of.state.tool_side == ToolSide::left ? 410.0 : 420.0;
+          }},
+    Named{"_spindle_on",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.spindle != SpindleDirection::off);
+          }},
+    Named{"_spindle_cw",
+          [](const SystemParameters& of) -> Value {
+            return yes(of.state.spindle == SpindleDirection::clockwise);
+          }},
+    Named{"_flood", [](const SystemParameters& of) -> Value { return yes(of.state.flood); }},
+    Named{"_rpm", [](const SystemParameters& of) -> Value { return of.state.spindle_speed; }},
+    Named{"_feed",
+          [](const SystemParameters& of) -> Value {
+            return of.state.feed ? of.state.feed->as_written : 0.0;
+          }},
+    Named{"_current_tool", [](const SystemParameters& of) -> Value { return of.state.tool; }},
+    Named{"_selected_tool",
+          [](const SystemParameters& of) -> Value { return of.state.selected_tool.value_or(0); }},
+    Named{"_call_level", [](const SystemParameters& of) -> Value { return of.call_level; }},
+    Named{"_task", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
+    Named{"_vmajor", [](const SystemParameters& /*of*/) -> Value { return 2.9; }},
+    Named{"_vminor", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
+};
+
+// Other names that LinuxCNC keeps to itself, whose values are the machine's or a call's.
+constexpr std::array<std::string_view, 26> kKeptNames{"_line",
+                                                      "_retract_r_plane",
+                                                      "_retract_old_z",
+                                                      "_spindle_rpm_mode",
+                                                      "_spindle_css_mode",
+                                                      "_mist",
+                                                      "_speed_override",
+                                                      "_feed_override",
+                                                      "_adaptive_feed",
+                                                      "_feed_hold",
+                                                      "_u",
+                                                      "_v",
+                                                      "_w",
+                                                      "_current_pocket",
+                                                      "_selected_pocket",
+                                                      "_remap_level",
+                                                      "_value",
+                                                      "_value_returned",
+                                                      "_abs_x",
+                                                      "_abs_y",
+                                                      "_abs_z",
+                                                      "_abs_a",
+                                                      "_abs_b",
+                                                      "_abs_c",
+                                                      "_abs_u",
+                                                      "_abs_v"};
+
+// #4001 to #4130: the word of each group that is in force.
+struct ModalVariable {
+  int index;
+  Value (*value)(const ModalState& state);
+};
+constexpr std::array kModal{
+    ModalVariable{4001,
+                  [](const ModalState& state) -> Value {
+                    const bool known = state.motion >= MotionMode::traverse &&
+                                       state.motion <= MotionMode::arc_counterclockwise;
+                    return known ? Value(motion_word(state.motion) / 10.0) : std::nullopt;
+                  }},
+    ModalVariable{
+        4002,
+        [](const ModalState& state) -> Value { return 17.0 + static_cast<double>(state.plane); }},
+    ModalVariable{4003,
+                  [](const ModalState& state) -> Value {
+                    return state.distance == DistanceMode::absolute ? 90.0 : 91.0;
+                  }},
+    ModalVariable{4005,
+                  [](const ModalState& state) -> Value {
+                    constexpr std::array kModes{94.0, 93.0, 95.0};
+                    return kModes.at(static_cast<std::size_t>(state.feed_mode));
+                  }},
+    ModalVariable{4006,
+                  [](const ModalState& state) -> Value {
+                    return state.unit == LengthUnit::millimetre ? 21.0 : 20.0;
+                  }},
+    ModalVariable{4008,
+                  [](const ModalState& state) -> Value {
+                    const Compensation& kept = state.compensation;
+                    return !kept.length ? 49.0 : kept.tool_vectors ? 43.5 : kept.tip ? 43.4 : 43.0;
+                  }},
+    ModalVariable{4009,
+                  [](const ModalState& state) -> Value {
+                    return state.cycle ? motion_word(state.motion) / 10.0 : 80.0;
+                  }},
+    ModalVariable{
+        4010,
+        [](const ModalState& state) -> Value { return state.retract_to_initial ? 98.0 : 99.0; }},
+    ModalVariable{4011,
+                  [](const ModalState& state) -> Value {
+                    return state.programmed_frame.scale == 1.0 ? 50.0 : 51.0;
+                  }},
+    ModalVariable{
+        4013, [](const ModalState& state) -> Value { return state.surface_speed ? 96.0 : 97.0; }},
+    ModalVariable{4014,
+                  [](const ModalState& state) -> Value {
+                    return state.work_offset <= 6 ? 53.0 + state.work_offset : 54.1;
+                  }},
+    ModalVariable{4016,
+                  [](const ModalState& state) -> Value {
+                    return state.tilted || state.programmed_frame.turns() ? 68.0 : 69.0;
+                  }},
+    ModalVariable{4017, [](const ModalState& state) -> Value { return state.polar ? 16.0 : 15.0; }},
+    ModalVariable{4022,
+                  [](const ModalState& state) -> Value {
+                    return state.programmed_frame.is_mirrored() ? 51.1 : 50.1;
+                  }},
+    ModalVariable{
+        4109,
+        [](const ModalState& state) -> Value { return state.feed ? state.feed->as_written : 0.0; }},
+    ModalVariable{
+        4111, [](const ModalState& state) -> Value { return state.compensation.offset_number; }},
+    ModalVariable{4119, [](const ModalState& state) -> Value { return state.spindle_speed; }},
+    ModalVariable{4120,
+                  [](const ModalState& state) -> Value { return state.selected_tool.value_or(0); }},
+};
+
+Value modal_variable(const ModalState& state, int index) {
+  const auto found =
+      std::find_if(kModal.begin(), kModal.end(),
+                   [index](const ModalVariable& entry) { return entry.index == index; });
+  return found == kModal.end() ? std::nullopt : found->value(state);
+}
+
+// $P_EP[X]: where the last block ended; $AA_IW[X]: where the axis is, which is the same when the block runs.
+Value sinumerik_variable(const SystemParameters& of, std::string_view name) {
+  for (const std::string_view start : {"$P_EP[", "$AA_IW["}) {
+    if (!name.starts_with(start)) continue;
+    const auto axis = std::string_view("XYZABC").find(name[start.size()]);
+    return position_of(of, kAxisLetters.at(axis));
+  }
+  if (name == "$P_TOOLNO") return of.state.tool;
+  if (name == "$P_F") return of.state.feed ? of.state.feed->as_written : 0.0;
+  if (name == "$P_S") return of.state.spindle_speed;
+  if (name == "$P_SDIR") {
+    // 3 clockwise, 4 counterclockwise, 5 off: as the M words.
+    constexpr std::array kWords{5.0, 3.0, 4.0};
+    return kWords.at(static_cast<std::size_t>(of.state.spindle));
+  }
+  return std::nullopt;
+}
+
+constexpr int kLinuxcncPosition = 5420;
+constexpr int kFanucPosition = 5001;
+constexpr int kFanucPositionNow = 5041;  // with the length of the tool
+constexpr int kAxesOfParameters = 6;
+
+}  // namespace
+
+Value SystemParameters::number(int index) const {
+  const int first = dialect == Dialect::fanuc ? kFanucPosition : kLinuxcncPosition;
+  if (index >= first && index < first + kAxesOfParameters) {
+    return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(index - first)));
+  }
+  if (dialect == Dialect::fanuc) {
+    const int now = index - kFanucPositionNow;
+    if (now >= 0 && now < kAxesOfParameters && !state.compensation.length) {
+      return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(now)));
+    }
+    if (const Value mode = modal_variable(state, index)) return mode;
+  }
+  return read_parameter(data, dialect, index);
+}
+
+Value SystemParameters::named(std::string_view name) const {
+  if (dialect == Dialect::sinumerik) return sinumerik_variable(*this, name);
+  if (dialect != Dialect::linuxcnc) return std::nullopt;
+  const auto found = std::find_if(kNamed.begin(), kNamed.end(),
+                                  [name](const Named& entry) { return entry.name == name; });
+  return found == kNamed.end() ? std::nullopt : found->value(*this);
+}
+
+bool SystemParameters::keeps(std::string_view name) const {
+  if (dialect != Dialect::linuxcnc || !name.starts_with('_')) return false;
+  return std::any_of(kNamed.begin(), kNamed.end(),
+                     [name](const Named& entry) { return entry.name == name; }) ||
+         std::find(kKeptNames.begin(), kKeptNames.end(), name) != kKeptNames.end();
+}
+
+}  // namespace frustum::parser

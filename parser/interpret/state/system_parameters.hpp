@@ -1,0 +1,41 @@
+// The parameters that a controller keeps itself: where the tool is, which modes are on.
+//
+//   LinuxCNC   #<_x>, #<_feed>, #<_motion_mode>, ..., #5420 to #5425
+//   Fanuc      #5001 to #5006 (end of the last block), #5041 to #5046 (the same without tool length),
+//              #4001 to #4120 (modes)
+// and the data of control_data.hpp.
+//
+// Units : positions in the program's own unit (mm or inch) and degrees, feeds per minute in it
+// Errors: none; no value for what is not such a parameter, or for a position that is not known; NaN for data that only
+//         the setup knows
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "parser/dialect.hpp"
+#include "parser/interpret/state/modal_state.hpp"
+#include "parser/interpret/state/program_position.hpp"
+#include "parser/language/parameters.hpp"
+
+namespace frustum::parser {
+
+class SystemParameters final : public KeptParameters {
+ public:
+  SystemParameters(Dialect of, const ModalState& modes, const ProgramPosition& place,
+                   const ControlData& kept)
+      : dialect(of), state(modes), position(place), data(kept) {}
+
+  [[nodiscard]] std::optional<double> number(int index) const override;
+  [[nodiscard]] std::optional<double> named(std::string_view name) const override;
+  // Whether a program may not set the name.
+  [[nodiscard]] bool keeps(std::string_view name) const;
+
+  Dialect dialect;
+  const ModalState& state;
+  const ProgramPosition& position;
+  const ControlData& data;
+  int call_level = 0;
+};
+
+}  // namespace frustum::parser
