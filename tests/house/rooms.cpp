@@ -9,7 +9,7 @@ const std::map<std::string, Room>& rooms() {
       {"core", {1}},
       {"parser",
        {2,
-        {"language", "dialects", "reading", "running", "interpret/state", "interpret/frames",
+        {"language", "dialects", "reading", "interpret/state", "interpret/frames",
          "interpret/moves", "interpret/cycles", "interpret/filters", "writing"}}},
       {"metrology", {2, {"fit", "points", "plan", "probing", "characteristic", "uncertainty"}}},
       {"kinematics", {3, {"model", "errors", "controller", "timing", "path"}}},
@@ -29,6 +29,12 @@ const std::map<std::string, Room>& rooms() {
 const std::vector<UpwardArrow>& upward_arrows() {
   static const std::vector<UpwardArrow> kArrows{
       {"app/job", "app/view/console.hpp", "names the nearest known word"},
+      {"parser/interpret", "parser/interpret/block_executor.hpp",
+       "until its parts are free functions"},
+      {"parser/interpret/moves", "parser/interpret/cycles", "until threads are a cycle"},
+      {"parser/interpret/moves", "parser/interpret/filters", "until plane paths are below moves"},
+      {"parser/interpret/state", "parser/interpret/cycles", "until the state holds no cycles"},
+      {"parser/interpret/state", "parser/interpret/frames", "until the state holds no frames"},
       {"cutter/sweep/segment_sweep.hpp", "cutter/search/tangent_plane.hpp", "until moved"},
       {"kinematics/controller", "kinematics/path", "until commands and paths are apart"},
       {"kinematics/model", "kinematics/path/tool_path.hpp", "until poses are of the model"},
