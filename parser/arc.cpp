@@ -33,19 +33,21 @@ Result<Arc> arc_by_radius(const ArcWords& words) {
   const PlaneAxes axes = axes_of(words.plane);
   const double radius = *words.radius;
   if (radius == 0.0) {
-    return error("R is zero",
+    return error("arc-radius-zero"_id, "R is zero",
                  fmt::format("give the radius, or the centre by {}", centre_words(words.plane)));
   }
   const double du = words.end[axes.u] - words.start[axes.u];
   const double dv = words.end[axes.v] - words.start[axes.v];
   const double chord = std::hypot(du, dv);
   if (chord < kFullCircleGap) {
-    return error("an arc with R ends at its start, which leaves its centre open",
+    return error("arc-full-by-radius"_id,
+                 "an arc with R ends at its start, which leaves its centre open",
                  fmt::format("give the centre of a full circle by {}", centre_words(words.plane)));
   }
   const double half = chord / 2.0;
   if (half - std::abs(radius) > tolerance_at(half)) {
-    return error(fmt::format("R {} is too small: the end is {} from the start",
+    return error("arc-radius"_id,
+                 fmt::format("R {} is too small: the end is {} from the start",
                              mm(std::abs(radius)), mm(chord)),
                  fmt::format("R must be at least {}; correct R or the end", mm(half)));
   }
@@ -64,7 +66,8 @@ Result<Arc> arc_by_centre(const ArcWords& words) {
   for (const int axis : {axes.u, axes.v}) {
     const auto& word = words.centre.at(static_cast<std::size_t>(axis));
     if (words.centre_is_absolute && !word) {
-      return error(fmt::format("{} has half a centre", word_of(words.clockwise)),
+      return error("arc-centre-missing"_id,
+                   fmt::format("{} has half a centre", word_of(words.clockwise)),
                    fmt::format("after G90.1 give both {}", centre_words(words.plane)));
     }
     arc.centre[axis] = words.centre_is_absolute ? *word : words.start[axis] + word.value_or(0.0);
@@ -75,12 +78,13 @@ Result<Arc> arc_by_centre(const ArcWords& words) {
   const double at_start = distance(words.start);
   const double at_end = distance(words.end);
   if (at_start == 0.0) {
-    return error("the centre of the arc is its start",
+    return error("arc-centre-is-start"_id, "the centre of the arc is its start",
                  fmt::format("{} lead from the start to the centre", centre_words(words.plane)));
   }
   const double difference = std::abs(at_start - at_end);
   if (difference > tolerance_at(std::max(at_start, at_end)) + kRounding) {
-    return error(fmt::format("the start of the arc is {} from the centre, its end {}: {} apart",
+    return error("arc-radius"_id,
+                 fmt::format("the start of the arc is {} from the centre, its end {}: {} apart",
                              mm(at_start), mm(at_end), mm(difference)),
                  fmt::format("allowed are 0.01 mm, or 0.1 % of the radius up to 0.5 mm; "
                              "correct {} or the end",
@@ -106,12 +110,14 @@ Result<Arc> arc_of(const ArcWords& words) {
   const bool has_centre = std::any_of(words.centre.begin(), words.centre.end(),
                                       [](const auto& word) { return word.has_value(); });
   if (has_centre && words.radius) {
-    return error(fmt::format("{} has both R and a centre", word_of(words.clockwise)),
+    return error("arc-centre-twice"_id,
+                 fmt::format("{} has both R and a centre", word_of(words.clockwise)),
                  fmt::format("give R, or {}", centre_words(words.plane)));
   }
   if (words.radius) return arc_by_radius(words);
   if (has_centre) return arc_by_centre(words);
-  return error(fmt::format("{} without a centre", word_of(words.clockwise)),
+  return error("arc-centre-missing"_id,
+               fmt::format("{} without a centre", word_of(words.clockwise)),
                fmt::format("give {}, or R", centre_words(words.plane)));
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 Diagnostic second_program(const Program& program, const Block& block, std::uint32_t first_line) {
   Diagnostic twice =
-      error(fmt::format("program O{} is already on line {}", *block.program, first_line),
+      error("program-twice"_id,
+            fmt::format("program O{} is already on line {}", *block.program, first_line),
             "give each program of the file its own number");
   twice.file = program.file;
   twice.line = static_cast<int>(block.line);
@@ -53,7 +54,8 @@ Diagnostics syntax_errors(const Program& program, TextPlace start) {
   }
   if (cursor.at_end()) return failures;
   Diagnostic more =
-      error(fmt::format("more than {} syntax errors; the rest of the file was not read",
+      error("syntax-errors"_id,
+            fmt::format("more than {} syntax errors; the rest of the file was not read",
                         kMaxSyntaxErrors - 1),
             "is this an NC program?");
   more.file = program.file;

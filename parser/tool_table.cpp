@@ -150,7 +150,7 @@ Result<ToolTable> tool_table_of(std::string_view text, const std::string& file, 
   std::map<int, int> lines;
   Diagnostics mistakes;
   const auto complain = [&](int line, const TableLine::Mistake& mistake) {
-    Diagnostic diagnostic = error(mistake.message, mistake.hint);
+    Diagnostic diagnostic = error("tool-table"_id, mistake.message, mistake.hint);
     diagnostic.file = file;
     diagnostic.line = line;
     diagnostic.column = static_cast<int>(mistake.column);
@@ -181,7 +181,8 @@ Result<ToolTable> read_tool_table(const std::filesystem::path& file, LengthUnit 
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file)) {
-    Diagnostic diagnostic = error("the tool table cannot be read", "is the path right?");
+    Diagnostic diagnostic =
+        error("file-unreadable"_id, "the tool table cannot be read", "is the path right?");
     diagnostic.file = file.string();
     return diagnostic;
   }

@@ -82,7 +82,7 @@ std::string lower(std::string_view name) {
 
 std::string value_text(const Parameters& parameters, std::string_view name, int decimals) {
   constexpr std::size_t kMaxDigits = 9;
-  Result<double> value = error("", "");
+  Result<double> value = error("parameter-undefined"_id, "");
   if (name[1] == '<') {
     value = parameters.read(lower(name.substr(2, name.size() - 3)));
   } else if (name.size() <= kMaxDigits) {

@@ -84,7 +84,8 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
   report_comments(block);
   if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
       raised.code != nullptr) {
-    return fail(raised.column, fmt::format("the program stops with {}", words->text_of('E')),
+    return fail(raised.column, "program-alarm"_id,
+                fmt::format("the program stops with {}", words->text_of('E')),
                 "look at the conditions before this block");
   }
   if (auto done = set_parameters(block); !done) return std::move(done).error();
@@ -106,7 +107,8 @@ Result<Flow> BlockExecutor::carry_out(const Block& block) {
                     DiameterWord::diameter;
   const bool any_speed = words->has('S') && !of_dwell('S');
   if (any_speed && (*words)['S'].value < 0.0) {
-    return fail((*words)['S'].column, fmt::format("{} is negative", words->text_of('S')),
+    return fail((*words)['S'].column, "value-negative"_id,
+                fmt::format("{} is negative", words->text_of('S')),
                 "give the direction by M3 or M4 and a speed that is not negative");
   }
   state_.surface_speed =
@@ -153,14 +155,14 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
 
   if (non_modal == NonModal::home || non_modal == NonModal::second_home) {
     if (motion_code.code != nullptr && mode != MotionMode::traverse) {
-      return fail(motion_code.column,
+      return fail(motion_code.column, "axis-words-shared"_id,
                   fmt::format("{} and {} both use the axis words", non_modal_code.code->name(),
                               motion_code.code->name()),
                   "write two blocks");
     }
     if ((words.given() & kAxisWords).empty() && !rules_.home_without_axes_is_all) {
       const std::string name = non_modal_code.code->name();
-      return fail(non_modal_code.column, name + " names no axis",
+      return fail(non_modal_code.column, "axes-missing"_id, name + " names no axis",
                   fmt::format("give the axes to send home, for example G91 {} Z0", name));
     }
     return Movement{non_modal, MotionMode::none, non_modal_code.column};
@@ -168,14 +170,14 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   if (non_modal == NonModal::skip || non_modal == NonModal::check_home ||
       non_modal == NonModal::from_home) {
     if (motion_code.code != nullptr && mode != MotionMode::traverse) {
-      return fail(motion_code.column,
+      return fail(motion_code.column, "axis-words-shared"_id,
                   fmt::format("{} and {} both use the axis words", non_modal_code.code->name(),
                               motion_code.code->name()),
                   "write two blocks");
     }
     if ((words.given() & kAxisWords).empty()) {
       const std::string name = non_modal_code.code->name();
-      return fail(non_modal_code.column, name + " names no axis",
+      return fail(non_modal_code.column, "axes-missing"_id, name + " names no axis",
                   fmt::format("give the end of the move, for example {} Z0", name));
     }
     const bool skips = non_modal == NonModal::skip;
@@ -189,15 +191,17 @@ Result<BlockExecutor::Movement> BlockExecutor::movement_of(const BlockWords& wor
   if (non_modal == NonModal::machine_coordinates) {
     const std::string name = non_modal_code.code->name();
     if (mode != MotionMode::traverse && mode != MotionMode::linear) {
-      return fail(non_modal_code.column, name + " without a straight move",
+      return fail(non_modal_code.column, "machine-coordinates"_id,
+                  name + " without a straight move",
                   "machine coordinates belong to a straight move, for example G53 G0 Z0");
     }
     if ((words.given() & kAxisWords).empty()) {
-      return fail(non_modal_code.column, name + " names no axis",
+      return fail(non_modal_code.column, "axes-missing"_id, name + " names no axis",
                   "give the axes to move, for example Z0");
     }
     if (words.value_or(CodeGroup::distance, state_.distance) == DistanceMode::incremental) {
-      return fail(non_modal_code.column, name + " in G91", "machine coordinates need G90");
+      return fail(non_modal_code.column, "machine-coordinates"_id, name + " in G91",
+                  "machine coordinates need G90");
     }
     return Movement{non_modal, mode, non_modal_code.column};
   }
@@ -294,7 +298,7 @@ BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
   claim(motion_words(words, movement));
 
   if (const char letter = words.first_of(words.given() & twice); letter != 0) {
-    return fail(words[letter].column,
+    return fail(words[letter].column, "word-ambiguous"_id,
                 fmt::format("{} could belong to two words of the block", words.text_of(letter)),
                 "write two blocks");
   }
@@ -302,10 +306,10 @@ BlockExecutor::Outcome BlockExecutor::check_claims(const BlockWords& words,
   if (letter == 0) return Done{};
   const std::string_view use = letter_use(rules_, letter);
   if (use.empty()) {
-    return fail(words[letter].column, "unknown word " + words.text_of(letter),
+    return fail(words[letter].column, "unknown-word"_id, "unknown word " + words.text_of(letter),
                 fmt::format("known are the letters {}", rules_.known_letters));
   }
-  return fail(words[letter].column,
+  return fail(words[letter].column, "word-unused"_id,
               fmt::format("{} has no meaning in this block", words.text_of(letter)),
               std::string(use));
 }
@@ -315,11 +319,13 @@ Result<int> BlockExecutor::whole(const BlockWords& words, char letter, int least
   const double nearest = std::round(word.value);
   // RS-274 forgives 1e-4 in numbers that have to be whole.
   if (std::abs(word.value - nearest) > 1e-4) {
-    return fail(word.column, fmt::format("{} is not a whole number", words.text_of(letter)),
+    return fail(word.column, "not-whole"_id,
+                fmt::format("{} is not a whole number", words.text_of(letter)),
                 fmt::format("give {} without decimals", words.name_of(letter)));
   }
   if (nearest < least || nearest > most) {
-    return fail(word.column, fmt::format("{} is out of range", words.text_of(letter)),
+    return fail(word.column, "out-of-range"_id,
+                fmt::format("{} is out of range", words.text_of(letter)),
                 fmt::format("{} goes from {} to {}", words.name_of(letter), least, most));
   }
   return static_cast<int>(nearest);
@@ -335,12 +341,13 @@ BlockExecutor::Outcome BlockExecutor::set_parameters(const Block& block) {
     if (!value) return in_this_block(value.error().front());
     int index = 0;
     if (setting.name && system_.keeps(block.names[*setting.name])) {
-      return fail(setting.column,
+      return fail(setting.column, "parameter-read-only"_id,
                   fmt::format("parameter #<{}> can only be read", block.names[*setting.name]),
                   "it tells the position, a mode or what a call gave back; use a name of your own");
     }
     if (setting.name && !setting.defines && !parameters_.can_set(block.names[*setting.name])) {
-      return fail(setting.column, fmt::format("{} is not defined", block.names[*setting.name]),
+      return fail(setting.column, "parameter-undefined"_id,
+                  fmt::format("{} is not defined", block.names[*setting.name]),
                   "define it before: DEF REAL and its name; parameters are R0 to R999");
     }
     if (!setting.name) {
@@ -373,7 +380,8 @@ BlockExecutor::Outcome BlockExecutor::set_numbered(std::uint32_t column, int ind
   const auto written = is_vacant(value) ? ParameterWrite::not_kept
                                         : write_parameter(data_, rules_.dialect, index, value);
   if (written == ParameterWrite::read_only) {
-    return fail(column, fmt::format("parameter #{} can only be read", index),
+    return fail(column, "parameter-read-only"_id,
+                fmt::format("parameter #{} can only be read", index),
                 "it tells the tool or the position; use another parameter");
   }
   if (written == ParameterWrite::done) {
@@ -396,7 +404,7 @@ Result<CallSubprogram> BlockExecutor::called_program(const BlockWords& words) co
   const GivenCode& code = words[CodeGroup::subprogram];
   CallSubprogram call{0, false, 1, code.column, {}};
   if (!words.has('P')) {
-    return fail(code.column, code.code->name() + " without P",
+    return fail(code.column, "word-missing"_id, code.code->name() + " without P",
                 fmt::format("name the subprogram, for example {} P2000", code.code->name()));
   }
   const auto program = whole(words, 'P', 1, kMaxProgramNumber);
@@ -419,7 +427,7 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
     const bool called = rules_.calls_whole_files && file_ != nullptr;
     if (kind == StopKind::program_end && called) {
       if (stop.code->letter == kNamedWord) return Flow{LeaveSubprogram{stop.column, {}, true}};
-      return fail(stop.column, stop.code->name() + " in a program that is called",
+      return fail(stop.column, "call-end"_id, stop.code->name() + " in a program that is called",
                   "end it with END PGM, which goes back to the caller");
     }
     if (kind == StopKind::program_end) {
@@ -453,8 +461,9 @@ Result<Flow> BlockExecutor::finish(const BlockWords& words) {
   return Flow{*std::move(call)};
 }
 
-Diagnostic BlockExecutor::fail(std::uint32_t column, std::string message, std::string hint) const {
-  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+Diagnostic BlockExecutor::fail(std::uint32_t column, DiagnosticId id, std::string message,
+                               std::string hint) const {
+  Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
   diagnostic.column = static_cast<int>(column);
   return in_this_block(std::move(diagnostic));
 }

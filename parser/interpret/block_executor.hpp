@@ -191,6 +191,7 @@ class BlockExecutor {
   [[nodiscard]] Outcome tell_origin(int number, std::uint32_t column);
   [[nodiscard]] AxisTarget axis_positions() const;
   [[nodiscard]] std::string why_axis_unknown(AxisLetter axis) const;
+  [[nodiscard]] DiagnosticId axis_unknown_id(AxisLetter axis) const;
   void follow_datum(const ModalState& before, const AxisTarget& axes, PositionLoss loss);
   void arrive(const AxisTarget& axes);
   [[nodiscard]] Result<std::optional<ToolOffset>> tool_offset_of(const BlockWords& words,
@@ -304,7 +305,8 @@ class BlockExecutor {
                                       bool linear) const;
   void leave_program_coordinates(LetterSet axes, PositionLoss loss);
   void forget(LetterSet axes, PositionLoss loss);
-  [[nodiscard]] Diagnostic fail(std::uint32_t column, std::string message, std::string hint) const;
+  [[nodiscard]] Diagnostic fail(std::uint32_t column, DiagnosticId id, std::string message,
+                                std::string hint) const;
   [[nodiscard]] Diagnostic fail(std::uint32_t column, const Diagnostic& found) const;
   [[nodiscard]] Diagnostic in_this_block(Diagnostic diagnostic) const;
   void emit(std::uint32_t column, Command command);

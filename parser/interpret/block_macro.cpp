@@ -57,20 +57,20 @@ Result<Flow> BlockExecutor::call_macro(const Block& block, const Word& code) {
   const std::string name = "G" + decimal_text(code.number);
   const ExpressionContext context{block.steps, block.names, parameters_};
   if (!block.assignments.empty()) {
-    return fail(block.assignments.front().column, fmt::format("a setting beside {}", name),
-                "write two blocks");
+    return fail(block.assignments.front().column, "macro-beside"_id,
+                fmt::format("a setting beside {}", name), "write two blocks");
   }
   CallSubprogram call{0, false, 1, code.column, std::vector<double>(kArguments, kVacant)};
   call.modal = code.number == 66.0;
   const auto count_of = [&](const Word& word, double value, int least, int most) -> Result<int> {
     const double nearest = std::round(value);
     if (std::abs(value - nearest) > 1e-4) {
-      return fail(word.column,
+      return fail(word.column, "not-whole"_id,
                   fmt::format("{}{} is not a whole number", word.letter, decimal_text(value)),
                   fmt::format("give {} without decimals", word.letter));
     }
     if (nearest < least || nearest > most) {
-      return fail(word.column,
+      return fail(word.column, "out-of-range"_id,
                   fmt::format("{}{} is out of range", word.letter, decimal_text(value)),
                   fmt::format("{} goes from {} to {}", word.letter, least, most));
     }
@@ -94,11 +94,11 @@ Result<Flow> BlockExecutor::call_macro(const Block& block, const Word& code) {
       continue;
     }
     if (letter == 'G') {
-      return fail(word.column, fmt::format("G{} beside {}", decimal_text(value), name),
-                  "write two blocks");
+      return fail(word.column, "macro-beside"_id,
+                  fmt::format("G{} beside {}", decimal_text(value), name), "write two blocks");
     }
     if (given.has(letter) && !is_centre(letter)) {
-      return fail(word.column, fmt::format("{} is given twice in a block", letter),
+      return fail(word.column, "word-twice"_id, fmt::format("{} is given twice in a block", letter),
                   "leave one of them out, or write two blocks");
     }
     if (letter == 'P') {
@@ -117,14 +117,16 @@ Result<Flow> BlockExecutor::call_macro(const Block& block, const Word& code) {
                           ? kParameterOf.at(static_cast<std::size_t>(letter - 'A'))
                           : 0;
       if (parameter == 0) {
-        return fail(word.column, fmt::format("{} is no argument of a macro", letter),
+        return fail(word.column, "macro-argument"_id,
+                    fmt::format("{} is no argument of a macro", letter),
                     "arguments are the letters but G, L, N, O and P");
       }
       if (is_centre(letter)) {
         if (last_centre != 0 && letter <= last_centre) ++triple;
         last_centre = letter;
         if (triple >= kMaxTriples) {
-          return fail(word.column, "more than ten I J K of a macro call", "give up to ten of each");
+          return fail(word.column, "macro-argument"_id, "more than ten I J K of a macro call",
+                      "give up to ten of each");
         }
         parameter += 3 * triple;
       }
@@ -133,7 +135,7 @@ Result<Flow> BlockExecutor::call_macro(const Block& block, const Word& code) {
     given.add(letter);
   }
   if (!named) {
-    return fail(code.column, name + " without P",
+    return fail(code.column, "word-missing"_id, name + " without P",
                 fmt::format("name the subprogram, for example {} P2000", name));
   }
   return Flow{std::move(call)};
@@ -156,7 +158,8 @@ Result<bool> BlockExecutor::set_system_variable(std::uint32_t column, int index,
         return index >= variable.first && index <= variable.last;
       });
   if (known == kVariables.end()) {
-    return fail(column, fmt::format("system variable #{} is not simulated", index),
+    return fail(column, "not-simulated"_id,
+                fmt::format("system variable #{} is not simulated", index),
                 "leave the setting out of the simulated program");
   }
   const std::string text = block_->comments.empty() ? std::string{} : block_->comments.front().text;
@@ -164,12 +167,12 @@ Result<bool> BlockExecutor::set_system_variable(std::uint32_t column, int index,
   switch (known->use) {
     case VariableUse::alarm:
       return fail(
-          column,
+          column, "program-alarm"_id,
           fmt::format("the program raises alarm {}{}{}", number, text.empty() ? "" : ": ", text),
           "it stops itself here; see what it checks before");
     case VariableUse::clock:
       return fail(
-          column, fmt::format("system variable #{} is not simulated", index),
+          column, "not-simulated"_id, fmt::format("system variable #{} is not simulated", index),
           "the clocks and the panel are the machine's: leave them out of the simulated program");
     case VariableUse::message:
       emit(column, Event{"message", text});

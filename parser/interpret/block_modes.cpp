@@ -21,7 +21,8 @@ BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
   state_.feed_mode = mode;
   if (const GivenCode& source = words[CodeGroup::feed_source]; source.code != nullptr) {
     if (!state_.tool_feed) {
-      return fail(source.column, source.code->name() + " without a feed in the tool call",
+      return fail(source.column, "tool-feed-missing"_id,
+                  source.code->name() + " without a feed in the tool call",
                   "give F in TOOL CALL, or a number here");
     }
     state_.feed = state_.tool_feed;
@@ -29,8 +30,8 @@ BlockExecutor::Outcome BlockExecutor::set_feed(const BlockWords& words) {
   if (!words.has('F')) return Done{};
   const double feed = words['F'].value;
   if (feed < 0.0) {
-    return fail(words['F'].column, fmt::format("{} is negative", words.text_of('F')),
-                "give a feed above zero");
+    return fail(words['F'].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of('F')), "give a feed above zero");
   }
   state_.feed = feed > 0.0 ? std::optional(FeedWord{feed, feed * feed_scale(mode)}) : std::nullopt;
   // F AUTO comes back to that of the tool.
@@ -54,7 +55,7 @@ Result<std::optional<BlockWords>> BlockExecutor::words_behind_move(BlockWords& w
   auto behind = words.set_aside(rules_.words_behind_move);
   if (behind && behind->has(CodeGroup::feed_mode) && words.has('F')) {
     const GivenCode& mode = (*behind)[CodeGroup::feed_mode];
-    return fail(words['F'].column,
+    return fail(words['F'].column, "feed-mode-later"_id,
                 fmt::format("{} beside {}, which counts when the move is done", words.text_of('F'),
                             mode.code->name()),
                 fmt::format("write {} before, in a block of its own", mode.code->name()));
@@ -75,7 +76,7 @@ BlockExecutor::Outcome BlockExecutor::set_behind_move(const BlockWords& words) {
 BlockExecutor::Outcome BlockExecutor::check_tool_exists(int tool, std::uint32_t column) const {
   const bool listed = rules_.dialect == Dialect::linuxcnc && data_.tools_are_listed;
   if (!listed || tool == 0 || data_.tools.contains(tool)) return Done{};
-  return fail(column, fmt::format("tool {} is not in the tool table", tool),
+  return fail(column, "tool-missing"_id, fmt::format("tool {} is not in the tool table", tool),
               fmt::format("add a line T{} to the tool table", tool));
 }
 
@@ -89,7 +90,7 @@ BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
   const GivenCode& change = words[CodeGroup::tool_change];
   if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
     if (!words.has('Q')) {
-      return fail(change.column, change.code->name() + " without a tool",
+      return fail(change.column, "tool-missing"_id, change.code->name() + " without a tool",
                   fmt::format("give the tool that is in the spindle, for example {} Q1",
                               change.code->name()));
     }
@@ -100,7 +101,7 @@ BlockExecutor::Outcome BlockExecutor::set_tool(const BlockWords& words) {
     emit(change.column, ToolChange{state_.tool});
   } else if (change.code != nullptr) {
     if (!state_.selected_tool) {
-      return fail(change.column, change.code->name() + " without a tool",
+      return fail(change.column, "tool-missing"_id, change.code->name() + " without a tool",
                   "give T on this block or before");
     }
     if (state_.spindle != SpindleDirection::off) {
@@ -134,23 +135,25 @@ BlockExecutor::Outcome BlockExecutor::dwell(const BlockWords& words) {
     if (!words.has(word.letter)) continue;
     if (given != nullptr) {
       return fail(
-          words[word.letter].column,
+          words[word.letter].column, "dwell-time"_id,
           fmt::format("{} has both {} and {}", code.code->name(), given->letter, word.letter),
           "give one time");
     }
     given = &word;
   }
   if (given == nullptr) {
-    return fail(code.column, code.code->name() + " without a time", std::string(rules_.dwell_hint));
+    return fail(code.column, "dwell-time"_id, code.code->name() + " without a time",
+                std::string(rules_.dwell_hint));
   }
   const GivenWord& time = words[given->letter];
   if (time.value < 0.0) {
-    return fail(time.column, fmt::format("{} is negative", words.text_of(given->letter)),
+    return fail(time.column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(given->letter)),
                 "a dwell takes a time that is not negative");
   }
   if (given->unit == DwellUnit::revolutions && state_.spindle_speed <= 0.0) {
-    return fail(time.column, "a dwell in revolutions with no spindle speed",
-                "give a spindle speed before");
+    return fail(time.column, "dwell-without-speed"_id,
+                "a dwell in revolutions with no spindle speed", "give a spindle speed before");
   }
   const bool milliseconds =
       given->unit == DwellUnit::milliseconds_without_point && !time.decimal_point;
@@ -177,7 +180,8 @@ BlockExecutor::Outcome BlockExecutor::keep_modes(const BlockWords& words) {
       break;
     case SavedModesWord::restore:
       if (!saved.state) {
-        return fail(code.column, "there are no saved modes", "save them with M70 or M73 before");
+        return fail(code.column, "saved-modes-missing"_id, "there are no saved modes",
+                    "save them with M70 or M73 before");
       }
       restore_modes(code.column);
       break;

@@ -52,7 +52,7 @@ Result<std::string> ProgramRun::label_of(const Block& block, const FlowStatement
   if (!value) return value.error();
   const double nearest = std::round(*value);
   if (!(std::abs(*value - nearest) <= 1e-4) || nearest < 0.0 || nearest > 99'999'999.0) {
-    return at(block, flow.column,
+    return at(block, flow.column, "flow-number"_id,
               fmt::format("{} is no number of a block or subprogram", spelled(*value)),
               "it is a whole number from 0 to 99999999");
   }
@@ -65,7 +65,8 @@ Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange r
   if (!value) return value.error();
   const double nearest = std::round(*value);
   if (!(std::abs(*value - nearest) <= 1e-4) || nearest > kMaxLoopTurns) {
-    return at(block, block.flow->column, fmt::format("{} is no number of repeats", spelled(*value)),
+    return at(block, block.flow->column, "flow-number"_id,
+              fmt::format("{} is no number of repeats", spelled(*value)),
               "it is a whole number up to 1000000000");
   }
   return static_cast<std::uint64_t>(std::max(0.0, nearest));
@@ -137,7 +138,7 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
     case FlowKind::next_turn:
       if (map[here.begin].turns == Turns::counted) {
         return at(
-            block, flow.column,
+            block, flow.column, "flow-outside-loop"_id,
             fmt::format("{} of a repeat", here.kind == FlowKind::leave_loop ? "break" : "continue"),
             "it belongs to while and do: count the turns in a while loop");
       }
@@ -184,7 +185,8 @@ ProgramRun::Failure ProgramRun::enter_loop(const Block& block, const Landmark& h
     if (!limit) return limit.error().front();
     const std::string& variable = block.names[flow.variable];
     if (!executor_.parameters().can_set(variable)) {
-      return at(block, flow.column, fmt::format("{} is not defined", variable),
+      return at(block, flow.column, "parameter-undefined"_id,
+                fmt::format("{} is not defined", variable),
                 "define it before: DEF INT and its name");
     }
     executor_.parameters().set(variable, *first);
@@ -216,7 +218,8 @@ ProgramRun::Failure ProgramRun::turn_loop(const Block& block, const Landmark& he
     return candidate.begin == begin.place.offset;
   });
   if (loop == loops.end()) {
-    return at(block, block.flow->column, "the end of a loop that was not begun",
+    return at(block, block.flow->column, "flow-outside-loop"_id,
+              "the end of a loop that was not begun",
               fmt::format("the jump into it passed its beginning on line {}", begin.place.line));
   }
   loops.erase(loop + 1, loops.end());
@@ -244,7 +247,8 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   const auto name = label_of(block, flow);
   if (!name) return name.error().front();
   if (flow.arguments.size() > kMaxArguments) {
-    return at(block, flow.column, fmt::format("{} arguments in a call", flow.arguments.size()),
+    return at(block, flow.column, "call-arguments"_id,
+              fmt::format("{} arguments in a call", flow.arguments.size()),
               fmt::format("a subprogram takes up to {}", kMaxArguments));
   }
   std::vector<double> arguments;
@@ -274,7 +278,7 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   const bool has_locals = !rules_.calls_whole_files;
   if (holder != nullptr && !holder->map().faults().empty()) return holder->map().faults().front();
   if (entry == nullptr) {
-    return at(block, flow.column, unlabelled("no subprogram", *name),
+    return at(block, flow.column, "missing-subprogram"_id, unlabelled("no subprogram", *name),
               options_.search_path.empty() || rules_.calls_whole_files
                   ? "define it in the program"
                   : "define it in the program or in a file of its name");
@@ -296,7 +300,7 @@ ProgramRun::Failure ProgramRun::call_program(const Block& block, const std::stri
   if (holder->map().head(name) == nullptr) holder = file_of(name);
   if (holder == nullptr) {
     return at(
-        block, block.flow->column, fmt::format("no subprogram {}", name),
+        block, block.flow->column, "missing-subprogram"_id, fmt::format("no subprogram {}", name),
         fmt::format("write it behind the program, under %_N_{0}_SPF, or in a file {0}.spf", name));
   }
   const Landmark* head = holder->map().head(name);
@@ -321,7 +325,7 @@ ProgramRun::Failure ProgramRun::receive(const Block& block) {
   const std::vector<double>& given = frame().arguments;
   // A head without PROC takes none, which the call cannot know.
   if (given.size() > flow.parameters.size() && !block.tape_mark) {
-    return at(block, flow.column,
+    return at(block, flow.column, "call-arguments"_id,
               fmt::format("{} is called with {} arguments and has {} parameters", frame().name,
                           given.size(), flow.parameters.size()),
               "name the parameters in PROC, or leave arguments out");
@@ -364,7 +368,8 @@ ProgramRun::Failure ProgramRun::give_back(const Block& block) {
   // Klartext passes the end of a subprogram that was not called.
   if (rules_.calls_whole_files && frame().end != kEndOfLabel) return std::nullopt;
   if (frames_.size() == 1) {
-    return at(block, flow.column, "return outside a subprogram", "end the main program with M2");
+    return at(block, flow.column, "flow-outside-call"_id, "return outside a subprogram",
+              "end the main program with M2");
   }
   if (!flow.condition.empty()) {
     const auto value = value_of(block, flow.condition);
@@ -422,7 +427,7 @@ ProgramRun::Failure ProgramRun::go_to_label(const Block& block, const std::strin
   const auto target = find_label(label, search);
   if (!target && flow.may_be_missing) return std::nullopt;
   if (!target) {
-    return at(block, flow.column, fmt::format("there is no {} to go to", label),
+    return at(block, flow.column, "missing-label"_id, fmt::format("there is no {} to go to", label),
               "the jump names a block or label of this program");
   }
   frame().cursor.go_to(*target);
@@ -464,14 +469,14 @@ ProgramRun::Failure ProgramRun::repeat(const Block& block) {
   const auto end = begin ? end_of_part(flow, *begin) : std::nullopt;
   if (!end || *end < begin->offset) {
     return at(
-        block, flow.column,
+        block, flow.column, "missing-label"_id,
         fmt::format("there is no part {} to repeat",
                     flow.last_label.empty() ? flow.label : flow.label + " to " + flow.last_label),
         "name labels of this program, the earlier one first");
   }
   if (*count == 0) return std::nullopt;
   if (frame().parts.size() >= options_.max_call_depth) {
-    return at(block, flow.column,
+    return at(block, flow.column, "repeat-depth"_id,
               fmt::format("more than {} repeats within each other", options_.max_call_depth),
               "does a repeated part hold its own repeat?");
   }

@@ -87,9 +87,9 @@ ProgramMap::ProgramMap(const Program& program) {
   pair(program);
 }
 
-void ProgramMap::add_fault(const Program& program, const Landmark& landmark, std::string message,
-                           std::string hint) {
-  Diagnostic fault = error(std::move(message), std::move(hint));
+void ProgramMap::add_fault(const Program& program, const Landmark& landmark, DiagnosticId id,
+                           std::string message, std::string hint) {
+  Diagnostic fault = error(id, std::move(message), std::move(hint));
   fault.file = program.file;
   fault.line = static_cast<int>(landmark.place.line);
   fault.column = static_cast<int>(landmark.column);
@@ -104,12 +104,13 @@ void ProgramMap::pair(const Program& program) {
   std::vector<Open> open;
   const auto unended = [&](const Open& statement) {
     const Landmark& begin = landmarks_[statement.begin];
-    add_fault(program, begin,
+    add_fault(program, begin, "flow-unpaired"_id,
               fmt::format("{}{} has no end", wording(begin.kind).begin, named(begin)),
               fmt::format("close it with its {}", wording(begin.kind).end));
   };
   const auto twice = [&](const Landmark& here, const Landmark& first) {
-    add_fault(program, here, fmt::format("{} is already on line {}", here.label, first.place.line),
+    add_fault(program, here, "flow-name-twice"_id,
+              fmt::format("{} is already on line {}", here.label, first.place.line),
               "give each its own name");
   };
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
@@ -137,7 +138,7 @@ void ProgramMap::pair(const Program& program) {
     }
     if (opens(here.kind)) {
       if (here.kind == FlowKind::subprogram && !open.empty()) {
-        add_fault(program, here,
+        add_fault(program, here, "flow-unpaired"_id,
                   fmt::format("subprogram{} begins within another statement", named(here)),
                   fmt::format("that of line {} is open", landmarks_[open.back().begin].place.line));
       }
@@ -154,7 +155,7 @@ void ProgramMap::pair(const Program& program) {
     });
     if (statement == open.rend()) {
       add_fault(
-          program, here,
+          program, here, "flow-unpaired"_id,
           fmt::format("there is no {}{} to which this belongs", wording(*opener).begin,
                       named(here)),
           fmt::format("it stands behind its {}, with the same label", wording(*opener).begin));
@@ -174,7 +175,7 @@ void ProgramMap::pair(const Program& program) {
     if (!inner_only) continue;
     Landmark& last = landmarks_[statement->last];
     if (last.kind == FlowKind::otherwise && !closes(here.kind)) {
-      add_fault(program, here, "a part of the if behind its else",
+      add_fault(program, here, "flow-unpaired"_id, "a part of the if behind its else",
                 fmt::format("else of line {} is the last part", last.place.line));
     }
     last.next = i;

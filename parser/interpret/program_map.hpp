@@ -64,8 +64,8 @@ class ProgramMap {
 
  private:
   void pair(const Program& program);
-  void add_fault(const Program& program, const Landmark& landmark, std::string message,
-                 std::string hint);
+  void add_fault(const Program& program, const Landmark& landmark, DiagnosticId id,
+                 std::string message, std::string hint);
 
   std::vector<Landmark> landmarks_{};
   [[nodiscard]] std::size_t program_at(TextPlace place) const;

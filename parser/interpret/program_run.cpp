@@ -116,14 +116,15 @@ ProgramRun::Failure ProgramRun::count_block(const Block& block) {
       "look for repeats within repeats, for loops whose condition never changes, and for M99 in "
       "the main program";
   if (++blocks_ > options_.max_blocks) {
-    return at(block, 1, fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
+    return at(block, 1, "endless-loop"_id,
+              fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
   }
   if (executor_.motions() != motions_) {
     motions_ = executor_.motions();
     blocks_at_motion_ = blocks_;
   }
   if (blocks_ - blocks_at_motion_ <= options_.max_idle_blocks) return std::nullopt;
-  return at(block, 1,
+  return at(block, 1, "endless-loop"_id,
             fmt::format("more than {} blocks have run without a motion", options_.max_idle_blocks),
             kRemedy);
 }
@@ -139,7 +140,8 @@ ProgramRun::Failure ProgramRun::execute(const Block& block) {
                                std::holds_alternative<CallFile>(*flow) ||
                                std::holds_alternative<LeaveSubprogram>(*flow);
   if (calls_or_leaves && executor_.moved() && !frame().modal_macros.empty()) {
-    return at(block, 1, "a call or M99 beside a move, which calls the macro of G66",
+    return at(block, 1, "macro-beside"_id,
+              "a call or M99 beside a move, which calls the macro of G66",
               "write two blocks, or end G66 with G67 before");
   }
   return std::visit([&](const auto& wish) { return follow(block, wish); }, *flow);
@@ -158,14 +160,16 @@ Diagnostic ProgramRun::in_this_file(Diagnostic diagnostic) const {
 ProgramRun::Failure ProgramRun::run_off(const Block* end) {
   if (frames_.size() > 1) {
     Diagnostic failure =
-        in_this_file(error(fmt::format("subprogram {} has no {}", frame().name, frame().end),
+        in_this_file(error("subprogram-end-missing"_id,
+                           fmt::format("subprogram {} has no {}", frame().name, frame().end),
                            fmt::format("end the subprogram with {}", frame().end)));
     failure.line = static_cast<int>(frame().named.line);
     failure.column = static_cast<int>(frame().named.column);
     return failure;
   }
   if (end != nullptr && end->program) {
-    return at(*end, end->program_column, fmt::format("the program runs into O{}", *end->program),
+    return at(*end, end->program_column, "program-end-missing"_id,
+              fmt::format("the program runs into O{}", *end->program),
               "end the main program with M30");
   }
   frames_.clear();
@@ -251,7 +255,8 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, const LeaveSubprogram
   }
   // What is left of the repeats does not run.
   const std::string label = fmt::format("N{}", *leave.block_number);
-  Diagnostic failure = at(block, leave.column, fmt::format("there is no {} to go back to", label),
+  Diagnostic failure = at(block, leave.column, "missing-return"_id,
+                          fmt::format("there is no {} to go back to", label),
                           "P of M99 names a block of the program that called this one");
   frame().runs_left = 1;
   return_from_call();
@@ -269,7 +274,8 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
     const std::string label = fmt::format("N{}", *leave.block_number);
     const auto target = find_label(label, Search::forward_then_backward);
     if (!target) {
-      return at(block, leave.column, fmt::format("there is no {} to go to", label),
+      return at(block, leave.column, "missing-label"_id,
+                fmt::format("there is no {} to go to", label),
                 "P of M99 names a block of this program");
     }
     frame().cursor.go_to(*target);
@@ -278,8 +284,8 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
   }
   // Nothing that has run could make the next time another.
   if (!statement_ran_ || rules_.dialect != Dialect::fanuc) {
-    return at(block, leave.column, "M99 in the main program would repeat it for ever",
-              "end the main program with M30");
+    return at(block, leave.column, "endless-loop"_id,
+              "M99 in the main program would repeat it for ever", "end the main program with M30");
   }
   statement_ran_ = false;
   frame().cursor.go_to(frame().entry);
@@ -300,7 +306,7 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, const CallFile& call)
   const auto holder = file_of(call.name);
   if (holder == nullptr) {
     return at(
-        block, call.column, fmt::format("there is no program {}", call.name),
+        block, call.column, "missing-program"_id, fmt::format("there is no program {}", call.name),
         fmt::format("it is looked for beside this one and in the search path, as {}.h", call.name));
   }
   CallFrame next{holder, BlockCursor(holder->program()), call.name, kEndOfFile, {}, {1, 1}, 1,
@@ -323,7 +329,8 @@ ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram
   if (!has(call.program)) {
     holder = file_of(name);
     if (holder == nullptr || !has(call.program)) {
-      return at(block, call.column, fmt::format("subprogram {} does not exist", name),
+      return at(block, call.column, "missing-subprogram"_id,
+                fmt::format("subprogram {} does not exist", name),
                 known_programs(frame().program->map()));
     }
   }
@@ -341,7 +348,7 @@ ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram
 ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t column,
                                           CallFrame next) {
   if (frames_.size() > options_.max_call_depth) {
-    return at(block, column,
+    return at(block, column, "recursion"_id,
               fmt::format("more than {} subprograms within each other", options_.max_call_depth),
               fmt::format("does {} call itself?", next.name));
   }
@@ -380,10 +387,10 @@ std::shared_ptr<LoadedProgram> ProgramRun::program_with(const std::string& name)
   return file_of(name);
 }
 
-Diagnostic ProgramRun::at(const Block& block, std::uint32_t column, std::string message,
-                          std::string hint) const {
+Diagnostic ProgramRun::at(const Block& block, std::uint32_t column, DiagnosticId id,
+                          std::string message, std::string hint) const {
   const SourcePlace place = block.place_of(column);
-  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
   diagnostic.line = static_cast<int>(place.line);
   diagnostic.column = static_cast<int>(place.column);
   return in_this_file(std::move(diagnostic));

@@ -76,8 +76,8 @@ class ProgramRun {
   [[nodiscard]] std::shared_ptr<LoadedProgram> file_of(const std::string& name);
   [[nodiscard]] Failure push_call(const Block& block, std::uint32_t column, CallFrame frame);
   [[nodiscard]] CallFrame& frame() { return frames_.back(); }
-  [[nodiscard]] Diagnostic at(const Block& block, std::uint32_t column, std::string message,
-                              std::string hint) const;
+  [[nodiscard]] Diagnostic at(const Block& block, std::uint32_t column, DiagnosticId id,
+                              std::string message, std::string hint) const;
 
   const MotionSink& sink_;
   const InterpreterOptions& options_;

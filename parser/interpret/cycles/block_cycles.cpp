@@ -40,7 +40,7 @@ BlockExecutor::Outcome BlockExecutor::set_cycle(const BlockWords& words, const M
   }
   if (!goes_on) {
     if (!position_[depth_axis]) {
-      return fail(movement.column,
+      return fail(movement.column, position_.unknown_id(depth_axis),
                   fmt::format("the cycle starts at an unknown {}: {}", depth_letter,
                               position_.why_unknown(depth_axis)),
                   fmt::format("program {} in absolute coordinates (G90) before it", depth_letter));
@@ -67,7 +67,8 @@ BlockExecutor::Outcome BlockExecutor::set_cycle(const BlockWords& words, const M
   read("IJK"[3 - axes.u - axes.v], cycle.back, unit_scale());
 
   const auto missing = [&](char letter, std::string what) {
-    return fail(movement.column, fmt::format("the cycle has no {}", letter), std::move(what));
+    return fail(movement.column, "cycle-word-missing"_id,
+                fmt::format("the cycle has no {}", letter), std::move(what));
   };
   if (!cycle.level) return missing('R', "give R, where feeding begins");
   if (!cycle.bottom) {
@@ -105,13 +106,15 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   if (auto done = check_programmed_frame(movement); !done) return done;
   if (state_.programmed_frame.scale != 1.0 ||
       state_.programmed_frame.mirrors.at(static_cast<std::size_t>(w))) {
-    return fail(movement.column, "a canned cycle where the depths are scaled or mirrored",
+    return fail(movement.column, "cycle-frame"_id,
+                "a canned cycle where the depths are scaled or mirrored",
                 fmt::format("end it before, by G50 or G50.1 {}0", to_char(w)));
   }
   if (auto done = set_cycle(words, movement, w); !done) return done;
   const CannedCycle& cycle = *state_.cycle;
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
-    return fail(words[rotary].column, fmt::format("{} in a canned cycle", words.text_of(rotary)),
+    return fail(words[rotary].column, "cycle-rotary"_id,
+                fmt::format("{} in a canned cycle", words.text_of(rotary)),
                 "turn the axes on the block before");
   }
   const auto feed = feed_for(words, movement, true);
@@ -126,21 +129,21 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
   depths.dwell = cycle.dwell.value_or(0.0);
   depths.back = cycle.back.value_or(0.0) + (cycle.bottom_is_step ? depths.bottom : 0.0);
   if (needs_peck(cycle.last) && depths.level - depths.bottom > kMostPecks * depths.peck) {
-    return fail(movement.column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
-                "give a larger Q");
+    return fail(movement.column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks), "give a larger Q");
   }
   depths.from_level = rules_.cycles.tool_shift_by_q && cycle.last == MotionMode::bore_back;
   if (depths.from_level) {
     depths.clear = cycle.initial;
     if (depths.bottom <= depths.level || cycle.initial <= depths.bottom) {
       return fail(
-          movement.column,
+          movement.column, "cycle-depth"_id,
           fmt::format("G87 bores from R ({:g} mm) up to {} ({:g} mm), below the tool ({:g} mm)",
                       depths.level, to_char(w), depths.bottom, cycle.initial),
           "give R below the bore, the other depth above R, and start above both");
     }
   } else if (depths.bottom > depths.level) {
-    return fail(movement.column,
+    return fail(movement.column, "cycle-depth"_id,
                 fmt::format("the bottom of the hole ({:g} mm) lies above R ({:g} mm)",
                             depths.bottom, depths.level),
                 "give R above the bottom");
@@ -171,7 +174,7 @@ BlockExecutor::Outcome BlockExecutor::run_cycle(const BlockWords& words, const M
     for (const AxisLetter axis : {u, v}) {
       if (position_[axis]) continue;
       return fail(
-          movement.column,
+          movement.column, position_.unknown_id(axis),
           fmt::format("the place of the hole is not known: {}", position_.why_unknown(axis)),
           fmt::format("give {} on this block", to_char(axis)));
     }

@@ -22,8 +22,8 @@ Result<double> BlockExecutor::drilling_dwell(const BlockWords& words, char lette
   const double value = words[letter].value;
   if (value >= 0.0 && !turns) return value;
   if (state_.spindle_speed <= 0.0) {
-    return fail(words[letter].column, "a dwell in revolutions with no spindle speed",
-                "give a spindle speed before");
+    return fail(words[letter].column, "dwell-without-speed"_id,
+                "a dwell in revolutions with no spindle speed", "give a spindle speed before");
   }
   return std::abs(value) * kSecondsPerMinute / state_.spindle_speed;
 }
@@ -32,11 +32,13 @@ Result<double> BlockExecutor::drilling_dwell(const BlockWords& words, char lette
 Result<int> BlockExecutor::drilling_modes(const BlockWords& words) const {
   const int w = axes_of(state_.plane).w;
   if (words['x'].value != 0.0 && words['x'].value != w + 1) {
-    return fail(words['x'].column, fmt::format("{} drills across the plane", words.text_of('x')),
+    return fail(words['x'].column, "cycle-plane"_id,
+                fmt::format("{} drills across the plane", words.text_of('x')),
                 "choose the plane by G17, G18 or G19 so that the tool is along its normal");
   }
   if (words['g'].value != 0.0) {
-    return fail(words['g'].column, fmt::format("{} is not simulated", words.text_of('g')),
+    return fail(words['g'].column, "not-simulated"_id,
+                fmt::format("{} is not simulated", words.text_of('g')),
                 "give the depth of the tool's tip, with _GMODE 0");
   }
   for (const char letter : {'h', 'i'}) {
@@ -45,7 +47,7 @@ Result<int> BlockExecutor::drilling_modes(const BlockWords& words) const {
   }
   const int plane = static_cast<int>(words['h'].value) % 10;
   if (plane != 0 && plane != static_cast<int>(state_.plane) + 1) {
-    return fail(words['h'].column,
+    return fail(words['h'].column, "cycle-plane"_id,
                 fmt::format("{} is another plane than that in force", words.text_of('h')),
                 "choose the plane by G17, G18 or G19 before");
   }
@@ -58,12 +60,14 @@ Result<DrillingCycle> BlockExecutor::drilling_heights(const BlockWords& words) c
   const std::string name = code.code->name();
   for (const char letter : {'z', 'V'}) {
     if (words.has(letter)) continue;
-    return fail(code.column, fmt::format("{} has no {}", name, letter == 'z' ? "RTP" : "RFP"),
+    return fail(code.column, "cycle-word-missing"_id,
+                fmt::format("{} has no {}", name, letter == 'z' ? "RTP" : "RFP"),
                 fmt::format("give {}(RTP, RFP, SDIS, DP)", name));
   }
   for (const char letter : {'u', 'd', 'Q', 'W'}) {
     if (!words.has(letter) || words[letter].value >= 0.0) continue;
-    return fail(words[letter].column, fmt::format("{} is negative", words.text_of(letter)),
+    return fail(words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
                 "distances and times have no sign");
   }
   const auto modes = drilling_modes(words);
@@ -78,18 +82,18 @@ Result<DrillingCycle> BlockExecutor::drilling_heights(const BlockWords& words) c
   const bool relative = measure == 1 || (measure == 0 && words['d'].value > 0.0);
   const char depth = relative ? 'd' : 'Z';
   if (!words.has(depth)) {
-    return fail(code.column, name + " has no depth",
+    return fail(code.column, "cycle-word-missing"_id, name + " has no depth",
                 "give DP, the coordinate of the bottom, or DPR, how far it is below RFP");
   }
   cycle.bottom = relative ? cycle.reference - words['d'].value * scale : words['Z'].value * scale;
   if (!(cycle.bottom < cycle.reference)) {
-    return fail(words[depth].column,
+    return fail(words[depth].column, "cycle-depth"_id,
                 fmt::format("the bottom of the hole ({:g} mm) is not below RFP ({:g} mm)",
                             cycle.bottom, cycle.reference),
                 "give RFP above the bottom");
   }
   if (cycle.back < cycle.reference) {
-    return fail(words['z'].column,
+    return fail(words['z'].column, "cycle-depth"_id,
                 fmt::format("RTP ({:g} mm) lies below RFP ({:g} mm)", cycle.back, cycle.reference),
                 "the tool goes back to RTP by rapid: give it above the part");
   }
@@ -108,14 +112,15 @@ BlockExecutor::Outcome BlockExecutor::set_pecks(const BlockWords& words,
       first == 'Q' ? words['Q'].value * scale : cycle.reference - words['K'].value * scale;
   const double total = cycle.reference - cycle.bottom;
   if (!words.has(first) || !(cycle.first > 0.0) || cycle.first > total) {
-    return fail(words.has(first) ? words[first].column : code.column,
+    return fail(words.has(first) ? words[first].column : code.column, "cycle-depth"_id,
                 fmt::format("the first depth of {} is not within the hole", code.code->name()),
                 "give FDEP, its coordinate, or FDPR, how far it is below RFP");
   }
   const double amount = words['r'].value;
   cycle.degression = amount > 0.0 ? amount * scale : amount;
   if (amount <= -1.0) {
-    return fail(words['r'].column, fmt::format("{} is no factor", words.text_of('r')),
+    return fail(words['r'].column, "out-of-range"_id,
+                fmt::format("{} is no factor", words.text_of('r')),
                 "DAM is an amount, or below zero a factor down to -1");
   }
   cycle.least = words['m'].value * scale;
@@ -131,13 +136,15 @@ BlockExecutor::Outcome BlockExecutor::set_pecks(const BlockWords& words,
   }
   if (words['f'].value != 0.0) cycle.first_feed = words['f'].value;
   if (!(cycle.first_feed > 0.0 && cycle.first_feed <= 1.0)) {
-    return fail(words['f'].column, fmt::format("{} is out of range", words.text_of('f')),
+    return fail(words['f'].column, "out-of-range"_id,
+                fmt::format("{} is out of range", words.text_of('f')),
                 "FRF is the share of the feed for the first depth, from 0.001 to 1");
   }
   if (words['v'].value > 0.0) cycle.chip = words['v'].value * scale;
   if (words['w'].value > 0.0) cycle.near = words['w'].value * scale;
   if (!pecks(cycle).empty()) return Done{};
-  return fail(code.column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
+  return fail(code.column, "cycle-pecks"_id,
+              fmt::format("the cycle makes more than {} pecks", kMostPecks),
               "give a larger first depth, or an amount of degression (DAM)");
 }
 
@@ -157,18 +164,19 @@ BlockExecutor::Outcome BlockExecutor::set_tap(const BlockWords& words, DrillingC
   const auto metric =
       by_size ? metric_lead(words['m'].value) : std::optional(words['k'].value * unit_scale());
   if (!metric) {
-    return fail(words['m'].column, fmt::format("{} is no metric thread", words.text_of('m')),
+    return fail(words['m'].column, "cycle-lead"_id,
+                fmt::format("{} is no metric thread", words.text_of('m')),
                 "give M3 to M48 by its number, or the lead by PIT");
   }
   if (*metric == 0.0) {
-    return fail(code.column, code.code->name() + " has no lead",
+    return fail(code.column, "cycle-lead"_id, code.code->name() + " has no lead",
                 "give MPIT, the size of a metric thread, or PIT, its lead");
   }
   cycle.lead = *metric;
   cycle.speed = words['s'].value;
   cycle.speed_back = words['l'].value != 0.0 ? words['l'].value : cycle.speed;
   if (!(cycle.speed > 0.0 && cycle.speed_back > 0.0)) {
-    return fail(words.has('s') ? words['s'].column : code.column,
+    return fail(words.has('s') ? words['s'].column : code.column, "cycle-speed-missing"_id,
                 code.code->name() + " has no spindle speed", "give SST, in revolutions per minute");
   }
   return Done{};
@@ -188,7 +196,8 @@ Result<DrillingCycle> BlockExecutor::drilling_cycle_of(const BlockWords& words) 
     case DrillingWord::ream:
       for (const char letter : {'f', 'r'}) {
         if (words[letter].value < 0.0) {
-          return fail(words[letter].column, fmt::format("{} is negative", words.text_of(letter)),
+          return fail(words[letter].column, "value-negative"_id,
+                      fmt::format("{} is negative", words.text_of(letter)),
                       "give a feed above zero");
         }
         if (words[letter].value > 0.0) {
@@ -232,25 +241,28 @@ BlockExecutor::Outcome BlockExecutor::drill_here(const DrillingCycle& cycle, std
   for (const int slot : {axes.u, axes.v}) {
     const auto axis = static_cast<AxisLetter>(slot);
     if (position_[axis]) continue;
-    return fail(column,
+    return fail(column, position_.unknown_id(axis),
                 fmt::format("the place of the hole is not known: {}", position_.why_unknown(axis)),
                 "move to the hole before");
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (state_.tool_axis) {
-    return fail(column, "a cycle with a tool vector", "tilt the plane by CYCLE800 before");
+    return fail(column, "cycle-tool-vector"_id, "a cycle with a tool vector",
+                "tilt the plane by CYCLE800 before");
   }
   if (state_.programmed_frame.scale != 1.0 ||
       state_.programmed_frame.mirrors.at(static_cast<std::size_t>(w))) {
-    return fail(column, "a cycle where the depths are scaled or mirrored",
+    return fail(column, "cycle-frame"_id, "a cycle where the depths are scaled or mirrored",
                 "end that before, by SCALE or MIRROR alone");
   }
   const bool own_feeds = cycle.kind == DrillingWord::tap || (cycle.feed && cycle.feed_out);
   if (!own_feeds && state_.feed_mode == FeedMode::inverse_time) {
-    return fail(column, "a cycle in G93", "give the feed per minute, in G94");
+    return fail(column, "cycle-inverse-time"_id, "a cycle in G93",
+                "give the feed per minute, in G94");
   }
   if (!own_feeds && !state_.feed) {
-    return fail(column, "a cycle without a feed rate", "give F before, above zero");
+    return fail(column, "feed-missing"_id, "a cycle without a feed rate",
+                "give F before, above zero");
   }
   const double given = state_.feed ? state_.feed->scaled : 0.0;
   Feed feed{cycle.feed.value_or(given), state_.feed_mode};

@@ -50,7 +50,8 @@ BlockExecutor::Outcome BlockExecutor::set_hole_cycle(const BlockWords& words) {
   if (word == HoleWord::off || word == HoleWord::on) {
     cycle.on = word == HoleWord::on;
     if (!cycle.on || cycle.kind != MotionMode::none) return Done{};
-    return fail(code.column, "there is no cycle to switch on", "define one before");
+    return fail(code.column, "cycle-missing"_id, "there is no cycle to switch on",
+                "define one before");
   }
   const double scale = unit_scale();
   cycle = {};
@@ -75,32 +76,36 @@ BlockExecutor::Outcome BlockExecutor::set_hole_cycle(const BlockWords& words) {
     cycle.back = std::max(cycle.back.value_or(0.0), cycle.clear);
     if (words['W'].value > 0.0) cycle.feed_out = Feed{words['W'].value * feed_scale(mode), mode};
     if (depth <= 0.0) {
-      return fail(words['z'].column, fmt::format("{} is not below zero", words.text_of('z')),
+      return fail(words['z'].column, "cycle-depth"_id,
+                  fmt::format("{} is not below zero", words.text_of('z')),
                   "the depth counts from the surface, downwards: Q201=-20");
     }
     if (cycle.clear < 0.0) {
-      return fail(words['u'].column, fmt::format("{} is negative", words.text_of('u')),
+      return fail(words['u'].column, "value-negative"_id,
+                  fmt::format("{} is negative", words.text_of('u')),
                   "give the set-up clearance above the surface");
     }
   }
   if (cycle.feed.value <= 0.0) {
-    return fail(words[feed].column, "the feed of the cycle is not above zero",
-                "give a feed above zero");
+    return fail(words[feed].column, "feed-not-positive"_id,
+                "the feed of the cycle is not above zero", "give a feed above zero");
   }
   for (const char letter : {'P', 'w'}) {
     if (words[letter].value >= 0.0) continue;
-    return fail(words[letter].column, fmt::format("{} is negative", words.text_of(letter)),
+    return fail(words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
                 "a dwell takes a time that is not negative");
   }
   if (cycle.back && *cycle.back < cycle.level) {
-    return fail(words['v'].column,
+    return fail(words['v'].column, "cycle-depth"_id,
                 fmt::format("{} lies below where feeding begins", words.text_of('v')),
                 "give a height above it");
   }
   if (word == HoleWord::deep || word == HoleWord::deep_pecks) return set_deep_hole(words, word);
   const bool steps = cycle.kind == MotionMode::peck || cycle.kind == MotionMode::peck_short;
   if (steps && cycle.level + cycle.depth > kMostPecks * cycle.peck) {
-    return fail(words['Q'].column, fmt::format("the cycle makes more than {} pecks", kMostPecks),
+    return fail(words['Q'].column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks),
                 "give a larger step");
   }
   return Done{};
@@ -109,7 +114,8 @@ BlockExecutor::Outcome BlockExecutor::set_hole_cycle(const BlockWords& words) {
 BlockExecutor::Outcome BlockExecutor::set_deep_hole(const BlockWords& words, HoleWord word) {
   for (const char letter : std::string_view("QDLHEgh")) {
     if (words[letter].value >= 0.0) continue;
-    return fail(words[letter].column, fmt::format("{} is negative", words.text_of(letter)),
+    return fail(words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
                 "lengths of a peck count downwards without a sign");
   }
   HoleCycle& cycle = state_.hole_cycle;
@@ -137,11 +143,11 @@ BlockExecutor::Outcome BlockExecutor::set_deep_hole(const BlockWords& words, Hol
   }
   const double pecks = peck_count(hole);
   if (!std::isfinite(pecks)) {
-    return fail(words['D'].column, "the pecks shrink to nothing above the bottom",
+    return fail(words['D'].column, "cycle-pecks"_id, "the pecks shrink to nothing above the bottom",
                 "give the least one: Q205=1");
   }
   if (pecks > kMostPecks) {
-    return fail(words[words.has('E') ? 'E' : 'Q'].column,
+    return fail(words[words.has('E') ? 'E' : 'Q'].column, "cycle-pecks"_id,
                 fmt::format("the cycle makes more than {} pecks", kMostPecks),
                 "give a larger step");
   }
@@ -158,12 +164,13 @@ void BlockExecutor::set_called_program(std::string name) {
 BlockExecutor::Outcome BlockExecutor::make_hole(const BlockWords& words, const Movement& movement) {
   HoleCycle& cycle = state_.hole_cycle;
   if (movement.motion != MotionMode::linear && movement.motion != MotionMode::traverse) {
-    return fail(movement.column, "an arc while a cycle is on",
+    return fail(movement.column, "cycle-arc"_id, "an arc while a cycle is on",
                 "end the cycle before, by CYCLE/OFF");
   }
   for (const char letter : {'X', 'Y', 'Z'}) {
     if (!words.has(letter) || words[letter].measure != Measure::incremental) continue;
-    return fail(words[letter].column, "a step while a cycle is on", "name the hole by its place");
+    return fail(words[letter].column, "cycle-step"_id, "a step while a cycle is on",
+                "name the hole by its place");
   }
   const auto from = point_of_hole(position_.target());
   const auto axis_before = state_.tool_axis;
@@ -172,7 +179,9 @@ BlockExecutor::Outcome BlockExecutor::make_hole(const BlockWords& words, const M
   if (auto done = set_tool_axis(words); !done) return done;
   if (auto done = check_programmed_frame(movement); !done) return done;
   const auto top = point_of_hole(position_.target());
-  if (!top) return fail(movement.column, "the place of the hole is not known", "give X, Y and Z");
+  if (!top)
+    return fail(movement.column, "position-unknown"_id, "the place of the hole is not known",
+                "give X, Y and Z");
   const Vec3 axis = state_.tool_axis ? state_.tool_axis->vec() : Vec3::UnitZ();
   const bool turns = axis_before.has_value() != state_.tool_axis.has_value() ||
                      (axis_before && axis_before->vec().cross(axis).norm() > kSameAxis);
@@ -238,12 +247,12 @@ BlockExecutor::Outcome BlockExecutor::call_hole_cycle(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::hole_call];
   if (code.code == nullptr || !state_.hole_cycle.program.empty()) return Done{};
   if (!state_.hole_cycle.on) {
-    return fail(code.column, code.code->name() + " without a cycle",
+    return fail(code.column, "cycle-missing"_id, code.code->name() + " without a cycle",
                 "define it before, for example by CYCL DEF 200");
   }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
     if (position_[axis]) continue;
-    return fail(code.column,
+    return fail(code.column, position_.unknown_id(axis),
                 fmt::format("the place of the hole is not known: {}", position_.why_unknown(axis)),
                 "move to the hole before");
   }
@@ -251,11 +260,12 @@ BlockExecutor::Outcome BlockExecutor::call_hole_cycle(const BlockWords& words) {
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = check_programmed_frame(movement); !done) return done;
   if (state_.programmed_frame.scale != 1.0 || state_.programmed_frame.mirrors[2]) {
-    return fail(code.column, "a cycle where the depths are scaled or mirrored",
+    return fail(code.column, "cycle-frame"_id, "a cycle where the depths are scaled or mirrored",
                 "end that before, by CYCL DEF 11.1 SCL 1 or CYCL DEF 8.1");
   }
   if (state_.tool_axis) {
-    return fail(code.column, "a cycle with a tool vector", "tilt the plane by PLANE before");
+    return fail(code.column, "cycle-tool-vector"_id, "a cycle with a tool vector",
+                "tilt the plane by PLANE before");
   }
   const Vec3 top(*position_[AxisLetter::X], *position_[AxisLetter::Y], *state_.hole_cycle.top);
   drill_from_top(top, point_of_hole(position_.target()), false, code.column);

@@ -35,7 +35,7 @@ BlockExecutor::Outcome BlockExecutor::insert_corner(const BlockWords& words) {
               kBesideMoves.end()) {
         continue;
       }
-      return fail(other.column,
+      return fail(other.column, "corner-interrupted"_id,
                   fmt::format("{} between {} and the move behind it", other.code->name(),
                               corners_.corner()->name),
                   "write the moves of the contour one behind the other");
@@ -50,12 +50,14 @@ BlockExecutor::Outcome BlockExecutor::insert_corner(const BlockWords& words) {
   corner.place = block_->place_of(code.column);
   corner.place.file = file_;
   if (!(corner.size > 0.0)) {
-    return fail(words['R'].column, fmt::format("the size of {} is not above zero", corner.name),
+    return fail(words['R'].column, "value-not-positive"_id,
+                fmt::format("the size of {} is not above zero", corner.name),
                 "give a size above zero, or leave it out");
   }
   if (words.has('f')) {
     if (!(words['f'].value > 0.0)) {
-      return fail(words['f'].column, fmt::format("{} is not above zero", words.text_of('f')),
+      return fail(words['f'].column, "feed-not-positive"_id,
+                  fmt::format("{} is not above zero", words.text_of('f')),
                   "give a feed above zero");
     }
     corner.feed = words['f'].value * unit_scale();

@@ -43,7 +43,8 @@ BlockExecutor::Outcome BlockExecutor::check_radius_compensation(const BlockWords
   if (word == RadiusWord::off) return Done{};
   const auto refuse = [&](const GivenCode& code) {
     return fail(
-        code.column, fmt::format("{} with radius compensation on", code.code->name()),
+        code.column, "radius-compensation"_id,
+        fmt::format("{} with radius compensation on", code.code->name()),
         fmt::format("switch it off before, by {} and a straight move", off_word(rules_.dialect)));
   };
   const GivenCode& non_modal = words[CodeGroup::non_modal];
@@ -52,7 +53,7 @@ BlockExecutor::Outcome BlockExecutor::check_radius_compensation(const BlockWords
   }
   if (movement.motion > MotionMode::arc_tangential) {
     return fail(
-        movement.column,
+        movement.column, "radius-compensation"_id,
         fmt::format("{} with radius compensation on", is_cycle(movement.motion) ? "a canned cycle"
                                                       : is_spline(movement.motion) ? "a spline"
                                                       : movement.motion == MotionMode::arc_through
@@ -61,7 +62,7 @@ BlockExecutor::Outcome BlockExecutor::check_radius_compensation(const BlockWords
         fmt::format("switch it off before, by {}", off_word(rules_.dialect)));
   }
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
-    return fail(words[rotary].column,
+    return fail(words[rotary].column, "radius-compensation"_id,
                 fmt::format("{} with radius compensation on", words.text_of(rotary)),
                 "turn the axes before it is switched on");
   }
@@ -70,14 +71,14 @@ BlockExecutor::Outcome BlockExecutor::check_radius_compensation(const BlockWords
       if (words.has(group)) return refuse(words[group]);
     }
     if (!guides_tip(words)) return Done{};
-    return fail(given.column, "radius compensation with tool-tip control",
+    return fail(given.column, "radius-compensation"_id, "radius compensation with tool-tip control",
                 "switch one of them off; with tool vectors the path is that of the tool's tip");
   }
   for (const CodeGroup group : kGroupsOff) {
     if (words.has(group)) return refuse(words[group]);
   }
   if (words.has('D') && rules_.always_claimed.has('D')) {
-    return fail(words['D'].column,
+    return fail(words['D'].column, "radius-compensation"_id,
                 fmt::format("{} with radius compensation on", words.text_of('D')),
                 "choose the tool's edge before it is switched on");
   }
@@ -96,12 +97,15 @@ Result<double> BlockExecutor::radius_for(const BlockWords& words) {
     const auto shape = whole(words, 'L', kCentred, kCentredToo);
     if (!shape) return shape.error();
     if (*shape != kCentred && *shape != kCentredToo) {
-      return fail(words['L'].column, fmt::format("{} is not simulated", words.text_of('L')),
+      return fail(words['L'].column, "not-simulated"_id,
+                  fmt::format("{} is not simulated", words.text_of('L')),
                   "shapes of lathe tools are not simulated; leave L out");
     }
   }
   if (word == RadiusWord::left_by_diameter || word == RadiusWord::right_by_diameter) {
-    if (!words.has('D')) return fail(code.column, name + " without D", "give the diameter by D");
+    if (!words.has('D'))
+      return fail(code.column, "radius-number-missing"_id, name + " without D",
+                  "give the diameter by D");
     return words['D'].value / 2.0 * unit_scale();
   }
   const bool has_d = words.has('D') && code.code->arguments.has('D');
@@ -113,18 +117,19 @@ Result<double> BlockExecutor::radius_for(const BlockWords& words) {
     state_.radius_number = number;
   } else if (rules_.radius.source == RadiusSource::last_d) {
     if (!state_.radius_number) {
-      return fail(code.column, name + " without D",
+      return fail(code.column, "radius-number-missing"_id, name + " without D",
                   fmt::format("give the number of the offset, for example {} D1", name));
     }
     number = *state_.radius_number;
   } else if (number == 0) {
-    return fail(code.column, name + " without a tool in the spindle",
+    return fail(code.column, "radius-number-missing"_id, name + " without a tool in the spindle",
                 has_d ? "" : "call the tool before, by its number");
   }
   const std::uint32_t column = has_d ? words['D'].column : code.column;
   const auto tool = data_.tools.find(number);
   if (tool == data_.tools.end()) {
-    return fail(column, fmt::format("the tool table has no tool {}", number),
+    return fail(column, "radius-compensation"_id,
+                fmt::format("the tool table has no tool {}", number),
                 "give the tool's diameter in the tool table");
   }
   return tool->second.diameter / 2.0;
@@ -139,13 +144,13 @@ BlockExecutor::Outcome BlockExecutor::set_radius_compensation(const BlockWords& 
     return Done{};
   }
   if (!rules_.radius.in_yz && state_.plane == Plane::yz) {
-    return fail(code.column, code.code->name() + " in G19",
+    return fail(code.column, "radius-plane"_id, code.code->name() + " in G19",
                 "radius compensation works in G17 and G18");
   }
   const auto radius = radius_for(words);
   if (!radius) return radius.error();
   if (*radius == 0.0) {
-    return fail(words.has('D') ? words['D'].column : code.column,
+    return fail(words.has('D') ? words['D'].column : code.column, "radius-compensation"_id,
                 code.code->name() + " with a tool of no diameter",
                 "give the tool's diameter, or leave radius compensation out");
   }
@@ -158,13 +163,14 @@ BlockExecutor::Outcome BlockExecutor::set_radius_compensation(const BlockWords& 
     const bool same = radius_.setting().side == side && radius_.setting().radius == in_words;
     if (same && rules_.radius.may_be_repeated) return Done{};
     return fail(
-        code.column,
+        code.column, "radius-compensation"_id,
         fmt::format("{} while radius compensation is on, since line {}", code.code->name(),
                     radius_place_.line),
         fmt::format("switch it off before, by {} and a straight move", off_word(rules_.dialect)));
   }
   if (!state_.programmed_frame.keeps(state_.plane) || !state_.offset_frame.keeps(state_.plane)) {
-    return fail(code.column, code.code->name() + " in a plane that the frame turns",
+    return fail(code.column, "radius-plane"_id,
+                code.code->name() + " in a plane that the frame turns",
                 "turn the frame about the normal of the plane");
   }
   radius_place_ = block_->place_of(code.column);
@@ -205,6 +211,7 @@ BlockExecutor::Outcome BlockExecutor::end_radius_compensation(const SourcePlace&
     return Done{};
   }
   Diagnostic failure = error(
+      "radius-compensation"_id,
       fmt::format("radius compensation, on since line {}, is still on at the end of the program",
                   radius_place_.line),
       fmt::format("leave the contour by {} and a straight move", off_word(rules_.dialect)));
@@ -215,7 +222,7 @@ BlockExecutor::Outcome BlockExecutor::end_radius_compensation(const SourcePlace&
 
 BlockExecutor::Outcome BlockExecutor::end_of_text() {
   if (const auto& corner = corners_.corner()) {
-    Diagnostic open = error(corner->name + " with no move behind it",
+    Diagnostic open = error("corner-without-move"_id, corner->name + " with no move behind it",
                             "write an L or C block behind it, or leave it out");
     open.line = static_cast<int>(corner->place.line);
     open.column = static_cast<int>(corner->place.column);

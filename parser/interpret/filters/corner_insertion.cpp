@@ -15,8 +15,9 @@ using enum AxisLetter;
 constexpr double kStraight = 1e-6;        // sine of the angle between two moves that have no corner
 constexpr double kCornerRounding = 1e-9;  // mm
 
-Diagnostic complaint(const SourcePlace& place, std::string message, std::string hint) {
-  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+Diagnostic complaint(const SourcePlace& place, DiagnosticId id, std::string message,
+                     std::string hint) {
+  Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
   diagnostic.line = static_cast<int>(place.line);
   diagnostic.column = static_cast<int>(place.column);
   return diagnostic;
@@ -80,11 +81,13 @@ Vec2 foot_on(const PathPiece& piece, const Vec2& point) {
 
 CornerInsertion::Failure CornerInsertion::insert(const Corner& corner) {
   if (corner_) {
-    return complaint(corner.place, fmt::format("{} behind {}", corner.name, corner_->name),
+    return complaint(corner.place, "corner-twice"_id,
+                     fmt::format("{} behind {}", corner.name, corner_->name),
                      "a corner lies between two moves: write one of them");
   }
   if (!piece_) {
-    return complaint(corner.place, corner.name + " behind no cutting move in the plane",
+    return complaint(corner.place, "corner-without-move"_id,
+                     corner.name + " behind no cutting move in the plane",
                      "write it right behind an L or C block that moves in X and Y");
   }
   corner_ = corner;
@@ -106,7 +109,8 @@ CornerInsertion::Failure CornerInsertion::take(Motion&& motion, const Sink& sink
   auto piece = piece_of(reached_, motion.command);
   Failure failure;
   if (corner_ && !piece) {
-    failure = complaint(corner_->place, corner_->name + " before no cutting move in the plane",
+    failure = complaint(corner_->place, "corner-without-move"_id,
+                        corner_->name + " before no cutting move in the plane",
                         "write an L or C block behind it that moves in X and Y alone");
   } else if (corner_) {
     failure = cut(motion, *piece, sink);
@@ -141,17 +145,19 @@ CornerInsertion::Failure CornerInsertion::take(Motion&& motion, const Sink& sink
 CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, const Sink& sink) {
   const Corner corner = *corner_;
   const PathPiece& before = *piece_;
-  const auto fail = [&](std::string message, std::string hint) {
-    return complaint(corner.place, std::move(message), std::move(hint));
+  const auto fail = [&](DiagnosticId id, std::string message, std::string hint) {
+    return complaint(corner.place, id, std::move(message), std::move(hint));
   };
   const double turn = signed_angle(direction_at_end(before), direction_at_start(piece));
   if (std::abs(std::sin(turn)) < kStraight) {
-    return fail(fmt::format("{} where the moves {}", corner.name,
+    return fail("corner-none"_id,
+                fmt::format("{} where the moves {}", corner.name,
                             std::cos(turn) > 0.0 ? "lead on without a corner" : "go straight back"),
                 "leave it out there");
   }
   if (!corner.rounds && (before.is_arc() || piece.is_arc())) {
-    return fail(corner.name + " at an arc", "a chamfer lies between two L blocks; round it by RND");
+    return fail("corner-at-arc"_id, corner.name + " at an arc",
+                "a chamfer lies between two L blocks; round it by RND");
   }
   const double side = turn > 0.0 ? 1.0 : -1.0;
   const double lengths[] = {length_of(before), length_of(piece)};
@@ -185,6 +191,7 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
   for (const int move : {0, 1}) {
     if (fits && lost[move] <= lengths[move] + kCornerRounding) continue;
     return fail(
+        "corner-too-large"_id,
         fits
             ? fmt::format("{} takes {:.6g} mm of the {:.6g} mm of the move {} it", corner.name,
                           lost[move], lengths[move], move == 0 ? "before" : "behind")
@@ -194,7 +201,8 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
   Feed feed = *feed_of_line(waiting_.front().command);
   if (feed.mode == FeedMode::inverse_time ||
       feed_of_line(next.command)->mode == FeedMode::inverse_time) {
-    return fail(corner.name + " beside a move with FT", "give the moves at the corner a feed F");
+    return fail("corner-timed"_id, corner.name + " beside a move with FT",
+                "give the moves at the corner a feed F");
   }
   if (corner.feed) feed.value = *corner.feed;
   end_at(waiting_.front().command, begin);

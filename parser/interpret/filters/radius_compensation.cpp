@@ -20,8 +20,8 @@ constexpr double kNoMove = 1e-9;  // mm
 // What waits is held in memory; a program that says so much between two moves has lost its contour.
 constexpr std::size_t kMaxWaiting = 10'000;
 
-Diagnostic at(const Motion& motion, std::string message, std::string hint) {
-  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+Diagnostic at(const Motion& motion, DiagnosticId id, std::string message, std::string hint) {
+  Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
   diagnostic.line = static_cast<int>(motion.place.line);
   diagnostic.column = static_cast<int>(motion.place.column);
   return diagnostic;
@@ -94,7 +94,8 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
     return last_ ? follow(std::move(motion), piece, sink) : enter(std::move(motion), piece);
   }
   if (target != nullptr && setting_->rules.entry_comes_first && !last_) {
-    return at(motion, "the first move with radius compensation does not go along the plane",
+    return at(motion, "radius-compensation"_id,
+              "the first move with radius compensation does not go along the plane",
               "enter the contour by a straight move in the plane, longer than the tool's radius");
   }
   if (target != nullptr) reached_ = *target;
@@ -103,7 +104,7 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
     return std::nullopt;
   }
   if (waiting_.size() >= kMaxWaiting) {
-    return at(motion,
+    return at(motion, "radius-compensation"_id,
               fmt::format("{} motions and events without a move in the plane of the radius "
                           "compensation",
                           waiting_.size()),
@@ -116,16 +117,16 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
 RadiusCompensation::Failure RadiusCompensation::enter(Motion&& motion, const PathPiece& piece) {
   const RadiusRules& rules = setting_->rules;
   if (piece.is_arc() && !rules.entry_may_be_arc) {
-    return at(motion, "the first move with radius compensation is an arc",
+    return at(motion, "radius-compensation"_id, "the first move with radius compensation is an arc",
               "enter the contour by a straight move, longer than the tool's radius");
   }
   if (!programmed_ && rules.entry == EntryRule::beside_its_end) {
-    return at(motion, "the start of the entry move is not known",
+    return at(motion, "radius-compensation"_id, "the start of the entry move is not known",
               "move to it with G0 or G1 in absolute coordinates before G41 or G42");
   }
   const double distance = (piece.end - piece.start).norm();
   if (programmed_ && distance <= setting_->radius) {
-    return at(motion,
+    return at(motion, "radius-compensation"_id,
               fmt::format("the entry move goes {:.6g} mm, which is not more than the tool's radius "
                           "of {:.6g} mm",
                           distance, setting_->radius),
@@ -148,7 +149,8 @@ RadiusCompensation::Failure RadiusCompensation::enter_by_arc(Motion&& motion,
   const Vec2 chord = entry.end - entry.start;
   const double across = -inward.dot(chord);
   if (across <= kNoMove) {
-    return at(motion, "no arc leads from the start of the entry to the path beside its end",
+    return at(motion, "radius-compensation"_id,
+              "no arc leads from the start of the entry to the path beside its end",
               "enter the contour by a straight move, longer than the tool's radius");
   }
   entry.centre = entry.end + inward * (chord.squaredNorm() / (2.0 * across));
@@ -165,7 +167,7 @@ RadiusCompensation::Failure RadiusCompensation::check_arc(const PathPiece& piece
   const bool inside = piece.is_arc() && (piece.turns > 0) == (left() > 0.0);
   const double radius = inside ? radius_of(piece) : 0.0;
   if (!inside || radius > setting_->radius) return std::nullopt;
-  return at(motion,
+  return at(motion, "radius-gouge"_id,
             fmt::format("the tool, of radius {:.6g} mm, is inside an arc of radius {:.6g} mm",
                         setting_->radius, radius),
             fmt::format("the arc's radius must be more than {:.6g} mm larger, or the tool smaller",
@@ -256,7 +258,7 @@ RadiusCompensation::Failure RadiusCompensation::cut_corner(LastMove& next, const
     if (before > -kNoMove && behind > -kNoMove && better) best = choice;
   }
   if (!best) {
-    return at(motion,
+    return at(motion, "radius-gouge"_id,
               fmt::format("the tool, of radius {:.6g} mm, does not fit into the corner: the paths "
                           "beside its two moves miss each other by {:.6g} mm",
                           radius, gap_between(last_->beside, next.beside)),
@@ -264,7 +266,7 @@ RadiusCompensation::Failure RadiusCompensation::cut_corner(LastMove& next, const
   }
   if (best->too_short() > kNoMove) {
     const bool before = best->before_too_short > best->behind_too_short;
-    return at(motion,
+    return at(motion, "radius-gouge"_id,
               fmt::format("the tool, of radius {:.6g} mm, does not fit into the corner: the move "
                           "{} it is {:.6g} mm too short",
                           radius, before ? "before" : "behind", best->too_short()),

@@ -41,7 +41,7 @@ BlockExecutor::Outcome BlockExecutor::set_data(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::non_modal];
   const std::string name = code.code->name();
   if (!words.has('L')) {
-    return fail(code.column, name + " without L",
+    return fail(code.column, "word-missing"_id, name + " without L",
                 fmt::format("say what it sets: {}", known_inputs(rules_)));
   }
   const auto number = whole(words, 'L', 0, kMaxNumber);
@@ -49,13 +49,14 @@ BlockExecutor::Outcome BlockExecutor::set_data(const BlockWords& words) {
   const auto data = std::find_if(rules_.data_words.begin(), rules_.data_words.end(),
                                  [&](const DataWord& word) { return word.number == *number; });
   if (data == rules_.data_words.end()) {
-    return fail(words['L'].column, fmt::format("{} L{} is not known", name, *number),
+    return fail(words['L'].column, "data-unknown"_id,
+                fmt::format("{} L{} is not known", name, *number),
                 fmt::format("known are {}", known_inputs(rules_)));
   }
   const std::string spelled = fmt::format("{} L{}", name, *number);
   const LetterSet own = code.code->arguments.without(LetterSet("LP"));
   if (const char letter = words.first_of(own.without(data->words)); letter != 0) {
-    return fail(words[letter].column,
+    return fail(words[letter].column, "word-unused"_id,
                 fmt::format("{} has no meaning with {}", words.text_of(letter), spelled),
                 fmt::format("{} takes P{}", spelled, letters_of(data->words)));
   }
@@ -64,13 +65,14 @@ BlockExecutor::Outcome BlockExecutor::set_data(const BlockWords& words) {
     return Done{};
   }
   if (!words.has('P')) {
-    return fail(code.column, spelled + " without P",
+    return fail(code.column, "word-missing"_id, spelled + " without P",
                 measures_tool(data->input) ? "P is the number of the tool"
                                            : "P is the number of the offset");
   }
   if (words.first_of(data->words) == 0) {
     const bool only_r = data->words.has('R') && !data->words.has('X');
-    return fail(code.column, only_r ? spelled + " without R" : spelled + " names no axis",
+    return fail(code.column, "data-empty"_id,
+                only_r ? spelled + " without R" : spelled + " names no axis",
                 fmt::format("give what it sets:{}", letters_of(data->words)));
   }
   switch (data->input) {
@@ -113,7 +115,7 @@ BlockExecutor::Outcome BlockExecutor::set_work_offset_data(const BlockWords& wor
     if (!words.has(letter)) continue;
     const bool zero_at_first = is_rotary(axis) || number == 0;
     if (adds && !offset.origin[axis] && !zero_at_first) {
-      return fail(words[letter].column,
+      return fail(words[letter].column, "offset-unknown"_id,
                   fmt::format("{} adds to {}, whose {} the program has not placed",
                               words.text_of(letter), work_offset_name(number), letter),
                   "place it in G90 before");
@@ -148,7 +150,7 @@ BlockExecutor::Outcome BlockExecutor::set_offset_here(const BlockWords& words) {
     const bool mixed = frame.turns() && axis != AxisLetter::Z;
     const bool needed = words.has(to_char(axis)) || mixed;
     if (!known && needed) {
-      return fail(column,
+      return fail(column, axis_unknown_id(axis),
                   fmt::format("G10 L20 starts from where {} is, but {}", to_char(axis),
                               place[axis] ? fmt::format("only the setup knows where {} lies",
                                                         work_offset_name(number))
@@ -168,7 +170,7 @@ BlockExecutor::Outcome BlockExecutor::set_offset_here(const BlockWords& words) {
     const bool mixed = frame.turns() && !is_rotary(axis) && axis != AxisLetter::Z;
     if (!words.has(to_char(axis)) && !mixed) continue;
     if (!place[axis] || !new_place[axis]) {
-      return fail(column,
+      return fail(column, axis_unknown_id(axis),
                   fmt::format("G10 L20 starts from where {} is, but {}", to_char(axis),
                               why_axis_unknown(axis)),
                   "move it there once in absolute coordinates (G90) before");
@@ -235,7 +237,7 @@ BlockExecutor::Outcome BlockExecutor::set_tool_offsets(const BlockWords& words, 
     const auto origin = is_rotary(axis) ? std::optional(0.0) : datum.origin[axis];
     if (!axes[axis] || !place[axis] || !origin) {
       return fail(
-          words[letter].column,
+          words[letter].column, axis_unknown_id(axis),
           fmt::format("the tool is measured from where {} is, but {}", letter,
                       axes[axis] && !origin ? fmt::format("only the setup knows where {} lies",
                                                           work_offset_name(kFixture))
@@ -260,7 +262,7 @@ BlockExecutor::Outcome BlockExecutor::set_offset_memory(const BlockWords& words,
   const double value = words['R'].value * unit_scale();
   const bool length = data.input == DataInput::length;
   if (length && adds && !tool.has_length) {
-    return fail(words['R'].column,
+    return fail(words['R'].column, "tool-length-unknown"_id,
                 fmt::format("{} adds to the length of offset {}, which only the setup knows",
                             words.text_of('R'), *number),
                 "give the length in G90");

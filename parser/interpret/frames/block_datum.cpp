@@ -76,7 +76,7 @@ Result<WorkOffset> BlockExecutor::datum_of(int number, std::uint32_t column) con
     const double more = external.origin[axis].value_or(0.0);
     if (more == 0.0) continue;
     if (!datum.origin[axis] && !is_rotary(axis)) {
-      return fail(column,
+      return fail(column, "offset-unknown"_id,
                   fmt::format("an external offset along {} on top of {}, which the program has not "
                               "placed",
                               to_char(axis), work_offset_name(number)),
@@ -161,6 +161,10 @@ std::string BlockExecutor::why_axis_unknown(AxisLetter axis) const {
   return "only the setup knows the tool's length";
 }
 
+DiagnosticId BlockExecutor::axis_unknown_id(AxisLetter axis) const {
+  return position_[axis] ? "position-unknown"_id : position_.unknown_id(axis);
+}
+
 // `axes`: where they stand.
 void BlockExecutor::follow_datum(const ModalState& before, const AxisTarget& axes,
                                  PositionLoss loss) {
@@ -224,7 +228,7 @@ Result<BlockExecutor::ToolOffset> BlockExecutor::given_tool_offset(const BlockWo
   const GivenCode& code = words[CodeGroup::length_compensation];
   ToolOffset given{};
   if ((words.given() & kAxisWords).empty()) {
-    return fail(code.column, code.code->name() + " names no axis",
+    return fail(code.column, "axes-missing"_id, code.code->name() + " names no axis",
                 fmt::format("give the tool's offset, for example {} Z50", code.code->name()));
   }
   for (const AxisLetter axis : kAxisLetters) {
@@ -246,8 +250,8 @@ Result<std::optional<BlockExecutor::ToolOffset>> BlockExecutor::tool_offset_of(
     const auto given = given_tool_offset(words);
     if (!given) return given.error();
     if (!before && !words.has('Z')) {
-      return fail(code.column, code.code->name() + " leaves a length in force that the setup has",
-                  "give Z too");
+      return fail(code.column, "tool-length-unknown"_id,
+                  code.code->name() + " leaves a length in force that the setup has", "give Z too");
     }
     ToolOffset offset = before.value_or(ToolOffset{});
     for (const AxisLetter axis : kAxisLetters) {
@@ -261,7 +265,8 @@ Result<std::optional<BlockExecutor::ToolOffset>> BlockExecutor::tool_offset_of(
   const bool by_number = word != LengthWord::additional || words.has('H');
   if (by_number && !in_table && data_.tools_are_listed && next.offset_number != 0) {
     const std::uint32_t column = words.has('H') ? words['H'].column : code.column;
-    return fail(column, fmt::format("tool {} is not in the tool table", next.offset_number),
+    return fail(column, "tool-missing"_id,
+                fmt::format("tool {} is not in the tool table", next.offset_number),
                 fmt::format("add a line T{} to the tool table", next.offset_number));
   }
   Known of_tool;
@@ -274,7 +279,8 @@ Result<std::optional<BlockExecutor::ToolOffset>> BlockExecutor::tool_offset_of(
   if (word != LengthWord::additional) return of_tool;
   const bool both = words.has('H') && !(words.given() & kAxisWords).empty();
   if (both) {
-    return fail(words['H'].column, code.code->name() + " with both H and axes",
+    return fail(words['H'].column, "tool-offset-twice"_id,
+                code.code->name() + " with both H and axes",
                 "give the number of a tool, or its offset along the axes");
   }
   if (!words.has('H')) {
@@ -283,7 +289,8 @@ Result<std::optional<BlockExecutor::ToolOffset>> BlockExecutor::tool_offset_of(
     of_tool = *given;
   }
   if (!before || !of_tool) {
-    return fail(code.column, code.code->name() + " adds to a length that only the setup knows",
+    return fail(code.column, "tool-length-unknown"_id,
+                code.code->name() + " adds to a length that only the setup knows",
                 "use G43.1 with the whole offset, or give the tool table");
   }
   for (std::size_t i = 0; i < of_tool->size(); ++i) of_tool->at(i) += before->at(i);

@@ -26,7 +26,7 @@ std::string missing_part(const FeatureWords& feature) {
 BlockExecutor::Outcome BlockExecutor::tilt(const GivenCode& code, const Pose& plane, bool within) {
   if (!within && state_.frame_below) state_.programmed_frame = *state_.frame_below;
   if (state_.programmed_frame.is_mirrored() || state_.programmed_frame.scale != 1.0) {
-    return fail(code.column,
+    return fail(code.column, "plane-frame"_id,
                 fmt::format("{} while the words are mirrored or scaled", code.code->name()),
                 "end that before, by G50 and G50.1");
   }
@@ -57,7 +57,8 @@ BlockExecutor::Outcome BlockExecutor::set_feature(const BlockWords& words) {
   if (several) {
     const bool points = feature.form == FeatureForm::three_points;
     if (!words.has('Q')) {
-      return fail(code.column, fmt::format("{} P{} without Q", code.code->name(), form),
+      return fail(code.column, "word-missing"_id,
+                  fmt::format("{} P{} without Q", code.code->name(), form),
                   points ? "number the blocks: Q1 the origin, Q2 on +X, Q3 beside it"
                          : "number the blocks: Q1 the direction of +X, Q2 the normal");
     }
@@ -75,7 +76,7 @@ BlockExecutor::Outcome BlockExecutor::set_feature(const BlockWords& words) {
   const LetterSet unread = (words.given() & LetterSet("XYZIJKQR")).without(read);
   if (const char letter = words.first_of(unread); letter != 0) {
     return fail(
-        words[letter].column,
+        words[letter].column, "word-unused"_id,
         fmt::format("{} has no meaning in {} P{}", words.text_of(letter), code.code->name(), form),
         "leave it out, or name the form by P: 0 Euler angles, 1 roll, pitch and yaw, 2 three "
         "points, "
@@ -94,12 +95,11 @@ BlockExecutor::Outcome BlockExecutor::set_feature(const BlockWords& words) {
   state_.feature.reset();
   const auto plane = feature_frame(feature);
   if (!plane) {
-    return fail(words.has('Q') ? words['Q'].column : code.column, plane.error().front().message,
-                plane.error().front().hint);
+    return fail(words.has('Q') ? words['Q'].column : code.column, plane.error().front());
   }
   const bool within = static_cast<TiltWord>(code.code->value) == TiltWord::feature_within;
   if (within && !state_.tilted) {
-    return fail(code.column, code.code->name() + " without a tilted plane",
+    return fail(code.column, "plane-missing"_id, code.code->name() + " without a tilted plane",
                 "it goes on from one: define that before, by G68.2");
   }
   return tilt(code, *plane, within);
@@ -107,7 +107,8 @@ BlockExecutor::Outcome BlockExecutor::set_feature(const BlockWords& words) {
 
 BlockExecutor::Outcome BlockExecutor::check_feature(const Movement& movement) const {
   if (!state_.feature || movement.motion == MotionMode::none) return Done{};
-  return fail(movement.column, "a move while the tilted plane is described by halves",
+  return fail(movement.column, "plane-incomplete"_id,
+              "a move while the tilted plane is described by halves",
               fmt::format("give G68.2 {} before", missing_part(*state_.feature)));
 }
 
@@ -116,7 +117,7 @@ BlockExecutor::Outcome BlockExecutor::turn_in_space(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::tilted_plane];
   const auto axis = UnitVec3::of(vector_of(words, "IJK"));
   if (!axis) {
-    return fail(words[words.first_of(LetterSet("IJK"))].column,
+    return fail(words[words.first_of(LetterSet("IJK"))].column, "plane-degenerate"_id,
                 "the axis of the turn has no direction",
                 "give I J K a length above zero, or leave them out to turn in the plane");
   }
@@ -128,7 +129,7 @@ BlockExecutor::Outcome BlockExecutor::turn_in_space(const BlockWords& words) {
     } else if (position_[letter]) {
       centre[i] = *position_[letter];
     } else {
-      return fail(code.column,
+      return fail(code.column, position_.unknown_id(letter),
                   fmt::format("the centre of {} is not known: {}", code.code->name(),
                               position_.why_unknown(letter)),
                   fmt::format("give {} on this block", to_char(letter)));

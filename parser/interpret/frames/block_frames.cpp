@@ -112,7 +112,8 @@ Result<Compensation> BlockExecutor::compensation_after(const BlockWords& words) 
     const auto edge = whole(words, 'D', 0, kMaxEdge);
     if (!edge) return edge.error();
     if (*edge > 1) {
-      return fail(words['D'].column, fmt::format("{} is not simulated", words.text_of('D')),
+      return fail(words['D'].column, "not-simulated"_id,
+                  fmt::format("{} is not simulated", words.text_of('D')),
                   "tools have one edge here: D1, or D0 for no length");
     }
     next.length = *edge == 1;
@@ -135,7 +136,7 @@ BlockExecutor::Outcome BlockExecutor::change_compensation(const BlockWords& word
       if (i == 2 || next.tool_offset->at(i) == 0.0) continue;
       const GivenCode& length = words[CodeGroup::length_compensation];
       const GivenCode& cause = length.code != nullptr ? length : words[CodeGroup::tool_tip];
-      return fail(cause.column,
+      return fail(cause.column, "tool-offset-across"_id,
                   fmt::format("the tool-tip control with a tool offset along {}",
                               to_char(kAxisLetters.at(i))),
                   "it knows the tool's length (Z) alone");
@@ -184,7 +185,7 @@ BlockExecutor::Outcome BlockExecutor::set_work_offset(const BlockWords& words) {
   if (!offset.code->arguments.empty()) {
     const bool extended = number == kExtendedWorkOffset;
     if (!words.has('P')) {
-      return fail(offset.column, offset.code->name() + " without a number",
+      return fail(offset.column, "word-missing"_id, offset.code->name() + " without a number",
                   extended ? "give P1 for the first of the further work offsets" : "give Q339=1");
     }
     const auto given =
@@ -204,7 +205,8 @@ Result<Pose> BlockExecutor::plane_below(const BlockWords& words) const {
   if (!words.has(kSwivelOnTop)) return Pose{Mat3::Identity(), Vec3::Zero()};
   const ProgramFrame& frame = state_.program_frame;
   if (frame.scale != 1.0 || frame.linear.determinant() < 0.0) {
-    return fail(words[kSwivelOnTop].column, "a swivel on top of a scaled or mirrored frame",
+    return fail(words[kSwivelOnTop].column, "plane-frame"_id,
+                "a swivel on top of a scaled or mirrored frame",
                 "end SCALE and MIRROR before, by TRANS alone");
   }
   const Pose within{frame.linear, frame.origin};
@@ -241,7 +243,8 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
     if (!mode) return mode.error();
     const auto rotation = swivelled(*mode, vector_of(words, "ABC") * kRadPerDeg);
     if (!rotation) {
-      return fail(words['Q'].column, fmt::format("swivel mode {} is not simulated", *mode),
+      return fail(words['Q'].column, "not-simulated"_id,
+                  fmt::format("swivel mode {} is not simulated", *mode),
                   "turn axis by axis, mode 57: X, then Y, then Z; or by solid angles, mode 64");
     }
     plane.rotation = *rotation;
@@ -269,7 +272,8 @@ BlockExecutor::Outcome BlockExecutor::set_tilted_plane(const BlockWords& words) 
 
 BlockExecutor::Outcome BlockExecutor::align(std::uint32_t column) {
   if (!state_.tilted) {
-    return fail(column, "no tilted plane to align the tool with", "define it before, by G68.2");
+    return fail(column, "plane-missing"_id, "no tilted plane to align the tool with",
+                "define it before, by G68.2");
   }
   emit(column, AlignToPlane{});
   forget(kAxisWords, PositionLoss::tilted_plane);
@@ -283,7 +287,8 @@ BlockExecutor::Outcome BlockExecutor::turn_to_plane(const BlockWords& words) {
   if (!words.has('m')) return words.has('d') ? align(column) : Outcome{Done{}};
   const Compensation before = state_.compensation;
   if (!before.length) {
-    return fail(words['m'].column, "MOVE holds the tip of a tool, but no tool is called",
+    return fail(words['m'].column, "tool-missing"_id,
+                "MOVE holds the tip of a tool, but no tool is called",
                 "call a tool before, or use TURN");
   }
   const auto hold = [&](bool tip) -> Outcome {

@@ -37,11 +37,11 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
   const bool within = kind == TiltWord::relative;
   const ProgrammedFrame& frame = state_.programmed_frame;
   if (frame.turns() || frame.is_mirrored() || frame.scale != 1.0) {
-    return fail(code.column, "PLANE within a rotation, mirror image or scaling",
+    return fail(code.column, "plane-frame"_id, "PLANE within a rotation, mirror image or scaling",
                 "end them before, by CYCL DEF 10.1 ROT+0, 8.1 and 11.1 SCL 1");
   }
   if (!within && state_.frame_below && !frame.is_identity()) {
-    return fail(code.column, "PLANE on top of a datum shift in the plane before",
+    return fail(code.column, "plane-frame"_id, "PLANE on top of a datum shift in the plane before",
                 "end that plane by PLANE RESET");
   }
   std::optional<Mat3> rotation;
@@ -55,7 +55,8 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
     case TiltWord::projected: {
       for (const char letter : {'I', 'J'}) {
         if (std::abs(words[letter].value) < kRightAngle) continue;
-        return fail(words[letter].column, fmt::format("{} is out of range", words.text_of(letter)),
+        return fail(words[letter].column, "out-of-range"_id,
+                    fmt::format("{} is out of range", words.text_of(letter)),
                     "the angles of the lines go from above -90 to below 90 degrees");
       }
       FeatureWords lines{.form = FeatureForm::projection};
@@ -85,7 +86,7 @@ BlockExecutor::Outcome BlockExecutor::set_plane(const BlockWords& words) {
   }
   if (!rotation) {
     const bool points = kind == TiltWord::points;
-    return fail(code.column,
+    return fail(code.column, "plane-degenerate"_id,
                 points ? "the points of PLANE POINTS lie on one line"
                        : "the vectors of PLANE VECTOR span no plane",
                 points ? "give three points of the plane that form a triangle"

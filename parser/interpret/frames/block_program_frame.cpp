@@ -37,7 +37,7 @@ BlockExecutor::Outcome BlockExecutor::change_program_frame(const BlockWords& wor
   const auto word = static_cast<FrameWord>(code.code->value);
   if ((words.given() & code.code->arguments).empty()) {
     if (goes_on(word)) {
-      return fail(code.column, code.code->name() + " names no axis",
+      return fail(code.column, "axes-missing"_id, code.code->name() + " names no axis",
                   fmt::format("give the axes, for example {} X5", code.code->name()));
     }
     set_program_frame({});
@@ -71,7 +71,8 @@ Result<ProgramFrame> BlockExecutor::frame_of(const BlockWords& words, FrameWord 
   }
   if (!words.has('R')) return ProgramFrame::turn(vector_of(words, "XYZ") * kRadPerDeg);
   if (const char axis = words.first_of(LetterSet("XYZ")); axis != 0) {
-    return fail(words[axis].column, fmt::format("{} beside RPL", words.text_of(axis)),
+    return fail(words[axis].column, "word-ambiguous"_id,
+                fmt::format("{} beside RPL", words.text_of(axis)),
                 "turn in the plane by RPL, or about the axes by X Y Z");
   }
   Vec3 angles = Vec3::Zero();
@@ -85,14 +86,15 @@ Result<ProgramFrame> BlockExecutor::scaling_of(const BlockWords& words) const {
   for (const char axis : {'X', 'Y', 'Z'}) {
     const bool same = words.has(axis) && (!factor || *factor == words[axis].value);
     if (!same) {
-      return fail(words.has(axis) ? words[axis].column : code.column,
+      return fail(words.has(axis) ? words[axis].column : code.column, "scaling-uneven"_id,
                   fmt::format("{} scales the axes in different ways", code.code->name()),
                   "circles would be none: give X, Y and Z the same factor");
     }
     factor = words[axis].value;
   }
   if (!(*factor > 0.0)) {
-    return fail(words['X'].column, fmt::format("{} is no factor", words.text_of('X')),
+    return fail(words['X'].column, "scaling-factor"_id,
+                fmt::format("{} is no factor", words.text_of('X')),
                 "a factor is above zero; mirror by MIRROR");
   }
   return ProgramFrame::scaling(*factor);

@@ -56,11 +56,12 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
     default:
       if (rules_.dialect == Dialect::heidenhain &&
           (next.turns() || next.is_mirrored() || next.scale != 1.0)) {
-        return fail(code.column, "a datum shift within a rotation, mirror image or scaling",
+        return fail(code.column, "frame-nested"_id,
+                    "a datum shift within a rotation, mirror image or scaling",
                     "end them (CYCL DEF 10.1 ROT+0, 8.1, 11.1 SCL 1), shift, and begin them again");
       }
       if ((words.given() & kAxisWords).empty()) {
-        return fail(code.column, code.code->name() + " names no axis",
+        return fail(code.column, "axes-missing"_id, code.code->name() + " names no axis",
                     fmt::format("give the axes to shift, for example {} X0", code.code->name()));
       }
       for (const AxisLetter axis : kAxisLetters) {
@@ -75,7 +76,7 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
           continue;
         }
         if (!position_[axis]) {
-          return fail(words[letter].column,
+          return fail(words[letter].column, position_.unknown_id(axis),
                       fmt::format("{} says where {} is, but {}", code.code->name(), letter,
                                   position_.why_unknown(axis)),
                       fmt::format("move {} with G0 or G1 before", letter));
@@ -96,11 +97,12 @@ BlockExecutor::Outcome BlockExecutor::shift_words(const BlockWords& words, NonMo
 BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::tilted_plane];
   if (!words.has('R')) {
-    return fail(code.column, code.code->name() + " without an angle", "give R in degrees");
+    return fail(code.column, "word-missing"_id, code.code->name() + " without an angle",
+                "give R in degrees");
   }
   if (!(words.given() & LetterSet("IJK")).empty()) return turn_in_space(words);
   if (rules_.dialect == Dialect::heidenhain && state_.programmed_frame.is_mirrored()) {
-    return fail(code.column, "a rotation within a mirror image",
+    return fail(code.column, "frame-nested"_id, "a rotation within a mirror image",
                 "end the mirror image by CYCL DEF 8.1, without axes");
   }
   const PlaneAxes axes = axes_of(state_.plane);
@@ -116,7 +118,7 @@ BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
     } else if (here[letter]) {
       pivot[axis] = *here[letter];
     } else {
-      return fail(code.column,
+      return fail(code.column, position_.unknown_id(letter),
                   fmt::format("the centre of {} is not known: {}", code.code->name(),
                               position_.why_unknown(letter)),
                   fmt::format("give {} on this block", to_char(letter)));
@@ -125,7 +127,7 @@ BlockExecutor::Outcome BlockExecutor::turn_words(const BlockWords& words) {
   Mat3 rotation = rotation_about(Vec3::Unit(axes.w), words['R'].value * kRadPerDeg);
   if (state_.distance == DistanceMode::incremental || words['R'].measure == Measure::incremental) {
     if (!next.keeps(state_.plane)) {
-      return fail(words['R'].column,
+      return fail(words['R'].column, "frame-nested"_id,
                   fmt::format("{} in G91 goes on from a turn in another plane", words.text_of('R')),
                   "end that turn with G69 before");
     }
@@ -143,7 +145,8 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   ProgrammedFrame next = state_.programmed_frame;
   const bool klartext = rules_.dialect == Dialect::heidenhain;
   if (next.turns()) {
-    return fail(code.column, fmt::format("{} within a turned frame", code.code->name()),
+    return fail(code.column, "frame-nested"_id,
+                fmt::format("{} within a turned frame", code.code->name()),
                 klartext ? "end the rotation before, by CYCL DEF 10.1 ROT+0, and begin it again"
                          : "scale first and turn then, and end them the other way round: G69, then "
                            "G50");
@@ -161,7 +164,7 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   };
   const char given = words.first_of(LetterSet("PIJK"));
   if (given == 0) {
-    return fail(code.column, code.code->name() + " without a factor",
+    return fail(code.column, "word-missing"_id, code.code->name() + " without a factor",
                 "give P, for example P2. or P2000 for twice the size");
   }
   for (const char letter : {'I', 'J', 'K'}) {
@@ -171,12 +174,12 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
     const bool missing = !words.has(letter);
     if (klartext && missing && factor(given) == kept) continue;
     if (klartext) {
-      return fail(words[missing ? given : letter].column,
+      return fail(words[missing ? given : letter].column, "scaling-uneven"_id,
                   fmt::format("{} scales one axis other than the rest",
                               words.text_of(missing ? given : letter)),
                   "circles would be none: give X, Y and Z one factor, or CYCL DEF 11.1 SCL 0.99");
     }
-    return fail(words[missing ? given : letter].column,
+    return fail(words[missing ? given : letter].column, "scaling-uneven"_id,
                 missing
                     ? fmt::format("{} scales without {}", code.code->name(), letter)
                     : fmt::format("{} scales one axis other than the rest", words.text_of(letter)),
@@ -184,12 +187,14 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   }
   next.scale = factor(given);
   if (!(next.scale > 0.0)) {
-    return fail(words[given].column, fmt::format("{} is not above zero", words.text_of(given)),
+    return fail(words[given].column, "scaling-factor"_id,
+                fmt::format("{} is not above zero", words.text_of(given)),
                 fmt::format("give a factor above zero, and mirror axes by {}",
                             klartext ? "CYCL DEF 8" : "G51.1"));
   }
   if (!(next.scale >= kLeastScale && next.scale <= kMostScale)) {
-    return fail(words[given].column, fmt::format("{} is out of range", words.text_of(given)),
+    return fail(words[given].column, "scaling-factor"_id,
+                fmt::format("{} is out of range", words.text_of(given)),
                 "give a factor from 0.00001 to 10000");
   }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
@@ -199,7 +204,7 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
     } else if (position_[axis]) {
       next.scale_centre[i] = *position_[axis] + next.shift[i];
     } else {
-      return fail(code.column,
+      return fail(code.column, position_.unknown_id(axis),
                   fmt::format("the centre of {} is not known: {}", code.code->name(),
                               position_.why_unknown(axis)),
                   fmt::format("give {} on this block", to_char(axis)));
@@ -216,7 +221,8 @@ BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
   ProgrammedFrame next = state_.programmed_frame;
   if (next.turns() || next.scale != 1.0) {
     return fail(
-        code.column, fmt::format("{} within a turned or scaled frame", code.code->name()),
+        code.column, "frame-nested"_id,
+        fmt::format("{} within a turned or scaled frame", code.code->name()),
         rules_.dialect == Dialect::heidenhain
             ? "end them before (CYCL DEF 10.1 ROT+0, 11.1 SCL 1), mirror, and begin them again"
             : "mirror first, then scale, then turn, and end them the other way round: G69, "
@@ -227,7 +233,7 @@ BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
   // Of Klartext the axes are those of the last definition.
   if (rules_.dialect == Dialect::heidenhain) next.mirrors = {};
   if (on && all) {
-    return fail(code.column, code.code->name() + " names no axis",
+    return fail(code.column, "axes-missing"_id, code.code->name() + " names no axis",
                 "give where the axis is mirrored, for example G51.1 X0");
   }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
@@ -245,20 +251,21 @@ BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
 // A turned frame mixes the axes, so that all of them have to be known before one of them moves.
 BlockExecutor::Outcome BlockExecutor::check_programmed_frame(const Movement& movement) const {
   if (state_.programmed_frame.is_mirrored() && state_.compensation.tip) {
-    return fail(movement.column, "a move with tool-tip control in a mirrored frame",
+    return fail(movement.column, "frame-mirrored"_id,
+                "a move with tool-tip control in a mirrored frame",
                 "mirror the program before it is written, or switch the control off");
   }
   if (!state_.programmed_frame.turns() && !state_.offset_frame.turns()) return Done{};
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
     if (position_[axis]) continue;
-    return fail(movement.column,
+    return fail(movement.column, position_.unknown_id(axis),
                 fmt::format("a move in a turned frame, but {}", position_.why_unknown(axis)),
                 "program X, Y and Z once, in absolute coordinates, after the frame is turned");
   }
   const bool arc = is_arc_in_plane(movement.motion) || is_spline(movement.motion);
   if (arc &&
       !(state_.programmed_frame.keeps(state_.plane) && state_.offset_frame.keeps(state_.plane))) {
-    return fail(movement.column, "an arc in a plane that the frame turns",
+    return fail(movement.column, "arc-plane-turned"_id, "an arc in a plane that the frame turns",
                 "write it as straight moves, or turn the frame about the normal of the plane");
   }
   return Done{};

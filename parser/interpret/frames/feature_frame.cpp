@@ -41,7 +41,7 @@ Result<Pose> by_angles(const FeatureWords& words) {
   for (const int power : {100, 10, 1}) {
     const int axis = words.order / power % 10 - 1;
     if (words.order > 999 || axis < 0 || axis > 2 || used.at(static_cast<std::size_t>(axis))) {
-      return error(fmt::format("Q{} is no order of turns", words.order),
+      return error("plane-order"_id, fmt::format("Q{} is no order of turns", words.order),
                    "name each axis once: Q123 turns about X, then Y, then Z");
     }
     used.at(static_cast<std::size_t>(axis)) = true;
@@ -57,7 +57,7 @@ Result<Pose> by_points(const FeatureWords& words) {
   const auto side = UnitVec3::of(words.parts[3]->place - origin);
   const auto first = UnitVec3::of(x);
   if (!axes || !side || first->vec().cross(side->vec()).norm() < std::sin(kParallel)) {
-    return error("the three points of the plane lie on one line",
+    return error("plane-degenerate"_id, "the three points of the plane lie on one line",
                  "give Q1 the origin, Q2 a place on +X and Q3 a place beside that line");
   }
   const FeaturePart shift = words.parts[0].value_or(FeaturePart{});
@@ -69,13 +69,14 @@ Result<Pose> by_vectors(const FeatureWords& words) {
   const Vec3& z = words.parts[2]->numbers;
   const auto axes = frame_of(x, z);
   if (!axes) {
-    return error("the two vectors span no plane",
+    return error("plane-degenerate"_id, "the two vectors span no plane",
                  "give Q1 the direction I J K of +X and Q2 that of the normal, at right angles");
   }
   const double off =
       std::abs(angle_between(x.normalized(), z.normalized()) - std::numbers::pi / 2.0);
   if (off > kMostOffSquare) {
     return error(
+        "plane-vectors"_id,
         fmt::format("the two vectors are {:g} degrees off the right angle", off * kDegPerRad),
         "give directions at right angles; up to 5 degrees are made good along +X");
   }
@@ -88,7 +89,8 @@ Result<Pose> by_projections(const FeatureWords& words) {
   const Vec3 y = about(0, part.numbers[1]) * Vec3::UnitY();
   const auto axes = frame_of(x, x.cross(y));
   if (!axes || x.cross(y).norm() < std::sin(kParallel)) {
-    return error("the two lines of the plane are parallel", "give I and J other than 90 degrees");
+    return error("plane-degenerate"_id, "the two lines of the plane are parallel",
+                 "give I and J other than 90 degrees");
   }
   return Pose{*axes * about(2, part.numbers[2]), part.place};
 }

@@ -150,7 +150,8 @@ BlockExecutor::Outcome BlockExecutor::move_straight(const BlockWords& words,
 BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
                                                      const Movement& movement) {
   if (arc_waits_for_exit_) {
-    return fail(movement.column, "the first move after radius compensation is an arc",
+    return fail(movement.column, "radius-compensation"_id,
+                "the first move after radius compensation is an arc",
                 "leave the contour by a straight move");
   }
   const PlaneAxes axes = axes_of(state_.plane);
@@ -158,7 +159,7 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     const auto letter = static_cast<AxisLetter>(axis);
     if (!position_[letter]) {
       return fail(
-          movement.column,
+          movement.column, position_.unknown_id(letter),
           fmt::format("the start of the arc is not known: {}", position_.why_unknown(letter)),
           rules_.dialect == Dialect::heidenhain
               ? "move to the start by L before, with X and Y without I"
@@ -194,7 +195,8 @@ BlockExecutor::Outcome BlockExecutor::move_along_arc(const BlockWords& words,
     if (auto done = turn_about_pole(words, movement, arc_words); !done) return done;
   } else if (rules_.arcs_turn_about_pole && !words.has('R')) {
     if (!state_.pole) {
-      return fail(movement.column, "the arc has no centre", "give the centre by CC before");
+      return fail(movement.column, "arc-centre-missing"_id, "the arc has no centre",
+                  "give the centre by CC before");
     }
     arc_words.centre_is_absolute = true;
     arc_words.centre = {state_.pole->at[0], state_.pole->at[1], std::nullopt};
@@ -254,7 +256,8 @@ BlockExecutor::Outcome BlockExecutor::set_start(const BlockWords& words) {
 BlockExecutor::Outcome BlockExecutor::check_tool_length(const Movement& movement) const {
   if (!state_.compensation.tip || state_.compensation.length) return Done{};
   return fail(
-      movement.column, "the tool-tip control is on, but no tool length is in force",
+      movement.column, "tool-length-missing"_id,
+      "the tool-tip control is on, but no tool length is in force",
       rules_.tool_brings_length ? "call a tool before the move" : "give G43 H before the move");
 }
 
@@ -281,13 +284,13 @@ BlockExecutor::Outcome BlockExecutor::set_target(const BlockWords& words, AxisLe
     return Done{};
   }
   if (!position_[axis]) {
-    return fail(words[letter].column,
+    return fail(words[letter].column, position_.unknown_id(axis),
                 fmt::format("{} is incremental, but {}", words.text_of(letter),
                             position_.why_unknown(axis)),
                 fmt::format("program {} once {} first", letter, absolute_words(rules_.dialect)));
   }
   if (state_.placed_in_other_frame.has(letter)) {
-    return fail(words[letter].column,
+    return fail(words[letter].column, "frame-changed"_id,
                 fmt::format("{} is incremental, but the frame has changed since {} was programmed",
                             words.text_of(letter), letter),
                 fmt::format("program {} once {} first", letter, absolute_words(rules_.dialect)));
@@ -300,7 +303,7 @@ BlockExecutor::Outcome BlockExecutor::set_targets(const BlockWords& words) {
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
     if (state_.compensation.tool_vectors) {
       return fail(
-          words[rotary].column,
+          words[rotary].column, "rotary-with-vector"_id,
           fmt::format("{} in G43.5, where tool vectors turn the axes", words.text_of(rotary)),
           "give the direction by I J K, or use G43.4");
     }
@@ -326,14 +329,14 @@ BlockExecutor::Outcome BlockExecutor::set_tool_axis(const BlockWords& words) {
   if (auto done = check_orientation_reference(words); !done) return done;
   if (first == 0) return Done{};
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
-    return fail(words[rotary].column,
+    return fail(words[rotary].column, "rotary-with-vector"_id,
                 fmt::format("{} and a tool vector in one block", words.text_of(rotary)),
                 fmt::format("give the direction by {} or by rotary words, not both",
                             rules_.vector_spelling));
   }
   state_.tool_axis = UnitVec3::of(vector_of(words, rules_.vector_letters));
   if (!state_.tool_axis) {
-    return fail(words[first].column, "the tool vector has no direction",
+    return fail(words[first].column, "vector-zero"_id, "the tool vector has no direction",
                 fmt::format("give {} a length above zero; it points from the tip to the spindle",
                             rules_.vector_spelling));
   }
@@ -345,18 +348,19 @@ Result<Feed> BlockExecutor::feed_for(const BlockWords& words, const Movement& mo
                                      bool linear) const {
   if (words.has('t')) {
     if (words['t'].value <= 0.0) {
-      return fail(words['t'].column, fmt::format("{} is not above zero", words.text_of('t')),
+      return fail(words['t'].column, "value-not-positive"_id,
+                  fmt::format("{} is not above zero", words.text_of('t')),
                   "give the time of the block in seconds");
     }
     return Feed{kSecondsPerMinute / words['t'].value, FeedMode::inverse_time};
   }
   if (state_.feed_mode == FeedMode::inverse_time && !words.has('F')) {
-    return fail(movement.column,
+    return fail(movement.column, "feed-missing"_id,
                 fmt::format("{} without F in G93", motion_name(movement.motion, rules_.dialect)),
                 "in G93 each cutting block needs its own F, the inverse of its minutes");
   }
   if (!state_.feed) {
-    return fail(movement.column,
+    return fail(movement.column, "feed-missing"_id,
                 fmt::format("{} without a feed rate", motion_name(movement.motion, rules_.dialect)),
                 "give F on this block or before, above zero");
   }

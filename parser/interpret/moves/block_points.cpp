@@ -63,7 +63,7 @@ BlockExecutor::Outcome BlockExecutor::come_from_home(const BlockWords& words) {
     const char letter = to_char(axis);
     if (!words.has(letter)) continue;
     if (!state_.way_home[axis]) {
-      return fail(words[letter].column,
+      return fail(words[letter].column, "home-place-missing"_id,
                   fmt::format("{} goes by the place of G28, which has none for {}",
                               code.code->name(), letter),
                   fmt::format("give {} of the place in G28 or G30 before, in G90", letter));
@@ -136,7 +136,7 @@ BlockExecutor::Outcome BlockExecutor::keep_point(std::size_t point, std::uint32_
   for (const AxisLetter axis : kAxisLetters) {
     if (axes[axis] || position_.never_known(axis)) continue;
     return fail(
-        column,
+        column, axis_unknown_id(axis),
         fmt::format("the reference point is where the axes are, but {}", why_axis_unknown(axis)),
         "place the work offset with G10 L2 before, or move there with G53");
   }
@@ -158,7 +158,7 @@ BlockExecutor::Outcome BlockExecutor::move_in_machine_coordinates(const BlockWor
   const Compensation& kept = state_.compensation;
   const bool tip_moves = kept.tip || (kept.length && !(named & kLinearWords).empty());
   if (rules_.machine_coordinates_keep_length && tip_moves) {
-    return fail(words[CodeGroup::non_modal].column,
+    return fail(words[CodeGroup::non_modal].column, "tool-length-active"_id,
                 fmt::format("{} with a tool length or TRAORI would place the tool's tip",
                             words[CodeGroup::non_modal].code->name()),
                 "switch them off before: TRAFOOF, and D0 on this block");

@@ -14,15 +14,15 @@ BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) 
   const char first = words.first_of(LetterSet("pq"));
   if (first == 0) return Done{};
   if (state_.plane != Plane::xy) {
-    return fail(words[first].column, "a polar position outside the plane of X and Y",
-                "give it in G17");
+    return fail(words[first].column, "polar-plane"_id,
+                "a polar position outside the plane of X and Y", "give it in G17");
   }
   const PlaneAxes axes = axes_of(state_.plane);
   const auto u = static_cast<AxisLetter>(axes.u);
   const auto v = static_cast<AxisLetter>(axes.v);
   for (const AxisLetter axis : {u, v}) {
     if (!words.has(to_char(axis))) continue;
-    return fail(words[to_char(axis)].column,
+    return fail(words[to_char(axis)].column, "polar-with-axis"_id,
                 fmt::format("{} beside a polar position", words.text_of(to_char(axis))),
                 "give the place in the plane by @ and ^, or by axis words");
   }
@@ -33,7 +33,7 @@ BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) 
   if (from_here) {
     for (const AxisLetter axis : {u, v}) {
       if (position_[axis]) continue;
-      return fail(words[first].column,
+      return fail(words[first].column, position_.unknown_id(axis),
                   fmt::format("the polar position goes on from one that is not known: {}",
                               position_.why_unknown(axis)),
                   "give both @ and ^");
@@ -41,8 +41,8 @@ BlockExecutor::Outcome BlockExecutor::set_polar_target(const BlockWords& words) 
     radius = std::hypot(*position_[u], *position_[v]);
     angle = std::atan2(*position_[v], *position_[u]);
     if (radius == 0.0 && !words.has(kPolarAngle)) {
-      return fail(words[first].column, "a polar position without angle, from the origin",
-                  "give ^ in degrees");
+      return fail(words[first].column, "polar-angle-missing"_id,
+                  "a polar position without angle, from the origin", "give ^ in degrees");
     }
   }
   if (words.has(kPolarRadius)) {
@@ -80,14 +80,15 @@ BlockExecutor::Outcome BlockExecutor::set_place_in_plane(const BlockWords& words
     polar.angle = words[to_char(v)].value * kRadPerDeg + (incremental ? polar.angle : 0.0);
   }
   if (!polar.radius) {
-    return fail(words[to_char(v)].column, "an angle in G16, but no radius yet",
+    return fail(words[to_char(v)].column, "polar-radius-missing"_id,
+                "an angle in G16, but no radius yet",
                 fmt::format("give the radius by {}", to_char(u)));
   }
   Vec3 centre = Vec3::Zero();
   for (const AxisLetter axis : {u, v}) {
     if (!polar.from_here) continue;
     if (!position_[axis]) {
-      return fail(words[to_char(has_u ? u : v)].column,
+      return fail(words[to_char(has_u ? u : v)].column, position_.unknown_id(axis),
                   fmt::format("the radius counts from where the tool is, but {}",
                               position_.why_unknown(axis)),
                   "move there with G15 and G90 before, or count from the origin in G90");
@@ -109,7 +110,8 @@ void BlockExecutor::set_polar_mode(const BlockWords& words) {
 BlockExecutor::Outcome BlockExecutor::check_polar_arc(const BlockWords& words) const {
   const char centre = words.first_of(LetterSet("IJK"));
   if (!state_.polar || centre == 0) return Done{};
-  return fail(words[centre].column, fmt::format("{} of an arc in G16", words.text_of(centre)),
+  return fail(words[centre].column, "polar-arc"_id,
+              fmt::format("{} of an arc in G16", words.text_of(centre)),
               "give the arc by its radius R, or end the polar words with G15");
 }
 

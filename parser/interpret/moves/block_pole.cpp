@@ -27,7 +27,7 @@ BlockExecutor::Outcome BlockExecutor::set_pole(const BlockWords& words) {
     const bool relative = words.has(letter) && words[letter].measure == Measure::incremental;
     const bool as_before = !words.has(letter) && !state_.pole;
     if ((relative || as_before) && !position_[axis]) {
-      return fail(words[CodeGroup::non_modal].column,
+      return fail(words[CodeGroup::non_modal].column, position_.unknown_id(axis),
                   fmt::format("the pole needs a position, but {}", position_.why_unknown(axis)),
                   fmt::format("give {} of the pole without I", letter));
     }
@@ -50,13 +50,15 @@ BlockExecutor::Outcome BlockExecutor::set_pole_in_plane(const BlockWords& words,
   const std::string letters = fmt::format("{} and {}", to_char(u), to_char(v));
   const char normal = to_char(static_cast<AxisLetter>(axes.w));
   if (words.has(normal)) {
-    return fail(words[normal].column, fmt::format("{} of a pole", words.text_of(normal)),
+    return fail(words[normal].column, "pole-plane"_id,
+                fmt::format("{} of a pole", words.text_of(normal)),
                 fmt::format("a pole lies in the plane: give {}", letters));
   }
   for (const char letter : {to_char(u), to_char(v), kPolarRadius, kPolarAngle}) {
     if (!words.has(letter) || words[letter].measure == Measure::modal) continue;
     return fail(
-        words[letter].column, fmt::format("{} has a measure of its own", words.name_of(letter)),
+        words[letter].column, "pole-measure"_id,
+        fmt::format("{} has a measure of its own", words.name_of(letter)),
         "G110 counts from where the tool is, G111 from the origin, G112 from the last pole");
   }
   const bool polar = words.has(kPolarRadius) && words.has(kPolarAngle);
@@ -65,14 +67,15 @@ BlockExecutor::Outcome BlockExecutor::set_pole_in_plane(const BlockWords& words,
   const bool both = words.has(to_char(u)) && words.has(to_char(v));
   const bool whole_place = from == NonModal::pole_from_origin ? both : axis_words;
   if (polar == whole_place || (either && !polar) || (axis_words && polar)) {
-    return fail(code.column, fmt::format("{} without a place", code.code->name()),
+    return fail(code.column, "pole-place-missing"_id,
+                fmt::format("{} without a place", code.code->name()),
                 fmt::format("give {}, or RP= and AP=", letters));
   }
   Vec3 pole = Vec3::Zero();
   if (from == NonModal::pole_from_here) {
     for (const AxisLetter axis : {u, v}) {
       if (!position_[axis]) {
-        return fail(code.column,
+        return fail(code.column, position_.unknown_id(axis),
                     fmt::format("the pole needs a position, but {}", position_.why_unknown(axis)),
                     "give the pole by G111");
       }
@@ -107,12 +110,12 @@ Result<Pole> BlockExecutor::pole_for(std::uint32_t column) const {
   if (state_.pole && state_.pole->plane == state_.plane) return *state_.pole;
   const std::string give = fmt::format("give it by {} before", rules_.polar.pole);
   if (state_.pole && state_.pole->given) {
-    return fail(column, "the pole is one of another plane", give);
+    return fail(column, "pole-plane"_id, "the pole is one of another plane", give);
   }
   if (rules_.polar.origin_is_pole && !state_.pole_lost) {
     return Pole{.plane = state_.plane, .given = false};
   }
-  return fail(column, "there is no pole", give);
+  return fail(column, "pole-missing"_id, "there is no pole", give);
 }
 
 // What is left out or steps goes on from the tool's place; that has to be where it was written last.
@@ -129,13 +132,13 @@ BlockExecutor::Outcome BlockExecutor::check_place_about_pole(const BlockWords& w
   const std::string both = fmt::format("give both {} and {}, or give them by AC()",
                                        rules_.polar.radius, rules_.polar.angle);
   const auto left = [&](std::string_view name) {
-    return fail(column,
+    return fail(column, "polar-chain"_id,
                 fmt::format("{} goes on from the last one, but the tool has left that", name),
                 both);
   };
   if (goes_on(kPolarRadius)) {
     if (!pole.radius && words.has(kPolarRadius)) {
-      return fail(column,
+      return fail(column, "polar-chain"_id,
                   fmt::format("{} is a step, but there is none before it about this pole",
                               words.text_of(kPolarRadius)),
                   both);
@@ -145,7 +148,7 @@ BlockExecutor::Outcome BlockExecutor::check_place_about_pole(const BlockWords& w
   }
   if (goes_on(kPolarAngle)) {
     if (!pole.angle) {
-      return fail(column,
+      return fail(column, "polar-chain"_id,
                   fmt::format("{} goes on from the last one, but there is none about this pole",
                               rules_.polar.angle),
                   both);
@@ -166,7 +169,7 @@ BlockExecutor::Outcome BlockExecutor::set_target_about_pole(const BlockWords& wo
   const auto v = static_cast<AxisLetter>(axes.v);
   for (const char letter : {to_char(u), to_char(v)}) {
     if (!words.has(letter)) continue;
-    return fail(words[letter].column,
+    return fail(words[letter].column, "polar-with-axis"_id,
                 fmt::format("{} beside a polar position", words.text_of(letter)),
                 fmt::format("give the place in the plane by {} and {}, or by {} and {}",
                             names.radius, names.angle, to_char(u), to_char(v)));
@@ -182,15 +185,15 @@ BlockExecutor::Outcome BlockExecutor::set_target_about_pole(const BlockWords& wo
                     words[kPolarRadius].measure == Measure::modal &&
                     state_.distance == DistanceMode::incremental;
   if (open) {
-    return fail(words[kPolarRadius].column, words.text_of(kPolarRadius) + " in G91",
-                "say how it counts: RP=AC() or RP=IC()");
+    return fail(words[kPolarRadius].column, "polar-measure"_id,
+                words.text_of(kPolarRadius) + " in G91", "say how it counts: RP=AC() or RP=IC()");
   }
   double radius = 0.0;
   double angle = 0.0;
   if (relative(kPolarRadius) || relative(kPolarAngle)) {
     for (const AxisLetter axis : {u, v}) {
       if (position_[axis]) continue;
-      return fail(words[first].column,
+      return fail(words[first].column, position_.unknown_id(axis),
                   fmt::format("the polar position goes on from one that is not known: {}",
                               position_.why_unknown(axis)),
                   fmt::format("give both {} and {}", names.radius, names.angle));
@@ -198,7 +201,8 @@ BlockExecutor::Outcome BlockExecutor::set_target_about_pole(const BlockWords& wo
     const double from_u = *position_[u] - pole->at[axes.u];
     const double from_v = *position_[v] - pole->at[axes.v];
     if (from_u == 0.0 && from_v == 0.0 && relative(kPolarAngle) && !pole->angle) {
-      return fail(words[first].column, "a polar position without angle, from the pole",
+      return fail(words[first].column, "polar-angle-missing"_id,
+                  "a polar position without angle, from the pole",
                   fmt::format("give {} in degrees", names.angle));
     }
     radius = std::hypot(from_u, from_v);
@@ -217,7 +221,8 @@ BlockExecutor::Outcome BlockExecutor::set_target_about_pole(const BlockWords& wo
   apply(kPolarAngle, angle, kRadPerDeg);
   if (names.words_stay && radius < 0.0) {
     return fail(
-        words[first].column, fmt::format("the polar radius is {:g} mm", radius),
+        words[first].column, "value-negative"_id,
+        fmt::format("the polar radius is {:g} mm", radius),
         fmt::format("{} is not negative; turn {} by 180 degrees", names.radius, names.angle));
   }
   position_.set(u, pole->at[axes.u] + radius * std::cos(angle));
@@ -234,7 +239,7 @@ BlockExecutor::Outcome BlockExecutor::turn_about_pole(const BlockWords& words,
                                                       const Movement& movement,
                                                       ArcWords& arc) const {
   if (const char shape = words.first_of(LetterSet("IJKR")); shape != 0) {
-    return fail(words[shape].column,
+    return fail(words[shape].column, "polar-with-axis"_id,
                 fmt::format("{} beside a polar position", words.text_of(shape)),
                 fmt::format("an arc with {} and {} turns about the pole", rules_.polar.radius,
                             rules_.polar.angle));
@@ -255,7 +260,7 @@ BlockExecutor::Outcome BlockExecutor::check_turned_angle(const BlockWords& words
                                                          const ArcWords& arc) const {
   const GivenWord& angle = words[kPolarAngle];
   if (angle.value != 0.0 && (angle.value < 0.0) == arc.clockwise) return Done{};
-  return fail(angle.column,
+  return fail(angle.column, "arc-direction"_id,
               fmt::format("{} does not turn as {} says", words.text_of(kPolarAngle),
                           arc.clockwise ? "DR-" : "DR+"),
               "give IPA and DR the same sign");
@@ -267,7 +272,7 @@ BlockExecutor::Outcome BlockExecutor::lead_on(const Movement& movement, ArcWords
   const auto in_plane = [&](const Vec3& v) { return Vec3(v[axes.u], v[axes.v], 0.0); };
   const auto& heading = state_.heading;
   if (!heading || in_plane(heading->at - arc.start).norm() > kSamePlace) {
-    return fail(movement.column, "the arc leads on from no move",
+    return fail(movement.column, "arc-tangent-missing"_id, "the arc leads on from no move",
                 "move along a contour in the plane before it");
   }
   const Vec3 along = in_plane(heading->along).normalized();
@@ -275,7 +280,8 @@ BlockExecutor::Outcome BlockExecutor::lead_on(const Movement& movement, ArcWords
   const Vec3 chord = in_plane(arc.end - arc.start);
   const double aside = chord.dot(left);
   if (!(std::abs(aside) > kNearlyStraight * chord.norm())) {
-    return fail(movement.column, "the end of the arc lies straight ahead or behind",
+    return fail(movement.column, "arc-straight"_id,
+                "the end of the arc lies straight ahead or behind",
                 "write a straight move, or give another end");
   }
   const double radius = chord.squaredNorm() / (2.0 * aside);

@@ -15,14 +15,15 @@ constexpr int kProbeMet = 5070;  // 1 when the probe met the part
 BlockExecutor::Outcome BlockExecutor::probe(const BlockWords& words, const Movement& movement) {
   const AxisTarget before = position_.target();
   if ((words.given() & kAxisWords).empty()) {
-    return fail(movement.column, "a probing move without an end", "give X Y Z of its end");
+    return fail(movement.column, "probe-end-missing"_id, "a probing move without an end",
+                "give X Y Z of its end");
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
   if (auto done = check_programmed_frame(movement); !done) return done;
   const AxisTarget end = end_of(words);
   if (position_.target() == before) {
-    return fail(movement.column, "the probing move ends where it starts",
+    return fail(movement.column, "probe-empty"_id, "the probing move ends where it starts",
                 "give an end that lies behind what it is to meet");
   }
   const auto feed = feed_for(words, movement, true);

@@ -40,7 +40,7 @@ Result<RotaryPath> BlockExecutor::rotary_path_of(const BlockWords& words, char l
     return word.value > 0.0 ? RotaryPath::positive : RotaryPath::negative;
   }
   return fail(
-      word.column,
+      word.column, "rotary-step"_id,
       fmt::format("{} is a step of a full turn or more, from a place known but for full turns",
                   words.text_of(letter)),
       fmt::format("write smaller steps, or place {0} before by {0}=AC(0)", letter));
@@ -92,11 +92,13 @@ BlockExecutor::Outcome BlockExecutor::check_orientation_reference(const BlockWor
   const bool turned =
       state_.tilted || state_.programmed_frame.turns() || state_.offset_frame.turns();
   if (vector != 0 && turned) {
-    return fail(column, "a tool vector of the machine (ORIMKS) in a frame that is turned",
+    return fail(column, "orientation-reference"_id,
+                "a tool vector of the machine (ORIMKS) in a frame that is turned",
                 "give the vector in the frame of the words, with ORIWKS, or end the frame before");
   }
   if (state_.orientation_path == OrientationPath::great_circle) {
-    return fail(column, "ORIMKS and ORIVECT say different ways for the tool to turn",
+    return fail(column, "orientation-reference"_id,
+                "ORIMKS and ORIVECT say different ways for the tool to turn",
                 "write ORIAXES with ORIMKS, or ORIWKS with ORIVECT");
   }
   return Done{};

@@ -23,20 +23,23 @@ constexpr double kMostWeight = 1e6;
 BlockExecutor::Outcome BlockExecutor::check_spline(const BlockWords& words,
                                                    const Movement& movement) const {
   if (state_.plane != Plane::xy) {
-    return fail(movement.column, "a spline outside G17", "splines lie in the plane XY: G17");
+    return fail(movement.column, "spline-plane"_id, "a spline outside G17",
+                "splines lie in the plane XY: G17");
   }
   if (const char letter = words.first_of(LetterSet("ZABC")); letter != 0) {
-    return fail(words[letter].column, fmt::format("{} in a spline", words.text_of(letter)),
+    return fail(words[letter].column, "spline-axes"_id,
+                fmt::format("{} in a spline", words.text_of(letter)),
                 "a spline moves X and Y only");
   }
   if (arc_waits_for_exit_) {
-    return fail(movement.column, "the first move after radius compensation is a spline",
+    return fail(movement.column, "radius-compensation"_id,
+                "the first move after radius compensation is a spline",
                 "leave the contour by a straight move");
   }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
     if (position_[axis]) continue;
     return fail(
-        movement.column,
+        movement.column, position_.unknown_id(axis),
         fmt::format("the start of the spline is not known: {}", position_.why_unknown(axis)),
         "move to the start with G0 or G1 in G90 first");
   }
@@ -67,7 +70,8 @@ BlockExecutor::Outcome BlockExecutor::move_along_cubic(const BlockWords& words,
                                                        const Movement& movement) {
   const auto needs = [&](char given, std::string_view both, std::string_view what) {
     const std::uint32_t column = given != 0 ? words[given].column : movement.column;
-    return fail(column, fmt::format("G5 without {}", both), std::string(what));
+    return fail(column, "spline-word-missing"_id, fmt::format("G5 without {}", both),
+                std::string(what));
   };
   if (!words.has('P') || !words.has('Q')) {
     return needs(words.first_of(LetterSet("PQ")), "P and Q",
@@ -95,7 +99,8 @@ BlockExecutor::Outcome BlockExecutor::move_along_quadratic(const BlockWords& wor
                                                            const Movement& movement) {
   if (!words.has('I') || !words.has('J')) {
     const char given = words.first_of(LetterSet("IJ"));
-    return fail(given != 0 ? words[given].column : movement.column, "G5.1 without I and J",
+    return fail(given != 0 ? words[given].column : movement.column, "spline-word-missing"_id,
+                "G5.1 without I and J",
                 "I and J lead from the start to the control point; give both");
   }
   const Vec2 start = place_in_plane();
@@ -111,7 +116,8 @@ BlockExecutor::Outcome BlockExecutor::add_nurbs_point(const BlockWords& words,
   const bool first = !nurbs_;
   if (words.has('P') &&
       !(words['P'].value >= 1.0 / kMostWeight && words['P'].value <= kMostWeight)) {
-    return fail(words['P'].column, fmt::format("the weight {} is out of range", words.text_of('P')),
+    return fail(words['P'].column, "out-of-range"_id,
+                fmt::format("the weight {} is out of range", words.text_of('P')),
                 fmt::format("weights go from {:g} to {:g}", 1.0 / kMostWeight, kMostWeight));
   }
   int order = first ? kLeastOrder : nurbs_->order;
@@ -125,10 +131,11 @@ BlockExecutor::Outcome BlockExecutor::add_nurbs_point(const BlockWords& words,
   nurbs_->order = order;
   if (first && !words.has('X') && !words.has('Y')) return Done{};
   if (!words.has('X') || !words.has('Y')) {
-    return fail(movement.column, "a control point without X and Y", "give both");
+    return fail(movement.column, "spline-word-missing"_id, "a control point without X and Y",
+                "give both");
   }
   if (!first && !words.has('P')) {
-    return fail(movement.column, "a control point without a weight",
+    return fail(movement.column, "spline-word-missing"_id, "a control point without a weight",
                 "give P above zero in each block of the spline, P1 for all alike");
   }
   // Steps count from the start of the spline.
@@ -143,13 +150,13 @@ BlockExecutor::Outcome BlockExecutor::move_along_nurbs(const BlockWords& words,
                                                        const Movement& movement) {
   state_.motion = MotionMode::none;
   if (!nurbs_) {
-    return fail(movement.column, "G5.3 without G5.2",
+    return fail(movement.column, "spline-not-begun"_id, "G5.3 without G5.2",
                 "begin the spline with G5.2 and its control points");
   }
   const Nurbs nurbs = *std::exchange(nurbs_, std::nullopt);
   if (static_cast<int>(nurbs.points.size()) < nurbs.order) {
     return fail(
-        movement.column,
+        movement.column, "spline-points"_id,
         fmt::format("{} control points for a spline of order {}", nurbs.points.size(), nurbs.order),
         "give at least as many points as its order L; the first is where the tool stands");
   }
@@ -190,7 +197,7 @@ BlockExecutor::Outcome BlockExecutor::check_open_nurbs(const Movement& movement)
                      movement.motion != MotionMode::nurbs_end;
   const bool places = movement.non_modal != NonModal::none && movement.non_modal != NonModal::dwell;
   if (!nurbs_ || (!moves && !places)) return Done{};
-  return fail(movement.column,
+  return fail(movement.column, "spline-open"_id,
               fmt::format("a move between the points of the spline that G5.2 began on line {}",
                           nurbs_->place.line),
               "end the spline with G5.3 before");
@@ -198,7 +205,8 @@ BlockExecutor::Outcome BlockExecutor::check_open_nurbs(const Movement& movement)
 
 std::optional<Diagnostic> BlockExecutor::spline_without_end() const {
   if (!nurbs_) return std::nullopt;
-  Diagnostic failure = error("the spline that G5.2 begins has no G5.3", "end it with G5.3");
+  Diagnostic failure =
+      error("spline-open"_id, "the spline that G5.2 begins has no G5.3", "end it with G5.3");
   failure.line = static_cast<int>(nurbs_->place.line);
   failure.column = static_cast<int>(nurbs_->place.column);
   return failure;

@@ -23,16 +23,17 @@ Result<double> BlockExecutor::lead_of(const BlockWords& words, const Movement& m
                                : words[CodeGroup::motion].code->name();
   const bool goes_on = letter == 'F' && !words.has(CodeGroup::motion) && state_.feed;
   if (!words.has(letter) && !goes_on) {
-    return fail(movement.column, fmt::format("{} without {}", name, letter),
+    return fail(movement.column, "thread-lead"_id, fmt::format("{} without {}", name, letter),
                 fmt::format("give {}, the way of one revolution, on each such block", letter));
   }
   const double lead = goes_on ? state_.feed->scaled : words[letter].value * unit_scale();
   if (!(lead > 0.0)) {
-    return fail(words[letter].column, fmt::format("{} is not above zero", words.text_of(letter)),
+    return fail(words[letter].column, "thread-lead"_id,
+                fmt::format("{} is not above zero", words.text_of(letter)),
                 "the lead is above zero; the spindle's direction makes a thread left-handed");
   }
   if (state_.spindle == SpindleDirection::off) {
-    return fail(movement.column, name + " while the spindle stands",
+    return fail(movement.column, "thread-spindle-off"_id, name + " while the spindle stands",
                 "start the spindle with S and M3 or M4 before");
   }
   return lead;
@@ -52,7 +53,8 @@ Result<double> BlockExecutor::lead_along_way(const BlockWords& words, double lea
   const auto along = static_cast<AxisLetter>(letter - 'I');
   for (const char other : {'I', 'J', 'K'}) {
     if (other == letter || !words.has(other)) continue;
-    return fail(words[other].column, fmt::format("{} beside {}", words.text_of(other), letter),
+    return fail(words[other].column, "thread-lead"_id,
+                fmt::format("{} beside {}", words.text_of(other), letter),
                 "give one lead, that along the longer way");
   }
   Vec3 way = Vec3::Zero();
@@ -71,7 +73,7 @@ Result<double> BlockExecutor::lead_along_way(const BlockWords& words, double lea
   if (known && longest > 0.0 && longest >= way.cwiseAbs().maxCoeff()) {
     return lead * (way.norm() / longest);
   }
-  return fail(words[letter].column,
+  return fail(words[letter].column, "thread-lead"_id,
               fmt::format("{} is the lead along {}, which is not the way of the thread",
                           words.text_of(letter), to_char(along)),
               "give I along X, J along Y, K along Z, of the axis with the longest way");
@@ -82,11 +84,13 @@ BlockExecutor::Outcome BlockExecutor::move_along_thread(const BlockWords& words,
   auto lead = lead_of(words, movement, lead_letter(words));
   if (!lead) return lead.error();
   if (rules_.thread_lead == 'F' && state_.feed_mode == FeedMode::inverse_time) {
-    return fail(movement.column, "a thread in G93, where F is a time", "cut it in G94 or G95");
+    return fail(movement.column, "thread-inverse-time"_id, "a thread in G93, where F is a time",
+                "cut it in G94 or G95");
   }
   const AxisTarget before = position_.target();
   if ((words.given() & kAxisWords).empty()) {
-    return fail(movement.column, "a thread without an end", "give X Y Z of its end");
+    return fail(movement.column, "thread-end-missing"_id, "a thread without an end",
+                "give X Y Z of its end");
   }
   if (auto done = check_tool_length(movement); !done) return done;
   if (auto done = set_targets(words); !done) return done;
@@ -103,11 +107,12 @@ BlockExecutor::Outcome BlockExecutor::tap_rigidly(const BlockWords& words,
   const auto lead = lead_of(words, movement, 'K');
   if (!lead) return lead.error();
   if ((words.given() & kLinearWords).empty()) {
-    return fail(movement.column, "a thread without an end", "give X Y Z of the bottom");
+    return fail(movement.column, "thread-end-missing"_id, "a thread without an end",
+                "give X Y Z of the bottom");
   }
   for (const AxisLetter axis : kLinearAxes) {
     if (!words.has(to_char(axis)) || position_[axis]) continue;
-    return fail(movement.column,
+    return fail(movement.column, position_.unknown_id(axis),
                 fmt::format("the tap goes back to a start that is not known: {}",
                             position_.why_unknown(axis)),
                 "move to the start with G0 in G90 first");
@@ -134,12 +139,13 @@ Result<ThreadingCycle> BlockExecutor::threading_cycle(const BlockWords& words,
                                                       const Movement& movement) const {
   for (const char letter : std::string_view("PZIJK")) {
     if (words.has(letter)) continue;
-    return fail(movement.column, fmt::format("the threading cycle has no {}", letter),
+    return fail(movement.column, "cycle-word-missing"_id,
+                fmt::format("the threading cycle has no {}", letter),
                 "give P (lead), Z (end), I (crest), J (first depth) and K (full depth)");
   }
   for (const AxisLetter axis : kLinearAxes) {
     if (position_[axis] || axis == AxisLetter::Y) continue;
-    return fail(movement.column,
+    return fail(movement.column, position_.unknown_id(axis),
                 fmt::format("the threading cycle starts at an unknown {}: {}", to_char(axis),
                             position_.why_unknown(axis)),
                 "move to its start in G90 before");
@@ -158,20 +164,22 @@ Result<ThreadingCycle> BlockExecutor::threading_cycle(const BlockWords& words,
   // Below 1 it would cut deeper from pass to pass; the control takes 1 then.
   if (words.has('R')) cycle.degression = std::max(1.0, words['R'].value);
   if (cycle.crest == 0.0) {
-    return fail(words['I'].column, "the crest is on the drive line",
+    return fail(words['I'].column, "thread-depth"_id, "the crest is on the drive line",
                 "give I below zero for a thread outside, above zero for one inside");
   }
   for (const char letter : {'J', 'K'}) {
     if (words[letter].value > 0.0) continue;
-    return fail(words[letter].column, fmt::format("{} is not above zero", words.text_of(letter)),
+    return fail(words[letter].column, "value-not-positive"_id,
+                fmt::format("{} is not above zero", words.text_of(letter)),
                 "depths count from the crest into the part");
   }
   if (cycle.first_depth > cycle.full_depth) {
-    return fail(words['J'].column, "the first depth is more than the full one",
+    return fail(words['J'].column, "thread-depth"_id, "the first depth is more than the full one",
                 "give J at most as large as K");
   }
   if (words['Q'].value < 0.0 || words['Q'].value > kMostSlide) {
-    return fail(words['Q'].column, fmt::format("{} is out of range", words.text_of('Q')),
+    return fail(words['Q'].column, "out-of-range"_id,
+                fmt::format("{} is out of range", words.text_of('Q')),
                 "the angle of the slide goes from 0 to 80 degrees; 29.5 is common");
   }
   if (words.has('H')) {
@@ -186,11 +194,12 @@ Result<ThreadingCycle> BlockExecutor::threading_cycle(const BlockWords& words,
     cycle.tapers_out = (*ends & 2) != 0;
   }
   if (cycle.taper < 0.0) {
-    return fail(words['E'].column, fmt::format("{} is negative", words.text_of('E')),
-                "give the length of the taper");
+    return fail(words['E'].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of('E')), "give the length of the taper");
   }
   if (!(cycle.passes() <= kMaxPasses)) {
-    return fail(words['J'].column, "the thread would take more than 10000 passes",
+    return fail(words['J'].column, "thread-passes"_id,
+                "the thread would take more than 10000 passes",
                 "give J, the first depth, a larger share of K");
   }
   return cycle;
@@ -208,7 +217,7 @@ BlockExecutor::Outcome BlockExecutor::cut_thread(const BlockWords& words,
   cycle->end_z = *end[AxisLetter::Z];
   const int tapers = static_cast<int>(cycle->tapers_in) + static_cast<int>(cycle->tapers_out);
   if (cycle->taper * tapers > std::abs(cycle->end_z - cycle->start_z)) {
-    return fail(words['E'].column, "the tapers are longer than the thread",
+    return fail(words['E'].column, "thread-taper"_id, "the tapers are longer than the thread",
                 "give E at most half of its length");
   }
   for (const ThreadMove& move : moves_of(*cycle)) {

@@ -48,7 +48,7 @@ Result<Vec3> BlockExecutor::point_between(const BlockWords& words, const Movemen
                                           const Vec3& start, const Vec3& end) const {
   Vec3 point = start;
   if (words.first_of(LetterSet(kBetween)) == 0) {
-    return fail(movement.column, "CIP without a point between",
+    return fail(movement.column, "arc-point-missing"_id, "CIP without a point between",
                 "give a point of the arc by I1= J1= K1=");
   }
   for (const AxisLetter axis : kLinearAxes) {
@@ -56,7 +56,7 @@ Result<Vec3> BlockExecutor::point_between(const BlockWords& words, const Movemen
     const char letter = kBetween[static_cast<std::size_t>(axis)];
     if (!words.has(letter)) {
       if (std::abs(end[slot] - start[slot]) <= kInPlane) continue;
-      return fail(movement.column,
+      return fail(movement.column, "arc-point-missing"_id,
                   fmt::format("CIP moves {} and has no {}1=", to_char(axis), "IJK"[slot]),
                   "give the point between with all axes that move");
     }
@@ -71,7 +71,8 @@ Result<Vec3> BlockExecutor::point_between(const BlockWords& words, const Movemen
 BlockExecutor::Outcome BlockExecutor::move_through_point(const BlockWords& words,
                                                          const Movement& movement) {
   if (arc_waits_for_exit_) {
-    return fail(movement.column, "the first move after radius compensation is an arc",
+    return fail(movement.column, "radius-compensation"_id,
+                "the first move after radius compensation is an arc",
                 "leave the contour by a straight move");
   }
   const AxisTarget before = end_of(words);
@@ -82,7 +83,7 @@ BlockExecutor::Outcome BlockExecutor::move_through_point(const BlockWords& words
         words.has(to_char(axis)) || words.has(kBetween[static_cast<std::size_t>(axis)]);
     const bool in_plane = slot != axes_of(state_.plane).w;
     if (!position_[axis] && (named || in_plane)) {
-      return fail(movement.column,
+      return fail(movement.column, position_.unknown_id(axis),
                   fmt::format("the start of the arc is not known: {}", position_.why_unknown(axis)),
                   "move to the start with G0 or G1 in G90 first");
     }
@@ -103,7 +104,7 @@ BlockExecutor::Outcome BlockExecutor::move_through_point(const BlockWords& words
   const double least = kOnLine * (start.norm() + a.norm() + b.norm());
   if (!(a.norm() > least && b.norm() > least && (end - *between).norm() > least) ||
       !(a.cross(b).norm() > kOnLine * a.norm() * b.norm())) {
-    return fail(words[words.first_of(LetterSet(kBetween))].column,
+    return fail(words[words.first_of(LetterSet(kBetween))].column, "arc-straight"_id,
                 "start, end and the point between lie on a line",
                 "give three points of a circle, or write a straight move");
   }
@@ -132,7 +133,7 @@ BlockExecutor::Outcome BlockExecutor::cut_into_chords(const BlockWords& words,
   LetterSet turning = kRotaryWords;
   if (state_.compensation.tip) turning = turning | LetterSet(rules_.vector_letters);
   if (const char letter = words.first_of(turning); letter != 0) {
-    return fail(words[letter].column,
+    return fail(words[letter].column, "arc-rotary"_id,
                 fmt::format("{} beside an arc in space", words.text_of(letter)),
                 "turn the tool in a block of its own, or write the arc as short G1 blocks");
   }
@@ -141,7 +142,8 @@ BlockExecutor::Outcome BlockExecutor::cut_into_chords(const BlockWords& words,
   const double step = 4.0 * std::asin(std::sqrt(std::min(kSagitta / (2.0 * radius), 1.0)));
   const double count = std::max(std::ceil(angle / step), 1.0);
   if (!(count <= kMostChords)) {
-    return fail(movement.column, fmt::format("an arc in space of radius {:.6g} mm", radius),
+    return fail(movement.column, "arc-too-long"_id,
+                fmt::format("an arc in space of radius {:.6g} mm", radius),
                 "check the point between; write an arc that is nearly straight as G1");
   }
   emit(movement.column,

@@ -16,9 +16,10 @@ std::uint64_t bit_of(CodeGroup group) {
 
 constexpr double kLargestValue = 1e15;
 
-Diagnostic at(const Block& block, std::uint32_t column, std::string message, std::string hint) {
+Diagnostic at(const Block& block, std::uint32_t column, DiagnosticId id, std::string message,
+              std::string hint) {
   const SourcePlace place = block.place_of(column);
-  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
   diagnostic.line = static_cast<int>(place.line);
   diagnostic.column = static_cast<int>(place.column);
   return diagnostic;
@@ -28,9 +29,10 @@ Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, d
   const std::string name = word.letter + decimal_text(number);
   const std::string_view remedy = remedy_for(dialect, word.letter, number);
   if (!remedy.empty()) {
-    return at(block, word.column, name + " is not simulated", std::string(remedy));
+    return at(block, word.column, "not-simulated"_id, name + " is not simulated",
+              std::string(remedy));
   }
-  return at(block, word.column, "unknown word " + name,
+  return at(block, word.column, "unknown-word"_id, "unknown word " + name,
             "near it are " + codes_near(dialect, word.letter, number));
 }
 
@@ -110,7 +112,8 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
       auto computed = evaluate(context, word.expression);
       if (!computed) {
         const Diagnostic& failure = computed.error().front();
-        return at(block, static_cast<std::uint32_t>(failure.column), failure.message, failure.hint);
+        return at(block, static_cast<std::uint32_t>(failure.column), failure.id, failure.message,
+                  failure.hint);
       }
       number = *computed;
       if (is_vacant(number)) {
@@ -121,13 +124,14 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
     const bool named = word.letter == kNamedWord;
     if (word.letter != 'G' && word.letter != 'M' && !named) {
       if (words.has(word.letter)) {
-        return at(block, word.column,
+        return at(block, word.column, "word-twice"_id,
                   fmt::format("{} is given twice in a block", words.name_of(word.letter)),
                   "leave one of them out, or write two blocks");
       }
       // Beyond this sums and squares of positions would leave the range of numbers.
       if (!(std::abs(number) <= kLargestValue)) {
-        return at(block, word.column, words.name_of(word.letter) + " is too large",
+        return at(block, word.column, "out-of-range"_id,
+                  words.name_of(word.letter) + " is too large",
                   "the values of words go up to 1e15");
       }
       words.given_.add(word.letter);
@@ -141,7 +145,7 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
     if (code->group == CodeGroup::event) continue;
     GivenCode& place = words.codes_[static_cast<std::size_t>(code->group)];
     if (place.code != nullptr) {
-      return at(block, word.column,
+      return at(block, word.column, "word-twice"_id,
                 place.code == code ? fmt::format("{} is given twice in a block", code->name())
                                    : fmt::format("{} and {} contradict each other in a block",
                                                  place.code->name(), code->name()),

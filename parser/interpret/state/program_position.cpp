@@ -34,4 +34,9 @@ std::string ProgramPosition::why_unknown(AxisLetter axis) const {
                      kLossTexts.at(static_cast<std::size_t>(cause.loss)), cause.line);
 }
 
+DiagnosticId ProgramPosition::unknown_id(AxisLetter axis) const {
+  const Cause& cause = causes_.at(static_cast<std::size_t>(axis));
+  return cause.loss == PositionLoss::mistake ? "follows-mistake"_id : "position-unknown"_id;
+}
+
 }  // namespace frustum::parser
