@@ -26,23 +26,40 @@ namespace frustum::parser {
   return {};
 }
 
+// What is wrong with the program; nothing when it runs.
+[[nodiscard]] inline Diagnostics failures_of(std::string_view text,
+                                             const InterpreterOptions& options = {},
+                                             Dialect dialect = Dialect::fanuc) {
+  const auto motions =
+      parse_program(text, "part.nc", dialect).and_then([&options](const Program& program) {
+        return motions_of(program, options);
+      });
+  return motions ? Diagnostics{} : motions.error();
+}
+
 // "3:5: error: ... (hint: ...)" for each diagnostic; empty when the program runs.
 [[nodiscard]] inline std::vector<std::string> complaints(std::string_view text,
                                                          const InterpreterOptions& options = {},
                                                          Dialect dialect = Dialect::fanuc) {
   const std::string file = "part.nc";
-  const auto motions =
-      parse_program(text, file, dialect).and_then([&options](const Program& program) {
-        return motions_of(program, options);
-      });
   std::vector<std::string> lines;
-  if (motions) return lines;
-  for (const Diagnostic& diagnostic : motions.error()) {
+  for (const Diagnostic& diagnostic : failures_of(text, options, dialect)) {
     const std::string line = to_string(diagnostic);
     EXPECT_TRUE(line.starts_with(file + ":")) << line;
     lines.push_back(line.substr(file.size() + 1));
   }
   return lines;
+}
+
+// Their ids.
+[[nodiscard]] inline std::vector<std::string> complaint_ids(std::string_view text,
+                                                            const InterpreterOptions& options = {},
+                                                            Dialect dialect = Dialect::fanuc) {
+  std::vector<std::string> ids;
+  for (const Diagnostic& diagnostic : failures_of(text, options, dialect)) {
+    ids.emplace_back(diagnostic.id.text());
+  }
+  return ids;
 }
 
 // The commands of one kind, in order.

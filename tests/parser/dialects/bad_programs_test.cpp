@@ -1,4 +1,5 @@
-// Every file of data/bad begins with the complaints it must cause, one a line: "; 3:5: error: ...".
+// Every file of data/bad begins with the complaints it must cause, one a line, with their ids:
+// "; [arc-radius] 3:5: error: ...".
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,13 +41,31 @@ std::vector<std::string> expected_in(const std::string& text) {
   return expected;
 }
 
+// The complaints without their ids.
+std::vector<std::string> messages_of(std::vector<std::string> expected) {
+  for (std::string& line : expected) {
+    if (line.starts_with('[')) line.erase(0, line.find("] ") + 2);
+  }
+  return expected;
+}
+
+// Without a line for those that have none.
+std::vector<std::string> ids_of(const std::vector<std::string>& expected) {
+  std::vector<std::string> ids;
+  for (const std::string& line : expected) {
+    if (line.starts_with('[')) ids.push_back(line.substr(1, line.find(']') - 1));
+  }
+  return ids;
+}
+
 class BadProgram : public testing::TestWithParam<std::string> {};
 
 TEST_P(BadProgram, SaysWhereWhatAndTheRemedy) {
   const std::string text = text_of(GetParam());
   const auto expected = expected_in(text);
   ASSERT_FALSE(expected.empty()) << "the file does not begin with its complaints";
-  EXPECT_EQ(complaints(text), expected);
+  EXPECT_EQ(complaints(text), messages_of(expected));
+  if (const auto ids = ids_of(expected); !ids.empty()) EXPECT_EQ(complaint_ids(text), ids);
   for (const std::string& line : expected) {
     EXPECT_NE(line.find(" (hint: "), std::string::npos) << line;
   }

@@ -1,6 +1,9 @@
 // What the program may rely on after moves and frame changes whose result it cannot know.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "core/units.hpp"
 #include "tests/parser/running.hpp"
 
@@ -108,6 +111,23 @@ TEST(MachineCoordinates, LastForOneBlock) {
   const auto moves = all_of<Traverse>(motions("G53 G0 Z0\nX5\n"));
   ASSERT_EQ(moves.size(), 2U);
   EXPECT_EQ(moves[1].coordinates, Coordinates::program);
+}
+
+// What a block that was passed over makes unknown is no mistake of its own.
+TEST(Position, LostByABlockThatWasPassedOverHasAnIdOfItsOwn) {
+  std::vector<std::string> ids;
+  InterpreterOptions options;
+  options.go_on = [&](Diagnostic&& problem) {
+    ids.emplace_back(problem.id.text());
+    return true;
+  };
+  const auto program =
+      parse_program("G0 X0 Y0\nX[1/0] Y[2/0]\nG91 X1\nZ1\nM2\n", "part.nc", Dialect::fanuc);
+  ASSERT_TRUE(program);
+  ASSERT_TRUE(motions_of(*program, options));
+  ASSERT_EQ(ids.size(), 3U);
+  EXPECT_EQ(ids[1], "follows-mistake");
+  EXPECT_EQ(ids[2], "position-unknown");
 }
 
 }  // namespace

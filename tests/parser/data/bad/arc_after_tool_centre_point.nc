@@ -1,4 +1,4 @@
-; 4:1: error: the start of the arc is not known: X is not known since the change of tool length compensation on line 3 (hint: move to the start with G0 or G1 in G90 first)
+; [position-unknown] 4:1: error: the start of the arc is not known: X is not known since the change of tool length compensation on line 3 (hint: move to the start with G0 or G1 in G90 first)
 G0 X0 Y0
 G43.4 H1
 G2 X10 Y0 I5 F100

@@ -1,2 +1,2 @@
-; 2:1: error: M6 without a tool (hint: give T on this block or before)
+; [tool-missing] 2:1: error: M6 without a tool (hint: give T on this block or before)
 M6

@@ -1,4 +1,4 @@
-; 6:1: error: G1 without a feed rate (hint: give F on this block or before, above zero)
+; [feed-missing] 6:1: error: G1 without a feed rate (hint: give F on this block or before, above zero)
 G0 X0
 M98 P2000
 M30

@@ -1,2 +1,2 @@
-; 2:1: error: G1 without a feed rate (hint: give F on this block or before, above zero)
+; [feed-missing] 2:1: error: G1 without a feed rate (hint: give F on this block or before, above zero)
 G53 G1 Z0

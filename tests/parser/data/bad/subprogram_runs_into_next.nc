@@ -1,4 +1,4 @@
-; 4:1: error: subprogram O2000 has no M99 (hint: end the subprogram with M99)
+; [subprogram-end-missing] 4:1: error: subprogram O2000 has no M99 (hint: end the subprogram with M99)
 M98 P2000
 M30
 O2000
