@@ -65,7 +65,9 @@ TEST_P(BadProgram, SaysWhereWhatAndTheRemedy) {
   const auto expected = expected_in(text);
   ASSERT_FALSE(expected.empty()) << "the file does not begin with its complaints";
   EXPECT_EQ(complaints(text), messages_of(expected));
-  if (const auto ids = ids_of(expected); !ids.empty()) EXPECT_EQ(complaint_ids(text), ids);
+  if (const auto ids = ids_of(expected); !ids.empty()) {
+    EXPECT_EQ(complaint_ids(text), ids);
+  }
   for (const std::string& line : expected) {
     EXPECT_NE(line.find(" (hint: "), std::string::npos) << line;
   }
