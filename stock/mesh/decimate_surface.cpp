@@ -136,12 +136,14 @@ SurfaceMesh kept(const SurfaceMesh& from, const OpenMesh3& mesh) {
 
 Result<SurfaceMesh> decimate_surface(const SurfaceMesh& mesh, Mm tolerance) {
   if (!std::isfinite(tolerance.value) || tolerance.value <= 0.0) {
-    return error(fmt::format("the decimation tolerance is {} mm", tolerance.value),
+    return error("mesh-tolerance"_id,
+                 fmt::format("the decimation tolerance is {} mm", tolerance.value),
                  "it must be a finite number above 0");
   }
   const MeshMeasure measured = measure(mesh);
   if (!measured.is_closed || !measured.is_manifold) {
-    return error(fmt::format("the mesh to be decimated is {}",
+    return error("mesh-open"_id,
+                 fmt::format("the mesh to be decimated is {}",
                              measured.is_closed ? "not manifold" : "not closed"),
                  "only closed surfaces without self-contact are decimated");
   }
@@ -170,7 +172,8 @@ Result<SurfaceMesh> decimate_surface(const SurfaceMesh& mesh, Mm tolerance) {
   decimater.module(features).set_kinds(kinds);
   const FacetSolid given(mesh.vertices, mesh.triangles);
   decimater.module(near).set_given(given, tolerance.value);
-  if (!decimater.initialize()) return error("OpenMesh cannot decimate the mesh");
+  if (!decimater.initialize())
+    return error("mesh-decimation"_id, "OpenMesh cannot decimate the mesh");
   decimater.decimate();
   return kept(mesh, built);
 }

@@ -396,12 +396,13 @@ Result<RefinedSurface> refine_surface(SolidView solid, SurfaceMesh coarse,
                                       const RefineOptions& options) {
   const double chord = options.chord.value;
   if (!std::isfinite(chord) || chord <= 0.0) {
-    return error(fmt::format("the chord tolerance is {} mm", chord),
+    return error("mesh-tolerance"_id, fmt::format("the chord tolerance is {} mm", chord),
                  "it must be a finite number above 0");
   }
   if (coarse.normals.size() != coarse.vertices.size() ||
       coarse.kinds.size() != coarse.vertices.size()) {
-    return error("the mesh to be refined has no normals", "use one of extract_surface()");
+    return error("mesh-normals"_id, "the mesh to be refined has no normals",
+                 "use one of extract_surface()");
   }
   RefinedSurface refined{.mesh = std::move(coarse)};
   refined.mesh.deviation.clear();
@@ -410,7 +411,8 @@ Result<RefinedSurface> refine_surface(SolidView solid, SurfaceMesh coarse,
   for (; refined.rounds < kMostRounds; ++refined.rounds) {
     auto edges = edges_of(refined.mesh);
     if (!edges) {
-      return error("the mesh to be refined is not closed", "every edge needs two triangles");
+      return error("mesh-open"_id, "the mesh to be refined is not closed",
+                   "every edge needs two triangles");
     }
     Round round(solid, refined.mesh, std::move(*edges), first_fresh, chord);
     const bool any = round.mark();
@@ -418,7 +420,8 @@ Result<RefinedSurface> refine_surface(SolidView solid, SurfaceMesh coarse,
     refined.unresolved_edges += round.unresolved();
     if (!any) break;
     if (round.triangles_after() > options.max_triangles) {
-      return error(fmt::format("a chord tolerance of {} mm needs more than {} triangles", chord,
+      return error("mesh-size"_id,
+                   fmt::format("a chord tolerance of {} mm needs more than {} triangles", chord,
                                options.max_triangles),
                    "use a larger one");
     }

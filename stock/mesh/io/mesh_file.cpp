@@ -219,7 +219,8 @@ Result<MeshFormat> mesh_format_of(const fs::path& file) {
   if (extension == ".3mf") return MeshFormat::three_mf;
   if (extension == ".vtp") return MeshFormat::vtp;
   Diagnostic unknown =
-      error(extension.empty() ? std::string("the mesh file has no extension to tell its format")
+      error("mesh-format"_id,
+            extension.empty() ? std::string("the mesh file has no extension to tell its format")
                               : fmt::format("{} is not a mesh format known here", extension),
             kChoices);
   unknown.file = file.string();
@@ -248,9 +249,9 @@ Result<std::uintmax_t> write_mesh(const SurfaceMesh& mesh, const fs::path& file)
   // A vertex takes up to 90 bytes of XML, a triangle up to 60.
   const std::uint64_t most = 90 * std::uint64_t{mesh.vertices.size()} + 60 * mesh.triangles.size();
   if (*format == MeshFormat::three_mf && most > 0xFFFF'0000U) {
-    Diagnostic large =
-        error(fmt::format("{} triangles are too many for a 3MF", mesh.triangles.size()),
-              "decimate the mesh, or write .ply");
+    Diagnostic large = error(
+        "mesh-size"_id, fmt::format("{} triangles are too many for a 3MF", mesh.triangles.size()),
+        "decimate the mesh, or write .ply");
     large.file = file.string();
     return large;
   }
