@@ -13,6 +13,7 @@ find_package(PNG 1.6 REQUIRED)                # PNG::PNG
 find_package(ZLIB REQUIRED)                   # ZLIB::ZLIB
 find_package(pugixml 1.12 REQUIRED)            # pugixml::pugixml
 find_package(OpenMesh CONFIG REQUIRED)        # OpenMeshCore
+find_package(embree 3.13 REQUIRED)            # embree
 find_path(FRUSTUM_RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 
 if(FRUSTUM_WITH_CGAL)

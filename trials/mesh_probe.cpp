@@ -1,4 +1,4 @@
-#include "app/job/mesh_probe.hpp"
+#include "trials/mesh_probe.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "stock/mesh/io/mesh_reader.hpp"
 #include "stock/mesh/weld_mesh.hpp"
 
-namespace frustum::app {
+namespace frustum::trials {
 namespace {
 
 MeshProbe turned_over(const stock::FacetSolid& solid) {
@@ -42,6 +42,7 @@ std::optional<Diagnostic> MeshProbe::facing_fault(const metrology::InspectionPla
   }
   if (behind == 0) return std::nullopt;
   return error(
+      "mesh-facing"_id,
       fmt::format("{} of the plan's {} points meet facets of the mesh from behind, first of all {}",
                   behind, all, first),
       "the mesh is inside out there: turn its facets so that they run counter-clockwise seen from "
@@ -62,4 +63,4 @@ Result<MeshProbe> read_mesh_probe(const std::filesystem::path& file,
   return MeshProbe(stock::FacetSolid(std::move(mesh->vertices), std::move(mesh->triangles)));
 }
 
-}  // namespace frustum::app
+}  // namespace frustum::trials

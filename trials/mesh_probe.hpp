@@ -20,7 +20,7 @@
 #include "metrology/probing/surface_probe.hpp"
 #include "stock/solid/facet_solid.hpp"
 
-namespace frustum::app {
+namespace frustum::trials {
 
 class MeshProbe {
  public:
@@ -40,4 +40,4 @@ class MeshProbe {
                                                 const std::optional<metrology::LengthUnit>& unit,
                                                 const metrology::InspectionPlan& plan);
 
-}  // namespace frustum::app
+}  // namespace frustum::trials

@@ -8,7 +8,6 @@
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
 #include "app/job/job_report.hpp"
-#include "app/job/mesh_probe.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "metrology/points/point_file.hpp"
@@ -16,6 +15,7 @@
 #include "metrology/uncertainty/uncertainty.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/terminal_report.hpp"
+#include "trials/mesh_probe.hpp"
 
 namespace frustum::app {
 namespace {
@@ -95,7 +95,7 @@ Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
                                            const InspectionPlan& plan,
                                            const std::optional<LengthUnit>& unit,
                                            const CmmModel& cmm) {
-  const auto probe = read_mesh_probe(options.mesh, unit, plan);
+  const auto probe = trials::read_mesh_probe(options.mesh, unit, plan);
   if (!probe) return probe.error();
   auto measurement = metrology::measure(plan, *probe, cmm);
   if (measurement) return measurement;

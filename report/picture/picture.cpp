@@ -21,22 +21,26 @@ constexpr double kCreaseAngle = 25.0 * kRadPerDeg;
 
 std::optional<Diagnostic> complaint_about(const SurfacePicture& picture,
                                           const PictureOptions& options) {
-  if (picture.empty()) return error("the picture has no surface", "cut the workpiece first");
+  if (picture.empty())
+    return error("picture-empty"_id, "the picture has no surface", "cut the workpiece first");
   if (!picture.is_valid()) {
-    return error(
-        "the surface is inconsistent: a triangle names a vertex that does not exist, "
-        "a coordinate is not finite, or deviations and vertices differ in number");
+    return error("picture-inconsistent"_id,
+                 "the surface is inconsistent: a triangle names a vertex that does not exist, "
+                 "a coordinate is not finite, or deviations and vertices differ in number");
   }
   const auto [low, high] = std::minmax(options.width, options.height);
   if (low < 64 || high > 8192) {
-    return error(fmt::format("picture size {} x {} px", options.width, options.height),
+    return error("picture-size"_id,
+                 fmt::format("picture size {} x {} px", options.width, options.height),
                  "width and height from 64 to 8192 px");
   }
   if (options.samples < 1 || options.samples > 4) {
-    return error(fmt::format("{} samples a pixel", options.samples), "1 to 4");
+    return error("picture-samples"_id, fmt::format("{} samples a pixel", options.samples),
+                 "1 to 4");
   }
   if (options.deviation_span && !(*options.deviation_span > 0.0)) {
-    return error(fmt::format("deviation span {} mm", *options.deviation_span), "a positive length");
+    return error("picture-span"_id, fmt::format("deviation span {} mm", *options.deviation_span),
+                 "a positive length");
   }
   return std::nullopt;
 }

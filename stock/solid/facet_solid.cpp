@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace frustum::stock {
 namespace {
 
-// Fewer facets than this are not worth a box of their own.
-constexpr std::uint32_t kLeaf = 4;
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 struct Flat {
   double u = 0.0, v = 0.0;
 };
 
 // Sign of a.u * b.v - a.v * b.u, exact but for underflow: rounding keeps the order of two products,
-// and equal rounded products are told apart by what was rounded off.
+// and equal rounded products are separated by what was rounded off.
 int turn(const Flat& a, const Flat& b) {
   const double left = a.u * b.v;
   const double right = a.v * b.u;
@@ -27,7 +25,7 @@ int turn(const Flat& a, const Flat& b) {
   return left_rest > right_rest ? 1 : left_rest < right_rest ? -1 : 0;
 }
 
-// On which side of the line from a to b the ray passes, never 0 unless a == b: the ray stands for
+// On which side of the line from a to b the ray passes, never 0 unless a == b: the ray represents
 // one at (e, e^2) beside it, e > 0 as small as need be.
 int side(const Flat& a, const Flat& b) {
   if (const int exact = turn(a, b)) return exact;
@@ -36,8 +34,10 @@ int side(const Flat& a, const Flat& b) {
   return 0;
 }
 
+}  // namespace
+
 // The plane across a ray, and the place along it.
-struct View {
+struct FacetSolid::View {
   Vec3 origin, along, u, v;
   explicit View(const Ray& ray)
       : origin(ray.origin),
@@ -50,24 +50,7 @@ struct View {
   }
 };
 
-// Whether the line of the ray passes the box, grown by `spare`.
-bool line_meets(const Vec3& min, const Vec3& max, const Ray& ray, double spare) {
-  double lo = -std::numeric_limits<double>::infinity();
-  double hi = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const double from = min[k] - spare - ray.origin[k];
-    const double to = max[k] + spare - ray.origin[k];
-    if (ray.direction[k] == 0.0) {
-      if (from > 0.0 || to < 0.0) return false;
-      continue;
-    }
-    const double a = from / ray.direction[k];
-    const double b = to / ray.direction[k];
-    lo = std::max(lo, std::min(a, b));
-    hi = std::min(hi, std::max(a, b));
-  }
-  return lo <= hi;
-}
+namespace {
 
 double squared_distance(const Vec3& min, const Vec3& max, const Vec3& p) {
   return (min - p).cwiseMax(p - max).cwiseMax(0.0).squaredNorm();
@@ -101,110 +84,67 @@ Vec3 nearest_on(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 }  // namespace
 
 FacetSolid::FacetSolid(std::vector<Vec3> vertices, std::vector<Facet> facets)
-    : vertices_(std::move(vertices)), facets_(std::move(facets)), order_(facets_.size()) {
+    : vertices_(std::move(vertices)), facets_(std::move(facets)) {
   if (facets_.empty()) return;
-  std::vector<Vec3> centres(facets_.size());
-  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
-    order_[f] = f;
+  std::vector<Box> boxes(facets_.size());
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
     const auto& [a, b, c] = facets_[f];
-    centres[f] = (vertices_[a] + vertices_[b] + vertices_[c]) / 3.0;
+    boxes[f].min = vertices_[a].cwiseMin(vertices_[b]).cwiseMin(vertices_[c]);
+    boxes[f].max = vertices_[a].cwiseMax(vertices_[b]).cwiseMax(vertices_[c]);
+    longest_facet_ = std::max(longest_facet_, (boxes[f].max - boxes[f].min).norm());
+    bounds_ = f == 0 ? boxes[f] : united(bounds_, boxes[f]);
   }
-  nodes_.reserve(facets_.size());
-  build(0, static_cast<std::uint32_t>(facets_.size()), centres);
-  size_ = (nodes_.front().max - nodes_.front().min).norm();
+  size_ = (bounds_.max - bounds_.min).norm();
+  scene_ = BoxScene(boxes);
 }
 
-std::uint32_t FacetSolid::build(std::uint32_t first, std::uint32_t last,
-                                const std::vector<Vec3>& centres) {
-  const auto here = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.emplace_back();
-  Vec3 min = vertices_[facets_[order_[first]][0]];
-  Vec3 max = min;
-  Vec3 low = centres[order_[first]];
-  Vec3 high = low;
-  for (std::uint32_t k = first; k < last; ++k) {
-    for (const std::uint32_t v : facets_[order_[k]]) {
-      min = min.cwiseMin(vertices_[v]);
-      max = max.cwiseMax(vertices_[v]);
-    }
-    low = low.cwiseMin(centres[order_[k]]);
-    high = high.cwiseMax(centres[order_[k]]);
-  }
-  nodes_[here].min = min;
-  nodes_[here].max = max;
-  if (last - first <= kLeaf) {
-    nodes_[here].first = first;
-    nodes_[here].count = last - first;
-    return here;
-  }
-  Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
-  const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
-                   });
-  build(first, middle, centres);
-  const std::uint32_t right = build(middle, last, centres);
-  nodes_[here].first = right;
-  return here;
+std::optional<FacetSolid::Crossing> FacetSolid::crossing(const View& view, std::uint32_t f) const {
+  const auto& [ia, ib, ic] = facets_[f];
+  const Flat a = view.flat(vertices_[ia]);
+  const Flat b = view.flat(vertices_[ib]);
+  const Flat c = view.flat(vertices_[ic]);
+  const int sign = side(a, b);
+  if (sign == 0 || side(b, c) != sign || side(c, a) != sign) return std::nullopt;
+  // Weights of the corners; all three vanish only for facets seen edge-on, which are met at any
+  // of their corners as well as at another within rounding.
+  const double wa = std::abs(b.u * c.v - b.v * c.u);
+  const double wb = std::abs(c.u * a.v - c.v * a.u);
+  const double wc = std::abs(a.u * b.v - a.v * b.u);
+  const double sum = wa + wb + wc;
+  const double sa = (vertices_[ia] - view.origin).dot(view.along);
+  const double sb = (vertices_[ib] - view.origin).dot(view.along);
+  const double sc = (vertices_[ic] - view.origin).dot(view.along);
+  const double s = sum > 0.0 ? (wa * sa + wb * sb + wc * sc) / sum : (sa + sb + sc) / 3.0;
+  // Counter-clockwise in (u, v) faces along +d: the ray leaves there.
+  return Crossing{s, sign < 0, static_cast<EndTag>(f)};
 }
 
 std::vector<FacetSolid::Crossing> FacetSolid::crossings(const Ray& ray) const {
-  if (nodes_.empty()) return {};
   const View view(ray);
-  // Corners are projected with errors far below this; so no facet that they make the ray meet is
-  // left out with its box.
-  const double spare = 1e-12 * (size_ + (ray.origin - nodes_.front().min).norm());
   std::vector<Crossing> met;
-  std::array<std::uint32_t, 64> open;  // the tree halves 2^32 facets at most 32 times
-  std::size_t depth = 0;
-  open[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t at = open[--depth];
-    const Node& node = nodes_[at];
-    if (!line_meets(node.min, node.max, ray, spare)) continue;
-    if (node.count == 0) {
-      open[depth++] = node.first;
-      open[depth++] = at + 1;
-      continue;
-    }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const std::uint32_t f = order_[k];
-      const auto& [ia, ib, ic] = facets_[f];
-      const Flat a = view.flat(vertices_[ia]);
-      const Flat b = view.flat(vertices_[ib]);
-      const Flat c = view.flat(vertices_[ic]);
-      const int sign = side(a, b);
-      if (sign == 0 || side(b, c) != sign || side(c, a) != sign) continue;
-      // Weights of the corners; all three vanish only for facets seen edge-on, which are met at any
-      // of their corners as well as at another within rounding.
-      const double wa = std::abs(b.u * c.v - b.v * c.u);
-      const double wb = std::abs(c.u * a.v - c.v * a.u);
-      const double wc = std::abs(a.u * b.v - a.v * b.u);
-      const double sum = wa + wb + wc;
-      const double sa = (vertices_[ia] - view.origin).dot(view.along);
-      const double sb = (vertices_[ib] - view.origin).dot(view.along);
-      const double sc = (vertices_[ic] - view.origin).dot(view.along);
-      const double s = sum > 0.0 ? (wa * sa + wb * sb + wc * sc) / sum : (sa + sb + sc) / 3.0;
-      // Counter-clockwise in (u, v) faces along +d: the ray leaves there.
-      met.push_back({s, sign < 0, static_cast<EndTag>(f)});
-    }
-  }
-  std::sort(met.begin(), met.end(), [](const Crossing& x, const Crossing& y) {
-    // Where two solids touch, enter before leaving: no gap of no width.
-    return std::tuple(x.s, !x.enters, x.facet) < std::tuple(y.s, !y.enters, y.facet);
+  scene_.along(ray, {-kEndless, kEndless}, [&](std::uint32_t f) {
+    if (const auto found = crossing(view, f)) met.push_back(*found);
+    return kEndless;
   });
+  std::sort(met.begin(), met.end());
   return met;
 }
 
 std::optional<FacetSolid::Entry> FacetSolid::first_entry(const Ray& ray, RaySpan span) const {
-  for (const Crossing& crossing : crossings(ray)) {
-    if (crossing.s < span.lo || normal(crossing.facet).isZero()) continue;
-    if (crossing.s > span.hi || !crossing.enters) return std::nullopt;
-    return Entry{crossing.s, crossing.facet};
-  }
-  return std::nullopt;
+  const View view(ray);
+  std::optional<Crossing> first;
+  // Seen edge-on, a facet is met anywhere in its box: its box begins at most its length beyond.
+  const RaySpan wide{span.lo - longest_facet_, span.hi + longest_facet_};
+  scene_.along(ray, wide, [&](std::uint32_t f) {
+    const auto found = crossing(view, f);
+    if (found && found->s >= span.lo && (!first || *found < *first) &&
+        !normal(found->facet).isZero()) {
+      first = found;
+    }
+    return first ? std::min(first->s, span.hi) + longest_facet_ : wide.hi;
+  });
+  if (!first || first->s > span.hi || !first->enters) return std::nullopt;
+  return Entry{first->s, first->facet};
 }
 
 IntervalSet FacetSolid::along(const Ray& ray, RaySpan span) const {
@@ -227,9 +167,8 @@ IntervalSet FacetSolid::along(const Ray& ray, RaySpan span) const {
 }
 
 bool FacetSolid::contains(const Vec3& point) const {
-  if (nodes_.empty()) return false;
-  const Node& all = nodes_.front();
-  if (squared_distance(all.min, all.max, point) > 0.0) return false;
+  if (facets_.empty()) return false;
+  if (squared_distance(bounds_.min, bounds_.max, point) > 0.0) return false;
   // A direction that no one builds along; any would do.
   const Ray ray{point, Vec3(0.36, 0.48, 0.8)};
   return along(ray, {-2.0 * size_ - 1.0, 2.0 * size_ + 1.0}).contains(0.0);
@@ -242,66 +181,38 @@ Vec3 FacetSolid::normal(EndTag facet) const {
   return length > 0.0 ? Vec3(area / length) : Vec3(Vec3::Zero());
 }
 
+Vec3 FacetSolid::nearest_on_facet(std::uint32_t f, const Vec3& point) const {
+  const auto& [a, b, c] = facets_[f];
+  return nearest_on(vertices_[a], vertices_[b], vertices_[c], point);
+}
+
 FacetSolid::Nearest FacetSolid::nearest(const Vec3& point) const {
-  Nearest best{point, std::numeric_limits<double>::infinity(), -1};
-  if (nodes_.empty()) return best;
-  double least = std::numeric_limits<double>::infinity();
-  std::array<std::pair<double, std::uint32_t>, 64> open;
-  std::size_t depth = 0;
-  const auto far_of = [&](std::uint32_t n) {
-    return squared_distance(nodes_[n].min, nodes_[n].max, point);
-  };
-  open[depth++] = {far_of(0), 0};
-  while (depth > 0) {
-    const auto [far, at] = open[--depth];
-    if (far > least) continue;
-    const Node& node = nodes_[at];
-    if (node.count == 0) {
-      std::pair<double, std::uint32_t> left{far_of(at + 1), at + 1};
-      std::pair<double, std::uint32_t> right{far_of(node.first), node.first};
-      if (left.first < right.first) std::swap(left, right);
-      open[depth++] = left;
-      open[depth++] = right;  // the nearer one first
-      continue;
+  Nearest best{point, kEndless, -1};
+  double least = kEndless;
+  scene_.near(point, kEndless, [&](std::uint32_t f) {
+    const Vec3 found = nearest_on_facet(f, point);
+    const double squared = (found - point).squaredNorm();
+    const bool tie = squared == least && static_cast<EndTag>(f) < best.facet;
+    if (squared < least || tie) {
+      least = squared;
+      best.point = found;
+      best.facet = static_cast<EndTag>(f);
     }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const std::uint32_t f = order_[k];
-      const auto& [a, b, c] = facets_[f];
-      const Vec3 found = nearest_on(vertices_[a], vertices_[b], vertices_[c], point);
-      const double squared = (found - point).squaredNorm();
-      const bool tie = squared == least && static_cast<EndTag>(f) < best.facet;
-      if (squared < least || tie) {
-        least = squared;
-        best.point = found;
-        best.facet = static_cast<EndTag>(f);
-      }
-    }
-  }
+    return std::sqrt(least);
+  });
   best.distance = std::sqrt(least);
   return best;
 }
 
 bool FacetSolid::is_within(const Vec3& point, double distance) const {
-  if (nodes_.empty()) return false;
-  std::array<std::uint32_t, 64> open;
-  std::size_t depth = 0;
-  open[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t at = open[--depth];
-    const Node& node = nodes_[at];
-    if (squared_distance(node.min, node.max, point) > distance * distance) continue;
-    if (node.count == 0) {
-      open[depth++] = node.first;
-      open[depth++] = at + 1;
-      continue;
+  bool found = false;
+  scene_.near(point, distance, [&](std::uint32_t f) {
+    if (!found) {
+      found = (nearest_on_facet(f, point) - point).squaredNorm() <= distance * distance;
     }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const auto& [a, b, c] = facets_[order_[k]];
-      const Vec3 found = nearest_on(vertices_[a], vertices_[b], vertices_[c], point);
-      if ((found - point).squaredNorm() <= distance * distance) return true;
-    }
-  }
-  return false;
+    return found ? 0.0 : distance;
+  });
+  return found;
 }
 
 double FacetSolid::signed_distance(const Vec3& point) const {
@@ -310,9 +221,9 @@ double FacetSolid::signed_distance(const Vec3& point) const {
 }
 
 double FacetSolid::volume() const {
-  if (nodes_.empty()) return 0.0;
+  if (facets_.empty()) return 0.0;
   // From the centre, so that little cancels.
-  const Vec3 centre = 0.5 * (nodes_.front().min + nodes_.front().max);
+  const Vec3 centre = 0.5 * (bounds_.min + bounds_.max);
   double six_fold = 0.0;
   for (const auto& [ia, ib, ic] : facets_) {
     six_fold +=

@@ -6,9 +6,9 @@
 //            corner is answered as one beside it (Simulation of Simplicity): no ray slips between
 //            facets or counts one twice. Material is where the facets entered outnumber those left
 // Units    : mm; frame: that of the corners
-// Shape    : facets counter-clockwise seen from outside, every edge in two of them; a tree of boxes
-//            answers in about log(facets)
-// Errors   : none; the mesh must be closed (stock/polyhedral/mesh_faults.hpp tells)
+// Shape    : facets counter-clockwise seen from outside, every edge in two of them; Embree finds candidates
+//            in about log(facets) (stock/solid/box_scene.hpp), and the answer is that of trying all facets
+// Errors   : none; the mesh must be closed (stock/polyhedral/mesh_faults.hpp checks)
 // Accuracy : ray ends within 1e-12 of the size of the mesh, divided by |n.d|; nearest points within
 //            1e-14 of it (tests/stock/facet_solid_test.cpp)
 // Source   : Woop, Benthin, Wald 2013, JCGT 2(1) (watertight rays); Edelsbrunner, Muecke 1990, ACM
@@ -20,11 +20,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
 #include "core/ray.hpp"
+#include "stock/solid/box_scene.hpp"
 
 namespace frustum::stock {
 
@@ -35,6 +38,19 @@ class FacetSolid {
   FacetSolid() = default;
   // Precondition: indices are within range.
   FacetSolid(std::vector<Vec3> vertices, std::vector<Facet> facets);
+
+  struct Crossing {
+    double s = 0.0;
+    bool enters = false;
+    EndTag facet = -1;
+    // In the order of the ray; where two solids touch, enter before leaving: no gap of no width.
+    bool operator==(const Crossing&) const = default;
+    bool operator<(const Crossing& other) const {
+      return std::tuple(s, !enters, facet) < std::tuple(other.s, !other.enters, other.facet);
+    }
+  };
+  // Of the whole line through the ray, in order.
+  [[nodiscard]] std::vector<Crossing> crossings(const Ray& ray) const;
 
   // Material between span.lo and span.hi; an end's tag is its facet, -1 at the ends of the span.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span) const;
@@ -66,27 +82,16 @@ class FacetSolid {
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }
 
  private:
-  struct Crossing {
-    double s = 0.0;
-    bool enters = false;
-    EndTag facet = -1;
-  };
-  // In the order of the ray; where two solids touch, enter before leaving.
-  [[nodiscard]] std::vector<Crossing> crossings(const Ray& ray) const;
-
-  // Boxes in depth-first order: the left child follows its parent.
-  struct Node {
-    Vec3 min = Vec3::Zero(), max = Vec3::Zero();
-    std::uint32_t first = 0;  // of the leaf's facets in order_, or the right child
-    std::uint32_t count = 0;  // of a leaf; 0: not a leaf
-  };
-  std::uint32_t build(std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& centres);
+  struct View;
+  [[nodiscard]] std::optional<Crossing> crossing(const View& view, std::uint32_t f) const;
+  [[nodiscard]] Vec3 nearest_on_facet(std::uint32_t f, const Vec3& point) const;
 
   std::vector<Vec3> vertices_{};
   std::vector<Facet> facets_{};
-  std::vector<std::uint32_t> order_{};
-  std::vector<Node> nodes_{};
-  double size_ = 0.0;  // diagonal of all
+  Box bounds_{};
+  double size_ = 0.0;           // diagonal of all
+  double longest_facet_ = 0.0;  // diagonal of its box
+  BoxScene scene_{};            // of the facets' boxes
 };
 
 }  // namespace frustum::stock

@@ -46,6 +46,8 @@ std::vector<Confined> confined_headers() {
             "parser/reading/rs274/grammar\\.cpp"),
       entry("CGAL", "CGAL/.*", "stock/polyhedral/[a-z0-9_]*\\.cpp"),
       entry("OpenMesh", "OpenMesh/.*", ".*\\.cpp|stock/mesh/open_mesh\\.hpp"),
+      entry("Embree", "embree[0-9]/.*",
+            "stock/solid/box_scene\\.cpp|report/picture/surface_rays\\.cpp"),
       entry("toml++", "toml\\+\\+/.*|toml\\.hpp", "core/toml_document\\.cpp"),
       entry("Random123", "Random123/.*", "core/random\\.cpp"),
       entry("CLI11", "CLI/.*", "app/[a-z0-9_/]+\\.cpp"),
