@@ -478,7 +478,8 @@ class NcWriter {
 
   void refuse(std::string_view what, std::string hint) {
     Diagnostic problem =
-        error(fmt::format("{} has no words for {}", spelling_.title, what), std::move(hint));
+        error("not-in-dialect"_id, fmt::format("{} has no words for {}", spelling_.title, what),
+              std::move(hint));
     if (place_.file) problem.file = *place_.file;
     problem.line = static_cast<int>(place_.line);
     problem.column = static_cast<int>(place_.column);
@@ -522,7 +523,8 @@ Result<NcProgram> write_nc(std::span<const Motion> motions, parser::Dialect dial
                            const WriterOptions& options) {
   const NcSpelling* spelling = spelling_of(dialect);
   if (spelling == nullptr) {
-    return error(fmt::format("{} is no language that machines read", parser::name_of(dialect)),
+    return error("not-in-dialect"_id,
+                 fmt::format("{} is no language that machines read", parser::name_of(dialect)),
                  "fanuc, sinumerik, heidenhain or linuxcnc");
   }
   return NcWriter(*spelling, options).write(motions);

@@ -109,7 +109,8 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs:
   std::error_code problem;
   fs::create_directories(folder, problem);
   if (problem) {
-    Diagnostic failure = error("the folder cannot be made: " + problem.message());
+    Diagnostic failure =
+        error("folder-not-made"_id, "the folder cannot be made: " + problem.message());
     failure.file = folder.string();
     return failure;
   }

@@ -25,6 +25,7 @@ bool lies_along(const Vec3& direction, const Vec3& axis) {
 
 Diagnostic unsuitable(const Machine& machine, const std::string& why) {
   return error(
+      "wrong-machine-kind"_id,
       fmt::format("machine {} ({}) cannot cut step patterns: {}", machine.name(),
                   machine.structure(), why),
       "they need a table that tilts about X or Y and turns about Z, with linear axes along "

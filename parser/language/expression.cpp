@@ -63,6 +63,7 @@ bool is_bcd(double value) {
 
 struct Domain {
   bool holds;
+  DiagnosticId id;
   const char* message;  // {0}, {1}: the operands
   const char* hint;
 };
@@ -71,36 +72,44 @@ struct Domain {
 std::optional<Domain> domain_of(Operation operation, double a, double b) {
   switch (operation) {
     case Operation::divide:
-      return Domain{b != 0.0, "division of {0} by zero", "check the divisor before dividing"};
+      return Domain{b != 0.0, "division-by-zero"_id, "division of {0} by zero",
+                    "check the divisor before dividing"};
     case Operation::whole_quotient:
-      return Domain{b != 0.0, "{0} DIV zero", "check the divisor before DIV"};
+      return Domain{b != 0.0, "division-by-zero"_id, "{0} DIV zero",
+                    "check the divisor before DIV"};
     case Operation::modulo:
-      return Domain{b != 0.0, "{0} MOD zero", "check the divisor before MOD"};
+      return Domain{b != 0.0, "division-by-zero"_id, "{0} MOD zero",
+                    "check the divisor before MOD"};
     case Operation::power:
       return Domain{!(a < 0.0 && b != std::floor(b)) && !(a == 0.0 && b < 0.0),
-                    "{0} ** {1} has no real value",
+                    "function-domain"_id, "{0} ** {1} has no real value",
                     "a negative base needs a whole exponent, zero one that is not negative"};
     case Operation::arc_sine:
-      return Domain{std::abs(a) <= 1.0, "ASIN of {0}", "its argument lies between -1 and 1"};
+      return Domain{std::abs(a) <= 1.0, "function-domain"_id, "ASIN of {0}",
+                    "its argument lies between -1 and 1"};
     case Operation::arc_cosine:
-      return Domain{std::abs(a) <= 1.0, "ACOS of {0}", "its argument lies between -1 and 1"};
+      return Domain{std::abs(a) <= 1.0, "function-domain"_id, "ACOS of {0}",
+                    "its argument lies between -1 and 1"};
     case Operation::square_root:
-      return Domain{a >= 0.0, "SQRT of {0}", "its argument must not be negative"};
+      return Domain{a >= 0.0, "function-domain"_id, "SQRT of {0}",
+                    "its argument must not be negative"};
     case Operation::logarithm:
-      return Domain{a > 0.0, "LN of {0}", "its argument must be positive"};
+      return Domain{a > 0.0, "function-domain"_id, "LN of {0}", "its argument must be positive"};
     case Operation::remainder:
-      return Domain{std::round(b) != 0.0, "{0} MOD zero", "check the divisor before MOD"};
+      return Domain{std::round(b) != 0.0, "division-by-zero"_id, "{0} MOD zero",
+                    "check the divisor before MOD"};
     case Operation::bit_and:
     case Operation::bit_or:
     case Operation::bit_xor:
       return Domain{
-          has_bits(a) && has_bits(b), "the bits of {0} and {1}",
+          has_bits(a) && has_bits(b), "function-domain"_id, "the bits of {0} and {1}",
           "AND, OR and XOR combine the bits of whole numbers of 32 bits; round them before"};
     case Operation::to_bcd:
-      return Domain{a == std::floor(a) && a >= 0.0 && a <= kMostDigits, "BCD of {0}",
-                    "its argument is a whole number from 0 to 99999999"};
+      return Domain{a == std::floor(a) && a >= 0.0 && a <= kMostDigits, "function-domain"_id,
+                    "BCD of {0}", "its argument is a whole number from 0 to 99999999"};
     case Operation::from_bcd:
-      return Domain{is_bcd(a), "BIN of {0}", "each four bits of its argument are a digit up to 9"};
+      return Domain{is_bcd(a), "function-domain"_id, "BIN of {0}",
+                    "each four bits of its argument are a digit up to 9"};
     default:
       return std::nullopt;
   }
@@ -265,13 +274,15 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
     }
     if (const auto domain = domain_of(step.operation, a, b); domain && !domain->holds) {
       return at_column(
-          error(fmt::format(fmt::runtime(domain->message), decimal_text(a), decimal_text(b)),
+          error(domain->id,
+                fmt::format(fmt::runtime(domain->message), decimal_text(a), decimal_text(b)),
                 domain->hint),
           step.column);
     }
     stack[top - 1] = apply(step.operation, a, b);
     if (!std::isfinite(stack[top - 1])) {
-      return at_column(error("the result is too large for a number", "check the operands"),
+      return at_column(error("number-too-large"_id, "the result is too large for a number",
+                             "check the operands"),
                        step.column);
     }
   }

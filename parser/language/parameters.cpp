@@ -19,18 +19,21 @@ std::string spelling_of(std::string_view name) {
 
 Result<int> Parameters::index_of(double number, const ParameterRules& rules) {
   if (is_vacant(number)) {
-    return error("the number of the parameter is vacant", "set it on an earlier block");
+    return error("parameter-number"_id, "the number of the parameter is vacant",
+                 "set it on an earlier block");
   }
   // A computed index may be off by rounding; RS-274 forgives 1e-4.
   const double nearest = std::round(number);
   if (std::abs(number - nearest) > 1e-4) {
     return error(
+        "parameter-number"_id,
         fmt::format("parameter {}{} is not a whole number", rules.prefix, decimal_text(number)),
         rules.prefix == '#' ? "use ROUND, FIX or FUP on the computed number"
                             : "use ROUND or TRUNC on the computed number");
   }
   if (nearest < rules.first || nearest > rules.last) {
     return error(
+        "parameter-number"_id,
         fmt::format("parameter {}{} does not exist", rules.prefix, decimal_text(nearest)),
         fmt::format("parameters are {0}{1} to {0}{2}", rules.prefix, rules.first, rules.last));
   }
@@ -44,7 +47,8 @@ Result<double> Parameters::read(double number) const {
   if (system_ != nullptr) {
     if (const auto kept = system_->number(*index)) {
       if (!is_vacant(*kept)) return *kept;
-      return error(fmt::format("the value of #{} is the setup's and not known here", *index),
+      return error("parameter-unknown"_id,
+                   fmt::format("the value of #{} is the setup's and not known here", *index),
                    "set it in the program before it is read");
     }
   }
@@ -52,14 +56,14 @@ Result<double> Parameters::read(double number) const {
   const auto found = all.find(*index);
   if (found == all.end()) {
     if (rules_.first_system != 0 && *index >= rules_.first_system) {
-      return error(fmt::format("system variable #{} is not known", *index),
+      return error("parameter-unknown"_id, fmt::format("system variable #{} is not known", *index),
                    "positions are known once they are programmed; leave clocks, signals and "
                    "screens out of the "
                    "simulated program");
     }
     if (rules_.unset_is_zero) return 0.0;
     if (rules_.unset_is_vacant) return kVacant;
-    return error(fmt::format("parameter #{} has no value", *index),
+    return error("parameter-unset"_id, fmt::format("parameter #{} has no value", *index),
                  fmt::format("set it on an earlier block: #{}=...", *index));
   }
   return found->second;
@@ -75,12 +79,13 @@ Result<double> Parameters::read(std::string_view name) const {
   if (found == all.end()) {
     if (rules_.names_are_defined) {
       const bool system = name.starts_with('$');
-      return error(fmt::format("{} {}", name, system ? "has no value here" : "is not defined"),
+      return error(system ? "parameter-unset"_id : "parameter-undefined"_id,
+                   fmt::format("{} {}", name, system ? "has no value here" : "is not defined"),
                    system ? "it is known once the program has moved the axis in this frame"
                           : "define it before: DEF REAL and its name");
     }
     const std::string spelled = spelling_of(name);
-    return error(fmt::format("parameter {} has no value", spelled),
+    return error("parameter-unset"_id, fmt::format("parameter {} has no value", spelled),
                  fmt::format("set it on an earlier block: {}=...", spelled));
   }
   return found->second;

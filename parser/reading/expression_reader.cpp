@@ -26,7 +26,7 @@ ExpressionRange ExpressionReader::read(ExpressionLevel level) {
 
 void ExpressionReader::append(ExpressionLevel level) {
   if (depth_ > kMaxExpressionDepth) {
-    in_.fail(in_.column(), "too many brackets within each other",
+    in_.fail("brackets-too-deep"_id, in_.column(), "too many brackets within each other",
              std::string(spelling_.too_deep_hint));
     return;
   }
@@ -98,9 +98,10 @@ void ExpressionReader::append_operand() {
   }
   if (in_.failed() || spelling_.read_variable(*this, name, column)) return;
   if (name.empty()) {
-    in_.fail(column, std::string(spelling_.no_operand), std::string(spelling_.no_operand_hint));
+    in_.fail("value-missing"_id, column, std::string(spelling_.no_operand),
+             std::string(spelling_.no_operand_hint));
   } else {
-    in_.fail(column, fmt::format(fmt::runtime(spelling_.unknown_operand), name),
+    in_.fail("unknown-word"_id, column, fmt::format(fmt::runtime(spelling_.unknown_operand), name),
              std::string(spelling_.unknown_operand_hint));
   }
 }
@@ -108,14 +109,15 @@ void ExpressionReader::append_operand() {
 void ExpressionReader::append_function(const ExpressionFunction& function) {
   if (!spelling_.functions_have_brackets) return append(ExpressionLevel::operand);
   if (!in_.take('(')) {
-    in_.fail(in_.column(), fmt::format("{} needs its argument in ( )", function.name),
+    in_.fail("bracket-missing"_id, in_.column(),
+             fmt::format("{} needs its argument in ( )", function.name),
              "write for example SIN(30)");
     return;
   }
   append(ExpressionLevel::sum);
   for (int i = 1; i < function.arguments; ++i) {
     if (!in_.take(',')) {
-      in_.fail(in_.column(), fmt::format("{} needs two values", function.name),
+      in_.fail("argument-count"_id, in_.column(), fmt::format("{} needs two values", function.name),
                fmt::format("write {}(y,x)", function.name));
     }
     append(ExpressionLevel::sum);
@@ -126,7 +128,7 @@ void ExpressionReader::append_function(const ExpressionFunction& function) {
 void ExpressionReader::close(std::uint32_t opening, std::string_view whose) {
   if (!spelling_.open_bracket_is_told) return close_bracket(in_, whose);
   if (!in_.failed() && !in_.take(')')) {
-    in_.fail(opening, "the bracket is not closed", "close it with )");
+    in_.fail("bracket-not-closed"_id, opening, "the bracket is not closed", "close it with )");
   }
 }
 
@@ -145,7 +147,8 @@ void ExpressionReader::push_name(const std::string& name, std::uint32_t column) 
 void close_bracket(LineScanner& in, std::string_view whose) {
   if (in.take(')')) return;
   if (in.at_end()) {
-    in.fail(in.column(), fmt::format("the bracket of {} is not closed", whose), "close it with )");
+    in.fail("bracket-not-closed"_id, in.column(),
+            fmt::format("the bracket of {} is not closed", whose), "close it with )");
   } else {
     in.fail_unexpected("close the bracket with )");
   }

@@ -123,7 +123,7 @@ std::optional<ScannedNumber> LineScanner::number() {
   // Out of range is also what is too small, which is 0.
   if (read.ec == std::errc::result_out_of_range &&
       std::isinf(std::strtod(digits.c_str(), nullptr))) {
-    fail(static_cast<std::uint32_t>(start + 1), "the number is too large",
+    fail("number-too-large"_id, static_cast<std::uint32_t>(start + 1), "the number is too large",
          "numbers go up to 1.8e308");
   }
   return found;
@@ -134,7 +134,7 @@ double LineScanner::signed_number(std::string_view whose, std::uint32_t whose_co
   if (!negative) take('+');
   const auto found = number();
   if (!found) {
-    fail(whose_column, fmt::format("{} has no number", whose),
+    fail("value-missing"_id, whose_column, fmt::format("{} has no number", whose),
          fmt::format("write {} and a number", whose));
     return 0.0;
   }
@@ -161,9 +161,10 @@ std::uint32_t LineScanner::column() {
   return static_cast<std::uint32_t>(place_) + 1;
 }
 
-void LineScanner::fail(std::uint32_t column, std::string message, std::string hint) {
+void LineScanner::fail(DiagnosticId id, std::uint32_t column, std::string message,
+                       std::string hint) {
   if (failed()) return;
-  failure_ = error(std::move(message), std::move(hint));
+  failure_ = error(id, std::move(message), std::move(hint));
   failure_->column = static_cast<int>(column);
 }
 
@@ -173,7 +174,7 @@ void LineScanner::fail(Diagnostic failure) {
 
 void LineScanner::fail_unexpected(std::string hint) {
   const std::string found = at_end() ? "the end of the block" : printable(text_[place_]);
-  fail(column(), "unexpected " + found, std::move(hint));
+  fail("unexpected-character"_id, column(), "unexpected " + found, std::move(hint));
 }
 
 Result<Block> LineScanner::finish(Block&& block) const {

@@ -60,7 +60,7 @@ class LineScanner {
   [[nodiscard]] std::uint32_t column();
   void go_to(std::uint32_t column) { place_ = column - 1; }
   [[nodiscard]] bool failed() const { return failure_.has_value(); }
-  void fail(std::uint32_t column, std::string message, std::string hint);
+  void fail(DiagnosticId id, std::uint32_t column, std::string message, std::string hint);
   // One that knows its column.
   void fail(Diagnostic failure);
   void fail_unexpected(std::string hint);

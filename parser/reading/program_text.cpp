@@ -10,7 +10,7 @@ constexpr std::size_t kWindow = std::size_t{1} << 20U;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 Diagnostic unreadable(const std::filesystem::path& file, std::string hint) {
-  Diagnostic failure = error("the file cannot be read", std::move(hint));
+  Diagnostic failure = error("file-unreadable"_id, "the file cannot be read", std::move(hint));
   failure.file = file.string();
   return failure;
 }

@@ -17,6 +17,7 @@ struct Row {
   Stop stop;
   std::string_view characters;  // for Stop::character
   Place place;
+  DiagnosticId id;
   const char* message;  // {letter}: of the word; {found}: the character at the stop
   const char* hint;
 };
@@ -25,54 +26,62 @@ constexpr std::string_view kDigits = "0123456789.";
 
 // The first row that fits speaks.
 constexpr std::array kRows{
-    Row{"value", Stop::any, "", Place::word, "{letter} has no number",
+    Row{"value", Stop::any, "", Place::word, "value-missing"_id, "{letter} has no number",
         "give {letter} a number, a parameter (#1) or an expression in [ ]"},
-    Row{"flow control", Stop::any, "", Place::word, "unknown word {letter}... after an O word",
+    Row{"flow control", Stop::any, "", Place::word, "unknown-word"_id,
+        "unknown word {letter}... after an O word",
         "O-word flow control (sub, while, if) is not read: write O1000 to M99 and call M98 P1000"},
-    Row{"operand", Stop::end, "", Place::opening, "the bracket is not closed", "close it with ]"},
-    Row{"operand", Stop::any, "", Place::stop, "a number is missing before {found}",
+    Row{"operand", Stop::end, "", Place::opening, "bracket-not-closed"_id,
+        "the bracket is not closed", "close it with ]"},
+    Row{"operand", Stop::any, "", Place::stop, "value-missing"_id,
+        "a number is missing before {found}",
         "write a number, a parameter (#1), a function (SIN[30]) or an expression in [ ]"},
-    Row{"setting value", Stop::any, "", Place::word, "the parameter setting has no value",
-        "write #1=2.5 or #1=[#2+1]"},
-    Row{"opening bracket", Stop::any, "", Place::stop, "a function needs its argument in [ ]",
-        "write for example SIN[30]"},
-    Row{"closing bracket", Stop::end, "", Place::opening, "the bracket is not closed",
-        "close it with ]"},
-    Row{"closing bracket", Stop::any, "", Place::stop, "unexpected {found} in an expression",
+    Row{"setting value", Stop::any, "", Place::word, "value-missing"_id,
+        "the parameter setting has no value", "write #1=2.5 or #1=[#2+1]"},
+    Row{"opening bracket", Stop::any, "", Place::stop, "bracket-missing"_id,
+        "a function needs its argument in [ ]", "write for example SIN[30]"},
+    Row{"closing bracket", Stop::end, "", Place::opening, "bracket-not-closed"_id,
+        "the bracket is not closed", "close it with ]"},
+    Row{"closing bracket", Stop::any, "", Place::stop, "unexpected-character"_id,
+        "unexpected {found} in an expression",
         "operators are + - * / ** MOD AND OR XOR and one EQ, NE, GT, GE, LT or LE; close the "
         "expression "
         "with ]"},
-    Row{"closing parenthesis", Stop::end, "", Place::opening, "the comment is not closed",
-        "close it with ) on the same line"},
-    Row{"closing parenthesis", Stop::any, "", Place::stop, "comment inside a comment",
-        "use other brackets inside comments"},
-    Row{"second argument", Stop::any, "", Place::stop, "ATAN needs two values",
+    Row{"closing parenthesis", Stop::end, "", Place::opening, "comment-not-closed"_id,
+        "the comment is not closed", "close it with ) on the same line"},
+    Row{"closing parenthesis", Stop::any, "", Place::stop, "comment-in-comment"_id,
+        "comment inside a comment", "use other brackets inside comments"},
+    Row{"second argument", Stop::any, "", Place::stop, "argument-count"_id, "ATAN needs two values",
         "write ATAN[y]/[x] or ATAN[y,x]"},
-    Row{"comma", Stop::any, "", Place::stop, "POW needs two values", "write POW[x,y]"},
-    Row{"parameter", Stop::any, "", Place::stop, "# without a parameter", "write #1 or #<name>"},
-    Row{"parameter name", Stop::any, "", Place::stop, "the parameter name is not closed",
-        "write #<name>"},
-    Row{"equals", Stop::any, "", Place::word,
+    Row{"comma", Stop::any, "", Place::stop, "argument-count"_id, "POW needs two values",
+        "write POW[x,y]"},
+    Row{"parameter", Stop::any, "", Place::stop, "name-missing"_id, "# without a parameter",
+        "write #1 or #<name>"},
+    Row{"parameter name", Stop::any, "", Place::stop, "text-not-closed"_id,
+        "the parameter name is not closed", "write #<name>"},
+    Row{"equals", Stop::any, "", Place::word, "keyword-missing"_id,
         "a parameter setting has no =", "write #1=value to set a parameter, X#1 to use one"},
-    Row{"block number", Stop::any, "", Place::stop, "N has no number",
+    Row{"block number", Stop::any, "", Place::stop, "value-missing"_id, "N has no number",
         "write N and 1 to 8 digits, or leave it away"},
-    Row{"program number", Stop::any, "", Place::stop, "O has no number",
+    Row{"program number", Stop::any, "", Place::stop, "name-missing"_id, "O has no number",
         "write O and the number of the program, for example O1000"},
-    Row{"end of block", Stop::character, kDigits, Place::stop, "a number without a letter",
+    Row{"end of block", Stop::character, kDigits, Place::stop, "letter-missing"_id,
+        "a number without a letter",
         "put a letter before it, for example X; a number has one decimal point and no blanks"},
-    Row{"end of block", Stop::character, ")", Place::stop, "unexpected )",
-        "open the comment with ("},
-    Row{"end of block", Stop::character, "]", Place::stop, "unexpected ]",
-        "open the expression with ["},
-    Row{"end of block", Stop::character, "+-*[", Place::stop, "unexpected {found} between words",
-        "put expressions in [ ] after a letter: X[1+2]"},
-    Row{"end of block", Stop::character, "nN", Place::stop, "N is not the first word",
-        "put the block number at the start of the block"},
-    Row{"end of block", Stop::character, "/", Place::stop, "unexpected / between words",
+    Row{"end of block", Stop::character, ")", Place::stop, "unexpected-character"_id,
+        "unexpected )", "open the comment with ("},
+    Row{"end of block", Stop::character, "]", Place::stop, "unexpected-character"_id,
+        "unexpected ]", "open the expression with ["},
+    Row{"end of block", Stop::character, "+-*[", Place::stop, "unexpected-character"_id,
+        "unexpected {found} between words", "put expressions in [ ] after a letter: X[1+2]"},
+    Row{"end of block", Stop::character, "nN", Place::stop, "word-order"_id,
+        "N is not the first word", "put the block number at the start of the block"},
+    Row{"end of block", Stop::character, "/", Place::stop, "unexpected-character"_id,
+        "unexpected / between words",
         "block delete stands at the start of the block; division stands in [ ]"},
-    Row{"end of block", Stop::character, "%", Place::stop, "unexpected % inside a block",
-        "% stands alone on its line"},
-    Row{"end of block", Stop::any, "", Place::stop, "unexpected {found}",
+    Row{"end of block", Stop::character, "%", Place::stop, "unexpected-character"_id,
+        "unexpected % inside a block", "% stands alone on its line"},
+    Row{"end of block", Stop::any, "", Place::stop, "unexpected-character"_id, "unexpected {found}",
         "a block consists of words such as G1 X10, settings such as #1=2, and comments in ( )"},
 };
 
@@ -113,11 +122,12 @@ Diagnostic describe(const SyntaxFailure& failure) {
       return fmt::format(fmt::runtime(pattern), fmt::arg("letter", failure.word_letter),
                          fmt::arg("found", found));
     };
-    Diagnostic diagnostic = error(worded(row.message), worded(row.hint));
+    Diagnostic diagnostic = error(row.id, worded(row.message), worded(row.hint));
     diagnostic.column = static_cast<int>(column_of(row, failure));
     return diagnostic;
   }
-  Diagnostic diagnostic = error("unexpected " + found, "expected " + std::string(failure.expected));
+  Diagnostic diagnostic = error("unexpected-character"_id, "unexpected " + found,
+                                "expected " + std::string(failure.expected));
   diagnostic.column = static_cast<int>(failure.offset) + 1;
   return diagnostic;
 }

@@ -26,8 +26,9 @@ constexpr double kLineariseTolerance = 2e-6;  // mm
 constexpr int kTool = 1;
 constexpr int kMachineOffset = 6;  // G59 = 0: axis positions as the machine shows them
 
-Diagnostic refuse(const char* key, const std::string& what, const std::string& hint) {
-  Diagnostic failure = error(what, hint);
+Diagnostic refuse(DiagnosticId id, const char* key, const std::string& what,
+                  const std::string& hint) {
+  Diagnostic failure = error(id, what, hint);
   failure.key = key;
   return failure;
 }
@@ -37,7 +38,8 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
   constexpr double kLongest = 5000.0;  // mm: larger than any machine that cuts this test
   const double a = cone.cone_angle.value;
   if (!(a > 0.0 && a < 0.5 * std::numbers::pi)) {
-    return refuse("cone-angle", fmt::format("a half apex angle of {:g} deg", a * kDegPerRad),
+    return refuse("out-of-range"_id, "cone-angle",
+                  fmt::format("a half apex angle of {:g} deg", a * kDegPerRad),
                   "it must lie between 0 and 90 deg");
   }
   const struct {
@@ -48,7 +50,7 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
                 {"start-angle", cone.start_angle.value_or(Rad{}).value}};
   for (const auto& [key, rad] : angles) {
     if (!(std::abs(rad) <= 2.0 * std::numbers::pi)) {
-      return refuse(key, fmt::format("an angle of {:g} deg", rad * kDegPerRad),
+      return refuse("out-of-range"_id, key, fmt::format("an angle of {:g} deg", rad * kDegPerRad),
                     "it must lie within -360 .. 360 deg");
     }
   }
@@ -63,27 +65,30 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
                  {"allowance", cone.allowance.value, 0.0}};
   for (const auto& [key, mm, lowest] : lengths) {
     if (!(mm >= lowest && mm <= kLongest)) {
-      return refuse(key, fmt::format("{:g} mm", mm),
+      return refuse("out-of-range"_id, key, fmt::format("{:g} mm", mm),
                     fmt::format("it must lie between {:g} and {:g} mm", lowest, kLongest));
     }
   }
   if (!(cone.allowance.value < 0.5 * cone.tool_diameter.value)) {
-    return refuse("allowance", fmt::format("{:g} mm", cone.allowance.value),
+    return refuse("cone-allowance"_id, "allowance", fmt::format("{:g} mm", cone.allowance.value),
                   "it must be less than the cutter's radius");
   }
   if (!(cone.center.allFinite() && cone.center.norm() < 10.0 * kLongest)) {
-    return refuse("center", "the centre is out of any machine's reach", "x,y,z in mm");
+    return refuse("out-of-range"_id, "center", "the centre is out of any machine's reach",
+                  "x,y,z in mm");
   }
   // The finest: about 70,000 chords on a circle of 100 mm.
   if (!(cone.chord_tolerance.value >= 1e-7 && cone.chord_tolerance.value <= 1.0)) {
-    return refuse("chord-tolerance", fmt::format("{:g} um", cone.chord_tolerance.value * kUmPerMm),
+    return refuse("out-of-range"_id, "chord-tolerance",
+                  fmt::format("{:g} um", cone.chord_tolerance.value * kUmPerMm),
                   "it must lie between 0.0001 and 1000 um");
   }
   if (!(cone.feed > 0.0 && cone.feed <= 1e5)) {
-    return refuse("feed", fmt::format("{:g} mm/min", cone.feed), "above 0, at most 100000");
+    return refuse("out-of-range"_id, "feed", fmt::format("{:g} mm/min", cone.feed),
+                  "above 0, at most 100000");
   }
   if (!(cone.spindle_speed >= 1.0 && cone.spindle_speed <= 1e6)) {
-    return refuse("speed", fmt::format("{:g} 1/min", cone.spindle_speed),
+    return refuse("out-of-range"_id, "speed", fmt::format("{:g} 1/min", cone.spindle_speed),
                   "the spindle must turn: 1 to 1000000");
   }
   return std::nullopt;
@@ -170,7 +175,8 @@ class ConeProgram {
     const AxisPositions next = solutions->front().axes;
     if (!solutions->front().within_travel) {
       return Diagnostics{
-          error(fmt::format("the cone test does not fit on machine {}: {}", machine_.name(),
+          error("axis-over-travel"_id,
+                fmt::format("the cone test does not fit on machine {}: {}", machine_.name(),
                             fmt::join(kinematics::travel_violations(machine_, next), "; ")),
                 "change --center, --radius or --orientation, or choose a larger machine")};
     }
@@ -261,7 +267,7 @@ Result<ConeGeometry> geometry(const ConeFrustum& cone) {
   constexpr double kLeastTop = 5.0;
   if (shape.top_radius < kLeastTop) {
     return refuse(
-        "height",
+        "cone-top"_id, "height",
         fmt::format("base radius {:.3f} mm and height {:g} mm leave a top of radius {:.3f} mm",
                     shape.base_radius, cone.height.value, shape.top_radius),
         "at least 5 mm are needed: a larger radius, or a smaller height or cone angle");

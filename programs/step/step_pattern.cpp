@@ -15,8 +15,9 @@
 namespace frustum::programs {
 namespace {
 
-Diagnostic refuse(const char* key, const std::string& what, const std::string& hint) {
-  Diagnostic failure = error(what, hint);
+Diagnostic refuse(DiagnosticId id, const char* key, const std::string& what,
+                  const std::string& hint) {
+  Diagnostic failure = error(id, what, hint);
   failure.key = key;
   return failure;
 }
@@ -47,7 +48,7 @@ Diagnostics faults_of(const StepTest& test) {
   Diagnostics faults;
   for (const auto& n : numbers) {
     if (n.value >= n.lowest && n.value <= n.highest) continue;
-    faults.push_back(refuse(n.key, fmt::format("{:g} {}", n.value, n.unit),
+    faults.push_back(refuse("out-of-range"_id, n.key, fmt::format("{:g} {}", n.value, n.unit),
                             fmt::format("it must lie between {:g} and {:g}", n.lowest, n.highest)));
   }
   return faults;
@@ -68,13 +69,15 @@ Result<std::vector<std::string>> chosen(const StepTest& test) {
   Diagnostics faults;
   for (const std::string& name : test.patterns) {
     if (find_step_pattern(name) == nullptr) {
-      faults.push_back(refuse("patterns", fmt::format("there is no pattern '{}'", name),
+      faults.push_back(refuse("unknown-name"_id, "patterns",
+                              fmt::format("there is no pattern '{}'", name),
                               suggestion(name, names_of(step_patterns()))));
     } else if (piece.size(name) == nullptr) {
-      faults.push_back(refuse(
-          "patterns", fmt::format("workpiece {} does not carry pattern {}", piece.number, name),
-          fmt::format("it carries {}; write one test piece for each workpiece",
-                      fmt::join(carried, ", "))));
+      faults.push_back(
+          refuse("step-pattern"_id, "patterns",
+                 fmt::format("workpiece {} does not carry pattern {}", piece.number, name),
+                 fmt::format("it carries {}; write one test piece for each workpiece",
+                             fmt::join(carried, ", "))));
     }
   }
   const auto asked = [&](std::string_view name) {
@@ -86,7 +89,7 @@ Result<std::vector<std::string>> chosen(const StepTest& test) {
     for (const std::string& other : names) {
       if (!cut_the_same_surfaces(pattern, *find_step_pattern(other))) continue;
       faults.push_back(
-          refuse("patterns",
+          refuse("step-pattern"_id, "patterns",
                  fmt::format("patterns {} and {} cut the same surfaces of workpiece {}", other,
                              pattern.name, piece.number),
                  "cut one of them, or write a test piece for each"));

@@ -121,7 +121,7 @@ class Places {
     Diagnostics refused;
     for (const auto& [where, shortfall] : worst_) {
       refused.push_back(
-          error(fmt::format("{}: {}", where.first, shortfall.text),
+          error("axis-over-travel"_id, fmt::format("{}: {}", where.first, shortfall.text),
                 "leave the pattern out, move the workpiece with --center or --raise, or choose a "
                 "machine with more travel"));
     }

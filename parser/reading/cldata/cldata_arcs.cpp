@@ -61,7 +61,7 @@ bool CldataArcs::set_axis(LineScanner& in, Circle& circle, const Vec3& axis, std
   axis.cwiseAbs().maxCoeff(&along);
   if (std::abs(std::abs(axis[along]) - 1.0) > kAlongAnAxis ||
       std::abs(axis.norm() - 1.0) > kAlongAnAxis) {
-    in.fail(column, "the circle does not lie in a plane of X, Y, Z",
+    in.fail("arc-plane"_id, column, "the circle does not lie in a plane of X, Y, Z",
             "give an axis i,j,k along X, Y or Z, or write the arc as GOTO records");
     return false;
   }
@@ -84,11 +84,13 @@ void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_
   if (word != given.end()) {
     const auto* known = std::find(kCounts.begin(), kCounts.end(), word->word);
     if (known == kCounts.end()) {
-      return in.fail(word->column, fmt::format("{} has no meaning in {}", word->word, record.word),
+      return in.fail("unknown-word"_id, word->column,
+                     fmt::format("{} has no meaning in {}", word->word, record.word),
                      kCircleRemedy);
     }
     if (given.end() - word != 2 || !given.back().is_number() || given.back().number <= 0.0) {
-      return in.fail(word->column, fmt::format("{} has no number above zero", word->word),
+      return in.fail("out-of-range"_id, word->column,
+                     fmt::format("{} has no number above zero", word->word),
                      fmt::format("end the record with {},n", word->word));
     }
     circle.word = *known;
@@ -96,8 +98,8 @@ void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_
     circle.column = word->column;
   }
   if (numbers < kCircleNumbers || numbers > kMostNumbers) {
-    return in.fail(record.column, fmt::format("{} with {} numbers", record.word, numbers),
-                   kCircleRemedy);
+    return in.fail("argument-count"_id, record.column,
+                   fmt::format("{} with {} numbers", record.word, numbers), kCircleRemedy);
   }
   circle.centre = record.point();
   circle.radius = given[6].number;
@@ -131,7 +133,7 @@ std::optional<int> CldataArcs::turns_of(LineScanner& in, const Circle& circle,
                                         : circle.value / kDegreesOfATurn;
   const double full = std::round(said - turn);
   if (!(full >= 0.0 && full <= kMostTurns && std::abs(said - turn - full) <= kSameTurns)) {
-    in.fail(record.column,
+    in.fail("arc-turns"_id, record.column,
             fmt::format("the arc makes {:.4g} turns by {}, but its end is {:.4g} of a turn away",
                         said, word, turn),
             fmt::format("correct {} on line {}, or the end", word, circle.line));
@@ -163,7 +165,7 @@ std::optional<CldataArc> CldataArcs::to(LineScanner& in, const CldataRecord& rec
       return std::nullopt;
     }
   } else if (turn > 1.0 - kNoTurn && !circle_->closes) {
-    in.fail(record.column, "the arc ends where it starts: a full turn, or none?",
+    in.fail("arc-turns"_id, record.column, "the arc ends where it starts: a full turn, or none?",
             fmt::format("add TIMES,1 to the CIRCLE on line {}, or leave it out", circle_->line));
     return std::nullopt;
   }
@@ -183,7 +185,7 @@ std::optional<CldataArcs::Circle> CldataArcs::read_circle(LineScanner& in) {
   const std::uint32_t shape_column = in.column();
   CldataRecord shape{in.name(), shape_column, {}};
   if (shape.word != "CIRCLE" && shape.word != "CYLNDR") {
-    in.fail(shape.column, "TLON without a circle",
+    in.fail("arc-incomplete"_id, shape.column, "TLON without a circle",
             "write TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z), or GOTO records");
     return std::nullopt;
   }
@@ -201,7 +203,8 @@ std::optional<CldataArcs::Circle> CldataArcs::read_circle(LineScanner& in) {
   }
   const bool flat = shape.arguments.size() == 4;
   if (!flat && shape.arguments.size() != 7) {
-    in.fail(shape.column, fmt::format("{} with {} numbers", shape.word, shape.arguments.size()),
+    in.fail("argument-count"_id, shape.column,
+            fmt::format("{} with {} numbers", shape.word, shape.arguments.size()),
             "give x,y,z,r or x,y,z,i,j,k,r");
     return std::nullopt;
   }
@@ -227,7 +230,8 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
   if (const auto count = in.number()) {
     if ((count->value != 1.0 && count->value != 2.0) || !in.take(',') || !in.take_name("INTOF") ||
         !in.take(',')) {
-      in.fail(which_column, "the arc ends at no intersection", "write ON,2,INTOF,(LINE/...)");
+      in.fail("arc-end"_id, which_column, "the arc ends at no intersection",
+              "write ON,2,INTOF,(LINE/...)");
       return std::nullopt;
     }
     which = static_cast<std::size_t>(count->value);
@@ -256,7 +260,8 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
   }
   way[axes.w] = 0.0;
   if (way.norm() == 0.0) {
-    in.fail(shape.column, fmt::format("{} does not cross the circle", shape.word), kRemedy);
+    in.fail("arc-end"_id, shape.column, fmt::format("{} does not cross the circle", shape.word),
+            kRemedy);
     return std::nullopt;
   }
   way.normalize();
@@ -271,7 +276,8 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
   arm -= way * arm.dot(way);
   const double half = circle.radius * circle.radius - arm.squaredNorm();
   if (!(half >= 0.0)) {
-    in.fail(shape.column, fmt::format("{} does not cross the circle", shape.word), kRemedy);
+    in.fail("arc-end"_id, shape.column, fmt::format("{} does not cross the circle", shape.word),
+            kRemedy);
     return std::nullopt;
   }
   std::array<Vec3, 2> ends{circle.centre + arm + way * std::sqrt(half),
@@ -280,7 +286,7 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
   Vec3 end = ends.at(which - 1);
   end[axes.w] = at[axes.w];
   if (!end.allFinite()) {
-    in.fail(shape.column, "the end of the arc is too far away", kRemedy);
+    in.fail("arc-end"_id, shape.column, "the end of the arc is too far away", kRemedy);
     return std::nullopt;
   }
   return end;
@@ -296,11 +302,13 @@ std::optional<CldataArc> CldataArcs::along_line(LineScanner& in, std::uint32_t c
   auto circle = read_circle(in);
   if (!circle) return std::nullopt;
   if (!at) {
-    in.fail(column, "the start of the arc is not known", "write a GOTO before it");
+    in.fail("arc-incomplete"_id, column, "the start of the arc is not known",
+            "write a GOTO before it");
     return std::nullopt;
   }
   if (!direction_) {
-    in.fail(column, "the arc has no direction", "write INDIRV/i,j,k before it");
+    in.fail("arc-incomplete"_id, column, "the arc has no direction",
+            "write INDIRV/i,j,k before it");
     return std::nullopt;
   }
   const Vec3 along = direction_->is_point ? Vec3(direction_->vector - *at) : direction_->vector;
@@ -309,7 +317,7 @@ std::optional<CldataArc> CldataArcs::along_line(LineScanner& in, std::uint32_t c
   const InPlane way = in_plane(Vec3::Zero(), along, circle->plane);
   const double sense = arm.u * way.v - arm.v * way.u;
   if (sense == 0.0) {
-    in.fail(column, "the direction does not lead along the circle",
+    in.fail("arc-incomplete"_id, column, "the direction does not lead along the circle",
             "give INDIRV/i,j,k along the circle at its start");
     return std::nullopt;
   }

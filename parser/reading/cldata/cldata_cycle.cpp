@@ -35,11 +35,13 @@ class CycleReader {
       : in_(in), record_(record), given_(record.arguments), inches_(inches) {}
 
   void operator()(Block& block) {
-    if (given_.empty() || given_[0].is_number()) return fail(record_.column, "CYCLE has no name");
+    if (given_.empty() || given_[0].is_number())
+      return fail("name-missing"_id, record_.column, "CYCLE has no name");
     const std::string& first = given_[0].word;
     if (first == "OFF" || first == "ON") {
       if (given_.size() > 1)
-        return fail(given_[1].column, "CYCLE/" + first + " takes no arguments");
+        return fail("argument-count"_id, given_[1].column,
+                    "CYCLE/" + first + " takes no arguments");
       return add_code(block, *find_code(Dialect::cldata, "CYCLE/" + first), record_.column);
     }
     if (!take_name()) return;
@@ -53,8 +55,8 @@ class CycleReader {
     double number = 0.0;
   };
 
-  void fail(std::uint32_t column, std::string message) {
-    in_.fail(column, std::move(message), kForm);
+  void fail(DiagnosticId id, std::uint32_t column, std::string message) {
+    in_.fail(id, column, std::move(message), kForm);
   }
 
   bool take_name() {
@@ -70,7 +72,7 @@ class CycleReader {
                                      [&](const CycleName& name) { return name.word == word; });
     if (known == kNames.end()) {
       in_.fail(
-          given_[0].column, fmt::format("CYCLE/{} is not simulated", word),
+          "not-supported"_id, given_[0].column, fmt::format("CYCLE/{} is not simulated", word),
           "write the cycle out as GOTO records; known are DRILL DEEP BRKCHP FACE TAP BORE REAM");
       return false;
     }
@@ -104,7 +106,8 @@ class CycleReader {
                                  : part.word == "STEP"                            ? &step_
                                  : part.word == "DWELL"                           ? &dwell_
                                                                                   : nullptr;
-    if (slot == nullptr) return fail(part.column, part.word + " has no meaning in CYCLE");
+    if (slot == nullptr)
+      return fail("unknown-word"_id, part.column, part.word + " has no meaning in CYCLE");
     *slot = number_behind(part);
     // RTRCTO,20,MANUAL
     if (part.word == "RTRCTO" && place_ < given_.size() && given_[place_].word == "MANUAL") {
@@ -121,13 +124,14 @@ class CycleReader {
     } else if (feed_ && !clear_) {
       clear_ = Value{part.column, part.number};
     } else {
-      fail(part.column, fmt::format("the {} in CYCLE could mean many things", part.number));
+      fail("unknown-word"_id, part.column,
+           fmt::format("the {} in CYCLE could mean many things", part.number));
     }
   }
 
   std::optional<Value> number_behind(const CldataArgument& part) {
     if (place_ >= given_.size() || !given_[place_].is_number()) {
-      fail(part.column, part.word + " has no number");
+      fail("value-missing"_id, part.column, part.word + " has no number");
       return std::nullopt;
     }
     const CldataArgument& number = given_[place_++];
@@ -136,23 +140,26 @@ class CycleReader {
 
   void set_feed(const CldataArgument& unit, Value number) {
     const CldataFeedUnit meaning = *cldata_feed_unit(unit.word, inches_);
-    if (feed_) return fail(unit.column, "CYCLE has two feeds");
+    if (feed_) return fail("word-twice"_id, unit.column, "CYCLE has two feeds");
     feed_ = Value{number.column, number.number * meaning.scale};
     per_revolution_ = meaning.per_revolution;
   }
 
   void add_words(Block& block) {
-    if (!depth_ && !feed_to_) return fail(record_.column, "CYCLE has no depth");
-    if (!feed_) return fail(record_.column, "CYCLE has no feed");
-    if (!clear_ && !rapid_to_) return fail(record_.column, "CYCLE has no clearance");
+    if (!depth_ && !feed_to_) return fail("value-missing"_id, record_.column, "CYCLE has no depth");
+    if (!feed_) return fail("value-missing"_id, record_.column, "CYCLE has no feed");
+    if (!clear_ && !rapid_to_)
+      return fail("value-missing"_id, record_.column, "CYCLE has no clearance");
     if (name_->steps && (!step_ || step_->number <= 0.0)) {
-      return fail(record_.column, "CYCLE has no STEP above zero");
+      return fail("out-of-range"_id, record_.column, "CYCLE has no STEP above zero");
     }
     if (step_ && !name_->steps) {
-      return fail(step_->column, fmt::format("STEP has no meaning in {}", name_->code));
+      return fail("unknown-word"_id, step_->column,
+                  fmt::format("STEP has no meaning in {}", name_->code));
     }
     const Value depth = feed_to_ ? Value{feed_to_->column, std::abs(feed_to_->number)} : *depth_;
-    if (depth.number <= 0.0) return fail(depth.column, "the depth of CYCLE is not above zero");
+    if (depth.number <= 0.0)
+      return fail("out-of-range"_id, depth.column, "the depth of CYCLE is not above zero");
     const bool is_height = feed_to_ || !clear_;
     const Value clear = clear_ ? *clear_ : *rapid_to_;
     Value level = clear;
@@ -160,7 +167,8 @@ class CycleReader {
     if (rapid_to_ && !is_height) level.number = clear.number - rapid_to_->number;
     const double highest = std::max(clear.number, level.number);
     if (level.number <= -depth.number) {
-      return fail(level.column, "CYCLE goes by rapid to below the bottom of the hole");
+      return fail("cycle-levels"_id, level.column,
+                  "CYCLE goes by rapid to below the bottom of the hole");
     }
     add_code(block, *find_code(Dialect::cldata, name_->code), record_.column);
     add_number(block, 'Z', depth.number, depth.column, "depth ");

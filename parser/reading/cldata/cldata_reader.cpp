@@ -63,7 +63,7 @@ class CldataReader {
     const std::uint32_t column = in_.column();
     if (!in_.take('$')) return in_.failed();
     if (!in_.take('$')) {
-      in_.fail(column, "nothing follows the continuation mark",
+      in_.fail("value-missing"_id, column, "nothing follows the continuation mark",
                "$ continues a record on the next line, $$ begins a comment");
       return true;
     }
@@ -99,7 +99,8 @@ class CldataReader {
     if (record_.word.empty()) return in_.fail_unexpected("a record is a word, / and its arguments");
     if (take_text() || take_note()) return;
     if (in_.peek() == '=') {
-      return in_.fail(record_.column, record_.word + " is defined in the APT language",
+      return in_.fail("not-supported"_id, record_.column,
+                      record_.word + " is defined in the APT language",
                       "let the APT processor write CLDATA, without definitions");
     }
     if (record_.word == "TLON") {
@@ -164,7 +165,7 @@ class CldataReader {
       if (pending_.modes.inches != inches) pending_.at.reset();
       return;
     }
-    in_.fail(record_.column, "unknown record " + record_.word,
+    in_.fail("unknown-word"_id, record_.column, "unknown record " + record_.word,
              suggestion(record_.word, known_records()));
   }
 
@@ -177,7 +178,8 @@ class CldataReader {
     }
     constexpr std::array kEnds{"CIRCLE", "MOVARC", "GODLTA", "GOHOME", "FROM", "END", "FINI"};
     if (std::find(kEnds.begin(), kEnds.end(), record_.word) == kEnds.end()) return true;
-    in_.fail(record_.column, fmt::format("the CIRCLE on line {} has no GOTO", *line),
+    in_.fail("keyword-missing"_id, record_.column,
+             fmt::format("the CIRCLE on line {} has no GOTO", *line),
              "give the end of the arc by GOTO");
     return false;
   }
@@ -203,7 +205,8 @@ class CldataReader {
   bool is_refused() {
     const auto remedy = remedy_for(Dialect::cldata, record_.word);
     if (remedy.empty()) return false;
-    in_.fail(record_.column, record_.word + " is not simulated", std::string(remedy));
+    in_.fail("not-supported"_id, record_.column, record_.word + " is not simulated",
+             std::string(remedy));
     return true;
   }
 
@@ -249,8 +252,8 @@ class CldataReader {
 
   void take_no_arguments() {
     if (!record_.arguments.empty()) {
-      in_.fail(record_.arguments.front().column, record_.word + " takes no arguments",
-               fmt::format("write {} alone", record_.word));
+      in_.fail("argument-count"_id, record_.arguments.front().column,
+               record_.word + " takes no arguments", fmt::format("write {} alone", record_.word));
     }
   }
 
@@ -280,7 +283,8 @@ class CldataReader {
 
   void read_goto() {
     if (record_.word == "CONT" && !pending_.goes_on) {
-      return in_.fail(record_.column, "CONT goes on from no GOTO", "write GOTO");
+      return in_.fail("arc-incomplete"_id, record_.column, "CONT goes on from no GOTO",
+                      "write GOTO");
     }
     if (!are_cldata_numbers(in_, record_, {3, 6}, kPositionRemedy)) return;
     const auto arc = pending_.arcs.to(in_, record_, pending_.at, pending_.modes.inches);
@@ -319,7 +323,8 @@ class CldataReader {
 
   void read_circle() {
     if (pending_.rapid) {
-      return in_.fail(record_.column, "an arc by rapid", "give the feed of the arc by FEDRAT");
+      return in_.fail("word-misplaced"_id, record_.column, "an arc by rapid",
+                      "give the feed of the arc by FEDRAT");
     }
     pending_.arcs.begin(in_, record_, block_.line);
   }

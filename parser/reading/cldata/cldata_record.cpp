@@ -16,7 +16,8 @@ double read_number(LineScanner& in, std::uint32_t column) {
   if (!negative) in.take('+');
   const auto found = in.number();
   if (!found) {
-    in.fail(column, "an argument is missing", "write the arguments after /, separated by ,");
+    in.fail("argument-count"_id, column, "an argument is missing",
+            "write the arguments after /, separated by ,");
     return 0.0;
   }
   double value = found->value;
@@ -24,7 +25,8 @@ double read_number(LineScanner& in, std::uint32_t column) {
   if (const char mark = in.peek_byte(); mark == 'E' || mark == 'D') {
     in.take(mark);
     value *= std::pow(10.0, in.signed_number("the exponent", column));
-    if (!std::isfinite(value)) in.fail(column, "the number is too large", "check its exponent");
+    if (!std::isfinite(value))
+      in.fail("number-too-large"_id, column, "the number is too large", "check its exponent");
   }
   return (negative ? -value : value) + 0.0;
 }
@@ -63,15 +65,15 @@ bool are_cldata_numbers(LineScanner& in, const CldataRecord& record,
                         std::initializer_list<std::size_t> counts, const char* remedy) {
   for (const CldataArgument& argument : record.arguments) {
     if (argument.is_number()) continue;
-    in.fail(argument.column, fmt::format("{} has no meaning in {}", argument.word, record.word),
-            remedy);
+    in.fail("unknown-word"_id, argument.column,
+            fmt::format("{} has no meaning in {}", argument.word, record.word), remedy);
     return false;
   }
   for (const std::size_t count : counts) {
     if (record.arguments.size() == count) return true;
   }
-  in.fail(record.column, fmt::format("{} with {} numbers", record.word, record.arguments.size()),
-          remedy);
+  in.fail("argument-count"_id, record.column,
+          fmt::format("{} with {} numbers", record.word, record.arguments.size()), remedy);
   return false;
 }
 

@@ -30,19 +30,21 @@ class SettingReader {
     for (const CldataArgument& argument : given) {
       const CldataArgument*& slot = argument.is_number() ? number : unit;
       if (slot != nullptr) {
-        return in_.fail(argument.column, "FEDRAT has more than a feed and its unit",
-                        "write FEDRAT/500,MMPM");
+        return in_.fail("word-misplaced"_id, argument.column,
+                        "FEDRAT has more than a feed and its unit", "write FEDRAT/500,MMPM");
       }
       slot = &argument;
     }
     const auto meaning = unit == nullptr ? CldataFeedUnit{modes_.feed_per_revolution, 1.0}
                                          : cldata_feed_unit(unit->word, modes_.inches);
     if (!meaning) {
-      return in_.fail(unit->column, fmt::format("{} has no meaning in FEDRAT", unit->word),
+      return in_.fail("unknown-word"_id, unit->column,
+                      fmt::format("{} has no meaning in FEDRAT", unit->word),
                       "units are MMPM, MMPR, IPM, IPR, PERMIN and PERREV");
     }
     if (number == nullptr) {
-      return in_.fail(record_.column, "FEDRAT has no feed", "write FEDRAT/500,MMPM");
+      return in_.fail("value-missing"_id, record_.column, "FEDRAT has no feed",
+                      "write FEDRAT/500,MMPM");
     }
     modes_.feed_per_revolution = meaning->per_revolution;
     add(modes_.feed_per_revolution ? "FEDRAT/MMPR" : "FEDRAT/MMPM");
@@ -59,7 +61,8 @@ class SettingReader {
                                      Direction{"CCLW", "SPINDL/CCLW"},
                                      Direction{"OFF", "SPINDL/OFF"}};
     const auto& given = record_.arguments;
-    if (given.empty()) return in_.fail(record_.column, "SPINDL says nothing", kRemedy);
+    if (given.empty())
+      return in_.fail("value-missing"_id, record_.column, "SPINDL says nothing", kRemedy);
     const char* code = modes_.spindle;
     for (std::size_t i = 0; i < given.size(); ++i) {
       const CldataArgument& argument = given[i];
@@ -75,10 +78,12 @@ class SettingReader {
         block_.comments.push_back({argument.column, false, record_.text_from(i), "SPINDL"});
         break;
       } else if (argument.word == "SFM" || argument.word == "SMM") {
-        return in_.fail(argument.column, "SPINDL by cutting speed is not simulated",
+        return in_.fail("not-supported"_id, argument.column,
+                        "SPINDL by cutting speed is not simulated",
                         "let the CAM system write the speed as SPINDL/RPM,5000,CLW");
       } else if (argument.word != "RPM" && argument.word != "ON") {
-        return in_.fail(argument.column, argument.word + " has no meaning in SPINDL", kRemedy);
+        return in_.fail("unknown-word"_id, argument.column,
+                        argument.word + " has no meaning in SPINDL", kRemedy);
       }
     }
     if (std::string_view(code) != "SPINDL/OFF") modes_.spindle = code;
@@ -87,7 +92,7 @@ class SettingReader {
 
   void read_tool() {
     if (record_.arguments.empty() || !record_.arguments.front().is_number()) {
-      return in_.fail(record_.column, "LOADTL has no number", "write LOADTL/1");
+      return in_.fail("value-missing"_id, record_.column, "LOADTL has no number", "write LOADTL/1");
     }
     const CldataArgument& number = record_.arguments.front();
     add("LOADTL");
@@ -101,7 +106,7 @@ class SettingReader {
     const std::string unit = record_.only_word();
     const bool metric = unit == "MM";
     if (!metric && unit != "INCHES" && unit != "INCH") {
-      return in_.fail(record_.column, "UNITS without MM or INCHES",
+      return in_.fail("keyword-missing"_id, record_.column, "UNITS without MM or INCHES",
                       "write UNITS/MM or UNITS/INCHES");
     }
     modes_.inches = !metric;
@@ -111,7 +116,8 @@ class SettingReader {
   void read_multax() {
     const std::string state = record_.only_word();
     if (!record_.arguments.empty() && state != "ON" && state != "OFF") {
-      return in_.fail(record_.column, "MULTAX without ON or OFF", "write MULTAX/ON or MULTAX/OFF");
+      return in_.fail("keyword-missing"_id, record_.column, "MULTAX without ON or OFF",
+                      "write MULTAX/ON or MULTAX/OFF");
     }
     modes_.multax = state != "OFF";
     add(modes_.multax ? "MULTAX/ON" : "MULTAX/OFF");
@@ -134,7 +140,7 @@ class SettingReader {
     } else if (state == "OFF") {
       add("COOLNT/OFF");
     } else if (!other) {
-      return in_.fail(record_.column, "COOLNT says nothing that is known",
+      return in_.fail("value-missing"_id, record_.column, "COOLNT says nothing that is known",
                       "write COOLNT/ON, FLOOD, MIST, THRU, AIR, TAP or OFF");
     }
     // What kind, and the pressure.
@@ -149,7 +155,7 @@ class SettingReader {
     const bool turns = given.size() == 2 && given[1].word == "REV";
     const bool seconds = given.size() == 1;
     if ((!turns && !seconds) || !given.front().is_number()) {
-      return in_.fail(record_.column, record_.word + " without a time",
+      return in_.fail("value-missing"_id, record_.column, record_.word + " without a time",
                       "write DELAY/2 (seconds) or DELAY/3,REV");
     }
     add(turns ? "DELAY REV" : "DELAY");

@@ -97,7 +97,8 @@ class CycleReader {
     }
     const auto number = defines ? in_.number() : std::nullopt;
     if (!number) {
-      return in_.fail(column, defines ? "CYCL DEF has no number" : "CYCL without DEF or CALL",
+      return in_.fail("keyword-missing"_id, column,
+                      defines ? "CYCL DEF has no number" : "CYCL without DEF or CALL",
                       "write CYCL DEF 200 and its parameters, or CYCL CALL");
     }
     const double cycle = std::floor(number->value + 1e-6);
@@ -126,7 +127,7 @@ class CycleReader {
         Remedy{221.0, "call the cycle by CYCL CALL or M99 at each hole"}};
     const auto* remedy = std::find_if(kRemedies.begin(), kRemedies.end(),
                                       [&](const Remedy& r) { return r.cycle == cycle; });
-    in_.fail(column, fmt::format("CYCL DEF {} is not simulated", cycle),
+    in_.fail("not-supported"_id, column, fmt::format("CYCL DEF {} is not simulated", cycle),
              remedy == kRemedies.end() ? "write the cycle out as L blocks" : remedy->text);
   }
 
@@ -135,7 +136,7 @@ class CycleReader {
   void read_shift(int part, std::uint32_t column) {
     if (part == 0) return note(draft_, "CYCL DEF 7", column, in_.text_to(";"));
     if (in_.peek() == '#') {
-      return in_.fail(in_.column(), "datums of a table are not simulated",
+      return in_.fail("not-supported"_id, in_.column(), "datums of a table are not simulated",
                       "give the shift by its values: CYCL DEF 7.1 X+60");
     }
     add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 7"), column);
@@ -151,7 +152,8 @@ class CycleReader {
       const std::string axes = in_.letters();
       const std::size_t other = axes.find_first_not_of("XYZ");
       if (axes.empty() || other != std::string::npos) {
-        return in_.fail(axis_column, "CYCL DEF 8 mirrors X, Y and Z", "write CYCL DEF 8.1 X Y");
+        return in_.fail("unknown-word"_id, axis_column, "CYCL DEF 8 mirrors X, Y and Z",
+                        "write CYCL DEF 8.1 X Y");
       }
       for (const char axis : axes) add_number(block_, axis, 0.0, axis_column);
     }
@@ -165,7 +167,8 @@ class CycleReader {
     if (part == 0) return note(draft_, "CYCL DEF 11", column, in_.text_to(";"));
     const std::uint32_t place = in_.column();
     if (!in_.take_name("SCL")) {
-      return in_.fail(place, "CYCL DEF 11 has no SCL", "write CYCL DEF 11.1 SCL 0.99");
+      return in_.fail("value-missing"_id, place, "CYCL DEF 11 has no SCL",
+                      "write CYCL DEF 11.1 SCL 0.99");
     }
     add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 11"), column);
     for (const char axis : {'X', 'Y', 'Z'}) add_number(block_, axis, 0.0, column);
@@ -197,7 +200,8 @@ class CycleReader {
       const auto factor = std::find_if(factors.begin(), factors.end(), is_named);
       if (factor == factors.end()) {
         if (name.empty()) return in_.fail_unexpected("write CYCL DEF 26.1 X0.99 Y0.99 Z0.99");
-        return in_.fail(place, fmt::format("{} has no meaning in CYCL DEF 26", name),
+        return in_.fail("unknown-word"_id, place,
+                        fmt::format("{} has no meaning in CYCL DEF 26", name),
                         "it has the factors X Y Z and their centre CCX CCY CCZ");
       }
       const bool centre = name == factor->centre_name;
@@ -211,7 +215,8 @@ class CycleReader {
       }
     }
     if (!any) {
-      return in_.fail(column, "CYCL DEF 26 has no factor", "write CYCL DEF 26.1 X0.99 Y0.99 Z0.99");
+      return in_.fail("value-missing"_id, column, "CYCL DEF 26 has no factor",
+                      "write CYCL DEF 26.1 X0.99 Y0.99 Z0.99");
     }
     for (const Factor& factor : factors) {
       if (!factor.has_centre) add_number(block_, factor.centre, 0.0, column);
@@ -238,7 +243,8 @@ class CycleReader {
       const bool clearance = name == "SETUP" || name == "ABST" || name == "DIST";
       if (name != "F" && name != "FMAX" && name != "FAUTO" && !clearance) {
         if (name.empty()) return in_.fail_unexpected("write CYCL DEF 19.1 A+0 B+45 C+0");
-        return in_.fail(place, fmt::format("{} has no meaning in CYCL DEF 19", name),
+        return in_.fail("unknown-word"_id, place,
+                        fmt::format("{} has no meaning in CYCL DEF 19", name),
                         "it has the angles A B C, F and SETUP");
       }
       if (!turns) add_number(block_, 'd', 1.0, place, "TURN ");
@@ -249,7 +255,7 @@ class CycleReader {
     }
     for (const char angle : {'A', 'B', 'C'}) {
       if (off || in_.failed() || given.find(angle) != std::string::npos) continue;
-      return in_.fail(column, fmt::format("CYCL DEF 19 has no {}", angle),
+      return in_.fail("value-missing"_id, column, fmt::format("CYCL DEF 19 has no {}", angle),
                       "give all three spatial angles, A B C; of axis angles only the machine knows "
                       "the plane: use PLANE SPATIAL");
     }
@@ -269,7 +275,8 @@ class CycleReader {
     const std::uint32_t place = in_.column();
     const std::string name = in_.letters();
     if (name != "ROT" && name != "IROT") {
-      return in_.fail(place, "CYCL DEF 10 has no ROT", "write CYCL DEF 10.1 ROT+35");
+      return in_.fail("value-missing"_id, place, "CYCL DEF 10 has no ROT",
+                      "write CYCL DEF 10.1 ROT+35");
     }
     add_code(block_, *find_code(Dialect::heidenhain, "CYCL DEF 10"), column);
     add_number(block_, 'X', 0.0, column);
@@ -294,12 +301,14 @@ class CycleReader {
           std::find_if(cycle.parameters.begin(), cycle.parameters.end(),
                        [&](const CycleParameter& parameter) { return name == parameter.name; });
       if (known == cycle.parameters.end()) {
-        return in_.fail(place, fmt::format("{} has no meaning in {}", name, cycle.code),
+        return in_.fail("unknown-word"_id, place,
+                        fmt::format("{} has no meaning in {}", name, cycle.code),
                         std::string(cycle.form));
       }
       if (known->letter == 0) {  // of which only zero is simulated
         if (in_.signed_number(name, place) != 0.0) {
-          in_.fail(place, fmt::format("{} is not simulated", name), "give it the value 0");
+          in_.fail("not-supported"_id, place, fmt::format("{} is not simulated", name),
+                   "give it the value 0");
         }
         continue;
       }
@@ -315,9 +324,11 @@ class CycleReader {
                       [&](const Word& word) { return word.letter == parameter.letter; });
       if (!parameter.needed || given || in_.failed()) continue;
       if (cycle.number == 247.0) {
-        return in_.fail(column, "CYCL DEF 247 without a number", std::string(cycle.form));
+        return in_.fail("value-missing"_id, column, "CYCL DEF 247 without a number",
+                        std::string(cycle.form));
       }
-      return in_.fail(column, fmt::format("{} has no {}", cycle.code, parameter.name),
+      return in_.fail("value-missing"_id, column,
+                      fmt::format("{} has no {}", cycle.code, parameter.name),
                       std::string(cycle.form));
     }
   }

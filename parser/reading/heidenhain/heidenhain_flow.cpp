@@ -20,7 +20,8 @@ class FlowReader {
   // Q1 = Q2 + 3 * SIN(Q4)
   void read_setting(const std::string& name, std::uint32_t column) {
     if (!in_.take('=')) {
-      return in_.fail(in_.column(), name + " has no =", fmt::format("write {} = 5", name));
+      return in_.fail("keyword-missing"_id, in_.column(),
+                      name + " has no =", fmt::format("write {} = 5", name));
     }
     draft_.begin_setting(name, column);
     (void)draft_.read_expression(ExpressionLevel::sum);
@@ -31,11 +32,12 @@ class FlowReader {
   void read_fn(std::uint32_t column) {
     const auto number = in_.number();
     if (!number || !in_.take(':')) {
-      return in_.fail(column, "FN has no number", "write FN 0: Q5 = +60");
+      return in_.fail("value-missing"_id, column, "FN has no number", "write FN 0: Q5 = +60");
     }
     constexpr double kLastFn = 99.0;
     if (number->value > kLastFn || number->decimal_point) {
-      return in_.fail(column, fmt::format("FN {} is not known", decimal_text(number->value)),
+      return in_.fail("unknown-word"_id, column,
+                      fmt::format("FN {} is not known", decimal_text(number->value)),
                       "known are FN 0 to FN 16");
     }
     const auto fn = static_cast<int>(number->value);
@@ -49,11 +51,11 @@ class FlowReader {
     const std::uint32_t place = in_.column();
     const std::string target = in_.name();
     if (fn > 8 && fn != 13) {
-      return in_.fail(column, fmt::format("FN {} is not simulated", fn),
+      return in_.fail("not-supported"_id, column, fmt::format("FN {} is not simulated", fn),
                       "known are FN 0 to FN 16; set what it would read by FN 0: Q1 = +5");
     }
     if (!is_q_parameter(target) || !in_.take('=')) {
-      return in_.fail(place, "FN sets no parameter", "write FN 0: Q5 = +60");
+      return in_.fail("value-missing"_id, place, "FN sets no parameter", "write FN 0: Q5 = +60");
     }
     draft_.begin_setting(target, place);
     const auto operand = [&] { (void)draft_.read_expression(ExpressionLevel::operand); };
@@ -64,7 +66,7 @@ class FlowReader {
     const auto with = [&](std::string_view word, const auto& combine) {
       const std::uint32_t sign = in_.column();
       if (!in_.take_name(word)) {
-        return in_.fail(sign, fmt::format("FN {} has no {}", fn, word),
+        return in_.fail("value-missing"_id, sign, fmt::format("FN {} has no {}", fn, word),
                         "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2, "
                         "FN 8: Q5 = +5 LEN +4, FN 13: Q6 = +5 ANG +4");
       }
@@ -78,7 +80,7 @@ class FlowReader {
     const auto sign_with = [&](char sign, Operation operation) {
       const std::uint32_t at = in_.column();
       if (!in_.take(sign)) {
-        return in_.fail(at, fmt::format("FN {} has no {}", fn, sign),
+        return in_.fail("value-missing"_id, at, fmt::format("FN {} has no {}", fn, sign),
                         "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2");
       }
       operand();
@@ -87,7 +89,8 @@ class FlowReader {
     const auto function = [&](std::string_view word, Operation operation) {
       const std::uint32_t at = in_.column();
       if (!in_.take_name(word)) {
-        return in_.fail(at, fmt::format("FN {} has no {}", fn, word), "write FN 6: Q20 = SIN -Q5");
+        return in_.fail("value-missing"_id, at, fmt::format("FN {} has no {}", fn, word),
+                        "write FN 6: Q20 = SIN -Q5");
       }
       operand();
       push(operation, at);
@@ -128,7 +131,8 @@ class FlowReader {
   // FN 14: ERROR = 1000
   void read_raised_error(std::uint32_t column) {
     if (!in_.take_name("ERROR") || !in_.take('=')) {
-      return in_.fail(in_.column(), "FN 14 has no ERROR =", "write FN 14: ERROR = 1000");
+      return in_.fail("keyword-missing"_id, in_.column(),
+                      "FN 14 has no ERROR =", "write FN 14: ERROR = 1000");
     }
     add_code(block_, *find_code(Dialect::heidenhain, "FN 14"), column);
     add_value(draft_, 'E', "ERROR", column, "ERROR=");
@@ -148,7 +152,7 @@ class FlowReader {
     if (in_.take_name("PGM")) return read_program_call(false);
     if (!in_.take_name("LBL")) {
       const std::string what = in_.name();
-      return in_.fail(column,
+      return in_.fail("not-supported"_id, column,
                       fmt::format("CALL {} is not simulated", what.empty() ? "alone" : what),
                       "write CALL LBL 1, or CALL PGM and the name of a program");
     }
@@ -174,7 +178,7 @@ class FlowReader {
     const bool quoted = in_.take('"');
     std::string name = in_.text_to(quoted ? "\"" : ";");
     if (quoted && !in_.take('"')) {
-      return in_.fail(column, "the name is not closed", "close it with \"");
+      return in_.fail("text-not-closed"_id, column, "the name is not closed", "close it with \"");
     }
     if (const auto folder = name.find_last_of("\\/:"); folder != std::string::npos) {
       name.erase(0, std::min(name.find_first_not_of(' ', folder + 1), name.size()));
@@ -183,11 +187,12 @@ class FlowReader {
     const std::string ending = point == std::string::npos ? ".H" : name.substr(point);
     name.resize(std::min(point, name.size()));
     if (name.find_first_not_of(". ") == std::string::npos || name.find('"') != std::string::npos) {
-      return in_.fail(column, "the call names no program",
+      return in_.fail("name-missing"_id, column, "the call names no program",
                       "write CALL PGM and a name: CALL PGM SLOT.H");
     }
     if (ending != ".H" && ending != ".h") {
-      return in_.fail(column, fmt::format("a program {} is called from Klartext", ending),
+      return in_.fail("not-supported"_id, column,
+                      fmt::format("a program {} is called from Klartext", ending),
                       "call programs in Klartext, whose names end in .H");
     }
     draft_.begin_flow(FlowKind::call, column);
@@ -199,7 +204,8 @@ class FlowReader {
 
  private:
   void read_fn_jump(Operation comparison, std::uint32_t column) {
-    if (!in_.take_name("IF")) return in_.fail(in_.column(), "FN has no IF", kFnJump);
+    if (!in_.take_name("IF"))
+      return in_.fail("keyword-missing"_id, in_.column(), "FN has no IF", kFnJump);
     draft_.begin_flow(FlowKind::jump, column);
     // Both sides, then the comparison.
     ExpressionRange& condition = block_.flow->condition;
@@ -207,13 +213,13 @@ class FlowReader {
     const std::uint32_t place = in_.column();
     const std::string word = in_.name();
     if (word != "EQU" && word != "NE" && word != "GT" && word != "LT") {
-      return in_.fail(place, "FN compares by EQU, NE, GT or LT", kFnJump);
+      return in_.fail("unknown-word"_id, place, "FN compares by EQU, NE, GT or LT", kFnJump);
     }
     condition.count += draft_.read_expression(ExpressionLevel::operand).count;
     push(comparison, place);
     ++condition.count;
     if (!in_.take_name("GOTO") || !in_.take_name("LBL")) {
-      return in_.fail(in_.column(), "FN has no GOTO LBL", kFnJump);
+      return in_.fail("keyword-missing"_id, in_.column(), "FN has no GOTO LBL", kFnJump);
     }
     read_label_name();
     end_statement(draft_);
@@ -224,12 +230,14 @@ class FlowReader {
     const std::uint32_t column = in_.column();
     if (in_.take('"')) {
       block_.flow->label = in_.text_to("\"");
-      if (!in_.take('"')) in_.fail(column, "the name is not closed", "close it with \"");
+      if (!in_.take('"'))
+        in_.fail("text-not-closed"_id, column, "the name is not closed", "close it with \"");
     } else {
       block_.flow->label = std::string(in_.digits());
     }
     if (!in_.failed() && block_.flow->label.empty()) {
-      in_.fail(column, "LBL has no number or name", "write LBL 1 or LBL \"SLOT\"");
+      in_.fail("name-missing"_id, column, "LBL has no number or name",
+               "write LBL 1 or LBL \"SLOT\"");
     }
   }
 

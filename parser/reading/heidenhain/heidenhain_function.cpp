@@ -15,7 +15,8 @@ class FunctionReader {
     const std::string kind = in_.name();
     if (kind == "RESET") {
       if (!in_.take_name("TCPM")) {
-        return in_.fail(column, "FUNCTION RESET without TCPM", "write FUNCTION RESET TCPM");
+        return in_.fail("keyword-missing"_id, column, "FUNCTION RESET without TCPM",
+                        "write FUNCTION RESET TCPM");
       }
       add_code(block_, *find_code(Dialect::heidenhain, "FUNCTION RESET TCPM"), column);
       return read_heidenhain_elements(draft_, "FUNCTION RESET TCPM");
@@ -25,12 +26,13 @@ class FunctionReader {
       const std::uint32_t place = in_.column();
       // The number may follow without a blank: TIME2.
       if (in_.letters() != "TIME") {
-        return in_.fail(place, "FUNCTION DWELL without TIME", "write FUNCTION DWELL TIME2");
+        return in_.fail("value-missing"_id, place, "FUNCTION DWELL without TIME",
+                        "write FUNCTION DWELL TIME2");
       }
       return add_dwell(draft_, in_.signed_number("TIME", place), column);
     }
     if (kind.starts_with("TCPM")) return read_tcpm(column);
-    in_.fail(column, fmt::format("FUNCTION {} is not simulated", kind),
+    in_.fail("not-supported"_id, column, fmt::format("FUNCTION {} is not simulated", kind),
              "known are FUNCTION TCPM, FUNCTION RESET TCPM, FUNCTION MODE and FUNCTION DWELL");
   }
 
@@ -46,7 +48,8 @@ class FunctionReader {
       const std::string name = in_.name();
       const std::string value = in_.name();
       const auto refused = [&](const char* remedy) {
-        in_.fail(place, fmt::format("{} {} is not simulated", name, value), remedy);
+        in_.fail("not-supported"_id, place, fmt::format("{} {} is not simulated", name, value),
+                 remedy);
       };
       if (name == "F") {
         if (value != "TCP") refused("the feed is that of the tool tip: F TCP");
@@ -60,7 +63,7 @@ class FunctionReader {
       } else if (name.empty()) {
         in_.fail_unexpected("write FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
       } else {
-        in_.fail(place, fmt::format("{} has no meaning in FUNCTION TCPM", name),
+        in_.fail("unknown-word"_id, place, fmt::format("{} has no meaning in FUNCTION TCPM", name),
                  "write FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
       }
     }

@@ -67,23 +67,30 @@ class PathReader {
     if (in_.failed()) return;
     std::string word = polar ? statement.substr(0, statement.size() - 1) : statement;
     if (tangential) {
-      if (rapid_) return in_.fail(column, statement + " with FMAX", "give an arc a feed");
+      if (rapid_)
+        return in_.fail("word-misplaced"_id, column, statement + " with FMAX",
+                        "give an arc a feed");
       add_number(block_, kTangential, 1.0, column);
     } else if (arc) {
       if (sense_ == 0) {
-        return in_.fail(column, statement + " has no direction", "end it with DR+ or DR-");
+        return in_.fail("keyword-missing"_id, column, statement + " has no direction",
+                        "end it with DR+ or DR-");
       }
-      if (rapid_) return in_.fail(column, statement + " with FMAX", "give an arc a feed");
+      if (rapid_)
+        return in_.fail("word-misplaced"_id, column, statement + " with FMAX",
+                        "give an arc a feed");
       word += sense_ == '+' ? " DR+" : " DR-";
     } else if (rapid_) {
       word += " FMAX";
     }
     block_.words.front().number = row_of(*find_code(Dialect::heidenhain, word));
     if (statement == "CP" && !has_angle_) {
-      return in_.fail(column, "CP has no angle", "give PA or IPA; a full turn is IPA+360 DR+");
+      return in_.fail("value-missing"_id, column, "CP has no angle",
+                      "give PA or IPA; a full turn is IPA+360 DR+");
     }
     if (statement == "CR" && !has_radius_) {
-      in_.fail(column, "CR has no radius", "give R and the radius, for example R+10");
+      in_.fail("value-missing"_id, column, "CR has no radius",
+               "give R and the radius, for example R+10");
     }
   }
 
@@ -106,7 +113,7 @@ class PathReader {
       const std::string axis = element == nullptr ? name : std::string(1, element->letter);
       if (axis != "X" && axis != "Y") {
         if (name.empty()) return in_.fail_unexpected("write CC X+0 Y+0");
-        return in_.fail(place, fmt::format("{} has no meaning in CC", name),
+        return in_.fail("unknown-word"_id, place, fmt::format("{} has no meaning in CC", name),
                         "the pole has X and Y: CC X+0 Y+0");
       }
       add_measured(axis.front(), element == nullptr ? Measure::modal : Measure::incremental,
@@ -140,7 +147,8 @@ class PathReader {
       return;
     }
     if (path.sense && name == "DR" && (in_.peek() == '+' || in_.peek() == '-')) {
-      if (sense_ != 0) return in_.fail(column, "DR is given twice", "leave one of them out");
+      if (sense_ != 0)
+        return in_.fail("word-twice"_id, column, "DR is given twice", "leave one of them out");
       sense_ = in_.peek();
       in_.take(sense_);
       return;
@@ -148,7 +156,8 @@ class PathReader {
     if (name == "R") return read_radius(statement, path, column);
     if (name == "RL" || name == "RR") {
       if (!path.axes || path.vector) {
-        return in_.fail(column, fmt::format("{} in {} is not simulated", name, statement),
+        return in_.fail("not-supported"_id, column,
+                        fmt::format("{} in {} is not simulated", name, statement),
                         "radius compensation belongs to L, C, CR, CT, LP, CP and CTP");
       }
       return add_code(block_, *find_code(Dialect::heidenhain, name), column);
@@ -157,7 +166,7 @@ class PathReader {
     if (name.empty()) {
       return in_.fail_unexpected("elements of a statement are such as X+10, R0, F500, FMAX, M3");
     }
-    in_.fail(column, fmt::format("{} has no meaning in {}", name, statement),
+    in_.fail("unknown-word"_id, column, fmt::format("{} has no meaning in {}", name, statement),
              "known are X Y Z A B C, I before them, R0, F, FMAX, F AUTO, FT, M; TX TY TZ in LN; "
              "DR+ and DR- in C, CR and CP; PR and PA in LP, CP and CTP");
   }
@@ -170,7 +179,7 @@ class PathReader {
       return;
     }
     if (!path.radius) {
-      return in_.fail(column, fmt::format("a radius in {}", statement),
+      return in_.fail("word-misplaced"_id, column, fmt::format("a radius in {}", statement),
                       "R0 is no radius compensation; a radius belongs to CR");
     }
     has_radius_ = true;
@@ -193,7 +202,7 @@ class PathReader {
       return add_value(draft_, 'F', "F", column, nullptr);
     }
     if (!spaced) {
-      return in_.fail(column, name + " is not simulated",
+      return in_.fail("not-supported"_id, column, name + " is not simulated",
                       "give F, FMAX, F AUTO or FT; feed per revolution is M136");
     }
     add_value(draft_, 'F', name, column, nullptr);
@@ -202,7 +211,8 @@ class PathReader {
   void read_m(std::uint32_t column) {
     const double code = in_.signed_number("M", column);
     if (code == 140.0) {
-      return in_.fail(column, "M140 is not simulated", "retract by L Z... R0 FMAX M91");
+      return in_.fail("not-supported"_id, column, "M140 is not simulated",
+                      "retract by L Z... R0 FMAX M91");
     }
     const auto add = [&](double m) { add_number(block_, 'M', m, column); };
     if (code == 13.0 || code == 14.0) {  // spindle and coolant
@@ -241,13 +251,13 @@ void read_heidenhain_corner(BlockDraft& draft, const std::string& statement, std
   const bool rounds = statement == "RND";
   const std::uint32_t place = in.column();
   if (rounds && in.letters() != "R") {
-    return in.fail(place, "RND has no radius", "write RND R5");
+    return in.fail("value-missing"_id, place, "RND has no radius", "write RND R5");
   }
   add_value(draft, 'R', rounds ? "R" : statement, place, rounds ? "R" : "");
   const std::uint32_t feed_place = in.column();
   if (in.peek() == 'F') {
     if (in.letters() != "F") {
-      return in.fail(feed_place, "the feed of " + statement + " is no number",
+      return in.fail("value-missing"_id, feed_place, "the feed of " + statement + " is no number",
                      "give F and a number, or leave it out");
     }
     add_value(draft, 'f', "F", feed_place, "F");

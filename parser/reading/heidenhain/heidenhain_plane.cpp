@@ -50,12 +50,12 @@ class PlaneReader {
     const auto* form = std::find_if(kForms.begin(), kForms.end(),
                                     [&](const PlaneForm& known) { return known.kind == kind; });
     if (kind == "AXIAL") {
-      return in_.fail(column, "PLANE AXIAL is not simulated",
+      return in_.fail("not-supported"_id, column, "PLANE AXIAL is not simulated",
                       "which plane the axes' positions give is the machine's to know: use PLANE "
                       "SPATIAL SPA SPB SPC");
     }
     if (form == kForms.end()) {
-      return in_.fail(column, fmt::format("PLANE {} is not simulated", kind),
+      return in_.fail("not-supported"_id, column, fmt::format("PLANE {} is not simulated", kind),
                       "use PLANE SPATIAL SPA SPB SPC, PROJECTED, EULER, VECTOR, POINTS, RELATIV or "
                       "RESET");
     }
@@ -76,7 +76,7 @@ class PlaneReader {
       const std::string name = in_.letters();
       if (name == "TURN" || name == "STAY" || name == "MOVE") {
         if (!behaviour.empty()) {
-          return in_.fail(place, fmt::format("{} beside {}", name, behaviour),
+          return in_.fail("word-twice"_id, place, fmt::format("{} beside {}", name, behaviour),
                           "say once whether the axes turn: TURN, MOVE or STAY");
         }
         behaviour = name;
@@ -90,16 +90,18 @@ class PlaneReader {
     const bool all = form->kind.starts_with("RELATIV") ? given == 1 : given >= form->needed;
     if (!all) {
       return in_.fail(
-          column,
+          "value-missing"_id, column,
           fmt::format("PLANE {} needs {}", kind, form->what.substr(0, form->what.find(':'))),
           fmt::format("give {}", form->what.substr(form->what.find(':') + 2)));
     }
     if (behaviour.empty()) {
-      return in_.fail(column, fmt::format("PLANE {} does not say whether the axes turn", kind),
+      return in_.fail("keyword-missing"_id, column,
+                      fmt::format("PLANE {} does not say whether the axes turn", kind),
                       "end it with TURN, MOVE or STAY");
     }
     if (behaviour == "MOVE" && distance_ != 0.0) {
-      in_.fail(distance_column_, fmt::format("DIST {} with MOVE is not simulated", distance_),
+      in_.fail("not-supported"_id, distance_column_,
+               fmt::format("DIST {} with MOVE is not simulated", distance_),
                "hold the tip itself, by DIST0, or retract the tool and use TURN");
     }
   }
@@ -146,7 +148,7 @@ class PlaneReader {
     if (name == "SEQ" || name == "SYM") {
       const char sign = in_.peek();
       if (!in_.take('+') && !in_.take('-')) {
-        return in_.fail(place, name + " has no sign", "write SEQ+ or SEQ-");
+        return in_.fail("keyword-missing"_id, place, name + " has no sign", "write SEQ+ or SEQ-");
       }
       return pass("PLANE SEQ", std::string(1, sign));
     }
@@ -154,7 +156,7 @@ class PlaneReader {
       return pass("PLANE ROT", name);
     }
     if (name.empty()) return in_.fail_unexpected("write PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY");
-    in_.fail(place, fmt::format("{} has no meaning in PLANE", name),
+    in_.fail("unknown-word"_id, place, fmt::format("{} has no meaning in PLANE", name),
              "known are the words of its form, TURN, MOVE, STAY, MB, DIST, F, SEQ, SYM, TABLE ROT, "
              "COORD ROT");
   }

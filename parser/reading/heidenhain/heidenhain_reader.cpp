@@ -41,7 +41,8 @@ class HeidenhainReader {
     if (const auto digits = in_.digits(); !digits.empty()) {
       std::uint32_t number = 0;
       std::from_chars(digits.data(), digits.data() + digits.size(), number);
-      if (digits.size() > 8) in_.fail(1, "the line number is too large", "it has up to 8 digits");
+      if (digits.size() > 8)
+        in_.fail("number-too-large"_id, 1, "the line number is too large", "it has up to 8 digits");
       block_.number = number;
     }
     if (in_.take('/')) block_.deletable = true;
@@ -84,24 +85,26 @@ class HeidenhainReader {
     if (name == "LBL") return read_heidenhain_label(draft_, column);
     if (name == "CALL") return read_heidenhain_call(draft_, column);
     if (const auto remedy = remedy_for(Dialect::heidenhain, name); !remedy.empty()) {
-      return in_.fail(column, name + " is not simulated", std::string(remedy));
+      return in_.fail("not-supported"_id, column, name + " is not simulated", std::string(remedy));
     }
     if (name.empty()) return in_.fail_unexpected(std::string(kLineHint));
     std::vector<std::string> known(kStatements.begin(), kStatements.end());
     known.insert(known.end(), kPaths.begin(), kPaths.end());
-    in_.fail(column, "unknown statement " + name, suggestion(name, known));
+    in_.fail("unknown-word"_id, column, "unknown statement " + name, suggestion(name, known));
   }
 
   void read_frame_of_program(const std::string& name, std::uint32_t column) {
     if (!in_.take_name("PGM")) {
-      return in_.fail(column, name + " without PGM", "write BEGIN PGM NAME MM or END PGM NAME MM");
+      return in_.fail("keyword-missing"_id, column, name + " without PGM",
+                      "write BEGIN PGM NAME MM or END PGM NAME MM");
     }
     const std::uint32_t place = in_.column();
     std::string text = in_.text_to(";");
     const std::string called = text.substr(0, text.find(' '));
     if (name == "END") {
       if (!program_.empty() && in_capitals(called) != in_capitals(program_)) {
-        return in_.fail(place, fmt::format("END PGM {} of the program {}", called, program_),
+        return in_.fail("program-name-mismatch"_id, place,
+                        fmt::format("END PGM {} of the program {}", called, program_),
                         "BEGIN PGM and END PGM have the same name");
       }
       add_code(block_, *find_code(Dialect::heidenhain, "END PGM"), column);
@@ -111,7 +114,8 @@ class HeidenhainReader {
     const std::string unit = in_capitals(text.substr(text.find_last_of(' ') + 1));
     const bool metric = unit == "MM";
     if (!metric && unit != "INCH") {
-      return in_.fail(place, "BEGIN PGM has no unit", "end it with MM or INCH");
+      return in_.fail("keyword-missing"_id, place, "BEGIN PGM has no unit",
+                      "end it with MM or INCH");
     }
     add_code(block_, *find_code(Dialect::heidenhain, metric ? "BEGIN PGM MM" : "BEGIN PGM INCH"),
              column);

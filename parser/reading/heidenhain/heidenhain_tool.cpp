@@ -15,10 +15,11 @@ class ToolReader {
     const std::string kind = in_.name();
     if (kind == "DEF") return note(draft_, "TOOL DEF", column, in_.text_to(";"));
     if (kind != "CALL")
-      return in_.fail(column, "TOOL without CALL or DEF", "write TOOL CALL 1 Z S5000");
+      return in_.fail("keyword-missing"_id, column, "TOOL without CALL or DEF",
+                      "write TOOL CALL 1 Z S5000");
     const std::string next = in_.next_name();
     if (in_.peek() == '"' || next.starts_with("QS")) {
-      return in_.fail(in_.column(), "TOOL CALL has a name instead of a number",
+      return in_.fail("not-supported"_id, in_.column(), "TOOL CALL has a name instead of a number",
                       "tools go by their numbers here: TOOL CALL 1 Z S5000");
     }
     const std::uint32_t place = in_.column();
@@ -44,8 +45,8 @@ class ToolReader {
     std::string name = in_.letters();
     if (name == "Z") return;
     if (name == "X" || name == "Y") {
-      return in_.fail(column, fmt::format("tool axis {} is not simulated", name),
-                      "the tool is along Z");
+      return in_.fail("not-supported"_id, column,
+                      fmt::format("tool axis {} is not simulated", name), "the tool is along Z");
     }
     // SQ1, FQ2
     const bool by_parameter =
@@ -58,12 +59,13 @@ class ToolReader {
     if (name == "DL" || name == "DR") {
       if (in_.peek_byte() == '2') (void)in_.digits();
       if (in_.signed_number(name, column) != 0.0) {
-        in_.fail(column, name + " is not simulated", "give the tool's true size in the job");
+        in_.fail("not-supported"_id, column, name + " is not simulated",
+                 "give the tool's true size in the job");
       }
       return;
     }
     if (name.empty()) return in_.fail_unexpected("write TOOL CALL 1 Z S5000 F500");
-    in_.fail(column, fmt::format("{} has no meaning in TOOL CALL", name),
+    in_.fail("unknown-word"_id, column, fmt::format("{} has no meaning in TOOL CALL", name),
              "known are the tool's number, Z, S, F, DL, DR, DR2");
   }
 

@@ -61,7 +61,8 @@ class BlockBuilder {
   void set_program(std::string_view digits) {
     // The O stands one byte or some blanks before its digits; the column of the O was noted.
     if (block_.program)
-      stop(opening_word_column_, "two O words in a block", "start a line for each");
+      stop("word-twice"_id, opening_word_column_, "two O words in a block",
+           "start a line for each");
     block_.program = whole(digits);
     block_.program_column = opening_word_column_;
   }
@@ -108,7 +109,8 @@ class BlockBuilder {
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (read.ec == std::errc::result_out_of_range &&
         digits.find_first_of("123456789") < std::min(digits.find('.'), digits.size())) {
-      stop(column_of(digits.data()), "the number is too large", "numbers go up to 1.8e308");
+      stop("number-too-large"_id, column_of(digits.data()), "the number is too large",
+           "numbers go up to 1.8e308");
     }
     // The sum turns -0 into 0, which is what X-0 means.
     value = sign * value + 0.0;
@@ -150,7 +152,7 @@ class BlockBuilder {
 
   void open(Iterator after) {
     if (openings_.size() >= kMaxExpressionDepth) {
-      stop(column_of(after - 1),
+      stop("brackets-too-deep"_id, column_of(after - 1),
            fmt::format("more than {} brackets within each other", kMaxExpressionDepth),
            "compute a part of the expression into a parameter first");
     }
@@ -185,8 +187,9 @@ class BlockBuilder {
   }
 
  private:
-  [[noreturn]] static void stop(std::uint32_t column, std::string message, std::string hint) {
-    Diagnostic diagnostic = error(std::move(message), std::move(hint));
+  [[noreturn]] static void stop(DiagnosticId id, std::uint32_t column, std::string message,
+                                std::string hint) {
+    Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
     diagnostic.column = static_cast<int>(column);
     throw SyntaxStop{std::move(diagnostic)};
   }
@@ -205,7 +208,8 @@ class BlockBuilder {
       if (c != ' ' && c != '\t')
         plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
-    if (plain.empty()) stop(column_of(name.data()), "the parameter has no name", "write #<name>");
+    if (plain.empty())
+      stop("name-missing"_id, column_of(name.data()), "the parameter has no name", "write #<name>");
     block_.names.push_back(std::move(plain));
     return static_cast<std::uint32_t>(block_.names.size() - 1);
   }
@@ -213,7 +217,7 @@ class BlockBuilder {
     std::uint32_t value = 0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (read.ec != std::errc{}) {
-      stop(column_of(digits.data()), "the number is too large",
+      stop("number-too-large"_id, column_of(digits.data()), "the number is too large",
            "N and O numbers have up to 8 digits");
     }
     return value;

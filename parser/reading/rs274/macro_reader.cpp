@@ -64,7 +64,8 @@ class MacroReader {
     read_condition("WHILE");
     if (in_.failed()) return;
     const std::uint32_t at = in_.column();
-    if (in_.letters() != "DO") return in_.fail(at, "WHILE has no DO", "write WHILE [#1 LT 5] DO1");
+    if (in_.letters() != "DO")
+      return in_.fail("keyword-missing"_id, at, "WHILE has no DO", "write WHILE [#1 LT 5] DO1");
     read_loop_number();
   }
 
@@ -75,7 +76,7 @@ class MacroReader {
     const std::string keyword = in_.letters();
     if (keyword == "GOTO") return read_jump();
     if (keyword != "THEN") {
-      return in_.fail(at, "IF has neither GOTO nor THEN",
+      return in_.fail("keyword-missing"_id, at, "IF has neither GOTO nor THEN",
                       "write IF [c] GOTO 100 or IF [c] THEN #1=2");
     }
     flow_.kind = FlowKind::only_if;
@@ -90,7 +91,8 @@ class MacroReader {
     } else if (in_.peek() == '#' || in_.peek() == '[') {
       read_expression(flow_.label_value);
     } else {
-      in_.fail(in_.column(), "GOTO has no block number", "write GOTO 100, or GOTO #1");
+      in_.fail("name-missing"_id, in_.column(), "GOTO has no block number",
+               "write GOTO 100, or GOTO #1");
     }
   }
 
@@ -100,20 +102,21 @@ class MacroReader {
     if (output == kOutputs.end())
       return in_.fail_unexpected("write statements in blocks of their own");
     if (keyword == "SETVN") {
-      return in_.fail(flow_.column, "SETVN is not simulated",
+      return in_.fail("not-supported"_id, flow_.column, "SETVN is not simulated",
                       "it names variables for the screen: leave it out of the simulated program");
     }
     comment_ = {flow_.column, false, {}, output->keyword};
     if (!output->has_text) return;
     const std::uint32_t opening = in_.column();
     if (!in_.take('[')) {
-      return in_.fail(opening, fmt::format("{} has no text", keyword),
+      return in_.fail("value-missing"_id, opening, fmt::format("{} has no text", keyword),
                       fmt::format("write it in brackets: {}[X#1[53]]", keyword));
     }
     const std::size_t end = std::min(text_.find('('), text_.size());
     const std::size_t closing = text_.substr(0, end).rfind(']');
     if (closing == std::string_view::npos || closing < opening) {
-      return in_.fail(opening, "the bracket is not closed", "close it with ]");
+      return in_.fail("bracket-not-closed"_id, opening, "the bracket is not closed",
+                      "close it with ]");
     }
     comment_.text = utf8_of(text_.substr(opening, closing - opening));
     in_.go_to(static_cast<std::uint32_t>(closing) + 2);
@@ -123,13 +126,13 @@ class MacroReader {
     const std::uint32_t at = in_.column();
     flow_.label = number();
     if (flow_.label != "1" && flow_.label != "2" && flow_.label != "3") {
-      in_.fail(at, "DO and END take a number from 1 to 3", "write DO1 and END1");
+      in_.fail("out-of-range"_id, at, "DO and END take a number from 1 to 3", "write DO1 and END1");
     }
   }
 
   void read_condition(std::string_view keyword) {
     if (in_.peek() != '[') {
-      return in_.fail(in_.column(), fmt::format("{} has no condition", keyword),
+      return in_.fail("value-missing"_id, in_.column(), fmt::format("{} has no condition", keyword),
                       fmt::format("write it in brackets: {} [#1 LT 5]", keyword));
     }
     read_expression(flow_.condition);
@@ -152,9 +155,11 @@ class MacroReader {
     Block whole = *std::move(read);
     const bool acts = !whole.words.empty() || !whole.assignments.empty();
     if (flow_.kind == FlowKind::only_if && !acts) {
-      in_.fail(in_.column(), "THEN does nothing", "write a setting behind it: THEN #1=2");
+      in_.fail("value-missing"_id, in_.column(), "THEN does nothing",
+               "write a setting behind it: THEN #1=2");
     } else if (flow_.kind != FlowKind::only_if && acts) {
-      in_.fail(whole.words.empty() ? whole.assignments.front().column : whole.words.front().column,
+      in_.fail("statement-not-alone"_id,
+               whole.words.empty() ? whole.assignments.front().column : whole.words.front().column,
                "words beside a statement", "write two blocks");
     }
     if (in_.failed()) return in_.finish(std::move(block_));
@@ -256,7 +261,8 @@ std::size_t second_block(std::string_view text) {
 Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
   if (auto plain = read_plain_block(text, line)) return *std::move(plain);
   if (const std::size_t second = second_block(text); second != std::string_view::npos) {
-    Diagnostic twice = error("a second block behind ;", "start a line for each block");
+    Diagnostic twice =
+        error("statement-not-alone"_id, "a second block behind ;", "start a line for each block");
     twice.line = static_cast<int>(line);
     twice.column = static_cast<int>(second) + 1;
     return twice;

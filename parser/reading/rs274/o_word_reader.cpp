@@ -69,7 +69,7 @@ class OWordReader {
     const auto* known = std::find_if(kKeywords.begin(), kKeywords.end(),
                                      [&](const Keyword& k) { return k.name == keyword; });
     if (known == kKeywords.end()) {
-      in_.fail(keyword_column,
+      in_.fail("unknown-word"_id, keyword_column,
                keyword.empty() ? "the O word has no keyword" : "unknown O word " + keyword,
                std::string(kKnown));
       return in_.finish(std::move(block_));
@@ -88,8 +88,10 @@ class OWordReader {
     if (in_.take('<')) {
       flow_.label = lower_case(in_.bytes_to(">"));
       std::erase_if(flow_.label, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
-      if (!in_.take('>')) in_.fail(start, "the name is not closed", "write o<name>");
-      if (flow_.label.empty()) in_.fail(start, "the O word has no name", "write o<name>");
+      if (!in_.take('>'))
+        in_.fail("text-not-closed"_id, start, "the name is not closed", "write o<name>");
+      if (flow_.label.empty())
+        in_.fail("name-missing"_id, start, "the O word has no name", "write o<name>");
       return !in_.failed();
     }
     if (const auto digits = number()) {
@@ -98,17 +100,18 @@ class OWordReader {
       return true;
     }
     if (in_.peek() == '[' || in_.peek() == '#') return read_expression(flow_.label_value);
-    in_.fail(start, "O has no number or name", "write o100 or o<name>");
+    in_.fail("name-missing"_id, start, "O has no number or name", "write o100 or o<name>");
     return false;
   }
 
   void read_values(const Keyword& keyword) {
     const bool given = in_.peek() == '[';
     if (keyword.needs == Needs::expression && !given) {
-      in_.fail(in_.column(), fmt::format("{} has no expression", keyword.name),
+      in_.fail("value-missing"_id, in_.column(), fmt::format("{} has no expression", keyword.name),
                fmt::format("write it in brackets: {} [#1 LT 5]", keyword.name));
     } else if (keyword.needs == Needs::nothing && given) {
-      in_.fail(in_.column(), fmt::format("{} takes no expression", keyword.name), "leave it out");
+      in_.fail("argument-count"_id, in_.column(),
+               fmt::format("{} takes no expression", keyword.name), "leave it out");
     } else if (keyword.needs == Needs::arguments) {
       while (in_.peek() == '[') {
         flow_.arguments.emplace_back();
@@ -126,9 +129,11 @@ class OWordReader {
         block_.comments.push_back({start, true, utf8_of(in_.bytes_to()), nullptr});
       } else if (in_.take('(')) {
         block_.comments.push_back({start, false, utf8_of(in_.bytes_to(")")), nullptr});
-        if (!in_.take(')')) in_.fail(start, "the comment is not closed", "close it with )");
+        if (!in_.take(')'))
+          in_.fail("comment-not-closed"_id, start, "the comment is not closed", "close it with )");
       } else {
-        in_.fail(start, "text behind an O word", "an O word stands alone in its block");
+        in_.fail("statement-not-alone"_id, start, "text behind an O word",
+                 "an O word stands alone in its block");
       }
     }
   }
@@ -146,7 +151,8 @@ class OWordReader {
     std::uint32_t value = 0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (read.ec != std::errc{}) {
-      in_.fail(start, "the number is too large", "N and O numbers have up to 8 digits");
+      in_.fail("number-too-large"_id, start, "the number is too large",
+               "N and O numbers have up to 8 digits");
     }
     return value;
   }

@@ -30,7 +30,8 @@ std::optional<VariableKind> read_type(LineScanner& in) {
   for (const TypeName& type : kTypes) {
     if (name == type.name) return type.kind;
   }
-  in.fail(column, name.empty() ? "a type is missing" : fmt::format("{} is not simulated", name),
+  in.fail("not-supported"_id, column,
+          name.empty() ? "a type is missing" : fmt::format("{} is not simulated", name),
           name == "VAR" ? "give results back in R parameters" : "known are REAL, INT and BOOL");
   return std::nullopt;
 }
@@ -40,10 +41,12 @@ std::string read_variable_name(LineScanner& in) {
   std::string name = in.name();
   if (in.failed()) return {};
   if (!is_variable(name)) {
-    in.fail(column, name.empty() ? "a name is missing" : fmt::format("{} cannot be defined", name),
+    in.fail("variable-name"_id, column,
+            name.empty() ? "a name is missing" : fmt::format("{} cannot be defined", name),
             "a name begins with two letters: WIDTH, _X1");
   } else if (in.peek() == '[') {
-    in.fail(column, fmt::format("{} is an array", name), "use R parameters: R[10+R1]");
+    in.fail("not-supported"_id, column, fmt::format("{} is an array", name),
+            "use R parameters: R[10+R1]");
   }
   return name;
 }
@@ -51,7 +54,8 @@ std::string read_variable_name(LineScanner& in) {
 bool stands_alone(BlockDraft& draft, std::uint32_t column, bool behind_label = true) {
   if (behind_label && draft.labelled()) return true;
   if (!draft.begun()) return true;
-  draft.in.fail(column, "a statement behind other words", "write it in a block of its own");
+  draft.in.fail("statement-not-alone"_id, column, "a statement behind other words",
+                "write it in a block of its own");
   return false;
 }
 
@@ -81,7 +85,8 @@ void read_sinumerik_procedure(BlockDraft& draft, std::uint32_t column) {
   FlowStatement& flow = *draft.block.flow;
   const std::uint32_t place = in.column();
   flow.label = in.name();
-  if (flow.label.empty()) in.fail(place, "PROC has no name", "write PROC SLOT(REAL WIDTH)");
+  if (flow.label.empty())
+    in.fail("name-missing"_id, place, "PROC has no name", "write PROC SLOT(REAL WIDTH)");
   if (in.take('(') && !in.take(')')) {
     do {
       const auto kind = read_type(in);
@@ -97,7 +102,7 @@ void read_sinumerik_procedure(BlockDraft& draft, std::uint32_t column) {
     const std::uint32_t at = in.column();
     const std::string attribute = in.name();
     if (std::find(kAttributes.begin(), kAttributes.end(), attribute) == kAttributes.end()) {
-      in.fail(at,
+      in.fail("unknown-word"_id, at,
               attribute.empty() ? "unexpected text behind PROC"
                                 : fmt::format("{} has no meaning behind PROC", attribute),
               "known are SAVE, DISPLOF and SBLOF");
@@ -144,7 +149,8 @@ void read_sinumerik_call(BlockDraft& draft, const std::string& name, std::uint32
   if (!ends(in)) {
     const std::uint32_t place = in.column();
     if (!in.take('P')) {
-      in.fail(place, "words beside a call", "write the call in a block of its own");
+      in.fail("statement-not-alone"_id, place, "words beside a call",
+              "write the call in a block of its own");
     }
     in.take('=');
     flow.condition = draft.read_expression(ExpressionLevel::sum);

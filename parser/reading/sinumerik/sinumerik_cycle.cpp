@@ -124,18 +124,18 @@ void read_sinumerik_cycle(BlockDraft& draft, const std::string& name, std::uint3
     return word.letter == kNamedWord && is_sinumerik_cycle(code_at(word.number).word);
   };
   if (std::any_of(draft.block.words.begin(), draft.block.words.end(), is_cycle)) {
-    return in.fail(column, name + " beside another cycle", "write two blocks");
+    return in.fail("word-twice"_id, column, name + " beside another cycle", "write two blocks");
   }
   add_code(draft.block, *find_code(Dialect::sinumerik, name), column);
   if (!in.take('(')) {
-    in.fail(column, name + " has no parameters",
+    in.fail("value-missing"_id, column, name + " has no parameters",
             fmt::format("give them in ( ): {}(RTP, RFP, SDIS, DP)", name));
     return;
   }
   for (std::size_t i = 0; !in.failed(); ++i) {
     if (in.peek() != ',' && in.peek() != ')' && !in.at_end()) {
       if (i >= parameters.size()) {
-        in.fail(in.column(), name + " has too many parameters",
+        in.fail("argument-count"_id, in.column(), name + " has too many parameters",
                 fmt::format("{} are simulated", parameters.size()));
         return;
       }
@@ -148,7 +148,8 @@ void read_sinumerik_cycle(BlockDraft& draft, const std::string& name, std::uint3
     }
     if (in.take(')')) return;
     if (in.at_end()) {
-      in.fail(column, fmt::format("the bracket of {} is not closed", name), "close it with )");
+      in.fail("bracket-not-closed"_id, column, fmt::format("the bracket of {} is not closed", name),
+              "close it with )");
     } else if (!in.take(',')) {
       in.fail_unexpected(fmt::format("separate the parameters of {} by ,", name));
     }
@@ -160,7 +161,7 @@ void read_sinumerik_modal_call(BlockDraft& draft, std::uint32_t column) {
   add_code(draft.block, *find_code(Dialect::sinumerik, "MCALL"), column);
   const std::string name = in.next_name();
   if (name.empty() || is_sinumerik_cycle(name)) return;
-  in.fail(column, fmt::format("MCALL {} is not simulated", name),
+  in.fail("not-supported"_id, column, fmt::format("MCALL {} is not simulated", name),
           "MCALL calls CYCLE81 to CYCLE89; call a program in a block of its own at each place");
 }
 

@@ -98,7 +98,8 @@ class FlowReader {
  private:
   void begin_flow(FlowKind kind, std::uint32_t column) {
     if (draft_.begun() && (!draft_.labelled() || kind == FlowKind::label)) {
-      in_.fail(column, "a statement behind other words", "write it in a block of its own");
+      in_.fail("statement-not-alone"_id, column, "a statement behind other words",
+               "write it in a block of its own");
       return;
     }
     draft_.begin_flow(kind, column);
@@ -106,7 +107,7 @@ class FlowReader {
 
   void read_condition(std::string_view whose) {
     if (in_.at_end()) {
-      in_.fail(in_.column(), fmt::format("{} has no condition", whose),
+      in_.fail("value-missing"_id, in_.column(), fmt::format("{} has no condition", whose),
                fmt::format("write for example {} R1<5", whose));
       return;
     }
@@ -128,7 +129,7 @@ class FlowReader {
     const std::uint32_t column = in_.column();
     std::string label = in_.name();
     if (!in_.failed() && label.empty()) {
-      in_.fail(column, fmt::format("{} has no label", whose),
+      in_.fail("name-missing"_id, column, fmt::format("{} has no label", whose),
                fmt::format("write for example {} LABEL1 or {} N100", whose, whose));
     }
     return label;
@@ -146,7 +147,9 @@ class FlowReader {
       block_.flow->part_end = PartEnd::last;
     }
     if (!in_.take_name("P")) return;
-    if (!in_.take('=')) in_.fail(in_.column(), "P has no =", "write the number of repeats as P=3");
+    if (!in_.take('='))
+      in_.fail("keyword-missing"_id, in_.column(),
+               "P has no =", "write the number of repeats as P=3");
     block_.flow->condition = draft_.read_expression(ExpressionLevel::sum);
   }
 
@@ -154,7 +157,8 @@ class FlowReader {
   void read_choices() {
     read_condition("CASE");
     if (!in_.take_name("OF")) {
-      in_.fail(in_.column(), "CASE has no OF", "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B");
+      in_.fail("keyword-missing"_id, in_.column(), "CASE has no OF",
+               "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B");
     }
     while (!in_.at_end() && in_.peek() != ';') {
       Choice choice;
@@ -163,7 +167,8 @@ class FlowReader {
       const std::uint32_t column = in_.column();
       const FlowWord* jump = flow_word(in_.name());
       if (jump == nullptr || jump->form != FlowForm::target) {
-        in_.fail(column, "a value of CASE has no jump", "write 1 GOTOF LABEL1");
+        in_.fail("keyword-missing"_id, column, "a value of CASE has no jump",
+                 "write 1 GOTOF LABEL1");
         return;
       }
       choice.search = jump->search;
@@ -172,7 +177,8 @@ class FlowReader {
       if (others) return;
     }
     if (block_.flow->choices.empty()) {
-      in_.fail(in_.column(), "CASE has no values", "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B");
+      in_.fail("value-missing"_id, in_.column(), "CASE has no values",
+               "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B");
     }
   }
 
@@ -181,14 +187,14 @@ class FlowReader {
     const std::uint32_t column = in_.column();
     const std::string name = in_.name();
     if ((!is_r_parameter(name) && !is_variable(name)) || !in_.take('=')) {
-      in_.fail(column, "FOR has no R parameter to count",
+      in_.fail("value-missing"_id, column, "FOR has no R parameter to count",
                "write FOR R1=1 TO 5, or count in a variable of DEF INT");
       return;
     }
     block_.flow->variable = draft_.add_name(name);
     block_.flow->condition = draft_.read_expression(ExpressionLevel::sum);
     if (!in_.take_name("TO")) {
-      in_.fail(in_.column(), "FOR has no TO", "write FOR R1=1 TO 5");
+      in_.fail("keyword-missing"_id, in_.column(), "FOR has no TO", "write FOR R1=1 TO 5");
       return;
     }
     block_.flow->limit = draft_.read_expression(ExpressionLevel::sum);

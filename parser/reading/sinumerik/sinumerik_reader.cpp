@@ -57,7 +57,7 @@ class SinumerikReader {
     if (in_.take('/')) {
       block_.deletable = true;
       if (const auto level = in_.digits(); level.size() > 1) {
-        in_.fail(in_.column(), "/ has a level from 0 to 9", "write /1");
+        in_.fail("out-of-range"_id, in_.column(), "/ has a level from 0 to 9", "write /1");
       }
     }
     const std::uint32_t column = in_.column();
@@ -74,7 +74,8 @@ class SinumerikReader {
       }
       if (digits.empty() && in_.peek() != '=') in_.go_to(column);
       if (!digits.empty())
-        in_.fail(column, "the block number is too large", "N has up to 8 digits");
+        in_.fail("number-too-large"_id, column, "the block number is too large",
+                 "N has up to 8 digits");
     }
   }
 
@@ -83,7 +84,8 @@ class SinumerikReader {
     const char first = in_.peek();
     if (first == ';') return draft_.read_comment();
     if (first == '$') {
-      in_.fail(column, "system variables are not read", "give a number or an R parameter");
+      in_.fail("not-supported"_id, column, "system variables are not read",
+               "give a number or an R parameter");
       return;
     }
     if ((first < 'A' || first > 'Z') && first != '_') {
@@ -114,11 +116,13 @@ class SinumerikReader {
   // A letter with a number or with =.
   void read_word(char letter, std::uint32_t column) {
     if (letter == 'N') {
-      in_.fail(column, "N is not the first word", "put the block number at the start of the block");
+      in_.fail("word-order"_id, column, "N is not the first word",
+               "put the block number at the start of the block");
       return;
     }
     if (letter == 'R' && in_.peek() != '=') {
-      in_.fail(column, "R has no =", "write R1=value to set a parameter, X=R1 to use one");
+      in_.fail("keyword-missing"_id, column,
+               "R has no =", "write R1=value to set a parameter, X=R1 to use one");
       return;
     }
     if (letter == 'G') {
@@ -141,7 +145,7 @@ class SinumerikReader {
       if (!negative) in_.take('+');
       const auto number = in_.number();
       if (!number) {
-        in_.fail(column, fmt::format("{} has no number", letter),
+        in_.fail("value-missing"_id, column, fmt::format("{} has no number", letter),
                  fmt::format("write {0}10 or {0}=R1+10", letter));
         return;
       }
@@ -156,8 +160,10 @@ class SinumerikReader {
     Assignment setting;
     setting.column = column;
     setting.index = draft_.read_expression(ExpressionLevel::sum);
-    if (!in_.take(']')) in_.fail(in_.column(), "the index is not closed", "close it with ]");
-    if (!in_.take('=')) in_.fail(column, "R has no =", "write R[R1]=value to set a parameter");
+    if (!in_.take(']'))
+      in_.fail("bracket-not-closed"_id, in_.column(), "the index is not closed", "close it with ]");
+    if (!in_.take('='))
+      in_.fail("keyword-missing"_id, column, "R has no =", "write R[R1]=value to set a parameter");
     setting.value = draft_.read_expression(ExpressionLevel::sum);
     block_.assignments.push_back(setting);
   }
@@ -172,7 +178,7 @@ class SinumerikReader {
     }
     if (read_address(name, column)) return;
     const bool direction = name.size() == 2 && name.front() >= 'A' && name.front() <= 'C';
-    in_.fail(column, fmt::format("{}= is not simulated", name),
+    in_.fail("not-supported"_id, column, fmt::format("{}= is not simulated", name),
              direction ? "give the tool vector by A3= B3= C3="
                        : "give the words of the one spindle and of X Y Z A B C without numbers");
   }
@@ -212,7 +218,8 @@ class SinumerikReader {
       add_code(block_, *code, column);
       if (name == "TRAORI" && in_.take('(')) {
         if (const auto number = in_.digits(); number != "1" && !number.empty()) {
-          in_.fail(column, "TRAORI(" + std::string(number) + ") is not simulated",
+          in_.fail("not-supported"_id, column,
+                   "TRAORI(" + std::string(number) + ") is not simulated",
                    "there is one transformation: TRAORI or TRAORI(1)");
         }
         close_bracket(in_, "TRAORI");
@@ -220,7 +227,7 @@ class SinumerikReader {
       return;
     }
     if (const auto remedy = remedy_for(Dialect::sinumerik, name); !remedy.empty()) {
-      in_.fail(column, name + " is not simulated", std::string(remedy));
+      in_.fail("not-supported"_id, column, name + " is not simulated", std::string(remedy));
       return;
     }
     if (in_.peek() == '=' && is_variable(name)) {
@@ -232,7 +239,8 @@ class SinumerikReader {
     const bool first =
         block_.words.empty() && block_.assignments.empty() && (!block_.flow || draft_.labelled());
     if (first && name.size() > 1) return read_sinumerik_call(draft_, name, column);
-    in_.fail(column, "unknown word " + name, "known are " + known_words(Dialect::sinumerik));
+    in_.fail("unknown-word"_id, column, "unknown word " + name,
+             "known are " + known_words(Dialect::sinumerik));
   }
 
   // ADIS=0.1, read and kept as text.
@@ -242,7 +250,8 @@ class SinumerikReader {
       in_.take(']');
     }
     if (!in_.take('=')) {
-      return in_.fail(column, fmt::format("{} has no =", name), fmt::format("write {}=0", name));
+      return in_.fail("keyword-missing"_id, column, fmt::format("{} has no =", name),
+                      fmt::format("write {}=0", name));
     }
     const std::uint32_t from = in_.column();
     // SPOS=DC(30) says how it turns.
@@ -257,13 +266,15 @@ class SinumerikReader {
   // NAME(...), kept as text.
   void read_event(const char* name, std::uint32_t column, bool message) {
     if (!in_.take('(')) {
-      in_.fail(in_.column(), "the opening bracket is missing", "write the text in ( )");
+      in_.fail("bracket-missing"_id, in_.column(), "the opening bracket is missing",
+               "write the text in ( )");
       return;
     }
     std::string text;
     if (in_.take('"')) {
       text = in_.text_to("\"");
-      if (!in_.take('"')) in_.fail(column, "the text is not closed", "close it with \"");
+      if (!in_.take('"'))
+        in_.fail("text-not-closed"_id, column, "the text is not closed", "close it with \"");
     }
     if (!message || text.empty()) text += in_.text_to(")");
     close_bracket(in_, name);

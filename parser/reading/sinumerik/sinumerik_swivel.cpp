@@ -40,7 +40,7 @@ class SwivelReader {
       return word.letter == kNamedWord && code_at(word.number).word.starts_with("CYCLE800");
     };
     if (std::any_of(block_.words.begin(), block_.words.end(), is_swivel)) {
-      return in_.fail(column, "CYCLE800 twice in a block", "write two blocks");
+      return in_.fail("word-twice"_id, column, "CYCLE800 twice in a block", "write two blocks");
     }
     const bool bare = !in_.take('(');
     std::string data = "0";
@@ -49,11 +49,12 @@ class SwivelReader {
     std::vector<Word> words;
     for (std::size_t i = 0; !bare && !in_.failed(); ++i) {
       if (in_.at_end()) {
-        in_.fail(column, "the bracket of CYCLE800 is not closed", "close it with )");
+        in_.fail("bracket-not-closed"_id, column, "the bracket of CYCLE800 is not closed",
+                 "close it with )");
         return;
       }
       if (i >= kSwivelParameters.size()) {
-        in_.fail(in_.column(), "CYCLE800 has too many parameters",
+        in_.fail("argument-count"_id, in_.column(), "CYCLE800 has too many parameters",
                  fmt::format("it takes {}", kSwivelParameters.size()));
         return;
       }
@@ -70,7 +71,8 @@ class SwivelReader {
     if (cancels) return;
     block_.words.insert(block_.words.end(), words.begin(), words.end());
     if (std::none_of(words.begin(), words.end(), [](const Word& w) { return w.letter == 'Q'; })) {
-      in_.fail(column, "CYCLE800 without a swivel mode", "give 57 as the fourth parameter");
+      in_.fail("value-missing"_id, column, "CYCLE800 without a swivel mode",
+               "give 57 as the fourth parameter");
     }
   }
 
@@ -80,12 +82,14 @@ class SwivelReader {
     const std::uint32_t column = in_.column();
     if (i == kSwivelData) {
       if (!in_.take('"')) {
-        in_.fail(column, "the swivel data record is a text", "write its name in \"\"");
+        in_.fail("wrong-type"_id, column, "the swivel data record is a text",
+                 "write its name in \"\"");
         return;
       }
       data = in_.text_to("\"");
       // No name is the first record, which is in use.
-      if (!in_.take('"')) in_.fail(column, "the text is not closed", "close it with \"");
+      if (!in_.take('"'))
+        in_.fail("text-not-closed"_id, column, "the text is not closed", "close it with \"");
       return;
     }
     Word word;
@@ -98,7 +102,7 @@ class SwivelReader {
     } else if (i == 0 && (word.number != 0.0 || !word.expression.empty())) {
       draft_.add_event("CYCLE800", column, "the retract before the swivel");
     } else if (i == kSwivelStatus && !word.expression.empty()) {
-      in_.fail(column, "the status of CYCLE800 is computed",
+      in_.fail("not-supported"_id, column, "the status of CYCLE800 is computed",
                "write 0 for a new swivel, 1 for one on top of the last");
     } else if (i == kSwivelStatus && static_cast<long>(std::min(word.number, 1e6)) % 10 == 1) {
       words.push_back({kSwivelOnTop, false, column, 1.0, {}, Measure::modal, "_ST="});

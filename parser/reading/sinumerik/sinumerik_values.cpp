@@ -64,7 +64,7 @@ void read_system_variable(ExpressionReader& reader, std::uint32_t column) {
   if (name == "PI") return reader.push_number(std::numbers::pi, column);
   const bool of_an_axis = is_in(kOfAnAxis);
   if (!of_an_axis && !is_in(kOfTheProgram)) {
-    in.fail(column, fmt::format("${} is not simulated", name),
+    in.fail("not-supported"_id, column, fmt::format("${} is not simulated", name),
             "known are $P_EP[X] $AA_IW[X] $P_TOOLNO $P_F $P_S $P_SDIR $PI; else give a number");
     return;
   }
@@ -74,7 +74,8 @@ void read_system_variable(ExpressionReader& reader, std::uint32_t column) {
     const std::string axis = in.name();
     if (!opens || axis.size() != 1 || std::string_view("XYZABC").find(axis) == std::string::npos ||
         !in.take(']')) {
-      in.fail(place, fmt::format("${} without its axis", name), fmt::format("write ${}[X]", name));
+      in.fail("value-missing"_id, place, fmt::format("${} without its axis", name),
+              fmt::format("write ${}[X]", name));
       return;
     }
     name += "[" + axis + "]";
@@ -83,7 +84,8 @@ void read_system_variable(ExpressionReader& reader, std::uint32_t column) {
 }
 
 void close_index(LineScanner& in) {
-  if (!in.take(']')) in.fail(in.column(), "the index is not closed", "close it with ]");
+  if (!in.take(']'))
+    in.fail("bracket-not-closed"_id, in.column(), "the index is not closed", "close it with ]");
 }
 
 bool read_variable(ExpressionReader& reader, const std::string& name, std::uint32_t column) {
@@ -108,12 +110,13 @@ bool read_variable(ExpressionReader& reader, const std::string& name, std::uint3
   if (!is_r_parameter(name) && !is_variable(name)) return false;
   if (in.peek() == '(') {
     in.fail(
-        column, fmt::format("unknown function {}", name),
+        "unknown-word"_id, column, fmt::format("unknown function {}", name),
         "known are SIN COS TAN ASIN ACOS ATAN2 SQRT ABS ROUND ROUNDUP TRUNC LN EXP MINVAL MAXVAL");
     return true;
   }
   if (in.peek() == '[') {
-    in.fail(column, fmt::format("{} is an array", name), "use R parameters: R[10+R1]");
+    in.fail("not-supported"_id, column, fmt::format("{} is an array", name),
+            "use R parameters: R[10+R1]");
     return true;
   }
   reader.push_name(name, column);
@@ -163,7 +166,7 @@ void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name
   const std::string found = in.next_name();
   const std::uint32_t column = in.column();
   if (in.peek() == '"') {
-    in.fail(column, fmt::format("{} has a name instead of a number", name),
+    in.fail("not-supported"_id, column, fmt::format("{} has a name instead of a number", name),
             "tools go by their numbers here: T1");
     return;
   }
@@ -174,11 +177,13 @@ void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name
     (void)in.name();
     word.measure = measure->measure;
     if (word.measure >= Measure::shortest && !rotary) {
-      in.fail(column, found + "() is for rotary axes", "write AC() or the plain value");
+      in.fail("word-misplaced"_id, column, found + "() is for rotary axes",
+              "write AC() or the plain value");
       return;
     }
     if (!in.take('(')) {
-      in.fail(in.column(), found + " needs its value in ( )", "write X=" + found + "(1)");
+      in.fail("bracket-missing"_id, in.column(), found + " needs its value in ( )",
+              "write X=" + found + "(1)");
       return;
     }
   }
