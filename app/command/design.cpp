@@ -1,4 +1,4 @@
-// frustum design: which step patterns to cut so that a machine's errors can be told.
+// frustum design: which step patterns to cut so that a machine's errors can be identified.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -147,7 +147,7 @@ class Request {
         choice.limits[limit->name] = limit->amount;
       }
     }
-    // A list that nobody gave may hold what no pattern can tell apart.
+    // A list that nobody gave may hold what no pattern can separate.
     choice.leave_out_dependent = options_.unknowns.empty();
     return choice;
   }
@@ -232,7 +232,7 @@ int show_design(const DesignOptions& o) {
 void add_design(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<DesignOptions>();
   CLI::App* command = program.add_subcommand(
-      "design", "Which step patterns to cut so that a machine's errors can be told apart");
+      "design", "Which step patterns to cut so that a machine's errors can be separated");
   command->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
       ->required();
   command
@@ -264,7 +264,7 @@ void add_design(CLI::App& program, int& exit_code) {
   command->add_option("--tool-length", o->tool_length, "mm (150)");
   command->add_flag("--json", o->json, "One JSON document on stdout");
   command->footer(
-      "Exit code 1: no set of these patterns tells all errors within the limits.\n"
+      "Exit code 1: no set of these patterns identifies all errors within the limits.\n"
       "Example: frustum design --machine zx-yac --known gamma_YX=5urad --known alpha_ZY=5urad "
       "--known beta_ZX=5urad");
   command->callback([o, &exit_code] { exit_code = show_design(*o); });

@@ -42,7 +42,7 @@ void add_identify(CLI::App& program, int& exit_code) {
       ->required();
   command->add_flag("--json", o->json, "One JSON document on stdout");
   command->footer(
-      "Exit code 1: errors that the measurements do not tell, or measurements that the machine "
+      "Exit code 1: errors that the measurements do not identify, or measurements that the machine "
       "model does not explain.\n"
       "Example: frustum identify examples/ibaraki-2010/study.toml");
   command->callback([o, &exit_code] { exit_code = show_identification(*o); });

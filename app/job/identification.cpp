@@ -54,7 +54,7 @@ Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
   return pieces;
 }
 
-// Which step patterns, not measured yet, would tell the rest; nothing when the machine cuts none.
+// Which step patterns, not measured yet, would identify the rest; nothing when the machine cuts none.
 Result<std::optional<Remedy>> remedy_for(const Study& study,
                                          const calibration::Observations& measured,
                                          const UnknownCauses& all) {

@@ -17,7 +17,7 @@
 
 namespace frustum::app {
 
-// Step patterns that would tell what the measurements do not.
+// Step patterns that would identify what the measurements do not.
 struct Remedy {
   std::vector<std::string> patterns{};  // the fewest that do; empty: all together do not
   std::vector<std::string> unreachable{};

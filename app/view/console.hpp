@@ -1,4 +1,4 @@
-// What every subcommand shares: exit codes, where output goes, and how failures are told.
+// What every subcommand shares: exit codes, where output goes, and how failures are reported.
 // Units: none. Errors: none.
 #pragma once
 
@@ -50,7 +50,8 @@ struct ErrorWords;
 // The options by which a command takes errors: --error, --errors, --draw.
 void add_error_options(CLI::App& command, ErrorWords& words);
 struct SetupWords;
-// The options by which a command takes a machine and its setup: --machine, --job, --tool-length, --offset.
+// The options by which a command takes a machine and its setup: --machine, --job, --tool-length,
+// --offset.
 void add_setup_options(CLI::App& command, SetupWords& words);
 // Kinds of test pieces: subcommands of `program`.
 void add_cone(CLI::App& kinds, int& exit_code);

@@ -20,8 +20,8 @@ std::string deviation_text(const std::optional<double>& deviation, bool angular)
 }
 
 std::string sets_table(const StepDesign& design) {
-  TextTable sets(
-      {"patterns", "number", "workpieces", "told", "log det", "sets of the size that tell all"});
+  TextTable sets({"patterns", "number", "workpieces", "identified", "log det",
+                  "sets of the size that identify all"});
   for (std::size_t i = 0; i < design.best_of_size.size(); ++i) {
     const StepChoice& c = design.best_of_size[i];
     sets.row({fmt::format("{}", fmt::join(c.patterns, " ")), fmt::format("{}", c.patterns.size()),
@@ -33,7 +33,7 @@ std::string sets_table(const StepDesign& design) {
   return sets.text();
 }
 
-// Of the sets that tell everything; of the largest one when none does.
+// Of the sets that identify everything; of the largest one when none does.
 std::string deviations_table(const StepDesign& design) {
   std::vector<std::string> approach_directions{"error", "unit"};
   std::vector<const StepChoice*> choices;
@@ -84,7 +84,7 @@ std::string design_text(const kinematics::Machine& machine, const StepDesign& de
                                 machine.title(), design.free_unknowns, design.patterns.size());
   for (const auto& u : design.unreachable) out += fmt::format("  out: {}\n", u.reason);
   if (!design.left_out.empty()) {
-    out += fmt::format("  left out, since no step pattern tells them from the others: {}\n",
+    out += fmt::format("  left out, since no step pattern separates them from the others: {}\n",
                        fmt::join(design.left_out, " "));
   }
   if (!exact.empty()) {
@@ -94,10 +94,10 @@ std::string design_text(const kinematics::Machine& machine, const StepDesign& de
   out += "\nBest set of each size\n" + sets_table(design);
   const char* limits = limited ? " within the limits" : "";
   if (design.smallest) {
-    out += fmt::format("\nSmallest set that tells all{}: {}\n", limits,
+    out += fmt::format("\nSmallest set that identifies all{}: {}\n", limits,
                        fmt::join(design.smallest->patterns, " "));
   } else {
-    out += fmt::format("\nNo set of these patterns tells all errors{}.\n", limits);
+    out += fmt::format("\nNo set of these patterns identifies all errors{}.\n", limits);
     for (const auto& direction : design.null_space) out += "  " + direction.text + '\n';
   }
   return out + "\nExpected standard deviation of each error\n" + deviations_table(design);

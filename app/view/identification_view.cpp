@@ -68,7 +68,7 @@ std::string estimates_table(const Study& study, const StudyResult& result) {
     const std::string half =
         e.upper && e.lower ? number(0.5 * (*e.upper - *e.lower), e.angular) : "";
     std::vector<std::string> cells{e.name, unit_of(e.angular),
-                                   e.value ? number(*e.value, e.angular) : "not told", half,
+                                   e.value ? number(*e.value, e.angular) : "not identified", half,
                                    known_text(study, e)};
     if (result.recipe) {
       cells.push_back(optional_number(recipe_value(result.recipe, e.name), e.angular));
@@ -97,7 +97,7 @@ std::string combinations_text(const StudyResult& result) {
     out += fmt::format("  {} = {} ± {} {}\n", c.combination.text, number(c.value, angular),
                        number(0.5 * (c.upper - c.lower), angular), unit_of(angular));
   }
-  return out.empty() ? out : "\nWhat can be told instead (± 95 %):\n" + out;
+  return out.empty() ? out : "\nWhat can be identified instead (± 95 %):\n" + out;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -108,8 +108,8 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string remedy_text(const Remedy& remedy) {
   std::string out = remedy.patterns.empty()
-                        ? "No further step patterns on this machine would tell them all"
-                        : fmt::format("The fewest step patterns that would tell them: {}",
+                        ? "No further step patterns on this machine would identify them all"
+                        : fmt::format("The fewest step patterns that would identify them: {}",
                                       joined(remedy.patterns));
   if (!remedy.unreachable.empty()) {
     out += fmt::format(" (out of this machine's travel: {})", joined(remedy.unreachable));

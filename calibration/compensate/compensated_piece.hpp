@@ -1,7 +1,8 @@
 // A test piece with its program compensated for a machine's errors, ready to be cut again.
 //
-// Model    : the program is compensated (compensation.hpp) and written in its own dialect; APT CLDATA, which
-//            no controller runs, becomes a Fanuc program. Operations keep their blocks
+// Model    : the program is compensated (compensation.hpp) and written in its own dialect; APT
+//            CLDATA, which no controller runs, becomes a Fanuc program. Operations keep their
+//            blocks
 // Units    : mm, rad
 // Errors   : those of reading, executing and writing the program, with file and NC line
 #pragma once

@@ -205,16 +205,16 @@ class Enumeration {
     choice.blocks = blocks_of(set);
     choice.rank = rank_of(singular);
     choice.identifies_all = choice.rank == free;
-    const Eigen::VectorXd told = eigen.eigenvalues().tail(choice.rank);
+    const Eigen::VectorXd identified = eigen.eigenvalues().tail(choice.rank);
     const Eigen::MatrixXd v = eigen.eigenvectors().rightCols(choice.rank);
-    const Eigen::VectorXd variances = v.cwiseAbs2() * told.cwiseInverse();
-    const double log_det = told.array().log().sum();
+    const Eigen::VectorXd variances = v.cwiseAbs2() * identified.cwiseInverse();
+    const double log_det = identified.array().log().sum();
     if (choice.identifies_all) choice.log_det = log_det;
     choice.criterion = criterion(log_det, variances);
 
     choice.standard_deviations.assign(observations_.unknowns.size(), 0.0);
     const std::vector<bool> seen =
-        told_by(eigen.eigenvectors().leftCols(free - choice.rank), variances);
+        identified_by(eigen.eigenvectors().leftCols(free - choice.rank), variances);
     for (Eigen::Index j = 0; j < free; ++j) {
       const auto k = static_cast<std::size_t>(j);
       auto& sd = choice.standard_deviations[static_cast<std::size_t>(free_[k])];

@@ -1,11 +1,12 @@
-// Which test pieces to cut: the smallest set that tells every machine error, the best set of a size.
+// Which test pieces to cut: the smallest set that identifies every machine error, the best set of a
+// size.
 //
 // Model    : information of a set = G^T S^+ G of its rows (joint covariance S, so that shared
 //            references count once) + priors, unknowns in units of their expected size
 //              d_optimal      largest log det, smallest volume of the joint uncertainty
 //              a_optimal      smallest sum of variances over expected sizes squared
 //              worst_unknown  smallest of the largest standard deviations over expected sizes
-//            Sets of higher rank go first; with a short rank only the directions told count
+//            Sets of higher rank go first; with a short rank only the directions identified count
 // Units    : mm, rad; criteria dimensionless (log det a natural logarithm)
 // Shape    : every subset of at most kMostBlocks blocks
 // Errors   : those of weighted_system; too many blocks, rows outside the observations or in two
@@ -54,8 +55,9 @@ struct DesignChoice {
   bool identifies_all = false;
   bool meets_limits = false;        // and identifies all
   std::optional<double> log_det{};  // only if it identifies all
-  double criterion = 0.0;           // of the directions told; smaller is better
-  std::vector<std::optional<double>> standard_deviations{};  // fixed unknowns 0; empty: not told
+  double criterion = 0.0;           // of the directions identified; smaller is better
+  // fixed unknowns 0; empty: not identified
+  std::vector<std::optional<double>> standard_deviations{};
 };
 
 struct DesignResult {

@@ -30,7 +30,7 @@ struct Group {
   std::vector<std::string> patterns{};
 };
 
-// What the paper's workpieces carry. Of patterns that cut the same surfaces the first stands on the
+// What the paper's workpieces have. Of patterns that cut the same surfaces the first is on the
 // workpiece and the other gets one of its own, or the other way round without the first.
 std::vector<Group> groups_of(const CatalogueSetup& setup, Pattern4 pattern_4) {
   std::vector<Group> groups;
@@ -53,8 +53,8 @@ std::vector<Group> groups_of(const CatalogueSetup& setup, Pattern4 pattern_4) {
   return groups;
 }
 
-// Drops the patterns that are out of the machine's travel and says why; anything else that is wrong is
-// wrong for all of them.
+// Drops the patterns that are out of the machine's travel and says why; anything else that is wrong
+// is wrong for all of them.
 Result<std::vector<UnreachablePattern>> drop_unreachable(const kinematics::Machine& machine,
                                                          Group& group) {
   std::vector<UnreachablePattern> dropped;

@@ -1,12 +1,12 @@
 // Every step pattern that a machine can cut, as something that could be measured.
 //
-// Model    : workpiece 1 with its patterns and workpiece 2 with its own; pattern 4 cuts the surfaces of 3
-//            and takes its place on workpiece 2, or another workpiece 2 to itself. Gains are those of
-//            trials::sensitivity(), covariances those of the measuring machine
+// Model    : workpiece 1 with its patterns and workpiece 2 with its own; pattern 4 cuts the
+//            surfaces of 3 and takes its place on workpiece 2, or another workpiece 2 to itself.
+//            Gains are those of trials::sensitivity(), covariances those of the measuring machine
 // Units    : mm, rad
 // Shape    : one block a pattern; rows: its characteristics; columns: the unknowns
-// Errors   : a machine on which no pattern can be cut, with the reasons; tools or sizes that no machine
-//            could cut with; those of the trials
+// Errors   : a machine on which no pattern can be cut, with the reasons; tools or sizes that no
+//            machine could cut with; those of the trials
 // Accuracy : that of trials::sensitivity() and metrology::covariance()
 // Source   : Ibaraki et al. 2010, sections 3 and 4
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace frustum::calibration {
 
-// How the workpieces stand on the table; tools, feeds and limits as StepTest has them.
+// How the workpieces are placed on the table; tools, feeds and limits as StepTest has them.
 struct CatalogueSetup {
   double raise = 0.0;  // mm, added to all heights
   // Of the centres of both workpieces, mm; absent: as published.

@@ -51,7 +51,7 @@ Diagnostics wrong_names(const StepCatalogue& catalogue, const StepDesignOptions&
   return wrong;
 }
 
-// Unknowns that the catalogue tells one after the other; the rest by name.
+// Unknowns that the catalogue identifies one after the other; the rest by name.
 struct Kept {
   std::vector<Unknown> unknowns{};
   std::vector<Cause> causes{};
@@ -59,12 +59,12 @@ struct Kept {
 };
 Result<Kept> independent(const StepCatalogue& catalogue, const std::vector<Cause>& causes) {
   const auto& unknowns = catalogue.observations.unknowns;
-  const auto told = independent_unknowns(catalogue.observations);
-  if (!told) return told.error();
+  const auto identified = independent_unknowns(catalogue.observations);
+  if (!identified) return identified.error();
   Kept kept;
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
-    const bool is_told =
-        std::find(told->begin(), told->end(), static_cast<Eigen::Index>(k)) != told->end();
+    const bool is_told = std::find(identified->begin(), identified->end(),
+                                   static_cast<Eigen::Index>(k)) != identified->end();
     if (is_told || unknowns[k].is_fixed()) {
       kept.unknowns.push_back(unknowns[k]);
       kept.causes.push_back(causes[k]);
@@ -193,8 +193,8 @@ std::vector<NullDirection> null_space_of(const Placing& placing) {
     rows.insert(rows.end(), pattern.rows.begin(), pattern.rows.end());
   }
   if (rows.empty()) return {};
-  const auto told = observability(placing.catalogue().observations.selected(rows));
-  return told ? told->null_space : std::vector<NullDirection>{};
+  const auto identified = observability(placing.catalogue().observations.selected(rows));
+  return identified ? identified->null_space : std::vector<NullDirection>{};
 }
 
 }  // namespace

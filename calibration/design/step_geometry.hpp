@@ -1,8 +1,8 @@
 // Step patterns as the recipes want them, from an inspection plan and what was measured by it.
 //
-// Model    : H, L, Cy, h and l follow from where the plan has the lines S and B of steps c and d: S_c and
-//            S_d stand L apart about the centre; S lies h/2 above B, or at H itself without a B; B lies
-//            l/2 outside S
+// Model    : H, L, Cy, h and l follow from where the plan has the lines S and B of steps c and d:
+//            S_c and S_d stand L apart about the centre; S is h/2 above B, or at H itself without
+//            a B; B is l/2 outside S
 // Units    : mm, rad; frame: workpiece frame of the plan, Z from the tilt axis
 // Shape    : one StepMeasurement for each pattern that has lines S_c and S_d and a measured value
 // Errors   : none; characteristics of other kinds are passed over

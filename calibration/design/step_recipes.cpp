@@ -66,7 +66,7 @@ Diagnostics wrong_inputs(std::span<const StepMeasurement> measured, std::span<co
       found.push_back(error("a size or value of pattern " + m.pattern + " is not a finite number"));
     } else if (m.centre_y == 0.0 || m.width + m.step_width + 2.0 * m.centre_y == 0.0) {
       // Height differences divide by both.
-      found.push_back(error("pattern " + m.pattern + " lies on the turn axis: Cy is too near to 0",
+      found.push_back(error("pattern " + m.pattern + " is on the turn axis: Cy is too near to 0",
                             "give Cy of the workpiece centre"));
     }
   }

@@ -1,14 +1,15 @@
 // The published recipes that take eight machine errors from step patterns one after the other.
 //
 // Model    : closed forms (10) to (21) of the source, solved for one error a step; Case 1 with
-//            patterns 1-a, 2-a, 3, 4, Case 2 with all but 4. Means of several ways are unweighted and
-//            no uncertainty comes out: identification.hpp is what to use, this is for comparison
+//            patterns 1-a, 2-a, 3, 4, Case 2 with all but 4. Means of several ways are unweighted
+//            and no uncertainty comes out: identification.hpp is what to use, this is for
+//            comparison
 // Units    : mm, rad
 // Shape    : one StepMeasurement a pattern
 // Errors   : the characteristics that are missing, sizes or values that are not finite
 // Accuracy : table 8 as far as its inputs are printed (tests/calibration/step_recipes_test.cpp)
-// Source   : Ibaraki, Sawada, Matsubara, Matsushita: machining tests to identify kinematic errors on
-//            five-axis machine tools, section 4
+// Source   : Ibaraki, Sawada, Matsubara, Matsushita: machining tests to identify kinematic errors
+//            on five-axis machine tools, section 4
 #pragma once
 
 #include <optional>

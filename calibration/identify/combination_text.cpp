@@ -103,7 +103,7 @@ NullDirection unseen(std::vector<Term> terms, std::span<const Unknown> unknowns)
   if (terms.empty()) return {};
   if (terms.size() == 1) {
     terms.front().coefficient = 1.0;
-    return {terms, fmt::format("{} cannot be told: no measurement shows it",
+    return {terms, fmt::format("{} cannot be identified: no measurement shows it",
                                of(terms.front(), unknowns).name)};
   }
   const std::string names = listed(terms, unknowns);
@@ -113,12 +113,12 @@ NullDirection unseen(std::vector<Term> terms, std::span<const Unknown> unknowns)
     to_whole(terms);
   }
   if (terms.size() == 2 && !mixed(terms, unknowns)) {
-    return {terms, fmt::format("{} cannot be told apart: {} cannot be told", names,
+    return {terms, fmt::format("{} cannot be separated: {} cannot be identified", names,
                                text_of(terms, unknowns))};
   }
   return {
       terms,
-      fmt::format("{} cannot be told apart: no measurement shows it when they change together, {}",
+      fmt::format("{} cannot be separated: no measurement shows it when they change together, {}",
                   names, change_text(terms, unknowns))};
 }
 

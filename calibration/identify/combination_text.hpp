@@ -12,8 +12,8 @@
 
 namespace frustum::calibration {
 
-// Terms of a quantity that can be told: small whole coefficients among unknowns of one kind, lengths
-// with coefficient 1 first where kinds mix ("dz_AY + 97.15 mm * beta_AY").
+// Terms of a quantity that can be identified: small whole coefficients among unknowns of one kind,
+// lengths with coefficient 1 first where kinds mix ("dz_AY + 97.15 mm * beta_AY").
 [[nodiscard]] Combination readable(std::vector<Term> terms, std::span<const Unknown> unknowns);
 
 // Terms of a change that no measurement sees.

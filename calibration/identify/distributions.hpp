@@ -3,7 +3,7 @@
 // Model    : chi-square, Student t and normal distribution
 // Units    : none
 // Shape    : scalars
-// Errors   : none; degrees of freedom are positive, confidence lies in (0, 1)
+// Errors   : none; degrees of freedom are positive, confidence is in (0, 1)
 // Accuracy : 1e-12 relative
 // Source   : Boost.Math
 #pragma once

@@ -1,4 +1,4 @@
-// What an identification has to tell its reader besides numbers, as warnings in words.
+// What an identification reports to its reader besides numbers, as warnings in words.
 //
 // Units    : texts say um, urad and standard deviations
 // Errors   : none

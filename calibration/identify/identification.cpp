@@ -41,11 +41,11 @@ void fill_estimates(const Observations& observations, const WeightedSystem& syst
   const Eigen::VectorXd values = system.size.cwiseProduct(solution.scaled);
   result.working_point(system.free) = values;
 
-  Eigen::VectorXd told = Eigen::VectorXd::Zero(values.size());
+  Eigen::VectorXd identified = Eigen::VectorXd::Zero(values.size());
   for (Eigen::Index j = 0; j < values.size(); ++j) {
     const auto unknown = static_cast<std::size_t>(system.free[static_cast<std::size_t>(j)]);
-    if (!result.observability.told[unknown]) continue;
-    told[j] = 1.0;
+    if (!result.observability.identified[unknown]) continue;
+    identified[j] = 1.0;
     const double u = system.size[j] * std::sqrt(solution.covariance(j, j));
     Estimate& estimate = result.estimates[unknown];
     estimate.value = values[j];
@@ -53,7 +53,7 @@ void fill_estimates(const Observations& observations, const WeightedSystem& syst
     estimate.lower = values[j] - coverage * u;
     estimate.upper = values[j] + coverage * u;
   }
-  const Eigen::VectorXd scale = system.size.cwiseProduct(told);
+  const Eigen::VectorXd scale = system.size.cwiseProduct(identified);
   result.covariance(system.free, system.free) =
       scale.asDiagonal() * solution.covariance * scale.asDiagonal();
 }
@@ -148,7 +148,7 @@ std::optional<std::size_t> suspect_of(const std::vector<Residual>& residuals) {
 
 Result<Identification> identify(const Observations& observations, const IdentifyOptions& options) {
   if (!(options.confidence > 0.0 && options.confidence < 1.0)) {
-    return error("the confidence of the intervals lies between 0 and 1", "0.95 is usual");
+    return error("the confidence of the intervals must be between 0 and 1", "0.95 is usual");
   }
   if (options.degrees_of_freedom &&
       (!(*options.degrees_of_freedom >= 1.0) || !std::isfinite(*options.degrees_of_freedom))) {

@@ -29,7 +29,8 @@ namespace frustum::calibration {
 // A right model is rejected once in a hundred cases.
 constexpr double kRejection = 0.01;
 constexpr double kOutlier = 3.0;
-// Baarda's limit of the w-test: the normal deviate that one right measurement in a thousand exceeds.
+// Baarda's limit of the w-test: the normal deviate that one right measurement in a thousand
+// exceeds.
 constexpr double kSnooping = 3.2905;
 // Rows that ought to be the same (without noise between them) may differ by this part of their
 // standard deviation, for rounding in the report.
@@ -79,7 +80,8 @@ struct Residual {
 struct Agreement {
   double chi_square = 0.0;
   int degrees_of_freedom = 0;
-  // Empty without degrees of freedom. The Birge factor is for the reader: nothing is multiplied by it.
+  // Empty without degrees of freedom. The Birge factor is for the reader: nothing is multiplied by
+  // it.
   std::optional<double> probability{};
   std::optional<double> birge{};
   bool rejected = false;  // probability below kRejection: the model does not explain the data
@@ -89,8 +91,9 @@ struct Identification {
   std::vector<Estimate> estimates{};
   // Of all unknowns; zero in the rows of fixed ones and of those without an estimate.
   Eigen::MatrixXd covariance{};
-  // Unknowns at which a model can be evaluated: estimates and fixed values; those that cannot be told
-  // make the smallest change (in expected sizes) that explains the data and mean nothing alone.
+  // Unknowns at which a model can be evaluated: estimates and fixed values; those that cannot be
+  // identified make the smallest change (in expected sizes) that explains the data and mean nothing
+  // alone.
   Eigen::VectorXd working_point{};
   std::vector<EstimatedCombination> combinations{};
   std::vector<Residual> residuals{};  // rows, then priors

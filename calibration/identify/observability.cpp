@@ -77,12 +77,12 @@ Eigen::MatrixXd restricted(const Eigen::MatrixXd& null_space,
 void describe(const Observations& observations, const WeightedSystem& system,
               const Eigen::MatrixXd& null_space, const Eigen::VectorXd& variances,
               Observability& result) {
-  const std::vector<bool> told = told_by(null_space, variances);
+  const std::vector<bool> identified = identified_by(null_space, variances);
   std::vector<Eigen::Index> touched;
-  for (std::size_t j = 0; j < told.size(); ++j) {
-    if (told[j]) continue;
+  for (std::size_t j = 0; j < identified.size(); ++j) {
+    if (identified[j]) continue;
     touched.push_back(static_cast<Eigen::Index>(j));
-    result.told[static_cast<std::size_t>(system.free[j])] = false;
+    result.identified[static_cast<std::size_t>(system.free[j])] = false;
   }
   const Eigen::MatrixXd unseen_part = restricted(null_space, touched);
   const Eigen::MatrixXd directions = sparse_basis(unseen_part, kUntouched);
@@ -98,16 +98,16 @@ void describe(const Observations& observations, const WeightedSystem& system,
   }
 }
 
-// The pair's other combination, if it can be told, belongs into the sentence.
+// The pair's other combination, if it can be identified, belongs into the sentence.
 void complete_sentences(Observability& result) {
   for (NullDirection& direction : result.null_space) {
     if (direction.terms.size() != 2) continue;
-    for (const Combination& told : result.estimable) {
-      if (told.terms.size() != 2 || told.terms[0].unknown != direction.terms[0].unknown ||
-          told.terms[1].unknown != direction.terms[1].unknown) {
+    for (const Combination& other : result.estimable) {
+      if (other.terms.size() != 2 || other.terms[0].unknown != direction.terms[0].unknown ||
+          other.terms[1].unknown != direction.terms[1].unknown) {
         continue;
       }
-      direction.text += fmt::format("; {} can", told.text);
+      direction.text += fmt::format("; {} can", other.text);
     }
   }
 }
@@ -170,14 +170,15 @@ std::optional<Addition> best_addition(const Eigen::MatrixXd& base,
 
 }  // namespace
 
-std::vector<bool> told_by(const Eigen::MatrixXd& null_space, const Eigen::VectorXd& variances) {
-  std::vector<bool> told;
+std::vector<bool> identified_by(const Eigen::MatrixXd& null_space,
+                                const Eigen::VectorXd& variances) {
+  std::vector<bool> identified;
   for (Eigen::Index j = 0; j < null_space.rows(); ++j) {
     const double moved = null_space.row(j).norm();
     const double unnoticed = kFaintest * std::sqrt(variances[j]);
-    told.push_back(moved <= std::clamp(unnoticed, kUntouched, kHardlyTouched));
+    identified.push_back(moved <= std::clamp(unnoticed, kUntouched, kHardlyTouched));
   }
-  return told;
+  return identified;
 }
 
 int rank_of(const Eigen::VectorXd& singular_values) {
@@ -196,7 +197,7 @@ Observability observability(const Observations& observations, const WeightedSyst
   result.singular_values.assign(values.data(), values.data() + values.size());
   result.unknowns = static_cast<int>(free);
   result.rank = rank_of(values);
-  result.told.assign(observations.unknowns.size(), true);
+  result.identified.assign(observations.unknowns.size(), true);
   if (result.complete()) {
     const Eigen::MatrixXd micro = system.matrix * per_micro_unit(observations, system).asDiagonal();
     result.condition_weighted = condition(micro);

@@ -1,4 +1,5 @@
-// Which machine errors the measurements tell, which only together, and what would tell them apart.
+// Which machine errors the measurements identify, which only together, and what would separate
+// them.
 //
 // Model    : singular values of the whitened matrix with unknowns in units of their expected size.
 //            One below max(kFaintest, kGainAccuracy * largest) is a direction of the null space: a
@@ -7,7 +8,8 @@
 // Units    : singular values dimensionless; terms of combinations in mm and rad
 // Shape    : one singular value a free unknown, largest first
 // Errors   : those of weighted_system; candidates whose sizes do not fit
-// Accuracy : what is said is said of the directions as a whole; entries below kUntouched are not listed
+// Accuracy : what is said is said of the directions as a whole; entries below kUntouched are not
+//            listed
 // Source   : Golub, Van Loan, Matrix Computations, section 5.5 (rank deficiency)
 #pragma once
 
@@ -23,14 +25,14 @@
 
 namespace frustum::calibration {
 
-// Below a tenth of a standard deviation an estimate would be ten times coarser than what one expects
-// of the error anyway.
+// Below a tenth of a standard deviation an estimate would be ten times coarser than what one
+// expects of the error anyway.
 constexpr double kFaintest = 0.1;
 // Central differences give sensitivities to 1e-6: smaller singular values are theirs.
 constexpr double kGainAccuracy = 1e-6;
-// An unknown that the null space, moved by its expected size, moves by less than this part of its own
-// expected size (0.03 urad, 0.015 um) counts as told; also if by less than kFaintest of its standard
-// uncertainty, up to the second limit.
+// An unknown that the null space, moved by its expected size, moves by less than this part of its
+// own expected size (0.03 urad, 0.015 um) counts as identified; also if by less than kFaintest of
+// its standard uncertainty, up to the second limit.
 constexpr double kUntouched = 1e-3;
 constexpr double kHardlyTouched = 1e-2;
 
@@ -59,9 +61,9 @@ struct Observability {
   // with its columns at length one; nothing when the rank is short.
   std::optional<double> condition_weighted{};
   std::optional<double> condition_columns{};
-  std::vector<bool> told{};  // one an unknown; fixed ones are
+  std::vector<bool> identified{};  // one an unknown; fixed ones are
   std::vector<NullDirection> null_space{};
-  std::vector<Combination> estimable{};  // of the unknowns that are not told one by one
+  std::vector<Combination> estimable{};  // of the unknowns that are not identified one by one
 
   [[nodiscard]] bool complete() const { return rank == unknowns; }
 };
@@ -71,13 +73,13 @@ struct Observability {
 [[nodiscard]] Result<Observability> observability(const Observations& observations,
                                                   const Floor& floor = {});
 
-// Whether each free unknown is told, by an orthonormal basis of the null space and the variances of the
-// rest (both in expected sizes).
-[[nodiscard]] std::vector<bool> told_by(const Eigen::MatrixXd& null_space,
-                                        const Eigen::VectorXd& variances);
+// Whether each free unknown is identified, by an orthonormal basis of the null space and the
+// variances of the rest (both in expected sizes).
+[[nodiscard]] std::vector<bool> identified_by(const Eigen::MatrixXd& null_space,
+                                              const Eigen::VectorXd& variances);
 
-// Unknowns that can be told one after the other: in their order, each that the measurements tell from all
-// those kept before it. The others only move what these do.
+// Unknowns that can be identified one after the other: in their order, each that the measurements
+// separate from all those kept before it. The others only move what these do.
 [[nodiscard]] Result<std::vector<Eigen::Index>> independent_unknowns(
     const Observations& observations, const Floor& floor = {});
 
@@ -101,7 +103,7 @@ struct Separation {
   int unknowns = 0;
   std::vector<Gain> by_rank{};  // highest rank first, then in the order given
   // The fewest candidates that remove the null space; among equals the one whose weakest direction
-  // is told best. Nothing when all together do not. Empty when nothing is missing.
+  // is identified best. Nothing when all together do not. Empty when nothing is missing.
   std::optional<std::vector<std::size_t>> smallest{};
 };
 

@@ -54,7 +54,7 @@ struct Observations {
 };
 
 // Size that an error is expected to have: of a good machine before it is adjusted. Only the
-// question "can it be told?" depends on it, never a number that is told.
+// question "can it be identified?" depends on it, never a number that is reported.
 constexpr double kExpectedAngle = 30e-6;   // rad
 constexpr double kExpectedLength = 15e-3;  // mm
 

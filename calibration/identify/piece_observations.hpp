@@ -1,13 +1,14 @@
 // Measured test pieces as observations of the errors that made them.
 //
 // Model    : rows of all pieces one after the other; several parts of one piece are pooled
-//            (repeatability.hpp); a row's variance is the stated one, else that of the measuring machine
-//            propagated through the plan (metrology/uncertainty/propagation.hpp), whose correlations are kept between
-//            rows without a stated one
+//            (repeatability.hpp); a row's variance is the stated one, else that of the measuring
+//            machine propagated through the plan (metrology/uncertainty/propagation.hpp), whose
+//            correlations are kept between rows without a stated one
 // Units    : mm, rad
 // Shape    : rows: the measured characteristics of each piece; columns: the unknowns
-// Errors   : those of the trials; nothing but forms and zones measured; a characteristic that the plan lacks or that is measured on some parts
-//            only; a row with neither a stated uncertainty nor a measuring machine
+// Errors   : those of the trials; nothing but forms and zones measured; a characteristic that the
+//            plan lacks or that is measured on some parts only; a row with neither a stated
+//            uncertainty nor a measuring machine
 // Accuracy : that of trials::sensitivity() and metrology::covariance()
 // Source   : ours
 #pragma once
@@ -40,8 +41,8 @@ struct MeasuredPiece {
 
 struct PieceObservations {
   Observations observations{};  // gain with all unknowns at zero
-  // What the pieces would measure with all unknowns at zero; to be taken off the values before they are
-  // identified without refinement.
+  // What the pieces would measure with all unknowns at zero; to be taken off the values before they
+  // are identified without refinement.
   Eigen::VectorXd without_unknowns{};
   Model model{};                               // for refine()
   std::optional<double> degrees_of_freedom{};  // where repeated parts gave the covariance

@@ -52,12 +52,13 @@ Change largest_change(const Identification& identification, const Eigen::VectorX
                           *estimate.standard_uncertainty;
     if (change >= largest.size) largest = {change, estimate.name};
   }
-  // What only combinations tell has to settle too.
-  for (const EstimatedCombination& told : identification.combinations) {
+  // What only combinations identify has to settle too.
+  for (const EstimatedCombination& estimated : identification.combinations) {
     double old = 0.0;
-    for (const Term& term : told.combination.terms) old += term.coefficient * before[term.unknown];
-    const double change = std::abs(told.value - old) / told.standard_uncertainty;
-    if (change >= largest.size) largest = {change, told.combination.text};
+    for (const Term& term : estimated.combination.terms)
+      old += term.coefficient * before[term.unknown];
+    const double change = std::abs(estimated.value - old) / estimated.standard_uncertainty;
+    if (change >= largest.size) largest = {change, estimated.combination.text};
   }
   return largest;
 }

@@ -1,10 +1,11 @@
-// Identification with a model that is not linear: rerun it at the estimate until the estimate stays.
+// Identification with a model that is not linear: rerun it at the estimate until the estimate
+// stays.
 //
 // Model    : Gauss-Newton; at x the measurements are linear, y - f(x) + G x = G x_next
 // Units    : mm, rad
 // Shape    : the model answers all unknowns (fixed ones included) with rows and rows x unknowns
-// Errors   : those of identify and of the model; a prediction of another size or not finite; no rest
-//            after `most_rounds`, with the unknown that moved most
+// Errors   : those of identify and of the model; a prediction of another size or not finite; no
+//            rest after `most_rounds`, with the unknown that moved most
 // Accuracy : the last change of every unknown is below `settled` of its standard uncertainty
 // Source   : Nocedal, Wright, Numerical Optimization, section 10.3
 #pragma once
@@ -32,7 +33,8 @@ struct RefineOptions {
 
 struct Refinement {
   Identification identification{};
-  // Largest change of an unknown in each round, in standard uncertainties; the first is from the start.
+  // Largest change of an unknown in each round, in standard uncertainties; the first is from the
+  // start.
   std::vector<double> changes{};
 };
 

@@ -5,11 +5,12 @@
 //            one kind (lengths, angles), sigma_i from the measuring machine's covariance S of one
 //            part. Covariance of the mean = D S D, D_i = max(1, q / sqrt(n)).
 //            S is not divided by n: scale and squareness of one measuring machine are common to all
-//            parts. Scatter is pooled by kind, because two or three parts do not tell that of one
-//            row. The correlations are those of S
+//            parts. Scatter is pooled by kind, because two or three parts do not identify that of
+//            one row. The correlations are those of S
 // Units    : mm, rad
 // Shape    : n >= 1 parts of equal size; with one the covariance is S
-// Errors   : no part, sizes that differ, values that are not finite, variances that are not positive
+// Errors   : no part, sizes that differ, values that are not finite, variances that are not
+//            positive
 // Accuracy : exact
 // Source   : JCGM 100:2008, sections 4.2 and 4.3
 #pragma once
@@ -32,7 +33,8 @@ struct PooledParts {
   double scatter_lengths = 0.0;
   double scatter_angles = 0.0;
   // (n - 1) times the rows of the kind whose scatter counts, the smaller of the two; nothing where
-  // the measuring machine's covariance counts. Characteristics that share surfaces make this too large.
+  // the measuring machine's covariance counts. Characteristics that share surfaces make this too
+  // large.
   std::optional<double> degrees_of_freedom{};
 };
 

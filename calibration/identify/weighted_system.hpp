@@ -1,5 +1,5 @@
-// Observations brought to unit weight: whitened rows, known errors as rows of their own, unknowns in
-// units of their expected size.
+// Observations brought to unit weight: whitened rows, known errors as rows of their own, unknowns
+// in units of their expected size.
 //
 // Model    : S = D R D, D standard deviations (with the floor), R correlations = V diag(e) V^T.
 //            Eigenvalues e below `kRounding` are truncated: W = diag(e)^-1/2 V^T D^-1

@@ -161,10 +161,10 @@ TEST_F(StudyCommandsSystem, SaysInWordsWhatCannotBeTold) {
     EXPECT_TRUE((*find(doc["estimates"], name))["value"].is_null()) << name;
   }
   std::string words = doc["observability"]["null_space"].dump();
-  EXPECT_NE(words.find("gamma_AY cannot be told"), std::string::npos) << words;
+  EXPECT_NE(words.find("gamma_AY cannot be identified"), std::string::npos) << words;
   EXPECT_NE(words.find("dy_AY + dy_CA can"), std::string::npos) << words;
   EXPECT_FALSE(doc["observability"]["separating_patterns"].empty());
-  EXPECT_NE(run("identify study.toml").out.find("not told"), std::string::npos);
+  EXPECT_NE(run("identify study.toml").out.find("not identified"), std::string::npos);
 }
 
 TEST_F(StudyCommandsSystem, ChoosesThePatternsThatTellAllErrors) {
@@ -178,7 +178,7 @@ TEST_F(StudyCommandsSystem, ChoosesThePatternsThatTellAllErrors) {
   EXPECT_GT(doc["smallest"]["standard_deviations"]["beta_CA"].get<double>(), 0.0);
   const Outcome without = run("design --machine zx-yac --patterns 1-a,1-b");
   EXPECT_EQ(without.exit_code, 1);
-  EXPECT_NE(without.out.find("cannot be told"), std::string::npos) << without.out;
+  EXPECT_NE(without.out.find("cannot be identified"), std::string::npos) << without.out;
 }
 
 TEST_F(StudyCommandsSystem, ReportsPointsThatNothingCut) {

@@ -156,7 +156,7 @@ TEST(CompensationLoopSystem, StepPatternsShrinkToWhatTheCmmCannotTell) {
   EXPECT_LE(beyond_the_table, 8);
 }
 
-// What the step patterns tell of the machine mends another part.
+// What the step patterns identify of the machine corrects another part.
 TEST(CompensationLoopSystem, TheInclinedConeShrinksToWhatTheCmmCannotTell) {
   const Machine machine = shipped("zx-yac");
   const GeometricErrors errors = errors_of(machine, true_values());

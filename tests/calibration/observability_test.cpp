@@ -31,14 +31,15 @@ TEST(Observability, SaysInWordsWhat1aAnd1bDoNotTell) {
   const Observability result = of({"1-a", "1-b"});
   EXPECT_EQ(result.rank, 4);
   EXPECT_EQ(result.unknowns, 9);
-  EXPECT_EQ(texts(result),
-            (std::vector<std::string>{
-                "g_AY cannot be told: no measurement shows it",
-                "dx_AY cannot be told: no measurement shows it",
-                "dz_AY cannot be told: no measurement shows it",
-                "b_AY and b_CA cannot be told apart: b_AY - b_CA cannot be told; b_AY + b_CA can",
-                "dy_AY and dy_CA cannot be told apart: dy_AY - dy_CA cannot be told; "
-                "dy_AY + dy_CA can"}));
+  EXPECT_EQ(
+      texts(result),
+      (std::vector<std::string>{
+          "g_AY cannot be identified: no measurement shows it",
+          "dx_AY cannot be identified: no measurement shows it",
+          "dz_AY cannot be identified: no measurement shows it",
+          "b_AY and b_CA cannot be separated: b_AY - b_CA cannot be identified; b_AY + b_CA can",
+          "dy_AY and dy_CA cannot be separated: dy_AY - dy_CA cannot be identified; "
+          "dy_AY + dy_CA can"}));
 }
 
 TEST(Observability, GivesNoNumberToUnknownsInTheNullSpace) {
@@ -46,10 +47,10 @@ TEST(Observability, GivesNoNumberToUnknownsInTheNullSpace) {
   const auto result = identify(planned(patterns));
   ASSERT_TRUE(result);
   for (const Estimate& estimate : result->estimates) {
-    const bool told = estimate.fixed || estimate.name == "a_AY" || estimate.name == "d_r";
-    EXPECT_EQ(estimate.value.has_value(), told) << estimate.name;
-    EXPECT_EQ(estimate.standard_uncertainty.has_value(), told) << estimate.name;
-    EXPECT_EQ(estimate.upper.has_value(), told) << estimate.name;
+    const bool identified = estimate.fixed || estimate.name == "a_AY" || estimate.name == "d_r";
+    EXPECT_EQ(estimate.value.has_value(), identified) << estimate.name;
+    EXPECT_EQ(estimate.standard_uncertainty.has_value(), identified) << estimate.name;
+    EXPECT_EQ(estimate.upper.has_value(), identified) << estimate.name;
   }
   ASSERT_EQ(result->combinations.size(), 2U);
   EXPECT_EQ(result->combinations[0].combination.text, "b_AY + b_CA");
@@ -85,7 +86,7 @@ TEST(Observability, GivesTheArmWhereLengthsAndAnglesMix) {
   ASSERT_TRUE(result);
   ASSERT_EQ(result->null_space.size(), 1U);
   EXPECT_EQ(result->null_space[0].text,
-            "dz_AY and beta_AY cannot be told apart: no measurement shows it when they change "
+            "dz_AY and beta_AY cannot be separated: no measurement shows it when they change "
             "together, dz_AY by +0.09715 um, beta_AY by +1 urad; dz_AY - 97.15 mm * beta_AY can");
 }
 
@@ -112,7 +113,7 @@ TEST(Observability, SaysTheSameOfSensitivitiesWithNumericalNoise) {
     const auto result = observability(noisy);
     ASSERT_TRUE(result);
     EXPECT_EQ(texts(*result), texts(*expected));
-    EXPECT_EQ(result->told, expected->told);
+    EXPECT_EQ(result->identified, expected->identified);
   }
 }
 
@@ -124,8 +125,9 @@ TEST(Observability, TellsTheSquarenessOfYAndTheTiltAxisOnlyAsTheirDifference) {
   }
   const auto result = observability(o);
   ASSERT_TRUE(result);
-  EXPECT_EQ(texts(*result), (std::vector<std::string>{"g_AY and g_YX cannot be told apart: g_AY + "
-                                                      "g_YX cannot be told; g_AY - g_YX can"}));
+  EXPECT_EQ(texts(*result),
+            (std::vector<std::string>{"g_AY and g_YX cannot be separated: g_AY + "
+                                      "g_YX cannot be identified; g_AY - g_YX can"}));
   // Known to 5 urad it is no obstacle.
   for (Unknown& unknown : o.unknowns) {
     if (unknown.name == "g_YX") unknown.prior = Prior{0.0, 5e-6};
