@@ -1,6 +1,7 @@
-// Material removal: how soon a workpiece is ready, probes by the second, meshes, and how a probe's time grows
-// with the program. Goals (two cores): cone ready in 0.1 s, 200,000 exact probes by the second and core,
-// 2,000,000 continued ones, its mesh at 0.25 mm in 2 s; a million freeform blocks ready in 10 s and 4 GiB, probes no worse than log N.
+// Material removal: how soon a workpiece is ready, probes by the second, meshes, and how a probe's
+// time grows with the program. Goals (two cores): cone ready in 0.1 s, 200,000 exact probes by the
+// second and core, 2,000,000 continued ones, its mesh at 0.25 mm in 2 s; a million freeform blocks
+// ready in 10 s and 4 GiB, probes no worse than log N.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

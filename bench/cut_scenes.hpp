@@ -54,7 +54,7 @@ struct ConeScene {
         path(blocks), {{1, end_mill(cutter::CutterType::flat, 2 * kRadius, 50.0)}});
     return {blank(), *std::move(swept)};
   }
-  // From 5 mm before the flank, square to it.
+  // From 5 mm before the flank, perpendicular to it.
   [[nodiscard]] static stock::Ray probe(std::uint64_t k) {
     const double z = 6.0 + 30.0 * uniform({.seed = 1}, 2 * k);
     const double phi = 2.0 * std::numbers::pi * uniform({.seed = 1}, 2 * k + 1);

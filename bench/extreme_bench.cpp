@@ -14,7 +14,8 @@
 namespace frustum::metrology {
 namespace {
 
-// Sections of a cone with three lobes and noise: half angle 0 gives a cylinder, one section a circle.
+// Sections of a cone with three lobes and noise: half angle 0 gives a cylinder, one section a
+// circle.
 std::vector<Vec3> rough_cone(double half_angle, int sections) {
   constexpr int kPoints = 1000;
   const RandomKey key{.seed = 5};

@@ -1,5 +1,5 @@
-// What one pose costs on the way back: both axis solutions with linear axes and travel check, the choice
-// along a path, and a rotary position on the great circle.
+// What one pose costs on the way back: both axis solutions with linear axes and travel check, the
+// choice along a path, and a rotary position on the great circle.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

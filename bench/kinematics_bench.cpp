@@ -1,5 +1,5 @@
-// What a pose costs in kinematics/: the forward chain with 41 errors, prepared once and for a single
-// pose, the nominal chain, and the gain matrix of the same errors.
+// What a pose costs in kinematics/: the forward chain with 41 errors, prepared once and for a
+// single pose, the nominal chain, and the gain matrix of the same errors.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// A peer on the same cut: Manifold's batch boolean of hulled cutters, time and worst surface error beside
-// ours. Built where Manifold is installed.
+// A peer on the same cut: Manifold's batch boolean of hulled cutters, time and worst surface error
+// beside ours. Built where Manifold is installed.
 #include <manifold/manifold.h>
 
 #include <algorithm>

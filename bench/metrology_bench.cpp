@@ -12,8 +12,8 @@ namespace {
 constexpr int kPoints = 1000;
 constexpr double kNoise = 2e-3;  // mm, as a probe and a surface leave it
 
-// On a turned surface of section radius(along): a spiral over `arc`, with noise along the normal, away
-// from the axes of the machine.
+// On a turned surface of section radius(along): a spiral over `arc`, with noise along the normal,
+// away from the axes of the machine.
 template <typename Radius>
 std::vector<Vec3> probed(double length, double arc, Radius radius) {
   const Pose pose{rotation_about(unit({1, 2, 3}), 0.7), {310.0, -120.0, 85.0}};

@@ -1,6 +1,7 @@
-// The NC front end: blocks a second of text read and run, beside LinuxCNC's rs274 where it is installed, and
-// the memory that a file of ten million blocks takes. Both run on one core, of which the processor's time counts;
-// rs274 writes its canonical calls to /dev/null, ours go to a sink that counts them.
+// The NC front end: blocks a second of text read and run, beside LinuxCNC's rs274 where it is
+// installed, and the memory that a file of ten million blocks takes. Both run on one core, of which
+// the processor's time counts; rs274 writes its canonical calls to /dev/null, ours go to a sink
+// that counts them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <sys/resource.h>

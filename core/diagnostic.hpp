@@ -1,8 +1,8 @@
 // What is wrong with the user's input, where, and what to do about it.
 //
-// A diagnostic carries a stable id, the place (file, line, column, or the key path of a TOML file), the message
-// with the numbers that matter, and a hint that names the remedy. It prints in the form editors
-// jump to:
+// A diagnostic carries a stable id, the place (file, line, column, or the key path of a TOML file),
+// the message with the numbers that matter, and a hint that names the remedy. It prints in the form
+// editors jump to:
 //   part.nc:12:7: error: G1 without a feed rate (hint: give F once before the first cutting move)
 #pragma once
 
@@ -16,8 +16,8 @@ namespace frustum {
 
 enum class Severity { note, warning, error };
 
-// What is wrong, as code, JSON, SARIF, tests and documentation name it: words in small letters joined by
-// hyphens, which stay when the message is worded better. Written "arc-radius"_id.
+// What is wrong, as code, JSON, SARIF, tests and documentation name it: words in small letters
+// joined by hyphens, which stay when the message is worded better. Written "arc-radius"_id.
 class DiagnosticId {
  public:
   constexpr DiagnosticId() = default;

@@ -1,11 +1,11 @@
 // The lowest place of a function that falls and then rises, by golden section.
 //
-// Model    : two looks inside the bracket, placed so that one of them serves the next bracket too; each step
-//            leaves 0.618 of it. Of equal looks the right one is kept
+// Model    : two looks inside the bracket, placed so that one of them serves the next bracket too;
+//            each step leaves 0.618 of it. Of equal looks the right one is kept
 // Units    : those of the function
 // Errors   : none; of a function with several valleys it finds one of them
-// Accuracy : a smooth bottom is told apart from its neighbours down to the root of rounding, a sharp one down
-//            to rounding
+// Accuracy : a smooth bottom is distinguished from its neighbours down to the root of rounding, a
+//            sharp one down to rounding
 // Source   : Kiefer 1953
 #pragma once
 
@@ -19,8 +19,8 @@ struct GoldenBracket {
   [[nodiscard]] double middle() const { return 0.5 * (lo + hi); }
 };
 
-// Until the bracket is no wider than `narrow`, or has no two places between its ends, but no more than
-// `most_steps`.
+// Until the bracket is no wider than `narrow`, or has no two places between its ends, but no more
+// than `most_steps`.
 template <class Function>
 [[nodiscard]] GoldenBracket golden_section(const Function& f, double lo, double hi, double narrow,
                                            int most_steps = 200) {

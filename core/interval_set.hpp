@@ -12,7 +12,7 @@
 
 namespace frustum {
 
-// Names the maker of an interval's end: what it means is up to the producer. Negative: nobody.
+// Names what made an interval's end: what it means is up to the producer. Negative: nobody.
 using EndTag = std::int64_t;
 
 struct Interval {
@@ -35,12 +35,12 @@ class IntervalSet {
   [[nodiscard]] bool empty() const { return intervals_.empty(); }
   [[nodiscard]] double length() const;
   [[nodiscard]] bool contains(double s) const;
-  // True when [lo, hi] lies inside one interval.
+  // True when [lo, hi] is inside one interval.
   [[nodiscard]] bool covers(double lo, double hi) const;
 
   [[nodiscard]] IntervalSet united(const IntervalSet& other) const;
   [[nodiscard]] IntervalSet intersected(const IntervalSet& other) const;
-  // An end that `removed` creates carries the tag of the removed interval's end.
+  // An end that `removed` creates has the tag of the removed interval's end.
   [[nodiscard]] IntervalSet minus(const IntervalSet& removed) const;
 
  private:

@@ -140,10 +140,10 @@ void TomlTable::fail(std::string_view key, DiagnosticId id, std::string message,
     diagnostic.line = place->line;
     diagnostic.column = place->column;
   }
-  const bool told = std::ranges::any_of(state_->diagnostics, [&](const Diagnostic& d) {
+  const bool reported = std::ranges::any_of(state_->diagnostics, [&](const Diagnostic& d) {
     return d.key == diagnostic.key && d.message == diagnostic.message;
   });
-  if (!told) state_->diagnostics.push_back(std::move(diagnostic));
+  if (!reported) state_->diagnostics.push_back(std::move(diagnostic));
 }
 
 bool TomlTable::is_sound() const {

@@ -6,7 +6,7 @@
 // nobody asked for, with the nearest known one, and hands out the verdict.
 //
 // Units: lengths are read in mm (a bare number is mm), angles in rad (a bare number is degrees); a
-// string carries its own unit: "10 um", "30 urad".
+// string has its own unit: "10 um", "30 urad".
 // Errors: load and parse refuse what cannot be read or is not TOML; all else waits for finish().
 #pragma once
 
@@ -37,7 +37,7 @@ class TomlTable {
   [[nodiscard]] bool has(std::string_view key) const;
   // All keys in file order; asking for them does not count as reading them.
   [[nodiscard]] std::vector<std::string> keys() const;
-  // "tool.1": where this table stands in the document.
+  // "tool.1": where this table is in the document.
   [[nodiscard]] const std::string& path() const { return path_; }
 
   [[nodiscard]] std::string text(std::string_view key) const;
@@ -79,7 +79,7 @@ class TomlTable {
   [[nodiscard]] bool is_array(std::string_view key) const;
   [[nodiscard]] bool is_number(std::string_view key) const;
 
-  // Where the document stands: what its relative paths start from.
+  // Where the document is: what its relative paths start from.
   [[nodiscard]] std::filesystem::path folder() const;
   // A path in the file, resolved against the folder of the document.
   [[nodiscard]] std::filesystem::path file_path(std::string_view key) const;
@@ -103,7 +103,7 @@ class TomlTable {
   double scaled(std::string_view key, UnitKind kind, double bare_number_scale, Bound bound) const;
 
   std::shared_ptr<toml_detail::State> state_;
-  const toml_detail::Node* node_;  // owned by state_; null stands for a missing required table
+  const toml_detail::Node* node_;  // owned by state_; null means a missing required table
   std::string path_;
 };
 

@@ -1,7 +1,7 @@
 // Writing a finished file: whole or not at all.
 //
-// The bytes go to a new file beside the target, which is then renamed over it, so that an existing file
-// is untouched until the new one is complete, and a failure leaves nothing behind.
+// The bytes go to a new file beside the target, which is then renamed over it, so that an existing
+// file is untouched until the new one is complete, and a failure leaves nothing behind.
 // Units: none. Errors: a diagnostic that names the file and the reason when it cannot be written.
 #pragma once
 

@@ -14,7 +14,7 @@ namespace {
 
 using metrology::CharacteristicResult;
 
-// Bytes beyond ASCII belong to a character; its first byte stands for all of it.
+// Bytes beyond ASCII belong to a character; its first byte counts for all of it.
 std::string ascii(const std::string& text) {
   std::string out;
   const std::string clean = readable_text(text);

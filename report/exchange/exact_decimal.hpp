@@ -1,4 +1,5 @@
-// Numbers as files hold them: the shortest digits that read back to the same double, never an exponent.
+// Numbers as files hold them: the shortest digits that read back to the same double, never an
+// exponent.
 //
 // Units: none. Errors: none; call it for finite numbers only (others give "0").
 #pragma once

@@ -17,8 +17,8 @@ namespace frustum::report {
 enum class ExportFormat { qif, csv, json, junit, dfq };
 
 [[nodiscard]] Result<ExportFormat> export_format(const std::filesystem::path& file);
-// Why the file could not be written, found out before the long work. Folders that are not there yet are no
-// reason.
+// Why the file could not be written, found out before the long work. Folders that are not there yet
+// are no reason.
 [[nodiscard]] Diagnostics export_faults(const std::filesystem::path& file);
 
 [[nodiscard]] std::string exported(ExportFormat format, const RunReport& report,

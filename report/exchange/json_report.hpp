@@ -1,10 +1,12 @@
 // The results as JSON with stable names, for other programs.
 //
-// Contract : {"title","status":"pass|fail|uncertain","machine","features":[{"name","kind","points","parameters",
+// Contract : {"title","status":"pass|fail|uncertain","machine","features":[{"name","kind",
+//            "points","parameters",
 //            "form":{"value_um"}}],"characteristics":[{"name","kind","value","unit","tolerance",
 //            "expanded_uncertainty","pass","verdict":"pass|fail|uncertain","interval":[low, high],
-//            "standard_uncertainty","draws","stable"}], the last four where uncertainties are simulated,"timing":{name: seconds},"diagnostics":[..]}; names are
-//            added, never renamed.
+//            "standard_uncertainty","draws","stable"}], the last four where uncertainties are
+//            simulated,"timing":{name: seconds},"diagnostics":[..]}; names are added, never
+//            renamed.
 // Units    : as the names say (value_um, *_mm3); parameters mm and rad; axis ranges mm and deg;
 //            characteristics in their own unit.
 // Errors   : none; a number that is not finite becomes null, bytes that are not UTF-8 are replaced.

@@ -1,9 +1,9 @@
 // A measurement as JUnit XML, so that continuous integration shows each characteristic as a test.
 //
-// One testsuite, named by the title; one testcase a characteristic, classname the title. A characteristic
-// out of tolerance is a failure that tells value, tolerance and uncertainty; one of the plan that was not
-// measured is an error that tells why. Faults that belong to no characteristic (a collision, a diagnostic)
-// are a testcase "run" with an error.
+// One testsuite, named by the title; one testcase a characteristic, classname the title. A
+// characteristic out of tolerance is a failure with value, tolerance and uncertainty; one of
+// the plan that was not measured is an error with the reason. Faults that belong to no
+// characteristic (a collision, a diagnostic) are a testcase "run" with an error.
 // Units  : as the text says; every time is 0, since one measurement makes all characteristics
 // Errors : none
 #pragma once

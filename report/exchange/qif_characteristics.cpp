@@ -23,7 +23,7 @@ enum class Zone {
   orientation,  // a cylinder for an axis, two planes for a plane, with its material condition
   position,     // as the diameter, with its material condition
   limits,       // plus and minus about a nominal
-  between       // limits of what lies between two features, along or about a direction
+  between       // limits of what is between two features, along or about a direction
 };
 
 struct CharacteristicKindRow {
@@ -136,7 +136,8 @@ void add_nominal(xml_node node, const CharacteristicKindRow& row,
   add_text(node, "AnalysisMode", is_angle(result) ? "TWODIMENSIONAL" : "ONEDIMENSIONAL");
 }
 
-// <name n=".."><Id>..</Id></name> of the characteristic's features, as far as the document holds them.
+// <name n=".."><Id>..</Id></name> of the characteristic's features, as far as the document holds
+// them.
 void add_feature_ids(xml_node node, const char* name, const PlannedCharacteristic* planned,
                      const std::map<std::string, int>& ids) {
   if (planned == nullptr) return;

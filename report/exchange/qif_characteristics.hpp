@@ -1,8 +1,9 @@
-// The characteristics of a plan in a QIF document: definition, nominal, item and measurement of each.
+// The characteristics of a plan in a QIF document: definition, nominal, item and measurement of
+// each.
 //
-// Units: mm and deg, as the document states; combinedUncertainty is the standard uncertainty (k = 1), half of
-// what a measurement states with k = 2. Errors: none; a kind that QIF has no characteristic for is written
-// as one of its general ones.
+// Units: mm and deg, as the document states; combinedUncertainty is the standard uncertainty (k =
+// 1), half of what a measurement states with k = 2. Errors: none; a kind that QIF has no
+// characteristic for is written as one of its general ones.
 #pragma once
 
 #include <map>

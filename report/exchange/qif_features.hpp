@@ -1,8 +1,8 @@
-// The features of a plan in a QIF document: definition, nominal, item and measurement of each, and the
-// points.
+// The features of a plan in a QIF document: definition, nominal, item and measurement of each, and
+// the points.
 //
-// Units: mm and deg, as the document states. Errors: none; a kind of feature that QIF has no element for is
-// left out, and so are points that are not finite.
+// Units: mm and deg, as the document states. Errors: none; a kind of feature that QIF has no
+// element for is left out, and so are points that are not finite.
 #pragma once
 
 #include <map>

@@ -1,10 +1,12 @@
 // A measurement as a QIF 3.0 results document (ISO 23952).
 //
-// Every feature of the plan with definition, nominal, item and measurement, the points of each, and every
-// characteristic with definition, nominal, item, measurement and verdict; aspects refer to one another by
-// id. The order of elements is that of the schema; lists state their length in n. The document's identifier
-// (QPId) is made from its content, so that the same measurement gives the same file to the last bit.
-// Units  : mm and deg, as FileUnits states; coordinates in the datum frame, where the plan's nominals are
+// Every feature of the plan with definition, nominal, item and measurement, the points of each, and
+// every characteristic with definition, nominal, item, measurement and verdict; aspects refer to
+// one another by id. The order of elements is that of the schema; lists state their length in n.
+// The document's identifier (QPId) is made from its content, so that the same measurement gives the
+// same file to the last bit.
+// Units  : mm and deg, as FileUnits states; coordinates in the datum frame, where the plan's
+//          nominals are
 // Errors : none; see qif_features.hpp and qif_characteristics.hpp for what QIF cannot hold
 // Source : ISO 23952:2020; ISO 1101:2017 is named as the standard of the characteristics
 #pragma once

@@ -1,6 +1,7 @@
 // Text made safe for the places of an HTML page.
 //
-// Units: none. Errors: none; control characters become spaces, bytes that are not UTF-8 become U+FFFD.
+// Units: none. Errors: none; control characters become spaces, bytes that are not UTF-8 become
+//        U+FFFD.
 #pragma once
 
 #include <string>

@@ -8,14 +8,15 @@
 
 namespace frustum::report {
 
-// report/page/template.html: HTML with the places {{title}}, {{style}}, {{body}}, {{data}}, {{script}}.
+// report/page/template.html: HTML with the places {{title}}, {{style}}, {{body}}, {{data}},
+// {{script}}.
 [[nodiscard]] std::string_view page_template();
 // One style sheet without outside references.
 [[nodiscard]] std::string_view page_style();
 // One script with plotly.js and three.js in it; free of "</script".
 [[nodiscard]] std::string_view page_script();
 
-// The template filled: title and body are HTML, data is JSON that may stand in a script element.
+// The template filled: title and body are HTML, data is JSON that may be in a script element.
 [[nodiscard]] std::string filled_page(std::string_view title, std::string_view body,
                                       std::string_view data);
 

@@ -66,8 +66,8 @@ Json trace_json(const AxisTrace& trace) {
 
 Json colour_json(const Colour& colour) { return Json::array({colour[0], colour[1], colour[2]}); }
 
-// Positions on a grid of 2^18 steps over the longest side of the bounding box: half a micrometre for a
-// workpiece of 100 mm. Deviations as 1..65535 from -limit to +limit; 0 stands for "none".
+// Positions on a grid of 2^18 steps over the longest side of the bounding box: half a micrometre
+// for a workpiece of 100 mm. Deviations as 1..65535 from -limit to +limit; 0 means "none".
 Json surface_json(const SurfacePicture& picture) {
   constexpr double kGrid = 262143.0;
   constexpr double kLevels = 65534.0;

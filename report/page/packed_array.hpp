@@ -1,8 +1,8 @@
 // Number arrays packed into text for the page: differences, byte planes, deflate, base64.
 //
-// Packing: values as unsigned 32-bit; item k is replaced by its difference to item k - stride (modulo
-// 2^32); the bytes are sorted into four planes, least significant first; the planes are deflated (zlib)
-// and written in base64. report/page/packed_array.js turns it back.
+// Packing: values as unsigned 32-bit; item k is replaced by its difference to item k - stride
+// (modulo 2^32); the bytes are sorted into four planes, least significant first; the planes are
+// deflated (zlib) and written in base64. report/page/packed_array.js turns it back.
 // Units: none. Errors: none (running out of memory throws).
 #pragma once
 

@@ -174,7 +174,8 @@ std::string heat_map(const SensitivityTable& table, const Eigen::MatrixXd& matri
   return html + "</tbody></table></div>\n";
 }
 
-// Some twenty columns of three digits fit the width of the sheet; on a narrow screen the names stay.
+// Some twenty columns of three digits fit the width of the sheet; on a narrow screen the names
+// stay.
 constexpr const char* kStyle = R"(
 .sheet { padding-left: 24px; padding-right: 24px; }
 .heat { width: auto; font-size: 11px; line-height: 1.35; }

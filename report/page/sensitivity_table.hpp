@@ -25,11 +25,13 @@ struct SensitivityTable {
   Eigen::MatrixXd even{};  // what the characteristic gains with either sign of the parameter
 };
 
-// {"characteristics":[..],"errors":[..],"units":[..],"matrix":[[..]],...}: interfaces of the command.
+// {"characteristics":[..],"errors":[..],"units":[..],"matrix":[[..]],...}: interfaces of the
+// command.
 [[nodiscard]] std::string sensitivity_json(const SensitivityTable& table);
 // One row a characteristic, one column a parameter, units in the approach_directions.
 [[nodiscard]] std::string sensitivity_csv(const SensitivityTable& table);
-// For a terminal; parameters that no characteristic answers are named below instead of taking columns.
+// For a terminal; parameters that no characteristic answers are named below instead of taking
+// columns.
 [[nodiscard]] std::string sensitivity_text(const SensitivityTable& table, int width);
 // A page with the matrix as a heat map; complete in itself.
 [[nodiscard]] std::string sensitivity_html(const SensitivityTable& table);

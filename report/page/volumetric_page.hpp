@@ -1,5 +1,5 @@
-// Error vectors over a working volume as one HTML page that opens without a network: statistics, the
-// ranking of the errors, and a grid with magnified arrows to be turned with the mouse.
+// Error vectors over a working volume as one HTML page that opens without a network: statistics,
+// the ranking of the errors, and a grid with magnified arrows to be turned with the mouse.
 //
 // Units: places mm, errors um. Errors: writing: a diagnostic that names the file.
 #pragma once
@@ -33,8 +33,8 @@ struct VolumetricPage {
   std::vector<VolumetricView> views{};
 };
 
-// By how much the errors are drawn larger: 1, 2 or 5 times a power of ten that makes the longest vector
-// about an eighth of the volume's diagonal.
+// By how much the errors are drawn larger: 1, 2 or 5 times a power of ten that makes the longest
+// vector about an eighth of the volume's diagonal.
 [[nodiscard]] double magnification(const VolumetricPage& page);
 [[nodiscard]] std::string volumetric_html(const VolumetricPage& page);
 // The folder must exist. Returns the path.

@@ -165,7 +165,8 @@ class Drawing {
     const Point middle = 0.5 * (a2 + b2);
     arrow(middle, a2, "dimension");
     arrow(middle, b2, "dimension");
-    // Beside an upright line the text begins or ends at it; over a level one it stands in the middle.
+    // Beside an upright line the text begins or ends at it; over a level one it stands in the
+    // middle.
     const bool upright = std::abs(n.x()) > 0.7;
     const char* anchor = !upright ? "middle" : n.x() > 0.0 ? "start" : "end";
     text(middle + (upright ? 5.0 : 9.0) * n + Point(0.0, 3.5), what, "size", anchor);
@@ -216,8 +217,8 @@ std::string step_drawing(const SetupSheet& sheet, const SheetStep& step, SheetVi
   for (const Vec3& tip : {step.from, step.to}) {
     drawing.include_box(tip, sheet.tool_radius, from_top ? 0.0 : sheet.tool_length);
   }
-  // A height is one only where the workpiece stands upright, and is marked where the line is seen as a
-  // point: beyond the line opposite, over the ledge there, away from the tool.
+  // A height is one only where the workpiece is upright, and is marked where the line is seen
+  // as a point: beyond the line opposite, over the ledge there, away from the tool.
   constexpr double kTrue = 0.01;
   const Vec3 along_line = turn * (step.line_to - step.line_from);
   const bool marks_height =

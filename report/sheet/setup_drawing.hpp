@@ -15,13 +15,13 @@ enum class SheetView : std::uint8_t {
   from_top  // X to the right, Y up
 };
 
-// The view that shows how the tool meets the workpiece: along the feed, or along the tilt axis where the
-// feed climbs.
+// The view that shows how the tool meets the workpiece: along the feed, or along the tilt axis
+// where the feed climbs.
 [[nodiscard]] SheetView engagement_view(const SetupSheet& sheet, const SheetStep& step);
 
 [[nodiscard]] std::string step_drawing(const SetupSheet& sheet, const SheetStep& step,
                                        SheetView view);
-// How the workpiece lies on the table at rotary zero: with the axes and their crossing.
+// How the workpiece is placed on the table at rotary zero: with the axes and their crossing.
 [[nodiscard]] std::string placement_drawing(const SetupSheet& sheet, SheetView view);
 
 }  // namespace frustum::report

@@ -1,5 +1,6 @@
-// The setup sheet of a test piece as one HTML page that opens without a network and prints on paper:
-// machine, tool, blank and how it lies on the table, and every step with its positions and a drawing.
+// The setup sheet of a test piece as one HTML page that opens without a network and prints on
+// paper: machine, tool, blank and how it is placed on the table, and every step with its positions and a
+// drawing.
 //
 // Units: mm in the struct and on the page; table positions come as text
 // Errors: writing: a diagnostic that names the file
@@ -25,7 +26,8 @@ struct SheetStep {
   std::string table{};  // "A0 C-180"
   std::string size{};   // "H 175.4, L 61"
   Mat3 machine_from_workpiece = Mat3::Identity();
-  // Tip at both ends of the pass, from the program's origin in machine directions: what the program says.
+  // Tip at both ends of the pass, from the program's origin in machine directions: what the program
+  // says.
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   // The line that is cut, and the middle of the one opposite; workpiece frame.
   Vec3 line_from = Vec3::Zero(), line_to = Vec3::Zero(), opposite = Vec3::Zero();
