@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kMaxLines = 500;
 constexpr std::size_t kMaxColumns = 100;
-constexpr int kMaxSourcesOfAFolder = 30;
-constexpr int kMaxPrivateMembers = 25;
+constexpr std::size_t kMaxSourcesOfAFolder = 30;
+constexpr std::size_t kMaxPrivateMembers = 25;
 
 std::vector<std::string> all_sources() {
   std::vector<std::string> files = sources_of_all_rooms();
@@ -27,26 +27,48 @@ std::vector<std::string> all_sources() {
   return files;
 }
 
-// Above a limit, and why.
-const std::set<std::string>& above_a_limit() {
-  static const std::set<std::string> kPlaces{
-      // until their parts are apart
-      "parser/interpret/block_executor.cpp",
-      "kinematics/errors/error_text.cpp",
-      "post/nc_writer.cpp",
-      "post/planning/machine_program.cpp",
-      "stock/mesh/io/mesh_reader.cpp",
-      // tests of a room, one file a concept
-      "tests/metrology",
+// What is above a limit, with the reason.
+using Exceptions = std::map<std::string, std::string>;
+
+const Exceptions& long_sources() {
+  static const Exceptions kFiles{
+      {"kinematics/errors/error_text.cpp", "until its parts are apart"},
+      {"parser/interpret/block_executor.cpp", "until its parts are apart"},
+      {"post/nc_writer.cpp", "until there is one writer"},
+      {"post/planning/machine_program.cpp", "until its parts are apart"},
   };
-  return kPlaces;
+  return kFiles;
+}
+
+const Exceptions& crowded_folders() {
+  static const Exceptions kFolders{
+      {"tests/metrology", "until its tests have folders"},
+  };
+  return kFolders;
+}
+
+const Exceptions& large_classes() {
+  static const Exceptions kClasses{
+      {"post/planning/machine_program.cpp: Planner", "until its parts are apart"},
+  };
+  return kClasses;
+}
+
+// Holds one limit; an exception that is no longer needed fails, too.
+void expect_within(std::size_t value, std::size_t limit, const std::string& place,
+                   const Exceptions& exceptions) {
+  if (exceptions.contains(place)) {
+    EXPECT_GT(value, limit) << place << " is within the limit: remove the exception";
+  } else {
+    EXPECT_LE(value, limit) << place;
+  }
 }
 
 // Rooms whose comments are not wrapped yet.
 const std::set<std::string>& wide_rooms() {
   static const std::set<std::string> kRooms{
-      "parser", "metrology", "kinematics", "post", "lint",  "cutter",      "stock", "programs",
-      "report", "trials",    "app",        "core", "tests", "calibration", "bench"};
+      "parser",   "metrology", "kinematics", "post", "lint",        "cutter", "stock",
+      "programs", "report",    "trials",     "app",  "calibration", "bench",  "tests"};
   return kRooms;
 }
 
@@ -57,16 +79,21 @@ std::size_t columns_of(const std::string& line) {
   }));
 }
 
+std::string without_strings(const std::string& line) {
+  static const std::regex kText(R"("(\\.|[^"\\])*"|'(\\.|[^'\\])*')");
+  return std::regex_replace(line, kText, "");
+}
+
 // The line without its strings, characters and comment, so that braces and names are code.
 std::string code_of(const std::string& line) {
-  static const std::regex kText(R"("(\\.|[^"\\])*"|'(\\.|[^'\\])*'|//.*)");
-  return std::regex_replace(line, kText, "");
+  const std::string code = without_strings(line);
+  return code.substr(0, code.find("//"));
 }
 
 struct ClassSize {
   std::string name;
   int depth = 0;  // of braces, inside it
-  int members = 0;
+  std::size_t members = 0;
   bool is_private = true;
 };
 
@@ -104,43 +131,42 @@ std::vector<ClassSize> classes_of(const std::string& file) {
 
 TEST(Limits, NoSourceIsLongerThan500Lines) {
   for (const std::string& file : all_sources()) {
-    if (above_a_limit().contains(file)) continue;
-    EXPECT_LE(lines_of(file).size(), kMaxLines) << file;
+    expect_within(lines_of(file).size(), kMaxLines, file, long_sources());
   }
 }
 
-TEST(Limits, NoLineIsWiderThan100Columns) {
+// clang-format wraps code, not comments.
+TEST(Limits, NoCommentIsWiderThan100Columns) {
   for (const std::string& file : all_sources()) {
     if (wide_rooms().contains(room_of(file))) continue;
     int number = 0;
     for (const std::string& line : lines_of(file)) {
       ++number;
+      if (without_strings(line).find("//") == std::string::npos) continue;
       EXPECT_LE(columns_of(line), kMaxColumns) << file << ":" << number;
     }
   }
 }
 
 TEST(Limits, NoFolderHasMoreThan30Sources) {
-  std::map<std::string, int> sources;
+  std::map<std::string, std::size_t> sources;
   for (const std::string& file : all_sources()) {
     if (file.ends_with(".cpp")) ++sources[file.substr(0, file.rfind('/'))];
   }
   for (const auto& [folder, count] : sources) {
-    if (above_a_limit().contains(folder)) continue;
-    EXPECT_LE(count, kMaxSourcesOfAFolder) << folder << "/";
+    expect_within(count, kMaxSourcesOfAFolder, folder, crowded_folders());
   }
 }
 
 TEST(Limits, NoClassHasMoreThan25PrivateDataMembers) {
-  int members = 0;
+  std::size_t members = 0;
   for (const std::string& file : sources_of_all_rooms()) {
     for (const ClassSize& size : classes_of(file)) {
       members += size.members;
-      if (above_a_limit().contains(file)) continue;
-      EXPECT_LE(size.members, kMaxPrivateMembers) << file << ": class " << size.name;
+      expect_within(size.members, kMaxPrivateMembers, file + ": " + size.name, large_classes());
     }
   }
-  EXPECT_GT(members, 500) << "the scanner no longer finds the members of our classes";
+  EXPECT_GT(members, 500U) << "the scanner no longer finds the members of our classes";
 }
 
 }  // namespace
