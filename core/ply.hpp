@@ -1,10 +1,11 @@
 // PLY files: the header, and the rows of its elements one after another.
 //
-// Text, binary little endian and binary big endian, all number types, lists. What the elements mean is for the
-// reader of a mesh or of a point cloud to say.
+// Text, binary little endian and binary big endian, all number types, lists. What the elements mean
+// is for the reader of a mesh or of a point cloud to say.
 // Units : as the numbers are
-// Errors: a header that is malformed, rows that end too early, words that are no numbers; with the line, or
-//         with the byte in binary files, and with the number of the row. Diagnostics name no file
+// Errors: a header that is malformed, rows that end too early, words that are no numbers; with the
+//         line, or with the byte in binary files, and with the number of the row. Diagnostics name
+//         no file
 // Source: G. Turk, The PLY Polygon File Format, 1994
 #pragma once
 
@@ -56,7 +57,8 @@ struct PlyHeader {
 
 [[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view bytes);
 
-// One row of an element, by the columns of its properties: of single properties the value, of others the list.
+// One row of an element, by the columns of its properties: of single properties the value, of
+// others the list.
 struct PlyRow {
   std::vector<double> values{};
   std::vector<std::vector<double>> lists{};
@@ -67,7 +69,8 @@ class PlyBody {
  public:
   PlyBody(std::string_view bytes, const PlyHeader& header);
 
-  // The row with this index, from 0; call it once for every row of every element. Text may say nan or inf.
+  // The row with this index, from 0; call it once for every row of every element. Text may say nan
+  // or inf.
   [[nodiscard]] std::optional<Diagnostic> read(const PlyElement& element, std::size_t index,
                                                PlyRow& row);
   // An error of what has just been read: at its line, or before a byte.
