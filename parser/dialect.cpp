@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<std::string_view, kDialects.size()> kNames{"fanuc", "linuxcnc", "sinumerik",
                                                                 "heidenhain", "cldata"};
 
-// Where a sign of a dialect stands in a line.
+// Where a sign of a dialect is in a line.
 enum class Where : std::uint8_t {
   start,  // after block numbers and blanks
   word    // anywhere, not within a longer word
@@ -22,8 +22,8 @@ struct Sign {
   std::string_view text;
   Where where;
 };
-// What no other dialect writes; the first line that has one decides. # stands for digits, a blank for any number of
-// blanks or none.
+// What no other dialect writes; the first line that has one decides. # represents digits, a blank
+// for any number of blanks or none.
 constexpr std::array kSigns{
     Sign{Dialect::heidenhain, "BEGIN PGM", Where::start},
     Sign{Dialect::heidenhain, "TOOL CALL", Where::start},

@@ -1,7 +1,8 @@
 // The languages that NC programs are written in.
 //
 // Units  : none
-// Errors : none; a text whose language cannot be told is taken as Fanuc's, and the reason says so
+// Errors : none; a text whose language cannot be identified is taken as Fanuc's, and the reason
+//          says so
 #pragma once
 
 #include <array>

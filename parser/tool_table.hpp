@@ -1,10 +1,11 @@
 // The tools that a control knows: numbers, offsets, diameters, as far as a program depends on them.
 //
-// A tool table file is LinuxCNC's: one tool a line, a remark behind ; of which there may be lines alone.
-//   T1 P1 D10.0 Z50.0 ;end mill
-//   T number, P pocket, D diameter, X Y Z A B C offsets, I J front and back angle of a turning tool in degrees,
-//   Q its orientation 0 to 9. U, V and W have to be zero: these axes are not simulated.
-// The file does not name its unit. It is that of the machine, and in LinuxCNC's stand-alone rs274 always the inch.
+// A tool table file is LinuxCNC's: one tool a line, a remark after ; of which there may be lines
+//   alone. T1 P1 D10.0 Z50.0 ;end mill
+//   T number, P pocket, D diameter, X Y Z A B C offsets, I J front and back angle of a turning tool
+//   in degrees, Q its orientation 0 to 9. U, V and W have to be zero: these axes are not simulated.
+// The file does not name its unit. It is that of the machine, and in LinuxCNC's stand-alone rs274
+// always the inch.
 //
 // Units : mm, rad; I and J as written, degrees
 // Errors: read_tool_table: all mistakes of the file, with line and column
@@ -28,7 +29,8 @@ struct Tool {
       offset{};  // of its tip from the gauge point, along the machine axes
   double diameter = 0.0;
   std::string remark{};
-  // Whether the length (Z) is given; a program may set the diameter alone, and the setup has the length.
+  // Whether the length (Z) is given; a program may set the diameter alone, and the setup has the
+  // length.
   bool has_length = true;
   double length_wear = 0.0;    // added to the length
   double diameter_wear = 0.0;  // added to the diameter

@@ -1,8 +1,9 @@
 // A word that a program may use, and what it sets.
 //
-// A code is a G or M number, or a word without one (TRAORI, TOOL CALL). It belongs to a modal group,
-// of which a block may hold one word. Codes that are known but change nothing that is simulated are
-// events; codes that would change the part and are not simulated are refused with a remedy.
+// A code is a G or M number, or a word without one (TRAORI, TOOL CALL). It belongs to a modal
+// group, of which a block may hold one word. Codes that are known but change nothing that is
+// simulated are events; codes that would change the part and are not simulated are refused with a
+// remedy.
 // Units : none
 // Errors: none
 #pragma once
@@ -18,7 +19,7 @@ namespace frustum::parser {
 
 enum class CodeGroup : std::uint8_t {
   motion,
-  cycle,  // G80, which may stand beside G0 in a safe line; alone it cancels the motion
+  cycle,  // G80, which may be beside G0 in a safe line; alone it cancels the motion
   non_modal,
   plane,
   distance,
@@ -53,7 +54,7 @@ enum class CodeGroup : std::uint8_t {
   coolant,
   stop,
   subprogram,
-  event,  // no group: several may stand in a block
+  event,  // no group: several may be in a block
 };
 constexpr std::size_t kCodeGroups = static_cast<std::size_t>(CodeGroup::event);
 
@@ -67,9 +68,10 @@ enum class NonModal : std::uint8_t {
   dwell,
   home,
   machine_coordinates,
-  align,           // the rotary axes to the normal of the tilted plane
-  pole,            // the centre of the arcs that follow
-  pole_from_here,  // what polar positions count from: from where the tool is, the origin, or the last pole
+  align,  // the rotary axes to the normal of the tilted plane
+  pole,   // the centre of the arcs that follow
+  // what polar positions count from: from where the tool is, the origin, or the last pole
+  pole_from_here,
   pole_from_origin,
   pole_from_pole,
   start,        // where the tool is before the program moves it

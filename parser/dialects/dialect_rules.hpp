@@ -34,14 +34,16 @@ struct LetterUse {
 // How canned cycles differ.
 struct CycleRules {
   bool retract_to_initial = true;            // before the first G98 or G99
-  bool words_end_with_their_g_word = false;  // G83 behind G81 needs its own R and Z
+  bool words_end_with_their_g_word = false;  // G83 after G81 needs its own R and Z
   bool feed_out_to_clearance = false;        // taps and G89 leave by feed all the way
   // Q shifts the tool of G76 and G87 along the plane's first axis; G87 then bores up from R to Z.
   bool tool_shift_by_q = false;
-  // R and the depth are steps or places by the mode of the block that gives them, whatever the mode at a later hole.
+  // R and the depth are steps or places by the mode of the block that gives them, whatever the mode
+  // at a later hole.
   bool words_keep_their_mode = false;
-  bool cancel_brings_motion_back = false;  // behind G80 the G0 to G3 before the cycle is in force
-  // Each block begins at the depth before the first hole: with G98 the move to the next hole goes up there.
+  bool cancel_brings_motion_back = false;  // after G80 the G0 to G3 before the cycle is in force
+  // Each block begins at the depth before the first hole: with G98 the move to the next hole goes
+  // up there.
   bool start_from_initial = false;
 };
 
@@ -49,7 +51,8 @@ struct CycleRules {
 struct PolarRules {
   bool about_pole = false;      // else about the origin, in G17
   bool origin_is_pole = false;  // while none is given
-  // Left out, radius and angle stay as they were written last; where the tool is elsewhere that is an error.
+  // Left out, radius and angle stay as they were written last; where the tool is elsewhere that is
+  // an error.
   bool words_stay = false;
   std::string_view radius{};
   std::string_view angle{};
@@ -128,10 +131,12 @@ struct DialectRules {
   bool data_follow_distance_mode = false;
   // A new tilted plane begins without programmable frame.
   bool planes_end_frames = false;
-  // Subprograms are programs with a head of their own, or files without; every end of a program returns from one.
+  // Subprograms are programs with a head of their own, or files without; every end of a program
+  // returns from one.
   bool subprograms_are_programs = false;
-  // A program that is called has a file of its own, which the word of its end (END PGM) returns from. Labels and the
-  // unit belong to their file, and M2 and M30 have no place in one that is called.
+  // A program that is called has a file of its own, which the word of its end (END PGM) returns
+  // from. Labels and the unit belong to their file, and M2 and M30 have no place in one that is
+  // called.
   bool calls_whole_files = false;
   // How a subprogram's name becomes the name of a file beside the program: "{}.ngc".
   std::span<const std::string_view> file_names{};

@@ -21,8 +21,8 @@ struct RadiusRules {
   bool entry_may_be_arc = false;
   // The first move in force must be one in the plane.
   bool entry_comes_first = false;
-  // A corner that turns by less is none: the tool goes on from where it is. The least is above the noise of the
-  // directions of moves of 1 um.
+  // A corner that turns by less is none: the tool goes on from where it is. The least is above the
+  // noise of the directions of moves of 1 um.
   double straight_below = 1e-6;
   RadiusSource source = RadiusSource::tool_in_spindle;
   bool in_yz = true;  // also in the plane YZ

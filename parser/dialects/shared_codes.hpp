@@ -29,8 +29,8 @@ inline constexpr std::array kMachineCodes{
     passed('M', 190, CodeGroup::event, LetterSet("RPQ")),  // orient the spindle
 };
 
-// Spindle stop and coolant off beside a move, where the builder of the machine says when they count: behind it,
-// as most have it.
+// Spindle stop and coolant off beside a move, where the builder of the machine says when they
+// count: after it, as most have it.
 inline constexpr std::array kStopsBehindMove{50, 90};
 
 // Of those that speak G code.

@@ -17,8 +17,8 @@ class BlockNumbers {
  public:
   explicit BlockNumbers(const Program& program);
 
-  // The first block of that number from the offset `from` on and before `end`, in the program of the file that
-  // begins at `start`: the next one has numbers of its own.
+  // The first block of that number from the offset `from` on and before `end`, in the program of
+  // the file that begins at `start`: the next one has numbers of its own.
   [[nodiscard]] std::optional<TextPlace> find(std::uint32_t number, std::uint64_t from,
                                               std::uint64_t end, std::uint64_t start) const;
 

@@ -77,7 +77,8 @@ struct CallFrame {
   std::vector<double> arguments{};  // for the head of the program; vacant where left out
   std::vector<CountedLoop> loops{};
   std::vector<RepeatedPart> parts{};
-  // Those at work in this program, innermost last. Moves of a macro called by one of them call those before it.
+  // Those at work in this program, innermost last. Moves of a macro called by one of them call
+  // those before it.
   std::vector<ModalMacro> modal_macros{};
   bool is_modal = false;  // called by the last one of its caller
 };

@@ -117,7 +117,7 @@ void ProgramMap::pair(const Program& program) {
     Landmark& here = landmarks_[i];
     here.begin = here.next = here.end = i;
     if (here.kind == FlowKind::program) {
-      // PROC NAME behind %_N_NAME_SPF is the same program.
+      // PROC NAME after %_N_NAME_SPF is the same program.
       const bool again = i > 0 && landmarks_[i - 1].kind == FlowKind::program &&
                          landmarks_[i - 1].label == here.label;
       const auto [first, fresh] = heads_.emplace(here.label, i);
@@ -128,7 +128,7 @@ void ProgramMap::pair(const Program& program) {
       if (!fresh) twice(here, landmarks_[first->second]);
       targets_.emplace(here.label, i);
     }
-    // `while` behind the body of a `do` of the same label is its end.
+    // `while` after the body of a `do` of the same label is its end.
     if (here.kind == FlowKind::loop && here.turns == Turns::while_true && !open.empty()) {
       const Landmark& begin = landmarks_[open.back().begin];
       if (begin.kind == FlowKind::loop && begin.turns == Turns::until_end && !here.label.empty() &&

@@ -1,12 +1,13 @@
-// Where the flow statements, labels and numbered programs of a program stand and which belong together, so
-// that a jump need not read what it passes over. Made when the first one is looked for: most programs
-// have none.
+// Where the flow statements, labels and numbered programs of a program stand and which belong
+// together, so that a jump need not read what it passes over. Made when the first one is looked
+// for: most programs have none.
 //
 // Units : places of program_text.hpp
 // Shape : one read of the whole text
-// Errors: faults(): an end without its beginning, a beginning without its end, else behind else, break outside a
-//         loop, a subprogram within another or of the same name, a label that is there twice. Blocks with a
-//         syntax error are passed over; they are told when they are run
+// Errors: faults(): an end without its beginning, a beginning without its end, else after else,
+//         break outside a loop, a subprogram within another or of the same name, a label that is
+//         there twice. Blocks with a syntax error are passed over; they are reported when they are
+//         run
 #pragma once
 
 #include <cstddef>
@@ -30,8 +31,8 @@ struct Landmark {
   std::uint32_t column = 0;
   std::string label{};
   std::size_t program = 0;  // of the file, that of the first header is 1
-  // Indices of what belongs to it: the beginning of its statement (of a loop, for break and continue), the next
-  // part of it, and its end.
+  // Indices of what belongs to it: the beginning of its statement (of a loop, for break and
+  // continue), the next part of it, and its end.
   std::size_t begin = 0;
   std::size_t next = 0;
   std::size_t end = 0;
@@ -49,7 +50,7 @@ class ProgramMap {
   [[nodiscard]] const Landmark& at(TextPlace place) const;
   // The subprogram or label of that name; null when there is none.
   [[nodiscard]] const Landmark* target(std::string_view label) const;
-  // The same, a label being one of the program that `from` lies in.
+  // The same, a label being one of the program that `from` is in.
   [[nodiscard]] const Landmark* target(std::string_view label, TextPlace from) const;
   // What begins the program of that name within the file; null when there is none.
   [[nodiscard]] const Landmark* head(std::string_view name) const;

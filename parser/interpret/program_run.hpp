@@ -1,4 +1,5 @@
-// One run of a program: which block comes next. What a block does is the executor's (block_executor.hpp).
+// One run of a program: which block comes next. What a block does is the executor's
+// (block_executor.hpp).
 //
 // Units : none
 // Errors: those of interpreter.hpp
@@ -33,7 +34,7 @@ class ProgramRun {
   // The end of the text, a tape mark, or the next program: fine for a main program only.
   [[nodiscard]] Failure run_off(const Block* end);
   void return_from_call();
-  // The next block, behind the repeated parts that have ended.
+  // The next block, after the repeated parts that have ended.
   [[nodiscard]] Result<const Block*> next_block();
 
   // What the words of a block ask for: M98, M99, M30.

@@ -1,8 +1,8 @@
 // One block (line) of an NC program as written: words, parameter settings and comments, not yet
 // given a meaning.
 //
-// Every dialect's reader yields these blocks, with the words of its own spelling under the canonical
-// letters, so that one interpreter runs them all:
+// Every dialect's reader yields these blocks, with the words of its own spelling under the
+// canonical letters, so that one interpreter runs them all:
 //   A to Z   as ISO programs write them
 //   a b c    the tool vector where it has words of its own (A3= B3= C3=, TX TY TZ)
 //   d        a tilted plane turns the rotary axes to its normal (0: it does not)
@@ -58,7 +58,7 @@ struct Word {
   const char* spelled = nullptr;  // "A3=" where the dialect's spelling is not the letter
 };
 
-// #1=2, #<depth>=[#1*2]. A name stands for itself, a number is computed by `index`.
+// #1=2, #<depth>=[#1*2]. A name represents itself, a number is computed by `index`.
 struct Assignment {
   std::uint32_t column = 0;
   std::optional<std::uint32_t> name{};  // index into Block::names

@@ -1,10 +1,10 @@
 // Expressions of RS-274 ([#1 * SIN[30] + 2]) as postfix code.
 //
-// The steps of all expressions of a block lie in one row in the block; an ExpressionRange names a
+// The steps of all expressions of a block are in one row in the block; an ExpressionRange names a
 // part of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never
-// negative, and operators of one level bind to the left, `**` too: RS-274's rules. Custom Macro has operations
-// of its own under some of these names: AND, OR and XOR combine bits, FIX and FUP round towards zero and away
-// from it, MOD has the sign of what is divided.
+// negative, and operators of one level bind to the left, `**` too: RS-274's rules. Custom Macro has
+// operations of its own under some of these names: AND, OR and XOR combine bits, FIX and FUP round
+// towards zero and away from it, MOD has the sign of what is divided.
 // A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0.
 // Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
 // beyond the range of numbers; each at the column of the operation.

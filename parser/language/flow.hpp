@@ -1,8 +1,8 @@
 // What a block says about which block comes next: loops, branches, subprograms, jumps.
 //
-// The dialects spell these in their own ways and mean the same few things, so that one interpreter runs
-// them all. A statement stands alone in its block, beside comments; words may follow a label and only_if, and a label
-// may stand before another statement.
+// The dialects spell these in their own ways and mean the same few things, so that one interpreter
+// runs them all. A statement stands alone in its block, beside comments; words may follow a label
+// and only_if, and a label may be before another statement.
 //
 //   kind          RS-274             Custom Macro        Sinumerik            Klartext
 //   branch        o1 if [c]                              IF c
@@ -97,7 +97,8 @@ struct FlowStatement {
   FlowKind kind = FlowKind::label;
   std::uint32_t column = 0;
   // Links the parts of a statement, and names subprograms and jump targets: "100", "pocket", "N20".
-  // Empty where the dialect has none. A computed one is in `label_value`, with `label` as its prefix.
+  // Empty where the dialect has none. A computed one is in `label_value`, with `label` as its
+  // prefix.
   std::string label{};
   // Of the block itself, before the statement: DONE: L1.
   std::string block_label{};

@@ -1,7 +1,7 @@
 // The parameters of a program: numbered (#1 .. #99999) and named (#<feed>), each set or not.
 //
-// The first numbers and the names that do not begin with _ belong to the subprogram at work: a call begins
-// with its arguments and none of its caller's. All others are of the whole program.
+// The first numbers and the names that do not begin with _ belong to the subprogram at work: a call
+// begins with its arguments and none of its caller's. All others are of the whole program.
 // Units: as the program wrote them; a parameter has no unit until a word uses it.
 // Errors: reading a parameter that was never set, or a number that no parameter has.
 #pragma once
@@ -26,13 +26,15 @@ constexpr int kMaxParameterNumber = 99999;
 struct ParameterRules {
   int locals = 0;             // #1 up to this number belong to the subprogram
   bool named_locals = false;  // so do names without _ before them
-  // Names that begin so belong to the program file at work (Klartext's QL); all other names are of the whole run.
+  // Names that begin so belong to the program file at work (Klartext's QL); all other names are of
+  // the whole run.
   std::string_view local_names{};
   bool unset_is_zero = false;  // a number that was never set reads as 0
-  // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but vacant ones, and a
-  // word of that value is not given at all (Custom Macro).
+  // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but
+  // vacant ones, and a word of that value is not given at all (Custom Macro).
   bool unset_is_vacant = false;
-  // From this number on they are the controller's own: one that it does not keep cannot be read. 0: none are.
+  // From this number on they are the controller's own: one that it does not keep cannot be read. 0:
+  // none are.
   int first_system = 0;
   char prefix = '#';  // how numbers are spelled
   int first = 1;
@@ -41,8 +43,8 @@ struct ParameterRules {
   bool names_are_defined = false;
 };
 
-// The parameters that a controller keeps itself; no value for what it does not keep, NaN for what it keeps and the
-// program cannot know.
+// The parameters that a controller keeps itself; no value for what it does not keep, NaN for what
+// it keeps and the program cannot know.
 class KeptParameters {
  public:
   KeptParameters() = default;
@@ -87,7 +89,7 @@ class Parameters {
     Named named{};
     std::map<std::string, VariableKind, std::less<>> kinds{};
   };
-  // The number that a name such as R5 stands for.
+  // The number that a name such as R5 represents.
   [[nodiscard]] std::optional<double> number_in(std::string_view name) const;
   [[nodiscard]] bool is_local(int index) const { return index <= rules_.locals; }
   [[nodiscard]] bool is_local(std::string_view name) const {

@@ -1,4 +1,5 @@
-// A block while it is read: its text, what is read of it so far, and how its dialect writes expressions.
+// A block while it is read: its text, what is read of it so far, and how its dialect writes
+// expressions.
 //
 // Readers share one draft among the functions that read parts of a block.
 // Units: none; values are as written.
@@ -38,7 +39,7 @@ struct BlockDraft {
   void read_value(Word& word, ExpressionLevel level);
   // A label is all that there is so far; a statement may follow it.
   [[nodiscard]] bool labelled() const;
-  // Whether anything but / and N stands before.
+  // Whether anything but / and N is before.
   [[nodiscard]] bool begun() const;
   void begin_flow(FlowKind kind, std::uint32_t column);
   // name = expression; the = is read already.

@@ -1,7 +1,7 @@
 // Lines of text -> blocks, in the spelling of one dialect.
 //
-// A reader keeps what its language spreads over lines and what control flow cannot change (the CIRCLE
-// before a GOTO, the name of BEGIN PGM); a new one belongs to each program.
+// A reader keeps what its language spreads over lines and what control flow cannot change (the
+// CIRCLE before a GOTO, the name of BEGIN PGM); a new one belongs to each program.
 // Units: none; values are as written.
 // Errors: the first one of the block, with line, column and hint; the file is left to the caller.
 #pragma once

@@ -1,10 +1,11 @@
 // Reads infix expressions, in the spelling of one dialect, as the postfix steps of a block.
 //
-// A dialect gives its operators with their levels, its functions, and a rule that reads its variables.
-// What is common: operators of one level bind from the left, a sign belongs to the operand behind it,
-// ( ) hold an expression.
+// A dialect gives its operators with their levels, its functions, and a rule that reads its
+// variables. What is common: operators of one level bind from the left, a sign belongs to the
+// operand after it, ( ) hold an expression.
 // Units: none; values are as written.
-// Errors: an operand or bracket that is missing, brackets too deep; at the scanner, with their columns
+// Errors: an operand or bracket that is missing, brackets too deep; at the scanner, with their
+//         columns
 #pragma once
 
 #include <cstdint>
@@ -50,17 +51,17 @@ struct ExpressionSpelling {
   bool functions_have_brackets = true;
   ExpressionLevel in_brackets = ExpressionLevel::disjunction;
   std::string_view negation{};  // NOT
-  // Puts the variable of that name behind the steps; false when it is none.
+  // Puts the variable of that name after the steps; false when it is none.
   bool (*read_variable)(ExpressionReader& reader, const std::string& name,
                         std::uint32_t column) = nullptr;
-  // What is told of mistakes. {} is the name that was found.
+  // What is reported of mistakes. {} is the name that was found.
   std::string_view no_operand{};
   std::string_view no_operand_hint{};
   std::string_view unknown_operand{};
   std::string_view unknown_operand_hint{};
   std::string_view too_deep_hint{};
   std::string_view single_equals_hint{};  // where = does not compare
-  bool open_bracket_is_told = false;      // an unclosed bracket is told where it opens
+  bool open_bracket_is_told = false;      // an unclosed bracket is reported where it opens
 };
 
 class ExpressionReader {

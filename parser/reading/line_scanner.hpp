@@ -1,8 +1,8 @@
 // Reads a block of text by hand, where a dialect's words are few: names, numbers, signs, comments.
 //
-// The first failure sticks: from then on everything is at its end, so that readers need to look only
-// once. Letters count as upper case. Blanks are skipped before each token; a line feed, between the
-// lines of one block, is a blank.
+// The first failure sticks: from then on everything is at its end, so that readers need to look
+// only once. Letters count as upper case. Blanks are skipped before each token; a line feed,
+// between the lines of one block, is a blank.
 // Units: none; values are as written. Columns count bytes from 1 over all lines of the block.
 // Errors: a number that is missing or too large; those of the reader, by fail().
 #pragma once

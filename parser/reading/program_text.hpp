@@ -54,7 +54,7 @@ class LineReader {
 
  private:
   [[nodiscard]] std::string_view rest() const { return window_.substr(in_window_); }
-  // More of the file behind what the window has left; false at its end.
+  // More of the file after what the window has left; false at its end.
   bool refill();
   void take(std::size_t bytes);
 

@@ -1,4 +1,5 @@
-// What the writers of all dialects share: parts of a block joined by blanks, its expressions, its named words.
+// What the writers of all dialects share: parts of a block joined by blanks, its expressions, its
+// named words.
 //
 // Units : as written
 // Errors: none

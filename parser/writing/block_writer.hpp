@@ -1,6 +1,8 @@
-// The writers of the dialects: block by block from the start of a program, without the line feed at the end.
+// The writers of the dialects: block by block from the start of a program, without the line feed at
+// the end.
 //
-// Some keep what later blocks are written by, as their readers do: the name of the program, the last place.
+// Some keep what later blocks are written by, as their readers do: the name of the program, the
+// last place.
 // Units : as written
 // Errors: none
 #pragma once

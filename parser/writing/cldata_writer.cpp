@@ -137,8 +137,8 @@ class RecordWriter {
     pen_.inches = inches;
   }
 
-  // Its centre has words in the plane alone, so that the axis is the letter without one. The angle tells full turns
-  // from none.
+  // Its centre has words in the plane alone, so that the axis is the letter without one. The angle
+  // tells full turns from none.
   [[nodiscard]] std::string circle() const {
     const bool counterclockwise = name_ == "CIRCLE+";
     constexpr std::string_view kCentre = "IJK";

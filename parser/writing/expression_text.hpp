@@ -1,7 +1,7 @@
 // Expressions as NC text, with no more brackets than they need.
 //
-// What a dialect writes between operands is the data that its expressions are read by; a style adds how it spells
-// the rest.
+// What a dialect writes between operands is the data that its expressions are read by; a style adds
+// how it spells the rest.
 // Units : none
 // Errors: none; operations that the dialect cannot write are left out
 #pragma once

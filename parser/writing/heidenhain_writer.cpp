@@ -14,12 +14,13 @@ namespace {
 
 using enum ExpressionLevel;
 
-constexpr double kTipControl = 128.0;  // M128, which may have the feed of its moves behind it
+constexpr double kTipControl = 128.0;  // M128, which may have the feed of its moves after it
 
 // Words of the code table that are elements of a line, no statements.
 constexpr std::array<std::string_view, 6> kElements{
     "R0", "RL", "RR", "F AUTO", "PATHCTRL AXIS", "PATHCTRL VECTOR"};
-// Statements that are written in another way, and axes without a name of their own that the reader adds to them.
+// Statements that are written in another way, and axes without a name of their own that the reader
+// adds to them.
 struct Spelling {
   std::string_view code;
   std::string_view written;
@@ -39,7 +40,7 @@ constexpr std::array kSpellings{
     Spelling{"CYCL DEF 19 OFF", "CYCL DEF 19.1"},
     Spelling{"CYCL DEF 26", "CYCL DEF 26.1", "XYZ"},
 };
-// Known and not simulated: what stands before and behind their text.
+// Known and not simulated: what is before and after their text.
 struct EventForm {
   std::string_view event;
   std::string_view before;
@@ -139,7 +140,7 @@ class KlartextBlock {
   }
 
  private:
-  // The word that names the statement, and what stands at the end of its line.
+  // The word that names the statement, and what is at the end of its line.
   void find_statement() {
     for (const Word& word : block_.words) {
       const std::string_view code = named_word(word);

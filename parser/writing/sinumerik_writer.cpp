@@ -18,7 +18,7 @@ namespace {
 
 using enum ExpressionLevel;
 
-// CYCLE800(1,"",0,57,...): its words stand behind its name.
+// CYCLE800(1,"",0,57,...): its words stand after its name.
 constexpr std::array<std::string_view, 16> kSwivel{
     "_FR", "_TC", "_ST=", "_MODE=", "_X0=", "_Y0=",  "_Z0=",  "_A=",
     "_B=", "_C=", "_X1=", "_Y1=",   "_Z1=", "_DIR=", "_FR_I", "_DMODE"};
@@ -101,8 +101,8 @@ class SinumerikBlock {
     return measure.empty() ? value : fmt::format("{}({})", measure, value);
   }
 
-  // X10, X=0.5, X=R1, A3=1, TRAORI. What is behind a = has no decimal point that matters. R5 and L5 would be a
-  // parameter and a call.
+  // X10, X=0.5, X=R1, A3=1, TRAORI. What is after a = has no decimal point that matters. R5 and L5
+  // would be a parameter and a call.
   [[nodiscard]] std::string word_text(const Word& word) const {
     if (word.letter == kNamedWord) return std::string(named_word(word));
     const std::string value = value_text(word);

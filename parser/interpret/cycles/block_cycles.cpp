@@ -1,4 +1,5 @@
-// Canned cycles in a program: their words, which stay in force until the motion changes, and their repeats.
+// Canned cycles in a program: their words, which stay in force until the motion changes, and their
+// repeats.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Drilling cycles at the place where the tool is, called once or, by MCALL, behind each block that moves.
+// Drilling cycles at the place where the tool is, called once or, by MCALL, after each block that
+// moves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -217,7 +218,8 @@ Result<DrillingCycle> BlockExecutor::drilling_cycle_of(const BlockWords& words) 
   return cycle;
 }
 
-// A block that has a cycle defines it, or makes the hole; with MCALL it is in force until MCALL alone.
+// A block that has a cycle defines it, or makes the hole; with MCALL it is in force until MCALL
+// alone.
 BlockExecutor::Outcome BlockExecutor::call_drilling_cycle(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::drilling_cycle];
   const bool modal = words.has(CodeGroup::hole_call);

@@ -190,7 +190,8 @@ BlockExecutor::Outcome BlockExecutor::make_hole(const BlockWords& words, const M
   return Done{};
 }
 
-// From where the tool is, over the hole and down. After a turn of the tool its place says nothing about heights.
+// From where the tool is, over the hole and down. After a turn of the tool its place says nothing
+// about heights.
 void BlockExecutor::drill_from_top(const Vec3& top, const std::optional<Vec3>& from, bool turns,
                                    std::uint32_t column) {
   const HoleCycle& cycle = state_.hole_cycle;

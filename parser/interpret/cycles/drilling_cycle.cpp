@@ -48,8 +48,8 @@ std::vector<CycleStep> peck_steps(const DrillingCycle& cycle) {
 
 }  // namespace
 
-// The first stroke; each after it shorter by the amount or factor, down to the amount or the least; the last two of an
-// amount share what is left.
+// The first stroke; each after it shorter by the amount or factor, down to the amount or the least;
+// the last two of an amount share what is left.
 std::vector<double> pecks(const DrillingCycle& cycle) {
   // What is left below this is rounding.
   constexpr double kNothing = 1e-9;

@@ -1,8 +1,9 @@
-// Drilling cycles whose heights are coordinates along the normal of the plane: CYCLE81 to CYCLE89 of Sinumerik, at the
-// place where the tool is.
+// Drilling cycles whose heights are coordinates along the normal of the plane: CYCLE81 to CYCLE89
+// of Sinumerik, at the place where the tool is.
 //
-// The letters of the words: z RTP, V RFP, u SDIS, Z DP, d DPR, P DTB; x the axis, g h i the modes of the call.
-//   CYCLE83 K FDEP, Q FDPR, r DAM, W DTS, f FRF, e VARI, m the least stroke, v the retract that breaks the chip,
+// The letters of the words: z RTP, V RFP, u SDIS, Z DP, d DPR, P DTB; x the axis, g h i the modes
+//   of the call. CYCLE83 K FDEP, Q FDPR, r DAM, W DTS, f FRF, e VARI, m the least stroke, v the
+//   retract that breaks the chip,
 //           t the dwell at the bottom, w the distance kept on the way back
 //   CYCLE84 e SDAC, m MPIT, k PIT, E POSS, s SST, l SST1     CYCLE85 f FFR, r RFF
 //   CYCLE86 e SDIR, I J K the retract, E POSS                CYCLE87, CYCLE88 e SDIR
@@ -46,7 +47,7 @@ struct DrillingCycle {
   double speed = 0.0;  // of the spindle, 1/min; while it goes back
   double speed_back = 0.0;
   Vec3 retract = Vec3::Zero();                  // along the plane's first, second and third axis
-  std::optional<SpindleDirection> direction{};  // before the hole, of a tap behind it
+  std::optional<SpindleDirection> direction{};  // before the hole, of a tap after it
 };
 
 [[nodiscard]] std::vector<double> pecks(const DrillingCycle& cycle);

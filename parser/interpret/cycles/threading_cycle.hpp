@@ -4,10 +4,11 @@
 //   X crest        I from the drive line: below zero for a thread outside, above for one inside
 //   depths         J, then J n^(1/R) at pass n, at last K; H passes more at K
 //   slide          the passes begin and end later along Z by depth tan Q, so that one flank cuts
-//   tapers         over E along Z the tool goes in from the crest, or out to it, at the thread's lead
+//   tapers over E along Z the tool goes in from the crest, or out to it, at the thread's lead
 //
 // Units : mm, mm a revolution, rad
-// Shape : for each pass: to its start by rapid, in, along the thread, out by rapid; at the end to the drive line
+// Shape : for each pass: to its start by rapid, in, along the thread, out by rapid; at the end to
+//         the drive line
 // Errors: none; the words are checked by the caller
 // Source: LinuxCNC's user manual, G76 threading cycle
 #pragma once

@@ -1,4 +1,5 @@
-// RND and CHF of Klartext in a block: their words, and what may stand between them and the moves that they join.
+// RND and CHF of Klartext in a block: their words, and what may be between them and the moves that
+// they join.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace frustum::parser {
 namespace {
 
-// What may stand in the block of the second move.
+// What may be in the block of the second move.
 constexpr std::array kBesideMoves{CodeGroup::motion, CodeGroup::feed_source, CodeGroup::spindle,
                                   CodeGroup::coolant, CodeGroup::corner};
 

@@ -1,4 +1,5 @@
-// Cutter radius compensation in a program: its words, what may not happen while it is on, and how it ends.
+// Cutter radius compensation in a program: its words, what may not happen while it is on, and how
+// it ends.
 #include <fmt/format.h>
 
 #include <array>

@@ -141,7 +141,8 @@ CornerInsertion::Failure CornerInsertion::take(Motion&& motion, const Sink& sink
   return std::nullopt;
 }
 
-// Shortens the move that waits, and puts the corner behind it. The next move begins where the corner ends.
+// Shortens the move that waits, and puts the corner after it. The next move begins where the corner
+// ends.
 CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, const Sink& sink) {
   const Corner corner = *corner_;
   const PathPiece& before = *piece_;

@@ -9,13 +9,14 @@
 namespace frustum::parser {
 namespace {
 
-// A point that lies this little behind the end of an arc is its end, not a turn away from it.
+// A point that lies this little after the end of an arc is its end, not a turn away from it.
 constexpr double kSamePoint = 1e-9;  // mm
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 double sense_of(const PathPiece& arc) { return arc.turns > 0 ? 1.0 : -1.0; }
 
-// The way from one point of the arc's circle to another in the arc's sense, from 0 up to a full turn.
+// The way from one point of the arc's circle to another in the arc's sense, from 0 up to a full
+// turn.
 double way_round(const PathPiece& arc, const Vec2& from, const Vec2& to) {
   const double angle = sense_of(arc) * signed_angle(from - arc.centre, to - arc.centre);
   const double radius = radius_of(arc);

@@ -1,6 +1,7 @@
 // Straight lines and arcs in a plane, their parallels and their crossings.
 //
-// Model    : coordinates (u, v) of the plane's axes, counterclockwise positive; left is left of the way
+// Model    : coordinates (u, v) of the plane's axes, counterclockwise positive; left is left of the
+//            way
 // Units    : mm, rad
 // Shape    : a straight piece has a length above zero, an arc a radius above zero
 // Errors   : none; crossings() gives none where there are none
@@ -35,16 +36,17 @@ struct PathPiece {
 [[nodiscard]] Vec2 direction_at_end(const PathPiece& piece);
 [[nodiscard]] double curvature_of(const PathPiece& piece);  // 1/mm, positive to the left
 
-// The piece `left` mm to its left (below zero: to its right). An arc that it leaves no radius has none.
+// The piece `left` mm to its left (below zero: to its right). An arc that it leaves no radius has
+// none.
 [[nodiscard]] PathPiece parallel(const PathPiece& piece, double left);
 
-// Where the lines and circles that two pieces lie on meet: none, one or two points.
+// Where the lines and circles that two pieces are on meet: none, one or two points.
 [[nodiscard]] std::vector<Vec2> crossings(const PathPiece& a, const PathPiece& b);
-// How far apart the two lie where they do not meet; 0 where they do, or for lines.
+// How far apart the two are where they do not meet; 0 where they do, or for lines.
 [[nodiscard]] double gap_between(const PathPiece& a, const PathPiece& b);
 
-// How much of the piece is lost, along it, when it begins or ends at `point` of its line or circle. Below zero for
-// a straight piece that gets longer; an arc goes round.
+// How much of the piece is lost, along it, when it begins or ends at `point` of its line or circle.
+// Below zero for a straight piece that gets longer; an arc goes round.
 [[nodiscard]] double lost_at_start(const PathPiece& piece, const Vec2& point);
 [[nodiscard]] double lost_at_end(const PathPiece& piece, const Vec2& point);
 

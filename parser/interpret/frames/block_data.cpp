@@ -129,7 +129,8 @@ BlockExecutor::Outcome BlockExecutor::set_work_offset_data(const BlockWords& wor
   return tell_origin(number, column);
 }
 
-// L20: where the axes stand the words are to be what the block says; the other words stay what they are.
+// L20: where the axes stand the words are to be what the block says; the other words stay what they
+//      are.
 BlockExecutor::Outcome BlockExecutor::set_offset_here(const BlockWords& words) {
   const std::uint32_t column = words[CodeGroup::non_modal].column;
   const auto given = whole(words, 'P', 0, kFixture);

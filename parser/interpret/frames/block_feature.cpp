@@ -22,7 +22,7 @@ std::string missing_part(const FeatureWords& feature) {
 
 }  // namespace
 
-// The plane lies in the frame of the words at work, which is that of the words again after G69.
+// The plane is in the frame of the words at work, which is that of the words again after G69.
 BlockExecutor::Outcome BlockExecutor::tilt(const GivenCode& code, const Pose& plane, bool within) {
   if (!within && state_.frame_below) state_.programmed_frame = *state_.frame_below;
   if (state_.programmed_frame.is_mirrored() || state_.programmed_frame.scale != 1.0) {

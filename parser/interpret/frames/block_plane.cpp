@@ -1,4 +1,5 @@
-// PLANE of Klartext: tilted planes by angles, vectors, points, and on top of each other. The datum stays.
+// PLANE of Klartext: tilted planes by angles, vectors, points, and on top of each other. The datum
+// stays.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -214,7 +214,7 @@ BlockExecutor::Outcome BlockExecutor::set_scaling(const BlockWords& words) {
   return Done{};
 }
 
-// G51.1 X10: what is beyond X10 lies on this side of it.
+// G51.1 X10: what is beyond X10 is on this side of it.
 BlockExecutor::Outcome BlockExecutor::set_mirror(const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::mirror];
   if (code.code == nullptr) return Done{};

@@ -12,7 +12,8 @@ namespace {
 
 // The control takes vectors that are nearly at right angles for such.
 constexpr double kMostOffSquare = 5.0 * kRadPerDeg;
-// Below a thousandth of a degree two lines are one: the digits of a program do not hold their plane.
+// Below a thousandth of a degree two lines are one: the digits of a program do not hold their
+// plane.
 constexpr double kParallel = 1e-3 * kRadPerDeg;
 
 Mat3 about(int axis, double angle) { return rotation_about(Vec3::Unit(axis), angle); }

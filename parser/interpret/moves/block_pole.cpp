@@ -1,5 +1,5 @@
-// Poles, places about them, and arcs that lead on from the move before: CC, LP, CP, CTP and CT of Klartext; G110 to
-// G112, AP=, RP= and CT of Sinumerik.
+// Poles, places about them, and arcs that lead on from the move before: CC, LP, CP, CTP and CT of
+// Klartext; G110 to G112, AP=, RP= and CT of Sinumerik.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -118,7 +118,8 @@ Result<Pole> BlockExecutor::pole_for(std::uint32_t column) const {
   return fail(column, "pole-missing"_id, "there is no pole", give);
 }
 
-// What is left out or steps goes on from the tool's place; that has to be where it was written last.
+// What is left out or steps goes on from the tool's place; that has to be where it was written
+// last.
 BlockExecutor::Outcome BlockExecutor::check_place_about_pole(const BlockWords& words,
                                                              const Pole& pole, double radius,
                                                              double angle) const {

@@ -1,5 +1,5 @@
-// Arcs through a point between start and end: CIP of Sinumerik. In a plane of X, Y and Z they stay arcs; in space they
-// become chords.
+// Arcs through a point between start and end: CIP of Sinumerik. In a plane of X, Y and Z they stay
+// arcs; in space they become chords.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kBetween = "uvw";
 constexpr double kInPlane = 1e-6;  // mm: below every control's increment
-// A circle through three points that deviate by less from a line is not told by written coordinates.
+// A circle through three points that deviate by less from a line is not determined by written
+// coordinates.
 constexpr double kOnLine = 1e-9;
 // How far a chord stays within its arc, a tenth of what a control resolves.
 constexpr double kSagitta = 1e-4;         // mm
@@ -43,7 +44,8 @@ SpaceArc arc_through(const Vec3& start, const Vec3& between, const Vec3& end) {
 
 }  // namespace
 
-// I1= J1= K1=, as the words of the end count. A coordinate that is left out is that of start and end.
+// I1= J1= K1=, as the words of the end count. A coordinate that is left out is that of start and
+// end.
 Result<Vec3> BlockExecutor::point_between(const BlockWords& words, const Movement& movement,
                                           const Vec3& start, const Vec3& end) const {
   Vec3 point = start;

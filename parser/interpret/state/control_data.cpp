@@ -31,7 +31,8 @@ enum class Kept : std::uint8_t {
 };
 constexpr bool kReadOnly = true;
 
-// Parameters first, first + step, ... for the things first_number, first_number + 1, ...; of each `width` parameters.
+// Parameters first, first + step, ... for the things first_number, first_number + 1, ...; of each
+// `width` parameters.
 struct Row {
   int first;
   int count;  // of things

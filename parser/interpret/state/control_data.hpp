@@ -1,13 +1,14 @@
-// What a control keeps from one program to the next: work offsets, reference points, tools, the shift of G92. A
-// program reads and writes it by G10, G28.1, G92 and numbered parameters.
+// What a control keeps from one program to the next: work offsets, reference points, tools, the
+// shift of G92. A program reads and writes it by G10, G28.1, G92 and numbered parameters.
 //
-//   LinuxCNC   #5161 #5181 reference points; #5210, #5211 G92; #5220 the work offset; #5221 to #5389 work offsets, 20
-//              apart, #5230, #5250, ... their turns; #5400 to #5413 the tool in the spindle; #5420 the position
-//   Fanuc      #5201 external offset; #5221 to #5326 G54 to G59; #7001 and on G54.1; #2001 (or #10001) and on tool
-//              lengths, #11001 their wear, #12001 and #13001 radii; #5001 the position
+//   LinuxCNC #5161 #5181 reference points; #5210, #5211 G92; #5220 the work offset; #5221 to #5389
+//              work offsets, 20 apart, #5230, #5250, ... their turns; #5400 to #5413 the tool in
+//              the spindle; #5420 the position
+//   Fanuc #5201 external offset; #5221 to #5326 G54 to G59; #7001 and on G54.1; #2001 (or #10001)
+//              and on tool lengths, #11001 their wear, #12001 and #13001 radii; #5001 the position
 //
-// Units : mm, rad; parameters of lengths in the machine's unit (LinuxCNC) or in the program's (Fanuc), of angles in
-//         degrees
+// Units : mm, rad; parameters of lengths in the machine's unit (LinuxCNC) or in the program's
+//         (Fanuc), of angles in degrees
 // Errors: none; write_parameter() says why a value is not taken
 #pragma once
 
@@ -23,8 +24,9 @@
 
 namespace frustum::parser {
 
-// Positions of the axes without tool at which the words are zero. An absent X, Y or Z is the setup's, which the program
-// does not know; an absent rotary axis counts as zero. The turn is about Z.
+// Positions of the axes without tool at which the words are zero. An absent X, Y or Z is the
+// setup's, which the program does not know; an absent rotary axis counts as zero. The turn is about
+// Z.
 struct WorkOffset {
   AxisTarget origin{};
   double rotation = 0.0;

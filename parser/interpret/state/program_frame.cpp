@@ -3,9 +3,11 @@
 namespace frustum::parser {
 namespace {
 
-// The axis to mirror so that what is left is a turn, about the normal of a plane where there is one.
+// The axis to mirror so that what is left is a turn, about the normal of a plane where there is
+// one.
 Eigen::Index mirrored_axis(const Mat3& linear) {
-  // Columns are exact where nothing was turned; sums of products of sines and cosines are good to 1e-15.
+  // Columns are exact where nothing was turned; sums of products of sines and cosines are good to
+  // 1e-15.
   constexpr double kSame = 1e-12;
   for (Eigen::Index i = 0; i < 3; ++i) {
     if ((linear.col(i) + Vec3::Unit(i)).norm() < kSame) return i;

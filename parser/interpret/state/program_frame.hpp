@@ -1,6 +1,8 @@
-// The programmable frame of Sinumerik: what TRANS, ROT, SCALE and MIRROR make, and their additive forms.
+// The programmable frame of Sinumerik: what TRANS, ROT, SCALE and MIRROR make, and their additive
+// forms.
 //
-// Model : outer coordinates = origin + scale linear words, linear orthogonal, with det -1 when it mirrors
+// Model : outer coordinates = origin + scale linear words, linear orthogonal, with det -1 when it
+//         mirrors
 // Units : mm, rad
 // Errors: none
 #pragma once

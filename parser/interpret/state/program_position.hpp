@@ -59,8 +59,8 @@ class ProgramPosition {
   }
   // "X is not known since G28 on line 12", "X has not been programmed yet".
   [[nodiscard]] std::string why_unknown(AxisLetter axis) const;
-  // Of an error that says so: "position-unknown", or "follows-mistake" where a block that could not be run is
-  // the cause.
+  // Of an error that says so: "position-unknown", or "follows-mistake" where a block that could not
+  // be run is the cause.
   [[nodiscard]] DiagnosticId unknown_id(AxisLetter axis) const;
 
  private:

@@ -1,5 +1,5 @@
-// Where the words of a program lie in the coordinates of its work offset: shifted by G92 or G52, turned by G68,
-// TRANS or ROT, scaled by G51, mirrored by G51.1.
+// Where the words of a program are in the coordinates of its work offset: shifted by G92 or G52,
+// turned by G68, TRANS or ROT, scaled by G51, mirrored by G51.1.
 //
 // Model : offset coordinates = mirror (scale (turn (words + shift))); rotary axes are shifted alone
 // Units : mm, rad
@@ -36,7 +36,8 @@ struct ProgrammedFrame {
   [[nodiscard]] AxisTarget to_words(const AxisTarget& place) const;
   // A command in words, in offset coordinates. An arc's plane must stay one: see keeps_planes().
   void place(Command& command) const;
-  // Whether the planes of arcs are again planes of arcs: no turn, or one about the normal of `plane`.
+  // Whether the planes of arcs are again planes of arcs: no turn, or one about the normal of
+  // `plane`.
   [[nodiscard]] bool keeps(Plane plane) const;
 
  private:

@@ -225,7 +225,8 @@ Value modal_variable(const ModalState& state, int index) {
   return found == kModal.end() ? std::nullopt : found->value(state);
 }
 
-// $P_EP[X]: where the last block ended; $AA_IW[X]: where the axis is, which is the same when the block runs.
+// $P_EP[X]: where the last block ended; $AA_IW[X]: where the axis is, which is the same when the
+// block runs.
 Value sinumerik_variable(const SystemParameters& of, std::string_view name) {
   for (const std::string_view start : {"$P_EP[", "$AA_IW["}) {
     if (!name.starts_with(start)) continue;

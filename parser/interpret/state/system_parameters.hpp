@@ -1,13 +1,13 @@
 // The parameters that a controller keeps itself: where the tool is, which modes are on.
 //
 //   LinuxCNC   #<_x>, #<_feed>, #<_motion_mode>, ..., #5420 to #5425
-//   Fanuc      #5001 to #5006 (end of the last block), #5041 to #5046 (the same without tool length),
+//   Fanuc #5001 to #5006 (end of the last block), #5041 to #5046 (the same without tool length),
 //              #4001 to #4120 (modes)
 // and the data of control_data.hpp.
 //
 // Units : positions in the program's own unit (mm or inch) and degrees, feeds per minute in it
-// Errors: none; no value for what is not such a parameter, or for a position that is not known; NaN for data that only
-//         the setup knows
+// Errors: none; no value for what is not such a parameter, or for a position that is not known; NaN
+//         for data that only the setup knows
 #pragma once
 
 #include <optional>

@@ -1,16 +1,18 @@
 // Arcs of APT CLDATA, which are spread over records.
 //
-//   CIRCLE/x,y,z,i,j,k,r    and the GOTO records behind it, as long as they go on along the circle. With more numbers
-//                           (tolerances and the cutter, as NX writes them) one GOTO; TIMES,n or PITCH,p: a helix
+//   CIRCLE/x,y,z,i,j,k,r and the GOTO records after it, as long as they go on along the circle.
+//                           With more numbers (tolerances and the cutter, as NX writes them) one
+//                           GOTO; TIMES,n or PITCH,p: a helix
 //   MOVARC/x,y,z,i,j,k,r,ANGLE,a    one GOTO, `a` degrees further
 //   INDIRV/i,j,k            the direction at the start; INDIRP/x,y,z: towards a point; then
-//   TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z)    up to where the line or plane meets the circle; ON,2,INTOF:
-//                           to the second place; a line from the centre to the circle: to its end
+//   TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z) up to where the line or plane meets the
+//                           circle; ON,2,INTOF: to the second place; a line from the centre to the
+//                           circle: to its end
 //
 // The tool turns counterclockwise about i,j,k, which is along X, Y or Z.
 // Units : those of the file, degrees
-// Errors: by LineScanner::fail: numbers that are missing, a circle in no plane of the axes, one that does not lead to
-//         its GOTO, turns that disagree with the end, no start or direction
+// Errors: by LineScanner::fail: numbers that are missing, a circle in no plane of the axes, one
+//         that does not lead to its GOTO, turns that disagree with the end, no start or direction
 #pragma once
 
 #include <cstdint>

@@ -62,7 +62,7 @@ class CycleReader {
   bool take_name() {
     std::string word = given_[0].word;
     place_ = 1;
-    // DRILL,DEEP and DRILL,BRKCHP; a word that is no cycle of its own is told below.
+    // DRILL,DEEP and DRILL,BRKCHP; a word that is no cycle of its own is reported below.
     if (word == "DRILL" && given_.size() > 1 &&
         (given_[1].word == "DEEP" || given_[1].word == "BRKCHP")) {
       word = given_[1].word;

@@ -5,12 +5,13 @@
 //   CYCLE/DRILL,12,100,MMPM,3                                           (depth, feed, clearance)
 //   CYCLE/OFF, CYCLE/ON
 //
-// The GOTO records behind it name the top of each hole. Heights count from there along the tool: CLEAR is where the
-// tool comes to, RAPTO how much further it goes by rapid (beside FEDTO, or without CLEAR: up to which height), RETURN
-// or RTRCTO where it goes afterwards (AUTO, 0: as high as before the first hole).
+// The GOTO records after it name the top of each hole. Heights count from there along the tool:
+// CLEAR is where the tool comes to, RAPTO how much further it goes by rapid (beside FEDTO, or
+// without CLEAR: up to which height), RETURN or RTRCTO where it goes afterwards (AUTO, 0: as high
+// as before the first hole).
 // Units : those of the file, seconds
-// Errors: by LineScanner::fail: cycles that are not simulated, words that are unknown or miss their number, a cycle
-//         without depth, feed or clearance
+// Errors: by LineScanner::fail: cycles that are not simulated, words that are unknown or miss their
+//         number, a cycle without depth, feed or clearance
 // Source: ISO 4343:2000, 10.8
 #pragma once
 

@@ -169,7 +169,7 @@ class CldataReader {
              suggestion(record_.word, known_records()));
   }
 
-  // A circle ends with the GOTO records behind it; what sets a mode may stand before the first.
+  // A circle ends with the GOTO records after it; what sets a mode may be before the first.
   bool leave_circle() {
     const auto line = pending_.arcs.waits_since();
     if (!line) {

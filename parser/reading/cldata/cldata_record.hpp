@@ -1,7 +1,7 @@
 // One record of APT CLDATA as written: its word, /, and its arguments.
 //
-// Numbers may have an exponent (E or D), end or begin with the point, and stand apart from their sign. Blanks mean
-// nothing between the parts of a record.
+// Numbers may have an exponent (E or D), end or begin with the point, and stand apart from their
+// sign. Blanks mean nothing between the parts of a record.
 // Units : none; as written
 // Errors: an argument that is missing, a number too large; by LineScanner::fail
 #pragma once
@@ -45,7 +45,8 @@ struct CldataRecord {
 
 // Records that are text to their end: PARTNO, PPRINT.
 [[nodiscard]] std::span<const char* const> cldata_text_words();
-// The one that a record begins with, in upper case; null when there is none. It may run into its text: PARTNOFLANGE.
+// The one that a record begins with, in upper case; null when there is none. It may run into its
+// text: PARTNOFLANGE.
 [[nodiscard]] const char* cldata_text_word(std::string_view record);
 
 // The arguments from here on, separated by commas.

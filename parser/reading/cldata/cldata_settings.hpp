@@ -1,4 +1,5 @@
-// The records of APT CLDATA that set a mode: feed, spindle, tool, unit, tool axis, coolant; and dwells.
+// The records of APT CLDATA that set a mode: feed, spindle, tool, unit, tool axis, coolant; and
+// dwells.
 //
 // Units : as written
 // Errors: by LineScanner::fail: words without a meaning in the record, a number that is missing

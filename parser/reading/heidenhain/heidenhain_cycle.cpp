@@ -224,7 +224,8 @@ class CycleReader {
     end_statement(draft_);
   }
 
-  // CYCL DEF 19.1 A+0 B+45 C+0 F500 SETUP2: the spatial angles of PLANE SPATIAL; a feed turns the axes.
+  // CYCL DEF 19.1 A+0 B+45 C+0 F500 SETUP2: the spatial angles of PLANE SPATIAL; a feed turns the
+  // axes.
   void read_tilt(int part, std::uint32_t column) {
     if (part == 0) return note(draft_, "CYCL DEF 19", column, in_.text_to(";"));
     const bool off = in_.at_end() || in_.peek() == ';';

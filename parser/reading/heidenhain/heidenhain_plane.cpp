@@ -107,7 +107,7 @@ class PlaneReader {
   }
 
  private:
-  // A word of the form, with its number behind it: SPA+45, P1X+0, BX+1.
+  // A word of the form, with its number after it: SPA+45, P1X+0, BX+1.
   const PlaneWord* take_word(const PlaneForm& form) {
     const std::uint32_t place = in_.column();
     const std::string name = in_.name();

@@ -1,4 +1,5 @@
-// The statements of Klartext by their first word, each in a file with its like; and what they share.
+// The statements of Klartext by their first word, each in a file with its like; and what they
+// share.
 //
 // `column` is that of the first word, which is read already.
 // Units : none; values are as written
@@ -30,7 +31,8 @@ void read_heidenhain_plane(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_function(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_cycle(BlockDraft& draft, std::uint32_t column);
 
-// A call of the program file that is named next: TNC:\\WORK\\SLOT.H, "SLOT.H", SLOT. Folders of the control are left out.
+// A call of the program file that is named next: TNC:\\WORK\\SLOT.H, "SLOT.H", SLOT. Folders of the
+// control are left out.
 void read_heidenhain_program_call(BlockDraft& draft, bool by_cycle);
 
 [[nodiscard]] const ExpressionSpelling& heidenhain_expressions();

@@ -124,7 +124,7 @@ class BlockBuilder {
   }
   void push_negation(Iterator after) { push({Operation::negate, column_of(after - 1), 0.0}); }
 
-  // An operation whose operands follow: written down now, put behind them by emit().
+  // An operation whose operands follow: written down now, put after them by emit().
   void pend(Operation operation, Iterator begin) {
     pending_.push_back({operation, column_of(begin), 0.0});
   }

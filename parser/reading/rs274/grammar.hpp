@@ -17,10 +17,11 @@
 //              | "ATAN" "[" logic "]" "/" "[" logic "]" | "ATAN" "[" logic "," logic "]"
 //   comment    = "(" text ")" | ";" text
 //
-// In Custom Macro AND is a product, OR and XOR are sums, a level has one comparison, POW[x,y], BIN, BCD and ADP are
-// functions besides, ATAN may have one argument, and "/" may name a switch: "/2". ":" is of Custom Macro alone.
+// In Custom Macro AND is a product, OR and XOR are sums, a level has one comparison, POW[x,y], BIN,
+// BCD and ADP are functions besides, ATAN may have one argument, and "/" may name a switch: "/2".
+// ":" is of Custom Macro alone.
 //
-// Letters may be of either case; blanks (space, tab, carriage return) may stand between any two
+// Letters may be of either case; blanks (space, tab, carriage return) may be between any two
 // tokens or nowhere. A sign belongs to the value after it: -2**2 is 4, as in RS-274. Numbers have
 // no exponent.
 // Units: none; values are as written.
@@ -42,7 +43,7 @@ enum class Arithmetic : std::uint8_t { rs274, custom_macro };
 [[nodiscard]] Result<Block> parse_block(std::string_view text, std::uint32_t line,
                                         Arithmetic arithmetic = Arithmetic::rs274);
 
-// One `value` at the scanner, put behind the steps of the block.
+// One `value` at the scanner, put after the steps of the block.
 void append_rs274_expression(LineScanner& in, Block& block, ExpressionRange& range,
                              Arithmetic arithmetic = Arithmetic::rs274);
 

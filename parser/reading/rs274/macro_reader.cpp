@@ -24,8 +24,8 @@ constexpr std::array kOutputs{OutputStatement{"POPEN", false}, OutputStatement{"
                               OutputStatement{"DPRNT", true}, OutputStatement{"BPRNT", true},
                               OutputStatement{"SETVN", true}};
 
-// The words around a statement (N, /, comments, what THEN does) are read by the grammar of blocks, with
-// the statement blanked out so that columns stay what they are.
+// The words around a statement (N, /, comments, what THEN does) are read by the grammar of blocks,
+// with the statement blanked out so that columns stay what they are.
 class MacroReader {
  public:
   MacroReader(std::string_view text, std::uint32_t line, std::size_t start)
@@ -174,7 +174,7 @@ class MacroReader {
     return read;
   }
 
-  // The statement's own expressions, behind those of the rest.
+  // The statement's own expressions, after those of the rest.
   void append_steps(Block& whole) {
     const auto shift = static_cast<std::uint32_t>(whole.steps.size());
     const auto names = static_cast<double>(whole.names.size());
@@ -211,7 +211,7 @@ class MacroReader {
   Comment comment_{};  // of an output statement
 };
 
-// Where a statement begins, behind N and /; npos when the block has none.
+// Where a statement begins, after N and /; npos when the block has none.
 std::size_t statement_start(std::string_view text) {
   std::size_t place = std::min(text.find_first_not_of(" \t\r/"), text.size());
   // The switch of /2.
@@ -241,7 +241,8 @@ std::size_t statement_start(std::string_view text) {
   return std::string_view::npos;
 }
 
-// Where a second block begins behind the ; that ends the first: G0X1.;G1X2. A remark stands apart: G0X1. ; X2.
+// Where a second block begins after the ; that ends the first: G0X1.;G1X2. A remark stands apart:
+// G0X1. ; X2.
 std::size_t second_block(std::string_view text) {
   const std::size_t remark = std::min(text.find('('), text.size());
   for (std::size_t at = text.find(';'); at < remark; at = text.find(';', at + 1)) {

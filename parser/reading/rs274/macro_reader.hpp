@@ -1,7 +1,8 @@
 // Custom Macro B: `WHILE [#1 LT 5] DO1`, `END1`, `IF [c] GOTO 100`, `IF [c] THEN #2=1`, `GOTO #3`.
 //
 // Units : none
-// Errors: a condition, number or keyword that is missing, words beside the statement; with line and column
+// Errors: a condition, number or keyword that is missing, words beside the statement; with line and
+//         column
 #pragma once
 
 #include <cstdint>

@@ -185,8 +185,8 @@ Result<Block> read_line(std::string_view text, std::uint32_t line) {
 Result<Block> read_linuxcnc_block(std::string_view text, std::uint32_t line) {
   auto block = read_line(text, line);
   if (block) return block;
-  // Blanks within numbers and names: seldom, so that they are looked for last. What is wrong is told of the line
-  // as it is written.
+  // Blanks within numbers and names: seldom, so that they are looked for last. What is wrong is
+  // reported of the line as it is written.
   const BlankFreeText free = without_blanks(text);
   auto again = read_line(free.text, line);
   if (!again) return block;

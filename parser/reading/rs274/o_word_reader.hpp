@@ -1,7 +1,8 @@
 // O words of RS-274: `o100 while [#1 LT 5]`, `o<pocket> call [1] [2]`.
 //
 // Units : none
-// Errors: an unknown keyword, a missing label or expression, text behind the statement; with line and column
+// Errors: an unknown keyword, a missing label or expression, text after the statement; with line
+//         and column
 #pragma once
 
 #include <cstdint>

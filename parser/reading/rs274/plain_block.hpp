@@ -1,5 +1,6 @@
-// Blocks of nothing but words with plain numbers, such as N10 G1 X1.5 Y-2 F500: most of a long program. They
-// are read here without the grammar, which reads all others, and what it would read is read the same.
+// Blocks of nothing but words with plain numbers, such as N10 G1 X1.5 Y-2 F500: most of a long
+// program. They are read here without the grammar, which reads all others, and what it would read
+// is read the same.
 //
 // Units : none; values are as written
 // Errors: none; what is not plain, and what is wrong, is left to the grammar

@@ -18,7 +18,7 @@ struct TypeName {
 constexpr std::array kTypes{TypeName{"REAL", VariableKind::real},
                             TypeName{"INT", VariableKind::whole},
                             TypeName{"BOOL", VariableKind::truth}};
-// What may stand behind PROC; but for SAVE it concerns the display alone.
+// What may stand after PROC; but for SAVE it concerns the display alone.
 constexpr std::array<std::string_view, 8> kAttributes{"SAVE",  "DISPLOF", "DISPLON", "ACTBLOCNO",
                                                       "SBLOF", "SBLON",   "PREPRO",  "ICYCON"};
 

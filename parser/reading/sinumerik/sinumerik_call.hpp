@@ -1,7 +1,8 @@
 // Subprograms of Sinumerik: their heads %_N_NAME_SPF and PROC, their calls, and their variables.
 //
 // Units : none
-// Errors: a type or name that is missing, types that are not simulated, words beside a call; at the draft's scanner
+// Errors: a type or name that is missing, types that are not simulated, words beside a call; at the
+//         draft's scanner
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace frustum::parser {
 
-// What is behind the % of a line.
+// What is after the % of a line.
 void read_sinumerik_head(BlockDraft& draft);
 // PROC NAME(REAL WIDTH, INT COUNT=2) SAVE
 void read_sinumerik_procedure(BlockDraft& draft, std::uint32_t column);

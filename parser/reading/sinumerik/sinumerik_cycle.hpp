@@ -2,7 +2,8 @@
 //
 // The letters of the words are those of drilling_cycle.hpp.
 // Units : none
-// Errors: a bracket that is missing, parameters too many, MCALL of something else; at the draft's scanner
+// Errors: a bracket that is missing, parameters too many, MCALL of something else; at the draft's
+//         scanner
 #pragma once
 
 #include <span>
@@ -21,9 +22,9 @@ struct CycleParameter {
 [[nodiscard]] std::span<const CycleParameter> sinumerik_cycle_parameters(std::string_view name);
 
 [[nodiscard]] bool is_sinumerik_cycle(std::string_view name);
-// What is behind the name.
+// What is after the name.
 void read_sinumerik_cycle(BlockDraft& draft, const std::string& name, std::uint32_t column);
-// What is behind MCALL: a cycle, or nothing.
+// What is after MCALL: a cycle, or nothing.
 void read_sinumerik_modal_call(BlockDraft& draft, std::uint32_t column);
 
 }  // namespace frustum::parser

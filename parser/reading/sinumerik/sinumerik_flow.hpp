@@ -1,7 +1,9 @@
-// The statements of Sinumerik programs that say which block comes next: IF, WHILE, FOR, GOTOF, labels.
+// The statements of Sinumerik programs that say which block comes next: IF, WHILE, FOR, GOTOF,
+// labels.
 //
 // Units : none
-// Errors: a condition, label or keyword that is missing, words beside the statement; at the draft's scanner
+// Errors: a condition, label or keyword that is missing, words beside the statement; at the draft's
+//         scanner
 #pragma once
 
 #include <string>

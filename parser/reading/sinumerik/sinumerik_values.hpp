@@ -19,7 +19,7 @@ namespace frustum::parser {
 // As DEF names them: two letters or _ at least, then digits too.
 [[nodiscard]] bool is_variable(std::string_view name);
 
-// What is behind the = of the word `name`: an expression, or AC() IC() DC() ACP() ACN() around one.
+// What is after the = of the word `name`: an expression, or AC() IC() DC() ACP() ACN() around one.
 void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name);
 
 }  // namespace frustum::parser
