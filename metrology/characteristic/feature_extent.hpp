@@ -1,9 +1,9 @@
 // Where a measured feature ends, and the median line that its sections give.
 //
-// Model    : points of the element in which a linear distance is largest: the ends of an axis or line,
-//            the corners of a rectangle, two opposite points of a disc; the planned ends laid onto
-//            the measured element. The median line is the row of centres of the least-squares circles
-//            of the sections
+// Model    : points of the element in which a linear distance is largest: the ends of an axis or
+//            line, the corners of a rectangle, two opposite points of a disc; the planned ends laid
+//            onto the measured element. The median line is the row of centres of the least-squares
+//            circles of the sections
 // Units    : mm
 // Shape    : one feature
 // Errors   : fewer than two sections; a section whose circle cannot be fitted
@@ -22,7 +22,8 @@ namespace frustum::metrology {
 [[nodiscard]] std::vector<Vec3> extremes(const PlannedFeature& planned, const Element& element,
                                          const Vec3& toward);
 
-// The same for all directions at once: the rim of a disc, less than 0.1 % of its radius between points.
+// The same for all directions at once: the rim of a disc, less than 0.1 % of its radius between
+// points.
 [[nodiscard]] std::vector<Vec3> outline(const PlannedFeature& planned, const Element& element);
 
 [[nodiscard]] Result<std::vector<Vec3>> median_line(const FittedFeature& feature);

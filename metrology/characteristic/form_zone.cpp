@@ -118,7 +118,8 @@ Result<Zone> straightness_zone(const Toleranced& what) {
   return zone;
 }
 
-// The narrowest zone of three centres that lie nearly on a line: the height over their longest side.
+// The narrowest zone of three centres that lie nearly on a line: the height over their longest
+// side.
 double lowest_height(const std::vector<Vec3>& c) {
   const double longest =
       std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});

@@ -10,8 +10,8 @@
 // Shape    : n samples in any order; not necessarily at equal steps
 // Errors   : too few samples for the cut-off: 7 a wave are needed; a profile that should be closed
 //            and is not; cut-offs that exclude each other
-// Accuracy : of equal steps, 2^-((m - 1)^2) of an undulation at the cut-off, m samples a wave: 1e-11
-//            at the coarsest (tests/metrology/profile_filter_test.cpp)
+// Accuracy : of equal steps, 2^-((m - 1)^2) of an undulation at the cut-off, m samples a wave:
+//            1e-11 at the coarsest (tests/metrology/profile_filter_test.cpp)
 // Source   : ISO 16610-21 (weights), ISO 16610-28 (ends: moments are retained, first order)
 #pragma once
 

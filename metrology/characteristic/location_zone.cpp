@@ -52,7 +52,8 @@ Target planned_place(const PlannedFeature& planned) {
   return Line{planned.point, unit(planned.axis)};
 }
 
-// How far points are off. Places are told of measured points; those of an element move together.
+// How far points are off. Places are reported of measured points; those of an element move
+// together.
 NonNegative offsets(const Target& target, const std::vector<Vec3>& points) {
   NonNegative off;
   for (const Vec3& p : points) {
@@ -74,7 +75,7 @@ NonNegative offsets(const Target& target, const std::vector<Vec3>& points) {
   return off;
 }
 
-// What has to lie in the zone: the points that are farthest off, and all that may be.
+// What has to be in the zone: the points that are farthest off, and all that may be.
 struct Content {
   std::vector<Vec3> farthest{};
   std::vector<Vec3> all{};
@@ -209,7 +210,7 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
     median = median_plane(median, std::get<Plane>(last.element), sense);
   }
   if (const auto* axis = std::get_if<Line>(&*target)) {
-    // The plane through the axis that lies nearest to the toleranced one.
+    // The plane through the axis that is nearest to the toleranced one.
     const Vec3 along = axis->axis;
     const auto normal = UnitVec3::of(median.axis.vec() - median.axis.vec().dot(along) * along);
     if (!normal) {

@@ -9,7 +9,7 @@
 namespace frustum::metrology {
 namespace {
 
-// A line of a plan lies on a surface that its normal tells.
+// A line of a plan is on a surface that its normal tells.
 Element planned_surface(const PlannedFeature& planned) {
   if (planned.kind != FeatureKind::line) return nominal_element(planned);
   const Vec3 axis = unit(planned.axis);

@@ -1,9 +1,9 @@
 // The frame that floors and a wall of a part span, as a plan's [[frame]] asks.
 //
 // Model    : Z = outward normal of the least-squares plane through all points of `planes`; X = the
-//            line, shifted to its planned height over that plane (best_shifted_line.hpp) and laid into it;
-//            the origin keeps the planned height over the plane and the planned distance from the
-//            line, and its planned place along the line, which no feature tells.
+//            line, shifted to its planned height over that plane (best_shifted_line.hpp) and laid
+//            into it; the origin keeps the planned height over the plane and the planned distance
+//            from the line, and its planned place along the line, which no feature tells.
 //            workpiece_from_frame = measured times inverse of nominal: the identity for a perfect
 //            part
 // Units    : mm, rad

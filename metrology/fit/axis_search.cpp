@@ -72,7 +72,7 @@ Ranked ranked(const Moments& moments, const Vec3& axis, RoundKind kind) {
   const auto count = basis.cols();
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5> normal =
       basis.transpose() * moments * basis;
-  // Keeps the factorisation finite when points lie in a plane or on a circle; too small to matter
+  // Keeps the factorisation finite when points are in a plane or on a circle; too small to matter
   // else.
   normal += 1e-13 * Eigen::MatrixXd::Identity(count, count);
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1> right =

@@ -1,10 +1,10 @@
-// Directions in which the axis of a cylinder or cone may lie, best first: starting values for fits.
+// Directions in which the axis of a cylinder or cone may be, best first: starting values for fits.
 //
 // Model    : for a given axis a, |x|^2 - (a.x)^2 (cylinder) or |x|^2 (cone) is a linear function of
 //            few monomials of x. Its least-squares residual needs only the moments of the points up
 //            to degree four, so a direction costs the same for any number of points. 200 directions
-//            over the half sphere and the principal directions are ranked, or those that constraints
-//            leave
+//            over the half sphere and the principal directions are ranked, or those that
+//            constraints leave
 // Units    : local frame of size one
 // Shape    : at most `most` and the principal directions, at least 12 deg apart
 // Errors   : none

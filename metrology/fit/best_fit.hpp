@@ -1,8 +1,8 @@
 // The planned geometry laid into measured points: rigid best fit.
 //
-// Model    : the pose P that makes sum d_i^2 least, d_i = distance of P^-1 x_i from the planned element
-//            of point i; degrees of freedom that the elements do not tell, and those that are locked,
-//            keep their planned value: no shift along and no rotation about their axis
+// Model    : the pose P that makes sum d_i^2 least, d_i = distance of P^-1 x_i from the planned
+//            element of point i; degrees of freedom that the elements do not tell, and those that
+//            are locked, keep their planned value: no shift along and no rotation about their axis
 // Units    : mm, rad
 // Shape    : any number of points on any elements
 // Errors   : no points; not converged (points far from the planned geometry)

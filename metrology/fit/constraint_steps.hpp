@@ -1,11 +1,12 @@
 // Constraints of an association as a basis of the steps that an element may still make.
 //
-// Model  : an element that keeps the constraints, moved by basis * coefficients, keeps them again: fixed
-//          directions exactly, to rounding. The basis belongs to the element's own tangents: ask again
-//          after every move
+// Model  : an element that keeps the constraints, moved by basis * coefficients, keeps them again:
+//          fixed directions exactly, to rounding. The basis belongs to the element's own tangents:
+//          ask again after every move
 // Units  : mm, rad
 // Shape  : orthonormal columns, one a degree of freedom left; none when everything is fixed
-// Errors : constraints that the kind does not have, that contradict each other, or that are no numbers
+// Errors : constraints that the kind does not have, that contradict each other, or that are no
+//          numbers
 #pragma once
 
 #include <optional>

@@ -10,7 +10,8 @@
 
 namespace frustum::metrology {
 
-// What the element must keep. An absent member leaves it free; a member that the kind lacks is refused.
+// What the element must keep. An absent member leaves it free; a member that the kind lacks is
+// refused.
 struct Constraints {
   std::optional<UnitVec3> parallel_to{};       // its axis (a plane's normal), either sense
   std::optional<UnitVec3> perpendicular_to{};  // its axis stays perpendicular to this

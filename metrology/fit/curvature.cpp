@@ -62,7 +62,8 @@ ElementStep turned(const ElementStep& gradient, const Element& there, const Elem
 }  // namespace
 
 StepBasis curvature_of(const Element& element, const PointBlocks& points, const StepBasis& basis) {
-  // The error of a difference goes with its square, that of rounding with its inverse: both near 1e-11.
+  // The error of a difference goes with its square, that of rounding with its inverse: both near
+  // 1e-11.
   constexpr double kStep = 1e-5;
   const auto gradient = [&](const ElementStep& step) {
     const Element there = moved(element, step);

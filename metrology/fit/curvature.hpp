@@ -1,7 +1,8 @@
-// Second derivatives of half the sum of weighted squares by the parameters that constraints leave free.
+// Second derivatives of half the sum of weighted squares by the parameters that constraints leave
+// free.
 //
-// Model    : J^T W J + sum w d d'': differences of the exact gradients at elements 1e-5 to either side,
-//            turned into the tangents of the element
+// Model    : J^T W J + sum w d d'': differences of the exact gradients at elements 1e-5 to either
+//            side, turned into the tangents of the element
 // Units    : local frame of size one (normalised_points.hpp), rad
 // Shape    : `basis` as allowed_steps() gives it; a symmetric square of its columns, no allocation
 // Errors   : none

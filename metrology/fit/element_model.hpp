@@ -1,5 +1,5 @@
-// Elements as models that are moved by small steps of their own parameters: what fits by any criterion
-// linearise.
+// Elements as models that are moved by small steps of their own parameters: what fits by any
+// criterion linearise.
 //
 // Model    : an element near e is moved(e, step); residual(moved(e, step), x) is
 //            residual(e, x) + gradient . step + O(step^2)
@@ -35,7 +35,7 @@ enum class Parameter {
 // In the order of steps and gradients:
 //   line     : shift_u, shift_v, tilt_u, tilt_v
 //   plane    : shift_along, tilt_u, tilt_v
-//   circle   : shift_u, shift_v, radius; its plane stays, as its residuals lie in it
+//   circle   : shift_u, shift_v, radius; its plane stays, as its residuals are in it
 //   sphere   : shift_x, shift_y, shift_z, radius
 //   cylinder : shift_u, shift_v, tilt_u, tilt_v, radius
 //   cone     : shift_u, shift_v, tilt_u, tilt_v, radius, half_angle
@@ -52,12 +52,12 @@ struct LinearisedPoint {
 };
 [[nodiscard]] LinearisedPoint linearised(const Element& element, const Vec3& point);
 
-// The whole step is shortened when it turns an angle by more than 0.3 rad, where the linear model means
-// nothing. A cone whose half angle passes 0 or 90 deg is the same cone opening the other way.
+// The whole step is shortened when it turns an angle by more than 0.3 rad, where the linear model
+// means nothing. A cone whose half angle passes 0 or 90 deg is the same cone opening the other way.
 [[nodiscard]] Element moved(const Element& element, const ElementStep& step);
 
-// The same element with its point shifted along it (axis, plane) to where it is nearest `to`: there shifts
-// and tilts hardly correlate. Circles, spheres and tori stay.
+// The same element with its point shifted along it (axis, plane) to where it is nearest `to`: there
+// shifts and tilts hardly correlate. Circles, spheres and tori stay.
 [[nodiscard]] Element shifted(const Element& element, const Vec3& to);
 
 }  // namespace frustum::metrology

@@ -1,10 +1,11 @@
-// Residual of a point from an element with its derivatives by the element's local parameters, for one
-// point or for a block of points at a time.
+// Residual of a point from an element with its derivatives by the element's local parameters, for
+// one point or for a block of points at a time.
 //
 // Model  : residual() of element.hpp; the parameters and their order are those of element_model.hpp
 // Units  : mm, rad
 // Shape  : Real is double, or an Eigen array whose coefficients are points
-// Errors : none; a point on the axis or in the centre, where the distance has no derivative, gets zeros
+// Errors : none; a point on the axis or in the centre, where the distance has no derivative, gets
+//          zeros
 #pragma once
 
 #include <Eigen/Core>

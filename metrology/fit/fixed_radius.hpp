@@ -1,8 +1,9 @@
 // Centres of circles and spheres of a given radius: starting values.
 //
-// Model    : a centre c where sum w (|p - c| - R)^2 is stationary is mean p + R mean (c - p) / |c - p|,
-//            never farther than R from the mean. Steps from the left side to the right lower the sum. A radius
-//            beyond 1.7 times that of the points pushes the centre off theirs: every direction is tried
+// Model    : a centre c where sum w (|p - c| - R)^2 is stationary is mean p + R mean (c - p) / |c -
+//            p|, never farther than R from the mean. Steps from the left side to the right lower
+//            the sum. A radius beyond 1.7 times that of the points pushes the centre off theirs:
+//            every direction is tried
 // Units    : local frame of size one (normalised_points.hpp), whose origin is the mean
 // Shape    : at most `most` centres, best first, a tenth of the part or more from each other
 // Errors   : none

@@ -1,14 +1,14 @@
 // Levenberg-Marquardt descent, then Gauss-Newton steps down to rounding, within constraints.
 //
-// Model    : minimise sum w_i d_i^2 over the steps that the constraints allow. A step comes from the
-//            normal equations, as long as their condition leaves its direction good digits; else from
-//            the QR factors of the Jacobian. What the steps converge to is exact either way: where the
-//            gradient of the residuals as computed is zero. Where residuals are so large that such a
-//            place may be a saddle or a maximum, Newton's steps with the second derivatives
-//            (curvature.hpp) lead on to a minimum
+// Model    : minimise sum w_i d_i^2 over the steps that the constraints allow. A step comes from
+//            the normal equations, as long as their condition leaves its direction good digits;
+//            else from the QR factors of the Jacobian. What the steps converge to is exact either
+//            way: where the gradient of the residuals as computed is zero. Where residuals are so
+//            large that such a place may be a saddle or a maximum, Newton's steps with the second
+//            derivatives (curvature.hpp) lead on to a minimum
 // Units    : local frame of size one (normalised_points.hpp), rad
-// Shape    : circle, sphere, cylinder, cone, torus (planes and lines have closed forms); no allocation in
-//            a descent
+// Shape    : circle, sphere, cylinder, cone, torus (planes and lines have closed forms); no
+//            allocation in a descent
 // Errors   : Minimum::converged and Minimum::well_posed tell; the caller words the diagnostic
 // Accuracy : the last step is below 1e-10 of the size of the part, typically 1e-15
 // Source   : Nocedal, Wright, Numerical Optimization, sections 3.4, 10.2 and 10.3
@@ -43,8 +43,8 @@ class GaussNewton {
   [[nodiscard]] const Element& element() const { return element_; }
   [[nodiscard]] double cost() const { return cost_of(gram_); }
 
-  // Steps that lower the cost, at most `most`; stops when they lower it by less than `least_gain` of
-  // it.
+  // Steps that lower the cost, at most `most`; stops when they lower it by less than `least_gain`
+  // of it.
   void descend(int most, double least_gain);
   // Full steps until they no longer shrink, at a minimum.
   [[nodiscard]] Minimum settle();

@@ -10,14 +10,15 @@
 namespace frustum::metrology {
 namespace {
 
-// Valleys that bend up by less than a millionth of what the Jacobian promises, which is 1, are flat: a
-// residual changed by a millionth moves the minimum by as much as the part.
+// Valleys that bend up by less than a millionth of what the Jacobian promises, which is 1, are
+// flat: a residual changed by a millionth moves the minimum by as much as the part.
 constexpr double kLevel = 1e-6;
 
 }  // namespace
 
-// Full steps are attracted by minima alone, but a start that is as symmetric as its points may sit on a
-// saddle. There the residuals are as large as the bow of the points by which they tell the parameters.
+// Full steps are attracted by minima alone, but a start that is as symmetric as its points may sit
+// on a saddle. There the residuals are as large as the bow of the points by which they tell the
+// parameters.
 bool GaussNewton::may_bend_down(double condition) const {
   const double mean_square = cost() / static_cast<double>(points_->count);
   return right_.size() > 0 && std::sqrt(mean_square) * condition > 0.1;
@@ -90,7 +91,8 @@ void GaussNewton::settle_by_bend(Minimum& result) {
     const ElementStep full = bend.frame * bend.downhill.cwiseQuotient(bends);
     const double length = full.norm();
     if (!std::isfinite(length)) return;
-    // 1e-10 of the part is what the fits promise; a weak bend makes more of the rounding of gradients.
+    // 1e-10 of the part is what the fits promise; a weak bend makes more of the rounding of
+    // gradients.
     const ElementStep weakness =
         bend.frame.colwise().squaredNorm().transpose().cwiseQuotient(bends);
     const double rounding =

@@ -1,15 +1,15 @@
 // Orthogonal-distance fits (Gaussian association) of the elements, without starting values.
 //
 // Model    : minimise sum w_i d_i^2, d_i = residual(element, x_i) of element.hpp, over the elements
-//            that keep the constraints: a minimum also where these contradict the points, and of circles
-//            of a given radius the least of all. A 3D circle is fitted as plane first, then as circle in
-//            the projection, as the NIST reference pairs define it
+//            that keep the constraints: a minimum also where these contradict the points, and of
+//            circles of a given radius the least of all. A 3D circle is fitted as plane first, then
+//            as circle in the projection, as the NIST reference pairs define it
 // Units    : mm, rad; all points in one frame
-// Shape    : n >= 2 (line), 3 (plane, circle), 4 (sphere), 5 (cylinder), 6 (cone), 7 (torus) points;
-//            constraints spare a point for each parameter that they fix
+// Shape    : n >= 2 (line), 3 (plane, circle), 4 (sphere), 5 (cylinder), 6 (cone), 7 (torus)
+//            points; constraints spare a point for each parameter that they fix
 // Errors   : too few points, not finite, degenerate (points that do not tell the element), not
-//            converged, constraints that the kind lacks or that contradict the points so that no element
-//            is best, weights that are none; each a Diagnostic that says why
+//            converged, constraints that the kind lacks or that contradict the points so that no
+//            element is best, weights that are none; each a Diagnostic that says why
 // Accuracy : 1e-9 mm, 1e-11 rad on the NIST pairs (tests/metrology/reference_fits_test.cpp); exact
 //            data is recovered to 1e-10 mm (tests/metrology/least_squares_test.cpp)
 // Source   : Shakarji 1998, J. Res. NIST 103(6), sections 3 and 4 (models and parameters)
@@ -43,15 +43,16 @@ struct Fit {
   std::vector<double> residuals{};  // mm, in the order of the points
   double form = 0.0;                // mm, peak to valley of the residuals
   double rms = 0.0;                 // mm, every point counted alike
-  // (J^T W J)^-1: variances of the parameters when a point has the variance 1/weight along its normal.
+  // (J^T W J)^-1: variances of the parameters when a point has the variance 1/weight along its
+  // normal.
   Eigen::MatrixXd cofactor{};
-  // cofactor * sum w d^2 / (points that weigh - free parameters): what the scatter itself says; zero
-  // without redundancy.
+  // cofactor * sum w d^2 / (points that weigh - free parameters): what the scatter itself says;
+  // zero without redundancy.
   Eigen::MatrixXd covariance{};
   int iterations = 0;
-  // Largest to smallest singular value of the Jacobian of the free parameters, its columns of length
-  // one, in a frame of the size of the part: how much worse than the best the points tell the worst
-  // known combination of parameters.
+  // Largest to smallest singular value of the Jacobian of the free parameters, its columns of
+  // length one, in a frame of the size of the part: how much worse than the best the points tell
+  // the worst known combination of parameters.
   double condition = 1.0;
 };
 
@@ -66,9 +67,9 @@ struct FitOptions {
                                            const FitOptions& options = {});
 [[nodiscard]] Result<Fit<Circle>> fit_circle(std::span<const Vec3> points,
                                              const FitOptions& options = {});
-// In a coordinate plane: the one in which the points are constant, z otherwise; the third coordinate of
-// the element's point is the mean. Residuals of the line are positive on its left, seen from the tip of
-// the plane's normal.
+// In a coordinate plane: the one in which the points are constant, z otherwise; the third
+// coordinate of the element's point is the mean. Residuals of the line are positive on its left,
+// seen from the tip of the plane's normal.
 [[nodiscard]] Result<Fit<Line>> fit_line_2d(std::span<const Vec3> points,
                                             const FitOptions& options = {});
 [[nodiscard]] Result<Fit<Circle>> fit_circle_2d(std::span<const Vec3> points,

@@ -30,8 +30,8 @@ struct NormalisedPoints {
   [[nodiscard]] std::size_t count() const;
 };
 
-// `what` names the element in diagnostics; it needs `parameters` equations less what the constraints
-// fix, and a point gives `per_point` of them.
+// `what` names the element in diagnostics; it needs `parameters` equations less what the
+// constraints fix, and a point gives `per_point` of them.
 struct Needed {
   ElementKind kind;
   std::string_view what;
@@ -59,9 +59,9 @@ struct PrincipalDirections {
 // so what is left would be rounding.
 inline constexpr double kFlat = 1e-11;
 
-// What a solution in the local frame makes a fit of. `is_angle[i]` tells which parameters do not scale
-// with length; `redundancy` is the number of residual components that weigh less that of the free
-// parameters.
+// What a solution in the local frame makes a fit of. `is_angle[i]` tells which parameters do not
+// scale with length; `redundancy` is the number of residual components that weigh less that of the
+// free parameters.
 struct LocalSolution {
   std::span<const double> residuals{};  // in the order of the points
   const Eigen::MatrixXd& cofactor;

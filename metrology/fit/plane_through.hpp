@@ -1,5 +1,5 @@
-// The plane of points: the first half of a plane or circle fit, and where lines and circles of drawings
-// lie.
+// The plane of points: the first half of a plane or circle fit, and where lines and circles of
+// drawings lie.
 //
 // Model    : direction of least spread of the centred points, within the constraints
 // Units    : local frame of size one

@@ -50,14 +50,15 @@ template <typename Start>
                                            const NormalisedPoints& local, const PointBlocks& all,
                                            const Wording& wording);
 
-// The minimum below the initial_estimates of few starts, when it is so low that there is nothing to search for:
-// residuals a thousandth of the least spread of the points bend no surface into another.
+// The minimum below the initial_estimates of few starts, when it is so low that there is nothing to
+// search for: residuals a thousandth of the least spread of the points bend no surface into
+// another.
 [[nodiscard]] std::optional<GaussNewton> at_once(const std::vector<Element>& starts,
                                                  const NormalisedPoints& local,
                                                  const PointBlocks& all, double least_spread);
 
-// Circles and spheres through the middle of the points that bend to either side of them, little and much: starts
-// where the points are so rough that the algebraic one may lie in the wrong valley.
+// Circles and spheres through the middle of the points that bend to either side of them, little and
+// much: starts where the points are so rough that the algebraic one may be in the wrong valley.
 struct Bend {
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
@@ -75,13 +76,14 @@ struct AxialPoints {
 };
 using AxialStarts = std::vector<Element> (*)(const AxialPoints& points);
 
-// The minimum below the initial_estimates starts, when they fit at once, or below the best of all. Refuses points
-// in one plane: a plane cuts cones, cylinders and tori in curves that fit many of them, unless their axis
-// is given.
+// The minimum below the initial_estimates starts, when they fit at once, or below the best of all.
+// Refuses points in one plane: a plane cuts cones, cylinders and tori in curves that fit many of
+// them, unless their axis is given.
 [[nodiscard]] Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
                                             AxialStarts initial_estimates, AxialStarts all);
 
-// What `solve` finds; where it finds nothing, and would without the constraints, what they contradict.
+// What `solve` finds; where it finds nothing, and would without the constraints, what they
+// contradict.
 using Solve = std::function<Result<Minimum>(const NormalisedPoints& local)>;
 [[nodiscard]] Result<Minimum> solved(const NormalisedPoints& local, const Solve& solve,
                                      std::string_view what);

@@ -1,6 +1,6 @@
 // Why no element within constraints fits: what the points ask for instead.
 //
-// Units  : mm, rad; the frame of the points. Half angles are told in degrees
+// Units  : mm, rad; the frame of the points. Half angles are reported in degrees
 // Errors : none; the answer is the diagnostic, or nothing when the free element nearly keeps them
 #pragma once
 

@@ -24,8 +24,8 @@ struct MonteCarloSettings {
   bool operator==(const MonteCarloSettings&) const = default;
 };
 
-// { method = "monte_carlo", draws = "adaptive", digits = 1, seed = 1 }; draws may be a number; nothing for
-// method = "linear", which takes no other key.
+// { method = "monte_carlo", draws = "adaptive", digits = 1, seed = 1 }; draws may be a number;
+// nothing for method = "linear", which takes no other key.
 [[nodiscard]] std::optional<MonteCarloSettings> read_monte_carlo(const TomlTable& table);
 // The same as text.
 [[nodiscard]] std::string to_toml(const MonteCarloSettings& settings);

@@ -19,8 +19,8 @@ double angle_of(int index, int count, double start, double sweep) {
   return start + sweep * index / steps;
 }
 
-// So many points that the largest distance along a run of `length` is `pitch`; a closed run does not
-// repeat its first point. `least`: what fits need.
+// So many points that the largest distance along a run of `length` is `pitch`; a closed run does
+// not repeat its first point. `least`: what fits need.
 int points_for(double length, double pitch, bool closed, int least) {
   // A length that is a multiple of the pitch but for rounding takes no further point.
   const double steps = std::ceil(length / pitch * (1.0 - 1e-12));

@@ -1,10 +1,12 @@
 // The vertices of a PLY file: a point cloud, or a scan taken as points.
 //
-// Text, binary little endian and binary big endian; x y z of any number type. Other properties and elements
-// are passed over.
-// Units  : as the numbers stand; `unit` when a comment of the header states one ("comment unit: inch")
-// Errors : a malformed header, a vertex element without x y z, bytes that end too early, coordinates that
-//          are not finite; with line, or with the number of the vertex in binary files
+// Text, binary little endian and binary big endian; x y z of any number type. Other properties and
+// elements are passed over.
+// Units  : as the numbers stand; `unit` when a comment of the header states one ("comment unit:
+//          inch")
+// Errors : a malformed header, a vertex element without x y z, bytes that end too early,
+//          coordinates that are not finite; with line, or with the number of the vertex in binary
+//          files
 #pragma once
 
 #include <optional>

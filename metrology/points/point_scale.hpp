@@ -1,7 +1,8 @@
 // Whether measured points are of the size that a plan expects.
 //
-// Model    : what the points of all features span against what the plan's own points of these features span.
-//            A ratio near 25.4 or 1000, or near the inverse of either, tells of a unit, not of a part
+// Model    : what the points of all features span against what the plan's own points of these
+//            features span. A ratio near 25.4 or 1000, or near the inverse of either, tells of a
+//            unit, not of a part
 // Units    : mm
 // Shape    : all features at once; a body by its bounding box, which holds more than what is probed
 // Errors   : the fault names the likely unit and how to state it

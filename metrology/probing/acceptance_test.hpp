@@ -1,10 +1,11 @@
 // The acceptance test of a coordinate measuring machine, run on the virtual one.
 //
 // Model    : 5 lengths in 7 directions, 3 times each: the four space diagonals of the volume and
-//            parallels to the axes through its centre, the longest length 90 % of what the volume has
-//            there. A length is the distance of two opposite touches on a gauge block, compensated
-//            by the qualified ball; its error shall lie within e0 + L/k. Then a sphere of 25 mm in
-//            the centre, touched at 25 points: form and size of its least-squares sphere
+//            parallels to the axes through its centre, the longest length 90 % of what the volume
+//            has there. A length is the distance of two opposite touches on a gauge block,
+//            compensated by the qualified ball; its error shall be within e0 + L/k. Then a sphere
+//            of 25 mm in the centre, touched at 25 points: form and size of its least-squares
+//            sphere
 // Units    : mm
 // Shape    : 105 lengths, 25 points
 // Errors   : none; what fails is in the report
@@ -36,7 +37,8 @@ struct AcceptanceReport {
   [[nodiscard]] bool lengths_pass() const;
   [[nodiscard]] bool probing_passes() const;
   [[nodiscard]] bool passes() const { return lengths_pass() && probing_passes(); }
-  // Largest |error| / limit; 0 for a machine without errors, infinite for errors where the limit is 0.
+  // Largest |error| / limit; 0 for a machine without errors, infinite for errors where the limit is
+  // 0.
   [[nodiscard]] double worst_length_share() const;
 };
 

@@ -10,12 +10,14 @@
 namespace frustum::metrology {
 namespace {
 
-// Of the limit e0 + L/k the field keeps to this share; drift between measurements has the rest of L/k.
+// Of the limit e0 + L/k the field keeps to this share; drift between measurements has the rest of
+// L/k.
 constexpr double kFieldShare = 0.9;
 constexpr double kDriftShare = 0.1;  // half width
-// So many standard deviations the noise of a length (two points) may reach before it passes the limit.
+// So many standard deviations the noise of a length (two points) may reach before it passes the
+// limit.
 constexpr double kNoiseReach = 4.5;
-// The highest and the lowest of 25 points lie farther apart once in a thousand times.
+// The highest and the lowest of 25 points are farther apart once in a thousand times.
 constexpr double kNoiseSpread = 6.0;
 // A field is left this share of e0 even where the probe takes it all.
 constexpr double kLeastShare = 0.05;
@@ -82,7 +84,8 @@ double slope_of(const CmmModel& cmm) {
   return cmm.length_per_error ? 1e-3 / *cmm.length_per_error : 0.0;  // mm per um to relative
 }
 
-// One measurement's linear field: normal terms, or the drift of the scales of a machine with a field.
+// One measurement's linear field: normal terms, or the drift of the scales of a machine with a
+// field.
 Mat3 linear_field(const CmmModel& cmm) {
   Mat3 linear = Mat3::Zero();
   if (!cmm.length_per_error) return linear;

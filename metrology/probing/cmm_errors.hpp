@@ -39,7 +39,8 @@ class CmmErrors {
   // Without noise: what every repetition shares but for drift and sensors.
   [[nodiscard]] Vec3 systematic(const ProbedCentre& p) const;
 
-  // What the probe was qualified to: the radius that compensation uses for a ball of radius `nominal`.
+  // What the probe was qualified to: the radius that compensation uses for a ball of radius
+  // `nominal`.
   [[nodiscard]] double ball_radius(double nominal) const { return nominal + qualified_; }
   // Whether the machine's travels reach there; without a field they always do.
   [[nodiscard]] bool reaches(const Vec3& centre) const;

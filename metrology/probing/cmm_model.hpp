@@ -1,7 +1,7 @@
 // What a virtual coordinate measuring machine is said to be: accuracy, probe, stylus, temperatures.
 //
-// Units  : mm, rad, degC, 1/K, N; everything in the workpiece frame of the plan. In files mm, degrees,
-//          degC, um/(m K), N, GPa
+// Units  : mm, rad, degC, 1/K, N; everything in the workpiece frame of the plan. In files mm,
+//          degrees, degC, um/(m K), N, GPa
 // Errors : read_cmm_model notes every misspelt key and impossible value in the table's document
 #pragma once
 
@@ -13,8 +13,9 @@
 
 namespace frustum::metrology {
 
-// linear: noise of e0/2 along the approach and one linear field a measurement (standard deviations).
-// field: one machine a seed, whose 21 smooth parametric errors keep E = e0 + L/k as a limit.
+// linear: noise of e0/2 along the approach and one linear field a measurement (standard
+// deviations). field: one machine a seed, whose 21 smooth parametric errors keep E = e0 + L/k as a
+// limit.
 enum class CmmKind { linear, field };
 
 struct ProbeErrors {

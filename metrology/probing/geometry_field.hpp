@@ -1,11 +1,11 @@
 // The geometry errors of a machine with three linear axes, as one drawn machine has them.
 //
-// Model    : Y carries X carries Z carries the stylus. Each axis has a positioning, two straightness
-//            and three angular errors, sums of Legendre polynomials of degree 1 to 5 over its travel
-//            with normal coefficients that fall as 1/degree; and three squareness errors. Rotations
-//            turn what the axis carries. The whole is scaled so that of the 7,750 lengths between the
-//            points of a 5 x 5 x 5 lattice of the volume the worst uses a drawn share, 0.85 to 0.95, of
-//            constant + slope * L
+// Model    : Y carries X carries Z carries the stylus. Each axis has a positioning, two
+//            straightness and three angular errors, sums of Legendre polynomials of degree 1 to 5
+//            over its travel with normal coefficients that fall as 1/degree; and three squareness
+//            errors. Rotations turn what the axis carries. The whole is scaled so that of the 7,750
+//            lengths between the points of a 5 x 5 x 5 lattice of the volume the worst uses a drawn
+//            share, 0.85 to 0.95, of constant + slope * L
 // Units    : mm; positions from the centre of the volume
 // Shape    : 21 errors; at() costs some 100 multiplications and allocates nothing
 // Errors   : none; beyond the travel the errors of its end hold

@@ -60,7 +60,7 @@ double ProbeForm::outward_shift(const Vec3& outward) const {
   const double x = outward.dot(u_);
   const double y = outward.dot(v_);
   const double across = std::hypot(x, y);
-  // Nothing turns about the stylus where the approach lies along it.
+  // Nothing turns about the stylus where the approach is along it.
   const double lobes =
       errors_.lobe * across * across * across *
       (across > 0.0 ? std::cos(3.0 * (std::atan2(y, x) - errors_.lobe_phase)) : 0.0);

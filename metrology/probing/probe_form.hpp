@@ -1,8 +1,9 @@
 // What a probe adds to every point by the direction it touches in: the same each time.
 //
-// Model    : outward shift of the measured centre = ball form in the direction of contact - pre-travel.
-//            Pre-travel = constant + lobe sin^3(t) cos(3 (phi - phase)) + b sin^2(t), with t the angle
-//            between approach and stylus and phi the angle about it, b = F l^3 / (3 E I) the bending.
+// Model    : outward shift of the measured centre = ball form in the direction of contact -
+//            pre-travel. Pre-travel = constant + lobe sin^3(t) cos(3 (phi - phase)) + b sin^2(t),
+//            with t the angle between approach and stylus and phi the angle about it, b = F l^3 /
+//            (3 E I) the bending.
 //            Ball form: zonal harmonics of degree 2 to 4 about drawn axes, scaled to the largest
 //            departure stated
 // Units    : mm, rad

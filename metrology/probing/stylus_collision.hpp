@@ -1,12 +1,13 @@
 // Whether a stylus reaches a point without running into the part.
 //
-// Model    : the shank is a cylinder from the ball's centre to the head. At the contact and at the start
-//            of the approach no surface may cross it; and the ball must come down to the start of the
-//            approach along the stylus. Each cylinder is sampled by 12 lines on its surface, looked
-//            along from both ends
+// Model    : the shank is a cylinder from the ball's centre to the head. At the contact and at the
+//            start of the approach no surface may cross it; and the ball must come down to the
+//            start of the approach along the stylus. Each cylinder is sampled by 12 lines on its
+//            surface, looked along from both ends
 // Units    : mm; the frame of the part
 // Shape    : 72 rays a point
-// Errors   : none; obstacles thinner than the spacing of the lines, half the diameter, may slip through
+// Errors   : none; obstacles thinner than the spacing of the lines, half the diameter, may slip
+//            through
 // Accuracy : sampled, not bounded
 // Source   : ours
 #pragma once

@@ -3,9 +3,9 @@
 // Model    : the points' errors e along their outward normals change the parameters of a least-
 //            squares fit by -(J^T J)^-1 J^T e, J = d residual / d parameter
 // Units    : mm, rad
-// Shape    : planes, single touches, circles (within their plane), spheres (lift and shifts are those
-//            of the centre along z, x, y), cylinders and cones; one row of weights a parameter, one
-//            column a point
+// Shape    : planes, single touches, circles (within their plane), spheres (lift and shifts are
+//            those of the centre along z, x, y), cylinders and cones; one row of weights a
+//            parameter, one column a point
 // Errors   : none: what was fitted tells its parameters
 // Accuracy : 1e-7 of the weights for points near the element
 // Source   : Shakarji 1998, section 4 (the parameters)

@@ -1,9 +1,9 @@
-// A value that is the size of something: a form is the peak to valley of deviations, a concentricity
-// the length of an offset. Noise makes such a value larger, never smaller than zero; what it is the
-// size of tells by how much.
+// A value that is the size of something: a form is the peak to valley of deviations, a
+// concentricity the length of an offset. Noise makes such a value larger, never smaller than zero;
+// what it is the size of tells by how much.
 //
-// Model  : size(parts), where measuring errors move the parts in proportion; size(c parts) = c size(parts)
-//          for c >= 0
+// Model  : size(parts), where measuring errors move the parts in proportion; size(c parts) = c
+//          size(parts) for c >= 0
 // Units  : mm
 // Errors : none
 #pragma once
@@ -35,8 +35,8 @@ struct SizeRule {
 struct NonNegative {
   SizeRule rule{};
   std::vector<double> parts{};  // mm
-  // mm, where on a surface they stand: near ones are alike. Empty where parts are few or those of an
-  // element, which are taken as measured.
+  // mm, where on a surface they stand: near ones are alike. Empty where parts are few or those of
+  // an element, which are taken as measured.
   std::vector<Vec3> places{};
 
   [[nodiscard]] bool is_known() const { return rule.kind != NonNegativeKind::none; }

@@ -22,7 +22,8 @@ double centre_cofactor(const Fit<Circle>& circle) {
   return std::max(circle.cofactor(0, 0), circle.cofactor(1, 1));
 }
 
-// Of a point, by a probe that the statement of the machine does not contain: mean squares over all directions.
+// Of a point, by a probe that the statement of the machine does not contain: mean squares over all
+// directions.
 double probe_variance(const CmmModel& cmm) {
   if (cmm.kind == CmmKind::field || !cmm.probe) return 0.0;
   const ProbeErrors& probe = *cmm.probe;

@@ -2,9 +2,9 @@
 //
 // Model    : every point has the standard deviation p = e0/2 along its normal; the machine's linear
 //            field has three scale and three squareness terms of standard deviation s = 1/(2 k).
-//            A probe that is stated beside a linear field adds its mean squares to p^2; temperatures add twice
-//            the variance of the growth of all lengths to s^2, and what is not compensated counts whole
-//            With the cofactors Q of the fits:
+//            A probe that is stated beside a linear field adds its mean squares to p^2;
+//            temperatures add twice the variance of the growth of all lengths to s^2, and what is
+//            not compensated counts whole With the cofactors Q of the fits:
 //              form (peak to valley)  u^2 = 2 p^2 + 3 (s r)^2: two points count; an ellipse
 //              straightness           u^2 = 4 p^2: twice one point
 //              half angle a           u^2 = p^2 Q_aa + 1.5 (s sin(2a)/2)^2
@@ -14,9 +14,10 @@
 //              ... to a datum         u^2 = 4 (p^2 (Q_1 + Q_d + h^2 Q_t) + (s h)^2)
 //              perpendicularity       u^2 = L^2 (p^2 (Q_t1 + Q_t2) + s^2)
 //              lines and their frames  influence.hpp
-//            g: gradient to the fit's parameters; h: between the sections, or from the datum's middle;
-//            L: extent; Q_1, Q_2: larger variance of a section's centre; Q_d: of the datum's axis in
-//            its middle; Q_t: larger variance of a tilt
+//            g: gradient to the fit's parameters; h: between the sections, or from the datum's
+//            middle;
+//            L: extent; Q_1, Q_2: larger variance of a section's centre; Q_d: of the datum's axis
+//            in its middle; Q_t: larger variance of a tilt
 // Units    : mm, rad
 // Shape    : closed formulas
 // Errors   : none

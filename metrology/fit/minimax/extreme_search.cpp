@@ -109,7 +109,8 @@ class Contest {
     const double spread = 0.5 * (values.maxCoeff() - values.minCoeff());
     constexpr std::array kScales{1.0, 3.0, 0.3, 10.0};
     const int unknowns = static_cast<int>(steps.cols());
-    // Where all starts lead to one minimum a few of them tell; where there are several, many are needed.
+    // Where all starts lead to one minimum a few of them tell; where there are several, many are
+    // needed.
     for (int i = 0; i < (differ_ ? 6 : 1) * (unknowns + 2); ++i) {
       const double scale = kScales[static_cast<std::size_t>(i) % kScales.size()] * spread;
       SurfaceParameters step = steps * (scale * filling(i + 1, steps.cols()));

@@ -1,8 +1,9 @@
 // The best of many minimax solutions: minima near a start and elsewhere, compared.
 //
-// Model    : the start, points of a sequence that fills the steps which change distances by up to ten times
-//            their level, and starts elsewhere; each goes down to its own minimum. Steps beyond a start's
-//            level reach every minimum that is better than it, where distances are nearly linear
+// Model    : the start, points of a sequence that fills the steps which change distances by up to
+//            ten times their level, and starts elsewhere; each goes down to its own minimum. Steps
+//            beyond a start's level reach every minimum that is better than it, where distances are
+//            nearly linear
 // Units    : local frame of size one, rad
 // Shape    : n points
 // Errors   : `solution.proven` is false when no start led to a plausible, proven minimum
@@ -22,7 +23,8 @@ struct ExtremeSearch {
   MinimaxProblem problem{};
   PlacedElement start{};
   std::vector<PlacedElement> elsewhere{};
-  // Tilts beyond this of the start's frame belong to another element: 0.5 for those that are inscribed.
+  // Tilts beyond this of the start's frame belong to another element: 0.5 for those that are
+  // inscribed.
   double most_tilt = 1e6;
 };
 

@@ -1,8 +1,9 @@
 // An element in the frame in which a minimax solver moves it, and back.
 //
-// Model    : the frame's z axis is the element's, its origin the element's point; a line in a plane has the
-//            plane's normal as y and its own normal as z. A constraint removes the steps that would break it:
-//            the frame is turned so that a fixed direction is z, or a direction to stay perpendicular to is y
+// Model    : the frame's z axis is the element's, its origin the element's point; a line in a plane
+//            has the plane's normal as y and its own normal as z. A constraint removes the steps
+//            that would break it: the frame is turned so that a fixed direction is z, or a
+//            direction to stay perpendicular to is y
 // Units    : local frame of normalised_points.hpp, rad
 // Shape    : the kinds of element.hpp, "circle2d" and "line2d"
 // Errors   : none; an element of a name of another kind is a broken invariant

@@ -64,7 +64,8 @@ class DualSimplex {
     return is_box(q) ? reach_[q.row - values_.size()] : -q.sign * values_[q.row];
   }
 
-  // The highest function and the faces of the box that it leans on: their multipliers are not negative.
+  // The highest function and the faces of the box that it leans on: their multipliers are not
+  // negative.
   void start() {
     Inequality top;
     double highest = -std::numeric_limits<double>::infinity();

@@ -1,7 +1,8 @@
 // The step that makes the largest of many linear functions least, within a box.
 //
-// Model    : minimise h over (t, h) with v_i + g_i.t <= h (high side), -(v_i + g_i.t) <= h (low side) and
-//            |t_j| <= reach_j; a dual simplex that always knows multipliers >= 0 and adds the worst violator
+// Model    : minimise h over (t, h) with v_i + g_i.t <= h (high side), -(v_i + g_i.t) <= h (low
+//            side) and |t_j| <= reach_j; a dual simplex that always knows multipliers >= 0 and adds
+//            the worst violator
 // Units    : those of the values
 // Shape    : m rows, k <= 7 unknowns
 // Errors   : LinearMinimax::solved is false when rounding makes the exchange go in circles

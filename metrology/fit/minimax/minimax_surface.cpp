@@ -148,8 +148,9 @@ SurfaceSlopes slopes(Surface surface, const SurfaceParameters& at, std::span<con
 
 SurfaceCurvature curvature(Surface surface, const SurfaceParameters& at, const Vec3& point,
                            const SurfaceSteps& steps) {
-  // Central differences of exact slopes: 1e-10, which only sets how fast Newton steps shrink. Slopes turn
-  // within the distance from the centre, axis or ring: next to nothing for a line's own points.
+  // Central differences of exact slopes: 1e-10, which only sets how fast Newton steps shrink.
+  // Slopes turn within the distance from the centre, axis or ring: next to nothing for a line's own
+  // points.
   const double reach = 1e-5 * std::min(1.0, bend_radius(surface, at, point));
   SurfaceCurvature second = SurfaceCurvature::Zero(steps.cols(), steps.cols());
   if (!(reach > 0.0)) return second;

@@ -1,7 +1,9 @@
-// Distances from an element as a smooth function of seven numbers, for solvers that move it in small steps.
+// Distances from an element as a smooth function of seven numbers, for solvers that move it in
+// small steps.
 //
-// Model    : in a frame whose z axis is about the element's, parameters (x, y, z of the point; tilts a, b;
-//            radius r; angle or ring radius q) with n = (a, b, 1) / |(a, b, 1)| and w = p - (x, y, z):
+// Model    : in a frame whose z axis is about the element's, parameters (x, y, z of the point;
+//            tilts a, b; radius r; angle or ring radius q) with n = (a, b, 1) / |(a, b, 1)| and w =
+//            p - (x, y, z):
 //              plane      w.n - r
 //              sphere     |w| - r
 //              straight   |w - (w.n) n| cos q - (w.n) sin q - r   (line, circle, cylinder, cone)

@@ -1,6 +1,6 @@
 // The smallest circle that holds points of a plane.
 //
-// Model    : one of the circles that two points span as a diameter or three points lie on
+// Model    : one of the circles that two points span as a diameter or three points are on
 // Units    : mm
 // Shape    : any number of points; the time grows with the cube of their number at worst
 // Errors   : none; no points give 0
