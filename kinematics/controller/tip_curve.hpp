@@ -1,7 +1,8 @@
 // The line, arc or helix on which a block moves the point that its X Y Z words name.
 //
-// Model    : straight, or in-plane spoke turned about `center` with a steady rise along `normal`; a radius
-//            that differs between start and end within the parser's tolerance is spread evenly
+// Model    : straight, or in-plane spoke turned about `center` with a steady rise along `normal`; a
+//            radius that differs between start and end within the parser's tolerance is spread
+//            evenly
 // Units    : mm, rad; frame: that of the words
 // Errors   : none; arcs without a radius do not leave the parser
 #pragma once

@@ -1,8 +1,8 @@
 // One draw of the errors that are written as distributions.
 //
-// Model    : every amount has a stream of its own, keyed by its place (error, term, amount) or, for a drawn
-//            quantity, by its name; so a draw depends on neither order nor company of the entries. A normal
-//            amount beyond its limit is drawn again
+// Model    : every amount has a stream of its own, keyed by its place (error, term, amount) or, for
+//            a drawn quantity, by its name; so a draw depends on neither order nor company of the
+//            entries. A normal amount beyond its limit is drawn again
 // Units    : mm, rad
 // Errors   : none; distributions are checked where they are read
 #pragma once

@@ -1,9 +1,10 @@
 // Which errors of a machine weigh most at a pose: by gain, and by their share of the mean square.
 //
-// Model    : gain |G_k|, the length of the displacement rows of an error's column; share of independent
-//            errors with zero mean whose limits are the same number of standard deviations:
-//            |G_k|^2 t_k^2 / sum of all, which no such number changes
-// Units    : gains um per um and um per urad (levers in metres); tolerances mm or rad; shares sum to 1
+// Model    : gain |G_k|, the length of the displacement rows of an error's column; share of
+//            independent errors with zero mean whose limits are the same number of standard
+//            deviations: |G_k|^2 t_k^2 / sum of all, which no such number changes
+// Units    : gains um per um and um per urad (levers in metres); tolerances mm or rad; shares sum
+//            to 1
 // Shape    : one entry an error, largest first, equal ones in the order given
 // Errors   : none
 // Accuracy : the published tables of the DVF 5000 (tests/kinematics/error_ranking_test.cpp)

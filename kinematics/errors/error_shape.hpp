@@ -1,7 +1,7 @@
 // Errors as people write them, before they are laid over a machine's axes.
 //
-// Model    : an entry is a named error, a sum of shapes; an amount in a shape may be a number with a unit or
-//            drawn from distributions: amount = value x product of the factors drawn
+// Model    : an entry is a named error, a sum of shapes; an amount in a shape may be a number with
+//            a unit or drawn from distributions: amount = value x product of the factors drawn
 // Units    : mm, rad
 // Errors   : parsing names the text, what is wrong with it and the forms that would be accepted
 #pragma once
@@ -88,8 +88,9 @@ struct ErrorShape {
 
 [[nodiscard]] std::string_view name_of(ErrorShape::Kind kind);
 
-// One error of a job or a command line: name and terms, with the text for the report. A volumetric grid and
-// the reference axes that errors are written for are entries of their own ("grid", "datum").
+// One error of a job or a command line: name and terms, with the text for the report. A volumetric
+// grid and the reference axes that errors are written for are entries of their own ("grid",
+// "datum").
 struct ErrorEntry {
   std::string name{};
   std::string written{};

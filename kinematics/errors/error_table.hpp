@@ -1,8 +1,8 @@
 // The [errors] table of a job and of an error file.
 //
 // Units    : as people write them; inside mm and rad
-// Errors   : mistakes in the table are noted in its document; those of other files (an error file, CSV, a
-//            calibration file) are handed out with file, line and column
+// Errors   : mistakes in the table are noted in its document; those of other files (an error file,
+//            CSV, a calibration file) are handed out with file, line and column
 #pragma once
 
 #include <filesystem>
@@ -34,10 +34,11 @@ struct ErrorList {
   Diagnostics problems{};
 };
 
-// Keys are error names, with a text as in parse_error, a table { value | linear | polynomial | harmonic |
-// cyclic | reversal | tent | table | surface | csv = .. } or an array of such tables; and `drawn`, `file`,
-// `csv`, `etalon`, `grid`, `datum`.
-// `find` turns the text of `file` and the folder of the document into a path; without it: relative to that.
+// Keys are error names, with a text as in parse_error, a table { value | linear | polynomial |
+// harmonic | cyclic | reversal | tent | table | surface | csv = .. } or an array of such tables;
+// and `drawn`, `file`, `csv`, `etalon`, `grid`, `datum`.
+// `find` turns the text of `file` and the folder of the document into a path; without it: relative
+// to that.
 using FileFinder =
     std::function<std::filesystem::path(const std::string&, const std::filesystem::path&)>;
 [[nodiscard]] ErrorList read_errors(const TomlTable& table, const FileFinder& find = {});

@@ -1,10 +1,11 @@
-// Axis errors as instruments write them: CSV with units in its header, and calibration files in sections.
+// Axis errors as instruments write them: CSV with units in its header, and calibration files in
+// sections.
 //
 // Model    : tables of one coordinate, and constants
-// Units    : CSV: those of its header (X_mm,EXX_um,EBX_urad). Calibration file: values in mm and rad,
-//            positions in mm and degrees
-// Errors   : file, line and column of positions that do not increase, a missing unit, an unknown error name, a
-//            column of another axis, what is no number
+// Units    : CSV: those of its header (X_mm,EXX_um,EBX_urad). Calibration file: values in mm and
+//            rad, positions in mm and degrees
+// Errors   : file, line and column of positions that do not increase, a missing unit, an unknown
+//            error name, a column of another axis, what is no number
 #pragma once
 
 #include <filesystem>

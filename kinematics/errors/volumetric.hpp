@@ -1,7 +1,7 @@
 // Error vectors over the working volume of a machine.
 //
-// Model    : at each point the tool tip nominally touches a point of the table's space. The actual tool
-//            chain carries the tip, the actual work chain that point elsewhere:
+// Model    : at each point the tool tip nominally touches a point of the table's space. The actual
+//            tool chain carries the tip, the actual work chain that point elsewhere:
 //              tool      p_tip(actual) - p_tip(nominal)
 //              workpiece p_point(actual) - p_point(nominal)
 //              relative  tool - workpiece, as long as the displacement that the workpiece sees
@@ -69,8 +69,8 @@ struct VolumetricErrors {
                                                          const GeometricErrors& errors,
                                                          const VolumetricOptions& options);
 
-// Root mean square over the points of each error's displacement of the tip by its unit, in the first row,
-// for rank_by_gain() and rank_by_share() (error_ranking.hpp).
+// Root mean square over the points of each error's displacement of the tip by its unit, in the
+// first row, for rank_by_gain() and rank_by_share() (error_ranking.hpp).
 [[nodiscard]] GainMatrix mean_gains(const Machine& machine, std::span<const MachineError> errors,
                                     const VolumetricErrors& volume, double tool_length);
 

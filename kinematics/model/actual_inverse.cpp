@@ -26,7 +26,8 @@ RotaryJoints rotary_axes(const Machine& machine) {
 }
 
 // How the tool axis moves per radian of each rotary axis on the nominal machine.
-TurnOfAxis turn_of_axis(const Machine& machine, const RotaryJoints& rotary, const AxisPositions& q) {
+TurnOfAxis turn_of_axis(const Machine& machine, const RotaryJoints& rotary,
+                        const AxisPositions& q) {
   constexpr double kStep =
       1e-4;  // rad: central differences good to 1e-9, ample for a Newton matrix
   TurnOfAxis turn = TurnOfAxis::Zero();
@@ -64,8 +65,8 @@ AxisPositions actual_inverse(const Machine& machine, const GeometricErrors& erro
     for (std::size_t k = 0; k < rotary.size(); ++k) {
       if (rotary[k] != nullptr) at.q[rotary[k]->letter] += further[static_cast<Eigen::Index>(k)];
     }
-    // Twice: the first placing moves the linear axes by what the turn displaced the tip, which may be
-    // hundreds of their errors' scale.
+    // Twice: the first placing moves the linear axes by what the turn displaced the tip, which may
+    // be hundreds of their errors' scale.
     for (int placing = 0; placing < 2; ++placing) {
       const Vec3 off = wanted.tip - tool_pose(actual_pose(machine, errors, at, tool_length)).tip;
       const Vec3 move = linear.solve(off);

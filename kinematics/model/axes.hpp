@@ -39,8 +39,8 @@ class AxisPositions {
 // Where the axes are, and from which side each came there: what direction-dependent errors look at.
 struct AxisState {
   AxisPositions q{};
-  // -1 .. +1: +1 after motion in +, -1 after motion in -, between while its play is being taken up, 0 before
-  // it has ever moved.
+  // -1 .. +1: +1 after motion in +, -1 after motion in -, between while its play is being taken up,
+  // 0 before it has ever moved.
   AxisPositions heading{};
 
   AxisState() = default;

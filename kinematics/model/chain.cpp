@@ -200,7 +200,8 @@ Mat3 linear_axis_directions(const Machine& machine, const AxisPositions& q) {
       if (joint.rotary()) {
         turned = turned * rotation_about(joint.direction, joint.side * q[joint.letter]);
       } else {
-        // Moving the work by -q shows the same tip displacement, in the work, as moving the tool by +q.
+        // Moving the work by -q shows the same tip displacement, in the work, as moving the tool by
+        // +q.
         in_bed.col(static_cast<Eigen::Index>(joint.letter)) = turned * joint.direction;
       }
     }

@@ -6,16 +6,16 @@
 //              polynomial c0 + c1 t + c2 t^2 + ..., t = (q - m)/r
 //              harmonic   a cos(w (q - q0) + psi); a cyclic error is one, too
 //              tent       a rise and a fall, straight
-//              table      straight or monotone cubic between its points, held at its ends or periodic
+//              table straight or monotone cubic between its points, held at its ends or periodic
 //            of its direction of motion:
-//              reversal   a times the heading, -1 .. +1
+//              reversal   a times the direction of approach, -1 .. +1
 //            of two axes:
 //              surface    bilinear between the points of a grid, held at its ends
 //              modulated  any of these times a table of another axis
 // Units    : q and value in mm or rad, whichever the axis and the error are
 // Errors   : none; shapes are checked where they are read
-// Source   : linear and harmonic of the ETH thesis, sections 3.8 and 3.9; monotone cubic of Fritsch and
-//            Butland 1984, SIAM J. Sci. Stat. Comput. 5(2)
+// Source   : linear and harmonic of the ETH thesis, sections 3.8 and 3.9; monotone cubic of Fritsch
+//            and Butland 1984, SIAM J. Sci. Stat. Comput. 5(2)
 #pragma once
 
 #include <utility>
@@ -70,8 +70,8 @@ struct SurfaceTerm {
   std::vector<double> second_positions{};
   std::vector<double> values{};  // a row for each first position
 };
-// Rises from nothing at `lo` to its amplitude at `peak` and falls to nothing at `hi`; held outside. A peak
-// outside leaves one of the two slopes.
+// Rises from nothing at `lo` to its amplitude at `peak` and falls to nothing at `hi`; held outside.
+// A peak outside leaves one of the two slopes.
 struct TriangularTerm {
   double amplitude = 0.0;
   double lo = 0.0, peak = 0.0, hi = 0.0;

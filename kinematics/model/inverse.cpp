@@ -17,12 +17,12 @@ struct Placed {
   bool spans = true;  // X, Y and Z reach every tip; false: axes are the nearest
 };
 
-// Linear axes carried by rotary ones may turn into one plane. A millionth: their positions are then a
-// thousand metres off.
+// Linear axes carried by rotary ones may turn into one plane. A millionth: their positions are then
+// a thousand metres off.
 constexpr double kFlat = 1e-6;
 
-// A point carried by the last joint, seen from the bed with X, Y and Z at zero; `linear` collects the
-// directions of those that the chain holds. Walked inwards, so that only vectors are turned.
+// A point carried by the last joint, seen from the bed with X, Y and Z at zero; `linear` collects
+// the directions of those that the chain holds. Walked inwards, so that only vectors are turned.
 Vec3 in_bed(const std::vector<Joint>& chain, Vec3 point, const AxisPositions& q, Mat3& linear) {
   std::array<Eigen::Index, 3> carried{};
   std::size_t count = 0;
@@ -48,7 +48,8 @@ Vec3 in_bed(const std::vector<Joint>& chain, Vec3 point, const AxisPositions& q,
   return point;
 }
 
-// The rotary positions are given; the tip moves, relative to the table, by `linear` times (X, Y, Z).
+// The rotary positions are given; the tip moves, relative to the table, by `linear` times (X, Y,
+// Z).
 Placed placed(const Machine& machine, const Vec3& tip, double tool_length, AxisPositions q) {
   Mat3 linear;
   const Vec3 in_spindle = machine.spindle_offset() - Vec3(0.0, 0.0, tool_length);

@@ -58,8 +58,8 @@ struct ChainFrames {
                                            double tool_length);
 [[nodiscard]] ChainFrames work_side_frames(const Machine& machine, const AxisPositions& q);
 
-// The point of the bed about which a volumetric grid turns the tool chain: the functional point of the chain's
-// last linear axis, where it nominally is; the bed's origin where there is none.
+// The point of the bed about which a volumetric grid turns the tool chain: the functional point of
+// the chain's last linear axis, where it nominally is; the bed's origin where there is none.
 [[nodiscard]] Vec3 grid_pivot(const ChainFrames& tool_side);
 
 }  // namespace frustum::kinematics

@@ -1,14 +1,15 @@
 // A machine tool: two chains of joints from the bed, read from a structure code and a TOML file.
 //
 // Model    : bed -> ... -> spindle gauge point and bed -> ... -> table, joints in the order of the
-//            structure code "t-(C)-Z-Y-b-X-B-C-w" (tool first, b the bed, workpiece last; a letter in
-//            parentheses is the spindle). Three linear and up to two rotary axes in any order, on either
-//            side, in any direction.
+//            structure code "t-(C)-Z-Y-b-X-B-C-w" (tool first, b the bed, workpiece last; a letter
+//            in parentheses is the spindle). Three linear and up to two rotary axes in any order,
+//            on either side, in any direction.
 // Units    : mm, rad inside; the file writes mm and degrees
-// Errors   : every mistake of the file is reported with key and line: axis twice, no path from tool to
-//            workpiece, directions that are not unit or do not span space, unknown error names, ...
-// Source   : ISO 10791 structure codes; ISO 841: +q moves the tool, relative to the work, in the named
-//            direction, so that a workpiece-side axis moves by -q
+// Errors   : every mistake of the file is reported with key and line: axis twice, no path from tool
+//            to workpiece, directions that are not unit or do not span space, unknown error names,
+//            ...
+// Source   : ISO 10791 structure codes; ISO 841: +q moves the tool, relative to the work, in the
+//            named direction, so that a workpiece-side axis moves by -q
 #pragma once
 
 #include <filesystem>
@@ -57,7 +58,7 @@ struct Joint {
   [[nodiscard]] bool rotary() const { return is_rotary(letter); }
 };
 
-// A symbol of a paper that stands for an ISO error, perhaps with another sign.
+// A symbol of a paper that represents an ISO error, perhaps with another sign.
 struct ErrorAlias {
   ErrorName error{};
   double scale = 1.0;

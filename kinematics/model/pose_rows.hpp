@@ -1,8 +1,8 @@
-// A pose that is being moved from the left, joint by joint: two columns of its rotation by rows, and its
-// translation. The third column is the cross product of the others, taken at the end.
+// A pose that is being moved from the left, joint by joint: two columns of its rotation by rows,
+// and its translation. The third column is the cross product of the others, taken at the end.
 //
-// Model    : a rotation of the pose is a sum of multiples of rows; rotations about X, Y and Z touch two
-//            of them. A row of two numbers is one vector register.
+// Model    : a rotation of the pose is a sum of multiples of rows; rotations about X, Y and Z touch
+//            two of them. A row of two numbers is one vector register.
 // Units    : mm, rad
 // Errors   : none
 #pragma once

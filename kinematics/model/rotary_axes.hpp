@@ -1,15 +1,16 @@
 // The rotary axes of a machine as one spherical triangle: tool axis to rotary angles and back.
 //
-// Model    : exp(w1 q1) exp(w2 q2) v = u. z = exp(w2 q2) v stands at the angle theta = (w1, u) from w1 and at
-//            (w2, v) from w2: a triangle over the side (w1, w2) with the angles psi at w1 and eta at w2, on
-//            either side of that side (sign s = +1, -1):
+// Model    : exp(w1 q1) exp(w2 q2) v = u. z = exp(w2 q2) v is at the angle theta = (w1, u) from w1
+//            and at (w2, v) from w2: a triangle over the side (w1, w2) with the angles psi at w1
+//            and eta at w2, on either side of that side (sign s = +1, -1):
 //              q1 = azimuth of u about w1 - s psi,   q2 = -s eta - azimuth of v about w2
-//            psi and eta are in [0, pi] and go smoothly with theta; written from the nearer pole +-w1, so
-//            that nothing cancels there
+//            psi and eta are in [0, pi] and go smoothly with theta; written from the nearer pole
+//            +-w1, so that nothing cancels there
 // Units    : rad; frame: table
 // Errors   : unreachable directions, by how much
-// Accuracy : the direction within 1e-14, also beside the pole and at the edge of the reach; Gauss-Newton
-//            steps restore what rotary axes nearly parallel to each other or to the spindle lose
+// Accuracy : the direction within 1e-14, also beside the pole and at the edge of the reach;
+//            Gauss-Newton steps restore what rotary axes nearly parallel to each other or to the
+//            spindle lose
 // Source   : Paden-Kahan subproblem 2 (Murray, Li, Sastry, section 3.2)
 #pragma once
 
@@ -27,7 +28,8 @@ namespace frustum::kinematics {
 // Positions of the rotary axes, as seen from the table: [0] is the one next to it.
 using RotaryAngles = std::array<double, 2>;
 
-// Nearer to the pole than this the first rotary axis cannot be told from the direction's own rounding.
+// Nearer to the pole than this the first rotary axis cannot be distinguished from the direction's
+// own rounding.
 inline constexpr double kPole = 1e-10;  // rad
 
 struct RotaryTriangle {
@@ -90,8 +92,8 @@ inline constexpr double kMostTurned = 2000.0 * std::numbers::pi;
 [[nodiscard]] double nearest_turn(double angle, double near);
 // The full turn within travel that is nearest to `near`; the nearest of all if none is within.
 [[nodiscard]] double best_turn(const Joint& joint, double angle, double near);
-// Where a word turns the axis that stands at `near`. In one direction it turns by less than a full turn, and not
-// at all when it is there but for rounding.
+// Where a word turns the axis that is at `near`. In one direction it turns by less than a full
+// turn, and not at all when it is there but for rounding.
 [[nodiscard]] double turn_to(const Joint& joint, double word, double near, parser::RotaryPath path);
 [[nodiscard]] bool within_travel(const Joint& joint, double position);
 

@@ -1,12 +1,13 @@
 // From which side each axis came to where it is: the memory behind direction-dependent errors.
 //
-// Model    : the play operator. While an axis moves in + its heading rises by 2 |dq| / s until it is +1,
-//            in - it falls to -1; s is the axis's lost_motion distance, 0 turns the heading at once. Before
-//            an axis first moves its heading is 0; an axis that stands keeps it
+// Model    : the play operator. While an axis moves in + its direction of approach rises by 2 |dq|
+//            / s until it is +1, in - it falls to -1; s is the axis's lost_motion distance, 0 turns
+//            the direction of approach at once. Before an axis first moves its direction of
+//            approach is 0; an axis that stands keeps it
 // Units    : mm, rad; u runs from 0 to 1 along a motion
 // Errors   : none
-// Accuracy : turning points to the last digit of the position; an axis that swings back within one part
-//            is not seen; less than 1e-9 mm or 1e-11 rad is no motion
+// Accuracy : turning points to the last digit of the position; an axis that swings back within one
+//            part is not seen; less than 1e-9 mm or 1e-11 rad is no motion
 // Source   : backlash of ISO 230-2, read as play
 #pragma once
 
@@ -23,7 +24,8 @@ namespace frustum::kinematics {
 
 using AxisMotion = std::function<AxisPositions(double)>;
 
-// Headings along one motion. A value of its own: it keeps a copy of the motion only where an axis settles.
+// Directions of approach along one motion. A value of its own: it keeps a copy of the motion only
+// where an axis settles.
 class ApproachProfile {
  public:
   // At a turning point: as the axes come to it.
@@ -36,12 +38,12 @@ class ApproachProfile {
   [[nodiscard]] AxisPositions after(double u) const {
     return approach_directions(u, true, nullptr);
   }
-  // Where a heading jumps, begins or ends to change: increasing, within [0, 1).
+  // Where a direction of approach jumps, begins or ends to change: increasing, within [0, 1).
   [[nodiscard]] std::span<const double> turning_points() const { return turning_points_; }
 
  private:
   friend class ApproachTracker;
-  // From u on: heading + rate (q(u) - q), within -1 .. +1.
+  // From u on: direction of approach + rate (q(u) - q), within -1 .. +1.
   struct Piece {
     double u = 0.0;
     double q = 0.0;
@@ -69,7 +71,8 @@ class ApproachTracker {
 
   // False: approach_directions matter to no error, and follow() costs nothing.
   [[nodiscard]] bool follows_any() const;
-  // Headings along `motion`, looked at in `parts` equal parts; the tracker then stands at its end.
+  // Directions of approach along `motion`, looked at in `parts` equal parts; the tracker then is at
+  // its end.
   [[nodiscard]] ApproachProfile follow(const AxisMotion& motion, int parts);
   // Where the axes are now.
   [[nodiscard]] const AxisPositions& heading() const { return heading_; }

@@ -20,8 +20,8 @@ struct PolylineTolerance {
 struct EvenPart {
   double end = 1.0;  // u
   AxisPositions to{};
-  // By how much more than its change every axis would go if it kept the fastest pace that it has within
-  // the part: five times what it is off in the middle, where a parabola has four.
+  // By how much more than its change every axis would go if it kept the fastest pace that it has
+  // within the part: five times what it is off in the middle, where a parabola has four.
   AxisPositions unevenness{};
 };
 

@@ -120,8 +120,8 @@ PathMatches match_paths(const ToolPath& reference, const ToolPath& other,
   double apart = 0.0;
   for (const PathPlace& place : places) {
     const Point6 now = weighed(place.pose, options.reach);
-    // Half as much again: the other path may round a corner that the reference's chord cuts. Where it
-    // lies apart it may need that distance there and back to come alongside again.
+    // Half as much again: the other path may round a corner that the reference's chord cuts. Where
+    // it is apart it may need that distance there and back to come alongside again.
     const double allowance =
         1.5 * (now - before).norm() + 2.0 * std::min(apart, options.most_apart) + options.slack;
     before = now;

@@ -1,10 +1,11 @@
 // Two tool paths side by side: where the other one is when the reference passes each of its poses.
 //
-// Model    : both paths are walked forward together. For each pose of the reference the other path is
-//            searched ahead, a little further than the reference has moved since and the paths lie apart,
-//            for its nearest place in (tip, reach * axis); it never goes back, so that passes over the
-//            same surface stay apart.
-//            Only feed moves count; where they are interrupted, both paths run straight to the next one
+// Model    : both paths are walked forward together. For each pose of the reference the other path
+//            is searched ahead, a little further than the reference has moved since and the paths
+//            are apart, for its nearest place in (tip, reach * axis); it never goes back, so that
+//            passes over the same surface stay apart.
+//            Only feed moves count; where they are interrupted, both paths run straight to the next
+//            one
 // Units    : mm, rad, s; frame: that of the paths
 // Errors   : none; a path without feed moves has no matches
 #pragma once
@@ -44,7 +45,7 @@ struct MatchOptions {
   double reach = 20.0;      // mm: what a radian of the tool axis weighs
   double slack = 1e-3;      // mm: how much further than the reference the other path is searched
   double most_apart = 5.0;  // mm: paths farther apart are not searched further for that
-  // mm: where the paths lie farther apart, the walk ends with that match.
+  // mm: where the paths are farther apart, the walk ends with that match.
   double stop_beyond = std::numeric_limits<double>::infinity();
 };
 

@@ -1,7 +1,7 @@
 // Where the axes really are behind their commands: a first-order lag of each position loop.
 //
-// Model    : y' = Kv (q - y) for each axis with its own gain Kv; solved exactly while q moves evenly. Axes
-//            without a stated gain follow at once
+// Model    : y' = Kv (q - y) for each axis with its own gain Kv; solved exactly while q moves
+//            evenly. Axes without a stated gain follow at once
 // Units    : mm, rad, s
 // Errors   : none
 // Accuracy : steady lag v / Kv and the shrunken circle to 1e-9 (tests/kinematics/time_law_test.cpp)
@@ -18,7 +18,8 @@ class ServoLag {
  public:
   ServoLag(const Machine& machine, const AxisPositions& start);
 
-  // The commands go evenly from where they are to `commanded` in `seconds`; returns where the axes are.
+  // The commands go evenly from where they are to `commanded` in `seconds`; returns where the axes
+  // are.
   const AxisPositions& follow(const AxisPositions& commanded, double seconds);
   // The axes wait until they are in position.
   void settle() { actual_ = commanded_; }

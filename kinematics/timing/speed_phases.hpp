@@ -1,7 +1,8 @@
 // Speed along a path over time, in phases of constant jerk, and its average over a window of time.
 //
-// Model    : v(t) = v0 + a t + j t^2 / 2 within a phase. The average over T of a profile of constant
-//            accelerations has jerk (a(t + T/2) - a(t - T/2)) / T and begins and ends at rest
+// Model    : v(t) = v0 + a t + j t^2 / 2 within a phase. The average over T of a profile of
+//            constant accelerations has jerk (a(t + T/2) - a(t - T/2)) / T and begins and ends at
+//            rest
 // Units    : s; lengths in whatever unit the path has
 // Errors   : none
 // Accuracy : exact phase by phase (tests/kinematics/time_law_test.cpp)
@@ -32,8 +33,8 @@ struct SpeedPhase {
   [[nodiscard]] SpeedPhase after(double t) const;
 };
 
-// At most three phases of constant acceleration over `length`, from one speed to another, never above
-// `top`; an infinite acceleration runs at `top` all the way.
+// At most three phases of constant acceleration over `length`, from one speed to another, never
+// above `top`; an infinite acceleration runs at `top` all the way.
 [[nodiscard]] std::vector<SpeedPhase> trapezoid(double length, double from, double to, double top,
                                                 double acceleration);
 

@@ -101,7 +101,8 @@ TimeLaw::Piece TimeLaw::piece_of(const AxisPositions& step, const AxisPositions&
   return piece;
 }
 
-// How fast the axes may go round the bend between two pieces, and what it takes of their accelerations.
+// How fast the axes may go round the bend between two pieces, and what it takes of their
+// accelerations.
 void TimeLaw::bend(Piece& before, Piece& after, bool corner) const {
   const double beside = 0.5 * (before.step_length + after.step_length);
   after.entry.lower(std::min(before.own_top, after.own_top), std::nullopt);
@@ -112,7 +113,7 @@ void TimeLaw::bend(Piece& before, Piece& after, bool corner) const {
     if (jumps[i] == 0.0 || acceleration_[i] == kNoLimit) continue;
     const double share = kBendShare * acceleration_[i];
     after.entry.lower(std::sqrt(share * beside / jumps[i]), letter);
-    // Two corners may lie side by side.
+    // Two corners may be side by side.
     const double jump = 0.5 * acceleration_[i] * options_.corner_time;
     if (corner) after.entry.lower(jump / jumps[i], letter);
   }
@@ -185,8 +186,9 @@ void TimeLaw::bound_accelerations() {
   }
 }
 
-// The average at a place looks at all that the axes pass within jerk_time, so a limit must hold there
-// too: from the place, speed x time / 2, and what the averaged and the plain motion are apart.
+// The average at a place looks at all that the axes pass within jerk_time, so a limit must hold
+// there too: from the place, speed x time / 2, and what the averaged and the plain motion are
+// apart.
 void TimeLaw::widen(std::size_t from, double speed, const Cap& acceleration, bool backwards) {
   const double time = options_.jerk_time;
   double reach = speed * 0.5 * time;

@@ -1,15 +1,15 @@
 // When the axes are where: feed, velocity, acceleration and jerk limits over a look-ahead.
 //
-// Model    : the commanded motion is a polyline of axis positions; its length h weighs every axis by its
-//            rapid velocity, so that one speed v = dh/dt is continuous over all blocks. Each segment has
-//            a top speed (feed; velocity of its axes), each corner between segments a speed at which no
-//            axis velocity jumps by more than 0.7 of its acceleration times the time that the bend takes
-//            (that of the half segments beside it), nor between blocks by more than half of what
-//            it gives in corner_time; the rest of the acceleration may change v. So an axis changes its
-//            velocity within any time dt by at most acceleration x (dt + corner_time). A backward and a
-//            forward pass then give the fastest trapezoidal profile. With `jerk` accelerations are held
-//            down to jerk x jerk_time / 2, v(t) is averaged over jerk_time, and each limit is kept
-//            over all that the average looks at
+// Model    : the commanded motion is a polyline of axis positions; its length h weighs every axis
+//            by its rapid velocity, so that one speed v = dh/dt is continuous over all blocks. Each
+//            segment has a top speed (feed; velocity of its axes), each corner between segments a
+//            speed at which no axis velocity jumps by more than 0.7 of its acceleration times the
+//            time that the bend takes (that of the half segments beside it), nor between blocks by
+//            more than half of what it gives in corner_time; the rest of the acceleration may
+//            change v. So an axis changes its velocity within any time dt by at most acceleration x
+//            (dt + corner_time). A backward and a forward pass then give the fastest trapezoidal
+//            profile. With `jerk` accelerations are held down to jerk x jerk_time / 2, v(t) is
+//            averaged over jerk_time, and each limit is kept over all that the average looks at
 // Units    : mm, rad, s
 // Shape    : streamed through a window of 8192 segments, the end of which is taken as standstill
 // Errors   : none
@@ -63,8 +63,8 @@ class TimeLaw {
   // False: no axis states a limit that could slow a feed.
   [[nodiscard]] bool limits_any() const { return limits_any_; }
 
-  // The axes go on by `step`, in no less than `least_time` (0: a rapid); `unevenness`: what every axis
-  // would go further at its fastest pace within the step. `corner`: a new block begins.
+  // The axes go on by `step`, in no less than `least_time` (0: a rapid); `unevenness`: what every
+  // axis would go further at its fastest pace within the step. `corner`: a new block begins.
   // Returns false for a step without length, which takes no time and gives no segment.
   bool add(const AxisPositions& step, const AxisPositions& unevenness, double least_time,
            bool corner);
