@@ -10,8 +10,8 @@
 
 namespace frustum::post {
 
-// How a number ends: "12." keeps its point (controllers read "12" in their least increment), "12" does
-// not.
+// How a number ends: "12." keeps its point (controllers read "12" in their least increment), "12"
+// does not.
 enum class WholeNumbers : std::uint8_t { with_point, without_point };
 
 // Fixed decimals without trailing zeros, never an exponent, never "-0".

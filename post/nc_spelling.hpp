@@ -4,7 +4,7 @@
 // Errors   : none; a word that a dialect lacks is empty, and the writer says so when it is needed
 // Source   : programming manuals of the controllers; what parser/ reads
 //
-// In a pattern `#` stands for the number and a line feed begins another line of the program.
+// In a pattern `#` represents the number and a line feed begins another line of the program.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ struct NcSpelling {
   std::string_view title;      // of the controller
   std::string_view extension;  // of program files
 
-  // Around the program. `$` stands for its name.
+  // Around the program. `$` represents its name.
   std::string_view header;
   std::string_view footer;
   bool numbered_blocks;  // every block begins with its number
 
   std::string_view comment_open, comment_close;
-  std::string_view message;  // `$` stands for the text; empty: as a comment
+  std::string_view message;  // `$` represents the text; empty: as a comment
   bool upper_comments;
 
   WholeNumbers whole_numbers;
@@ -34,7 +34,7 @@ struct NcSpelling {
   // Motions. `modal`: motion words and the words of axes that do not move are left out.
   std::string_view traverse, linear, clockwise, counterclockwise;
   std::string_view with_vector;    // of straight motions with a tool vector; empty: the same
-  std::string_view traverse_feed;  // stands where F would
+  std::string_view traverse_feed;  // is where F would
   // Synchronised with the spindle, and the letter of the way of a revolution; empty: none.
   std::string_view thread, lead;
   bool modal;

@@ -25,7 +25,7 @@ bool apart(const PathMatch& match, const DifferenceLimits& limits) {
   return match.tip_distance() > limits.tip || match.axis_angle() > limits.axis;
 }
 
-// The first match that lies apart, or that another tool makes.
+// The first match that is apart, or that another tool makes.
 Found first_apart(const ToolPath& reference, const ToolPath& other,
                   const std::vector<PathMatch>& matches, const DifferenceLimits& limits) {
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -60,7 +60,7 @@ Found compare_times(const std::vector<PathMatch>& matches, const DifferenceLimit
       ++alike;
     start = i;
   }
-  constexpr double kAlmostAll = 0.9;  // a window may lie across a corner
+  constexpr double kAlmostAll = 0.9;  // a window may be across a corner
   found.throughout = static_cast<double>(alike) >= kAlmostAll * static_cast<double>(windows);
   return found;
 }
@@ -108,7 +108,7 @@ PathDifference path_difference(const ToolPath& first, const ToolPath& second,
     result.first = described(first, second, forward.matches[found.match], found);
     return result;
   }
-  // The first path lies on the second one; what the second one does besides shows on the way back.
+  // The first path is on the second one; what the second one does besides shows on the way back.
   const auto off = std::find_if(backward.matches.begin(), backward.matches.end(),
                                 [&](const PathMatch& m) { return apart(m, limits); });
   if (off != backward.matches.end()) {

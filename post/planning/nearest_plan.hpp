@@ -1,7 +1,8 @@
 // Axis solutions along a path, each the nearest to the one before.
 //
 // Units  : mm, rad; frame: table
-// Errors : a direction that the machine does not reach, a pose that no solution reaches within travel
+// Errors : a direction that the machine does not reach, a pose that no solution reaches within
+//          travel
 #pragma once
 
 #include <span>

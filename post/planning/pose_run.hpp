@@ -24,14 +24,15 @@ struct PoseRun {
 // The X Y Z words of the target, the point's own where there are none.
 [[nodiscard]] Vec3 with_words(Vec3 point, const parser::AxisTarget& words);
 
-// From the first motion to where something else moves the axes. `tip`: where it is, in the words' frame.
+// From the first motion to where something else moves the axes. `tip`: where it is, in the words'
+// frame.
 [[nodiscard]] PoseRun vector_run(std::span<const parser::Motion> motions, Vec3 tip,
                                  const Pose& table_from_words);
 
 enum class AxisChoice : std::uint8_t { along_the_path, nearest };
 
-// One for each pose. From here, a plan that begins on other positions of the tool's present pose begins
-// with an unwinding.
+// One for each pose. From here, a plan that begins on other positions of the tool's present pose
+// begins with an unwinding.
 [[nodiscard]] Result<std::vector<kinematics::PlannedPose>> choose_axes(
     const kinematics::Machine& machine, const PoseRun& run, const kinematics::AxisPositions& here,
     double tool_length, AxisChoice choice);
