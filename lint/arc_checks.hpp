@@ -1,4 +1,5 @@
-// Arcs that are probably not what was meant: radii that disagree, slips of a point, radii out of all measure.
+// Arcs that are probably not what was meant: radii that disagree, slips of a point, radii out of
+// all measure.
 //
 // Units : mm, rad
 // Errors: none; arcs that cannot be made at all are errors of the interpreter (run_errors.hpp)

@@ -10,7 +10,8 @@
 
 namespace frustum::lint {
 
-// Feeds beyond these are told. Roughing of aluminium goes to 20 m/min, cuts of superalloys down to 10 mm/min.
+// Feeds beyond these are reported. Roughing of aluminium goes to 20 m/min, cuts of superalloys down
+// to 10 mm/min.
 constexpr double kHighFeed = 40'000.0;    // mm/min
 constexpr double kLowFeed = 3.0;          // mm/min
 constexpr double kHighFeedPerTurn = 5.0;  // mm

@@ -11,7 +11,8 @@
 
 namespace frustum::lint {
 
-// `modes`: of the interpreter at the end. What M30 of the control puts right itself is not told.
+// `modes`: of the interpreter at the end. What M30 of the control puts right itself is not
+// reported.
 void check_end(const MotionState& state, const parser::ModalState& modes, parser::Dialect dialect,
                FindingList& findings);
 

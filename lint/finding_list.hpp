@@ -1,7 +1,8 @@
 // What the checks have found, each once.
 //
-// A check raises a finding under a key of its own (a place, a feed, a segment between two changes of a mode); what
-// comes again under the same key is counted. A check keeps kMostPlaces findings; those beyond are counted too.
+// A check raises a finding under a key of its own (a place, a feed, a segment between two changes
+// of a mode); what comes again under the same key is counted. A check keeps kMostPlaces findings;
+// those beyond are counted too.
 //
 // Units : none
 // Errors: none

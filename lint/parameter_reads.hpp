@@ -1,9 +1,9 @@
 // Parameters that the program reads before it has set them, in the order in which its blocks run.
 //
-// Looked at are numbers that are written as such and keep nothing from before: those of subprograms only in the main
-// program (a call may have brought them), neither the controller's own nor the ones that outlast a program. A block that
-// compares with #0 asks whether a parameter is set, and may. A number that is computed could be any: from then on nothing
-// is told.
+// Looked at are numbers that are written as such and keep nothing from before: those of subprograms
+// only in the main program (a call may have brought them), neither the controller's own nor the
+// ones that outlast a program. A block that compares with #0 asks whether a parameter is set, and
+// may. A number that is computed could be any: from then on nothing is reported.
 //
 // Units : none
 // Errors: none

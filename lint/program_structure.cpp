@@ -69,7 +69,7 @@ struct Definition {
   std::string name{};  // as messages have it
 };
 
-// Blocks behind an end, up to where something may bring the program there.
+// Blocks after an end, up to where something may bring the program there.
 struct PathSegment {
   SourcePlace place{};
   std::string end{};  // "M30 on line 12"
@@ -117,7 +117,7 @@ class Structure {
 
   void see(const Block& block) {
     const bool acts = !block.words.empty() || !block.assignments.empty();
-    // END PGM stands behind M30 in every program of Klartext.
+    // END PGM stands after M30 in every program of Klartext.
     if (program_.dialect == parser::Dialect::heidenhain && is_end_of_klartext(block)) return;
     if (block.program) define_program(block);
     if (block.flow) follow(block);

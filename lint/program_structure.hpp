@@ -1,5 +1,5 @@
-// What the text of a program says of itself, run or not: subprograms and labels that nothing names, blocks behind an end,
-// block numbers that a jump could mean twice, and syntax errors.
+// What the text of a program says of itself, run or not: subprograms and labels that nothing names,
+// blocks after an end, block numbers that a jump could mean twice, and syntax errors.
 //
 // Units : none
 // Shape : one read of the text; another one when block numbers are jumped to

@@ -10,8 +10,8 @@
 
 namespace frustum::lint {
 
-// In inverse time (G93) moves of both kinds of axes are written by post-processors that guide the tip themselves: a
-// note.
+// In inverse time (G93) moves of both kinds of axes are written by post-processors that guide the
+// tip themselves: a note.
 void check_tip_control(const CuttingMove& move, const MotionState& state, parser::Dialect dialect,
                        FindingList& findings);
 // A rotary axis turns, by rapid or feed, with a tool length in force and no tilted plane.

@@ -1,8 +1,8 @@
 // Findings as SARIF 2.1.0, which code hosts show beside the lines.
 //
-// Files are named relative to a folder (the working one, as a rule), with percent-encoding; one that is not below it
-// keeps its absolute place. A fingerprint of the check and the text of its line lets a host know a finding again when
-// lines move.
+// Files are named relative to a folder (the working one, as a rule), with percent-encoding; one
+// that is not below it keeps its absolute place. A fingerprint of the check and the text of its
+// line lets a host know a finding again when lines move.
 //
 // Units : lines and columns from 1, columns count UTF-16 units, as SARIF has it
 // Errors: none; bytes that are no text are replaced

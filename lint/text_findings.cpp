@@ -18,8 +18,8 @@ struct Shown {
   std::string line{};
   std::string caret{};
 };
-// The part of a line around `column`, and a line with a caret below it: tabs stay tabs, and the bytes behind the first
-// of a UTF-8 character take no room. Other control characters become blanks.
+// The part of a line around `column`, and a line with a caret below it: tabs stay tabs, and the
+// bytes after the first of a UTF-8 character take no room. Other control characters become blanks.
 Shown shown(std::string_view line, std::size_t column) {
   const std::size_t at = column == 0 ? 0 : std::min(column - 1, line.size());
   std::size_t first = 0;
