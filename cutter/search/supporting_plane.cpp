@@ -8,8 +8,9 @@ double normal_turn(const PoseGroup& group) {
   return group.axis_shift * (1.0 + 2.0 * group.axis_shift);
 }
 
-// At another pose, tip p + dp and axis a + da, the normal is n + dn, dn = axial da - lateral (side.da) a
-// within 2 |da|^2; the point at y from the tip is then n.dp + dn.dp - dn.y less beyond the plane.
+// At another pose, tip p + dp and axis a + da, the normal is n + dn, dn = axial da - lateral
+// (side.da) a within 2 |da|^2; the point at y from the tip is then n.dp + dn.dp - dn.y less beyond
+// the plane.
 double most_lost(const SupportingPlane& plane, const PoseGroup& group, const Vec3& y) {
   constexpr double kFarTurned = 0.5;  // the expansion holds below
   const double turned = group.axis_shift;

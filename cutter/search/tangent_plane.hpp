@@ -21,8 +21,9 @@ struct TangentPlane : SupportingPlane {
   // `leaving`: at chord.hi, else at chord.lo.
   TangentPlane(const Profile& body, const ToolPose& pose, const Ray& ray, const Chord& chord,
                bool leaving);
-  // Where the ray crosses the plane when the body stands at another pose, counted along the ray if leaving,
-  // else against it: no end of the body's chord is beyond. Infinite if the ray runs along the plane.
+  // Where the ray crosses the plane when the body is at another pose, counted along the ray if
+  // leaving, else against it: no end of the body's chord is beyond. Infinite if the ray runs along
+  // the plane.
   [[nodiscard]] PlaneCrossing crossing(const ToolPose& pose, const Ray& ray) const;
 
   double value;      // where that pose leaves the ray: s if leaving, else -s
