@@ -1,7 +1,7 @@
 // Three orthogonal families of exact rays through a solid, on one cubic grid.
 //
 // Model    : the ray of axis d through the grid nodes (u, v) of the other two axes keeps the
-//            intervals of material along it; u = d+1, v = d+2 (cyclic). The outermost nodes lie
+//            intervals of material along it; u = d+1, v = d+2 (cyclic). The outermost nodes are
 //            outside the box and hold no material: a solid that reaches beyond the box is cut off
 //            half a pitch inside them.
 // Units    : mm; frame: that of the solid
@@ -36,7 +36,7 @@ struct DexelGrid {
   std::array<int, 3> nodes{};
 
   // Covers the box with one to two spare layers. The nodes are shifted against the box by
-  // irrational fractions of the pitch, so that rays do not lie in planes where people like to put
+  // irrational fractions of the pitch, so that rays are not in planes where people like to put
   // faces.
   [[nodiscard]] static DexelGrid over(const BoundingBox& box, double pitch);
 

@@ -7,7 +7,7 @@
 //            deviations. Corners stay; a vertex of a sharp edge may only go along that edge
 // Units    : mm
 // Errors   : a tolerance that is not finite and positive; a mesh that is not closed and manifold
-// Accuracy : vertices and centres are checked, as above; that triangles then lie within the
+// Accuracy : vertices and centres are checked, as above; that triangles then are within the
 //            tolerance all over is measured, not proven (tests/stock/refine_surface_test.cpp)
 // Source   : OpenMesh 9, Decimater (quadrics, Hausdorff and normal-flipping modules); Garland and
 //            Heckbert 1997, SIGGRAPH

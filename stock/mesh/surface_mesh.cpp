@@ -48,7 +48,7 @@ class VertexPlacer {
         }
       }
     });
-    // A corner that two cells claim belongs to the one that it lies in, or else to the last.
+    // A corner that two cells claim belongs to the one that it is in, or else to the last.
     for (const auto& row : astray) {
       for (const auto& [place, piece] : row) {
         const Cell& cell = cells_.at(place[0], place[1], place[2]);

@@ -8,8 +8,8 @@
 // Shape    : triangles run counter-clockwise seen from outside; all per-vertex arrays are as long
 //            as `vertices` (`deviation` may be empty)
 // Errors   : those of TriDexel::sample
-// Accuracy : a VertexKind::surface vertex lies on the exact surface as the solid's rays do (1 nm).
-//            A ::feature vertex lies where the planes of the adjoining faces meet: exact for flat
+// Accuracy : a VertexKind::surface vertex is on the exact surface as the solid's rays do (1 nm).
+//            A ::feature vertex is where the planes of the adjoining faces meet: exact for flat
 //            faces; for curved ones the planes are taken within a thousandth of the pitch of the
 //            edge. Between vertices the triangles leave a surface of radius R by about
 //            pitch^2 / (4 R). Walls and slits thinner than the pitch may be missing

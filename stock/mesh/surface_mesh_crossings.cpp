@@ -16,7 +16,7 @@ using Node = std::array<int, 3>;
 struct End {
   double s = 0.0;
   EndTag tag = -1;
-  bool leaves = false;  // the material lies before s
+  bool leaves = false;  // the material is before s
 };
 
 // Edges of a Z column: between the last node before a run of inside nodes and its first, and at its

@@ -2,7 +2,7 @@
 //
 // A grid node is inside the material when the Z ray through it says so; the X and Y rays only tell
 // where. So the three directions cannot contradict each other: where an X or Y ray, by rounding,
-// does not see the crossing that the nodes demand, the node in dispute lies on the surface within
+// does not see the crossing that the nodes demand, the node in dispute is on the surface within
 // rounding, and the nearest interval end of the three rays through it gives point and normal. Edges
 // are kept by columns of the grid: (i, j) at index i + nodes_x * j, upwards in a column.
 // Units: mm. Errors: none. Threads: built on oneTBB, the same bits for any number of threads.

@@ -60,7 +60,7 @@ bool contains(const BoundingBox& box, const Vec3& p) {
   return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
 }
 
-// The quadratic error function's minimum: the best of highest rank that lies in `allowed`.
+// The quadratic error function's minimum: the best of highest rank that is in `allowed`.
 Vec3 meet(Samples samples, const BoundingBox& allowed) {
   Vec3 mean = mean_point(samples);
   const auto rows = static_cast<Eigen::Index>(samples.size());
