@@ -1,7 +1,7 @@
 // Writes a test piece as the files that `frustum run` reads: job, NC program, inspection plan.
 //
-// Units: as the files state them. Errors: a folder that cannot be made or a file that cannot be written;
-// each file appears whole or not at all.
+// Units: as the files state them. Errors: a folder that cannot be made or a file that cannot be
+// written; each file appears whole or not at all.
 #pragma once
 
 #include <filesystem>

@@ -1,15 +1,16 @@
 // A rotary table that turns about the vertical and tilts about a horizontal machine axis.
 //
-// Model    : two rotary axes on the workpiece side, the outer one along +-X or +-Y (tilt), the inner one
-//            along +-Z (turn). Definitions are written for a tilt A about X and a turn C about Z; on this
-//            machine X stands for the tilt axis, that is definition directions are turned by
-//            `orientation` about Z. Axis values follow from the senses of the joints, so that the nominal
-//            rotation of the table is the definition's.
+// Model    : two rotary axes on the workpiece side, the outer one along +-X or +-Y (tilt), the
+//            inner one along +-Z (turn). Definitions are written for a tilt A about X and a turn C
+//            about Z; on this machine X represents the tilt axis, that is definition directions are
+//            turned by `orientation` about Z. Axis values follow from the senses of the joints, so
+//            that the nominal rotation of the table is the definition's.
 // Units    : mm, rad; frame: table
 // Shape    : at most one shortfall an axis, in the order of the machine's joints
 // Errors   : machines of another kind, with the reason; shortfalls() never fails
 // Accuracy : the nominal table turns as the definition within 1e-12
-//            (tests/programs/step_geometry_test.cpp); limits hold within half a nanometre or nanoradian
+//            (tests/programs/step_geometry_test.cpp); limits hold within half a nanometre or
+//            nanoradian
 // Source   : Ibaraki et al. 2010, equations (1)-(5), for the definition's table
 #pragma once
 

@@ -21,7 +21,8 @@ using kinematics::Machine;
 
 constexpr double kFlange = 25.0;      // mm: thickness of the flange below the cylinder
 constexpr double kGrooveDepth = 4.0;  // mm
-// Axis-position programs are cut fine enough that straight axis motion stays within this of the path.
+// Axis-position programs are cut fine enough that straight axis motion stays within this of the
+// path.
 constexpr double kLineariseTolerance = 2e-6;  // mm
 constexpr int kTool = 1;
 constexpr int kMachineOffset = 6;  // G59 = 0: axis positions as the machine shows them
@@ -131,7 +132,8 @@ class ConeProgram {
     nc_.line(fmt::format("S{:g} M3", cone_.spindle_speed));
   }
 
-  // Every operation starts from the rotary axes' home, so that none inherits turns from the one before.
+  // Every operation starts from the rotary axes' home, so that none inherits turns from the one
+  // before.
   void begin_operation(const std::string& name) {
     nc_.comment(name);
     retract();

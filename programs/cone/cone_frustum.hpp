@@ -1,15 +1,15 @@
 // The cone frustum tests: NAS 979, and the inclined cone with cylinder, reference faces and groove.
 //
-// Model    : the workpiece frame has its origin in the centre of the tool-tip circle and Z along the
-//            cone's axis towards the apex; the tip runs on a circle of radius r, the tool axis leans by
-//            the half apex angle alpha and touches the cone along a generatrix:
+// Model    : the workpiece frame has its origin in the centre of the tool-tip circle and Z along
+//            the cone's axis towards the apex; the tip runs on a circle of radius r, the tool axis
+//            leans by the half apex angle alpha and touches the cone along a generatrix:
 //              tip  (r cos phi, r sin phi, 0)         axis (-sin a cos phi, -sin a sin phi, cos a)
 //              normal (cos a cos phi, cos a sin phi, sin a)   contact = tip - R normal
 //            placed on the table by Rz(orientation) Ry(inclination) about `center`
 // Units    : mm, rad
-// Errors   : cone_frustum() refuses shapes that do not exist (a cone that comes to a point before its
-//            height, angles outside (0, 90) deg) and, for the forms that need axes, poses that the
-//            machine cannot reach
+// Errors   : cone_frustum() refuses shapes that do not exist (a cone that comes to a point before
+//            its height, angles outside (0, 90) deg) and, for the forms that need axes, poses that
+//            the machine cannot reach
 // Accuracy : chords of the finished circle within `chord_tolerance`
 // Source   : ETH thesis, sections 3.1-3.6 and appendix A; NAS 979 parameters of its table 2.1
 #pragma once
@@ -59,7 +59,7 @@ struct ConeGeometry {
   double cutter_radius = 0.0;
   double base_radius = 0.0, top_radius = 0.0;
   double base_z = 0.0, top_z = 0.0;  // of the cone; top_z is also the blank's top face
-  double floor_z = 0.0;              // of the flange that the cylinder stands on
+  double floor_z = 0.0;              // of the flange that the cylinder is on
   double blank_radius = 0.0, bottom_z = 0.0;
   double groove_floor_z = 0.0, groove_inner_y = 0.0;
 };

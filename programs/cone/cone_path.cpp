@@ -36,7 +36,7 @@ class ConePath {
 
  private:
   static double default_start(const ConeFrustum& cone) {
-    // The pole lies on the path when both angles are equal; 1e-9 rad separates equal from written so.
+    // The pole is on the path when both angles are equal; 1e-9 rad separates equal from written so.
     const bool equal = std::abs(cone.cone_angle.value - cone.inclination.value) < 1e-9;
     return equal ? std::numbers::pi : 0.0;
   }

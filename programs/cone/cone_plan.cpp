@@ -21,7 +21,7 @@ constexpr double kEdge = 0.5;  // mm: sections stay this far from an edge of the
 constexpr double kBallDiameter = 2.0;
 constexpr int kRoundPoints = 360;
 
-// Half a step off the approach, so that no point lies on the seam of the path.
+// Half a step off the approach, so that no point is on the seam of the path.
 double off_the_seam() { return 0.5 * 2.0 * std::numbers::pi / kRoundPoints; }
 
 PlannedFeature reference_plane(const ConeGeometry& shape) {

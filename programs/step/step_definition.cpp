@@ -35,7 +35,8 @@ std::vector<StepPattern> all_patterns() {
   const Vec3 down_y = Vec3(0, -1, -1).normalized();
   const Vec3 down_minus_y = Vec3(0, 1, -1).normalized();
   constexpr double kSlope = 10.0;  // mm: the side edge reaches so far below the line on a chamfer
-  // Leaning over the feed, the tool cuts an ellipse below its tip: no deeper, for the sake of pattern 3.
+  // Leaning over the feed, the tool cuts an ellipse below its tip: no deeper, for the sake of
+  // pattern 3.
   constexpr double kLeaning = 3.0;
   return {
       {"1-a", step, side_edge, fed_along_x(0, pass(0, 0, -kX, -kY), pass(0, -2 * q, -kX, -kY)), 0.0,
@@ -77,8 +78,8 @@ StepWorkpiece workpiece_1() {
   return piece;
 }
 
-// Reference level, step of pattern 3, block of pattern 7, and a pyramid of 45 deg faces that patterns 5
-// (upper half) and 6 (lower half) share.
+// Reference level, step of pattern 3, block of pattern 7, and a pyramid of 45 deg faces that
+// patterns 5 (upper half) and 6 (lower half) share.
 StepWorkpiece workpiece_2() {
   StepWorkpiece piece{.number = 2, .centre_x = 3.677, .centre_y = -97.15};
   piece.sizes = {{"3", 143.9, 86.5, 91.0, 138.9, 96.5},   {"4", 143.9, 86.5, 91.0, 138.9, 96.5},

@@ -1,7 +1,7 @@
 // How far a straight pass must run beyond its middle, and how high, to stand clear of the blank.
 //
-// Model    : the tool is a cylinder without end above its tip. At both ends of the pass no material lies
-//            within `clearance` of it or above it, so that it may go down and up at rapid there.
+// Model    : the tool is a cylinder without end above its tip. At both ends of the pass no material
+//            is within `clearance` of it or above it, so that it may go down and up at rapid there.
 // Units    : mm; frame: workpiece
 // Shape    : `length` centred on the line's middle; a blank of any number of slabs
 // Errors   : none; what is not clear within 2 m ends there

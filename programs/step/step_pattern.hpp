@@ -1,23 +1,24 @@
 // The step machining patterns: straight side cuts in indexed positions whose steps tell a machine's
 // kinematic errors apart.
 //
-// Model    : eleven patterns 1-a .. 7 on a tilting rotary table. Each has two reference steps a, b and
-//            two steps c, d of its own in other table positions; a step is a side surface S and a bottom
-//            surface B. Directions and table angles are written for a table tilting by A about machine X
-//            and turning by C (direction map machine -> table M = Rz(C) Rx(A)); on other tables X stands
-//            for the tilt axis, Y for the horizontal direction across it.
-// Frames   : the workpiece frame has the table's directions (X: the tilt axis) at zero and its origin on
-//            the crossing of tilt and turn axis; heights H are its z
+// Model    : eleven patterns 1-a .. 7 on a tilting rotary table. Each has two reference steps a, b
+//            and two steps c, d of its own in other table positions; a step is a side surface S and
+//            a bottom surface B. Directions and table angles are written for a table tilting by A
+//            about machine X and turning by C (direction map machine -> table M = Rz(C) Rx(A)); on
+//            other tables X stands for the tilt axis, Y for the horizontal direction across it.
+// Frames   : the workpiece frame has the table's directions (X: the tilt axis) at zero and its
+//            origin on the crossing of tilt and turn axis; heights H are its z
 // Units    : mm, rad, mm/min, 1/min
-// Shape    : four passes a pattern; a piece has two cuts for each different pair of reference steps,
-//            then two for each pattern, and as many operations
-// Errors   : step_pattern() refuses machines without a tilting turning table, unknown patterns (with the
-//            nearest name), patterns that the workpiece does not carry or that cut the same surfaces, and
-//            every position out of travel at once (pattern, axis, and how much is short)
+// Shape    : four passes a pattern; a piece has two cuts for each different pair of reference
+//            steps, then two for each pattern, and as many operations
+// Errors   : step_pattern() refuses machines without a tilting turning table, unknown patterns
+//            (with the nearest name), patterns that the workpiece does not carry or that cut the
+//            same surfaces, and every position out of travel at once (pattern, axis, and how much
+//            is short)
 // Accuracy : commanded positions agree with an independent computation to 1e-6 mm
 //            (tests/programs/step_geometry_test.cpp)
-// Source   : Ibaraki, Sawada, Matsubara, Matsushita: machining tests to identify kinematic errors on
-//            five-axis machine tools, section 3, tables 3 and 4
+// Source   : Ibaraki, Sawada, Matsubara, Matsushita: machining tests to identify kinematic errors
+//            on five-axis machine tools, section 3, tables 3 and 4
 #pragma once
 
 #include <array>
@@ -57,10 +58,11 @@ struct StepPattern {
   StepKind kind = StepKind::step;
   SideCutBy side_cut_by = SideCutBy::side_edge;
   std::array<StepPass, 4> passes{};  // a, b, c, d
-  // How far the tip stands below the line S, square to the feed; free where the side edge cuts S.
+  // How far the tip is below the line S, perpendicular to the feed; free where the side edge cuts
+  // S.
   double depth = 0.0;  // mm
-  // Workpiece directions: of Xw along the lines S (its sense gives phi its sign), from S_c to S_d, and
-  // from S_a to S_b.
+  // Workpiece directions: of Xw along the lines S (its sense gives phi its sign), from S_c to S_d,
+  // and from S_a to S_b.
   Vec3 along = Vec3::UnitX();
   Vec3 across = Vec3::UnitY();
   Vec3 across_reference = Vec3::UnitY();
@@ -111,8 +113,8 @@ struct StepWorkpiece {
 };
 
 // Workpiece #1 (patterns 1-a, 1-b, 2-a, 2-b), #2 (3 or 4, 5-a, 5-b, 6-a, 6-b, 7) of the paper, with
-// nominal sizes that can be machined together (docs/step-patterns.md tells where they differ from its
-// Table 4). Nothing for other numbers.
+// nominal sizes that can be machined together (docs/step-patterns.md tells where they differ from
+// its Table 4). Nothing for other numbers.
 [[nodiscard]] std::optional<StepWorkpiece> step_workpiece(int number);
 // The same workpiece, standing higher by `mm`.
 [[nodiscard]] StepWorkpiece raised(StepWorkpiece workpiece, double mm);

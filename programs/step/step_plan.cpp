@@ -78,8 +78,8 @@ class StepPlan {
       const Vec3 outward = sign * across;
       add_line(name + ".S_" + to_char(step), at(outward, 0.5 * size.reference_width, side_height),
                along, outward, length);
-      // Two rows at +-l / sqrt(6) from the middle of the ledge weigh its slope exactly as three rows at
-      // 0, l/2 and l do, and keep a ball off the wall.
+      // Two rows at +-l / sqrt(6) from the middle of the ledge weigh its slope exactly as three
+      // rows at 0, l/2 and l do, and keep a ball off the wall.
       plan_.features.push_back(
           {.name = name + ".B_" + to_char(step),
            .kind = FeatureKind::plane,
