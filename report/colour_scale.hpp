@@ -1,5 +1,5 @@
-// The diverging colour scale of deviations: blue where material is missing, near white at nominal, red
-// where material is left; grey where no nominal is known.
+// The diverging colour scale of deviations: blue where material is missing, near white at nominal,
+// red where material is left; grey where no nominal is known.
 //
 // Units: deviations and the span in mm; colours sRGB in [0, 1].
 // Errors: none; a deviation beyond the span takes the colour of the end.
@@ -29,8 +29,8 @@ inline constexpr Colour kNoNominalColour = {0.735, 0.755, 0.775};
 [[nodiscard]] Colour deviation_colour(double deviation, double span);
 [[nodiscard]] Colour deviation_colour(const std::optional<float>& deviation, double span);
 
-// A span for the picture: holds 99.5 % of the deviations, rounded up to 1, 2 or 5 times a power of ten;
-// 1 um when there are none. Spikes at edges do not wash out the rest.
+// A span for the picture: holds 99.5 % of the deviations, rounded up to 1, 2 or 5 times a power of
+// ten; 1 um when there are none. Spikes at edges do not wash out the rest.
 [[nodiscard]] double natural_span(const SurfacePicture& picture);
 
 }  // namespace frustum::report

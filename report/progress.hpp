@@ -1,8 +1,8 @@
 // Tells whoever waits how far a long piece of work is.
 //
-// On a terminal: a bar redrawn on one line, once the work has taken longer than a second. In a log: a
-// plain line at each quarter, and one at the end. Silent: nothing. Short work stays silent everywhere.
-// Several threads may report at once; the share shown never runs backwards.
+// On a terminal: a bar redrawn on one line, once the work has taken longer than a second. In a log:
+// a plain line at each quarter, and one at the end. Silent: nothing. Short work stays silent
+// everywhere. Several threads may report at once; the share shown never runs backwards.
 // Units: shares in [0, 1], seconds. Errors: none; a share outside [0, 1] is clamped.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The outcome of a run as a page of plain text that fits a terminal.
 //
-// Units: each characteristic in its own; "um" and "deg" are spelt in ASCII. Control characters in titles
-// and messages are replaced, so that a file name cannot steer the terminal.
+// Units: each characteristic in its own; "um" and "deg" are spelt in ASCII. Control characters in
+// titles and messages are replaced, so that a file name cannot steer the terminal.
 // Errors: none.
 #pragma once
 

@@ -9,7 +9,7 @@
 namespace frustum::report {
 namespace {
 
-// Glyphs stand on the baseline y = 0 and digits are one unit high.
+// Glyphs are on the baseline y = 0 and digits are one unit high.
 struct Place {
   double x = 0.0;
   double y = 0.0;

@@ -165,7 +165,7 @@ class Drawing {
     const Point middle = 0.5 * (a2 + b2);
     arrow(middle, a2, "dimension");
     arrow(middle, b2, "dimension");
-    // Beside an upright line the text begins or ends at it; over a level one it stands in the
+    // Beside an upright line the text begins or ends at it; over a level one it is in the
     // middle.
     const bool upright = std::abs(n.x()) > 0.7;
     const char* anchor = !upright ? "middle" : n.x() > 0.0 ? "start" : "end";

@@ -1,6 +1,6 @@
 // The setup sheet of a test piece as one HTML page that opens without a network and prints on
-// paper: machine, tool, blank and how it is placed on the table, and every step with its positions and a
-// drawing.
+// paper: machine, tool, blank and how it is placed on the table, and every step with its positions
+// and a drawing.
 //
 // Units: mm in the struct and on the page; table positions come as text
 // Errors: writing: a diagnostic that names the file
