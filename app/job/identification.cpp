@@ -16,8 +16,8 @@ using calibration::Cause;
 using calibration::MeasuredPiece;
 using calibration::Unknown;
 
-// What the virtual CMM of a laboratory would be when nobody states one: only for asking which further
-// patterns would help.
+// What the virtual CMM of a laboratory would be when nobody states one: only for asking which
+// further patterns would help.
 metrology::CmmModel ordinary_cmm() {
   metrology::CmmModel cmm;
   cmm.e0_mm = 0.5e-3;
@@ -54,7 +54,8 @@ Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
   return pieces;
 }
 
-// Which step patterns, not measured yet, would identify the rest; nothing when the machine cuts none.
+// Which step patterns, not measured yet, would identify the rest; nothing when the machine cuts
+// none.
 Result<std::optional<Remedy>> remedy_for(const Study& study,
                                          const calibration::Observations& measured,
                                          const UnknownCauses& all) {

@@ -16,8 +16,8 @@ namespace frustum::app {
 // Everything but surface, volumes, timings and files.
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial);
 
-// Tells in the report how near the measured points are to the true surface. A point that is refuted is an
-// error of the engine, and the run does not pass.
+// Tells in the report how near the measured points are to the true surface. A point that is refuted
+// is an error of the engine, and the run does not pass.
 void add_proof(report::RunReport& report, const trials::PointProof& proof);
 
 struct SurfaceRequest {
@@ -28,8 +28,8 @@ struct SurfaceRequest {
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::WorkpieceAt& part,
                                                           const SurfaceRequest& request);
-// Fills the deviations of a mesh: from the job's nominal mesh if it has one, or else from the plan's
-// nominal surfaces.
+// Fills the deviations of a mesh: from the job's nominal mesh if it has one, or else from the
+// plan's nominal surfaces.
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh);
 [[nodiscard]] std::string collision_text(const stock::Collision& collision);
 // What was cut away; a part that was not cut shows no rounding.

@@ -1,5 +1,6 @@
 // Where machine files are: beside the job, in the working folder, or shipped with the program.
-// Units: none. Errors: a machine that is in none of these places, with the shipped ones that resemble it.
+// Units: none. Errors: a machine that is in none of these places, with the shipped ones that
+//        resemble it.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +17,7 @@ namespace frustum::app {
                                                          const std::filesystem::path& folder);
 [[nodiscard]] Result<kinematics::Machine> load_machine(const std::string& name,
                                                        const std::filesystem::path& folder);
-// Where shipped machines may lie, best first; error files lie in errors/ under it.
+// Where shipped machines may be, best first; error files are in errors/ under it.
 [[nodiscard]] std::vector<std::filesystem::path> machine_folders();
 // The shipped machine files, by name.
 [[nodiscard]] std::vector<std::filesystem::path> shipped_machines();

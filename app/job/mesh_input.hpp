@@ -1,7 +1,7 @@
 // Meshes that a job names: the blank's body and the nominal shape.
 //
-// Units: mm. Errors: noted at the key: a file that cannot be read, a mesh that does not bound one body,
-// and any mesh when Frustum was built without CGAL, which checks that.
+// Units: mm. Errors: noted at the key: a file that cannot be read, a mesh that does not bound one
+// body, and any mesh when Frustum was built without CGAL, which checks that.
 #pragma once
 
 #include <memory>

@@ -1,9 +1,9 @@
 // A study file: parts that were cut and measured, what is to be found, what is known.
 //
-// Units: as people write them ("-24.6 um", "30 urad", "-0.0034 deg"); inside mm and rad. Paths are relative
-// to the file.
-// Errors: every misspelt or missing key, unknown characteristic or error name, wrong unit and unreadable
-// file at once, with file, line and key.
+// Units: as people write them ("-24.6 um", "30 urad", "-0.0034 deg"); inside mm and rad. Paths are
+// relative to the file.
+// Errors: every misspelt or missing key, unknown characteristic or error name, wrong unit and
+// unreadable file at once, with file, line and key.
 #pragma once
 
 #include <filesystem>
