@@ -1,6 +1,7 @@
-// Pages whose tables a test computes: each section stands between two comment lines.
+// Pages whose tables a test computes: each section is between two comment lines.
 //
-// The page must hold what the test computes; with FRUSTUM_UPDATE_DOCS set it is written anew instead.
+// The page must hold what the test computes; with FRUSTUM_UPDATE_DOCS set it is written anew
+// instead.
 #pragma once
 
 #include <gtest/gtest.h>

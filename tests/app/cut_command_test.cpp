@@ -1,4 +1,5 @@
-// frustum cut as users and scripts see it: program_states, removal, limits, engines, files whole or not at all.
+// frustum cut as users and scripts see it: program_states, removal, limits, engines, files whole or
+// not at all.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -57,7 +58,8 @@ TEST_F(CutCommandSystem, ShowsThePartAtAnyMoment) {
   EXPECT_EQ(cut("--point 0,5,0")["made_by"]["line"], 7);
 }
 
-// The shoulder lies on the contour: the radius is that of the job's tool, and the contour in a file of its own.
+// The shoulder is on the contour: the radius is that of the job's tool, and the contour in a file
+// of its own.
 TEST_F(CutCommandSystem, CompensatesTheRadiusOfTheJobsTool) {
   write_plate();
   std::ofstream(folder_ / "plate.nc") << "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\n"
@@ -85,7 +87,7 @@ TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
 TEST_F(CutCommandSystem, DrawsAtTheSizeThatIsAskedFor) {
   write_plate();
   ASSERT_EQ(run("cut plate.toml --pitch 4 --picture a.png --size 96,64").exit_code, 0);
-  // Width and height stand in the file's first block, highest byte first.
+  // Width and height are in the file's first block, highest byte first.
   EXPECT_EQ(read(folder_ / "a.png").substr(16, 8), std::string("\0\0\0\x60\0\0\0\x40", 8));
   for (const std::string size : {"96", "96,6.5", "96,1e30", "10,10", "nan,64"}) {
     const Outcome refused = run("cut plate.toml --pitch 4 --picture b.png --size " + size);

@@ -11,7 +11,7 @@ using nlohmann::json;
 class DecisionSystem : public CommandLine {
  protected:
   // A coarse cone piece in folder_/piece on a CMM of 2 um. Its half angle is seen 7.4 urad off with
-  // U = 26 urad; the tolerance lies between them.
+  // U = 26 urad; the tolerance is between them.
   void write_piece() const {
     const Outcome made = run("program cone --machine iwf-bc --out piece --chord-tolerance 1");
     ASSERT_EQ(made.exit_code, 0) << made.err;

@@ -198,7 +198,7 @@ TEST_F(ExchangeSystem, MeasuresAScanWhoseSeamsAreRounded) {
   write("tube.stl", tube_scan());
   const Outcome whole = run("measure --plan tube.plan.toml --mesh tube.stl --json");
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
-  // Every facet has its corners a little elsewhere; the points lie on seams.
+  // Every facet has its corners a little elsewhere; the points are on seams.
   for (const double rounding : {3.6e-15, 1e-12, 1e-9}) {
     write("loose.stl", tube_scan(1.0, rounding));
     const Outcome loose = run("measure --plan tube.plan.toml --mesh loose.stl --json");
@@ -272,7 +272,7 @@ TEST_F(ExchangeSystem, StatesTheAccuracyOfTheMachineThatMeasured) {
   };
   EXPECT_LT(form(mesh), 0.25);
   EXPECT_GT(form(mesh + "--cmm cmm.toml"), 1.0);
-  // Conformity proven by an uncertainty of nothing is told.
+  // Conformity proven by an uncertainty of nothing is reported.
   replace_in("tube.plan.toml", "title", "decision = \"iso14253\"\ntitle");
   EXPECT_NE(run(points).out.find("goes by an uncertainty of 0 for all characteristics"),
             std::string::npos);

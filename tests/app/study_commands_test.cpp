@@ -68,8 +68,8 @@ TEST_F(StudyCommandsSystem, IdentifiesThePublishedMachine) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const json doc = json::parse(outcome.out);
   EXPECT_TRUE(doc["complete"].get<bool>());
-  // Joint fit of 36 values by an independent plane model, with the same floor; one of the values (the
-  // second reference width) is not in this study: within half a standard uncertainty.
+  // Joint fit of 36 values by an independent plane model, with the same floor; one of the values
+  // (the second reference width) is not in this study: within half a standard uncertainty.
   for (const auto& [name, value, deviation] : {std::tuple{"alpha_AY", -0.791, 4.90},
                                                {"beta_AY", -40.65, 8.28},
                                                {"beta_CA", 11.28, 10.24},
@@ -141,7 +141,8 @@ TEST_F(StudyCommandsSystem, PoolsPartsOfOneKind) {
   const json doc = json::parse(outcome.out);
   const json* radius = find(doc["estimates"], "tool_radius_error");
   EXPECT_NEAR((*radius)["value"].get<double>(), 6.0, 1e-6);  // half the mean width missing
-  // The parts scatter more than the CMM: 2.83 um between them, 2 um of their mean, half of it a radius.
+  // The parts scatter more than the CMM: 2.83 um between them, 2 um of their mean, half of it a
+  // radius.
   EXPECT_NEAR((*radius)["standard_uncertainty"].get<double>(), 1.0, 0.01);
 }
 

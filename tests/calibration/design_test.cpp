@@ -50,8 +50,8 @@ TEST(StepDesignReference, FindsWhichSetsIdentifyEverything) {
   const auto result = design(o, blocks);
   ASSERT_TRUE(result) << result.error().front().message;
   ASSERT_EQ(result->best_of_size.size(), 11U);
-  // The paper calls {1-a, 2-a, 3, 4} the minimum; the height difference of pattern 4 identifies dy_AY
-  // too, so that three with pattern 4 are enough. Counted independently as well.
+  // The paper calls {1-a, 2-a, 3, 4} the minimum; the height difference of pattern 4 identifies
+  // dy_AY too, so that three with pattern 4 are enough. Counted independently as well.
   const std::vector<std::size_t> counts(result->identifying_sets.begin(),
                                         result->identifying_sets.begin() + 5);
   EXPECT_EQ(counts, (std::vector<std::size_t>{0, 0, 10, 67, 217}));

@@ -90,7 +90,8 @@ TEST(Observability, GivesTheArmWhereLengthsAndAnglesMix) {
             "together, dz_AY by +0.09715 um, beta_AY by +1 urad; dz_AY - 97.15 mm * beta_AY can");
 }
 
-// Sensitivities from central differences carry 1e-6 of noise; ten times that does not change a word.
+// Sensitivities from central differences carry 1e-6 of noise; ten times that does not change a
+// word.
 TEST(Observability, SaysTheSameOfSensitivitiesWithNumericalNoise) {
   const std::vector<std::string> patterns{"1-a", "1-b"};
   const Observations exact = planned(patterns);

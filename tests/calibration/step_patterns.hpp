@@ -1,5 +1,5 @@
-// The step patterns of tests/data/step_patterns.json as observations: published measurements, or plans
-// of any patterns.
+// The step patterns of tests/data/step_patterns.json as observations: published measurements, or
+// plans of any patterns.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,8 @@ namespace frustum::calibration {
 [[nodiscard]] const nlohmann::json& step_data();
 [[nodiscard]] std::vector<std::string> all_patterns();
 
-// Closed forms (10) to (21) as printed: characteristic -> gain of each error of the file, um and urad.
+// Closed forms (10) to (21) as printed: characteristic -> gain of each error of the file, um and
+// urad.
 [[nodiscard]] nlohmann::json closed_form(const std::string& pattern, const nlohmann::json& size);
 
 enum class Gains { eq4, trans, closed_printed };

@@ -54,7 +54,8 @@ bool is_normal(const IntervalSet& set) {
   return true;
 }
 
-// Every end of `result` is an end of one of the originating_blocks at the same place and under the same tag.
+// Every end of `result` is an end of one of the originating_blocks at the same place and under the
+// same tag.
 bool ends_are_known(const IntervalSet& result, const std::vector<Interval>& originating_blocks) {
   const auto known = [&originating_blocks](double at, EndTag tag) {
     return std::any_of(originating_blocks.begin(), originating_blocks.end(),

@@ -53,7 +53,8 @@ Kind bull() {
               Meridian().line_to(4, 0).arc_to(6, 2, 4, 2).line_to(6, 25));
 }
 
-// The corner touches the end at the distance of c tan(45 - taper / 2) from where end and flank would meet.
+// The corner touches the end at the distance of c tan(45 - taper / 2) from where end and flank
+// would meet.
 Kind taper() {
   const Real centre = 4 - tangent((90.0 - 10.0) / 2.0);
   const Real r = centre + cosine(10), z = 1 - sine(10);
@@ -134,7 +135,8 @@ Kind dovetail() {
               Meridian().line_to(7, 0).line_to(7 - 6 * tangent(30), 6));
 }
 
-// The corner's circle lies inside the flank's and touches it: centres are apart by the difference of radii.
+// The corner's circle is inside the flank's and touches it: centres are apart by the difference of
+// radii.
 Kind barrel() {
   const Real big_r = 5 - 60, big_z = 10;
   const Real centre = big_r + std::sqrt(Real{59 * 59 - 9 * 9});

@@ -1,4 +1,5 @@
-// Every kind of cutter twice: as the engine makes it, and as a meridian written down from its drawing.
+// Every kind of cutter twice: as the engine makes it, and as a meridian written down from its
+// drawing.
 //
 // Units: mm; frame: tool. Errors: none.
 #pragma once

@@ -181,7 +181,7 @@ Cutter flat_mill(double diameter, double flutes) {
                         .flute_length = {flutes}});
 }
 
-// Followed or not: what is told is what the changed path leaves.
+// Followed or not: what is reported is what the changed path leaves.
 void expect_the_truth(const Cutter& tool, const std::vector<ToolPose>& before,
                       const std::vector<ToolPose>& after, const Ray& ray, double start) {
   const std::map<int, Cutter> tools{{1, tool}};

@@ -169,11 +169,13 @@ struct StandingCutters::Search {
     return value;
   }
 
-  // The least value between a and b can be no lower than this, from values at both ends and between.
+  // The least value between a and b can be no lower than this, from values at both ends and
+  // between.
   [[nodiscard]] Real bound(Real span, Real fa, Real fm, Real fb) const {
     const Real by_speed = (std::min(fa, fb) + fm) / 2 - speed_ * span / 4;
     if (!all.is_convex_) return by_speed;
-    // Along a straight way the distance to a convex body is a convex function; the true way bends off it.
+    // Along a straight way the distance to a convex body is a convex function; the true way bends
+    // off it.
     const Real off = bend_ * span * span / 8;
     return std::max(by_speed, std::min({fm, 2 * fm - fa, 2 * fm - fb}) - 3 * off);
   }

@@ -1,12 +1,12 @@
 // Standing cutters in long double: what a swept cutter covers, told without envelopes and chords.
 //
-// Model    : a meridian of lines and arcs with its signed distance; a point's depth in a sweep is the
-//            least signed distance over all times. The search over time throws away spans of times only
-//            when a bound on the motion proves that they hold nothing lower
+// Model    : a meridian of lines and arcs with its signed distance; a point's depth in a sweep is
+//            the least signed distance over all times. The search over time throws away spans of
+//            times only when a bound on the motion proves that they hold nothing lower
 // Units    : mm, rad; frames: tool (meridian), workpiece (motions)
 // Errors   : none; meridians and motions are given by tests
-// Accuracy : convex bodies: proven to 1e-4 nm. Others: times at 0.5 um of motion or closer (0.05 mm while
-//            the distance stays the same), then the valley between three of them to 1e-4 nm
+// Accuracy : convex bodies: proven to 1e-4 nm. Others: times at 0.5 um of motion or closer (0.05 mm
+//            while the distance stays the same), then the valley between three of them to 1e-4 nm
 #pragma once
 
 #include <Eigen/Core>
@@ -67,7 +67,7 @@ class StandingCutters {
   // `of_interest` need not be found exactly; the search ends when one below `deep_enough` is found.
   [[nodiscard]] Real depth(const Vec3L& point, Real of_interest = 1e-5L,
                            Real deep_enough = -1e-5L) const;
-  // Signed distance at one moment of one segment.
+  // Signed distance at one time of one segment.
   [[nodiscard]] Real distance_at(std::size_t segment, double t, const Vec3L& point) const {
     return motions_[segment].distance(body_, point, t);
   }

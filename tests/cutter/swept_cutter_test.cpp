@@ -60,8 +60,8 @@ IntervalSet standing_cutters(const Profile& profile, const ToolPose& from, const
   return IntervalSet(std::move(all));
 }
 
-// 20,000 cutters over the segment leave steps of their own spacing where an edge of the cutter does the
-// cutting; 20,000 more around the one that made each end remove them.
+// 20,000 cutters over the segment leave steps of their own spacing where an edge of the cutter does
+// the cutting; 20,000 more around the one that made each end remove them.
 IntervalSet brute_force_union(const Profile& profile, const ToolPose& from, const ToolPose& to,
                               const Ray& ray) {
   constexpr int kCutters = 20000;
@@ -248,7 +248,8 @@ TEST(SweptCutter, FindsRaysThatRunInTheMachinedFloor) {
 }
 
 TEST(SweptCutter, DishOfATiltedEndFaceIsAnEllipse) {
-  // The end face, tilted by delta across the feed, leaves an elliptic trough of depth R |sin delta|.
+  // The end face, tilted by delta across the feed, leaves an elliptic trough of depth R |sin
+  // delta|.
   const double delta = 0.02;
   const Vec3 axis = rotation_y(delta) * Vec3::UnitZ();  // leans into the feed direction X
   const SweptCutter cut =

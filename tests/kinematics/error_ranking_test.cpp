@@ -1,5 +1,5 @@
-// The error gains of the DVF 5000, as the volumetric error thesis prints them and as computed apart from
-// this program.
+// The error gains of the DVF 5000, as the volumetric error thesis prints them and as computed apart
+// from this program.
 #include "kinematics/errors/error_ranking.hpp"
 
 #include <gtest/gtest.h>
@@ -149,7 +149,7 @@ TEST(ErrorGainReference, JangTable4_4_All40EntriesAsMaximaOverACoarseGrid) {
 void expect_ranking(const std::vector<RankedError>& found, const json& published) {
   ASSERT_EQ(found.size(), published.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    // Equal weights (the deltas) may stand in any order among themselves.
+    // Equal weights (the deltas) may be in any order among themselves.
     EXPECT_NEAR(found[i].weight, published[i][1].get<double>(), 1e-9) << i;
     const auto same = std::find_if(published.begin(), published.end(),
                                    [&](const json& row) { return row[0] == found[i].name; });

@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EveryMachine,
                          testing::Values("zx-yac", "iwf-bc", "dvf5000", "double-pivot-head",
                                          "swivel-head-table", "three-axis"));
 
-// --- machines that nobody built ---------------------------------------------------------------------
+// --- machines that nobody built ------------------------------------------------------------------
 
 class Draw {
  public:
@@ -165,7 +165,8 @@ TEST(InverseLaws, ClosesOnThirtyRandomStructuresAndFindsThePositionItCameFrom) {
       bool found = false;
       for (const InverseSolution& s : *solutions) {
         found = found || s.singular;
-        // Linear axes on top of rotary ones may stand nearly in one plane: then they run off to far.
+        // Linear axes on top of rotary ones may stand nearly in one plane: then they run off to
+        // far.
         if (!s.within_travel) continue;
         const ToolPose back = tool_pose(nominal_pose(*machine, s.axes, length));
         worst_tip = std::max(worst_tip, (back.tip - pose.tip).norm());
@@ -189,7 +190,8 @@ TEST(InverseLaws, ClosesOnThirtyRandomStructuresAndFindsThePositionItCameFrom) {
 }
 
 TEST(InverseLaws, SaysHowFarADirectionIsOutOfTheReachOfANutatingHead) {
-  // B nutates at 30 deg to the spindle: the tool axis reaches 60 deg from the table's normal, no more.
+  // B nutates at 30 deg to the spindle: the tool axis reaches 60 deg from the table's normal, no
+  // more.
   const auto machine = machine_from_text(R"(
 name = "nutating"
 structure = "t-B-Z-Y-X-b-C-w"

@@ -67,7 +67,7 @@ TEST(OrientationPathLaws, KeepsTheGreatCircleBetweenAnyTwoDirectionsOnEveryMachi
       const Vec3 from = direction(5.0 + 0.4 * i, 37.0 * i);
       const Vec3 to = direction(85.0 - 0.4 * i, 37.0 * i + 170.0 * std::sin(i));
       const auto path = orientation_path(machine, pointing(machine, from), to);
-      if (!path) continue;  // the end of the solution it is on lies beyond travel
+      if (!path) continue;  // the end of the solution it is on is beyond travel
       const Followed seen = follow(machine, *path);
       EXPECT_LT(seen.worst_axis, 1e-12) << name << ' ' << i;
       EXPECT_LT(angle_between(tool_axis_at(machine, path->end()), to), 1e-12);
@@ -106,8 +106,8 @@ TEST(OrientationPathLaws, PassesAThousandthOfADegreeBesideThePoleWithoutAJump) {
     EXPECT_LT(spun.worst_axis, 1e-12) << name;
     EXPECT_NEAR(spun.first_travel * kDegPerRad, 180.0, 0.01) << name;
     EXPECT_LT(spun.largest_step, 15.1 * kRadPerDeg) << name;
-    // Where more is allowed the tilt axis changes its sign, and the table only makes good the detour:
-    // asin(1/20) to the cone, twice that back in it, and again.
+    // Where more is allowed the tilt axis changes its sign, and the table only makes good the
+    // detour: asin(1/20) to the cone, twice that back in it, and again.
     const auto loose = orientation_path(machine, pointing(machine, from), to, 20.0 * beside);
     ASSERT_TRUE(loose);
     const Followed passed = follow(machine, *loose);

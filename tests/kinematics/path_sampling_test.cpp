@@ -9,7 +9,7 @@ namespace {
 
 double worst_distance(const std::function<ToolPose(double)>& motion,
                       const std::vector<ToolPose>& poses, double reach) {
-  // Every point of the motion lies within the bound of some segment at the same place on it.
+  // Every point of the motion is within the bound of some segment at the same place on it.
   double worst = 0.0;
   for (int k = 0; k <= 1000; ++k) {
     const ToolPose exact = motion(k / 1000.0);

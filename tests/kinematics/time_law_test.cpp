@@ -130,8 +130,8 @@ std::vector<AxisPositions> circle(double radius, int parts) {
   return steps;
 }
 
-// Largest excess of velocity and acceleration over their limits, from differences over dt. Corners may
-// jump by what the acceleration gives in corner_time.
+// Largest excess of velocity and acceleration over their limits, from differences over dt. Corners
+// may jump by what the acceleration gives in corner_time.
 void expect_within_limits(const Motion& m, double corner_time, double velocity_slack = 1e-6) {
   const struct {
     AxisLetter axis;
@@ -252,8 +252,8 @@ TEST(ServoLag, LagsByVelocityOverGainAndShrinksACircle) {
 }
 
 TEST(ServoLag, MakesAnEllipseAt45DegOfMismatchedGains) {
-  // Kx < Ky: X lags further, y = x is passed later: the ellipse lies along 45 deg or -45 deg by the sense,
-  // with half axes r (1 +- (w / Kx - w / Ky) / 2) to first order.
+  // Kx < Ky: X lags further, y = x is passed later: the ellipse is along 45 deg or -45 deg by the
+  // sense, with half axes r (1 +- (w / Kx - w / Ky) / 2) to first order.
   const Machine on = machine("servo_gain = 50\n", "servo_gain = 60\n");
   const double radius = 20.0, w = 1.0, h = 1e-4;
   ServoLag lag(on, step(radius));

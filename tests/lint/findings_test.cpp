@@ -100,7 +100,8 @@ TEST(SarifFindings, HaveWhatTheSchemaRequires) {
     EXPECT_GE(place["region"]["startColumn"].get<int>(), 1);
     EXPECT_GE(result["occurrenceCount"].get<int>(), 1);
   }
-  // Line 2 begins with (, a character of two bytes, one of four (two UTF-16 units), ) and a blank: G1 is unit 7.
+  // Line 2 begins with (, a character of two bytes, one of four (two UTF-16 units), ) and a blank:
+  // G1 is unit 7.
   for (const json& result : run["results"]) {
     if (result["ruleId"] == "spindle-off") {
       EXPECT_EQ(result["locations"][0]["physicalLocation"]["region"]["startColumn"], 7);

@@ -91,7 +91,7 @@ TEST(ConstrainedFitLaws, NoAllowedStepLowersTheSumOfSquares) {
       if (kind == ElementKind::cylinder && keep.parallel_to) {
         EXPECT_EQ((found->fit.covariance.block<2, 5>(2, 0).norm()), 0.0);
       }
-      // Residuals of a circle lie in its plane: another plane may shorten them.
+      // Residuals of a circle are in its plane: another plane may shorten them.
       if (kind == ElementKind::circle) continue;
       const auto free = associate(kind, points);
       ASSERT_TRUE(free);

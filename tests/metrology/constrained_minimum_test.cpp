@@ -1,5 +1,5 @@
-// Least squares within constraints that lie far from what the points ask for: a minimum, not a saddle, or
-// the constraint by name.
+// Least squares within constraints that are far from what the points ask for: a minimum, not a
+// saddle, or the constraint by name.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -21,9 +21,9 @@ double half_squares(const Element& e, const std::vector<Vec3>& points) {
   return sum;
 }
 
-// The least that (|p - c| - R)^2 adds up to for any centre c in the plane: a fine grid over the disc that
-// holds every minimum, and from its best places steps c = mean p + R mean (c - p) / |c - p|, which never
-// raise the sum.
+// The least that (|p - c| - R)^2 adds up to for any centre c in the plane: a fine grid over the
+// disc that holds every minimum, and from its best places steps c = mean p + R mean (c - p) / |c -
+// p|, which never raise the sum.
 double least_of_all(const std::vector<Vec3>& points, double radius) {
   const auto n = static_cast<double>(points.size());
   Vec3 mean = Vec3::Zero();
@@ -94,7 +94,8 @@ TEST(CircleFitOfKeptRadius, IsTheBestOfAllInCloudsOfNoShape) {
   }
 }
 
-// Up to 1.6 times the radius of a full circle the centre stays, beyond 1.7 times it is pushed aside.
+// Up to 1.6 times the radius of a full circle the centre stays, beyond 1.7 times it is pushed
+// aside.
 TEST(CircleFitOfKeptRadius, LeavesTheCentreOfAFullCircleForARadiusTooLarge) {
   std::vector<Vec3> points = revolution({1, 2, 3}, UnitVec3::z(), 0, 0, 1, 60,
                                         2.0 * std::numbers::pi, 0.0, [](double) { return 10.0; });
@@ -110,8 +111,8 @@ TEST(CircleFitOfKeptRadius, LeavesTheCentreOfAFullCircleForARadiusTooLarge) {
   EXPECT_GT(off_centre(41.0), 30.0);
 }
 
-// The least second derivative of the sum of squares by the steps that the constraints allow, where 1 is
-// what the Jacobian alone makes of it. By differences of the sum itself.
+// The least second derivative of the sum of squares by the steps that the constraints allow, where
+// 1 is what the Jacobian alone makes of it. By differences of the sum itself.
 double least_bend(const Element& e, const std::vector<Vec3>& points, const Constraints& keep) {
   const StepBasis basis = allowed_steps(e, keep);
   const Eigen::Index n = basis.cols();

@@ -1,6 +1,7 @@
 // How often intervals hold the truth: 2,000 measurements of parts that are known exactly.
 //
-// FRUSTUM_COVERAGE=1 measures every part; a run without it measures one with and one without form errors.
+// FRUSTUM_COVERAGE=1 measures every part; a run without it measures one with and one without form
+// errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

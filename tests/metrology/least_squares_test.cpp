@@ -303,7 +303,8 @@ TEST(EveryFit, StaysWhenEveryPointIsRepeated) {
       EXPECT_NEAR(again->rms, once->rms, 1e-10) << name;
       EXPECT_LT((2.0 * again->cofactor - once->cofactor).norm(), 1e-7 * once->cofactor.norm())
           << name;
-      // A line deviates in two directions from four parameters; plane and circle scatter about three.
+      // A line deviates in two directions from four parameters; plane and circle scatter about
+      // three.
       const double equations = (name == "line" ? 2.0 : 1.0) * static_cast<double>(points.size());
       const double parameters =
           name.starts_with("circle") ? 3.0 : static_cast<double>(once->covariance.rows());

@@ -1,4 +1,5 @@
-// Circles and spheres through points that scatter as much as they bend: the lowest of several valleys.
+// Circles and spheres through points that scatter as much as they bend: the lowest of several
+// valleys.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -113,7 +113,8 @@ inline InspectionPlan plan() {
   return p;
 }
 
-// Points where the approach lines of the plan meet the part, as a probe without ball would see them.
+// Points where the approach lines of the plan meet the part, as a probe without ball would see
+// them.
 inline std::vector<FeaturePoints> surface_points(const InspectionPlan& plan, const Part& part) {
   std::vector<FeaturePoints> all;
   for (const PlannedFeature& feature : plan.features) {

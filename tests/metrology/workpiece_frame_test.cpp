@@ -69,7 +69,7 @@ TEST(WorkpieceFrame, FollowsTheWallAcrossAndTheFloorsUp) {
 }
 
 TEST(WorkpieceFrameLaws, ALeaningWallIsReadAtItsPlannedHeight) {
-  // A chamfer as the wall: exact wherever the part lies, although its points do not lie at one
+  // A chamfer as the wall: exact wherever the part lies, although its points are not at one
   // height over the floors.
   InspectionPlan p = plan();
   p.frames.front().line = "E_c";

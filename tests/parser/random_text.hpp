@@ -1,5 +1,5 @@
-// Random programs as text that is read without a mistake, in every statement of their language. Whether they could
-// be run does not matter.
+// Random programs as text that is read without a mistake, in every statement of their language.
+// Whether they could be run does not matter.
 //
 // Randomness is keyed by the seed alone, so that a failure names the program that caused it.
 #pragma once

@@ -1,5 +1,5 @@
-// The NC text of one pattern, word by word. A change is meant when FRUSTUM_UPDATE_GOLDEN is set: then the
-// file is written anew, to be reviewed as a difference.
+// The NC text of one pattern, word by word. A change is meant when FRUSTUM_UPDATE_GOLDEN is set:
+// then the file is written anew, to be reviewed as a difference.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -46,7 +46,7 @@ SetupSheet small_sheet() {
   return sheet;
 }
 
-// The number after ` name="` of the element that stands before `content`.
+// The number after ` name="` of the element that is before `content`.
 double attribute_before(const std::string& svg, const std::string& content, const char* name) {
   const auto at = svg.find(content);
   EXPECT_NE(at, std::string::npos) << content;
@@ -91,7 +91,7 @@ TEST(SetupSheet, MarksTheHeightBesideThePartAwayFromTheTool) {
   const std::string c = step_drawing(sheet, sheet.steps[0], SheetView::along_x);
   // Half of the cube stands right of the middle of the line opposite: beyond it is free.
   EXPECT_GT(attribute_before(c, ">H 120.5</text>", "x"), attribute_before(c, ">L 60</text>", "x"));
-  // The tool stands on the left, over the line that is cut.
+  // The tool is on the left, over the line that is cut.
   EXPECT_LT(attribute_before(c, ">H 120.5</text>", "x"), 320.0);
   EXPECT_THAT(step_drawing(sheet, sheet.steps[0], SheetView::from_top), Not(HasSubstr(">H ")));
   // Tilted, a height is none.

@@ -143,8 +143,8 @@ TEST(ClosedFormReference, APlungeIsTheCutterDrawnOutAlongItsAxis) {
   }
 }
 
-// A ball on a circle of chords. Where a ray meets a chord's tube square to it, it stands at the middle of
-// the chord's sagitta: radius R cos(step/2) there, and R at its ends.
+// A ball on a circle of chords. Where a ray meets a chord's tube perpendicular to it, it is at the
+// middle of the chord's sagitta: radius R cos(step/2) there, and R at its ends.
 TEST(ClosedFormReference, ABallOnACircleCutsATorus) {
   const double tube = 5.0, ring = 30.0;
   constexpr int kBlocks = 720;
@@ -156,7 +156,8 @@ TEST(ClosedFormReference, ABallOnACircleCutsATorus) {
   poses.back() = poses.front();
   const SweptCutter torus = sweep(cutter_of(CutterType::ball, 2 * tube, 30), path_through(poses));
   for (const double part : {0.0, 0.5}) {
-    // At a pose the ball's own meridian; in the middle of a chord that of a cylinder nearer to the centre.
+    // At a pose the ball's own meridian; in the middle of a chord that of a cylinder nearer to the
+    // centre.
     const double phi = 2 * pi * (100 + part) / kBlocks;
     const double here = part == 0.0 ? ring : ring * std::cos(pi / kBlocks);
     const Vec3 out(std::cos(phi), std::sin(phi), 0);
@@ -180,8 +181,8 @@ TEST(ClosedFormReference, ABallOnACircleCutsATorus) {
   }
 }
 
-// Flank milling: the cutter's side lies against a cone of half angle `half`, point up, and walks round it in
-// blocks of equal angle. The tip lies a little below the ground.
+// Flank milling: the cutter's side lies against a cone of half angle `half`, point up, and walks
+// round it in blocks of equal angle. The tip lies a little below the ground.
 ToolPath around_a_cone(double ground_radius, double half, double cutter_radius, int blocks) {
   std::vector<ToolPose> poses;
   for (int i = 0; i <= blocks; ++i) {
@@ -208,13 +209,13 @@ TEST(ClosedFormReference, FlankMillingLeavesTheConeAndItsChords) {
     for (const double part : {0.0, 0.5, 0.3}) {
       const double phi = at_pose + part * step;
       const Vec3 out(std::cos(phi), std::sin(phi), 0.0);
-      // From the axis outwards into the cutter, square to the cone's flank.
+      // From the axis outwards into the cutter, perpendicular to the cone's flank.
       const Vec3 normal = std::cos(half) * out + std::sin(half) * Vec3::UnitZ();
       const Vec3 on_cone = cone * out + z * Vec3::UnitZ();
       const IntervalSet met = cut.along({on_cone - 5.0 * normal, normal}, {0.0, 10.0});
       ASSERT_FALSE(met.empty());
-      // Chords run inside the circles of the axis points, which are wider than the cone by r cos(half);
-      // inwards of the cone, the end of the block is what stands highest there.
+      // Chords run inside the circles of the axis points, which are wider than the cone by r
+      // cos(half); inwards of the cone, the end of the block is what stands highest there.
       const double circle = cone + r * std::cos(half);
       const double sagitta = circle * (1.0 - std::cos(step / 2)) * std::cos(half);
       const double deep = 5.0 - met.intervals()[0].lo;  // into the cone
@@ -247,7 +248,8 @@ TEST(ClosedFormReference, TurningAboutTheTipCutsSphereZonesAndPlanes) {
   const SweptCutter cut =
       sweep(cutter_of(CutterType::flat, 2 * r, height),
             path_through({upright(0, 0, 0), {Vec3::Zero(), rotation_y(turn) * Vec3::UnitZ()}}));
-  // In the plane of the turn the far rim (r, height) runs on a sphere about the tip, between its two ends.
+  // In the plane of the turn the far rim (r, height) runs on a sphere about the tip, between its
+  // two ends.
   const double reach = std::hypot(r, height), lag = std::atan(r / height);
   for (const double angle : {lag + 0.01, 0.5, 0.9, turn + lag - 0.01}) {
     const Vec3 out(std::sin(angle), 0.0, std::cos(angle));
@@ -268,9 +270,10 @@ TEST(ClosedFormReference, TurningAboutTheTipCutsSphereZonesAndPlanes) {
   }
 }
 
-// A lattice sum is exact to order 2 where what the rays meet begins at zero depth with a slope, as at the rim
-// of a trough that is shallower than the ball's radius; smooth outlines make it no worse. The sides of the
-// blank, along the rays, would hide that at order 1, so what was removed is compared.
+// A lattice sum is exact to order 2 where what the rays meet begins at zero depth with a slope, as
+// at the rim of a trough that is shallower than the ball's radius; smooth generatrices make it no
+// worse. The sides of the blank, along the rays, would hide that at order 1, so what was removed is
+// compared.
 TEST(ClosedFormReference, TriDexelVolumeConvergesAtSecondOrder) {
   const double r = 5.0, above = 1.0, length = 11.0;
   const auto blank = stock::Blank::make(stock::BoxShape{30, 24, 10}, Vec3::Zero()).value();

@@ -1,4 +1,5 @@
-// Small cut workpieces for tests: a box, end mills, and programs written as lists of tool positions.
+// Small cut workpieces for tests: a box, end mills, and programs written as lists of tool
+// positions.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ inline cutter::Cutter end_mill(double diameter = 10.0, double flutes = 30.0,
   return *made;
 }
 
-// Block i goes from pose i to pose i + 1, stands on line 10 (i + 1) and takes 10 s.
+// Block i goes from pose i to pose i + 1, is on line 10 (i + 1) and takes 10 s.
 inline kinematics::ToolPath path_through(const std::vector<kinematics::ToolPose>& poses) {
   kinematics::ToolPath path;
   path.poses = poses;

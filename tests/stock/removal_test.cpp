@@ -1,4 +1,4 @@
-// What each block removes, what stands at any program_state, and how far a surface is from its nominal.
+// What each block removes, what is at any program_state, and how far a surface is from its nominal.
 #include "stock/solid/removal.hpp"
 
 #include <oneapi/tbb/global_control.h>
@@ -168,7 +168,8 @@ TEST(Moment, ShowsWhatStandsAndWhoMadeIt) {
 }
 
 TEST(Deviation, NamesTheBlockThatGougedAndTheOneThatLeftTooMuch) {
-  // The floor is wanted at -7.5: line 10 leaves 2.5 mm where line 50 does not come, which gouges by 0.5.
+  // The floor is wanted at -7.5: line 10 leaves 2.5 mm where line 50 does not come, which gouges by
+  // 0.5.
   const Workpiece part =
       cut(path_through(std::vector<Vec3>{{-60, 0, -5}, {60, 0, -5}, {60, 9, -8}, {-60, 9, -8}}));
   auto mesh = extract_surface(part, part.blank().bounds(), Mm{1.0});

@@ -1,4 +1,5 @@
-// What a contact record says of the surface's motion, against cuts that are moved, turned or of another radius.
+// What a contact record says of the surface's motion, against cuts that are moved, turned or of
+// another radius.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -111,8 +112,8 @@ Slopes compare(const cutter::CutterSpec& spec, const Disturbance& by) {
   return slopes;
 }
 
-// An end is found to 4e-10 mm, and the program_state that makes it to the root of that: the normal is then off by
-// sqrt(2 * 4e-10 mm / 5 mm) at a radius of 5 mm.
+// An end is found to 4e-10 mm, and the program_state that makes it to the root of that: the normal
+// is then off by sqrt(2 * 4e-10 mm / 5 mm) at a radius of 5 mm.
 constexpr double kNormal = 1.5e-5;
 
 class SurfaceDerivativeLaws : public ::testing::TestWithParam<std::string> {};
@@ -124,7 +125,8 @@ TEST_P(SurfaceDerivativeLaws, AreTheLimitOfCentralDifferencesAtSecondOrder) {
     std::cout << fmt::format("{} {}: {} points, worst {:.1e} {:.1e} {:.1e} with 40, 20, 10 um\n",
                              GetParam(), by.name, s.points, s.worst[0], s.worst[1], s.worst[2]);
     EXPECT_GT(s.points, 25);
-    // Half the step, a quarter of the remainder: at least a third, since the worst point may be another one.
+    // Half the step, a quarter of the remainder: at least a third, since the worst point may be
+    // another one.
     EXPECT_LT(s.worst[1], s.worst[0] / 3.0 + kNormal) << by.name;
     EXPECT_LT(s.worst[2], s.worst[1] / 3.0 + kNormal) << by.name;
     EXPECT_LT(s.worst[2], 2e-3 + kNormal) << by.name;

@@ -39,8 +39,8 @@ inline std::vector<programs::TestPiece> all_step_pieces() {
   return {step_piece(1, {}), step_piece(2, {}), step_piece(2, {"4"})};
 }
 
-// The paper's symbols in the order of the data file, as the machine's error names; gamma_YX, alpha_ZY and
-// beta_ZX carry (literal equation (4)), EC0Y only tilts the line.
+// The paper's symbols in the order of the data file, as the machine's error names; gamma_YX,
+// alpha_ZY and beta_ZX carry (literal equation (4)), EC0Y only tilts the line.
 struct Symbol {
   const char* in_data;
   const char* error;

@@ -1,6 +1,7 @@
 // The cone's form as the tool tip alone would write it: no cutter, no workpiece.
 //
-// Model    : the actual tips at the block ends of one operation; metrology::equivalent_cone_form judges them
+// Model    : the actual tips at the block ends of one operation; metrology::equivalent_cone_form
+//            judges them
 // Units    : mm
 // Errors   : none; an unknown operation has no tips
 // Source   : ETH thesis, section 3.9

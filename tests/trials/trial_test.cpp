@@ -140,8 +140,8 @@ TEST(Trial, ReportsFeedsWithTheSpindleOffWithTheirLine) {
 }
 
 TEST(Trial, HasNoPhantomContactAtTheStart_Complaint11) {
-  // Complaint 11: the first rapid comes from the machine's home, not through the part, and a rapid along
-  // the wall just cut is no collision.
+  // Complaint 11: the first rapid comes from the machine's home, not through the part, and a rapid
+  // along the wall just cut is no collision.
   const auto trial = plate(
       "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z10\nG0 Z-5\nG1 X60 F300\nG0 X-60\nG0 "
       "Z10\nM30\n");

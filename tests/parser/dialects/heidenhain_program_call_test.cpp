@@ -1,4 +1,5 @@
-// CALL PGM and CYCL DEF 12: programs of their own file, their labels, units, parameters and mistakes.
+// CALL PGM and CYCL DEF 12: programs of their own file, their labels, units, parameters and
+// mistakes.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -74,7 +74,8 @@ std::optional<double> arc_length(const Place& from, const Place& to, const ArcFe
   return std::hypot(radius * swept, *to[axes[2]] - *from[axes[2]]);
 }
 
-// In mm or degrees a minute; rs274 makes it of the length of the move where F is the inverse of its time.
+// In mm or degrees a minute; rs274 makes it of the length of the move where F is the inverse of its
+// time.
 std::optional<double> rate_of(const Feed& feed, std::optional<double> length) {
   if (feed.synchronised) return std::nullopt;
   if (feed.mode != FeedMode::inverse_time) return feed.value;
@@ -87,7 +88,8 @@ double signed_speed(SpindleDirection direction, double speed) {
                                                     : -speed;
 }
 
-// Walks along the motions: their moves in machine coordinates. An axis that a move leaves out stays where it is.
+// Walks along the motions: their moves in machine coordinates. An axis that a move leaves out stays
+// where it is.
 class Walk {
  public:
   std::optional<CanonicalMove> operator()(const Traverse& move) {
@@ -204,7 +206,7 @@ struct Printed {
   SpindleDirection direction = SpindleDirection::off;
   bool surface_speed = false;
 
-  // Six lengths and angles from the printed ones, behind `first` numbers.
+  // Six lengths and angles from the printed ones, after `first` numbers.
   [[nodiscard]] std::vector<double> six(std::size_t first) const {
     std::vector<double> values(6);
     for (std::size_t i = 0; i < 6; ++i) values[i] = numbers.at(first + i) * (i < 3 ? unit : 1.0);
@@ -296,7 +298,7 @@ std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
   Walk walk;
   double spindle = 0.0;
   bool surface_speed = false;
-  std::uint32_t spline_line = 0;  // whose moves trace the spline that was told
+  std::uint32_t spline_line = 0;  // whose moves trace the spline that was reported
   for (const Motion& motion : motions) {
     const auto* event = std::get_if<Event>(&motion.command);
     if (event != nullptr && event->name == "spline") {

@@ -1,6 +1,8 @@
-// Motions and the calls that the stand-alone RS-274 interpreter prints, brought to one form for comparison.
+// Motions and the calls that the stand-alone RS-274 interpreter prints, brought to one form for
+// comparison.
 //
-// Units: mm, degrees, seconds, mm/min; positions in machine coordinates, work offsets at zero at the start
+// Units: mm, degrees, seconds, mm/min; positions in machine coordinates, work offsets at zero at
+//        the start
 #pragma once
 
 #include <optional>

@@ -52,12 +52,14 @@ TEST(FeatureFrame, TurnsEulerAnglesAboutItsOwnAxes) {
 }
 
 TEST(FeatureFrame, TurnsRollPitchYawAboutTheAxesOfTheWork) {
-  // 90 about X: Y -> Z, Z -> -Y. Then 90 about Y of the work: Z -> X, X -> -Z; so Y'' = X, Z'' = -Y, X'' = -Z.
+  // 90 about X: Y -> Z, Z -> -Y. Then 90 about Y of the work: Z -> X, X -> -Z; so Y'' = X, Z'' =
+  // -Y, X'' = -Z.
   expect_same(plane_of("G68.2 P1 Q123 I90 J90 K0"), {axes({0, 1, 0,   //
                                                            0, 0, -1,  //
                                                            -1, 0, 0}),
                                                      {0, 0, 0}});
-  // The other way round: about Y first: X -> -Z, Z -> X; then about X: Z -> -Y. X'' = Y, Y'' = Z, Z'' = X.
+  // The other way round: about Y first: X -> -Z, Z -> X; then about X: Z -> -Y. X'' = Y, Y'' = Z,
+  // Z'' = X.
   expect_same(plane_of("G68.2 P1 Q213 I90 J90 K0"), {axes({0, 0, 1,  //
                                                            1, 0, 0,  //
                                                            0, 1, 0}),
@@ -72,7 +74,8 @@ TEST(FeatureFrame, LiesInThreePoints) {
                              1, 0, 0,  //
                              0, 1, 0});
   expect_same(plane_of(points), {upright, {10, 0, 0}});
-  // Q0 shifts along the new axes: 1 along Y, 2 along Z, 3 along X of the work; and turns X towards Y'.
+  // Q0 shifts along the new axes: 1 along Y, 2 along Z, 3 along X of the work; and turns X towards
+  // Y'.
   expect_same(plane_of("G68.2 P2 Q0 X1 Y2 Z3 R90\n" + points), {axes({0, 0, 1,   //
                                                                       0, -1, 0,  //
                                                                       1, 0, 0}),
@@ -84,7 +87,7 @@ TEST(FeatureFrame, IsSpannedByTwoVectors) {
                                                                                         1, 0, 0,  //
                                                                                         0, 1, 0}),
                                                                                   {1, 2, 3}});
-  // 2 degrees off: the normal stays, X is made square to it.
+  // 2 degrees off: the normal stays, X is made perpendicular to it.
   const double off = 2.0 * kRadPerDeg;
   const Pose found = plane_of("G68.2 P3 Q1 I1 J0 K[SIN[2]/COS[2]]\nG68.2 P3 Q2 I0 J0 K1\n");
   expect_same(found, {Mat3::Identity(), {0, 0, 0}});
@@ -96,7 +99,8 @@ TEST(FeatureFrame, LeansByProjectionAngles) {
   expect_same(plane_of("G68.2 P4 I30 J0 K0"), {rotation_y(30.0 * kRadPerDeg), {0, 0, 0}});
   const Pose leaned = plane_of("G68.2 P4 I0 J30 K0");
   expect_same(leaned, {rotation_x(30.0 * kRadPerDeg), {0, 0, 0}});
-  // Both by 45: lines (1, 0, -1) and (0, 1, 1); the normal is (1, -1, 1), X stays on the first line.
+  // Both by 45: lines (1, 0, -1) and (0, 1, 1); the normal is (1, -1, 1), X stays on the first
+  //             line.
   const Pose both = plane_of("G68.2 P4 I45 J45 K0");
   EXPECT_LT((both.rotation.col(0) - Vec3(1, 0, -1).normalized()).norm(), 1e-12);
   EXPECT_LT((both.rotation.col(2) - Vec3(1, -1, 1).normalized()).norm(), 1e-12);

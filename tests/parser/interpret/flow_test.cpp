@@ -1,4 +1,5 @@
-// Loops, branches, calls and jumps: what runs, and what is told of statements that do not fit together.
+// Loops, branches, calls and jumps: what runs, and what is reported of statements that do not fit
+// together.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -207,12 +208,12 @@ TEST(Flow, TellsTheSyntaxErrorsOfTheRestTogether) {
   EXPECT_EQ(failed.error()[1].line, 3);
 }
 
-// A file is read through a window; the lines that lie across its edges are whole.
+// A file is read through a window; the lines that are across its edges are whole.
 TEST(ProgramFile, IsReadThroughAWindow) {
   const auto file = std::filesystem::path(testing::TempDir()) / "frustum-window.ngc";
   std::string text = "o1 sub\nG0 X-1\no1 endsub\n";
   for (int i = 0; i < 150'000; ++i) text += fmt::format("N{} G0 X{}\r\n", i % 10'000, i);
-  text += "o1 call\n";  // far behind its definition
+  text += "o1 call\n";  // far after its definition
   ASSERT_GT(text.size(), std::size_t{2} << 20U);
   std::ofstream(file, std::ios::binary) << text;
   const auto program = open_program(file, Dialect::linuxcnc);

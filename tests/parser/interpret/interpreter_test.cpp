@@ -235,7 +235,7 @@ TEST(Interpreter, ReadsEveryWorkOffset) {
   EXPECT_EQ(numbers, (std::vector<int>{1, 2, 3, 4, 5, 6}));
 }
 
-// A loop that computes on and on without a motion is told long before the limit of all blocks.
+// A loop that computes on and on without a motion is reported long before the limit of all blocks.
 TEST(Interpreter, TellsALoopThatDoesNotEnd) {
   const char* loop = "G0 X0\n#1=0\nWHILE[#1 LT 900]DO1\n#1=#1+1\nEND1\nG0 X1\n";
   InterpreterOptions options;

@@ -124,8 +124,8 @@ bool goes_round_corner(const PathPiece& piece, const PathPiece& programmed) {
   return piece.is_arc() && (piece.centre - programmed.start).norm() < kNear;
 }
 
-// The radius away from the move that it belongs to, or from the corner before that; where two paths meet, from
-// both moves; all without a gap.
+// The radius away from the move that it belongs to, or from the corner before that; where two paths
+// meet, from both moves; all without a gap.
 void check(const Contour& contour, const Path& path) {
   const double radius = contour.setting.radius;
   Vec2 at = Vec2::Zero();
@@ -293,8 +293,8 @@ TEST(RadiusCompensation, TellsWhenItGoesOnAndOff) {
   EXPECT_EQ(texts, (std::vector<std::string>{"right of the contour, radius 6 mm", "off"}));
 }
 
-// Between two arcs that touch from within, rs274 turns about the point; the tool does not fit there, and stops
-// where it touches both: 22 mm from one centre, 58 mm from the other.
+// Between two arcs that touch from within, rs274 turns about the point; the tool does not fit
+// there, and stops where it touches both: 22 mm from one centre, 58 mm from the other.
 TEST(RadiusCompensation, StopsWhereAnArcGoesBackWithinAnother) {
   const auto all = motions(
       "G0 X0 Y-60 Z0\nG42.1 D4\nG1 X20 Y0 F100\nG3 X0 Y20 I-20\nG2 X60 Y-40 J-60\nG40 G1 X60 "

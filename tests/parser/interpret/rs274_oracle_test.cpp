@@ -1,5 +1,5 @@
-// The stand-alone interpreter rs274 of LinuxCNC as oracle: both run the same programs, and command the same
-// moves.
+// The stand-alone interpreter rs274 of LinuxCNC as oracle: both run the same programs, and command
+// the same moves.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -26,7 +26,8 @@ fs::path corpus() { return fs::path(FRUSTUM_SOURCE_DIR) / "tests/parser/rs274"; 
 
 bool has_rs274() { return std::system("command -v rs274 >/dev/null 2>&1") == 0; }
 
-// Where they differ and rs274 is at fault. An entry that no longer differs is stale, which fails too.
+// Where they differ and rs274 is at fault. An entry that no longer differs is stale, which fails
+// too.
 struct KnownDifference {
   std::string_view program;
   std::string_view rs274;  // what it does
@@ -56,8 +57,8 @@ std::vector<std::string> programs() {
   return names;
 }
 
-// What rs274 prints; it writes its parameters, and shares its tools in a file at home, so each run has a folder of
-// its own.
+// What rs274 prints; it writes its parameters, and shares its tools in a file at home, so each run
+// has a folder of its own.
 std::string run_rs274(const fs::path& program) {
   const fs::path folder = fs::temp_directory_path() /
                           fmt::format("frustum-rs274-{}-{}", getpid(), program.stem().string());

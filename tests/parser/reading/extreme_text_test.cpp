@@ -1,4 +1,5 @@
-// Texts that no editor writes: numbers without end, recursion, bytes of other files, depth. Each has its complaint.
+// Texts that no editor writes: numbers without end, recursion, bytes of other files, depth. Each
+// has its complaint.
 #include <gtest/gtest.h>
 
 #include <ctime>
