@@ -4,20 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.hpp"
 #include "report/colour_scale.hpp"
 #include "report/number_text.hpp"
+#include "report/picture/ground_shadow.hpp"
 #include "report/picture/lettering.hpp"
 #include "report/picture/picture_shading.hpp"
 #include "report/picture/png_file.hpp"
 
 namespace frustum::report {
 namespace {
-
-// Faces that lean less than this against each other are one rounded surface: above the facets of
-// a meshed cylinder, below the bevels of test pieces.
-constexpr double kCreaseAngle = 25.0 * kRadPerDeg;
 
 std::optional<Diagnostic> complaint_about(const SurfacePicture& picture,
                                           const PictureOptions& options) {
@@ -133,25 +131,14 @@ Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
   const Frame frame{margin, margin, options.width - (has_bar ? 0.20 * options.height : margin),
                     options.height - margin};
 
-  const std::vector<CornerNormals> normals = crease_normals(picture, kCreaseAngle);
-  Scene scene;
-  scene.picture = &picture;
-  scene.normals = &normals;
-  scene.samples = options.samples;
-  scene.deviation_span = options.deviation_span.value_or(natural_span(picture));
-  scene.view = fitted_view(picture, options, frame);
-  scene.pixels.reserve(picture.vertices.size());
-  for (const auto& vertex : picture.vertices) {
-    scene.pixels.push_back(scene.view.pixel_of(Eigen::Map<const Eigen::Vector3f>(vertex.data())));
-  }
-  scene.buffer = rasterise(scene.pixels, picture.triangles, options.width * options.samples,
-                           options.height * options.samples);
-
+  const Scene scene(picture, fitted_view(picture, options, frame), options.width, options.height,
+                    options.samples);
+  const double span = options.deviation_span.value_or(natural_span(picture));
   Image image(options.width, options.height, {1.0F, 1.0F, 1.0F});
   paint_background(image);
   cast_ground_shadow(scene, image);
-  shade(scene, image);
-  if (has_bar) draw_colour_bar(image, scene.deviation_span);
+  shade(scene, span, image);
+  if (has_bar) draw_colour_bar(image, span);
   return write_png(path, image);
 }
 

@@ -1,4 +1,4 @@
-// The finished workpiece as a PNG picture, coloured by its deviation from nominal; drawn in software.
+// The finished workpiece as a PNG picture, coloured by its deviation from nominal; drawn with rays.
 //
 // Units : pixels; azimuth and elevation in degrees; deviations in mm (the scale is labelled in um, or nm)
 // Errors: empty or inconsistent picture, a size outside 64..8192 px, a span that is not positive, a path
@@ -16,7 +16,7 @@ namespace frustum::report {
 struct PictureOptions {
   int width = 1600;
   int height = 1100;
-  double azimuth = -60.0;   // deg: where the viewer stands, about +z from +x
+  double azimuth = -60.0;   // deg: direction of the viewer, about +z from +x
   double elevation = 32.0;  // deg above the xy plane
   // mm at the ends of the colour scale; natural_span() when not given.
   std::optional<double> deviation_span{};

@@ -8,10 +8,10 @@
 #include <map>
 #include <utility>
 
-#include "cutter/search/pose_tree.hpp"
 #include "cutter/sweep/segment_motion.hpp"
 #include "cutter/sweep/swept_box.hpp"
 #include "stock/collision/collision.hpp"
+#include "stock/solid/box_scene.hpp"
 #include "stock/solid/removal.hpp"
 
 namespace frustum::stock {
@@ -40,7 +40,7 @@ Box box_of(const NonCuttingBody& body, const ToolPath& path, const PathSegment& 
   return all;
 }
 
-// All passages that come near the blank, with a tree for every body to find them by ray.
+// All passages that come near the blank. Their boxes are one scene a body, in which a ray finds them.
 class Passages {
  public:
   Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies)
@@ -48,13 +48,18 @@ class Passages {
     for (const NonCuttingBody& body : bodies) collect(workpiece.blank().bounds(), body);
   }
 
-  [[nodiscard]] bool empty() const { return trees_.empty(); }
+  [[nodiscard]] bool empty() const { return bodies_.empty(); }
   [[nodiscard]] std::vector<Passage> near(const Ray& ray, RaySpan span) const {
     std::vector<Passage> found;
-    for (const BodyTree& each : trees_) {
-      for (const std::uint32_t segment : segments_near(each.tree, ray, span)) {
-        found.push_back({segment, each.body});
-      }
+    std::vector<std::uint32_t> segments;
+    for (const BodyBoxes& each : bodies_) {
+      segments.clear();
+      each.scene.along(ray, span, [&](std::uint32_t box) {
+        segments.push_back(each.segments[box]);
+        return span.hi;
+      });
+      std::ranges::sort(segments);  // Embree's order is not fixed
+      for (const std::uint32_t segment : segments) found.push_back({segment, each.body});
     }
     return found;
   }
@@ -80,29 +85,31 @@ class Passages {
   }
 
  private:
-  struct BodyTree {
+  struct BodyBoxes {
     const NonCuttingBody* body = nullptr;
-    cutter::PoseTree tree;
+    std::vector<std::uint32_t> segments{};
+    BoxScene scene{};  // of their boxes
   };
 
   void collect(const BoundingBox& blank, const NonCuttingBody& body) {
     if (body.parts.empty()) return;
-    double reach = 0.0;
-    for (const Profile& part : body.parts) reach = std::max(reach, part.reach());
-    std::vector<Box> boxes(path_.segments.size());
-    std::vector<std::uint32_t> near_blank;
+    BodyBoxes near_blank{&body};
+    std::vector<Box> boxes;
     for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
       const PathSegment& segment = path_.segments[i];
       if (body.tool != path_.blocks[segment.block].tool) continue;
-      boxes[i] = box_of(body, path_, segment);
-      if (overlap(boxes[i], blank)) near_blank.push_back(i);
+      const Box box = box_of(body, path_, segment);
+      if (!overlap(box, blank)) continue;
+      near_blank.segments.push_back(i);
+      boxes.push_back(box);
     }
-    if (near_blank.empty()) return;
-    trees_.push_back({&body, cutter::PoseTree(path_, boxes, std::move(near_blank), reach)});
+    if (boxes.empty()) return;
+    near_blank.scene = BoxScene(boxes);
+    bodies_.push_back(std::move(near_blank));
   }
 
   const ToolPath& path_;
-  std::vector<BodyTree> trees_{};
+  std::vector<BodyBoxes> bodies_{};
 };
 
 struct Key {

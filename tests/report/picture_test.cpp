@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 #include <png.h>
 
 #include <filesystem>
@@ -104,6 +105,78 @@ TEST(Picture, ComplainsAboutWhatItCannotDraw) {
   options.deviation_span = 0.0;
   EXPECT_FALSE(write_picture(path, square(0.0F), options).has_value());
   EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+// A floor and a wall that meet at y = 0, seen from the front and above.
+SurfacePicture corner() {
+  SurfacePicture picture;
+  picture.vertices = {{-50, -50, 0}, {50, -50, 0}, {50, 0, 0},
+                      {-50, 0, 0},   {50, 0, 50},  {-50, 0, 50}};
+  picture.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}};
+  return picture;
+}
+
+TEST(Picture, IsDarkerWhereTheSkyIsHidden) {
+  PictureOptions options;
+  options.width = options.height = 200;
+  options.azimuth = -90.0;
+  options.elevation = 45.0;
+  const auto path = scratch("frustum_picture_corner.png");
+  ASSERT_TRUE(write_picture(path, corner(), options).has_value());
+  const Pixels pixels = read_png(path);
+  std::filesystem::remove(path);
+  // The floor in the picture's lower half, from its front edge to the wall.
+  EXPECT_LT(pixels.at(100, 106)[0] + 12, pixels.at(100, 140)[0]);
+  EXPECT_LT(pixels.at(100, 106)[0] + 12, pixels.at(100, 130)[0]);
+}
+
+// Thousands of triangles that meet in edges and corners, seen along an axis too: none lets the background through.
+TEST(Picture, HasNoGapsBetweenTriangles) {
+  SurfacePicture sheet;
+  constexpr std::uint32_t kSide = 60;
+  for (std::uint32_t y = 0; y <= kSide; ++y) {
+    for (std::uint32_t x = 0; x <= kSide; ++x) {
+      sheet.vertices.push_back({static_cast<float>(x), static_cast<float>(y), 0.0F});
+    }
+  }
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const std::uint32_t at = y * (kSide + 1) + x;
+      sheet.triangles.push_back({at, at + 1, at + kSide + 2});
+      sheet.triangles.push_back({at, at + kSide + 2, at + kSide + 1});
+    }
+  }
+  PictureOptions options;
+  options.width = options.height = 240;
+  options.elevation = 90.0;
+  options.azimuth = 0.0;
+  const auto path = scratch("frustum_picture_sheet.png");
+  ASSERT_TRUE(write_picture(path, sheet, options).has_value());
+  const Pixels pixels = read_png(path);
+  std::filesystem::remove(path);
+  const auto middle = pixels.at(120, 120);
+  for (int y = 30; y < 210; ++y) {
+    for (int x = 30; x < 210; ++x) ASSERT_EQ(pixels.at(x, y), middle) << x << ", " << y;
+  }
+}
+
+TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
+  PictureOptions options;
+  options.width = 320;
+  options.height = 240;
+  const SurfacePicture part = sample_report(60, 4).surface;
+  const auto drawn_with = [&](int threads) {
+    const auto path = scratch("frustum_picture_threads.png");
+    tbb::task_arena arena(threads);
+    arena.execute([&] { EXPECT_TRUE(write_picture(path, part, options).has_value()); });
+    Pixels pixels = read_png(path);
+    std::filesystem::remove(path);
+    return pixels.rgb;
+  };
+  const auto alone = drawn_with(1);
+  EXPECT_FALSE(alone.empty());
+  EXPECT_EQ(alone, drawn_with(2));
+  EXPECT_EQ(alone, drawn_with(8));
 }
 
 TEST(Picture, NamesTheFileThatCannotBeWritten) {
