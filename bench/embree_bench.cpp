@@ -1,5 +1,5 @@
-// Where Embree's boxes serve and where they do not: probing a mesh, and probing a sweep by the boxes of its path
-// segments beside our groups of poses (cut_bench: freeform_probe).
+// Where Embree's boxes serve and where they do not: probing a mesh, and probing a sweep by the
+// boxes of its path segments beside our groups of poses (cut_bench: freeform_probe).
 #include <benchmark/benchmark.h>
 
 #include <cmath>

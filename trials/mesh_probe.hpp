@@ -1,13 +1,14 @@
 // A mesh that is probed like a part: a scan, or another program's model.
 //
-// Model    : the first facet that the probe meets from outside, with the facet's own normal; borders may be
-//            open, as scans have them
+// Model    : the first facet that the probe meets from outside, with the facet's own normal;
+//            borders may be open, as scans have them
 // Units    : mm
-// Shape    : facets counter-clockwise seen from outside; corners that differ by rounding are made one
-//            (stock/mesh/weld_mesh.hpp)
-// Errors   : a file that cannot be read, a mesh whose size does not suit the plan, facets that are met from
-//            behind
-// Accuracy : that of the mesh: between corners its facets leave a surface of radius R by length^2 / (8 R)
+// Shape    : facets counter-clockwise seen from outside; corners that differ by rounding are made
+//            one (stock/mesh/weld_mesh.hpp)
+// Errors   : a file that cannot be read, a mesh whose size does not suit the plan, facets that are
+//            met from behind
+// Accuracy : that of the mesh: between corners its facets leave a surface of radius R by length^2 /
+//            (8 R)
 // Source   : ours
 #pragma once
 

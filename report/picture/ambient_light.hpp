@@ -1,9 +1,9 @@
 // How much of the sky lights each pixel of a picture: ambient occlusion by rays.
 //
-// Model   : rays over the hemisphere around the normal, denser where the surface faces, each up to a length
-//           drawn from 0 to the reach, so that what hides fades with its distance. The ground below the part
-//           hides too. 16 neighbouring pixels share 256 directions, and each takes the mean of its neighbours
-//           on the same face
+// Model   : rays over the hemisphere around the normal, denser where the surface faces, each up to
+//           a length drawn from 0 to the reach, so that what hides fades with its distance. The
+//           ground below the part hides too. 16 neighbouring pixels share 256 directions, and each
+//           takes the mean of its neighbours on the same face
 // Units   : pixels
 // Shape   : 16 rays a pixel
 // Errors  : none

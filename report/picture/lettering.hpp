@@ -1,7 +1,7 @@
 // Numbers and units drawn with strokes into an image, for the scales of pictures.
 //
-// Letters: digits, + - . and the letters of "um", "nm", "mm"; u is drawn as the Greek mu; others are
-// left blank. Units: pixels. Errors: none.
+// Letters: digits, + - . and the letters of "um", "nm", "mm"; u is drawn as the Greek mu; others
+//          are left blank. Units: pixels. Errors: none.
 #pragma once
 
 #include <string_view>

@@ -1,8 +1,9 @@
 // The finished workpiece as a PNG picture, coloured by its deviation from nominal; drawn with rays.
 //
-// Units : pixels; azimuth and elevation in degrees; deviations in mm (the scale is labelled in um, or nm)
-// Errors: empty or inconsistent picture, a size outside 64..8192 px, a span that is not positive, a path
-//         that cannot be written: a diagnostic each
+// Units : pixels; azimuth and elevation in degrees; deviations in mm (the scale is labelled in um,
+//         or nm)
+// Errors: empty or inconsistent picture, a size outside 64..8192 px, a span that is not positive, a
+//         path that cannot be written: a diagnostic each
 #pragma once
 
 #include <filesystem>

@@ -15,8 +15,8 @@ namespace {
 // a meshed cylinder, below the bevels of test pieces.
 constexpr double kCreaseAngle = 25.0 * kRadPerDeg;
 
-// Samples are this far beside the middle of their square: rays exactly through edges, of which a view along an
-// axis has many, would see either triangle.
+// Samples are this far beside the middle of their square: rays exactly through edges, of which a
+// view along an axis has many, would see either triangle.
 constexpr float kBeside = 0.0137F;
 
 std::vector<Eigen::Vector3f> in_camera(const SurfacePicture& picture, const View& view) {

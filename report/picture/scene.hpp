@@ -1,6 +1,7 @@
 // What a picture is drawn from: the surface, the view, and what each sample of it sees.
 //
-// Units: camera mm (report/picture/view.hpp); samples, of which `samples` x `samples` make one pixel.
+// Units: camera mm (report/picture/view.hpp); samples, of which `samples` x `samples` make one
+//        pixel.
 // Errors: none for a valid picture.
 #pragma once
 

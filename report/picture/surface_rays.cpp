@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kPacket = 8;
 
-// A buffer of a geometry, filled from `values`, which has `width` numbers of 4 bytes in each element.
+// A buffer of a geometry, filled from `values`, which has `width` numbers of 4 bytes in each
+// element.
 template <typename T>
 void fill_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                  std::span<const T> values) {

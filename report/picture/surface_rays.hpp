@@ -4,7 +4,8 @@
 // Units   : mm; frame: camera (report/picture/view.hpp)
 // Shape   : a hierarchy of boxes over the triangles, built once
 // Errors  : none for a valid picture; std::bad_alloc when memory ends
-// Accuracy: single precision, for the eye. The same bits for any number of threads: each ray is for itself
+// Accuracy: single precision, for the eye. The same bits for any number of threads: each ray is for
+//           itself
 // Source  : Wald, Woop, Benthin, Johnson, Ernst 2014, ACM TOG 33(4)
 // Threads : const member functions may be called from any number of threads
 #pragma once

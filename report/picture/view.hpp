@@ -1,7 +1,7 @@
 // An orthographic view of the workpiece.
 //
-// Frames: camera, x right, y up, z towards the viewer, in mm; pixels, x right, y down, (0, 0) at the
-// upper left corner of the picture, pixel centres at halves. Errors: none.
+// Frames: camera, x right, y up, z towards the viewer, in mm; pixels, x right, y down, (0, 0) at
+//         the upper left corner of the picture, pixel centres at halves. Errors: none.
 #pragma once
 
 #include <Eigen/Core>

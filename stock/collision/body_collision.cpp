@@ -1,5 +1,5 @@
-// Shanks and holders against material. Along each ray of a grid the history of the material is known, piece
-// by piece: a body that reaches a piece before the block that removes it has collided.
+// Shanks and holders against material. Along each ray of a grid the history of the material is
+// known, piece by piece: a body that reaches a piece before the block that removes it has collided.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -40,7 +40,8 @@ Box box_of(const NonCuttingBody& body, const ToolPath& path, const PathSegment& 
   return all;
 }
 
-// All passages that come near the blank. Their boxes are one scene a body, in which a ray finds them.
+// All passages that come near the blank. Their boxes are one scene a body, in which a ray finds
+// them.
 class Passages {
  public:
   Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies)
@@ -66,7 +67,8 @@ class Passages {
   [[nodiscard]] std::uint32_t block_index(const Passage& p) const {
     return path_.segments[p.segment].block;
   }
-  // What the body, shrunk by the margin, surely covers: standing bodies a quarter of a radius apart.
+  // What the body, shrunk by the margin, surely covers: standing bodies a quarter of a radius
+  // apart.
   [[nodiscard]] IntervalSet core_along(const Passage& p, const Ray& ray) const {
     const PathSegment& segment = path_.segments[p.segment];
     std::vector<Interval> all;

@@ -28,8 +28,8 @@ struct SuspectMove {
   Box box{};
 };
 
-// Feeds of one tool with the spindle off that follow each other are one move: one report is enough. What a
-// block between them cuts would be missing.
+// Feeds of one tool with the spindle off that follow each other are one move: one report is enough.
+// What a block between them cuts would be missing.
 bool continues(const ToolPath& path, const SuspectMove& move, std::uint32_t block) {
   if (move.block == block) return true;
   const std::uint32_t last = path.segments[move.segments.back()].block;
@@ -145,8 +145,8 @@ class OverlapSearch {
     }
   }
 
-  // Some of what the few segments before the move have removed: most rapids run where the tool has just
-  // been, and this is much cheaper than to ask the whole program.
+  // Some of what the few segments before the move have removed: most rapids run where the tool has
+  // just been, and this is much cheaper than to ask the whole program.
   [[nodiscard]] IntervalSet lately_removed(const Ray& ray) const {
     constexpr std::uint32_t kLately = 8;
     const ToolPath& path = workpiece_.removed().path();
@@ -213,8 +213,8 @@ struct Overlap {
   Vec3 point = Vec3::Zero();
 };
 
-// The depth is the longest overlap along the direction in which it is thinnest, of those whose rays have met
-// any; the margin by which the body was shrunk belongs to it.
+// The depth is the longest overlap along the direction in which it is thinnest, of those whose rays
+// have met any; the margin by which the body was shrunk belongs to it.
 Overlap measured_overlap(const Workpiece& workpiece, const SuspectMove& move,
                          const Suspicion& where, double pitch) {
   const Box& box = where.box;

@@ -1,17 +1,19 @@
-// Moves that meet material although they must not: rapids through it, feeds with the spindle off, shanks
-// and holders in it.
+// Moves that meet material although they must not: rapids through it, feeds with the spindle off,
+// shanks and holders in it.
 //
-// Model    : every move is held against the material that is left when it begins, so that what its own
-//            cutting edges remove does not count. The cutter of a straight move is followed by rays
-//            along the motion through rings of points of its surface, that of a turning one by a grid of
-//            rays through its box; shanks and holders (of all moves) by a grid through the blank. Bodies
-//            are shrunk by a margin, so that a retract along a finished wall is no collision
+// Model    : every move is held against the material that is left when it begins, so that what its
+//            own cutting edges remove does not count. The cutter of a straight move is followed by
+//            rays along the motion through rings of points of its surface, that of a turning one by
+//            a grid of rays through its box; shanks and holders (of all moves) by a grid through
+//            the blank. Bodies are shrunk by a margin, so that a retract along a finished wall is
+//            no collision
 // Units    : mm
 // Errors   : none
-// Accuracy : overlaps of more than the margin (10.1 um) are found when they hold a ray: a third of the
-//            cutter's radius between rings and an eighth of a right angle around; a twelfth of the
-//            diameter where it turns; for shanks and holders a quarter of their radius, but not less
-//            than 1/250 of the blank's longest side. A depth is as exact as the densest of them
+// Accuracy : overlaps of more than the margin (10.1 um) are found when they hold a ray: a third of
+//            the cutter's radius between rings and an eighth of a right angle around; a twelfth of
+//            the diameter where it turns; for shanks and holders a quarter of their radius, but not
+//            less than 1/250 of the blank's longest side. A depth is as exact as the densest of
+//            them
 // Threads  : find_collisions() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
@@ -34,7 +36,8 @@ struct Collision {
   CollisionBody body = CollisionBody::cutter;
   std::uint32_t block = 0;  // of the tool path
   std::uint32_t source_line = 0;
-  // Blocks that follow each other with one body in the material make one collision; the last of them.
+  // Blocks that follow each other with one body in the material make one collision; the last of
+  // them.
   std::uint32_t last_line = 0;
   int tool = 0;
   Vec3 point = Vec3::Zero();  // where it is worst

@@ -1,12 +1,12 @@
 // Gouge and excess of a finished surface against a nominal shape, with place and NC block.
 //
-// Model    : the nominal shape is a function of point and outward normal: the signed distance from it,
-//            outside positive. It is evaluated at the vertices of the surface; the worst one of each sign
-//            is looked up in the workpiece for the block that made it
+// Model    : the nominal shape is a function of point and outward normal: the signed distance from
+//            it, outside positive. It is evaluated at the vertices of the surface; the worst one of
+//            each sign is looked up in the workpiece for the block that made it
 // Units    : mm
 // Errors   : none; a point without a nominal has no deviation
-// Accuracy : vertices lie on the exact surface (surface_mesh.hpp); between them a deviation is missed by
-//            at most what it grows over a pitch
+// Accuracy : vertices lie on the exact surface (surface_mesh.hpp); between them a deviation is
+//            missed by at most what it grows over a pitch
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // A SurfaceMesh as OpenMesh keeps one. For .cpp files of this room only.
-// Units: mm. Errors: none; of a mesh that is not manifold OpenMesh leaves out faces and complains on
-// stderr.
+// Units: mm. Errors: none; of a mesh that is not manifold OpenMesh leaves out faces and complains
+//        on stderr.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

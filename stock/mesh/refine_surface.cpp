@@ -32,8 +32,8 @@ constexpr double kSecondLook = 0.05;
 // Normals farther apart than this (chord of unit vectors, about 30 degrees) have a sharp edge
 // between them, or bend so much that looking for one does no harm.
 constexpr double kMaybeSharp = 0.5;
-// No surface leaves an edge shorter than this many tolerances by more than the tolerance, unless the
-// edge is not on it.
+// No surface leaves an edge shorter than this many tolerances by more than the tolerance, unless
+// the edge is not on it.
 constexpr double kShortest = 2.0;
 // Each round halves what is too long: 2^40 is from a metre to a picometre.
 constexpr int kMostRounds = 40;

@@ -1,17 +1,18 @@
 // A closed mesh made finer where the surface bends.
 //
 // Model    : edges whose middle leaves the exact surface are split there, in rounds. A triangle is
-//            bisected across its longest edge first, so that angles stay bounded, and both triangles
-//            at an edge split it alike: what is closed and manifold stays so by construction. A new
-//            vertex goes onto the exact surface along the normal, or, on a sharp edge, to where
-//            its two faces meet
+//            bisected across its longest edge first, so that angles stay bounded, and both
+//            triangles at an edge split it alike: what is closed and manifold stays so by
+//            construction. A new vertex goes onto the exact surface along the normal, or, on a
+//            sharp edge, to where its two faces meet
 // Units    : mm; frame: that of the solid
-// Errors   : a chord tolerance that is not finite and positive; a mesh that is not closed; more than
-//            max_triangles
-// Accuracy : a surface that bends evenly over a triangle leaves it by at most 4/3 of the worst middle
-//            of its edges. Edges are split until their middles are within 0.7 of the tolerance, and
-//            the centre of every triangle is asked too (tests/stock/refine_surface_test.cpp). New
-//            vertices are as exact as the solid's rays, 1 nm
+// Errors   : a chord tolerance that is not finite and positive; a mesh that is not closed; more
+//            than max_triangles
+// Accuracy : a surface that bends evenly over a triangle leaves it by at most 4/3 of the worst
+//            middle of its edges. Edges are split until their middles are within 0.7 of the
+//            tolerance, and the centre of every triangle is asked too
+//            (tests/stock/refine_surface_test.cpp). New vertices are as exact as the solid's rays,
+//            1 nm
 // Threads  : runs on oneTBB; the same bits for any number of threads
 // Source   : Rivara 1984, Int. J. Numer. Methods Eng. 20 (bisection across the longest edge)
 #pragma once

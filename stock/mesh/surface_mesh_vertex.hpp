@@ -34,8 +34,8 @@ struct PlacedVertex {
 [[nodiscard]] PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
                                         const BoundingBox& cell, double leave);
 
-// The surface that faces along `normal` (unit), at most `reach` away along it: the first that a probe meets
-// which comes from outside, or, if that is another face, the one next to `point`.
+// The surface that faces along `normal` (unit), at most `reach` away along it: the first that a
+// probe meets which comes from outside, or, if that is another face, the one next to `point`.
 [[nodiscard]] std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point,
                                                            const Vec3& normal, double reach);
 

@@ -96,7 +96,8 @@ class WeldCells {
 SurfaceMesh welded(SurfaceMesh mesh) {
   if (mesh.vertices.empty()) return mesh;
   const double seam = seam_of(mesh.vertices);
-  // WeldCells are counted in whole numbers; a mesh of one place, or far off for its size, has no seams to tell.
+  // WeldCells are counted in whole numbers; a mesh of one place, or far off for its size, has no
+  // seams to tell.
   if (!(seam > 1e-15 * mesh.vertices.front().cwiseAbs().maxCoeff())) return mesh;
   WeldCells cells(mesh.vertices, seam);
   std::vector<std::uint32_t> becomes(mesh.vertices.size());

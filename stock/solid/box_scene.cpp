@@ -15,8 +15,8 @@ namespace {
 
 // How much larger every box is for Embree, in scaled units; the header says why.
 constexpr double kEnlargement = 0x1p-17;
-// Of a ball's radius and of a point's place: relative rounding of squared distances in single precision, and
-// the rounding of the place itself.
+// Of a ball's radius and of a point's place: relative rounding of squared distances in single
+// precision, and the rounding of the place itself.
 constexpr double kBallShare = 0x1p-20;
 // The ball around [-1, 1]^3, and a little.
 constexpr double kBall = 1.75;

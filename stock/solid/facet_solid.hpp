@@ -1,13 +1,15 @@
 // A closed triangle mesh as a solid: exact rays through its facets, and the nearest point on it.
 //
 // Model    : a ray sees the mesh in the plane across it: corners are projected, and a facet is met
-//            when the ray passes on one side of its three edges. The side is decided exactly from the
-//            projected corners, the same way for both facets at an edge, and a ray through an edge or
-//            corner is answered as one beside it (Simulation of Simplicity): no ray slips between
-//            facets or counts one twice. Material is where the facets entered outnumber those left
+//            when the ray passes on one side of its three edges. The side is decided exactly from
+//            the projected corners, the same way for both facets at an edge, and a ray through an
+//            edge or corner is answered as one beside it (Simulation of Simplicity): no ray slips
+//            between facets or counts one twice. Material is where the facets entered outnumber
+//            those left
 // Units    : mm; frame: that of the corners
-// Shape    : facets counter-clockwise seen from outside, every edge in two of them; Embree finds candidates
-//            in about log(facets) (stock/solid/box_scene.hpp), and the answer is that of trying all facets
+// Shape    : facets counter-clockwise seen from outside, every edge in two of them; Embree finds
+//            candidates in about log(facets) (stock/solid/box_scene.hpp), and the answer is that of
+//            trying all facets
 // Errors   : none; the mesh must be closed (stock/polyhedral/mesh_faults.hpp checks)
 // Accuracy : ray ends within 1e-12 of the size of the mesh, divided by |n.d|; nearest points within
 //            1e-14 of it (tests/stock/facet_solid_test.cpp)
@@ -54,8 +56,9 @@ class FacetSolid {
 
   // Material between span.lo and span.hi; an end's tag is its facet, -1 at the ends of the span.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span) const;
-  // Where the ray first meets a facet within the span, if it meets it from outside; it asks no more of the
-  // mesh than facets that are counter-clockwise seen from outside, so a scan with open borders will do.
+  // Where the ray first meets a facet within the span, if it meets it from outside; it asks no more
+  // of the mesh than facets that are counter-clockwise seen from outside, so a scan with open
+  // borders will do.
   struct Entry {
     double s = 0.0;
     EndTag facet = -1;

@@ -130,7 +130,8 @@ TEST(Picture, IsDarkerWhereTheSkyIsHidden) {
   EXPECT_LT(pixels.at(100, 106)[0] + 12, pixels.at(100, 130)[0]);
 }
 
-// Thousands of triangles that meet in edges and corners, seen along an axis too: none lets the background through.
+// Thousands of triangles that meet in edges and corners, seen along an axis too: none lets the
+// background through.
 TEST(Picture, HasNoGapsBetweenTriangles) {
   SurfacePicture sheet;
   constexpr std::uint32_t kSide = 60;

@@ -1,5 +1,5 @@
-// Embree's single precision never loses what a ray meets or a point is near to: candidates against trying all,
-// and facet solids against the exact answer of trying all facets.
+// Embree's single precision never loses what a ray meets or a point is near to: candidates against
+// trying all, and facet solids against the exact answer of trying all facets.
 #include "stock/solid/box_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ std::set<std::uint32_t> candidates(const BoxScene& scene, const Ray& ray, RaySpa
   return found;
 }
 
-// Whether the ray crosses the box within the span, by exact slabs up to rounding in double precision.
+// Whether the ray crosses the box within the span, by exact slabs up to rounding in double
+// precision.
 bool crosses(const Box& box, const Ray& ray, RaySpan span) {
   double lo = span.lo, hi = span.hi;
   for (int k = 0; k < 3; ++k) {
@@ -103,7 +104,8 @@ TEST(BoxScene, LosesNoBoxThatARayCrosses) {
     const BoxScene scene(boxes);
     for (int k = 0; k < 1500; ++k) {
       const Box& target = boxes[draw.below(boxes.size())];
-      // Through a corner of a box, or the middle of it; along an axis now and then; from near and far.
+      // Through a corner of a box, or the middle of it; along an axis now and then; from near and
+      // far.
       Vec3 through = 0.5 * (target.min + target.max);
       for (int axis = 0; axis < 3 && k % 2 == 0; ++axis) {
         through[axis] = draw.between(0.0, 1.0) < 0.5 ? target.min[axis] : target.max[axis];
@@ -235,8 +237,8 @@ std::vector<NamedMesh> meshes() {
   return all;
 }
 
-// Rays that single precision would get wrong: through vertices and edges, grazing, in the plane of a facet,
-// starting on a facet, from far away; and common ones.
+// Rays that single precision would get wrong: through vertices and edges, grazing, in the plane of
+// a facet, starting on a facet, from far away; and common ones.
 Ray degenerate_ray(SceneDraw& draw, const SurfaceMesh& mesh, int kind) {
   const auto& [ia, ib, ic] = mesh.triangles[draw.below(mesh.triangles.size())];
   const Vec3 a = mesh.vertices[ia], b = mesh.vertices[ib], c = mesh.vertices[ic];
@@ -270,8 +272,8 @@ Ray degenerate_ray(SceneDraw& draw, const SurfaceMesh& mesh, int kind) {
   }
 }
 
-// The exact answer by trying all facets: corners in the plane across the ray, sides with the rounding errors of
-// their products, ties as if the ray passed at (e, e^2).
+// The exact answer by trying all facets: corners in the plane across the ray, sides with the
+// rounding errors of their products, ties as if the ray passed at (e, e^2).
 class AllFacets {
  public:
   explicit AllFacets(const SurfaceMesh& mesh) : mesh_(mesh) {}

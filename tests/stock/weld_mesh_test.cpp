@@ -10,8 +10,8 @@
 namespace frustum::stock {
 namespace {
 
-// The upper face of a plate of 10 mm, 5 by 5 squares, facets with corners of their own: each rounded its own
-// way by up to `rounding`.
+// The upper face of a plate of 10 mm, 5 by 5 squares, facets with corners of their own: each
+// rounded its own way by up to `rounding`.
 SurfaceMesh plate(double rounding, double scale = 1.0) {
   const RandomKey key{7, 0, RandomPurpose::test_data};
   std::uint64_t index = 0;

@@ -7,9 +7,9 @@
 // deviation_um (not a number where there is no nominal: drawn in the colour for that) and kind
 // (VertexKind) at every point.
 // Units: mm; deviations in micrometres (PLY and VTP only).
-// Errors: an extension other than .stl .ply .obj .3mf .vtp, a path that cannot be written, a 3MF beyond
-// the 4 GiB of its archive. The file appears whole or not at all: an existing file is untouched until
-// the new one is complete.
+// Errors: an extension other than .stl .ply .obj .3mf .vtp, a path that cannot be written, a 3MF
+//         beyond the 4 GiB of its archive. The file appears whole or not at all: an existing file
+//         is untouched until the new one is complete.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,8 @@
 namespace frustum::stock {
 namespace {
 
-// The rest of a line that begins with v: three coordinates, and weights or colours that are not needed.
+// The rest of a line that begins with v: three coordinates, and weights or colours that are not
+// needed.
 Result<Vec3> obj_point(TextWords& words) {
   const int line = words.line();
   Vec3 point;
