@@ -55,7 +55,7 @@ struct ConeScene {
     return {blank(), *std::move(swept)};
   }
   // From 5 mm before the flank, perpendicular to it.
-  [[nodiscard]] static stock::Ray probe(std::uint64_t k) {
+  [[nodiscard]] static Ray probe(std::uint64_t k) {
     const double z = 6.0 + 30.0 * uniform({.seed = 1}, 2 * k);
     const double phi = 2.0 * std::numbers::pi * uniform({.seed = 1}, 2 * k + 1);
     const Vec3 out(std::cos(phi), std::sin(phi), 0.0);
@@ -94,7 +94,7 @@ struct FreeformScene {
         path(blocks), {{1, end_mill(cutter::CutterType::ball, 2 * kRadius, 40.0)}});
     return {blank(), *std::move(swept)};
   }
-  [[nodiscard]] static stock::Ray probe(std::uint64_t k) {
+  [[nodiscard]] static Ray probe(std::uint64_t k) {
     const double x = 0.9 * kSize * (uniform({.seed = 2}, 2 * k) - 0.5);
     const double y = 0.9 * kSize * (uniform({.seed = 2}, 2 * k + 1) - 0.5);
     return {Vec3(x, y, 30.0), -Vec3::UnitZ()};
