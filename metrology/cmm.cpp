@@ -45,6 +45,7 @@ class Probing {
         stylus_(cmm.stylus),
         errors_(cmm),
         ball_radius_(0.5 * plan.probe.ball_diameter),
+        touches_(plan.features.size()),
         collisions_(plan.features.size()) {}
 
   Result<FittedFeature> feature(std::size_t index, const Pose& workpiece_from_datum) {
@@ -52,6 +53,7 @@ class Probing {
     std::vector<Vec3> centres;
     std::vector<Vec3> outward;
     std::vector<std::size_t> sections;
+    std::vector<Touch> touches;
     StylusFaults faults;
     for (const PlannedPoint& planned : planned_points(feature)) {
       const BallApproach approach{workpiece_from_datum.point(planned.point),
@@ -71,9 +73,11 @@ class Probing {
       }
       centres.push_back(errors_.measured(
           {contact.centre, approach.outward, point_index(index, centres.size()), planned.scanned}));
+      touches.push_back(contact.touch);
       outward.push_back(approach.outward);
       sections.push_back(planned.section);
     }
+    touches_[index] = std::move(touches);
     collisions_[index] = faults.warning_for(feature.name, centres.size());
     return fitted(feature, std::move(centres), outward, sections);
   }
@@ -90,7 +94,8 @@ class Probing {
     return features;
   }
 
-  // Of each feature as it was probed last.
+  // Of each feature of the plan as it was probed last.
+  [[nodiscard]] std::vector<std::vector<Touch>> touches() && { return std::move(touches_); }
   [[nodiscard]] Diagnostics collisions() const {
     Diagnostics all;
     for (const auto& collision : collisions_) {
@@ -122,6 +127,7 @@ class Probing {
   const std::optional<Stylus>& stylus_;
   CmmErrors errors_;
   double ball_radius_;
+  std::vector<std::vector<Touch>> touches_;
   std::vector<std::optional<Diagnostic>> collisions_;
 };
 
@@ -190,6 +196,10 @@ Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, co
   auto measurement = evaluated(plan, std::move(features), cmm);
   if (measurement) {
     for (Diagnostic& d : probing.collisions()) measurement->diagnostics.push_back(std::move(d));
+    auto touches = std::move(probing).touches();
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      measurement->features[i].touches = std::move(touches[i]);
+    }
   }
   return measurement;
 }

@@ -16,6 +16,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/pose.hpp"
+#include "metrology/probing/surface_probe.hpp"
 #include "metrology/uncertainty/non_negative.hpp"
 
 namespace frustum::metrology {
@@ -33,6 +34,9 @@ struct MeasuredFeature {
   std::string name{};
   std::string kind{};  // "plane", "cylinder", ...
   std::vector<MeasuredPoint> points{};
+  // What the probe touched for each of them, in the workpiece frame of the plan and without the machine's
+  // errors; empty where the points come from elsewhere.
+  std::vector<Touch> touches{};
   // Stable names of interfaces.md: point, axis (3 numbers), radius (mm), half_angle (rad).
   std::map<std::string, std::vector<double>> parameters{};
   double form = 0.0;  // mm, peak to valley of the residuals

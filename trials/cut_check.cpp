@@ -12,18 +12,15 @@ struct PointCount {
   std::size_t others = 0;  // cut by another operation
 };
 
-PointCount count_strangers(const programs::Operation& operation, const stock::Workpiece& workpiece,
-                           const metrology::MeasuredFeature& feature,
-                           const Pose& workpiece_from_datum) {
+PointCount count_strangers(const programs::Operation& operation,
+                           const metrology::MeasuredFeature& feature) {
   PointCount count;
-  for (const metrology::MeasuredPoint& p : feature.points) {
-    const auto surface = surface_at_point(workpiece, workpiece_from_datum.point(p.point),
-                                          workpiece_from_datum.direction(p.normal));
-    if (!surface) continue;  // a noisy measurement may be off the surface
-    if (!surface->segment) {
+  for (const metrology::Touch& touch : feature.touches) {
+    const auto& by = touch.provenance;
+    if (!by) continue;
+    if (!by->segment) {
       ++count.uncut;
-    } else if (surface->source_line < operation.first_line ||
-               surface->source_line > operation.last_line) {
+    } else if (by->source_line < operation.first_line || by->source_line > operation.last_line) {
       ++count.others;
     }
   }
@@ -33,12 +30,14 @@ PointCount count_strangers(const programs::Operation& operation, const stock::Wo
 Diagnostic finding(const std::string& feature, const std::string& operation, std::size_t points,
                    const PointCount& count) {
   if (count.uncut > 0) {
-    return warning(fmt::format("feature '{}': {} of {} measured points lie on the uncut blank, not "
+    return warning("uncut-feature"_id,
+                   fmt::format("feature '{}': {} of {} measured points are on the uncut blank, not "
                                "on what operation '{}' cuts",
                                feature, count.uncut, points, operation),
                    "the blank needs more allowance than the errors move the cut");
   }
-  return warning(fmt::format("feature '{}': {} of {} measured points were cut by another operation "
+  return warning("foreign-cut"_id,
+                 fmt::format("feature '{}': {} of {} measured points were cut by another operation "
                              "than '{}'",
                              feature, count.others, points, operation),
                  "look at the passes that come near this feature");
@@ -46,14 +45,7 @@ Diagnostic finding(const std::string& feature, const std::string& operation, std
 
 }  // namespace
 
-std::optional<stock::SurfacePoint> surface_at_point(const stock::Workpiece& workpiece,
-                                                    const Vec3& point, const Vec3& normal) {
-  return workpiece.first_surface({point + kSurfaceSearch * normal, -normal},
-                                 {0.0, 2.0 * kSurfaceSearch});
-}
-
 Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
-                                 const stock::Workpiece& workpiece,
                                  const metrology::Measurement& measurement) {
   Diagnostics findings;
   for (const programs::Operation& operation : piece.operations) {
@@ -62,8 +54,7 @@ Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
           std::find_if(measurement.features.begin(), measurement.features.end(),
                        [&](const metrology::MeasuredFeature& f) { return f.name == name; });
       if (feature == measurement.features.end()) continue;
-      const PointCount count =
-          count_strangers(operation, workpiece, *feature, measurement.workpiece_from_datum);
+      const PointCount count = count_strangers(operation, *feature);
       if (count.uncut + count.others > 0) {
         findings.push_back(finding(name, operation.name, feature->points.size(), count));
       }

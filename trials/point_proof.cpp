@@ -6,33 +6,38 @@
 #include <vector>
 
 #include "stock/proof/certificate.hpp"
-#include "trials/cut_check.hpp"
 
 namespace frustum::trials {
 namespace {
 
-struct Named {
+struct ProbedPoint {
   const std::string* feature;
   std::size_t index;
   stock::SurfacePoint surface;
 };
 
-std::vector<Named> surface_of(const stock::Workpiece& workpiece,
-                              const metrology::Measurement& measurement) {
-  std::vector<Named> points;
-  const Pose& workpiece_from_datum = measurement.workpiece_from_datum;
+std::vector<ProbedPoint> probed_points(const metrology::Measurement& measurement) {
+  std::vector<ProbedPoint> points;
   for (const metrology::MeasuredFeature& feature : measurement.features) {
-    for (std::size_t i = 0; i < feature.points.size(); ++i) {
-      const auto surface =
-          surface_at_point(workpiece, workpiece_from_datum.point(feature.points[i].point),
-                           workpiece_from_datum.direction(feature.points[i].normal));
-      if (surface) points.push_back({&feature.name, i, *surface});
+    for (std::size_t i = 0; i < feature.touches.size(); ++i) {
+      const metrology::Touch& touch = feature.touches[i];
+      if (!touch.provenance) continue;
+      const Provenance& by = *touch.provenance;
+      points.push_back({&feature.name,
+                        i,
+                        {.point = touch.point,
+                         .normal = touch.normal,
+                         .segment = by.segment,
+                         .source_line = by.source_line,
+                         .t = by.t,
+                         .sweep_bound = by.sweep_bound,
+                         .bound = by.bound}});
     }
   }
   return points;
 }
 
-std::string told(const Named& point, const std::string& reason) {
+std::string described(const ProbedPoint& point, const std::string& reason) {
   return fmt::format("feature '{}', point {}: {}", *point.feature, point.index + 1, reason);
 }
 
@@ -40,10 +45,10 @@ std::string told(const Named& point, const std::string& reason) {
 
 PointProof prove_points(const stock::Workpiece& workpiece,
                         const metrology::Measurement& measurement, std::size_t sample) {
-  const std::vector<Named> points = surface_of(workpiece, measurement);
+  const std::vector<ProbedPoint> points = probed_points(measurement);
   PointProof proof;
   proof.points = points.size();
-  for (const Named& p : points) {
+  for (const ProbedPoint& p : points) {
     proof.worst_bound = std::max(proof.worst_bound, p.surface.bound);
     proof.worst_sweep_bound = std::max(proof.worst_sweep_bound, p.surface.sweep_bound);
   }
@@ -51,7 +56,7 @@ PointProof prove_points(const stock::Workpiece& workpiece,
   if (proof.sampled == 0) return proof;
   const stock::Certifier certifier(workpiece);
   for (std::size_t k = 0; k < proof.sampled; ++k) {
-    const Named& p = points[k * points.size() / proof.sampled];
+    const ProbedPoint& p = points[k * points.size() / proof.sampled];
     const stock::Certificate certificate = certifier.certify(p.surface);
     proof.spans += certificate.spans;
     switch (certificate.verdict) {
@@ -60,10 +65,10 @@ PointProof prove_points(const stock::Workpiece& workpiece,
         proof.regular += certificate.regular ? 1 : 0;
         break;
       case stock::Verdict::refuted:
-        if (++proof.refuted == 1) proof.first_refuted = told(p, certificate.reason);
+        if (++proof.refuted == 1) proof.first_refuted = described(p, certificate.reason);
         break;
       case stock::Verdict::open:
-        if (proof.first_open.empty()) proof.first_open = told(p, certificate.reason);
+        if (proof.first_open.empty()) proof.first_open = described(p, certificate.reason);
         break;
     }
   }

@@ -1,9 +1,10 @@
 // How near the measured points are to the true surface, and a proof of it for some of them.
 //
-// Model    : every measured point is asked from the workpiece again, along its normal; a sample of them, evenly
-//            spread over the features, goes through interval arithmetic (stock/proof/certificate.hpp)
+// Model    : every touched point keeps its bound (core/provenance.hpp); a sample of them, evenly
+//             spread over
+//            the features, goes through interval arithmetic (stock/proof/certificate.hpp)
 // Units    : mm
-// Errors   : none; a point without a surface within reach is left out
+// Errors   : none; points whose provenance nobody knows are left out
 // Accuracy : the bounds are those of stock::SurfacePoint
 // Source   : ours
 #pragma once

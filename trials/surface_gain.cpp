@@ -8,7 +8,6 @@
 
 #include "cutter/search/contact_range.hpp"
 #include "kinematics/errors/error_gain.hpp"
-#include "trials/cut_check.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -45,13 +44,13 @@ Result<std::map<int, RadiusPair>> radius_pairs(const TestPiece& piece) {
   return pairs;
 }
 
-kinematics::AxisState axes_at(const kinematics::ToolPath& path, const PathState& program_state) {
-  const std::uint32_t first = path.segments[program_state.segment].first_pose;
+kinematics::AxisState axes_at(const kinematics::ToolPath& path, const PathState& state) {
+  const std::uint32_t first = path.segments[state.segment].first_pose;
   kinematics::AxisState at = path.axes[first];
   const kinematics::AxisState& next = path.axes[first + 1];
   for (const auto letter : kinematics::kAxisLetters) {
-    at.q[letter] += program_state.t * (next.q[letter] - at.q[letter]);
-    at.heading[letter] += program_state.t * (next.heading[letter] - at.heading[letter]);
+    at.q[letter] += state.t * (next.q[letter] - at.q[letter]);
+    at.heading[letter] += state.t * (next.heading[letter] - at.heading[letter]);
   }
   return at;
 }
@@ -66,19 +65,19 @@ class GainAtPoint {
         radii_(radii),
         workpiece_from_table_(piece.placement.table_from_workpiece().inverse().rotation) {}
 
-  // Motion of the surface point p that was cut at this program_state, along its outward normal n.
-  [[nodiscard]] double operator()(const Parameter& parameter, const PathState& program_state,
-                                  const Vec3& p, const Vec3& n) const {
+  // Motion of the surface point p that was cut at this state, along its outward normal n.
+  [[nodiscard]] double operator()(const Parameter& parameter, const PathState& state, const Vec3& p,
+                                  const Vec3& n) const {
     const kinematics::ToolPath& path = swept_.path();
-    const kinematics::PathSegment& segment = path.segments[program_state.segment];
+    const kinematics::PathSegment& segment = path.segments[state.segment];
     const int tool = path.blocks[segment.block].tool;
-    const auto pose = kinematics::between(path.from(segment), path.to(segment), program_state.t);
+    const auto pose = kinematics::between(path.from(segment), path.to(segment), state.t);
     if (!parameter.unit)
       return -radii_.at(tool).support_gain(std::clamp(-n.dot(pose.axis), -1.0, 1.0));
     const cutter::CutterSpec& spec = piece_.tools.at(tool);
-    const auto moved = kinematics::first_order_displacement(
-        machine_, *parameter.unit, axes_at(path, program_state),
-        spec.length.value + spec.length_error.value);
+    const auto moved =
+        kinematics::first_order_displacement(machine_, *parameter.unit, axes_at(path, state),
+                                             spec.length.value + spec.length_error.value);
     const kinematics::PoseDisplacement in_workpiece{workpiece_from_table_ * moved.tip,
                                                     workpiece_from_table_ * moved.turn};
     return n.dot(in_workpiece.at(p - pose.tip));
@@ -92,16 +91,25 @@ class GainAtPoint {
   Mat3 workpiece_from_table_;
 };
 
-Diagnostic lost(const std::string& feature, std::size_t index) {
-  return error(fmt::format("feature '{}', point {}: there is no surface within {} mm of it",
-                           feature, index + 1, kSurfaceSearch),
-               "the gains need the points of the same trial, measured without noise");
+bool has_provenance(const metrology::MeasuredFeature& feature) {
+  return feature.touches.size() == feature.points.size() &&
+         std::all_of(feature.touches.begin(), feature.touches.end(),
+                     [](const metrology::Touch& touch) { return touch.provenance.has_value(); });
+}
+
+Diagnostic unknown_origin(const std::string& feature) {
+  return error("no-provenance"_id,
+               fmt::format("feature '{}': nobody knows what cut its points", feature),
+               "the gains need the points of the same trial, as its own probe touched them");
 }
 
 }  // namespace
 
 Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const TestPiece& piece,
                                    const Trial& trial, std::span<const Parameter> parameters) {
+  for (const auto& feature : trial.measurement.features) {
+    if (!has_provenance(feature)) return unknown_origin(feature.name);
+  }
   const auto radii = radius_pairs(piece);
   if (!radii) return radii.error();
   const SweptCutter& swept = trial.workpiece->removed();
@@ -118,25 +126,22 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
   for (const auto& feature : trial.measurement.features) {
     for (std::size_t i = 0; i < feature.points.size(); ++i) {
       ++row;
-      const Vec3 measured = workpiece_from_datum.point(feature.points[i].point);
+      const metrology::Touch& touch = feature.touches[i];
+      if (!touch.provenance->segment) continue;  // the blank's own surface stays
+      const auto states = cutter::contact_range(
+          swept, {*touch.provenance->segment, touch.provenance->t}, touch.point);
+      // What moves is the surface, along its own normal; what counts is the way along the measured
+      // one. The facets of a program differ from the fitted element by half the angle between them.
       const Vec3 n = workpiece_from_datum.direction(feature.points[i].normal);
-      const auto surface = surface_at_point(*trial.workpiece, measured, n);
-      if (!surface) return lost(feature.name, i);
-      if (!surface->segment) continue;  // the blank's own surface stays
-      const auto contact =
-          swept.contact({surface->point + surface->s * n, -n}, surface->s, *surface->segment);
-      const auto program_states = cutter::contact_range(swept, contact, surface->point);
-      // The point is asked along the measured normal; what moves is the surface, along its own. The facets of
-      // a program differ from the fitted element by half the angle between them.
-      const double cosine = surface->normal.dot(n);
+      const double cosine = touch.normal.dot(n);
       const bool is_same = cosine > kSameFace;
-      const Vec3& own = is_same ? surface->normal : n;
+      const Vec3& own = is_same ? touch.normal : n;
       const double lengthened = is_same ? 1.0 / cosine : 1.0;
       for (Eigen::Index k = 0; k < columns; ++k) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (const PathState& program_state : program_states) {
-          const double g = lengthened * gain(parameters[static_cast<std::size_t>(k)], program_state,
-                                             surface->point, own);
+        for (const PathState& state : states) {
+          const double g =
+              lengthened * gain(parameters[static_cast<std::size_t>(k)], state, touch.point, own);
           low = std::min(low, g);
           high = std::max(high, g);
         }

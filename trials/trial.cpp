@@ -170,7 +170,7 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
     auto measurement = metrology::measure(piece.plan, probe, cmm);
     if (!measurement) return measurement.error();
     trial.measurement = *std::move(measurement);
-    trial.wrong_cuts = wrongly_cut_features(piece, *trial.workpiece, trial.measurement);
+    trial.wrong_cuts = wrongly_cut_features(piece, trial.measurement);
   }
   return trial;
 }
@@ -198,9 +198,8 @@ kinematics::Setup setup_of(const TestPiece& piece) {
   setup.table_from_workpiece = piece.placement.table_from_workpiece();
   setup.work_offsets = piece.work_offsets;
   for (const auto& [number, tool] : piece.tools) {
-    const double flutes =
-        tool.flute_length.value > 0.0 ? tool.flute_length.value : tool.length.value;
-    setup.tools[number] = {tool.length.value, tool.length_error.value, flutes};
+    setup.tools[number] = {tool.length.value, tool.length_error.value,
+                           cutter::flute_height(tool).value};
   }
   return setup;
 }
@@ -235,7 +234,7 @@ std::optional<metrology::Touch> WorkpieceProbe::touch(const Vec3& start, const U
                                                       double length_mm) const {
   const auto surface = workpiece_->first_surface({start, direction}, {0.0, length_mm});
   if (!surface) return std::nullopt;
-  return metrology::Touch{surface->point, surface->normal};
+  return metrology::Touch{surface->point, surface->normal, surface->provenance()};
 }
 
 }  // namespace frustum::trials

@@ -6,13 +6,13 @@
 namespace frustum::cutter {
 namespace {
 
-// How far off the cutter a point may be at its own moment: from rounding to twice the accuracy of a ray's
-// interval end. The least that holds is what counts for the other moments, since a rim that leaves the
-// point by a nanometre has gone on by a millimetre.
+// How far off the cutter a point may be at its own state: from rounding to twice the accuracy of a
+// ray's interval end. The least that holds is what counts for the other states, since a rim that
+// leaves the point by a nanometre has gone on by a millimetre.
 constexpr std::array kContactTolerances{1e-10, 1e-9, 1e-8, 1e-7, 2e-6};  // mm
 constexpr double kResolution = 1e-9;
-// A round side seems to touch for as long as it takes to cross the chord that the tolerance cuts off, at
-// most 2 sqrt(2 R 2e-6 mm): 0.02 mm for a cutter of 25 mm radius. That is one moment.
+// A round side seems to touch for as long as it takes to cross the chord that the tolerance cuts
+// off, at most 2 sqrt(2 R 2e-6 mm): 0.02 mm for a cutter of 25 mm radius. That is one at.
 constexpr double kOneState = 0.05;  // mm of tip travel
 
 class PointUnderPass {
@@ -27,26 +27,25 @@ class PointUnderPass {
     is_touched_ = least != kContactTolerances.end();
   }
 
-  [[nodiscard]] bool is_touched_at_its_own_moment() const { return is_touched_; }
+  [[nodiscard]] bool is_touched_at_its_own_state() const { return is_touched_; }
 
-  [[nodiscard]] bool touched(const PathState& moment) const {
+  [[nodiscard]] bool touched(const PathState& at) const {
     const auto& path = swept_.path();
-    const auto& segment = path.segments[moment.segment];
-    const auto pose = kinematics::between(path.from(segment), path.to(segment), moment.t);
+    const auto& segment = path.segments[at.segment];
+    const auto pose = kinematics::between(path.from(segment), path.to(segment), at.t);
     const auto& generatrix = swept_.tool(path.blocks[segment.block].tool).body().generatrix();
     const Vec3 m = point_ - pose.tip;
     const double z = m.dot(pose.axis);
     return std::abs(generatrix.distance((m - z * pose.axis).norm(), z)) <= tolerance_;
   }
 
-  [[nodiscard]] Vec3 tip(const PathState& moment) const {
-    const auto& segment = swept_.path().segments[moment.segment];
-    return kinematics::between(swept_.path().from(segment), swept_.path().to(segment), moment.t)
-        .tip;
+  [[nodiscard]] Vec3 tip(const PathState& at) const {
+    const auto& segment = swept_.path().segments[at.segment];
+    return kinematics::between(swept_.path().from(segment), swept_.path().to(segment), at.t).tip;
   }
 
-  // Walks from a touched moment towards t = `end` (0 or 1), segment by segment, and returns the moments
-  // passed: segment ends, then the last touched moment.
+  // Walks from a touched state towards t = `end` (0 or 1), segment by segment, and returns the
+  // states passed: segment ends, then the last touched one.
   [[nodiscard]] std::vector<PathState> walk(PathState from, double end) const {
     std::vector<PathState> passed;
     const auto& segments = swept_.path().segments;
@@ -77,11 +76,10 @@ class PointUnderPass {
 
 }  // namespace
 
-std::vector<PathState> contact_range(const SweptCutter& swept, const SweepContact& contact,
+std::vector<PathState> contact_range(const SweptCutter& swept, const PathState& here,
                                      const Vec3& point) {
-  const PathState here{contact.segment, contact.t};
   const PointUnderPass under(swept, point, here);
-  if (!under.is_touched_at_its_own_moment()) return {here};
+  if (!under.is_touched_at_its_own_state()) return {here};
   std::vector<PathState> range = under.walk(here, 0.0);
   std::reverse(range.begin(), range.end());
   range.push_back(here);

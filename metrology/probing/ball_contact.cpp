@@ -23,11 +23,16 @@ class Descent {
     auto touch = part_.touch(from, -approach_.outward, approach_.clearance + approach_.reach);
     if (!touch) return std::nullopt;
     last_ = (from - touch->point).dot(approach_.outward.vec());
-    travel_ = std::min(travel_, last_);
+    if (last_ < travel_) {
+      travel_ = last_;
+      resting_on_ = *touch;
+    }
     return touch;
   }
   [[nodiscard]] double last() const { return last_; }
-  [[nodiscard]] Vec3 centre() const { return start_ - travel_ * approach_.outward.vec(); }
+  [[nodiscard]] BallContact contact() const {
+    return {ContactState::contact, start_ - travel_ * approach_.outward.vec(), resting_on_};
+  }
 
   // The part of the travel that no ray has shortened yet, along the arc from a to b.
   void search_arc(const Vec3& a, const Vec3& b) {
@@ -45,6 +50,7 @@ class Descent {
   Vec3 start_;
   double last_ = 0.0;
   double travel_ = HUGE_VAL;
+  Touch resting_on_{};
 };
 
 // The ray from farther out tells a start inside the material from a surface out of reach.
@@ -66,12 +72,12 @@ BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& app
   for (int i = 0; i < kMost; ++i) {
     const auto touch = descent.ray(continuation[2]);
     if (!touch) {
-      if (i == 0) return {why_missed(part, approach), Vec3::Zero()};
+      if (i == 0) return {.state = why_missed(part, approach)};
       break;  // a shifted ray left the part: the ball rests on its edge
     }
     const Vec3 next = touch->normal;
     if ((next - continuation[2]).norm() < close) {
-      return {ContactState::contact, descent.centre()};
+      return descent.contact();
     }
     continuation = {continuation[1], continuation[2], next};
     if (i % 3 != 2) continue;
@@ -83,7 +89,7 @@ BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& app
       continuation[2] = (continuation[2] + ratio / (1.0 - ratio) * after).normalized();
   }
   descent.search_arc(continuation[1], continuation[2]);
-  return {ContactState::contact, descent.centre()};
+  return descent.contact();
 }
 
 }  // namespace frustum::metrology

@@ -30,6 +30,7 @@ enum class ContactState { contact, no_surface, starts_inside };
 struct BallContact {
   ContactState state = ContactState::no_surface;
   Vec3 centre = Vec3::Zero();  // of the ball; only with ContactState::contact
+  Touch touch{};               // what stopped the ball: the point of the surface that it rests on
 };
 
 [[nodiscard]] BallContact touch_with_ball(const SurfaceProbeRef& part,

@@ -3,10 +3,11 @@
 // Model    : blank minus the union of all swept cutters
 // Units    : mm; frame: workpiece
 // Accuracy : 1 nm normal to the surface for the given ToolPath and convex cutters (concave ones:
-//            cutter/sweep/carved_sweep.hpp); each point says its own bound. Rounding: a point is o + s d, and its distance from a cutter is made of
-//            sums and products of coordinates, way and reach, fewer than 32 on the longest path; each is off
-//            by half of 2.2e-16 of a number below S = |o| + |s| + |tip| + reach, so that all together are
-//            below 32 * 2.2e-16 * S: 4e-12 mm at half a metre
+//            cutter/sweep/concave_sweep.hpp); each point has its own bound. Rounding: a point is o
+//            + s d, and its distance from a cutter is made of sums and products of coordinates, way
+//            and reach, fewer than 32 on the longest path; each is off by half of 2.2e-16 of a
+//            number below S = |o| + |s| + |tip| + reach, so that all together are below 32 *
+//            2.2e-16 * S: 4e-12 mm at half a metre
 // Threads  : const member functions may be called from any number of threads
 #pragma once
 
@@ -16,13 +17,15 @@
 
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
+#include "core/provenance.hpp"
 #include "core/ray.hpp"
 #include "cutter/search/swept_cutter.hpp"
 #include "stock/solid/blank.hpp"
 
 namespace frustum::stock {
 
-// A point of the workpiece surface, what made it, and how far it may be from the true surface, normal to it.
+// A point of the workpiece surface, what made it, and how far it may be from the true surface,
+// normal to it.
 struct SurfacePoint {
   double s = 0.0;  // mm along the ray
   Vec3 point = Vec3::Zero();
@@ -32,6 +35,10 @@ struct SurfacePoint {
   double t = 0.0;                          // when in the segment, 0..1
   double sweep_bound = 0.0;  // mm, from what this tool path leaves: solution and rounding
   double bound = 0.0;  // mm, from what the commanded motion leaves: the path's own bound added
+
+  [[nodiscard]] Provenance provenance() const {
+    return {segment, source_line, t, sweep_bound, bound};
+  }
 };
 
 class Workpiece {

@@ -33,7 +33,7 @@ std::vector<PathState> range_at(const SweptCutter& swept, const Vec3& point, con
   EXPECT_EQ(covered.intervals().size(), 1U);
   const Interval& i = covered.intervals().front();
   const auto contact = swept.contact(ray, i.hi, static_cast<std::uint32_t>(i.hi_tag));
-  return contact_range(swept, contact, point);
+  return contact_range(swept, {contact.segment, contact.t}, point);
 }
 
 TEST(ContactRange, ASideFaceTouchesAPointAtOneMoment) {

@@ -214,6 +214,26 @@ TEST(BallContact, RestsOnAnEdge) {
   EXPECT_NEAR(contact.centre.z(), std::sqrt(1.5 * 1.5 - 0.01 * 0.01), 1e-7);
 }
 
+TEST(BallContact, SaysWhatItRestsOn) {
+  const test_part::ImplicitBody ball{[](const Vec3& x) { return x.norm() - 10.0; }, {}};
+  const BallContact contact =
+      touch_with_ball(ball, {Vec3(10, 0.5, 0), UnitVec3::x(), 1.5, 2.0, 2.0});
+  ASSERT_EQ(contact.state, ContactState::contact);
+  EXPECT_NEAR((contact.centre - contact.touch.point).norm(), 1.5, 1e-9);
+  EXPECT_NEAR((contact.centre - 1.5 * contact.touch.normal - contact.touch.point).norm(), 0.0,
+              1e-5);
+  EXPECT_FALSE(contact.touch.provenance);
+  // What a measurement keeps: one touch for each point, with what the probe knows of it.
+  const Measurement measurement = measured({});
+  for (const MeasuredFeature& f : measurement.features) {
+    ASSERT_EQ(f.touches.size(), f.points.size()) << f.name;
+    for (std::size_t i = 0; i < f.points.size(); ++i) {
+      const Vec3 point = measurement.workpiece_from_datum.point(f.points[i].point);
+      EXPECT_LT((f.touches[i].point - point).norm(), 0.01) << f.name << " " << i;
+    }
+  }
+}
+
 TEST(RealPoints, EvaluateLikeTheVirtualOnes) {
   const Measurement virtual_one = measured({.lobe = 0.003});
   std::vector<FeaturePoints> points;

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "tests/trials/step_trial.hpp"
+#include "tests/trials/surface_at_point.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::trials {
@@ -81,7 +82,7 @@ TEST(CutCheck, CountsThePointsOfAFeatureThatLieOnTheUncutBlank) {
   ASSERT_GT(points, 20U);
   EXPECT_EQ(cut.finding("ref.B_a"),
             "feature 'ref.B_a': " + std::to_string(points) + " of " + std::to_string(points) +
-                " measured points lie on the uncut blank, not on what operation 'ref a' cuts");
+                " measured points are on the uncut blank, not on what operation 'ref a' cuts");
   EXPECT_THAT(cut.finding("ref.B_b"), HasSubstr("uncut blank"));
   // The sides of the reference steps stand upright: a low table does not matter to them.
   EXPECT_EQ(cut.finding("ref.S_a"), "");
@@ -118,6 +119,35 @@ TEST(CutCheck, FindsTheSurfaceAtAPointOnlyWithinItsReach) {
   EXPECT_TRUE(surface_at_point(*cut.trial.workpiece, on, up));
   EXPECT_TRUE(surface_at_point(*cut.trial.workpiece, on + 0.9 * kSurfaceSearch * up, up));
   EXPECT_FALSE(surface_at_point(*cut.trial.workpiece, on + 1.1 * kSurfaceSearch * up, up));
+}
+
+TEST(CutCheck, KnowsWhatCutEveryTouchedPointAsTheWorkpieceSaysWhenItIsAskedAgain) {
+  const Cut cut = Cut::with(0.02, {"dz_AY=-60um"});
+  const stock::Workpiece& workpiece = *cut.trial.workpiece;
+  std::size_t points = 0, uncut = 0;
+  for (const auto& feature : cut.trial.measurement.features) {
+    ASSERT_EQ(feature.touches.size(), feature.points.size()) << feature.name;
+    for (const metrology::Touch& touch : feature.touches) {
+      const auto again = surface_at_point(workpiece, touch.point, touch.normal);
+      ASSERT_TRUE(again);
+      ASSERT_TRUE(touch.provenance);
+      EXPECT_LT((again->point - touch.point).norm(), 1e-9);
+      EXPECT_EQ(touch.provenance->segment.has_value(), again->segment.has_value());
+      EXPECT_EQ(touch.provenance->source_line, again->source_line);
+      EXPECT_NEAR(touch.provenance->bound, again->bound, 1e-12);
+      EXPECT_GT(touch.provenance->bound, touch.provenance->sweep_bound - 1e-15);
+      ++points;
+      uncut += again->segment ? 0 : 1;
+    }
+  }
+  EXPECT_GT(points, 100U);
+  EXPECT_GT(uncut, 20U);
+}
+
+TEST(CutCheck, NeedsNoProvenanceOfPointsFromElsewhere) {
+  Cut cut = Cut::with(0.02, {"dz_AY=-60um"});
+  for (auto& feature : cut.trial.measurement.features) feature.touches.clear();
+  EXPECT_TRUE(wrongly_cut_features(cut.piece, cut.trial.measurement).empty());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "tests/trials/cone_trial.hpp"
-#include "trials/cut_check.hpp"
+#include "tests/trials/surface_at_point.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -85,10 +85,10 @@ class ConeCuts {
     Difference d;
     Eigen::Index row = -1;
     for (const auto& feature : base_.measurement.features) {
-      for (const auto& p : feature.points) {
+      for (std::size_t i = 0; i < feature.points.size(); ++i) {
         if (++row % 20 != 0) continue;
-        const Vec3 at = base_.measurement.workpiece_from_datum.point(p.point);
-        const Vec3 n = base_.measurement.workpiece_from_datum.direction(p.normal);
+        const Vec3 at = feature.touches.at(i).point;
+        const Vec3 n = base_.measurement.workpiece_from_datum.direction(feature.points[i].normal);
         const auto here = surface_at_point(*base_.workpiece, at, n);
         const auto a = surface_at_point(*plus.workpiece, at, n);
         const auto b = surface_at_point(*minus.workpiece, at, n);
@@ -111,6 +111,17 @@ class ConeCuts {
   ConeTrial cone_;
   Trial base_{};
 };
+
+TEST(SurfaceGain, RefusesPointsWhoseProvenanceNobodyKnows) {
+  const ConeTrial cone = ConeTrial::on("iwf-bc", coarse_cone());
+  Trial trial;
+  trial.measurement.features = {{.name = "cone", .points = {{}}}};
+  const auto parameters = parameters_named(cone.machine, kErrors);
+  ASSERT_TRUE(parameters);
+  const auto gains = surface_gains(cone.machine, cone.piece, trial, *parameters);
+  ASSERT_FALSE(gains);
+  EXPECT_EQ(gains.error().front().id, "no-provenance"_id);
+}
 
 TEST(SurfaceGainReference, AgreesWithWholeCutsOfTheFiveAxisCone) {
   const ConeCuts cuts;
