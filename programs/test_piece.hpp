@@ -44,7 +44,7 @@ struct TestPiece {
   parser::Dialect dialect = parser::Dialect::fanuc;
   Placement placement{};
   std::map<int, Vec3> work_offsets{};  // 1 = G54 ...: program origin in the table frame
-  std::map<int, cutter::CutterSpec> tools{};
+  cutter::ToolList tools{};
   stock::BlankShape blank{};
   Vec3 blank_origin = Vec3::Zero();  // centre of its bottom, workpiece frame
   metrology::InspectionPlan plan{};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
+#include "cutter/body/cutter_spec.hpp"
 #include "metrology/measurement.hpp"
 
 namespace frustum::report {
@@ -21,11 +22,6 @@ struct InjectedError {
   std::string name{};     // "EB0C"
   std::string written{};  // as the user wrote it: "30 urad"
   std::string meaning{};  // "tilt of axis C about Y"
-};
-
-struct ToolSummary {
-  int number = 0;
-  std::string description{};  // "flat end mill, diameter 12 mm, length 150 mm"
 };
 
 struct AxisRange {
@@ -122,7 +118,7 @@ struct RunReport {
   std::string machine{};    // "IWF, C on B, tilting table"
   std::string structure{};  // "t-(C)-Z-Y-b-X-B-C-w"
   std::string program{};    // file name of the NC program
-  std::vector<ToolSummary> tools{};
+  cutter::ToolList tools{};
   std::vector<InjectedError> errors{};
   metrology::Measurement measurement{};
   std::vector<AxisTrace> traces{};

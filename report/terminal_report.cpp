@@ -103,8 +103,8 @@ void write_head(Page& page, const RunReport& report) {
   const std::string structure = report.structure.empty() ? "" : " [" + report.structure + "]";
   if (!report.machine.empty()) page.labelled("Machine    ", report.machine + structure);
   if (!report.program.empty()) page.labelled("Program    ", report.program);
-  for (const ToolSummary& tool : report.tools) {
-    page.labelled(padded(fmt::format("Tool {}", tool.number), 11, false), tool.description);
+  for (const auto& [number, tool] : report.tools) {
+    page.labelled(padded(fmt::format("Tool {}", number), 11, false), cutter::description(tool));
   }
   if (report.volumes.removed) {
     page.labelled("Removed    ", fixed_text(*report.volumes.removed / 1e3, 2) + " cm3");

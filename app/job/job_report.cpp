@@ -20,20 +20,6 @@ namespace {
 using kinematics::AxisLetter;
 using kinematics::Joint;
 
-std::string describe(const cutter::CutterSpec& tool) {
-  std::string text{cutter::type_row(tool.type).title};
-  if (tool.diameter.value != 0.0) text += fmt::format(", diameter {:g} mm", tool.diameter.value);
-  text += fmt::format(", length {:g} mm", tool.length.value);
-  const auto add_error = [&text](std::string_view name, double value, std::string_view unit) {
-    if (value != 0.0) text += fmt::format(", {} {:g} {}", name, value, unit);
-  };
-  add_error("radius error", tool.radius_error.value * kUmPerMm, "um");
-  add_error("length error", tool.length_error.value * kUmPerMm, "um");
-  add_error("run-out", tool.run_out.value * kUmPerMm, "um");
-  add_error("run-out tilt", tool.run_out_tilt.value * kUradPerRad, "urad");
-  return text;
-}
-
 std::string meaning_of(const kinematics::Machine& machine, const std::string& name) {
   const auto alias = machine.aliases().find(name);
   if (alias != machine.aliases().end()) return alias->second.meaning;
@@ -137,8 +123,7 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
   report.machine = job.machine.name() + ", " + job.machine.title();
   report.structure = job.machine.structure();
   report.program = std::filesystem::path(job.piece.program_file).filename().string();
-  for (const auto& [number, tool] : job.piece.tools)
-    report.tools.push_back({number, describe(tool)});
+  report.tools = job.piece.tools;
   for (const kinematics::ErrorEntry& e : job.errors) {
     report.errors.push_back({e.name, e.written, meaning_of(job.machine, e.name)});
   }

@@ -1,12 +1,15 @@
-// What a tool library says of a tool: its type, the dimensions that the type has, its errors, its holder.
+// A tool: its type, the dimensions that the type has, its errors, its holder. The one value that goes
+// from a job or a tool library to the report; what else is known of a tool is computed from it.
 //
-// Model    : one row a type in cutter_types() tells its name, the keys it takes and the generatrix they make
+// Model    : one row a type in cutter_types() tells its name, the keys it takes and the generatrix
+//             they make
 // Units    : mm, rad; heights from the tip
 // Errors   : generatrix functions say which dimension does not fit the others
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,6 +77,15 @@ struct CutterSpec {
 
   bool operator==(const CutterSpec&) const = default;
 };
+
+using ToolList = std::map<int, CutterSpec>;  // by tool number
+
+// Height of the cutting part above the tip.
+[[nodiscard]] inline Mm flute_height(const CutterSpec& spec) {
+  return spec.flute_length.value > 0.0 ? spec.flute_length : spec.length;
+}
+// As reports print it: "flat end mill, diameter 12 mm, length 150 mm".
+[[nodiscard]] std::string description(const CutterSpec& spec);
 
 struct CutterKey {
   std::string_view name;

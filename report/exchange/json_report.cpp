@@ -13,7 +13,9 @@ using Json = nlohmann::ordered_json;
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json json_number(const std::optional<double>& value) { return value ? json_number(*value) : Json(nullptr); }
+Json json_number(const std::optional<double>& value) {
+  return value ? json_number(*value) : Json(nullptr);
+}
 
 Json vector(const std::vector<double>& values) {
   Json array = Json::array();
@@ -170,8 +172,8 @@ std::string json_report(const RunReport& report) {
     return Json{
         {"name", injected.name}, {"value", injected.written}, {"meaning", injected.meaning}};
   });
-  json["tools"] = array_of(report.tools, [](const ToolSummary& tool) {
-    return Json{{"number", tool.number}, {"description", tool.description}};
+  json["tools"] = array_of(report.tools, [](const auto& tool) {
+    return Json{{"number", tool.first}, {"description", cutter::description(tool.second)}};
   });
   json["volumes"] = {{"blank_mm3", json_number(report.volumes.blank)},
                      {"finished_mm3", json_number(report.volumes.finished)},

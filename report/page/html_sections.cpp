@@ -85,9 +85,9 @@ std::string head_html(const RunReport& report) {
                           report.collisions.size() == 1 ? "" : "s");
   }
   std::string tools;
-  for (const ToolSummary& tool : report.tools) {
-    tools += fmt::format("{}T{} {}", tools.empty() ? "" : "<br>", tool.number,
-                         html_text(tool.description));
+  for (const auto& [number, tool] : report.tools) {
+    tools += fmt::format("{}T{} {}", tools.empty() ? "" : "<br>", number,
+                         html_text(cutter::description(tool)));
   }
   const metrology::Verdict verdict = report.verdict();
   const std::string title = html_text(report.title.empty() ? "Untitled run" : report.title);

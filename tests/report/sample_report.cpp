@@ -169,7 +169,7 @@ RunReport sample_report(std::size_t steps, std::size_t rings) {
   report.machine = "Tilting rotary table, B below C";
   report.structure = "t-(C)-Z-Y-b-X-B-C-w";
   report.program = "cone.nc";
-  report.tools = {{1, "flat end mill, diameter 12 mm, length 150 mm"}};
+  report.tools = {{1, {.diameter = Mm{12.0}, .length = Mm{150.0}}}};
   report.errors = {{"EX0C", "10 um", "offset of axis C from its place, in X"},
                    {"EB0C", "30 urad", "tilt of axis C about Y"},
                    {"EXX", "linear 10um over 186 mm", "positioning of axis X"}};
