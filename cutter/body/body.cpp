@@ -14,7 +14,7 @@ constexpr double kStep = 1e-12;
 
 bool is_concave(const GeneratrixSegment& s) { return is_arc(s) && !s.bulges; }
 
-// Height of the recess in a hollow end: the chain starts on the axis at its apex.
+// Height of the recess in a concave end: the chain starts on the axis at its apex.
 double apex_of(const Generatrix& generatrix) { return generatrix.segments().front().from.z; }
 
 // The outer side: the pieces that rise, from the rim upwards, cut at the recess's apex.
@@ -99,11 +99,11 @@ Body::Body(Generatrix generatrix) : generatrix_(std::move(generatrix)) {
       zones.push_back(zone_of(side[next++]));
     }
     const bool concave = recessed || is_concave(side[first]);
-    (concave ? hulls : slabs_).emplace_back(std::move(zones));
+    (concave ? hulls : sections_).emplace_back(std::move(zones));
     first = next;
   }
-  part_count_ = slabs_.size();
-  slabs_.insert(slabs_.end(), hulls.begin(), hulls.end());
+  part_count_ = sections_.size();
+  sections_.insert(sections_.end(), hulls.begin(), hulls.end());
   finest_concave_ = finest_concave_of(generatrix_, concave());
 }
 
@@ -137,8 +137,8 @@ std::vector<Chord> Body::core(const ToolPose& pose, const Ray& ray, double deepe
     return found;
   }
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  for (const Profile& slab : slabs()) {
-    const auto chord = slab.chord(pose, ray);
+  for (const Profile& section : sections()) {
+    const auto chord = section.chord(pose, ray);
     if (!chord) continue;
     lo = std::min(lo, chord->lo);
     hi = std::max(hi, chord->hi);

@@ -35,14 +35,16 @@ std::optional<Diagnostic> wrong_number(const CutterSpec& spec, std::span<const C
       value = NAN;
     }
     if (!std::isfinite(value)) {
-      return error(fmt::format("tool {} is not a number", key.name), "give mm or degrees");
+      return error("cutter-size"_id, fmt::format("tool {} is not a number", key.name),
+                   "give mm or degrees");
     }
     if (std::abs(value) > kLargest) {
-      return error(fmt::format("tool {} {:g} mm", key.name, value), "no tool is that large");
+      return error("cutter-size"_id, fmt::format("tool {} {:g} mm", key.name, value),
+                   "no tool is that large");
     }
     const bool empty = key.required && value == 0.0 && key.value.index() == 0;
     if (empty || (value < 0.0 && key.bound != Bound::any)) {
-      return error(fmt::format("tool {} {} mm", key.name, value),
+      return error("cutter-size"_id, fmt::format("tool {} {} mm", key.name, value),
                    key.name == "length" ? "give the length from the spindle gauge point to the tip"
                    : key.required       ? "it must be above 0"
                                         : "it must not be negative");
@@ -55,19 +57,21 @@ bool has_diameter(const CutterTypeRow& row) {
   return std::get_if<Mm CutterSpec::*>(&row.keys.front().value) != nullptr;
 }
 
-// The generatrix that cuts: the type's own, larger by the radius error, off the spindle axis by the run-out.
+// The generatrix that cuts: the type's own, larger by the radius error, off the spindle axis by the
+// run-out.
 Result<Chain> real_generatrix(const CutterSpec& spec) {
   const CutterTypeRow& row = type_row(spec.type);
   CutterSpec larger = spec;
   larger.diameter = larger.diameter + 2.0 * spec.radius_error;
   if (has_diameter(row) && !(larger.diameter.value > 0.0)) {
-    return error(fmt::format("radius error {} mm leaves no tool of diameter {} mm",
+    return error("cutter-radius-error"_id,
+                 fmt::format("radius error {} mm leaves no tool of diameter {} mm",
                              spec.radius_error.value, spec.diameter.value),
                  "the error must be smaller than the radius");
   }
   auto nominal = row.generatrix(larger);
   if (!nominal) return nominal.error();
-  // Judged before it is moved: what is wrong with it must be told in its own numbers.
+  // Judged before it is moved: what is wrong with it must be reported in its own numbers.
   if (auto made = Generatrix::make(*nominal); !made) return made.error();
   const Chain chain = has_diameter(row) ? *nominal : widened(*nominal, spec.radius_error.value);
   const double at_tip = spec.run_out.value + spec.run_out_tilt.value * spec.length.value;
@@ -80,7 +84,7 @@ double height_of(const std::vector<CutterRow>& holder) {
   return height;
 }
 
-// A stack of cones standing at `bottom`, drawn from its axis.
+// A stack of cones on `bottom`, drawn from its axis.
 class Stack {
  public:
   explicit Stack(double bottom) : bottom_(bottom), at_{0.0, bottom} {}
@@ -114,6 +118,7 @@ Result<Body> shank_body(const CutterSpec& spec, double flutes_end, double top) {
     const double cone = slope > 0.0 ? (shank - neck) / slope : 0.0;
     if (cone < 0.0 || length + cone > rest * (1.0 + 1e-12)) {
       return error(
+          "cutter-shank"_id,
           fmt::format("a neck of {:.6g} mm above the flutes where {:.6g} mm are free",
                       length + cone, rest),
           "neck_length and the cone of neck_angle end below the holder; the shank is wider");
@@ -133,7 +138,7 @@ Result<Body> holder_body(const CutterSpec& spec, double bottom) {
   Stack stack(bottom);
   for (const auto& [height, lower, upper] : spec.holder) {
     if (!(height > 0.0 && lower > 0.0 && upper > 0.0)) {
-      return error(fmt::format("holder row [{}, {}, {}]", height, lower, upper),
+      return error("cutter-holder"_id, fmt::format("holder row [{}, {}, {}]", height, lower, upper),
                    "height, lower diameter and upper diameter in mm, all above 0");
     }
     stack.widen(0.5 * lower);
@@ -149,12 +154,14 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
   if (auto wrong = wrong_number(spec, row.keys)) return *std::move(wrong);
   if (auto wrong = wrong_number(spec, common_keys())) return *std::move(wrong);
   if (spec.flute_length.value > spec.length.value) {
-    return error(fmt::format("flute length {} mm exceeds the tool length {} mm",
+    return error("cutter-flute-length"_id,
+                 fmt::format("flute length {} mm exceeds the tool length {} mm",
                              spec.flute_length.value, spec.length.value),
                  "the flutes end below the gauge point");
   }
   if (std::abs(spec.length_error.value) >= spec.length.value) {
-    return error(fmt::format("length_error {} mm on a tool of {} mm", spec.length_error.value,
+    return error("cutter-length-error"_id,
+                 fmt::format("length_error {} mm on a tool of {} mm", spec.length_error.value,
                              spec.length.value),
                  "an error of a tool's length is a small part of it");
   }
@@ -168,12 +175,14 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
   const double holder_bottom = spec.length.value - height_of(spec.holder);
   const double shortest = 1e-6;  // mm: below it there is no room and no body
   if (flutes_end > spec.length.value + shortest) {
-    return error(fmt::format("the cutting part is {:.6g} mm high, the tool {} mm long", flutes_end,
+    return error("cutter-flute-length"_id,
+                 fmt::format("the cutting part is {:.6g} mm high, the tool {} mm long", flutes_end,
                              spec.length.value),
                  "the flutes end below the gauge point");
   }
   if (!spec.holder.empty() && holder_bottom < flutes_end - shortest) {
     return error(
+        "cutter-flute-length"_id,
         fmt::format("a holder of {:.6g} mm on a tool of {} mm with {:.6g} mm of flutes",
                     height_of(spec.holder), spec.length.value, flutes_end),
         "the holder reaches from the gauge point down to above the flutes; state flute_length");

@@ -1,8 +1,9 @@
 // A rotating cutter: nominal shape and what is wrong with it.
 //
-// Units : mm, rad. `length` runs from the spindle gauge point to the tip; `flute_length` is the cutting
-//         height above the tip (default: the whole length). Radius and length errors and run-out change
-//         the body that really cuts, not what the controller believes.
+// Units : mm, rad. `length` runs from the spindle gauge point to the tip; `flute_length` is the
+//             cutting
+//         height above the tip (default: the whole length). Radius and length errors and run-out
+//         change the body that really cuts, not what the controller believes.
 // Errors: make() names the value and the limit that it breaks.
 #pragma once
 
@@ -23,10 +24,11 @@ class Cutter {
   [[nodiscard]] static Result<Cutter> make(const CutterSpec& spec);
 
   [[nodiscard]] const CutterSpec& spec() const { return spec_; }
-  // The body that really cuts: radius error and run-out included. The length error moves the tip and
-  // therefore belongs to the tool path.
+  // The body that really cuts: radius error and run-out included. The length error moves the tip
+  // and therefore belongs to the tool path.
   [[nodiscard]] const Body& body() const { return body_; }
-  // What must not touch material: from the flutes up to the holder, and the holder up to the gauge point.
+  // What must not touch material: from the flutes up to the holder, and the holder up to the gauge
+  // point.
   [[nodiscard]] const std::optional<Body>& shank() const { return shank_; }
   [[nodiscard]] const std::optional<Body>& holder() const { return holder_; }
 

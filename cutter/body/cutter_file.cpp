@@ -32,13 +32,14 @@ std::optional<std::vector<CutterRow>> read_measured(const TomlTable& table) {
   const auto numbers = kinematics::read_number_table(file);
   if (!numbers) {
     const Diagnostic& why = numbers.error().front();
-    table.fail("file", fmt::format("{}: {}", file.string(), why.message), why.hint);
+    table.fail("file", why.id, fmt::format("{}: {}", file.string(), why.message), why.hint);
     return rows;
   }
   const auto* z = numbers->column("Z");
   const auto* r = numbers->column("R");
   if (z == nullptr || r == nullptr || z->unit != UnitKind::length || r->unit != UnitKind::length) {
-    table.fail("file", fmt::format("{} has no columns of heights and radii", file.string()),
+    table.fail("file", "cutter-profile"_id,
+               fmt::format("{} has no columns of heights and radii", file.string()),
                "its first line is Z_mm,R_mm");
     return rows;
   }
@@ -128,11 +129,11 @@ ToolList read_tools(const TomlTable& tools, ToolList base) {
     const TomlTable table = tools.table(key);
     const auto number = tool_number(key);
     if (!number) {
-      tools.fail(key, "a tool is named by its number", "for example tool.1");
+      tools.fail(key, "tool-number"_id, "a tool is named by its number", "for example tool.1");
       continue;
     }
     if (const auto [first, is_new] = seen.emplace(*number, key); !is_new) {
-      tools.fail(key, fmt::format("tool {} is described twice", *number),
+      tools.fail(key, "tool-number"_id, fmt::format("tool {} is described twice", *number),
                  fmt::format("first as tool.{}", first->second));
       continue;
     }
@@ -141,7 +142,8 @@ ToolList read_tools(const TomlTable& tools, ToolList base) {
       std::vector<int> numbers;
       for (const auto& [n, spec] : base) numbers.push_back(n);
       tools.fail(
-          key, fmt::format("the tool library has no tool {} to change", *number),
+          key, "undefined-tool"_id,
+          fmt::format("the tool library has no tool {} to change", *number),
           fmt::format("it has {}; a tool of the job's own needs a type", fmt::join(numbers, ", ")));
       for (const std::string& inner : table.keys()) static_cast<void>(table.has(inner));
       continue;

@@ -12,7 +12,8 @@
 namespace frustum::cutter {
 namespace {
 
-// Ends that people write with rounded numbers meet within this; below any cutter's own roundness, mm.
+// Ends that people write with rounded numbers meet within this; below any cutter's own roundness,
+// mm.
 constexpr double kMeets = 1e-9;
 
 MeridianPoint operator-(const MeridianPoint& a, const MeridianPoint& b) {
@@ -23,7 +24,7 @@ double dot(const MeridianPoint& a, const MeridianPoint& b) { return a.r * b.r + 
 double length(const MeridianPoint& a) { return std::hypot(a.r, a.z); }
 bool finite(const MeridianPoint& p) { return std::isfinite(p.r) && std::isfinite(p.z); }
 
-// The body lies to the left of the chain: an arc that bulges turns left.
+// The body is to the left of the chain: an arc that bulges turns left.
 double turn_of(const GeneratrixSegment& s) { return s.bulges ? 1.0 : -1.0; }
 
 // True when the direction `v` from the centre points at the arc.
@@ -62,19 +63,22 @@ std::string name_of(std::size_t index) {
 
 std::optional<Diagnostic> wrong_arc(const GeneratrixSegment& s, std::size_t i) {
   if (!finite(s.centre) || !std::isfinite(s.arc_radius) || s.arc_radius < 0.0) {
-    return error(fmt::format("{} has an arc without a centre and radius", name_of(i)),
+    return error("cutter-profile"_id,
+                 fmt::format("{} has an arc without a centre and radius", name_of(i)),
                  "an arc needs a radius above 0");
   }
   if (!is_arc(s)) return std::nullopt;
   for (const MeridianPoint& end : {s.from, s.to}) {
     const double off = length(end - s.centre) - s.arc_radius;
     if (std::abs(off) > kMeets) {
-      return error(fmt::format("{}: an end of the arc lies {} mm off its circle", name_of(i), off),
+      return error("cutter-profile"_id,
+                   fmt::format("{}: an end of the arc is {} mm off its circle", name_of(i), off),
                    "both ends must have the arc's radius as distance from its centre");
     }
   }
   if (!(turn_of(s) * cross(s.from - s.centre, s.to - s.centre) > 0.0)) {
     return error(
+        "cutter-profile"_id,
         fmt::format("{} is an arc of half a turn or more, or turns the other way", name_of(i)),
         "divide it; an arc bulges when its centre is on the body's side");
   }
@@ -85,14 +89,15 @@ std::optional<Diagnostic> wrong_segment(const std::vector<GeneratrixSegment>& ch
                                         std::size_t i) {
   const GeneratrixSegment& s = chain[i];
   if (!finite(s.from) || !finite(s.to)) {
-    return error(fmt::format("{} has an end that is not a number", name_of(i)),
+    return error("cutter-profile"_id, fmt::format("{} has an end that is not a number", name_of(i)),
                  "give r and z in mm");
   }
   if (length(s.to - s.from) <= kMeets) {
-    return error(fmt::format("{} has no length", name_of(i)), "leave it out");
+    return error("cutter-profile"_id, fmt::format("{} has no length", name_of(i)), "leave it out");
   }
   if (i > 0 && length(s.from - chain[i - 1].to) > kMeets) {
     return error(
+        "cutter-profile"_id,
         fmt::format("a gap of {:g} mm before {}", length(s.from - chain[i - 1].to), name_of(i)),
         "each segment starts where the one before ends");
   }
@@ -100,7 +105,8 @@ std::optional<Diagnostic> wrong_segment(const std::vector<GeneratrixSegment>& ch
   const auto inmost = arc_point(s, {-1.0, 0.0});
   const bool last = i + 1 == chain.size();
   if (s.to.r < 0.0 || (s.to.r == 0.0 && !last) || (inmost && inmost->r <= 0.0)) {
-    return error(fmt::format("{} reaches the tool axis or passes it", name_of(i)),
+    return error("cutter-profile"_id,
+                 fmt::format("{} reaches the tool axis or passes it", name_of(i)),
                  "the outline leaves the axis at its start and may return to it only at the top");
   }
   return std::nullopt;
@@ -117,20 +123,23 @@ std::optional<Diagnostic> turns_back(const std::vector<GeneratrixSegment>& chain
       if (piece.to.z > piece.from.z) rising = true;
       if (rising && piece.to.z < piece.from.z - kMeets) {
         return error(
+            "cutter-profile"_id,
             fmt::format("{} falls towards the tip after the outline has risen", name_of(i)),
             "from its lowest point on the outline may only rise or step in and out");
       }
     }
     if (i == 0 || !horizontal(s) || !horizontal(chain[i - 1]) || is_arc(s)) continue;
     if ((s.to.r - s.from.r) * (chain[i - 1].to.r - chain[i - 1].from.r) < 0.0) {
-      return error(fmt::format("{} runs back on the one before", name_of(i)), "leave both out");
+      return error("cutter-profile"_id, fmt::format("{} runs back on the one before", name_of(i)),
+                   "leave both out");
     }
   }
   return std::nullopt;
 }
 
-// The material between a hollow end and the flank, at its thinnest over the heights that both share. The
-// wall is looked at in 256 places: it may be thin, and a recess that leaves none is a mistake in the data.
+// The material between a concave end and the flank, at its thinnest over the heights that both
+// share. The wall is looked at in 256 places: it may be thin, and a recess that leaves none is a
+// mistake in the data.
 double thinnest_wall(const GeneratrixSegment& recess, const GeneratrixSegment& flank,
                      double bottom) {
   constexpr int kPlaces = 256;
@@ -153,7 +162,7 @@ std::optional<Diagnostic> crosses_itself(const std::vector<GeneratrixSegment>& c
     for (const GeneratrixSegment& flank : pieces) {
       if (flank.to.z <= flank.from.z) continue;
       if (thinnest_wall(recess, flank, bottom) <= 0.0) {
-        return error("the hollow end of the outline crosses its flank",
+        return error("cutter-profile"_id, "the concave end of the outline crosses its flank",
                      "the recess must stay inside the outer side");
       }
     }
@@ -162,19 +171,24 @@ std::optional<Diagnostic> crosses_itself(const std::vector<GeneratrixSegment>& c
 }
 
 std::optional<Diagnostic> wrong_place(const std::vector<GeneratrixSegment>& chain, double bottom) {
-  if (chain.empty()) return error("an outline without segments", "give lines and arcs from r = 0");
+  if (chain.empty())
+    return error("cutter-profile"_id, "an outline without segments",
+                 "give lines and arcs from r = 0");
   if (chain.front().from.r != 0.0) {
-    return error(fmt::format("the outline starts {} mm off the tool axis", chain.front().from.r),
+    return error("cutter-profile"_id,
+                 fmt::format("the outline starts {} mm off the tool axis", chain.front().from.r),
                  "it starts at r = 0");
   }
   double lowest = chain.front().from.z;
   for (const GeneratrixSegment& s : monotone_in_height(chain)) lowest = std::min(lowest, s.to.z);
   if (!(std::abs(lowest - bottom) <= kMeets)) {
-    return error(fmt::format("the lowest point of the outline is at z = {} mm", lowest),
+    return error("cutter-profile"_id,
+                 fmt::format("the lowest point of the outline is at z = {} mm", lowest),
                  fmt::format("heights count from the lowest point: it has z = {}", bottom));
   }
   if (!(chain.back().to.z > std::max(bottom + kMeets, chain.front().from.z))) {
     return error(
+        "cutter-profile"_id,
         fmt::format("the outline ends at z = {} mm, not above its start", chain.back().to.z),
         "the last point is the top of the body");
   }

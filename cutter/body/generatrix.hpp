@@ -1,13 +1,18 @@
-// The meridian of a body of revolution: straight lines and arcs in the half-plane of radius and height.
+// The meridian of a body of revolution: straight lines and arcs in the half-plane of radius and
+// height.
 //
-// Model    : a chain of segments from the tool axis, round the end and up the side, to the top; a flat top
-//            face closes it. The body is what lies between the chain and the axis. Concave parts (a hollow
-//            end, a waist, an inside radius) are ordinary. From the lowest point on the chain never falls:
-//            the outer radius is a function of height, with steps
-// Units    : mm; frame: tool (r from the axis, z from the tip towards the spindle; the lowest point has z = 0,
+// Model    : a chain of segments from the tool axis, round the end and up the side, to the top; a
+//             flat top
+//            face closes it. The body is what is between the chain and the axis. Concave parts (a
+//            concave end, a waist, an inside radius) are ordinary. From the lowest point on the
+//            chain never falls: the outer radius is a function of height, with steps
+// Units    : mm; frame: tool (r from the axis, z from the tip towards the spindle; the lowest point
+//             has z = 0,
 //            or `bottom` for a shank or holder above the cutting part)
-// Errors   : make() names the segment that is no part of such a chain: gaps, r < 0, points that are not
-//            numbers, an arc whose ends are not on its circle, a chain that turns back on or crosses itself
+// Errors   : make() names the segment that is no part of such a chain: gaps, r < 0, points that are
+//             not
+//            numbers, an arc whose ends are not on its circle, a chain that turns back on or
+//            crosses itself
 // Accuracy : distance() within 1e-12 mm for bodies below 1 m
 #pragma once
 
@@ -37,7 +42,8 @@ struct GeneratrixSegment {
 [[nodiscard]] GeneratrixSegment line(MeridianPoint from, MeridianPoint to);
 [[nodiscard]] GeneratrixSegment arc(MeridianPoint from, MeridianPoint to, MeridianPoint centre,
                                     bool bulges = true);
-// The same chain, with arcs cut where they turn in height, so that z rises, falls or stays along each.
+// The same chain, with arcs cut where they turn in height, so that z rises, falls or stays along
+// each.
 [[nodiscard]] std::vector<GeneratrixSegment> monotone_in_height(
     std::span<const GeneratrixSegment> segments);
 // Radius of such a piece, not horizontal, at a height between its ends.

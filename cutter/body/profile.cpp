@@ -10,8 +10,8 @@
 namespace frustum::cutter {
 namespace {
 
-// The ray in the tool's cylindrical terms, counted from a place near the cutter, where nothing cancels:
-// rho^2 = rho2 + 2 bend u + v2 u^2 and z = z0 + dz u at s = s0 + u.
+// The ray in the tool's cylindrical terms, counted from a place near the cutter, where nothing
+// cancels: rho^2 = rho2 + 2 bend u + v2 u^2 and z = z0 + dz u at s = s0 + u.
 struct ToolRay {
   double s0 = 0.0;
   double rho2 = 0.0;
@@ -120,14 +120,15 @@ Span sphere_span(const ToolRay& ray, double radius, double centre) {
   return below_parabola(a, b, ray.rho2 + h * h - radius * radius);
 }
 
-// How far a point is from the circle of a torus across the axis. Inside the circle of an ordinary torus the
-// tube's height alone counts; of a lens (negative major radius) the outer side is all there is.
+// How far a point is from the circle of a torus across the axis. Inside the circle of an ordinary
+// torus the tube's height alone counts; of a lens (negative major radius) the outer side is all
+// there is.
 double beside_circle(double rho, double major) {
   return major < 0.0 ? rho - major : std::max(0.0, rho - major);
 }
 
-// The points within `tube` of the circle, or of the disc in it, inside `within`. The squared distance is a
-// convex function of u, so Newton's steps from outside never pass the end.
+// The points within `tube` of the circle, or of the disc in it, inside `within`. The squared
+// distance is a convex function of u, so Newton's steps from outside never pass the end.
 Span torus_span(const ToolRay& ray, double major, double tube, double centre, const Span& within) {
   const Span outer = overlap(cylinder_span(ray, major + tube), within);
   if (outer.empty()) return kNothing;

@@ -1,8 +1,10 @@
-// The generatrix of a cutter: zones stacked along the tool axis, together one convex body of revolution.
+// The generatrix of a cutter: zones stacked along the tool axis, together one convex body of
+// revolution.
 //
-// Model    : radius r(z) over height z above the tip, z in [bottom, height]; a zone is the part of a cylinder,
-//            cone, sphere or torus about the tool axis between two heights; r(z) is concave over all zones, so
-//            that a ray meets the body in one interval
+// Model    : radius r(z) over height z above the tip, z in [bottom, height]; a zone is the part of
+//             a cylinder,
+//            cone, sphere or torus about the tool axis between two heights; r(z) is concave over
+//            all zones, so that a ray meets the body in one interval
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
 // Accuracy : chords within 1e-12 mm for bodies within 1 m of the ray's origin
 #pragma once
@@ -40,7 +42,7 @@ struct Zone {
 [[nodiscard]] Zone sphere_zone(double radius, double centre, double z_lo, double z_hi);
 [[nodiscard]] Zone torus_zone(double major, double minor, double centre, double z_lo, double z_hi);
 
-// What of a profile an end of a chord lies on: a zone by its index, or one of the flat ends.
+// What of a profile an end of a chord is on: a zone by its index, or one of the flat ends.
 using ProfileFace = std::int32_t;
 inline constexpr ProfileFace kBottomFace = -1;
 inline constexpr ProfileFace kTopFace = -2;
@@ -73,8 +75,8 @@ class Profile {
   [[nodiscard]] double support(double u) const;
   // The same for a direction of any length: `across` of it normal to the axis, u along.
   [[nodiscard]] double support(double across, double u) const;
-  // Outward normal of a face at a point on it. A pointed end has many: that along the axis, or, if it leans
-  // more towards that direction, one of the flank's.
+  // Outward normal of a face at a point on it. A pointed end has many: that along the axis, or, if
+  // it leans more towards that direction, one of the flank's.
   [[nodiscard]] Facing facing(ProfileFace face, const ToolPose& pose, const Vec3& point,
                               const Vec3& towards = Vec3::Zero()) const;
   [[nodiscard]] Vec3 normal_of(ProfileFace face, const ToolPose& pose, const Vec3& point) const;

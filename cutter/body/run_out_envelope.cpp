@@ -26,7 +26,8 @@ GeneratrixSegment mirrored(const GeneratrixSegment& s, double about) {
   return out;
 }
 
-// Height at which a piece between two heights has the radius `r` (one of its ends lies on either side).
+// Height at which a piece between two heights has the radius `r` (one of its ends is on either
+// side).
 double height_at(const GeneratrixSegment& s, double r) {
   if (s.arc_radius == 0.0) {
     return s.from.z + (r - s.from.r) / (s.to.r - s.from.r) * (s.to.z - s.from.z);
@@ -36,7 +37,8 @@ double height_at(const GeneratrixSegment& s, double r) {
   return 0.5 * (s.from.z + s.to.z) > s.centre.z ? s.centre.z + half : s.centre.z - half;
 }
 
-// The part of a chain up from the axis within radius `r`, and the part beyond it from the crossing on.
+// The part of a chain up from the axis within radius `r`, and the part beyond it from the crossing
+// on.
 struct Divided {
   Chain within;
   Chain beyond;
@@ -69,7 +71,8 @@ Chain narrowed(const Chain& recess, double by) {
   return out;
 }
 
-// The dimple that a point leaves on the spindle axis: the end within `offset`, seen from the other side.
+// The dimple that a point leaves on the spindle axis: the end within `offset`, seen from the other
+// side.
 Chain dimple(const Chain& within, double offset) {
   Chain out;
   for (auto s = within.rbegin(); s != within.rend(); ++s) out.push_back(mirrored(*s, offset));
@@ -94,7 +97,7 @@ struct Ends {
   Chain recess;  // falls from the axis to the rim
   Chain flank;   // rises
   MeridianPoint inner;
-  MeridianPoint outer;  // the end face between the two lies at the lowest height
+  MeridianPoint outer;  // the end face between the two is at the lowest height
 };
 
 Ends ends_of(const Chain& chain) {
@@ -133,6 +136,7 @@ Result<Chain> with_run_out(const Chain& chain, double offset, double tilt) {
     const Divided flank = divided_at(ends.flank, offset);
     if (flank.beyond.empty()) {
       return error(
+          "cutter-run-out"_id,
           fmt::format("run-out {:g} mm at the tip of a tool that is nowhere wider", offset),
           "the run-out at the tip must be smaller than the radius");
     }

@@ -16,8 +16,9 @@ Result<ToolList> cutters_of(const Result<parser::ToolTable>& table,
     tools.emplace(number, CutterSpec{.diameter = {tool.diameter}, .length = {length}});
   }
   if (!tools.empty()) return tools;
-  Diagnostic none = error("the tool table has no tool with a diameter and a length",
-                          "one tool a line: T1 P1 D12 Z100 ; remark");
+  Diagnostic none =
+      error("empty-tool-table"_id, "the tool table has no tool with a diameter and a length",
+            "one tool a line: T1 P1 D12 Z100 ; remark");
   none.file = file.string();
   return none;
 }

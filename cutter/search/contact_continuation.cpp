@@ -15,7 +15,7 @@ namespace {
 
 using kinematics::ToolPath;
 
-// A cutter that stands this far from the contact is outside of the window (mm).
+// A cutter that is this far from the contact is outside of the window (mm).
 constexpr double kBeside = 0.1;
 // And so are more segments than these on each side of it.
 constexpr std::uint32_t kWindow = 40;
@@ -75,10 +75,11 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
                      std::ranges::equal(path.blocks, old.blocks, same_tool);
   if (!alike) {
     return error(
-        fmt::format("the changed tool path has {} stretches in {} blocks, the nominal one {} in {}",
-                    path.segments.size(), path.blocks.size(), old.segments.size(),
-                    old.blocks.size()),
-        "contacts are followed only onto a path with the same stretches, blocks and tools");
+        "different-path"_id,
+        fmt::format(
+            "the changed tool path has {} path segments in {} blocks, the nominal one {} in {}",
+            path.segments.size(), path.blocks.size(), old.segments.size(), old.blocks.size()),
+        "contacts are followed only onto a path with the same path segments, blocks and tools");
   }
   if (const auto fault = half_turn(path)) return *fault;
   double displacement = 0.0;
@@ -113,9 +114,10 @@ ChangedPath::ChangedPath(std::shared_ptr<const std::map<int, Cutter>> tools, Too
   for (const auto& block : path_.blocks) body_of_block_.push_back(&tools_->at(block.tool).body());
 }
 
-// The segments beside those that were solved, up to the end of the window. The plane that touches the cutter
-// where the two sides part holds the nearest one back: it touches one end of it, so that its distance, less
-// than linear by at most a quarter of what it is at the other end, stays. The others each have their own plane.
+// The segments beside those that were solved, up to the end of the window. The plane that touches
+// the cutter where the two sides part holds the nearest one back: it touches one end of it, so that
+// its distance, less than linear by at most a quarter of what it is at the other end, stays. The
+// others each have their own plane.
 bool ChangedPath::holds_back(const TangentPlane& plane, const SeparatingPlane& end,
                              const Vec3& point, const Side& side) const {
   const auto pose_beyond = [&](std::uint32_t segment) -> const ToolPose& {
@@ -158,7 +160,8 @@ std::optional<SweepContact> ChangedPath::follow(const ContactContinuation& conti
   for (;;) {
     const Vec3 point = continuation.ray.at(best.s);
     const ToolPose pose = motion_of(best.segment).at(best.t);
-    const SeparatingPlane end(body, continuation.ray, {best.s, best.slab, best.face, pose}, true);
+    const SeparatingPlane end(body, continuation.ray, {best.s, best.section, best.face, pose},
+                              true);
     if (!holds_back(*left, end, point, {first - 1, first - continuation.first, false})) {
       if (first == continuation.first || own - first == kFollowed) return std::nullopt;
       --first;

@@ -1,10 +1,12 @@
-// A contact found once and followed when the tool path changes a little: the same answer, much faster.
+// A contact found once and followed when the tool path changes a little: the same answer, much
+// faster.
 //
-// Model    : a continuation keeps a contact of the nominal path, the segments around it and the distance to all
-//            others. On a changed path the contact is solved anew in its own segment or the next ones. Planes
-//            that touch the cutter prove, pose by pose, that nothing else of the window reaches beyond; the
-//            distance proves it for the rest. What cannot be proven is not answered: then the whole sweep is
-//            to be asked
+// Model    : a continuation keeps a contact of the nominal path, the segments around it and the
+//             distance to all
+//            others. On a changed path the contact is solved anew in its own segment or the next
+//            ones. Planes that touch the cutter prove, pose by pose, that nothing else of the
+//            window reaches beyond; the distance proves it for the rest. What cannot be proven is
+//            not answered: then the whole sweep is to be asked
 // Units    : mm; frame: workpiece
 // Errors   : on() refuses a path with other segments, blocks or tools than the nominal one
 // Accuracy : that of SweptCutter::end_of_void
@@ -65,7 +67,8 @@ class ChangedPath {
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // by tool number: bodies are pointed to
   std::vector<const Body*> body_of_block_{};
   double displacement_;
-  // Of each segment: how much less than linear the distance of a plane may be that goes with a cutter (mm).
+  // Of each segment: how much less than linear the distance of a plane may be that goes with a
+  // cutter (mm).
   std::vector<double> departures_{};
 };
 

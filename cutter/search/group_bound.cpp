@@ -1,4 +1,4 @@
-#include "cutter/search/supporting_plane.hpp"
+#include "cutter/search/group_bound.hpp"
 
 #include <limits>
 
@@ -16,7 +16,7 @@ double most_lost(const SupportingPlane& plane, const PoseGroup& group, const Vec
   const double turned = group.axis_shift;
   if (turned > kFarTurned) return std::numeric_limits<double>::infinity();
   const Vec3& axis = group.representative.axis;
-  const double by_tip = farthest_tip(group, plane.normal_square_to(axis));
+  const double by_tip = farthest_tip(group, plane.normal_across(axis));
   if (turned == 0.0) return by_tip;
   const Vec3 c = plane.lateral * y.dot(axis) * plane.side - plane.axial * y;
   return by_tip + farthest_axis(group, c) + normal_turn(group) * group.tip_shift +

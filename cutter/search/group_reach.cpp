@@ -3,18 +3,21 @@
 #include <algorithm>
 
 #include "core/constants.hpp"
-#include "cutter/search/tangent_plane.hpp"
+#include "cutter/search/group_bound.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
+#include "cutter/sweep/tangent_plane.hpp"
 
 namespace frustum::cutter {
 namespace {
 
-// Below this cosine between ray and surface the touching planes bound badly; the grown cutter helps.
+// Below this cosine between ray and surface the touching planes bound badly; the grown cutter
+// helps.
 constexpr double kGrazing = 0.02;
 // And where the axes of a group differ by more than this (rad).
 constexpr double kMuchTurned = 0.1;
 
-// Beyond what place along the ray no pose of the group reaches, by the plane that touches the representative.
+// Beyond what place along the ray no pose of the group reaches, by the plane that touches the
+// representative.
 double crossing(const TangentPlane& plane, const PoseGroup& group, const Ray& ray) {
   const double fall = plane.along - normal_turn(group);
   if (!(fall > 0.0)) return kInfinity;

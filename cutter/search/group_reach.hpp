@@ -1,7 +1,9 @@
 // Where along a ray the cutter may cover anything at the poses of a group.
 //
-// Model    : the planes that touch the representative where the ray enters and leaves it, moved out by the group's
-//            bounds; where they bound badly, or where the ray misses the representative, the representative grown all round
+// Model    : the planes that touch the representative where the ray enters and leaves it, moved out
+//             by the group's
+//            bounds; where they bound badly, or where the ray misses the representative, the
+//            representative grown all round
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
@@ -25,7 +27,7 @@ inline constexpr GroupReach kNoReach{
     std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
-// Which ends are worth a bound; the other may be told as infinite.
+// Which ends are worth a bound; the other may be reported as infinite.
 struct WantedEnds {
   bool lo = true;
   bool hi = true;

@@ -1,12 +1,16 @@
-// The poses of a tool path in groups of groups, each with what bounds its sweep from one known pose.
+// The poses of a tool path in groups of groups, each with what bounds its sweep from one known
+// pose.
 //
-// Model    : a group holds segments that are near each other in place and direction. All their poses lie in
-//            an oriented box around the representative, a pose that the path really takes: the cutter standing
-//            there is covered for certain, and a plane that touches it there, moved out by the box, bounds
-//            what all of the group covers. A group along a surface is flat, so that the bound is tight: far
-//            tighter than a box of the swept volume, which overlaps all its neighbours
+// Model    : a group holds segments that are near each other in place and direction. All their
+//             poses lie in
+//            an oriented box around the representative, a pose that the path really takes: the
+//            cutter there is covered for certain, and a plane that touches it there, moved out by
+//            the box, bounds what all of the group covers. A group along a surface is flat, so that
+//            the bound is tight: far tighter than a box of the swept volume, which overlaps all its
+//            neighbours
 // Units    : mm; frame: workpiece
-// Shape    : a binary tree, siblings side by side, up to four segments a leaf; 160 to 310 bytes a segment
+// Shape    : a binary tree, siblings side by side, up to four segments a leaf; 160 to 310 bytes a
+//             segment
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
 #pragma once
@@ -48,8 +52,8 @@ struct PoseGroup {
 
 class PoseTree {
  public:
-  // `boxes` holds the box of every segment of the path; the tree is over `segments`. `reach`: no point of
-  // the cutter is farther than this from the tip.
+  // `boxes` holds the box of every segment of the path; the tree is over `segments`. `reach`: no
+  // point of the cutter is farther than this from the tip.
   PoseTree(const kinematics::ToolPath& path, std::span<const Box> boxes,
            std::vector<std::uint32_t> segments, double reach);
 

@@ -1,11 +1,14 @@
 // What the sweeps of one tool cover of a ray, found from coarse groups of poses to single segments.
 //
-// Model    : groups that cover nothing beyond what is covered already, by their own bounds or by a plane at
-//            an end of the cover, are left aside; of the others the representative, standing still, adds what it
-//            covers, and the halves are asked, what promises most first, down to the segments themselves
+// Model    : groups that cover nothing beyond what is covered already, by their own bounds or by a
+//             plane at
+//            an end of a swept interval, are left aside; of the others the representative adds what
+//            it covers, and the halves are asked, what promises most first, down to the segments
+//            themselves
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
-// Accuracy : ends within twice kSearchTolerance normal to the swept surface, for the solution and for what
+// Accuracy : ends within twice kSearchTolerance normal to the swept surface, for the solution and
+//             for what
 //            is left aside, and within what the segments themselves allow (SweptCutter::accuracy)
 // Source   : ours
 #pragma once
@@ -31,7 +34,7 @@ struct ToolSweep {
 struct SweptIntervalEnd {
   double s = 0.0;
   std::uint32_t segment = 0;
-  std::uint32_t slab = 0;  // of the body, or kInAHollow
+  std::uint32_t section = 0;  // of the body, or kConcaveSurface
   double t = 0.0;
   ProfileFace face = kTopFace;
 };
@@ -48,13 +51,14 @@ struct RayQuestion {
   std::uint32_t first_excluded = 0;
 };
 
-// Everything covered within the span: disjoint, ascending. Intervals may reach beyond the span; an end
-// beyond it is a bound, not an end of the cover. `cover` is what other tools cover already.
+// Everything covered within the span: disjoint, ascending. Intervals may reach beyond the span; an
+// end beyond it is a bound, not an end of a swept interval. `swept` is what other tools cover
+// already.
 void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
-                           std::vector<SweptInterval>& cover);
+                           std::vector<SweptInterval>& swept);
 
-// Moves `front` up to the end of what covers it without a gap; false if nothing does. Gaps of less than
-// `gap` are passed over.
+// Moves `front` up to the end of what covers it without a gap; false if nothing does. Gaps of less
+// than `gap` are passed over.
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front);
 

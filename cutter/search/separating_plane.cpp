@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cutter/search/group_bound.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
 
 namespace frustum::cutter {
@@ -10,17 +11,17 @@ namespace frustum::cutter {
 SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end,
                                  bool leaving)
     : end_(ray.at(end.s)), beyond_(leaving ? ray.direction : Vec3(-ray.direction)) {
-  if (end.slab == kInAHollow) return;
-  const Profile& slab = body.slabs()[end.slab];
+  if (end.section == kConcaveSurface) return;
+  const Profile& section = body.sections()[end.section];
   body_ = &body;
   if (end.face >= 0) {
-    const Zone& zone = slab.zones()[static_cast<std::size_t>(end.face)];
+    const Zone& zone = section.zones()[static_cast<std::size_t>(end.face)];
     if (zone.kind != ZoneKind::cone) {
       round_ = &zone;
       return;
     }
   }
-  const Facing facing = slab.facing(end.face, end.pose, end_, beyond_);
+  const Facing facing = section.facing(end.face, end.pose, end_, beyond_);
   axial_ = facing.axial;
   lateral_ = facing.lateral;
   offset_ = support(lateral_, axial_);
@@ -28,7 +29,8 @@ SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndCont
 
 double SeparatingPlane::support(double lateral, double axial) const {
   double most = -std::numeric_limits<double>::infinity();
-  for (const Profile& slab : body_->slabs()) most = std::max(most, slab.support(lateral, axial));
+  for (const Profile& section : body_->sections())
+    most = std::max(most, section.support(lateral, axial));
   return most;
 }
 
@@ -67,7 +69,7 @@ Overreach SeparatingPlane::overreach(const PoseGroup& group) const {
   if (body_ == nullptr) return {};
   const std::optional<SupportingPlane> plane = touching(group.representative);
   if (!plane) return {};
-  const Vec3 n = plane->normal_square_to(group.representative.axis);
+  const Vec3 n = plane->normal_across(group.representative.axis);
   const double fall = n.dot(beyond_) - normal_turn(group);
   if (!(fall > 0.0)) return {};
   const Vec3 m = end_ - group.representative.tip;
@@ -86,7 +88,7 @@ bool SeparatingPlane::holds(const SegmentMotion& motion) const {
           ? 0.0
           : motion.plane_departure(1.0, std::max((end_ - from.tip).norm(), (end_ - to.tip).norm()),
                                    (to.tip - from.tip).norm());
-  const Vec3 n = plane->normal_square_to(from.axis);
+  const Vec3 n = plane->normal_across(from.axis);
   if (!(n.dot(end_ - from.tip) - plane->offset + kSearchTolerance >= departure)) return false;
   if (!(n.dot(beyond_) > 1.1 * motion.turn())) return false;
   return plane->height(to, end_) + kSearchTolerance >= departure;

@@ -1,9 +1,12 @@
-// A plane through the end of what is covered, carried along with the cutter: proof that it goes no farther.
+// A plane through the end of what is covered that goes with the cutter: proof that it goes no
+// farther.
 //
-// Model    : where a cutter touches the end of what is covered it has a tangent plane. Another cutter near by
-//            has its own plane of that latitude, turned about its axis towards the end; if the end lies
-//            beyond that plane, and the ray leaves it, then this cutter covers nothing beyond the end. For a
-//            group of poses, or the motion from pose to pose, the plane's distance is bounded
+// Model    : where a cutter touches the end of what is covered it has a tangent plane. Another
+//             cutter near by
+//            has its own plane of that latitude, turned about its axis towards the end; if the end
+//            is beyond that plane, and the ray leaves it, then this cutter covers nothing beyond
+//            the end. For a group of poses, or the motion from pose to pose, the plane's distance
+//            is bounded
 // Units    : mm; frame: workpiece
 // Errors   : none; false says nothing
 // Accuracy : proofs hold but for kSearchTolerance normal to the surface
@@ -14,15 +17,15 @@
 
 #include "cutter/body/body.hpp"
 #include "cutter/search/pose_tree.hpp"
-#include "cutter/search/supporting_plane.hpp"
 #include "cutter/sweep/segment_motion.hpp"
+#include "cutter/sweep/supporting_plane.hpp"
 
 namespace frustum::cutter {
 
-// Which slab of a body a cover's end lies on, and where the body stands then.
+// Which convex section of a body the end of a swept interval is on, and the body's pose then.
 struct EndContact {
-  double s = 0.0;          // mm along the ray
-  std::uint32_t slab = 0;  // or kInAHollow
+  double s = 0.0;             // mm along the ray
+  std::uint32_t section = 0;  // or kConcaveSurface
   ProfileFace face = kTopFace;
   ToolPose pose{};
 };
@@ -35,9 +38,9 @@ struct Overreach {
 
 class SeparatingPlane {
  public:
-  // Holds nothing back: for ends that no convex slab makes.
+  // Holds nothing back: for ends that no convex section makes.
   SeparatingPlane() = default;
-  // `leaving`: what is covered lies before the end, else behind it.
+  // `leaving`: what is covered is before the end, else after it.
   SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
 
   [[nodiscard]] Overreach overreach(const PoseGroup& group) const;
@@ -45,7 +48,7 @@ class SeparatingPlane {
   [[nodiscard]] bool holds(const SegmentMotion& motion) const;
 
  private:
-  // The plane that touches the body standing there, square to the way to the end.
+  // The plane that touches the body at the pose, perpendicular to the way to the end.
   [[nodiscard]] std::optional<SupportingPlane> touching(const ToolPose& pose) const;
   [[nodiscard]] double support(double lateral, double axial) const;
   [[nodiscard]] double support_of_round(double lateral, double axial) const;
@@ -53,7 +56,8 @@ class SeparatingPlane {
   const Body* body_ = nullptr;  // null: no proof
   Vec3 end_ = Vec3::Zero();
   Vec3 beyond_ = Vec3::Zero();  // unit, along the ray, away from what is covered
-  // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the end.
+  // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the
+  // end.
   double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
   const Zone* round_ = nullptr;
 };

@@ -14,7 +14,8 @@ struct MeridianNormal {
   double across, along;
 };
 
-// Outward normals of the generatrix's pieces that end or pass within rounding of a point on the body.
+// Outward normals of the generatrix's pieces that end or pass within rounding of a point on the
+// body.
 std::vector<MeridianNormal> normals_at(const Generatrix& generatrix, double r, double z) {
   constexpr double kNear = 1e-7;  // mm
   std::vector<MeridianNormal> normals;
@@ -40,8 +41,8 @@ std::vector<MeridianNormal> normals_at(const Generatrix& generatrix, double r, d
   return normals;
 }
 
-// Between the normals of two faces that meet at a rim: across the motion of the rim there, or, if that is
-// outside of them, the nearer of both.
+// Between the normals of two faces that meet at a rim: across the motion of the rim there, or, if
+// that is outside of them, the nearer of both.
 std::optional<MeridianNormal> rim_normal(const Generatrix& generatrix, double r, double z,
                                          const MeridianNormal& motion) {
   constexpr double kSmooth = 1e-5;  // rad, where arcs and lines go on into each other
@@ -65,8 +66,9 @@ SweepContact sweep_contact(const Body& body, const SegmentMotion& motion, const 
                            const SweptIntervalEnd& end) {
   const ToolPose pose = motion.at(end.t);
   const Vec3 point = ray.at(end.s);
-  Vec3 normal = end.slab != kInAHollow ? body.slabs()[end.slab].normal_of(end.face, pose, point)
-                                       : generatrix_normal(body.generatrix(), pose, point);
+  Vec3 normal = end.section != kConcaveSurface
+                    ? body.sections()[end.section].normal_of(end.face, pose, point)
+                    : generatrix_normal(body.generatrix(), pose, point);
   const Vec3 m = point - pose.tip;
   const double z = m.dot(pose.axis);
   const Vec3 across = m - z * pose.axis;
@@ -76,7 +78,7 @@ SweepContact sweep_contact(const Body& body, const SegmentMotion& motion, const 
     const auto rim = rim_normal(body.generatrix(), r, z, {moving.dot(side), moving.dot(pose.axis)});
     if (rim) normal = rim->across * side + rim->along * pose.axis;
   }
-  return {end.s, end.segment, end.slab, end.face, end.t, pose, normal};
+  return {end.s, end.segment, end.section, end.face, end.t, pose, normal};
 }
 
 }  // namespace frustum::cutter

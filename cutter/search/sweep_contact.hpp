@@ -2,7 +2,8 @@
 //
 // Units    : mm; frame: workpiece
 // Errors   : none
-// Accuracy : the normal is as exact as the moment of the contact: the end depends on that only to the second
+// Accuracy : the normal is as exact as the moment of the contact: the end depends on that only to
+//             the second
 //            order, so that 1e-12 mm of the end are 1e-6 rad of the normal
 #pragma once
 
@@ -19,12 +20,12 @@ namespace frustum::cutter {
 struct SweepContact {
   double s = 0.0;  // mm along the ray
   std::uint32_t segment = 0;
-  std::uint32_t slab = 0;       // of the cutter's body, or kInAHollow
-  ProfileFace face = kTopFace;  // of that slab
+  std::uint32_t section = 0;    // of the cutter's body, or kConcaveSurface
+  ProfileFace face = kTopFace;  // of that section
   double t = 0.0;               // moment within the segment, 0..1
   kinematics::ToolPose pose{};  // of the cutter at that moment
-  // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at an angle,
-  // it lies between theirs, across the motion.
+  // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at
+  // an angle, it is between theirs, across the motion.
   Vec3 normal = Vec3::UnitZ();
 };
 

@@ -20,8 +20,8 @@ using kinematics::ToolPath;
 
 constexpr double kPassedOver = 1e-9;  // mm
 
-// Least distance between a point and the body moving through it, or `least` if that is less; at most kCoarse
-// too small. No point of the body is faster than the motion says.
+// Least distance between a point and the body moving through it, or `least` if that is less; at
+// most kCoarse too small. No point of the body is faster than the motion says.
 class LeastDistance {
  public:
   LeastDistance(const Body& body, const SegmentMotion& motion, const Vec3& point, double least)
@@ -67,7 +67,7 @@ Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tool
   for (const kinematics::PathBlock& block : path.blocks) {
     if (!tools.contains(block.tool)) {
       Diagnostic failure =
-          error(fmt::format("tool T{} cuts but is not defined", block.tool),
+          error("undefined-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
                 fmt::format("add tool.{} with type, diameter and length", block.tool));
       failure.line = static_cast<int>(block.source_line);
       return failure;
@@ -173,20 +173,20 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t segmen
   SweptIntervalEnd end{.s = s, .segment = segment};
   double nearest = std::numeric_limits<double>::infinity();
   const ConcaveSweep concave(body, motion, ray);
-  for (std::uint32_t slab = 0; slab < body.slabs().size(); ++slab) {
-    for (const SegmentInterval& i : swept_intervals(body.slabs()[slab], motion, ray)) {
+  for (std::uint32_t section = 0; section < body.sections().size(); ++section) {
+    for (const SegmentInterval& i : swept_intervals(body.sections()[section], motion, ray)) {
       for (const SweptEnd& e : {i.lo, i.hi}) {
         if (std::abs(e.s - s) >= nearest) continue;
-        if (slab >= body.parts().size() && !concave.is_of_body(e)) continue;
+        if (section >= body.parts().size() && !concave.is_of_body(e)) continue;
         nearest = std::abs(e.s - s);
-        end = {s, segment, slab, e.t, e.face};
+        end = {s, segment, section, e.t, e.face};
       }
     }
   }
   // A concave face, or a ray that grazes: then any end may be the one that rounding has chosen.
   const double same = body.concave().empty() ? kSameEnd : kSearchTolerance;
   if (nearest > same) {
-    end.slab = kInAHollow;
+    end.section = kConcaveSurface;
     end.t = concave.nearest_state(s);
   }
   return contact_of(ray, end);

@@ -2,10 +2,12 @@
 //
 // Model    : union over all segments of a ToolPath of the cutter body moving through it
 // Units    : mm; frame: workpiece
-// Errors   : sweep() refuses a path that uses a tool number without a cutter, or turns a tool half about
+// Errors   : sweep() refuses a path that uses a tool number without a cutter, or turns a tool half
+//             about
 //            between two poses
-// Accuracy : interval ends within 1 nm normal to the swept surface for the given path; of concave cutters
-//            as carved_sweep.hpp says
+// Accuracy : interval ends within 1 nm normal to the swept surface for the given path; of concave
+//             cutters
+//            as concave_sweep.hpp says
 // Threads  : const member functions may be called from any number of threads
 #pragma once
 
@@ -35,28 +37,29 @@ class SweptCutter {
                                                  std::map<int, Cutter> tools);
 
   // Covered part of the ray; an end's tag is the segment that made it. Segments from
-  // `first_excluded` on are left out. Gaps of less than 1e-9 mm are passed over: rounding leaves them where
-  // the parts of a cutter meet.
+  // `first_excluded` on are left out. Gaps of less than 1e-9 mm are passed over: rounding leaves
+  // them where the parts of a cutter meet.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
-  // Walks from `from` to the end of what is covered there without a gap: where a probe that comes out of the
-  // void meets material. Nothing if `from` is not covered. Gaps of less than 1e-9 mm are passed over.
+  // Walks from `from` to the end of what is covered there without a gap: where a probe that comes
+  // out of the void meets material. Nothing if `from` is not covered. Gaps of less than 1e-9 mm are
+  // passed over.
   [[nodiscard]] std::optional<SweepContact> end_of_void(const Ray& ray, double from, double to,
                                                         std::uint32_t first_excluded = kAll) const;
-  // What the cutter, shrunk by `shrunk_by` all round, surely covers in these segments alone: standing
-  // cutters a quarter of its radius apart. For finding collisions, not for surfaces.
+  // What the cutter, shrunk by `shrunk_by` all round, surely covers in these segments alone: the
+  // cutter at poses a quarter of its radius apart. For finding collisions, not for surfaces.
   [[nodiscard]] IntervalSet core_along(const Ray& ray, std::span<const std::uint32_t> segments,
                                        double shrunk_by) const;
-  // The contact behind the end at s that along() tagged with `segment`.
+  // The contact that made the end at s that along() tagged with `segment`.
   [[nodiscard]] SweepContact contact(const Ray& ray, double s, std::uint32_t segment) const;
 
   // No segment outside [first, last] comes nearer to the point than this, or than `enough` (mm).
   [[nodiscard]] double clearance(const Vec3& point, std::uint32_t first, std::uint32_t last,
                                  double enough) const;
 
-  // No end found on a ray is farther than this from the surface that the path sweeps, normal to it and but
-  // for rounding (mm): twice kSearchTolerance, for the solution and for what is left aside, and kMissedDepth;
-  // with concave cutters more (carved_sweep.hpp).
+  // No end found on a ray is farther than this from the surface that the path sweeps, normal to it
+  // and but for rounding (mm): twice kSearchTolerance, for the solution and for what is left aside,
+  // and kMissedDepth; with concave cutters more (concave_sweep.hpp).
   [[nodiscard]] double accuracy() const { return accuracy_; }
 
   // Box of the segment's sweep, and of the whole path's.

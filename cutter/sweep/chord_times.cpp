@@ -25,8 +25,9 @@ double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, con
   return normal.dot(ray.origin - pose.tip) - body.support(u);
 }
 
-// A plane along the ray that has the body, on its way from a to b, on its other side but for kMissedDepth?
-// True is a proof; false says nothing. `slack`: by so much the body leaves the straight way between.
+// A plane along the ray that has the body, on its way from a to b, on its other side but for
+// kMissedDepth? True is a proof; false says nothing. `slack`: by so much the body leaves the
+// straight way between.
 bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
                   const Ray& ray) {
   // Between its ends the gap is (1 - t) A + t B or less by 4 t (1 - t) slack: least where that is
@@ -138,9 +139,9 @@ void ChordTimes::join(const ChordSample& a, const ChordSample& b, int depth) {
   refine_between(middle, b, depth + 1);
 }
 
-// A body that does not turn meets the ray from the one chord to the other without a break. One that turns
-// is never farther than this from it: its points run on arcs, and two of them, on the ray at either moment,
-// are moved differently.
+// A body that does not turn meets the ray from the one chord to the other without a break. One that
+// turns is never farther than this from it: its points run on arcs, and two of them, on the ray at
+// either moment, are moved differently.
 double ChordTimes::departure(const ChordSample& a, const ChordSample& b) const {
   const double dt = b.t - a.t;
   const double apart = std::max(a.chord->lo - b.chord->hi, b.chord->lo - a.chord->hi);

@@ -1,12 +1,15 @@
-// The moments at which a moving convex cutter meets a ray, and moments between them at which it does not.
+// The moments at which a moving convex cutter meets a ray, and moments between them at which it
+// does not.
 //
-// Model    : samples of the chord, refined until between two neighbours that both have one the covered places
-//            hang together (their chords overlap, or one body has gone from the one to the other), and until
-//            two without one are proven to have none between, by planes along the ray that part it from the
-//            body on its whole way
+// Model    : samples of the chord, refined until between two neighbours that both have one the
+//             covered places
+//            hang together (their chords overlap, or one body has gone from the one to the other),
+//            and until two without one are proven to have none between, by planes along the ray
+//            that part it from the body on its whole way
 // Units    : mm; frame: workpiece
 // Errors   : none
-// Accuracy : runs end within 1e-9 mm of motion; what is passed over enters the sweep by less than kMissedDepth
+// Accuracy : runs end within 1e-9 mm of motion; what is passed over enters the sweep by less than
+//             kMissedDepth
 #pragma once
 
 #include <optional>
@@ -37,7 +40,7 @@ class ChordTimes {
   // Sorted by time; a sample without a chord parts two runs.
   [[nodiscard]] const std::vector<ChordSample>& samples() const { return samples_; }
 
-  // Adds a moment between sample i and the next, with what lies around it.
+  // Adds a moment between sample i and the next, with what is around it.
   void insert(std::size_t i, double t);
 
  private:

@@ -13,21 +13,23 @@ namespace {
 
 // A hull's end that is this near to the body's surface (mm) is on it: above rounding.
 constexpr double kSameSurface = 1e-11;
-// Steps along a ray are no shorter than this (mm): what begins and ends within one enters by half of it.
+// Steps along a ray are no shorter than this (mm): what begins and ends within one enters by half
+// of it.
 constexpr double kLeastStep = 2.0 * kMissedDepth;
 // Where a ray slides along the surface the least step doubles after so many, up to this (mm).
 constexpr int kSlid = 64;
 constexpr double kLongestLeastStep = 1e-3;
-// Of what is sampled of phi nothing is farther from the truth (mm); and moments that bracket one minimum of the
-// distance are at most, and need not be less than, this much motion apart.
+// Of what is sampled of phi nothing is farther from the truth (mm); and moments that bracket one
+// minimum of the distance are at most, and need not be less than, this much motion apart.
 constexpr double kSampledWithin = 1e-5;
 constexpr double kLongestSample = 0.02, kShortestSample = 1e-4;
-// What is less deep than this (mm) is on the surface: else rounding covers a ray that slides along it.
+// What is less deep than this (mm) is on the surface: else rounding covers a ray that slides along
+// it.
 constexpr double kOnSurface = 1e-10;
 // Ends are closed in to this along the ray (mm).
 constexpr double kEndTolerance = 1e-11;
 
-// Two valleys that are h apart are told for one: of circles of radius f, h^2 / 8f is lost.
+// Two valleys that are h apart are taken for one: of circles of radius f, h^2 / 8f is lost.
 double sample_motion(const Body& body) {
   return std::clamp(std::sqrt(8.0 * kSampledWithin * body.finest_concave()), kShortestSample,
                     kLongestSample);
@@ -90,7 +92,7 @@ bool ConcaveSweep::is_of_body(const SweptEnd& end) const {
   return std::abs(body_.distance(motion_.at(end.t), ray_.at(end.s))) <= kSameSurface;
 }
 
-bool ConcaveSweep::stands_from(double from, const SweptEnd& end) const {
+bool ConcaveSweep::covers_from(double from, const SweptEnd& end) const {
   const double towards = end.s > from ? 1.0 : -1.0;
   const ToolPose pose = motion_.at(end.t);
   double s = from;

@@ -1,16 +1,20 @@
 // What a concave cutter covers of a ray on one segment of tool path.
 //
-// Model    : the sweep of a concave slab's hull is known from stretch_sweep.hpp. Where the hull touches its end
-//            with the body's own surface, that is the body's end too, and often the body standing there covers
-//            all the way up to it. What remains is walked: with d(x, t) the signed distance of a point to the
-//            body at time t, phi(x) = min over t of d is below zero exactly where the segment covers; along a
-//            ray it changes by at most the way, so that steps as long as phi never pass an end
+// Model    : the sweep of a concave section's hull is known from segment_sweep.hpp. Where the hull
+//             touches its end
+//            with the body's own surface, that is the body's end too, and often the body there
+//            covers all the way up to it. What remains is walked: with d(x, t) the signed distance
+//            of a point to the body at time t, phi(x) = min over t of d is below zero exactly where
+//            the segment covers; along a ray it changes by at most the way, so that steps as long
+//            as phi never pass an end
 // Units    : mm; frame: workpiece
 // Errors   : none
-// Accuracy : ends within 0.1 nm normal to the surface of what is sampled of phi, and that within 10 nm of the
-//            truth (concave_accuracy): valleys of d over t are told apart by samples of the motion, the denser
-//            the smaller the body's features are. A piece that the ray enters by less than kMissedDepth may be
-//            missed; where a ray slides along the surface, one of less than 1 um
+// Accuracy : ends within 0.1 nm normal to the surface of what is sampled of phi, and that within 10
+//             nm of the
+//            truth (concave_accuracy): valleys of d over t are separated by samples of the motion,
+//            the denser the smaller the body's features are. A piece that the ray enters by less
+//            than kMissedDepth may be missed; where a ray slides along the surface, one of less
+//            than 1 um
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 
@@ -22,7 +26,7 @@
 
 namespace frustum::cutter {
 
-// No end is farther than this from the sweep of a body with concave slabs, normal to it (mm).
+// No end is farther than this from the sweep of a body with concave sections, normal to it (mm).
 [[nodiscard]] double concave_accuracy(const Body& body);
 
 // Outward unit normal of the body's surface nearest to a point.
@@ -35,8 +39,8 @@ class ConcaveSweep {
 
   // Whether a hull touches this end of its sweep with the body's own surface.
   [[nodiscard]] bool is_of_body(const SweptEnd& end) const;
-  // Whether the body, standing where it touches that end, covers all between it and `from`.
-  [[nodiscard]] bool stands_from(double from, const SweptEnd& end) const;
+  // Whether the body, where it touches that end, covers all between it and `from`.
+  [[nodiscard]] bool covers_from(double from, const SweptEnd& end) const;
   // Appends what is covered between lo and hi.
   void walk(double lo, double hi, std::vector<SegmentInterval>& found) const;
   // When the body's surface, or its inside, is nearest to the ray's point at s.

@@ -29,8 +29,9 @@ std::optional<Diagnostic> half_turn(const kinematics::ToolPath& path) {
   constexpr double kOpposite = 1e-6;
   for (const kinematics::PathSegment& segment : path.segments) {
     if ((path.from(segment).axis + path.to(segment).axis).norm() > kOpposite) continue;
-    Diagnostic fault = error("the tool turns half about between two poses of the path",
-                             "the way there is not told: put a pose between them");
+    Diagnostic fault =
+        error("half-turn"_id, "the tool turns by half a turn between two poses of the path",
+              "the poses do not say which way: put one between them");
     fault.line = static_cast<int>(path.blocks[segment.block].source_line);
     return fault;
   }
@@ -66,10 +67,10 @@ Vec3 SegmentMotion::velocity(const Vec3& point, double t) const {
   return step_ + about.cross(point - from_.tip - t * step_);
 }
 
-// With n(t) the plane's normal, seen from a point x(t) that runs along a line, the distance n.(x - p) has the
-// second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a + lateral b with b across
-// the axis: |a''| = w^2, and the projection of a fixed side bends b by at most 1.6 w^2 and turns n by at most
-// 1.1 w over 0.05 rad.
+// With n(t) the plane's normal, seen from a point x(t) that runs along a line, the distance n.(x -
+// p) has the second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a +
+// lateral b with b across the axis: |a''| = w^2, and the projection of a fixed side bends b by at
+// most 1.6 w^2 and turns n by at most 1.1 w over 0.05 rad.
 double SegmentMotion::plane_departure(double dt, double away, double run) const {
   constexpr double kTurns = 1.1, kBends = 1.9;
   const double turn = turn_ * dt;

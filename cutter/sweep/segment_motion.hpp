@@ -15,7 +15,7 @@ namespace frustum::cutter {
 
 using kinematics::ToolPose;
 
-// Of a path that turns its tool half about between two poses: which way is not told by them.
+// Of a path that turns its tool by half a turn between two poses: they do not say which way.
 [[nodiscard]] std::optional<Diagnostic> half_turn(const kinematics::ToolPath& path);
 
 class SegmentMotion {
@@ -25,20 +25,21 @@ class SegmentMotion {
   SegmentMotion(const kinematics::ToolPath& path, const kinematics::PathSegment& segment,
                 double reach);
   [[nodiscard]] ToolPose at(double t) const;
-  // How fast a point that goes with the cutter moves (mm a segment), standing at `point` at time t.
+  // How fast a point that goes with the cutter moves (mm a segment) when it is at `point` at time
+  // t.
   [[nodiscard]] Vec3 velocity(const Vec3& point, double t) const;
   // No point of the cutter moves more than this in the whole segment (mm).
   [[nodiscard]] double travel() const { return travel_; }
   [[nodiscard]] double reach() const { return reach_; }
   // The cutter turns by this (rad).
   [[nodiscard]] double turn() const { return turn_; }
-  // Second derivative to t of any cutter point's place, at most (mm): over a part dt of the segment no
-  // point leaves the straight line between its ends by more than bend dt^2 / 8.
+  // Second derivative to t of any cutter point's place, at most (mm): over a part dt of the segment
+  // no point leaves the straight line between its ends by more than bend dt^2 / 8.
   [[nodiscard]] double bend() const { return bend_; }
-  // A plane that goes with the cutter, turned about its axis to a fixed side: how far, over a part dt of the
-  // segment in which the cutter turns by at most 0.05 rad, its height over a point, or where a ray crosses it,
-  // may leave the straight line between the ends, at most (mm). `away`: from the tip to the point; `run`: way
-  // of the point relative to the tip.
+  // A plane that goes with the cutter, turned about its axis to a fixed side: how far, over a part
+  // dt of the segment in which the cutter turns by at most 0.05 rad, its height over a point, or
+  // where a ray crosses it, may leave the straight line between the ends, at most (mm). `away`:
+  // from the tip to the point; `run`: way of the point relative to the tip.
   [[nodiscard]] double plane_departure(double dt, double away, double run) const;
 
  private:

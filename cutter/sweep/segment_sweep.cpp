@@ -20,7 +20,8 @@ constexpr int kMostLooks = 20000;
 // No bulge, as a number that can be divided by.
 constexpr double kNoBulge = 1e-300;
 
-// A plane that touches the body where a chord ends at one moment, and where the ray crosses it at another.
+// A plane that touches the body where a chord ends at one moment, and where the ray crosses it at
+// another.
 struct RoofSide {
   const TangentPlane& plane;
   PlaneCrossing elsewhere;
@@ -35,8 +36,9 @@ double bulge_of(const RoofSide& side, const SegmentMotion& motion, double dt) {
   return along > 0.0 ? std::max(departure / along, kNoBulge) : kInfinity;
 }
 
-// Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it there,
-// moved to the other moment, make straight lines, and turning adds at most 4 bulge x (1 - x).
+// Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it
+// there, moved to the other moment, make straight lines, and turning adds at most 4 bulge x (1 -
+// x).
 class Roof {
  public:
   Roof(const TangentPlane& a, PlaneCrossing a_at_b, const TangentPlane& b, PlaneCrossing b_at_a,
@@ -65,8 +67,8 @@ class Roof {
 
   [[nodiscard]] double top() const { return top_; }
 
-  // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside a top
-  // that is found already: so near that from there on the fall is surely more than the bulge.
+  // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside
+  // a top that is found already: so near that from there on the fall is surely more than the bulge.
   [[nodiscard]] double place_to_look(int depth) const {
     if (!holds_ || depth % 4 == 3) return 0.5;
     if (has_ridge_ && depth % 4 == 2) return ridge_;
@@ -199,8 +201,9 @@ class HighestEnd {
     static_cast<void>(golden_section(depth, lo, hi, kSameState / motion_.travel()));
   }
 
-  // Whether the place that is the best so far lies, at all times between two samples, above one of the planes
-  // that touch the body at them. Where rays graze, this ends what roofs over the ray cannot.
+  // Whether the place that is the best so far is, at all times between two samples, above one of
+  // the planes that touch the body at them. Where rays graze, this ends what roofs over the ray
+  // cannot.
   [[nodiscard]] bool surely_no_deeper(const Touched& a, const Touched& b) const {
     const double best = std::max(best_value_, floor_);
     const Vec3 point = ray_.at(leaving_ ? best : -best);
@@ -238,8 +241,8 @@ Chord overlapped(std::span<const Chord> known, const Chord& chord) {
   return {kInfinity, -kInfinity};
 }
 
-// Both ends of a motion that turns little, where their chords overlap: then all that the ray meets hangs
-// together, whether or not it meets the body all the time.
+// Both ends of a motion that turns little, where their chords overlap: then all that the ray meets
+// hangs together, whether or not it meets the body all the time.
 struct SegmentEnds {
   ChordSample from;
   ChordSample to;
@@ -312,10 +315,23 @@ std::optional<LastExit> last_exit(const Profile& body, const SegmentMotion& moti
 }
 
 std::vector<SegmentInterval> swept_intervals(const Profile& body, const SegmentMotion& motion,
-                                           const Ray& ray) {
+                                             const Ray& ray) {
   std::vector<SegmentInterval> found;
   append_swept_intervals(body, motion, ray, {}, found);
   return found;
+}
+
+void join_overlapping(std::vector<SegmentInterval>& pieces) {
+  std::ranges::sort(pieces, {}, [](const SegmentInterval& p) { return p.lo.s; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    if (pieces[i].lo.s > pieces[last].hi.s) {
+      pieces[++last] = pieces[i];
+    } else if (pieces[i].hi.s > pieces[last].hi.s) {
+      pieces[last].hi = pieces[i].hi;
+    }
+  }
+  if (!pieces.empty()) pieces.resize(last + 1);
 }
 
 }  // namespace frustum::cutter

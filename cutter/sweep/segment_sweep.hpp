@@ -1,13 +1,16 @@
 // A ray against a convex cutter moving over one segment of tool path: the exact covered intervals.
 //
-// Model    : at time t in [0, 1] the body meets the ray in [A(t), B(t)] or not at all; over each connected
-//            span of times with a chord the union is [min A, max B]. The plane that touches the body where
-//            the ray leaves it goes with the body and bounds B at all other times: two such planes close in
-//            on the maximum from above while chords close in from below
+// Model    : at time t in [0, 1] the body meets the ray in [A(t), B(t)] or not at all; over each
+//             connected
+//            span of times with a chord the union is [min A, max B]. The plane that touches the
+//            body where the ray leaves it goes with the body and bounds B at all other times: two
+//            such planes close in on the maximum from above while chords close in from below
 // Units    : mm; frame: workpiece
 // Errors   : none; degenerate motions (no motion, pure rotation, ray along the motion) are ordinary
-// Accuracy : ends within 0.001 nm normal to the swept surface: proven by the planes, not sampled. A span of
-//            times without a chord is proven empty by separating planes down to a penetration of 0.5 nm
+// Accuracy : ends within 0.001 nm normal to the swept surface: proven by the planes, not sampled. A
+//             span of
+//            times without a chord is proven empty by separating planes down to a penetration of
+//            0.5 nm
 // Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
 #pragma once
 
@@ -17,8 +20,8 @@
 #include <vector>
 
 #include "cutter/body/profile.hpp"
-#include "cutter/search/tangent_plane.hpp"
 #include "cutter/sweep/segment_motion.hpp"
+#include "cutter/sweep/tangent_plane.hpp"
 
 namespace frustum::cutter {
 
@@ -35,20 +38,23 @@ struct SegmentInterval {
 
 // No error of an end, normal to the surface, is larger than this because the search stops (mm).
 inline constexpr double kSearchTolerance = 4e-10;
-// A piece of the ray that is covered may be missed only where the ray enters the sweep by less than this,
-// normal to its surface (mm).
+// A piece of the ray that is covered may be missed only where the ray enters the sweep by less than
+// this, normal to its surface (mm).
 inline constexpr double kMissedDepth = 0.5e-6;
 
-// Appends the exact intervals, in no particular order, possibly overlapping. An end inside an interval of
-// `known` (what is covered anyway) that the interval overlaps may be left inexact.
+// Appends the exact intervals, in no particular order, possibly overlapping. An end inside an
+// interval of `known` (what is covered anyway) that the interval overlaps may be left inexact.
 void append_swept_intervals(const Profile& body, const SegmentMotion& motion, const Ray& ray,
                             std::span<const Chord> known, std::vector<SegmentInterval>& found);
 [[nodiscard]] std::vector<SegmentInterval> swept_intervals(const Profile& body,
-                                                         const SegmentMotion& motion,
-                                                         const Ray& ray);
+                                                           const SegmentMotion& motion,
+                                                           const Ray& ray);
 
-// Where the ray leaves the sweep last, with the planes that touch the body there as the motion begins and
-// ends. Only if the ray meets the body at both ends of a motion that turns little.
+// Sorts them and unites those that overlap: rays that graze make many pieces of one.
+void join_overlapping(std::vector<SegmentInterval>& pieces);
+
+// Where the ray leaves the sweep last, with the planes that touch the body there as the motion
+// begins and ends. Only if the ray meets the body at both ends of a motion that turns little.
 struct LastExit {
   SweptEnd end;
   TangentPlane at_begin;

@@ -1,4 +1,4 @@
-#include "cutter/search/tangent_plane.hpp"
+#include "cutter/sweep/tangent_plane.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,7 @@ TangentPlane::TangentPlane(const Profile& body, const ToolPose& pose, const Ray&
   axial = at.axial;
   lateral = at.lateral;
   side = at.side;
-  const Vec3 normal = normal_square_to(pose.axis);
+  const Vec3 normal = normal_across(pose.axis);
   value = direction * s;
   // A grazing ray leaves the plane nowhere, or by rounding on the wrong side.
   along = std::max(direction * normal.dot(ray.direction), 1e-12);

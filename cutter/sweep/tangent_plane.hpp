@@ -7,7 +7,7 @@
 #pragma once
 
 #include "cutter/body/profile.hpp"
-#include "cutter/search/supporting_plane.hpp"
+#include "cutter/sweep/supporting_plane.hpp"
 
 namespace frustum::cutter {
 

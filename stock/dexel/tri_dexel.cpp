@@ -40,6 +40,7 @@ Diagnostic too_fine(const BoundingBox& box, double pitch) {
   double enough = pitch;
   while (rays_needed(box, enough) > static_cast<double>(TriDexel::kMaxRays)) enough *= 1.1;
   return error(
+      "mesh-pitch"_id,
       fmt::format("a pitch of {} mm needs {:.3g} rays for {:.6g} x {:.6g} x {:.6g} mm; {} "
                   "is the limit",
                   pitch, rays_needed(box, pitch), box.max.x() - box.min.x(),
@@ -107,11 +108,11 @@ TriDexel::Family TriDexel::sample_family(SolidView solid, const DexelGrid& grid,
 
 Result<TriDexel> TriDexel::sample(SolidView solid, const BoundingBox& box, Mm pitch) {
   if (!std::isfinite(pitch.value) || pitch.value <= 0.0) {
-    return error(fmt::format("the mesh pitch is {} mm", pitch.value),
+    return error("mesh-pitch"_id, fmt::format("the mesh pitch is {} mm", pitch.value),
                  "it must be a finite number above 0");
   }
   if (!box.min.allFinite() || !box.max.allFinite() || (box.max - box.min).minCoeff() <= 0.0) {
-    return error("the box to be meshed is empty or not finite");
+    return error("mesh-box"_id, "the box to be meshed is empty or not finite");
   }
   if (rays_needed(box, pitch.value) > static_cast<double>(kMaxRays)) {
     return too_fine(box, pitch.value);

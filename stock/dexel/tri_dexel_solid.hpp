@@ -3,8 +3,8 @@
 // material_along(ray, span) gives the intervals of the ray inside the material, clipped to the
 // span. An end's tag is the solid's own business, but -1 is reserved for the ends of the span.
 // surface_at(ray, s, tag) gives the point and the outward unit normal at such an end (never asked
-// for tag -1). A solid that finds the first surface on a ray faster than by all of its intervals says so
-// with first_surface(ray, span). All must be const, pure and callable from several threads.
+// for tag -1). A solid that finds the first surface on a ray faster than by all of its intervals
+// says so with first_surface(ray, span). All must be const, pure and callable from several threads.
 // Units: mm. Errors: none.
 #pragma once
 

@@ -54,6 +54,7 @@ std::optional<Diagnostic> clashing_edges(const SurfaceMesh& mesh) {
   }
   if (first == nullptr) return std::nullopt;
   return error(
+      "mesh-not-manifold"_id,
       fmt::format("{} with facets that face against each other, or with more than two; the first "
                   "from {} to {} mm",
                   counted(count, "edge", "edges"), place_of(mesh.vertices[first->first]),
@@ -80,7 +81,8 @@ std::optional<Diagnostic> holes(const Mesh& mesh) {
   if (cycles.empty()) return std::nullopt;
   std::size_t edges = 0;
   for (const auto h : mesh.halfedges()) edges += mesh.is_border(h) ? 1 : 0;
-  return error(fmt::format("the mesh is open: {} with {} around; one is at {} mm",
+  return error("open-mesh"_id,
+               fmt::format("the mesh is open: {} with {} around; one is at {} mm",
                            counted(cycles.size(), "hole", "holes"), counted(edges, "edge", "edges"),
                            place_of(vec_of(mesh.point(mesh.target(cycles.front()))))),
                "close the holes in the program that made the mesh");
@@ -93,6 +95,7 @@ std::optional<Diagnostic> crossings(const Mesh& mesh) {
   const auto first = std::min_element(pairs.begin(), pairs.end());
   const auto corner = mesh.target(mesh.halfedge(first->first));
   return error(
+      "mesh-self-contact"_id,
       fmt::format("{} of facets cross; one of them has a corner at {} mm",
                   counted(pairs.size(), "pair", "pairs"), place_of(vec_of(mesh.point(corner)))),
       "unite the bodies, or repair the mesh, in the program that made it");
@@ -116,7 +119,8 @@ std::optional<Diagnostic> shells(Mesh& mesh, const SurfaceMesh& given) {
   const auto outward = static_cast<std::size_t>(
       std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0.0; }));
   if (outward == 0) {
-    return error(fmt::format("the mesh is inside out: {} with the facets turned inwards, one at {} "
+    return error("inside-out-mesh"_id,
+                 fmt::format("the mesh is inside out: {} with the facets turned inwards, one at {} "
                              "mm",
                              counted(count, "shell", "shells"), place_of(place.front())),
                  "turn the facets so that all of them face out of the material");
@@ -126,12 +130,14 @@ std::optional<Diagnostic> shells(Mesh& mesh, const SurfaceMesh& given) {
     for (std::size_t s = 0; s < count && places.size() < 200; ++s) {
       if (volume[s] > 0.0) places += (places.empty() ? "" : ", ") + place_of(place[s]);
     }
-    return error(fmt::format("the mesh is {} bodies apart, with corners at {} mm", outward, places),
+    return error("mesh-bodies"_id,
+                 fmt::format("the mesh is {} bodies apart, with corners at {} mm", outward, places),
                  "a blank is one body: keep one shell");
   }
   if (!pmp::does_bound_a_volume(mesh)) {
     return error(
-        fmt::format("the {} of the mesh do not bound one body: a void lies outside it, or is "
+        "mesh-bodies"_id,
+        fmt::format("the {} of the mesh do not bound one body: a void is outside it, or is "
                     "not turned inwards",
                     counted(count, "shell", "shells")),
         "facets face out of the material, so those of a void face into it");
@@ -142,11 +148,12 @@ std::optional<Diagnostic> shells(Mesh& mesh, const SurfaceMesh& given) {
 }  // namespace
 
 Diagnostics mesh_faults(const SurfaceMesh& mesh) {
-  if (mesh.triangles.empty()) return {error("the mesh has no triangles")};
+  if (mesh.triangles.empty()) return {error("empty-mesh"_id, "the mesh has no triangles")};
   if (const auto clash = clashing_edges(mesh)) return {*clash};
   auto made = joined(mesh);
   if (!made) {
-    return {error("the mesh is not manifold: its facets cannot be joined to a surface",
+    return {error("mesh-not-manifold"_id,
+                  "the mesh is not manifold: its facets cannot be joined to a surface",
                   "remove doubled and loose facets")};
   }
   Diagnostics found;

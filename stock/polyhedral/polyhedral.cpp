@@ -185,14 +185,16 @@ Result<PolyhedralWorkpiece> PolyhedralWorkpiece::cut(const Blank& blank,
                                                      const std::map<int, cutter::Cutter>& cutters,
                                                      const PolyhedralOptions& options) {
   if (options.facets < 3) {
-    return error(fmt::format("{} facets around the axis", options.facets),
+    return error("polyhedral-facets"_id, fmt::format("{} facets around the axis", options.facets),
                  "at least 3 make a solid");
   }
   if (options.arc_facets < 1) {
-    return error(fmt::format("{} facets on a quarter circle", options.arc_facets), "at least 1");
+    return error("polyhedral-facets"_id,
+                 fmt::format("{} facets on a quarter circle", options.arc_facets), "at least 1");
   }
   if (!(options.tolerance.value > 0.0) || !std::isfinite(options.tolerance.value)) {
-    return error(fmt::format("facet tolerance {} mm", options.tolerance.value),
+    return error("polyhedral-facets"_id,
+                 fmt::format("facet tolerance {} mm", options.tolerance.value),
                  "it must be a finite number above 0");
   }
   auto pieces = faceted_sweep(path, cutters, blank.bounds(), options);
@@ -205,14 +207,16 @@ Result<PolyhedralWorkpiece> PolyhedralWorkpiece::cut(const Blank& blank,
     blanks = union_of(blank_pieces, 0, blank_pieces.size());
   }
   if (blanks.size() != 1) {
-    return error("the faceted blank is not a closed surface without self-contact",
+    return error("polyhedral-blank"_id,
+                 "the faceted blank is not a closed surface without self-contact",
                  "make successive sections of the loft overlap in an area");
   }
   ExactMesh solid = std::move(blanks.front());
   for (const ExactMesh& removed : union_of(*pieces, 0, pieces->size())) {
     std::optional<ExactMesh> left = combined(Boolean::minus, solid, removed);
     if (!left) {
-      return error(fmt::format("the difference of two faceted solids ({} and {} facets) is not a "
+      return error("polyhedral-difference"_id,
+                   fmt::format("the difference of two faceted solids ({} and {} facets) is not a "
                                "closed surface without self-contact",
                                solid.number_of_faces(), removed.number_of_faces()),
                    "another number of facets moves the surfaces apart where they touch");

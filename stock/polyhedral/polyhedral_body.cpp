@@ -36,8 +36,8 @@ FacetedBody::FacetedBody(const cutter::Profile& profile, int facets, int arc_fac
                         }),
             all.end());
   for (TangentLine& line : all) line.distance = profile.support(line.sin_slope);
-  // Lines through a corner of the generatrix touch it there and bound nothing. Edges shorter than this
-  // are such corners seen through rounding.
+  // Lines through a corner of the generatrix touch it there and bound nothing. Edges shorter than
+  // this are such corners seen through rounding.
   constexpr double kCorner = 1e-9;  // mm
   lines_ = {all.front()};
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {

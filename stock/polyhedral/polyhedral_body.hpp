@@ -1,8 +1,10 @@
 // A cutter as a convex polyhedron around it: rings of regular polygons along the axis.
 //
-// Model    : tangent lines of the generatrix at equal steps of their slope and along its cones, each
-//            turned around the axis into a band of `facets` planes that touch the true body. The generatrix comes from
-//            the support function of the profile, so every convex profile will do
+// Model    : tangent lines of the generatrix at equal steps of their slope and along its cones,
+//             each
+//            turned around the axis into a band of `facets` planes that touch the true body. The
+//            generatrix comes from the support function of the profile, so every convex profile
+//            will do
 // Units    : mm; frame: tool (tip at the origin, axis +Z)
 // Errors   : none
 // Accuracy : the polyhedron contains the body; its vertices stand off a sphere of radius R by R
@@ -27,7 +29,7 @@ class FacetedBody {
   FacetedBody(const cutter::Profile& profile, int facets, int arc_facets);
 
   // From the tip upwards, at least two, of the body grown outwards by `growth`; between rings i and
-  // i+1 lies band i.
+  // i+1 is band i.
   [[nodiscard]] std::vector<Ring> rings(double growth) const;
   // Vertex j of a ring, and the outward normal of facet j of a band (between vertices j and j + 1).
   [[nodiscard]] Vec3 vertex(const Ring& ring, int j) const;

@@ -272,16 +272,17 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
     const auto body = bodies.find(block.tool);
     if (body == bodies.end()) {
       Diagnostic failure =
-          error(fmt::format("tool T{} cuts but is not defined", block.tool),
+          error("undefined-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
                 fmt::format("add tool.{} with type, diameter and length", block.tool));
       failure.line = static_cast<int>(block.source_line);
       return failure;
     }
     if (!cutters.at(block.tool).body().concave().empty()) {
-      Diagnostic failure = error(
-          fmt::format("the polyhedral engine cannot take tool T{}: its outline is hollowed out",
-                      block.tool),
-          "it takes bodies made of convex parts; the ray engine takes this one");
+      Diagnostic failure =
+          error("polyhedral-concave-tool"_id,
+                fmt::format("the polyhedral engine cannot take tool T{}: its generatrix is concave",
+                            block.tool),
+                "it takes bodies made of convex parts; the ray engine takes this one");
       failure.line = static_cast<int>(block.source_line);
       return failure;
     }
@@ -292,7 +293,8 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
     sweep.add(body->second, path.from(first), path.to(last), run.apart);
     if (sweep.overfull()) {
       Diagnostic failure =
-          error(fmt::format("the polyhedral sweep needs more than {} hulls", options.max_pieces),
+          error("polyhedral-pieces"_id,
+                fmt::format("the polyhedral sweep needs more than {} hulls", options.max_pieces),
                 fmt::format("a facet tolerance above {} mm needs fewer", options.tolerance.value));
       failure.line = static_cast<int>(block.source_line);
       return failure;

@@ -1,6 +1,7 @@
 // The sweep of faceted cutters along a tool path, as convex pieces that together contain it.
 //
-// Model    : a piece is the convex hull of a slab of the faceted cutter at both ends of a part of
+// Model    : a piece is the convex hull of a convex section of the faceted cutter at both ends of a
+//             part of
 //            the motion. Two things part such a hull from the true sweep:
 //            (1) points at distance rho from the tip run on arcs: a turn by theta takes them up to
 //                rho*theta^2/8 off the chord. The motion is halved until that is below a quarter
@@ -10,13 +11,13 @@
 //                displacements, where x and y lie on one facet or edge whose normal displacement
 //                changes sign. (At the mixing ratio l the hull holds (1-l)x + l(y + My), the sweep
 //                at time l the same point less l(1-l)M(y - x).) Where this exceeds half the
-//                tolerance, walls are cut into slabs across the axis, and for end faces the motion
-//                is halved.
+//                tolerance, walls are cut into sections across the axis, and for end faces the
+//                motion is halved.
 //            A body of several convex parts makes the pieces of each.
 //            Neighbouring segments merge while the poses between stay within a quarter of the
 //            tolerance of one straight motion; the cutter grows by their distance.
 // Units    : mm; frame: workpiece
-// Errors   : a tool number without a cutter, or with a hollow one; more pieces than max_pieces
+// Errors   : a tool number without a cutter, or with a concave one; more pieces than max_pieces
 // Accuracy : the union of the pieces contains the sweep of the faceted cutter and leaves it by at
 //            most the tolerance, to leading order in theta
 #pragma once

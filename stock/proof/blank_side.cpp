@@ -10,14 +10,14 @@
 namespace frustum::stock {
 namespace {
 
-// How far behind a face the point is, and about where the face looks.
-struct Behind {
+// How deep below a face the point is, and about where the face looks.
+struct Depth {
   Enclosure depth;
   Vec3 outward;
 };
 
-// Behind the face that stands at half + growth z from the middle of a direction `axis`, on either side.
-void add_pair(std::vector<Behind>& faces, const Enclosure& at, const Enclosure& half,
+// Below the face that is at half + growth z from the middle of a direction `axis`, on either side.
+void add_pair(std::vector<Depth>& faces, const Enclosure& at, const Enclosure& half,
               const Enclosure& growth, const Vec3& axis) {
   const Enclosure scale =
       Enclosure(1.0) / boost::numeric::sqrt(1.0 + boost::numeric::square(growth));
@@ -26,7 +26,7 @@ void add_pair(std::vector<Behind>& faces, const Enclosure& at, const Enclosure& 
   faces.push_back({(half + at) * scale, (-axis - up).normalized()});
 }
 
-using Slab = std::vector<Behind>;
+using Slab = std::vector<Depth>;
 
 // `p` counts from the blank's origin.
 std::vector<Slab> slabs(const BoxShape& box, const Enclosure3& p) {
@@ -74,8 +74,8 @@ BlankSide side_of_slabs(std::span<const Slab> all, double margin) {
   double nearest = -std::numeric_limits<double>::infinity();
   for (const Slab& slab : all) {
     bool inside = true, outside = false;
-    const Behind* least = &slab.front();
-    for (const Behind& face : slab) {
+    const Depth* least = &slab.front();
+    for (const Depth& face : slab) {
       inside = inside && face.depth.lower() > margin;
       outside = outside || face.depth.upper() < -margin;
       if (median(face.depth) < median(least->depth)) least = &face;

@@ -36,7 +36,8 @@ ToolPose pose_at(const ToolPath& path, std::uint32_t segment, double t) {
   return kinematics::between(path.from(s), path.to(s), t);
 }
 
-// Segments that follow each other, and how far the cutter gets from its place at one pose among them.
+// Segments that follow each other, and how far the cutter gets from its place at one pose among
+// them.
 struct Group {
   ToolPose representative{};
   double shift = 0.0;  // of any point of the cutter, mm
@@ -64,7 +65,8 @@ struct Certifier::Tool {
                            reach * (pose.axis - group.representative.axis).norm();
       group.shift = std::max(group.shift, moved);
     };
-    // Between two poses the tip is between the tips; axes in a cap of less than a right angle stay in it.
+    // Between two poses the tip is between the tips; axes in a cap of less than a right angle stay
+    // in it.
     for (std::uint32_t i = first; i < last; ++i) {
       include(path.from(path.segments[segments[i]]));
       include(path.to(path.segments[segments[i]]));
@@ -78,12 +80,12 @@ struct Certifier::Tool {
   }
 };
 
-// Whether the cutters keep off a point, and which one does not.
+// Whether the cutters stay clear of a point, and which one does not.
 struct Certifier::Search {
   Vec3 point;
   double margin = 0.0;
   std::size_t most_spans = 0;
-  Keeping keeping = Keeping::apart;
+  Clearance clearance = Clearance::apart;
   std::uint32_t segment = 0;
   double t = 0.0;
   std::size_t spans = 0;
@@ -108,7 +110,7 @@ Certifier::Certifier(const Workpiece& workpiece, const CertifierOptions& options
   }
 }
 
-void Certifier::keep_off(const Tool& tool, Search& search) const {
+void Certifier::prove_clear_of(const Tool& tool, Search& search) const {
   const ToolPath& path = workpiece_->removed().path();
   std::vector<std::uint32_t> open{0};
   while (!open.empty()) {
@@ -129,12 +131,12 @@ void Certifier::keep_off(const Tool& tool, Search& search) const {
     }
     for (std::uint32_t i = group.first; i < group.last; ++i) {
       const std::uint32_t segment = tool.segments[i];
-      const ClearanceProof found = keeps_off(tool.body, span_of(path, segment), search.point,
-                                             search.margin, search.most_spans - search.spans);
+      const ClearanceProof found = prove_clearance(tool.body, span_of(path, segment), search.point,
+                                                   search.margin, search.most_spans - search.spans);
       search.spans = std::min(search.most_spans, search.spans + found.spans);
       ++search.segments;
-      if (found.keeping == Keeping::apart) continue;
-      search.keeping = found.keeping;
+      if (found.clearance == Clearance::apart) continue;
+      search.clearance = found.clearance;
       search.segment = segment;
       search.t = found.t;
       return;
@@ -183,7 +185,7 @@ struct Certifier::Claim {
     Search s{.point = at, .margin = margin, .most_spans = certifier.options_.most_spans};
     s.most_spans -= std::min(s.most_spans, answer.spans);
     for (const auto& tool : certifier.tools_) {
-      if (s.keeping == Keeping::apart) certifier.keep_off(*tool, s);
+      if (s.clearance == Clearance::apart) certifier.prove_clear_of(*tool, s);
     }
     answer.spans += s.spans;
     answer.segments += s.segments;
@@ -201,7 +203,8 @@ struct Certifier::Claim {
     return surely_inside(originating_block->body, span_of(path(), *point.segment), point.t, at);
   }
 
-  // (a): along the normal; on a rim, where the normal may be that of a face, anywhere in the cutter.
+  // (a): along the normal; on a rim, where the normal may be that of a face, anywhere in the
+  // cutter.
   bool void_is_near() {
     answer.regular = is_void(point.normal);
     if (answer.regular || originating_block == nullptr) return answer.regular;
@@ -221,13 +224,14 @@ struct Certifier::Claim {
   void look_for_refutation() {
     const BlankSide side = side_of(blank(), point.point, bound());
     if (side.outside) return refute("it is outside the blank by more than the bound");
-    if (side.inside && search(point.point, bound()).keeping == Keeping::apart) {
+    if (side.inside && search(point.point, bound()).clearance == Clearance::apart) {
       return refute("everything within the bound is material");
     }
     answer.reason = "no point within the bound was shown to be void";
   }
 
-  // (b): a direction in which there is material. What stands in the way turns the next try away from it.
+  // (b): a direction in which there is material. What is in the way turns the next try away from
+  // it.
   void find_material() {
     Vec3 into = -point.normal;
     for (int k = 0; k < kDirections && answer.verdict == Verdict::open; ++k) {
@@ -241,11 +245,11 @@ struct Certifier::Claim {
         continue;
       }
       const Search s = search(at, 0.0);
-      if (s.keeping == Keeping::apart) {
+      if (s.clearance == Clearance::apart) {
         answer.verdict = Verdict::proven;
         answer.reason.clear();
-      } else if (s.keeping == Keeping::open && answer.spans >= certifier.options_.most_spans) {
-        answer.reason = fmt::format("line {} was not shown to keep off within {} spans of time",
+      } else if (s.clearance == Clearance::open && answer.spans >= certifier.options_.most_spans) {
+        answer.reason = fmt::format("line {} was not shown to stay clear within {} spans of time",
                                     line_of(s.segment), certifier.options_.most_spans);
         return;
       } else {
@@ -287,7 +291,7 @@ Certificate Certifier::certify(const SurfacePoint& point) const {
   }
   Claim claim{*this, point, point.segment ? tool_of(*point.segment) : nullptr};
   if (point.segment && claim.originating_block == nullptr) {
-    return {.reason = "the stretch that is said to have made it has not cut"};
+    return {.reason = "the path segment that is said to have made it has not cut"};
   }
   if (claim.void_is_near()) {
     claim.find_material();

@@ -1,12 +1,14 @@
-// Proof that a surface point of the workpiece lies within its bound of the true surface.
+// Proof that a surface point of the workpiece is within its bound of the true surface.
 //
-// Model    : the true surface passes between a point of the void and a point of the material. Along the normal
-//            at the distance of the bound, (a) the point towards the void lies inside the cutter that made it,
-//            standing where it stood, or outside the blank, and (b) the point towards the material lies inside
-//            the blank and outside every cutter at every program_state of every segment. Both are shown by interval
-//            arithmetic from the tool path, the outlines of the cutters and the blank alone; nothing of the ray
-//            search is asked. On an edge, where (b) fails along the normal since another segment cuts beside,
-//            other directions at the same distance are tried: the claim is the same, the point is not regular
+// Model    : the true surface passes between a point of the void and a point of the material. Along
+//             the normal
+//            at the distance of the bound, (a) the point towards the void is inside the cutter that
+//            made it, at its pose then, or outside the blank, and (b) the point towards the
+//            material is inside the blank and outside every cutter at every instant of every
+//            segment. Both are shown by interval arithmetic from the tool path, the generatrices of
+//            the cutters and the blank alone; nothing of the ray search is asked. On an edge, where
+//            (b) fails along the normal since another segment cuts beside, other directions at the
+//            same distance are tried: the claim is the same, the point is not regular
 // Units    : mm; frame: workpiece
 // Errors   : none; a proof that cannot be finished says why, and never counts as proven
 // Accuracy : `proven` and `refuted` are proofs but for what blanks from meshes say of themselves
@@ -52,7 +54,7 @@ class Certifier {
   struct Search;
   struct Claim;
   [[nodiscard]] const Tool* tool_of(std::uint32_t segment) const;
-  void keep_off(const Tool& tool, Search& search) const;
+  void prove_clear_of(const Tool& tool, Search& search) const;
 
   const Workpiece* workpiece_;
   CertifierOptions options_;

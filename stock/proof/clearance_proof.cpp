@@ -12,9 +12,10 @@ namespace {
 // Beyond the rounding of any double computation here, for coordinates below 1e5 mm.
 constexpr double kClearanceRounding = 1e-9;  // mm
 constexpr double kLargest = 1e5;             // mm
-// A halved direction is off by the rounding of a sum, a norm and a quotient: below 4 units of 1.1e-16.
+// A halved direction is off by the rounding of a sum, a norm and a quotient: below 4 units of
+// 1.1e-16.
 constexpr double kHalving = 1e-15;
-// Halving goes on no deeper than time can be told apart.
+// Halving goes on no deeper than instants can be separated.
 constexpr int kDeepest = 48;
 
 // Radius and height of a point in the tool's terms, and the direction across.
@@ -30,7 +31,7 @@ InTool in_tool(const Vec3& tip, const Vec3& axis, const Vec3& point) {
   return {r, z, r > 0.0 ? Vec3(across / r) : perpendicular_to(axis)};
 }
 
-// One end or the middle of a span: where a touching plane is put.
+// One end or the middle of a span: where a supporting plane is put.
 struct Place {
   double t;
   double x;  // -1, 0, 1 in the span
@@ -53,18 +54,18 @@ class ZoneProof {
       const auto [span, depth] = open.back();
       open.pop_back();
       if (++answer.spans > most_) {
-        answer.keeping = Keeping::open;
+        answer.clearance = Clearance::open;
         return answer;
       }
       const auto covered = look_at(span);
       if (apart_) continue;
       if (covered) {
-        answer.keeping = Keeping::covered;
+        answer.clearance = Clearance::covered;
         answer.t = *covered;
         return answer;
       }
       if (depth >= kDeepest) {
-        answer.keeping = Keeping::open;
+        answer.clearance = Clearance::open;
         answer.t = span.middle();
         return answer;
       }
@@ -75,7 +76,7 @@ class ZoneProof {
   }
 
  private:
-  // Sets apart_; returns a program_state when the body covers the point, if one of those looked at is.
+  // Sets apart_; returns an instant when the body covers the point, if one of those looked at is.
   std::optional<double> look_at(const PoseSpan& span) {
     apart_ = false;
     const UnitBall axis = halfway(span.axis0, span.axis1);
@@ -100,17 +101,17 @@ class ZoneProof {
               [&](std::size_t a, std::size_t b) { return distances[a] < distances[b]; });
     for (const std::size_t i : order) {
       if (distances[i] <= margin_) continue;
-      apart_ = plane_keeps_off(span, places[i]);
+      apart_ = plane_clears(span, places[i]);
       if (apart_) break;
     }
     return std::nullopt;
   }
 
-  // The whole body, hollows and all: the distance changes by no more than its points move.
+  // The whole body, concave faces included: the distance changes by no more than its points move.
   [[nodiscard]] bool too_far_to_come(const PoseSpan& span, const Place& middle) const {
     const double half_way = 0.5 * (span.t1 - span.t0) * (span.end - span.begin).norm();
-    // No point of a cutter that turns by an angle moves more than that times its reach; the chord is
-    // shorter than the arc by less than an eighth up to a radian and a half.
+    // No point of a cutter that turns by an angle moves more than that times its reach; the chord
+    // is shorter than the arc by less than an eighth up to a radian and a half.
     const double chord = (span.axis1.middle - span.axis0.middle).norm();
     if (chord > 1.0) return false;
     const double turned = 0.5 * chord * 1.125 * body_.generatrix->reach();
@@ -118,7 +119,7 @@ class ZoneProof {
     return distance - margin_ > half_way + turned + kClearanceRounding;
   }
 
-  [[nodiscard]] bool plane_keeps_off(const PoseSpan& span, const Place& place) const {
+  [[nodiscard]] bool plane_clears(const PoseSpan& span, const Place& place) const {
     const InTool at = in_tool(span.tip(place.t), place.axis.middle, point_);
     const auto touching = zone_.touching(at.r, at.z);
     if (!touching) return false;
@@ -134,12 +135,14 @@ class ZoneProof {
     const Enclosure free = dot(n, m) - zone_.support(*touching) - across * (lean + longer);
     if (!(free.lower() > margin_)) return false;
 
-    // Turning vector of half the span: the cross product of the end axes has the sine of twice that.
+    // Turning vector of half the span: the cross product of the end axes has the sine of twice
+    // that.
     const Enclosure3 ends = cross(span.axis0.enclosure(), span.axis1.enclosure());
     const double chord = (span.axis1.middle - span.axis0.middle).norm() + span.axis0.radius +
                          span.axis1.radius + kHalving;
     if (chord > 0.8) return false;
-    // angle <= chord (1 + chord^2 / 20) and angle / sin(angle) <= 1 + angle^2 / 5, both below 1 rad.
+    // angle <= chord (1 + chord^2 / 20) and angle / sin(angle) <= 1 + angle^2 / 5, both below 1
+    // rad.
     const double angle = chord * (1.0 + 0.05 * chord * chord);
     const Enclosure3 turn =
         Enclosure(0.5, 0.5 * (1.0 + 0.2 * angle * angle) * (1.0 + 1e-15)) * ends;
@@ -227,19 +230,19 @@ bool surely_inside(const BodyGeneratrix& body, const PoseSpan& segment, double t
   return middle + width(r) + width(z) + 1e-12 < -margin;
 }
 
-ClearanceProof keeps_off(const BodyGeneratrix& body, const PoseSpan& segment, const Vec3& point,
-                         double margin, std::size_t most_spans) {
+ClearanceProof prove_clearance(const BodyGeneratrix& body, const PoseSpan& segment,
+                               const Vec3& point, double margin, std::size_t most_spans) {
   ClearanceProof all;
   if (!small_enough(segment, point)) {
-    all.keeping = Keeping::open;
+    all.clearance = Clearance::open;
     return all;
   }
   for (const MeridianZone& zone : body.zones) {
     ZoneProof proof(body, zone, point, margin, most_spans - std::min(most_spans, all.spans));
     const ClearanceProof one = proof.over(segment);
     all.spans += one.spans;
-    if (one.keeping == Keeping::apart) continue;
-    all.keeping = one.keeping;
+    if (one.clearance == Clearance::apart) continue;
+    all.clearance = one.clearance;
     all.t = one.t;
     return all;
   }

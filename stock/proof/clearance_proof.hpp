@@ -1,16 +1,19 @@
-// Proof that a cutter keeps off a point for a whole segment of tool path, or the program_state when it does not.
+// Proof that a cutter stays clear of a point for a whole path segment, or the instant at which it
+// does not.
 //
-// Model    : a plane that touches a slice of the body at one program_state goes with the body, tip and axis as the
-//            path says. How far the point is on its free side is a function of time; value and slope at that
-//            program_state are enclosed, the rest is bounded by the square of the time:
+// Model    : a plane that touches a slice of the body at one instant goes with the body, tip and
+//             axis as the
+//            path says. How far the point is on its free side is a function of time; value and
+//            slope at that instant are enclosed, the rest is bounded by the square of the time:
 //              f(x) >= f0 + x f1 - x^2 (w^2 (|m| + |x| v) / 2 + w v)
-//            with the turn w, the way v of the tip and m from tip to point, all for x = 1. Where that stays
-//            above zero the body keeps off; else the span of time is halved. Directions at the halves are
-//            midpoints of great circles, so that square roots are all that is needed
+//            with the turn w, the way v of the tip and m from tip to point, all for x = 1. Where
+//            that stays above zero the body stays clear; else the span of time is halved.
+//            Directions at the halves are midpoints of great circles, so that square roots are all
+//            that is needed
 // Units    : mm, rad; frame: workpiece; time as a fraction of the segment
 // Errors   : none; a proof that takes too many spans, or coordinates above 1e5 mm, end as `open`
 // Accuracy : `apart` is a proof, `covered` is found in double precision
-// Source   : mean value form (Moore 1966); independent of cutter/sweep/stretch_sweep.hpp
+// Source   : mean value form (Moore 1966); independent of cutter/sweep/segment_sweep.hpp
 #pragma once
 
 #include <cstddef>
@@ -36,7 +39,7 @@ struct UnitBall {
 // The middle of the great circle between two directions.
 [[nodiscard]] UnitBall halfway(const UnitBall& a, const UnitBall& b);
 
-// The poses of one segment between two of its program_states.
+// The poses of one segment between two of its instants.
 struct PoseSpan {
   Vec3 begin = Vec3::Zero();  // tips of the whole segment
   Vec3 end = Vec3::Zero();
@@ -56,7 +59,7 @@ struct PoseSpan {
 struct BodyGeneratrix {
   const cutter::Generatrix* generatrix = nullptr;
   std::vector<MeridianZone> zones{};
-  bool filled = true;  // the zones are the body; false: it is concave out and they hold it
+  bool filled = true;  // the zones are the body; false: it is concave and they enclose it
 
   explicit BodyGeneratrix(const cutter::Body& body)
       : generatrix(&body.generatrix()),
@@ -67,20 +70,21 @@ struct BodyGeneratrix {
 // Signed distance of a point from the body at a pose, in double precision: within 1e-11 mm.
 [[nodiscard]] double distance_from(const BodyGeneratrix& body, const Vec3& tip, const Vec3& axis,
                                    const Vec3& point);
-// True is a proof: the point is inside the body, deeper than `margin`, at that program_state of the segment (or the
-// nearest one that halving comes to).
+// True is a proof: the point is inside the body, deeper than `margin`, at that instant of the
+// segment (or the nearest one that halving comes to).
 [[nodiscard]] bool surely_inside(const BodyGeneratrix& body, const PoseSpan& segment, double t,
                                  const Vec3& point, double margin = 0.0);
 
-enum class Keeping : std::uint8_t { apart, covered, open };
+enum class Clearance : std::uint8_t { apart, covered, open };
 
 struct ClearanceProof {
-  Keeping keeping = Keeping::apart;
+  Clearance clearance = Clearance::apart;
   double t = 0.0;         // when it is covered
   std::size_t spans = 0;  // of time that were looked at
 };
 // Whether all points within `margin` of `point` stay outside over the segment.
-[[nodiscard]] ClearanceProof keeps_off(const BodyGeneratrix& body, const PoseSpan& segment,
-                                       const Vec3& point, double margin, std::size_t most_spans);
+[[nodiscard]] ClearanceProof prove_clearance(const BodyGeneratrix& body, const PoseSpan& segment,
+                                             const Vec3& point, double margin,
+                                             std::size_t most_spans);
 
 }  // namespace frustum::stock

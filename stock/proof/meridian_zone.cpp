@@ -12,7 +12,7 @@ double turn_from(const MeridianDirection& a, const MeridianDirection& b) {
   return a.across * b.along - a.along * b.across;
 }
 
-// Ends of arcs may be off their circle by what outlines accept.
+// Ends of arcs may be off their circle by what a generatrix accepts.
 constexpr double kOffCircle = 1e-9;  // mm
 
 }  // namespace

@@ -61,7 +61,8 @@ void clip_by_mantle(Interval& chord, const FrustumShape& shape, const Vec3& p, c
     if (s2 < chord.hi) chord.hi = s2, chord.hi_tag = kMantle;
     return;
   }
-  // Steeper than the mantle: inside before s1 and after s2; only one of them is on the nappe r >= 0.
+  // Steeper than the mantle: inside before s1 and after s2; only one of them is on the nappe r >=
+  // 0.
   const bool keep_before = chord.lo < s1 && r + k * d.z() * (std::max(chord.lo, s1 - 1.0)) >= 0.0;
   if (keep_before) {
     if (s1 < chord.hi) chord.hi = s1, chord.hi_tag = kMantle;
@@ -200,7 +201,7 @@ double volume_of(const LoftShape& loft) {
 }
 
 Diagnostic empty_blank(const char* what, double value) {
-  return error(fmt::format("the blank is empty: {} is {} mm", what, value),
+  return error("empty-blank"_id, fmt::format("the blank is empty: {} is {} mm", what, value),
                "every dimension must be a finite number above 0");
 }
 
@@ -224,10 +225,11 @@ std::optional<Diagnostic> fault_of(const FrustumShape& frustum) {
 
 std::optional<Diagnostic> fault_of(const MeshShape& mesh) {
   if (mesh.solid == nullptr || mesh.solid->facets().empty()) {
-    return error("the blank's mesh has no facets");
+    return error("empty-blank"_id, "the blank's mesh has no facets");
   }
   if (!(mesh.solid->volume() > 0.0)) {
-    return error(fmt::format("the blank's mesh holds {} mm3", mesh.solid->volume()),
+    return error("empty-blank"_id,
+                 fmt::format("the blank's mesh holds {} mm3", mesh.solid->volume()),
                  "its facets must face out of the material");
   }
   return std::nullopt;
@@ -237,27 +239,31 @@ std::optional<Diagnostic> fault_of(const LoftShape& shape) {
   const auto& all = shape.sections;
   constexpr const char* kHint = "sections = [[z, size_x, size_y], ...] from bottom to top, in mm";
   if (all.size() < 2) {
-    return error(fmt::format("a loft needs two sections or more, given are {}", all.size()), kHint);
+    return error("blank-loft"_id,
+                 fmt::format("a loft needs two sections or more, given are {}", all.size()), kHint);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const LoftSection& s = all[i];
     const bool sized = std::isfinite(s.z) && std::isfinite(s.size_x) && std::isfinite(s.size_y) &&
                        s.size_x > 0.0 && s.size_y > 0.0;
     if (!sized) {
-      return error(fmt::format("section {} of the loft is [{}, {}, {}]: its sizes must be finite "
+      return error("blank-loft"_id,
+                   fmt::format("section {} of the loft is [{}, {}, {}]: its sizes must be finite "
                                "numbers above 0",
                                i + 1, s.z, s.size_x, s.size_y),
                    kHint);
     }
     if (i > 0 && s.z < all[i - 1].z) {
-      return error(fmt::format("section {} of the loft, at z = {} mm, lies below the one before at "
+      return error("blank-loft"_id,
+                   fmt::format("section {} of the loft, at z = {} mm, is below the one before at "
                                "{} mm",
                                i + 1, s.z, all[i - 1].z),
                    kHint);
     }
     const bool ledge = i > 0 && s.z == all[i - 1].z;
     if (ledge && (i == 1 || i + 1 == all.size() || all[i - 2].z == s.z)) {
-      return error(fmt::format("section {} of the loft is not needed: z = {} mm {}", i + 1, s.z,
+      return error("blank-loft"_id,
+                   fmt::format("section {} of the loft is not needed: z = {} mm {}", i + 1, s.z,
                                i == 1                ? "is the bottom"
                                : i + 1 == all.size() ? "is the top"
                                                      : "has two sections already"),
@@ -292,7 +298,7 @@ Blank::Blank(const BlankShape& shape, const Vec3& origin) : shape_(shape), origi
 }
 
 Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
-  if (!origin.allFinite()) return error("the blank's origin is not finite");
+  if (!origin.allFinite()) return error("blank-origin"_id, "the blank's origin is not finite");
   if (const auto fault = std::visit([](const auto& s) { return fault_of(s); }, shape)) {
     return *fault;
   }

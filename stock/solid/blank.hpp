@@ -1,7 +1,7 @@
 // The body the machine starts from: box, cylinder, cone frustum, a loft of rectangles, or a mesh.
 //
-// Placed in the workpiece frame by `origin`, the centre of its bottom face (of a loft: of its z = 0; of a
-// mesh: its own zero); its height runs along +Z.
+// Placed in the workpiece frame by `origin`, the centre of its bottom face (of a loft: of its z =
+// 0; of a mesh: its own zero); its height runs along +Z.
 // Units: mm. Errors: Blank::make refuses empty and non-finite bodies, and lofts that are no body.
 #pragma once
 

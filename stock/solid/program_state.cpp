@@ -26,8 +26,8 @@ ProgramState before(const ToolPath& path, const Timetable& table, std::uint32_t 
   return state_after(path, segment, table.start(segment));
 }
 
-// Rays of a plane-filling triad through the point: one of them meets any surface at 55 degrees or less
-// from its normal.
+// Rays of a plane-filling triad through the point: one of them meets any surface at 55 degrees or
+// less from its normal.
 std::array<Ray, 3> rays_through(const Vec3& point, double back) {
   std::array<Ray, 3> rays;
   for (int k = 0; k < 3; ++k) {
@@ -80,7 +80,9 @@ ProgramState after_block(const ToolPath& path, std::uint32_t block) {
 }
 
 Result<ProgramState> after_line(const ToolPath& path, std::uint32_t line) {
-  if (line == 0) return error("line 0 of the program does not exist", "lines are counted from 1");
+  if (line == 0)
+    return error("program-line"_id, "line 0 of the program does not exist",
+                 "lines are counted from 1");
   std::optional<std::uint32_t> last;
   for (std::uint32_t block = 0; block < path.blocks.size(); ++block) {
     const std::uint32_t here = path.blocks[block].source_line;
@@ -91,7 +93,7 @@ Result<ProgramState> after_line(const ToolPath& path, std::uint32_t line) {
 
 Result<ProgramState> at_time(const ToolPath& path, double seconds) {
   if (!(seconds >= 0.0)) {
-    return error(fmt::format("{} s is no time of the program", seconds),
+    return error("program-time"_id, fmt::format("{} s is no time of the program", seconds),
                  "seconds since its start, 0 or more");
   }
   const Timetable table(path);

@@ -1,10 +1,13 @@
-// A program_state of the program, and the workpiece as it is then.
+// A state of the program, and the workpiece as it is then.
 //
-// Model    : a program_state stands between two segments of the tool path: those before it have cut, those
-//            after it have not. Workpieces of any program_state share one sweep; nothing is cut twice
+// Model    : a program state is between two segments of the tool path: those before it have cut,
+//             those
+//            after it have not. Workpieces of any program state share one sweep; nothing is cut
+//            twice
 // Units    : mm, s; frame: workpiece
 // Errors   : after_line() refuses line 0; at_time() refuses what is no time
-// Accuracy : that of Workpiece; segments are not divided, so that a program_state is at most one segment off
+// Accuracy : that of Workpiece; segments are not divided, so that a program state is at most one
+//             segment off
 // Threads  : const member functions may be called from any number of threads
 #pragma once
 
@@ -27,8 +30,8 @@ class Timetable {
 
   // The first segment of a block, or of the next one that has any; the number of blocks is the end.
   [[nodiscard]] std::uint32_t first_segment(std::uint32_t block) const { return first_[block]; }
-  // Seconds since the start of the program at a fraction t of a segment. Of a path without times they
-  // are the sums of the blocks' durations, segments of a block taking equally long.
+  // Seconds since the start of the program at a fraction t of a segment. Of a path without times
+  // they are the sums of the blocks' durations, segments of a block taking equally long.
   [[nodiscard]] double time(std::uint32_t segment, double t) const;
   // Of a segment; of the number of segments, the end of the program.
   [[nodiscard]] double start(std::uint32_t segment) const { return starts_[segment]; }
@@ -54,16 +57,16 @@ struct ProgramState {
 [[nodiscard]] ProgramState end_of(const kinematics::ToolPath& path);
 // Precondition: the path has that block.
 [[nodiscard]] ProgramState after_block(const kinematics::ToolPath& path, std::uint32_t block);
-// After the last motion of an NC line; of a line without motion, after that of the nearest line above
-// that has one.
+// After the last motion of an NC line; of a line without motion, after that of the nearest line
+// above that has one.
 [[nodiscard]] Result<ProgramState> after_line(const kinematics::ToolPath& path, std::uint32_t line);
-// The last program_state that is not later than `seconds`.
+// The last program state that is not later than `seconds`.
 [[nodiscard]] Result<ProgramState> at_time(const kinematics::ToolPath& path, double seconds);
-// `count` program_states at equal steps of time, the last of them `until`.
+// `count` program states at equal steps of time, the last of them `until`.
 [[nodiscard]] std::vector<ProgramState> equally_spaced(const kinematics::ToolPath& path, int count,
                                                        const ProgramState& until);
 
-// What of a workpiece stands at a program_state: a RaySolid. The workpiece must outlive it.
+// What there is of a workpiece at a program state: a RaySolid. The workpiece must outlive it.
 class WorkpieceAt {
  public:
   WorkpieceAt(const Workpiece& workpiece, const ProgramState& program_state)
@@ -89,7 +92,7 @@ class WorkpieceAt {
   ProgramState program_state_;
 };
 
-// What made the surface at a point that lies on it within `tolerance`; nothing when none is so near.
+// What made the surface at a point that is on it within `tolerance`; nothing when none is so near.
 struct OriginatingBlock {
   std::optional<std::uint32_t> block{};  // of the tool path; nothing: the blank's own surface
   std::uint32_t source_line = 0;         // 0: the blank

@@ -20,8 +20,8 @@ using kinematics::ToolPose;
 // What two answers for the same ray may differ by without anybody having cut: rounding of ends.
 constexpr double kRounding = 1e-9;  // mm
 
-// One ray's history. States are nested by construction: material that is gone never comes back, whatever
-// the rounding of the ends.
+// One ray's history. States are nested by construction: material that is gone never comes back,
+// whatever the rounding of the ends.
 class RayHistory {
  public:
   RayHistory(const Workpiece& workpiece, const Timetable& table, const Ray& ray, RaySpan span)
@@ -93,7 +93,7 @@ class MeetingSearch {
   MeetingSearch(const Workpiece& workpiece, const Timetable& table)
       : swept_(workpiece.removed()), path_(swept_.path()), table_(table) {}
 
-  // The first program_state at which the block's cutter, standing every quarter of its radius, covers some of
+  // The first instant at which the block's cutter, at every quarter of its radius, covers some of
   // the piece; then halved down to a nanometre of motion.
   [[nodiscard]] std::optional<Meeting> first(const RemovedPiece& removed, const Ray& ray) const {
     for (std::uint32_t i = table_.first_segment(removed.block);
@@ -231,13 +231,14 @@ BlockRemoval summary(const Tally& tally, const kinematics::PathBlock& block) {
 
 std::optional<Diagnostic> fault_of(const BoundingBox& box, double pitch) {
   if (!std::isfinite(pitch) || pitch <= 0.0) {
-    return error(fmt::format("the pitch of the rays is {} mm", pitch),
+    return error("ray-pitch"_id, fmt::format("the pitch of the rays is {} mm", pitch),
                  "it must be a finite number above 0");
   }
   const Vec3 n = (box.max - box.min) / pitch;
   const double rays = n.x() * n.y() + n.y() * n.z() + n.z() * n.x();
   if (rays <= kMaxRemovalRays) return std::nullopt;
-  return error(fmt::format("a pitch of {} mm needs {:.3g} rays for this blank; {:.3g} is the limit",
+  return error("ray-pitch"_id,
+               fmt::format("a pitch of {} mm needs {:.3g} rays for this blank; {:.3g} is the limit",
                            pitch, rays, kMaxRemovalRays),
                fmt::format("use a pitch of {:.2g} mm or more",
                            1.1 * pitch * std::sqrt(rays / kMaxRemovalRays)));
@@ -266,7 +267,8 @@ CellRays CellRays::over(const BoundingBox& box, int axis, double pitch) {
 }
 
 Ray CellRays::ray(int u, int v) const {
-  // Irrational steps from row to row: a face along the rays of one row is not met by all rows alike.
+  // Irrational steps from row to row: a face along the rays of one row is not met by all rows
+  // alike.
   constexpr double kStepU = 0.61803398874989485, kStepV = 0.41421356237309505;
   const auto shift = [](double s) { return s - std::floor(s); };
   return {origin + (u + shift(0.5 + kStepU * v)) * pitch_u * Vec3::Unit((axis + 1) % 3) +

@@ -1,18 +1,21 @@
 // What each block of the program takes away: volume, rate, engagement, first and last contact.
 //
-// Model    : along a ray the material left after block N is known for every N; what differs between N-1
-//            and N is what block N removed. The blocks that took something are found by asking only at
-//            the blocks whose sweeps bound what is missing, and by halving where no bound tells.
+// Model    : along a ray the material left after block N is known for every N; what differs between
+//             N-1
+//            and N is what block N removed. The blocks that took something are found by asking only
+//            at the blocks whose sweeps bound what is missing, and by halving where no bound tells.
 //            Volumes are sums over three families of parallel rays, one in each cell of a grid
 //            that divides the blank's box evenly, and the mean of the three
 // Units    : mm, mm3, s; frame: workpiece
 // Shape    : one BlockRemoval for each block of the tool path, in program order
-// Errors   : removal_of() refuses a pitch that is not a finite number above 0, and a grid of more than
+// Errors   : removal_of() refuses a pitch that is not a finite number above 0, and a grid of more
+//             than
 //            kMaxRemovalRays rays
-// Accuracy : along a ray that of Workpiece (1 nm), and the pieces of all blocks add up to what is missing
-//            of the blank within rounding. Volumes converge with the pitch; rows are shifted against each
-//            other, so that faces along the rays average out. Boxes that the grid divides are exact
-//            (tests/stock/removal_test.cpp)
+// Accuracy : along a ray that of Workpiece (1 nm), and the pieces of all blocks add up to what is
+//             missing
+//            of the blank within rounding. Volumes converge with the pitch; rows are shifted
+//            against each other, so that faces along the rays average out. Boxes that the grid
+//            divides are exact (tests/stock/removal_test.cpp)
 // Threads  : removal_of() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
@@ -44,8 +47,8 @@ struct BlockRemoval {
   double rate = 0.0;               // mm3/min over the block's duration; 0 where that is unknown
   double largest_thickness = 0.0;  // mm of material met along a ray, all three families
   double mean_thickness = 0.0;     // mm, of all pieces met
-  // Extents of the material in the tool's frame when it is met: along the tool axis, and across axis and
-  // feed. A plunge has no radial one.
+  // Extents of the material in the tool's frame when it is met: along the tool axis, and across
+  // axis and feed. A plunge has no radial one.
   double axial_engagement = 0.0;
   std::optional<double> radial_engagement{};
   // s since the start of the program, as the rays of the grid are met; nothing: the block cuts air.
@@ -62,7 +65,8 @@ inline constexpr double kMaxRemovalRays = 50e6;
 [[nodiscard]] Result<std::vector<BlockRemoval>> removal_of(const Workpiece& workpiece,
                                                            const RemovalOptions& options = {});
 
-// One ray in each cell of a grid over a box, shifted from row to row, as rays of one axis from the box's lower face.
+// One ray in each cell of a grid over a box, shifted from row to row, as rays of one axis from the
+// box's lower face.
 struct CellRays {
   Vec3 origin = Vec3::Zero();
   int axis = 0;

@@ -42,7 +42,8 @@ IntervalSet Workpiece::material_along(const Ray& ray, RaySpan span,
     chord.lo_tag = tag_of_face(chord.lo_tag);
     chord.hi_tag = tag_of_face(chord.hi_tag);
   }
-  // The sweeps are asked a little beyond the blank, so that a cut flush with its face leaves no skin.
+  // The sweeps are asked a little beyond the blank, so that a cut flush with its face leaves no
+  // skin.
   constexpr double kBeyond = 1e-3;  // mm
   const RaySpan asked{chords.front().lo - kBeyond, chords.back().hi + kBeyond};
   return IntervalSet(std::move(chords)).minus(removed_.along(ray, asked, first_excluded_segment));

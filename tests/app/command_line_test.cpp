@@ -127,7 +127,7 @@ TEST_F(CommandLineSystem, WritesAndMeasuresAStepPatternPiece) {
   // A loft that is no body is refused where it stands.
   fs::remove_all(folder_ / "result");
   replace_in("piece/job.toml", "[180.4, 57.8, 62]", "[170.4, 57.8, 62]");
-  expect_refusal({"job.toml:", "blank.sections", "lies below the one before"});
+  expect_refusal({"job.toml:", "blank.sections", "is below the one before"});
 }
 
 TEST_F(CommandLineSystem, RefusesBadArguments) {

@@ -81,7 +81,7 @@ TEST(LoftBlank, SaysWhatIsNoBody) {
   EXPECT_NE(message({{0, 1, 1}, {2, 0, 1}}).find("section 2 of the loft is [2, 0, 1]"),
             std::string::npos);
   EXPECT_NE(message({{0, 1, 1}, {NAN, 1, 1}}).find("section 2"), std::string::npos);
-  EXPECT_NE(message({{0, 1, 1}, {2, 1, 1}, {1, 1, 1}}).find("lies below the one before"),
+  EXPECT_NE(message({{0, 1, 1}, {2, 1, 1}, {1, 1, 1}}).find("is below the one before"),
             std::string::npos);
   EXPECT_NE(message({{0, 1, 1}, {0, 2, 2}, {1, 1, 1}}).find("is the bottom"), std::string::npos);
   EXPECT_NE(message({{0, 1, 1}, {1, 2, 2}, {1, 1, 1}}).find("is the top"), std::string::npos);

@@ -312,9 +312,8 @@ TEST(PolyhedralWorkpiece, RefusesAHollowCutterAndSaysWhoTakesIt) {
                                             {{1, Cutter::make(hollow).value()}}, {});
   ASSERT_FALSE(cut);
   EXPECT_EQ(to_string(cut.error().front()),
-            ":1: error: the polyhedral engine cannot take tool T1: its outline is hollowed "
-            "out (hint: it "
-            "takes bodies made of convex parts; the ray engine takes this one)");
+            ":1: error: the polyhedral engine cannot take tool T1: its generatrix is concave "
+            "(hint: it takes bodies made of convex parts; the ray engine takes this one)");
 }
 
 TEST(PolyhedralReference, StraightSlotVolumeConvergesToTheClosedFormAtSecondOrder) {

@@ -73,7 +73,7 @@ std::string grows(const stock::Workpiece& left, const Vec3& middle, std::size_t 
     for (std::uint32_t n = 1; n <= segments; ++n) {
       const double now = length_left(left, ray, n);
       if (!(now >= 0.0)) return "a negative length";
-      if (now > before + kGrazing) return "more is left after more stretches";
+      if (now > before + kGrazing) return "more is left after more path segments";
       before = now;
     }
   }
