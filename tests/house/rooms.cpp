@@ -35,7 +35,6 @@ const std::vector<UpwardArrow>& upward_arrows() {
       {"parser/interpret/moves", "parser/interpret/filters", "until plane paths are below moves"},
       {"parser/interpret/state", "parser/interpret/cycles", "until the state holds no cycles"},
       {"parser/interpret/state", "parser/interpret/frames", "until the state holds no frames"},
-      {"cutter/sweep/segment_sweep.hpp", "cutter/search/tangent_plane.hpp", "until moved"},
       {"kinematics/controller", "kinematics/path", "until commands and paths are apart"},
       {"kinematics/model", "kinematics/path/tool_path.hpp", "until poses are of the model"},
       {"kinematics/model", "kinematics/errors", "the machine holds its error functions"},
