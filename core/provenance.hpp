@@ -1,5 +1,5 @@
-// What made a point of a workpiece's surface: the answer of a probe keeps it, so that nobody asks the
-// workpiece again to find out what was touched.
+// What made a point of a workpiece's surface: the answer of a probe keeps it, so that nobody asks
+// the workpiece again to find out what was touched.
 //
 // Units  : mm; the time as a fraction of the path segment
 // Errors : none

@@ -1,7 +1,7 @@
 // Whether what was measured is what the program meant to cut.
 //
 // Model    : a feature that an operation makes must have been cut, at every measured point, by the
-//             lines of
+//            lines of
 //            that operation; elsewhere the blank shows through, or another pass has cut deeper.
 //            What cut a point is what the probe's answer says (core/provenance.hpp)
 // Units    : mm

@@ -1,7 +1,7 @@
 // A rotating cutter: nominal shape and what is wrong with it.
 //
 // Units : mm, rad. `length` runs from the spindle gauge point to the tip; `flute_length` is the
-//             cutting
+//            cutting
 //         height above the tip (default: the whole length). Radius and length errors and run-out
 //         change the body that really cuts, not what the controller believes.
 // Errors: make() names the value and the limit that it breaks.

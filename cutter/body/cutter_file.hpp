@@ -2,11 +2,11 @@
 // libraries.
 //
 // Model    : [tool.N] holds `type` and the keys of that type (cutter_types()). A table may build on
-//             a tool
+//            a tool
 //            that is known already and then says only what differs
 // Units    : in files mm and degrees, or text with a unit; inside mm and rad
 // Errors   : every missing, misspelt or wrong key with file, line and key; tools named twice; files
-//             that
+//            that
 //            cannot be read
 #pragma once
 

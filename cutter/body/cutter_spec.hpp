@@ -1,8 +1,9 @@
-// A tool: its type, the dimensions that the type has, its errors, its holder. The one value that goes
-// from a job or a tool library to the report; what else is known of a tool is computed from it.
+// A tool: its type, the dimensions that the type has, its errors, its holder. The one value that
+// goes from a job or a tool library to the report; what else is known of a tool is computed from
+// it.
 //
 // Model    : one row a type in cutter_types() tells its name, the keys it takes and the generatrix
-//             they make
+//            they make
 // Units    : mm, rad; heights from the tip
 // Errors   : generatrix functions say which dimension does not fit the others
 #pragma once

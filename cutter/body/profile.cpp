@@ -208,9 +208,6 @@ double zone_support(const Zone& zone, double across, double u) {
 
 }  // namespace
 
-Zone cylinder_zone(double radius, double z_lo, double z_hi) {
-  return {.kind = ZoneKind::cone, .z_lo = z_lo, .z_hi = z_hi, .radius = radius};
-}
 Zone cone_zone(double radius_lo, double radius_hi, double z_lo, double z_hi) {
   return {.kind = ZoneKind::cone,
           .z_lo = z_lo,

@@ -2,7 +2,7 @@
 // revolution.
 //
 // Model    : radius r(z) over height z above the tip, z in [bottom, height]; a zone is the part of
-//             a cylinder,
+//            a cylinder,
 //            cone, sphere or torus about the tool axis between two heights; r(z) is concave over
 //            all zones, so that a ray meets the body in one interval
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
@@ -25,8 +25,9 @@ using kinematics::ToolPose;
 enum class ZoneKind : std::uint8_t {
   cone,    // r = radius + slope (z - z_lo); a cylinder has slope 0
   sphere,  // about the axis point at height `centre`
-  torus,  // outer side of a tube of `radius` about the circle of radius `major` at height `centre`; major
-          // below 0: the lens that such arcs make when their centre is beyond the axis
+  // Outer side of a tube of `radius` about the circle of radius `major` at height `centre`; major
+  // below 0: the lens that such arcs make when their centre is beyond the axis.
+  torus,
 };
 struct Zone {
   ZoneKind kind = ZoneKind::cone;
@@ -37,7 +38,6 @@ struct Zone {
   double centre = 0.0;
   double major = 0.0;
 };
-[[nodiscard]] Zone cylinder_zone(double radius, double z_lo, double z_hi);
 [[nodiscard]] Zone cone_zone(double radius_lo, double radius_hi, double z_lo, double z_hi);
 [[nodiscard]] Zone sphere_zone(double radius, double centre, double z_lo, double z_hi);
 [[nodiscard]] Zone torus_zone(double major, double minor, double centre, double z_lo, double z_hi);

@@ -1,6 +1,7 @@
 // The generatrix of each type of cutter, from its dimensions.
 //
-// Model    : a chain of lines and arcs from the axis round the end and up the flank to the height of the
+// Model    : a chain of lines and arcs from the axis round the end and up the flank to the height
+//            of the
 //            flutes; the radius error is in the diameter already
 // Units    : mm, rad; heights from the tip
 // Errors   : which dimension does not fit the others, and the limit

@@ -1,7 +1,7 @@
 // The cutters of a LinuxCNC tool table (.tbl), whose text parser/tool_table.hpp reads.
 //
 // Model    : a table knows no shape: a tool is taken as a flat end mill of its D and Z. Lines
-//             without a length or
+//            without a length or
 //            diameter above 0 (probes, empty pockets) give no tool
 // Units    : mm, as the table of a metric machine has them
 // Errors   : those of the table, and one without tools

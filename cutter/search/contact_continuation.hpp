@@ -2,7 +2,7 @@
 // faster.
 //
 // Model    : a continuation keeps a contact of the nominal path, the segments around it and the
-//             distance to all
+//            distance to all
 //            others. On a changed path the contact is solved anew in its own segment or the next
 //            ones. Planes that touch the cutter prove, pose by pose, that nothing else of the
 //            window reaches beyond; the distance proves it for the rest. What cannot be proven is

@@ -2,7 +2,7 @@
 // poses.
 //
 // Model    : at another pose of the group, tip p + dp and axis a + da, the plane has turned with
-//             the axis and
+//            the axis and
 //            moved with the tip; both are bounded by the group's oriented boxes
 // Units    : mm, rad; frame: workpiece
 // Errors   : none

@@ -2,7 +2,7 @@
 // pose.
 //
 // Model    : a group holds segments that are near each other in place and direction. All their
-//             poses lie in
+//            poses lie in
 //            an oriented box around the representative, a pose that the path really takes: the
 //            cutter there is covered for certain, and a plane that touches it there, moved out by
 //            the box, bounds what all of the group covers. A group along a surface is flat, so that
@@ -10,7 +10,7 @@
 //            neighbours
 // Units    : mm; frame: workpiece
 // Shape    : a binary tree, siblings side by side, up to four segments a leaf; 160 to 310 bytes a
-//             segment
+//            segment
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
 #pragma once

@@ -3,7 +3,7 @@
 // Units    : mm; frame: workpiece
 // Errors   : none
 // Accuracy : the normal is as exact as the moment of the contact: the end depends on that only to
-//             the second
+//            the second
 //            order, so that 1e-12 mm of the end are 1e-6 rad of the normal
 #pragma once
 

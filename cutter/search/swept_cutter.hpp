@@ -3,10 +3,10 @@
 // Model    : union over all segments of a ToolPath of the cutter body moving through it
 // Units    : mm; frame: workpiece
 // Errors   : sweep() refuses a path that uses a tool number without a cutter, or turns a tool half
-//             about
+//            about
 //            between two poses
 // Accuracy : interval ends within 1 nm normal to the swept surface for the given path; of concave
-//             cutters
+//            cutters
 //            as concave_sweep.hpp says
 // Threads  : const member functions may be called from any number of threads
 #pragma once

@@ -1,7 +1,7 @@
 // A plane that goes with a body of revolution, turned about its axis to a fixed side.
 //
 // Model    : at an axis a the plane's normal is lateral * (what of `side` is perpendicular to a, as
-//             a unit) +
+//            a unit) +
 //            axial * a, and its distance from the tip is `offset`: whichever side a body of
 //            revolution turns to the plane, one that touches it keeps touching
 // Units    : mm; frame: workpiece

@@ -1,7 +1,7 @@
 // Why a mesh is not the surface of one body.
 //
 // Model    : a body is bounded by one outer shell, counter-clockwise seen from outside, and any
-//             number
+//            number
 //            of voids within it. Told are holes, edges and corners that are no manifold, facets
 //            against each other, crossing facets, inside-out and several shells
 // Units    : mm

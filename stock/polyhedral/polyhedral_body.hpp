@@ -1,7 +1,7 @@
 // A cutter as a convex polyhedron around it: rings of regular polygons along the axis.
 //
 // Model    : tangent lines of the generatrix at equal steps of their slope and along its cones,
-//             each
+//            each
 //            turned around the axis into a band of `facets` planes that touch the true body. The
 //            generatrix comes from the support function of the profile, so every convex profile
 //            will do

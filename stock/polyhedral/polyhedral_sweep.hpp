@@ -1,7 +1,7 @@
 // The sweep of faceted cutters along a tool path, as convex pieces that together contain it.
 //
 // Model    : a piece is the convex hull of a convex section of the faceted cutter at both ends of a
-//             part of
+//            part of
 //            the motion. Two things part such a hull from the true sweep:
 //            (1) points at distance rho from the tip run on arcs: a turn by theta takes them up to
 //                rho*theta^2/8 off the chord. The motion is halved until that is below a quarter

@@ -1,7 +1,7 @@
 // Intervals that surely hold the true value: what proofs compute with.
 //
 // Model    : Boost.Interval with a rounding policy of our own. Every operation rounds to nearest,
-//             which is
+//            which is
 //            off by half a unit in the last place at most, and is then widened by more than that on
 //            either side; the processor's rounding mode is left alone, so that neither the
 //            optimiser nor other threads can spoil a bound. Only + - * / and the square root are

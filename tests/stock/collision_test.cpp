@@ -19,7 +19,7 @@ using testing::random_path;
 
 // Flutes of 6 mm and a shank or holder above them.
 NonCuttingBody above_flutes(CollisionBody body, double radius) {
-  return {1, body, {cutter::Profile({cutter::cylinder_zone(radius, 6.0, 60.0)})}};
+  return {1, body, {cutter::Profile({cutter::cone_zone(radius, radius, 6.0, 60.0)})}};
 }
 const NonCuttingBody kShank = above_flutes(CollisionBody::shank, 5.0);
 const NonCuttingBody kThinShank = above_flutes(CollisionBody::shank, 4.0);
