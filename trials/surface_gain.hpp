@@ -16,7 +16,7 @@
 //            off by the size of the errors, relatively (1e-4 for 100 urad). Normals are those of
 //            the cut surface, facets and all. Agrees with central differences of whole trials:
 //            characteristics in tests/trials/step_sensitivity_test.cpp, single points of the
-//            five-axis cone within 3e-6 of the gain in tests/trials/surface_gain_test.cpp
+//            five-axis cone within 1e-5 of the gain in tests/trials/surface_gain_test.cpp
 // Source   : first-order gains of the chain: kinematics/errors/error_gain.hpp; envelope theorem
 #pragma once
 
