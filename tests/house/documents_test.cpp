@@ -67,6 +67,34 @@ TEST(Documents, PathsOfTheTreeExist) {
   EXPECT_GT(held, 20);
 }
 
+// `// kinematics/model/chain.hpp` of a comment is there; a name without a folder is somewhere.
+TEST(Documents, FilesThatCommentsNameExist) {
+  std::vector<std::string> files = sources_of_all_rooms();
+  for (const char* folder : {"tests", "bench", "examples"}) {
+    for (std::string& file : files_of(folder, {".cpp", ".hpp"})) files.push_back(std::move(file));
+  }
+  std::set<std::string> names;
+  for (const std::string& file : files) names.insert(file.substr(file.rfind('/') + 1));
+  const std::regex path(R"((^|[^\w<./-])([\w./]*\w\.(hpp|cpp))\b)");
+  for (const std::string& file : files) {
+    int number = 0;
+    for (const std::string& line : lines_of(file)) {
+      ++number;
+      const auto comment = line.find("// ");
+      if (comment == std::string::npos) continue;
+      for (auto hit = std::sregex_iterator(line.begin() + static_cast<std::ptrdiff_t>(comment),
+                                           line.end(), path);
+           hit != std::sregex_iterator(); ++hit) {
+        const std::string name = (*hit)[2].str();
+        const bool there = rooms().contains(room_of(name))
+                               ? std::filesystem::exists(source_dir() / name)
+                               : names.contains(name.substr(name.rfind('/') + 1));
+        EXPECT_TRUE(there) << file << ":" << number << " names " << name;
+      }
+    }
+  }
+}
+
 TEST(Documents, TheApiPageShowsTheExampleThatIsCompiled) {
   EXPECT_NE(text_of("docs/cpp-api.md").find(text_of("examples/api/measure_pin.cpp")),
             std::string::npos);
