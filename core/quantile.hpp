@@ -1,6 +1,6 @@
 // Values that a share of a sample is below.
 //
-// Model    : quantile: the sorted values stand for the shares (i - 1/2) / n, straight between them
+// Model    : quantile: the sorted values represent the shares (i - 1/2) / n, straight between them
 //            and held at the ends (Hazen's rule). nearest_rank: the least value that at least this
 //            share does not exceed
 // Units    : those of the values

@@ -6,7 +6,7 @@
 //            the convex hulls of what is not convex itself
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
 // Errors   : make() refuses what Generatrix::make() refuses
-// Accuracy : faces of parts() lie on the generatrix within 1e-12 mm
+// Accuracy : faces of parts() are on the generatrix within 1e-12 mm
 #pragma once
 
 #include <cstdint>

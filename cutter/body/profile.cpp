@@ -238,7 +238,7 @@ Profile::Profile(std::vector<Zone> zones) : zones_(std::move(zones)) {
       reach_ = std::max(reach_, std::hypot(z, radius_at(zone, z)));
     }
     if (zone.kind == ZoneKind::cone) continue;
-    // The belly of a sphere or torus may lie between its two heights.
+    // The belly of a sphere or torus may be between its two heights.
     if (zone.centre >= zone.z_lo && zone.centre <= zone.z_hi) {
       max_radius_ = std::max(max_radius_, zone.major + zone.radius);
     }

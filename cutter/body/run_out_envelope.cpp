@@ -160,7 +160,7 @@ Chain widened(const Chain& chain, double by) {
   if (by == 0.0) return chain;
   Chain moved_on;
   if (by < 0.0) {
-    // What comes to lie beyond the axis is ground off.
+    // What comes to be beyond the axis is ground off.
     moved_on = narrowed(monotone_in_height(chain), -by);
   } else {
     const double height = chain.front().from.z;

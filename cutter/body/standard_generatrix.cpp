@@ -111,7 +111,7 @@ Result<GeneratrixChain> end_mill_generatrix(const CutterSpec& spec) {
   Pen pen({0.0, low.z + low.r * std::tan(end)});
   pen.to(low);
   if (corner > 0.0) {
-    // Apart at the lowest point, which may lie within the arc: an arc turns by less than half a
+    // Apart at the lowest point, which may be within the arc: an arc turns by less than half a
     // turn.
     pen.arc_to({c.r, 0.0}, c).arc_to(high, c);
   }

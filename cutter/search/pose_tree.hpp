@@ -2,7 +2,7 @@
 // pose.
 //
 // Model    : a group holds segments that are near each other in place and direction. All their
-//            poses lie in
+//            poses are in
 //            an oriented box around the representative, a pose that the path really takes: the
 //            cutter there is covered for certain, and a plane that touches it there, moved out by
 //            the box, bounds what all of the group covers. A group along a surface is flat, so that

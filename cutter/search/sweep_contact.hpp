@@ -23,7 +23,7 @@ struct SweepContact {
   std::uint32_t section = 0;    // of the cutter's body, or kConcaveSurface
   ProfileFace face = kTopFace;  // of that section
   double t = 0.0;               // moment within the segment, 0..1
-  kinematics::ToolPose pose{};  // of the cutter at that moment
+  kinematics::ToolPose pose{};  // of the cutter at that time
   // Unit, out of the cutter: that of the swept surface. On a rim, where the cutter's faces meet at
   // an angle, it is between theirs, across the motion.
   Vec3 normal = Vec3::UnitZ();

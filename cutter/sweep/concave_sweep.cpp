@@ -116,7 +116,7 @@ void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& foun
     double next = std::min(hi, s + 1.8 * sure);
     Nearest there = nearest(next);
     const bool flips = (there.distance < 0.0) != (here.distance < 0.0);
-    if (!flips && std::abs(there.distance) + sure < next - s) {  // an end may lie between
+    if (!flips && std::abs(there.distance) + sure < next - s) {  // an end may be between
       next = std::min(hi, s + sure);
       there = nearest(next);
     }

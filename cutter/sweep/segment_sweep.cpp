@@ -20,7 +20,7 @@ constexpr int kMostLooks = 20000;
 // No bulge, as a number that can be divided by.
 constexpr double kNoBulge = 1e-300;
 
-// A plane that touches the body where a chord ends at one moment, and where the ray crosses it at
+// A plane that touches the body where a chord ends at one time, and where the ray crosses it at
 // another.
 struct RoofSide {
   const TangentPlane& plane;

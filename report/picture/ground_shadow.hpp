@@ -1,4 +1,4 @@
-// The soft shadow of the part on the ground it stands on.
+// The soft shadow of the part on the ground it is on.
 //
 // Model   : a ray from the ground towards the light at each pixel, then blurred. The light stands
 //           high behind the viewer's left shoulder: shadows fall back and to the right

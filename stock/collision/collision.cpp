@@ -161,7 +161,7 @@ class OverlapSearch {
         const auto a = part.chord(path.from(s), ray), b = part.chord(path.to(s), ray);
         if (a) all.push_back({a->lo, a->hi});
         if (b) all.push_back({b->lo, b->hi});
-        // Moving along the ray, the part also covers what lies between.
+        // Moving along the ray, the part also covers what is between.
         if (a && b && along) all.push_back({std::min(a->lo, b->lo), std::max(a->hi, b->hi)});
       }
     }

@@ -22,7 +22,7 @@ constexpr double kSharp = 0.3;
 // Within the tolerance a triangle may still turn over; 20 degrees keeps wrinkles out.
 constexpr double kMostTurn = 20.0;  // degrees, as OpenMesh asks for it
 
-// OpenMesh holds the vertices taken away against the triangles; what lies between those vertices
+// OpenMesh holds the vertices taken away against the triangles; what is between those vertices
 // gets the rest of the tolerance.
 constexpr double kVertexShare = 0.5;
 

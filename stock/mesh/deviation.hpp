@@ -5,7 +5,7 @@
 //            each sign is looked up in the workpiece for the block that made it
 // Units    : mm
 // Errors   : none; a point without a nominal has no deviation
-// Accuracy : vertices lie on the exact surface (surface_mesh.hpp); between them a deviation is
+// Accuracy : vertices are on the exact surface (surface_mesh.hpp); between them a deviation is
 //            missed by at most what it grows over a pitch
 #pragma once
 
@@ -36,7 +36,7 @@ struct WorstDeviations {
   std::optional<WorstPoint> excess{};
 };
 
-// `tolerance`: how far the vertices may lie off the workpiece's surface, for finding the block.
+// `tolerance`: how far the vertices may be off the workpiece's surface, for finding the block.
 [[nodiscard]] WorstDeviations worst_deviations(const WorkpieceAt& part, const SurfaceMesh& mesh,
                                                Mm tolerance = Mm{1e-3});
 

@@ -87,7 +87,7 @@ std::optional<Edges> edges_of(const SurfaceMesh& mesh) {
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 
-// What lies beside the middle of an edge.
+// What is beside the middle of an edge.
 struct Middle {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();

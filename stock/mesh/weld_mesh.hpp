@@ -1,10 +1,10 @@
-// Vertices that stand for one corner, made one.
+// Vertices that represent one corner, made one.
 //
 // Programs that write facets one by one round their common corners each for itself, and rays pass
 // through the seam between them.
 // Model    : the seam is 1e-9 of the size of the mesh wide, or four units in the last place where
 //            all numbers are of single precision, as those of a binary STL are. Each vertex that
-//            lies within that of an earlier one becomes it; facets that lose a side to it are left
+//            is within that of an earlier one becomes it; facets that lose a side to it are left
 //            out
 // Units    : mm, or any
 // Shape    : vertices keep their numbers and places, those that nothing names any more too

@@ -129,7 +129,7 @@ class Sweep {
     return (lo.array() > within_.max.array()).any() || (hi.array() < within_.min.array()).any();
   }
 
-  // Of the end faces and of the edges around the axis: what slabs cannot mend.
+  // Of the end faces and of the edges around the axis: what convex sections cannot mend.
   [[nodiscard]] static double end_overshoot(const FacetedBody& body, const std::vector<Ring>& rings,
                                             const Pose& a, const Pose& b) {
     const Vec3 axis = (a.rotation.col(2) + b.rotation.col(2)).normalized();
@@ -164,7 +164,7 @@ class Sweep {
     return worst;
   }
 
-  // The rings of each slab, so that the walls of none overshoot by more than their share.
+  // The rings of each convex section, so that the walls of none overshoot by more than their share.
   [[nodiscard]] std::vector<std::vector<Ring>> slab_rings(const FacetedBody& body,
                                                           const std::vector<Ring>& rings,
                                                           const Pose& a, const Pose& b) const {

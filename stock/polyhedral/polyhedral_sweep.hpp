@@ -8,7 +8,7 @@
 //                of the tolerance, and the cutter is grown by it: the hull misses nothing.
 //            (2) a hull joins points x and y of the body across the motion: it reaches beyond the
 //                sweep by up to |M(y - x)|/4, M the linear map from body points to their
-//                displacements, where x and y lie on one facet or edge whose normal displacement
+//                displacements, where x and y are on one facet or edge whose normal displacement
 //                changes sign. (At the mixing ratio l the hull holds (1-l)x + l(y + My), the sweep
 //                at time l the same point less l(1-l)M(y - x).) Where this exceeds half the
 //                tolerance, walls are cut into sections across the axis, and for end faces the

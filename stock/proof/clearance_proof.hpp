@@ -27,7 +27,7 @@
 
 namespace frustum::stock {
 
-// A unit vector that is known to lie within `radius` of `middle`.
+// A unit vector that is known to be within `radius` of `middle`.
 struct UnitBall {
   Vec3 middle = Vec3::UnitZ();
   double radius = 0.0;

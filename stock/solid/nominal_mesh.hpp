@@ -6,7 +6,7 @@
 // Shape    : one deviation a point
 // Errors   : none; a nominal without facets gives no deviations
 // Accuracy : that of stock/solid/facet_solid.hpp, for the facets; how far these are from the shape
-//            that they stand for is the file's
+//            that they represent is the file's
 // Threads  : runs on oneTBB; the same bits for any number of threads
 #pragma once
 

@@ -287,7 +287,8 @@ TEST_P(ProgramsReference, ConvergeToTheRaysAtSecondOrder) {
     auto faceted = PolyhedralWorkpiece::cut(blank, path, tools, options);
     ASSERT_TRUE(faceted) << to_string(faceted.error().front());
     found.push_back(difference(exact, *faceted, 100));
-    // The mean: beside an edge no direction of search need lead to the other surface's nearest point.
+    // The mean: beside an edge no direction of search need lead to the other surface's nearest
+    // point.
     EXPECT_LT(found.back().rms, polyhedral_bound(options, {tools.at(1).body().max_radius()}).value);
     EXPECT_LT(found.back().excess, 1e-8) << "material that the true part lacks, facets " << facets;
     EXPECT_GT(found.back().points, 40);

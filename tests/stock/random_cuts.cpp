@@ -30,7 +30,8 @@ Blank random_blank(Draw& draw) {
       .value();
 }
 
-// Steps that people and controllers make: straight, turning, along the axis, none at all, back, off by a hair.
+// Steps that people and controllers make: straight, turning, along the axis, none at all, back, off
+// by a hair.
 ToolPose next_pose(const std::vector<ToolPose>& poses, Draw& draw) {
   const ToolPose& last = poses.back();
   switch (draw.below(9)) {
@@ -64,7 +65,8 @@ double length_left(const stock::Workpiece& left, const stock::Ray& ray, std::uin
 // Along a few rays: more segments never leave more.
 std::string grows(const stock::Workpiece& left, const Vec3& middle, std::size_t segments,
                   Draw& draw) {
-  // Sweeps are 1 nm exact normal to their surface; a grazing ray is cut that much longer or shorter.
+  // Sweeps are 1 nm exact normal to their surface; a grazing ray is cut that much longer or
+  // shorter.
   constexpr double kGrazing = 1e-2;  // mm
   for (int k = 0; k < 4; ++k) {
     const stock::Ray ray{middle + draw.point(Vec3(-6, -6, -6), Vec3(6, 6, 6)), draw.direction()};

@@ -1,4 +1,5 @@
-// The surface at a measured point, asked from the workpiece again: the judge of what a probe's answer says.
+// The surface at a measured point, asked from the workpiece again: the judge of what a probe's
+// answer says.
 // Units: mm; frame: workpiece
 #pragma once
 

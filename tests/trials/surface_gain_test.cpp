@@ -1,5 +1,5 @@
-// Gains of surface points against whole cuts: the program runs again with the error in the machine, and the
-// same probe ray is asked.
+// Gains of surface points against whole cuts: the program runs again with the error in the machine,
+// and the same probe ray is asked.
 #include "trials/surface_gain.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +27,8 @@ programs::ConeFrustum coarse_cone() {
   return cone;
 }
 
-// Every machine error that moves the cone's surface, each of one kind at least: linear and rotary axes,
-// places, squareness, and the tool.
+// Every machine error that moves the cone's surface, each of one kind at least: linear and rotary
+// axes, places, squareness, and the tool.
 const std::vector<std::string> kErrors = {"tool_radius_error",
                                           "EX0Y",
                                           "EC0Y",
@@ -77,8 +77,8 @@ class ConeCuts {
     return trial ? *std::move(trial) : Trial{};
   }
 
-  // Central differences over `step` at every 20th point. Where another block has made the point after the
-  // step, or an edge has passed it, there is no derivative.
+  // Central differences over `step` at every 20th point. Where another block has made the point
+  // after the step, or an edge has passed it, there is no derivative.
   [[nodiscard]] Difference compare(const Parameter& parameter, double step,
                                    const Eigen::VectorXd& gain) const {
     const Trial plus = with(parameter, step), minus = with(parameter, -step);
@@ -139,8 +139,8 @@ TEST(SurfaceGainReference, AgreesWithWholeCutsOfTheFiveAxisCone) {
         "{}: largest gain {:.4g}, worst difference {:.1e} in {} points; {} left out between "
         "blocks\n",
         kErrors[k], d.largest, d.worst, d.points - d.changed, d.changed);
-    // The path is a chain of chords within 0.01 um: where the point moves from one to the next within the
-    // step its normal turns by up to 4 * 1e-5 / 0.3 mm = 1.3e-4, of which half shows.
+    // The path is a chain of chords within 0.01 um: where the point moves from one to the next
+    // within the step its normal turns by up to 4 * 1e-5 / 0.3 mm = 1.3e-4, of which half shows.
     EXPECT_LT(d.worst, 2e-5 * std::max(1.0, d.largest)) << kErrors[k];
     EXPECT_LE(d.changed * 20, d.points) << kErrors[k];
     EXPECT_GT(d.points, 90);
