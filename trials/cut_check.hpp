@@ -1,9 +1,8 @@
 // Whether what was measured is what the program meant to cut.
 //
 // Model    : a feature that an operation makes must have been cut, at every measured point, by the
-//            lines of
-//            that operation; elsewhere the blank shows through, or another pass has cut deeper.
-//            What cut a point is what the probe's answer says (core/provenance.hpp)
+//            lines of that operation; elsewhere the blank shows through, or another pass has cut
+//            deeper. What cut a point is what the probe's answer says (core/provenance.hpp)
 // Units    : mm
 // Errors   : none; features that were not measured are passed over
 // Accuracy : exact

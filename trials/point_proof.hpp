@@ -1,8 +1,8 @@
 // How near the measured points are to the true surface, and a proof of it for some of them.
 //
 // Model    : every touched point keeps its bound (core/provenance.hpp); a sample of them, evenly
-//            spread over
-//            the features, goes through interval arithmetic (stock/proof/certificate.hpp)
+//            spread over the features, goes through interval arithmetic
+//            (stock/proof/certificate.hpp)
 // Units    : mm
 // Errors   : none; points whose provenance nobody knows are left out
 // Accuracy : the bounds are those of stock::SurfacePoint

@@ -1,9 +1,8 @@
 // A body of revolution, cut across its axis into convex parts.
 //
 // Model    : the generatrix is the truth. Each section is convex: parts() are inside the body; what
-//            of the body
-//            is in none of them (around a concave end, beside an inside radius) is in concave(),
-//            the convex hulls of what is not convex itself
+//            of the body is in none of them (around a concave end, beside an inside radius) is in
+//            concave(), the convex hulls of what is not convex itself
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
 // Errors   : make() refuses what Generatrix::make() refuses
 // Accuracy : faces of parts() are on the generatrix within 1e-12 mm

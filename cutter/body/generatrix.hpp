@@ -2,16 +2,14 @@
 // height.
 //
 // Model    : a chain of segments from the tool axis, round the end and up the side, to the top; a
-//            flat top
-//            face closes it. The body is what is between the chain and the axis. Concave parts (a
-//            concave end, a waist, an inside radius) are ordinary. From the lowest point on the
-//            chain never falls: the outer radius is a function of height, with steps
+//            flat top face closes it. The body is what is between the chain and the axis. Concave
+//            parts (a concave end, a waist, an inside radius) are ordinary. From the lowest point
+//            on the chain never falls: the outer radius is a function of height, with steps
 // Units    : mm; frame: tool (r from the axis, z from the tip towards the spindle; the lowest point
 //            has z = 0,
 //            or `bottom` for a shank or holder above the cutting part)
 // Errors   : make() names the segment that is no part of such a chain: gaps, r < 0, points that are
-//            not
-//            numbers, an arc whose ends are not on its circle, a chain that turns back on or
+//            not numbers, an arc whose ends are not on its circle, a chain that turns back on or
 //            crosses itself
 // Accuracy : distance() within 1e-12 mm for bodies below 1 m
 #pragma once

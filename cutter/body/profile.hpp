@@ -2,9 +2,8 @@
 // revolution.
 //
 // Model    : radius r(z) over height z above the tip, z in [bottom, height]; a zone is the part of
-//            a cylinder,
-//            cone, sphere or torus about the tool axis between two heights; r(z) is concave over
-//            all zones, so that a ray meets the body in one interval
+//            a cylinder, cone, sphere or torus about the tool axis between two heights; r(z) is
+//            concave over all zones, so that a ray meets the body in one interval
 // Units    : mm; frame: tool (tip at the origin, axis +Z towards the spindle)
 // Accuracy : chords within 1e-12 mm for bodies within 1 m of the ray's origin
 #pragma once

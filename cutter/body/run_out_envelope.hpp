@@ -1,11 +1,11 @@
 // The body that a tool off its spindle axis sweeps as it turns.
 //
 // Model    : the tool's axis is `offset` beside the spindle axis: every circle of radius r about
-//            the tool's
-//            axis covers the ring from |offset - r| to offset + r about the spindle's. The
-//            generatrix moves outwards, a recess narrows, a point becomes a ring around a dimple.
-//            `tilt`: the offset falls by tilt z up the axis; the generatrix turns about its rim, so
-//            that the wobble of an end face (radius times tilt) and terms in tilt^2 are left out
+//            the tool's axis covers the ring from |offset - r| to offset + r about the spindle's.
+//            The generatrix moves outwards, a recess narrows, a point becomes a ring around a
+//            dimple. `tilt`: the offset falls by tilt z up the axis; the generatrix turns about its
+//            rim, so that the wobble of an end face (radius times tilt) and terms in tilt^2 are
+//            left out
 // Units    : mm, rad
 // Errors   : an offset as large as the tool's radius
 // Accuracy : within 1e-8 mm without tilt: a dimple shallower than that is filled

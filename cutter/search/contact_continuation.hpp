@@ -2,11 +2,10 @@
 // faster.
 //
 // Model    : a continuation keeps a contact of the nominal path, the segments around it and the
-//            distance to all
-//            others. On a changed path the contact is solved anew in its own segment or the next
-//            ones. Planes that touch the cutter prove, pose by pose, that nothing else of the
-//            window reaches beyond; the distance proves it for the rest. What cannot be proven is
-//            not answered: then the whole sweep is to be asked
+//            distance to all others. On a changed path the contact is solved anew in its own
+//            segment or the next ones. Planes that touch the cutter prove, pose by pose, that
+//            nothing else of the window reaches beyond; the distance proves it for the rest. What
+//            cannot be proven is not answered: then the whole sweep is to be asked
 // Units    : mm; frame: workpiece
 // Errors   : on() refuses a path with other segments, blocks or tools than the nominal one
 // Accuracy : that of SweptCutter::end_of_void

@@ -1,9 +1,8 @@
 // For how long one surface point is touched by the pass that made it.
 //
 // Model    : a generatrix touches a point at one instant; a flat end face that moves in its own
-//            plane, or a
-//            side face that moves along its own axis, touches it as long as the point is under the
-//            face. The range begins and ends where the face leaves the point
+//            plane, or a side face that moves along its own axis, touches it as long as the point
+//            is under the face. The range begins and ends where the face leaves the point
 // Units    : mm
 // Shape    : one point of one block; walks over the neighbouring segments of that block
 // Errors   : none

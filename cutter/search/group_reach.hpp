@@ -1,9 +1,8 @@
 // Where along a ray the cutter may cover anything at the poses of a group.
 //
 // Model    : the planes that touch the representative where the ray enters and leaves it, moved out
-//            by the group's
-//            bounds; where they bound badly, or where the ray misses the representative, the
-//            representative grown all round
+//            by the group's bounds; where they bound badly, or where the ray misses the
+//            representative, the representative grown all round
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)

@@ -1,10 +1,9 @@
 // The search of a tool's tree of poses for what it covers of a ray, whatever is wanted of that.
 //
 // Model    : groups that the goal does not want any more are left aside; of the others the
-//            representative
-//            adds what it covers, and the halves are asked, what promises most first, down to the
-//            path segments themselves. What a concave body covers beside its convex parts is asked
-//            last
+//            representative adds what it covers, and the halves are asked, what promises most
+//            first, down to the path segments themselves. What a concave body covers beside its
+//            convex parts is asked last
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : as ray_search.hpp

@@ -2,12 +2,11 @@
 // pose.
 //
 // Model    : a group holds segments that are near each other in place and direction. All their
-//            poses are in
-//            an oriented box around the representative, a pose that the path really takes: the
-//            cutter there is covered for certain, and a plane that touches it there, moved out by
-//            the box, bounds what all of the group covers. A group along a surface is flat, so that
-//            the bound is tight: far tighter than a box of the swept volume, which overlaps all its
-//            neighbours
+//            poses are in an oriented box around the representative, a pose that the path really
+//            takes: the cutter there is covered for certain, and a plane that touches it there,
+//            moved out by the box, bounds what all of the group covers. A group along a surface is
+//            flat, so that the bound is tight: far tighter than a box of the swept volume, which
+//            overlaps all its neighbours
 // Units    : mm; frame: workpiece
 // Shape    : a binary tree, siblings side by side, up to four segments a leaf; 160 to 310 bytes a
 //            segment

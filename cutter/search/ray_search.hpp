@@ -1,15 +1,14 @@
 // What the sweeps of one tool cover of a ray, found from coarse groups of poses to single segments.
 //
 // Model    : groups that cover nothing beyond what is covered already, by their own bounds or by a
-//            plane at
-//            an end of a swept interval, are left aside; of the others the representative adds what
-//            it covers, and the halves are asked, what promises most first, down to the segments
-//            themselves
+//            plane at an end of a swept interval, are left aside; of the others the representative
+//            adds what it covers, and the halves are asked, what promises most first, down to the
+//            segments themselves
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : ends within twice kSearchTolerance normal to the swept surface, for the solution and
-//            for what
-//            is left aside, and within what the segments themselves allow (SweptCutter::accuracy)
+//            for what is left aside, and within what the segments themselves allow
+//            (SweptCutter::accuracy)
 // Source   : ours
 #pragma once
 

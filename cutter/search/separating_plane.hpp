@@ -2,11 +2,10 @@
 // farther.
 //
 // Model    : where a cutter touches the end of what is covered it has a tangent plane. Another
-//            cutter near by
-//            has its own plane of that latitude, turned about its axis towards the end; if the end
-//            is beyond that plane, and the ray leaves it, then this cutter covers nothing beyond
-//            the end. For a group of poses, or the motion from pose to pose, the plane's distance
-//            is bounded
+//            cutter near by has its own plane of that latitude, turned about its axis towards the
+//            end; if the end is beyond that plane, and the ray leaves it, then this cutter covers
+//            nothing beyond the end. For a group of poses, or the motion from pose to pose, the
+//            plane's distance is bounded
 // Units    : mm; frame: workpiece
 // Errors   : none; false says nothing
 // Accuracy : proofs hold but for kSearchTolerance normal to the surface

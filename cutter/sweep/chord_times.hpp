@@ -2,10 +2,9 @@
 // does not.
 //
 // Model    : samples of the chord, refined until between two neighbours that both have one the
-//            covered places
-//            hang together (their chords overlap, or one body has gone from the one to the other),
-//            and until two without one are proven to have none between, by planes along the ray
-//            that part it from the body on its whole way
+//            covered places hang together (their chords overlap, or one body has gone from the one
+//            to the other), and until two without one are proven to have none between, by planes
+//            along the ray that part it from the body on its whole way
 // Units    : mm; frame: workpiece
 // Errors   : none
 // Accuracy : runs end within 1e-9 mm of motion; what is passed over enters the sweep by less than

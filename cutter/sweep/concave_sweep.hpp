@@ -1,20 +1,18 @@
 // What a concave cutter covers of a ray on one segment of tool path.
 //
 // Model    : the sweep of a concave section's hull is known from segment_sweep.hpp. Where the hull
-//            touches its end
-//            with the body's own surface, that is the body's end too, and often the body there
-//            covers all the way up to it. What remains is walked: with d(x, t) the signed distance
-//            of a point to the body at time t, phi(x) = min over t of d is below zero exactly where
-//            the segment covers; along a ray it changes by at most the way, so that steps as long
-//            as phi never pass an end
+//            touches its end with the body's own surface, that is the body's end too, and often the
+//            body there covers all the way up to it. What remains is walked: with d(x, t) the
+//            signed distance of a point to the body at time t, phi(x) = min over t of d is below
+//            zero exactly where the segment covers; along a ray it changes by at most the way, so
+//            that steps as long as phi never pass an end
 // Units    : mm; frame: workpiece
 // Errors   : none
 // Accuracy : ends within 0.1 nm normal to the surface of what is sampled of phi, and that within 10
-//            nm of the
-//            truth (concave_accuracy): valleys of d over t are separated by samples of the motion,
-//            the denser the smaller the body's features are. A piece that the ray enters by less
-//            than kMissedDepth may be missed; where a ray slides along the surface, one of less
-//            than 1 um
+//            nm of the truth (concave_accuracy): valleys of d over t are separated by samples of
+//            the motion, the denser the smaller the body's features are. A piece that the ray
+//            enters by less than kMissedDepth may be missed; where a ray slides along the surface,
+//            one of less than 1 um
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 

@@ -1,9 +1,8 @@
 // A plane that goes with a body of revolution, turned about its axis to a fixed side.
 //
 // Model    : at an axis a the plane's normal is lateral * (what of `side` is perpendicular to a, as
-//            a unit) +
-//            axial * a, and its distance from the tip is `offset`: whichever side a body of
-//            revolution turns to the plane, one that touches it keeps touching
+//            a unit) + axial * a, and its distance from the tip is `offset`: whichever side a body
+//            of revolution turns to the plane, one that touches it keeps touching
 // Units    : mm; frame: workpiece
 // Errors   : none; a side along the axis is the caller's mistake
 // Accuracy : 1e-12 mm

@@ -4,19 +4,17 @@
 // other.
 //
 // Model    : blank minus the union of convex hulls, each of a faceted cutter (or a convex section
-//            of it) at
-//            both ends of a part of the motion. Cutters are circumscribed, blanks inscribed, and
-//            cutters grow by what the motion departs from a straight line: what is left of the
-//            polyhedral workpiece is material of the true one (within rounding), and what it lacks
-//            of it is bounded
+//            of it) at both ends of a part of the motion. Cutters are circumscribed, blanks
+//            inscribed, and cutters grow by what the motion departs from a straight line: what is
+//            left of the polyhedral workpiece is material of the true one (within rounding), and
+//            what it lacks of it is bounded
 // Units    : mm; frame: workpiece
 // Shape    : a closed triangle mesh with outward facets; memory and time grow with the facets of
 //            all hulls, so this is for tens of segments, not for thousands. How flat faces are
 //            split into triangles may differ from run to run; the solid does not
 // Errors   : cut() refuses options out of range, a tool number without a cutter, a concave cutter
-//            (its
-//            body is no union of convex parts), a sweep of more than max_pieces hulls, and reports
-//            solids that the Boolean operations cannot process
+//            (its body is no union of convex parts), a sweep of more than max_pieces hulls, and
+//            reports solids that the Boolean operations cannot process
 // Accuracy : normal to the surface, polyhedral_bound(); order 2 in the number of facets when the
 //            tolerance falls with its square (tests/stock/polyhedral_test.cpp). The solid is exact
 //            (CGAL, exact predicates and constructions) until its vertices are rounded to double;

@@ -1,9 +1,8 @@
 // A cutter as a convex polyhedron around it: rings of regular polygons along the axis.
 //
 // Model    : tangent lines of the generatrix at equal steps of their slope and along its cones,
-//            each
-//            turned around the axis into a band of `facets` planes that touch the true body. The
-//            generatrix comes from the support function of the profile, so every convex profile
+//            each turned around the axis into a band of `facets` planes that touch the true body.
+//            The generatrix comes from the support function of the profile, so every convex profile
 //            will do
 // Units    : mm; frame: tool (tip at the origin, axis +Z)
 // Errors   : none

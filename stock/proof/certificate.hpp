@@ -1,10 +1,9 @@
 // Proof that a surface point of the workpiece is within its bound of the true surface.
 //
 // Model    : the true surface passes between a point of the void and a point of the material. Along
-//            the normal
-//            at the distance of the bound, (a) the point towards the void is inside the cutter that
-//            made it, at its pose then, or outside the blank, and (b) the point towards the
-//            material is inside the blank and outside every cutter at every instant of every
+//            the normal at the distance of the bound, (a) the point towards the void is inside the
+//            cutter that made it, at its pose then, or outside the blank, and (b) the point towards
+//            the material is inside the blank and outside every cutter at every instant of every
 //            segment. Both are shown by interval arithmetic from the tool path, the generatrices of
 //            the cutters and the blank alone; nothing of the ray search is asked. On an edge, where
 //            (b) fails along the normal since another segment cuts beside, other directions at the

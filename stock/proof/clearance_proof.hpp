@@ -2,9 +2,9 @@
 // does not.
 //
 // Model    : a plane that touches a slice of the body at one instant goes with the body, tip and
-//            axis as the
-//            path says. How far the point is on its free side is a function of time; value and
-//            slope at that instant are enclosed, the rest is bounded by the square of the time:
+//            axis as the path says. How far the point is on its free side is a function of time;
+//            value and slope at that instant are enclosed, the rest is bounded by the square of the
+//            time:
 //              f(x) >= f0 + x f1 - x^2 (w^2 (|m| + |x| v) / 2 + w v)
 //            with the turn w, the way v of the tip and m from tip to point, all for x = 1. Where
 //            that stays above zero the body stays clear; else the span of time is halved.

@@ -1,11 +1,10 @@
 // Intervals that surely hold the true value: what proofs compute with.
 //
 // Model    : Boost.Interval with a rounding policy of our own. Every operation rounds to nearest,
-//            which is
-//            off by half a unit in the last place at most, and is then widened by more than that on
-//            either side; the processor's rounding mode is left alone, so that neither the
-//            optimiser nor other threads can spoil a bound. Only + - * / and the square root are
-//            used, which IEEE 754 rounds correctly: no sine or cosine has to be trusted
+//            which is off by half a unit in the last place at most, and is then widened by more
+//            than that on either side; the processor's rounding mode is left alone, so that neither
+//            the optimiser nor other threads can spoil a bound. Only + - * / and the square root
+//            are used, which IEEE 754 rounds correctly: no sine or cosine has to be trusted
 // Units    : those of the numbers
 // Errors   : none; what overflows encloses infinity, which no comparison takes for proven
 // Source   : Moore 1966; IEEE 754-2019, section 5.4.1

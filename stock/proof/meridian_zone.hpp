@@ -1,9 +1,8 @@
 // A convex slice of a body of revolution between two heights, and planes that touch it.
 //
 // Model    : the slices that the generatrix's rising pieces bound on the outside, filled to the
-//            axis; a concave
-//            arc counts as its chord. Together they cover the body. Made from the generatrix alone,
-//            not from what the ray search divides a body into
+//            axis; a concave arc counts as its chord. Together they cover the body. Made from the
+//            generatrix alone, not from what the ray search divides a body into
 // Units    : mm; frame: tool
 // Errors   : none
 // Accuracy : support() is an upper bound; touching() is a guess that needs none

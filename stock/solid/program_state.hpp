@@ -1,9 +1,8 @@
 // A state of the program, and the workpiece as it is then.
 //
 // Model    : a program state is between two segments of the tool path: those before it have cut,
-//            those
-//            after it have not. Workpieces of any program state share one sweep; nothing is cut
-//            twice
+//            those after it have not. Workpieces of any program state share one sweep; nothing is
+//            cut twice
 // Units    : mm, s; frame: workpiece
 // Errors   : after_line() refuses line 0; at_time() refuses what is no time
 // Accuracy : that of Workpiece; segments are not divided, so that a program state is at most one

@@ -1,21 +1,19 @@
 // What each block of the program takes away: volume, rate, engagement, first and last contact.
 //
 // Model    : along a ray the material left after block N is known for every N; what differs between
-//            N-1
-//            and N is what block N removed. The blocks that took something are found by asking only
-//            at the blocks whose sweeps bound what is missing, and by halving where no bound tells.
-//            Volumes are sums over three families of parallel rays, one in each cell of a grid
-//            that divides the blank's box evenly, and the mean of the three
+//            N-1 and N is what block N removed. The blocks that took something are found by asking
+//            only at the blocks whose sweeps bound what is missing, and by halving where no bound
+//            tells. Volumes are sums over three families of parallel rays, one in each cell of a
+//            grid that divides the blank's box evenly, and the mean of the three
 // Units    : mm, mm3, s; frame: workpiece
 // Shape    : one BlockRemoval for each block of the tool path, in program order
 // Errors   : removal_of() refuses a pitch that is not a finite number above 0, and a grid of more
 //            than
 //            kMaxRemovalRays rays
 // Accuracy : along a ray that of Workpiece (1 nm), and the pieces of all blocks add up to what is
-//            missing
-//            of the blank within rounding. Volumes converge with the pitch; rows are shifted
-//            against each other, so that faces along the rays average out. Boxes that the grid
-//            divides are exact (tests/stock/removal_test.cpp)
+//            missing of the blank within rounding. Volumes converge with the pitch; rows are
+//            shifted against each other, so that faces along the rays average out. Boxes that the
+//            grid divides are exact (tests/stock/removal_test.cpp)
 // Threads  : removal_of() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
