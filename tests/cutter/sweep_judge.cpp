@@ -92,7 +92,7 @@ void SweepJudge::judge_end(const Ray& ray, double s, EndTag tag, Judgement& judg
   ++judged.ends;
   if (error > judged.worst_end) {
     judged.worst_end = error;
-    judged.where = fmt::format("s = {}, stretch {}", s, tag);
+    judged.where = fmt::format("s = {}, path segment {}", s, tag);
   }
   if (tag < 0) return;
   const auto segment = static_cast<std::uint32_t>(tag);

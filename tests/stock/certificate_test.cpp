@@ -139,7 +139,7 @@ TEST(Certificate, FindsAWrongListOfStretches) {
   EXPECT_NE(Certifier(shorter).certify(floor).verdict, Verdict::proven);
   const Certificate early = Certifier(part, {.first_excluded = 0}).certify(floor);
   EXPECT_EQ(early.verdict, Verdict::open);
-  EXPECT_EQ(early.reason, "the stretch that is said to have made it has not cut");
+  EXPECT_EQ(early.reason, "the path segment that is said to have made it has not cut");
 }
 
 TEST(Certificate, KnowsTheMomentThatWasAskedFor) {
@@ -162,7 +162,7 @@ TEST(Certificate, SaysSoWhenTheSpansAreUsedUp) {
   const SurfacePoint floor = probe(part, Vec3(1, 0.3, 30), -Vec3::UnitZ());
   const Certificate certificate = Certifier(part, {.most_spans = 1}).certify(floor);
   EXPECT_EQ(certificate.verdict, Verdict::open);
-  EXPECT_EQ(certificate.reason, "line 1 was not shown to keep off within 1 spans of time");
+  EXPECT_EQ(certificate.reason, "line 1 was not shown to stay clear within 1 spans of time");
   EXPECT_EQ(Certifier(part).certify({}).reason, "it is no surface point with a bound");
 }
 
