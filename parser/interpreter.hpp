@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "parser/interpret/block_executor.hpp"
+#include "parser/interpret/state/control_data.hpp"
 #include "parser/interpret/state/modal_state.hpp"
 #include "parser/motion.hpp"
 #include "parser/program.hpp"

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -180,5 +181,7 @@ struct Motion {
   SourcePlace place{};
   Command command{};
 };
+
+using MotionSink = std::function<void(Motion&&)>;
 
 }  // namespace frustum::parser

@@ -21,26 +21,12 @@ Diagnostic second_program(const Program& program, const Block& block, std::uint3
   return twice;
 }
 
-}  // namespace
-
-Result<Program> parse_program(std::string_view text, std::string file, Dialect dialect) {
-  Program program{std::move(file), dialect, ProgramText(std::string(text))};
-  Diagnostics failures = syntax_errors(program);
-  if (!failures.empty()) return failures;
-  return program;
-}
-
-Result<Program> open_program(const std::filesystem::path& file, Dialect dialect) {
-  return ProgramText::open(file).transform([&](ProgramText text) {
-    return Program{file.string(), dialect, std::move(text)};
-  });
-}
-
-Diagnostics syntax_errors(const Program& program, TextPlace start) {
+// Reads from where the cursor is to the end of the text; `take` gets each block. What is wrong, but no more of it than
+// kMaxSyntaxErrors.
+template <typename Take>
+Diagnostics read_to_end(const Program& program, BlockCursor& cursor, const Take& take) {
   Diagnostics failures;
   std::map<std::uint32_t, std::uint32_t> line_of_program;
-  BlockCursor cursor(program);
-  if (start.offset != 0) cursor.go_to(start);
   while (failures.size() < kMaxSyntaxErrors) {
     auto block = cursor.next();
     if (!block) {
@@ -48,9 +34,11 @@ Diagnostics syntax_errors(const Program& program, TextPlace start) {
       continue;
     }
     if (*block == nullptr) return failures;
-    if (!(*block)->program) continue;
-    const auto [entry, fresh] = line_of_program.emplace(*(*block)->program, (*block)->line);
-    if (!fresh) failures.push_back(second_program(program, **block, entry->second));
+    if ((*block)->program) {
+      const auto [entry, fresh] = line_of_program.emplace(*(*block)->program, (*block)->line);
+      if (!fresh) failures.push_back(second_program(program, **block, entry->second));
+    }
+    take(cursor);
   }
   if (cursor.at_end()) return failures;
   Diagnostic more =
@@ -61,6 +49,32 @@ Diagnostics syntax_errors(const Program& program, TextPlace start) {
   more.file = program.file;
   failures.push_back(std::move(more));
   return failures;
+}
+
+}  // namespace
+
+Result<Program> parse_program(std::string_view text, std::string file, Dialect dialect) {
+  Program program{std::move(file), dialect, ProgramText(std::string(text))};
+  BlockCursor cursor(program);
+  std::vector<ReadBlock> blocks;
+  Diagnostics failures = read_to_end(program, cursor, [&blocks](BlockCursor& at) {
+    blocks.push_back({at.block_place(), at.place(), at.take()});
+  });
+  if (!failures.empty()) return failures;
+  program.blocks = std::make_shared<const std::vector<ReadBlock>>(std::move(blocks));
+  return program;
+}
+
+Result<Program> open_program(const std::filesystem::path& file, Dialect dialect) {
+  return ProgramText::open(file).transform([&](ProgramText text) {
+    return Program{file.string(), dialect, std::move(text)};
+  });
+}
+
+Diagnostics syntax_errors(const Program& program, TextPlace start) {
+  BlockCursor cursor(program);
+  if (start.offset != 0) cursor.go_to(start);
+  return read_to_end(program, cursor, [](const BlockCursor&) {});
 }
 
 std::vector<Block> blocks_of(const Program& program) {

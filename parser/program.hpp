@@ -1,5 +1,5 @@
-// An NC program: its text and the language it is written in. Its blocks are read as they are run, so that a
-// program may be larger than memory.
+// An NC program: its text and the language it is written in. The text is read into blocks once: of a text in memory
+// when its syntax is checked, of a file as it runs, so that a program may be larger than memory.
 //
 //   %                      tape mark: nothing before the program, end of it after
 //   O1000 (main)           the first program of the file is the main one, its O word may be missing
@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,13 +29,22 @@ namespace frustum::parser {
 
 constexpr std::size_t kMaxSyntaxErrors = 100;
 
+// A block with the places where it begins and where the next one is looked for.
+struct ReadBlock {
+  TextPlace place{};
+  TextPlace after{};
+  Block block{};
+};
+
 struct Program {
   std::string file{};  // names the program in diagnostics
   Dialect dialect = Dialect::fanuc;
   ProgramText text{};
+  // All of the text, in order and without blank lines, when it has been read; else null.
+  std::shared_ptr<const std::vector<ReadBlock>> blocks{};
 };
 
-// A text that is in memory, with its syntax checked.
+// A text that is in memory, read into blocks.
 [[nodiscard]] Result<Program> parse_program(std::string_view text, std::string file,
                                             Dialect dialect = Dialect::fanuc);
 // A file of any size, whose syntax is checked as it runs.

@@ -1,10 +1,16 @@
-// What a block says without moving anything: comments, messages, words that are only events.
+#include "parser/interpret/block_comments.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
-#include "parser/interpret/block_executor.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -16,6 +22,7 @@ struct SpokenComment {
   bool filled;
   bool of_linuxcnc;
 };
+
 constexpr std::array kSpoken{
     SpokenComment{"MSG,", "message", false, false},
     SpokenComment{"DEBUG,", "debug", true, true},
@@ -25,6 +32,7 @@ constexpr std::array kSpoken{
     SpokenComment{"LOGAPPEND,", "logappend", false, true},
     SpokenComment{"LOGCLOSE", "logclose", false, true},
 };
+
 constexpr std::string_view kUnset = "######";
 
 // What stands behind the prefix, which may be written in lower case and behind blanks.
@@ -48,6 +56,7 @@ struct Decimals {
   int count = 6;
   std::size_t length = 0;
 };
+
 Decimals decimals_at(std::string_view text) {
   constexpr int kOfF = 4;
   if (text.starts_with("%d")) return {0, 2};
@@ -114,33 +123,34 @@ std::string filled(std::string_view text, const Parameters& parameters) {
 
 }  // namespace
 
-void BlockExecutor::report_comments(const Block& block) {
-  block_ = &block;
+void report_comments(InterpreterState& state, const Block& block) {
+  state.at_work.block = &block;
   for (const Comment& comment : block.comments) {
     // A ; by itself ends a block.
     if (comment.to_line_end && comment.text.empty()) continue;
     if (comment.event != nullptr) {
-      emit(comment.column, Event{comment.event, comment.text});
+      emit(state, comment.column, Event{comment.event, comment.text});
       continue;
     }
     Event event{"comment", comment.text};
     for (const SpokenComment& spoken : kSpoken) {
-      if (spoken.of_linuxcnc && rules_.dialect != Dialect::linuxcnc) continue;
+      if (spoken.of_linuxcnc && state.rules.dialect != Dialect::linuxcnc) continue;
       const auto text = behind(comment.text, spoken.prefix);
       if (!text) continue;
-      event = {spoken.event, without_blanks_before(spoken.filled ? filled(*text, parameters_)
+      event = {spoken.event, without_blanks_before(spoken.filled ? filled(*text, state.parameters)
                                                                  : std::string(*text))};
       break;
     }
-    emit(comment.column, std::move(event));
+    emit(state, comment.column, std::move(event));
   }
 }
 
-void BlockExecutor::report_events(const BlockWords& words) {
+void report_events(InterpreterState& state, const BlockWords& words) {
   for (const GivenCode& word : words.vacant()) {
-    const auto written = std::find_if(block_->words.begin(), block_->words.end(),
-                                      [&](const Word& w) { return w.column == word.column; });
-    emit(word.column, Event{"vacant", std::string(1, written->letter)});
+    const auto written =
+        std::find_if(state.at_work.block->words.begin(), state.at_work.block->words.end(),
+                     [&](const Word& w) { return w.column == word.column; });
+    emit(state, word.column, Event{"vacant", std::string(1, written->letter)});
   }
   for (const GivenCode& event : words.events()) {
     std::string arguments;
@@ -149,7 +159,7 @@ void BlockExecutor::report_events(const BlockWords& words) {
       if (!arguments.empty()) arguments += ' ';
       arguments += words.text_of(letter);
     }
-    emit(event.column, Event{event.code->name(), std::move(arguments)});
+    emit(state, event.column, Event{event.code->name(), std::move(arguments)});
   }
 }
 

@@ -6,7 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "parser/interpret/block_comments.hpp"
+#include "parser/interpret/cycles/hole_call.hpp"
 #include "parser/interpret/program_run.hpp"
+#include "parser/interpret/saved_modes.hpp"
+#include "parser/interpret/state/word_values.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -35,7 +39,7 @@ std::optional<std::uint32_t> block_number_of(std::string_view label) {
 }  // namespace
 
 Result<double> ProgramRun::value_of(const Block& block, ExpressionRange range) {
-  auto value = executor_.value_of(block, range);
+  auto value = parser::value_of(executor_.state(), block, range);
   if (value) return value;
   return in_this_file(std::move(value).error().front());
 }
@@ -73,7 +77,7 @@ Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange r
 }
 
 ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
-  executor_.report_comments(block);
+  report_comments(executor_.state(), block);
   const FlowStatement& flow = *block.flow;
   const TextPlace place = frame().cursor.block_place();
   switch (flow.kind) {
@@ -184,12 +188,12 @@ ProgramRun::Failure ProgramRun::enter_loop(const Block& block, const Landmark& h
     const auto limit = value_of(block, flow.limit);
     if (!limit) return limit.error().front();
     const std::string& variable = block.names[flow.variable];
-    if (!executor_.parameters().can_set(variable)) {
+    if (!executor_.state().parameters.can_set(variable)) {
       return at(block, flow.column, "parameter-undefined"_id,
                 fmt::format("{} is not defined", variable),
                 "define it before: DEF INT and its name");
     }
-    executor_.parameters().set(variable, *first);
+    executor_.state().parameters.set(variable, *first);
     goes = *first <= *limit;
     if (goes) loops.push_back({here.place.offset, 0.0, variable, *limit});
   }
@@ -231,9 +235,9 @@ ProgramRun::Failure ProgramRun::turn_loop(const Block& block, const Landmark& he
     }
     return std::nullopt;
   }
-  const auto value = executor_.parameters().read(loop->variable);
+  const auto value = executor_.state().parameters.read(loop->variable);
   const double stepped = (value ? *value : 0.0) + 1.0;
-  executor_.parameters().set(loop->variable, stepped);
+  executor_.state().parameters.set(loop->variable, stepped);
   if (stepped <= loop->limit) {
     frame().cursor.go_to(begin.behind);
   } else {
@@ -269,7 +273,7 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   }
   if (flow.of_file) {
     if (!flow.by_cycle) return follow(block, CallFile{*name, flow.column});
-    executor_.set_called_program(*name);
+    set_called_program(executor_.state(), *name);
     return std::nullopt;
   }
   const auto holder = rules_.calls_whole_files ? frame().program : program_with(*name);
@@ -288,7 +292,7 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
                  entry->behind, {entry->place.line, entry->column},
                  *count,        has_locals};
   if (auto failure = push_call(block, flow.column, std::move(next))) return failure;
-  if (has_locals) executor_.parameters().enter(arguments);
+  if (has_locals) executor_.state().parameters.enter(arguments);
   return std::nullopt;
 }
 
@@ -314,7 +318,7 @@ ProgramRun::Failure ProgramRun::call_program(const Block& block, const std::stri
                  true};
   next.arguments = std::move(arguments);
   if (auto failure = push_call(block, block.flow->column, std::move(next))) return failure;
-  executor_.parameters().enter({});
+  executor_.state().parameters.enter({});
   return std::nullopt;
 }
 
@@ -330,7 +334,7 @@ ProgramRun::Failure ProgramRun::receive(const Block& block) {
                           given.size(), flow.parameters.size()),
               "name the parameters in PROC, or leave arguments out");
   }
-  if (flow.keeps_modes && frame().runs_left > 0) executor_.keep_modes_for_call();
+  if (flow.keeps_modes && frame().runs_left > 0) keep_modes_for_call(executor_.state());
   for (std::size_t i = 0; i < flow.parameters.size(); ++i) {
     const FormalParameter& parameter = flow.parameters[i];
     double value = i < given.size() ? given[i] : kVacant;
@@ -339,8 +343,8 @@ ProgramRun::Failure ProgramRun::receive(const Block& block) {
       if (!otherwise) return otherwise.error().front();
       value = *otherwise;
     }
-    executor_.parameters().define(block.names[parameter.name], parameter.kind,
-                                  is_vacant(value) ? 0.0 : value);
+    executor_.state().parameters.define(block.names[parameter.name], parameter.kind,
+                                        is_vacant(value) ? 0.0 : value);
   }
   return std::nullopt;
 }
@@ -374,9 +378,9 @@ ProgramRun::Failure ProgramRun::give_back(const Block& block) {
   if (!flow.condition.empty()) {
     const auto value = value_of(block, flow.condition);
     if (!value) return value.error().front();
-    executor_.parameters().set("_value", *value);
+    executor_.state().parameters.set("_value", *value);
   }
-  executor_.parameters().set("_value_returned", flow.condition.empty() ? 0.0 : 1.0);
+  executor_.state().parameters.set("_value_returned", flow.condition.empty() ? 0.0 : 1.0);
   return_from_call();
   return std::nullopt;
 }

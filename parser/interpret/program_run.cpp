@@ -8,6 +8,9 @@
 #include <system_error>
 #include <utility>
 
+#include "parser/interpret/macro_call.hpp"
+#include "parser/interpret/saved_modes.hpp"
+
 namespace frustum::parser {
 namespace {
 
@@ -75,7 +78,7 @@ Result<RunSummary> ProgramRun::operator()() {
     return failures;
   }
   executor_.settle();
-  return RunSummary{executor_.state(), blocks_};
+  return RunSummary{executor_.state().modes, blocks_};
 }
 
 ProgramRun::Failure ProgramRun::run_next() {
@@ -107,7 +110,7 @@ ProgramRun::Failure ProgramRun::run_next() {
   auto failure = block.flow ? follow_statement(block) : execute(block);
   if (!failure || !goes_on(*failure)) return failure;
   // A subprogram that has been left took its block with it.
-  if (frames_.size() == calls) executor_.pass_over(block);
+  if (frames_.size() == calls) pass_over(executor_.state(), block);
   return std::nullopt;
 }
 
@@ -119,8 +122,8 @@ ProgramRun::Failure ProgramRun::count_block(const Block& block) {
     return at(block, 1, "endless-loop"_id,
               fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
   }
-  if (executor_.motions() != motions_) {
-    motions_ = executor_.motions();
+  if (executor_.state().output.motions != motions_) {
+    motions_ = executor_.state().output.motions;
     blocks_at_motion_ = blocks_;
   }
   if (blocks_ - blocks_at_motion_ <= options_.max_idle_blocks) return std::nullopt;
@@ -139,7 +142,7 @@ ProgramRun::Failure ProgramRun::execute(const Block& block) {
   const bool calls_or_leaves = std::holds_alternative<CallSubprogram>(*flow) ||
                                std::holds_alternative<CallFile>(*flow) ||
                                std::holds_alternative<LeaveSubprogram>(*flow);
-  if (calls_or_leaves && executor_.moved() && !frame().modal_macros.empty()) {
+  if (calls_or_leaves && executor_.state().at_work.moved && !frame().modal_macros.empty()) {
     return at(block, 1, "macro-beside"_id,
               "a call or M99 beside a move, which calls the macro of G66",
               "write two blocks, or end G66 with G67 before");
@@ -188,14 +191,14 @@ void ProgramRun::return_from_call() {
   }
   CallFrame& caller = frames_[frames_.size() - 2];
   if (done.is_modal) {
-    caller.modal_macros.back().call.arguments = executor_.local_values();
+    caller.modal_macros.back().call.arguments = local_values(executor_.state());
   } else {
     caller.modal_macros = std::move(done.modal_macros);
   }
-  if (done.has_locals) executor_.parameters().leave();
-  executor_.leave_call();
+  if (done.has_locals) executor_.state().parameters.leave();
+  leave_call(executor_.state());
   frames_.pop_back();
-  executor_.read_from(frame().program->place_file());
+  executor_.state().at_work.file = frame().program->place_file();
 }
 
 Result<const Block*> ProgramRun::next_block() {
@@ -312,7 +315,7 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, const CallFile& call)
   CallFrame next{holder, BlockCursor(holder->program()), call.name, kEndOfFile, {}, {1, 1}, 1,
                  true};
   if (auto failure = push_call(block, call.column, std::move(next))) return failure;
-  executor_.parameters().enter({});
+  executor_.state().parameters.enter({});
   return std::nullopt;
 }
 
@@ -341,7 +344,7 @@ ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram
   next.has_locals = call.arguments.has_value();
   next.is_modal = by_modal;
   if (auto failure = push_call(block, call.column, std::move(next))) return failure;
-  if (call.arguments) executor_.parameters().enter(*call.arguments);
+  if (call.arguments) executor_.state().parameters.enter(*call.arguments);
   return std::nullopt;
 }
 
@@ -356,8 +359,8 @@ ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t colu
   if (next.is_modal) next.modal_macros.pop_back();
   next.cursor.go_to(next.entry);
   frames_.push_back(std::move(next));
-  executor_.enter_call();
-  executor_.read_from(frame().program->place_file());
+  enter_call(executor_.state());
+  executor_.state().at_work.file = frame().program->place_file();
   return std::nullopt;
 }
 

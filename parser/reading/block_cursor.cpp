@@ -5,10 +5,20 @@
 namespace frustum::parser {
 
 BlockCursor::BlockCursor(const Program& program)
-    : file_(program.file),
+    : kept_(program.blocks),
+      file_(program.file),
       dialect_(program.dialect),
       lines_(program.text),
       read_(reader_of(program.dialect)) {}
+
+void BlockCursor::go_to(TextPlace place) {
+  if (!kept_) return lines_.go_to(place);
+  place_ = place;
+  const auto found = std::lower_bound(
+      kept_->begin(), kept_->end(), place.offset,
+      [](const ReadBlock& block, std::uint64_t offset) { return block.place.offset < offset; });
+  next_kept_ = static_cast<std::size_t>(found - kept_->begin());
+}
 
 std::string_view BlockCursor::next_text(std::vector<std::uint32_t>& line_starts) {
   std::string_view text = lines_.next();
@@ -29,6 +39,13 @@ std::string_view BlockCursor::next_text(std::vector<std::uint32_t>& line_starts)
 }
 
 Result<const Block*> BlockCursor::next() {
+  if (kept_) {
+    if (next_kept_ == kept_->size()) return static_cast<const Block*>(nullptr);
+    const ReadBlock& block = (*kept_)[next_kept_++];
+    block_place_ = block.place;
+    place_ = block.after;
+    return &block.block;
+  }
   while (!lines_.at_end()) {
     block_place_ = lines_.place();
     std::vector<std::uint32_t> line_starts;

@@ -25,8 +25,6 @@ std::vector<CycleStep> pecks(const CycleDepths& depths, bool clears) {
 
 }  // namespace
 
-bool is_cycle(MotionMode mode) { return mode >= MotionMode::peck_short; }
-
 std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& d) {
   switch (cycle) {
     case MotionMode::peck_short:

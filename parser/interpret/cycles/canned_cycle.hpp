@@ -63,7 +63,6 @@ struct CycleStep {
 // More pecks than this are taken for a mistake.
 constexpr double kMostPecks = 10'000.0;
 
-[[nodiscard]] bool is_cycle(MotionMode mode);
 // The tool is above the hole at `level`.
 [[nodiscard]] std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& depths);
 

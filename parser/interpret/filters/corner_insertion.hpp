@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "parser/interpret/filters/plane_path.hpp"
+#include "parser/interpret/moves/plane_path.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::parser {

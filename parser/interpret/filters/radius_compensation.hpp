@@ -22,7 +22,7 @@
 
 #include "core/diagnostic.hpp"
 #include "parser/dialects/radius_rules.hpp"
-#include "parser/interpret/filters/plane_path.hpp"
+#include "parser/interpret/moves/plane_path.hpp"
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
 

@@ -18,38 +18,11 @@
 // Source   : Fanuc 30i operator's manual, tilted working plane command
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "core/pose.hpp"
 #include "core/result.hpp"
+#include "parser/interpret/state/feature_words.hpp"
 
 namespace frustum::parser {
-
-enum class FeatureForm : std::uint8_t {
-  euler,
-  roll_pitch_yaw,
-  three_points,
-  two_vectors,
-  projection
-};
-constexpr int kFeatureForms = 5;
-
-// One block's part of a description.
-struct FeaturePart {
-  Vec3 place = Vec3::Zero();    // X Y Z
-  Vec3 numbers = Vec3::Zero();  // I J K: angles in rad, or a vector
-  double turn = 0.0;            // R
-};
-struct FeatureWords {
-  FeatureForm form = FeatureForm::euler;
-  int order = 123;  // of P1
-  std::array<std::optional<FeaturePart>, 4>
-      parts{};  // by Q; those on one block have only the first
-
-  // Whether all blocks of the description have been read.
-  [[nodiscard]] bool whole() const;
-};
 
 [[nodiscard]] Result<Pose> feature_frame(const FeatureWords& words);
 

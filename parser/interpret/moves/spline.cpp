@@ -169,10 +169,6 @@ class ArcFit {
 
 }  // namespace
 
-bool is_spline(MotionMode mode) {
-  return mode >= MotionMode::cubic_spline && mode <= MotionMode::nurbs_end;
-}
-
 Vec2 point_of_spline(std::span<const ControlPoint> points, int order, double parameter) {
   const Spline spline(points, order);
   const int span = std::clamp(static_cast<int>(parameter), 0, spline.spans() - 1);

@@ -13,17 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "parser/interpret/filters/plane_path.hpp"
-#include "parser/language/modes.hpp"
+#include "parser/interpret/moves/plane_path.hpp"
+#include "parser/interpret/state/spline_in_progress.hpp"
 
 namespace frustum::parser {
-
-struct ControlPoint {
-  Vec2 place = Vec2::Zero();
-  double weight = 1.0;
-};
-
-[[nodiscard]] bool is_spline(MotionMode mode);
 
 [[nodiscard]] Vec2 point_of_spline(std::span<const ControlPoint> points, int order,
                                    double parameter);  // parameter from 0 to points - order + 1

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "parser/interpret/cycles/drilling_cycle.hpp"
-#include "parser/interpret/frames/feature_frame.hpp"
 #include "parser/interpret/state/control_data.hpp"
+#include "parser/interpret/state/drilling_cycle.hpp"
+#include "parser/interpret/state/feature_words.hpp"
 #include "parser/interpret/state/hole_cycle.hpp"
 #include "parser/interpret/state/program_frame.hpp"
 #include "parser/interpret/state/programmed_frame.hpp"
@@ -21,6 +21,8 @@
 
 namespace frustum::parser {
 
+using ToolOffset = std::array<double, kAxisLetters.size()>;  // along the axes
+
 // Whether the tool's length counts, and whether the control guides the tool's tip: two switches, in
 // Fanuc's G43.4 thrown together.
 struct Compensation {
@@ -29,11 +31,11 @@ struct Compensation {
   bool tool_vectors = false;
   int offset_number = 0;
   // Of the tool, along the axes, where the program or its tool table gives them; else only the setup knows.
-  std::optional<std::array<double, kAxisLetters.size()>> tool_offset{};
+  std::optional<ToolOffset> tool_offset{};
 
   // What is added to the positions of the axes; none where only the setup knows.
-  [[nodiscard]] std::optional<std::array<double, kAxisLetters.size()>> offset() const {
-    if (!length) return std::array<double, kAxisLetters.size()>{};
+  [[nodiscard]] std::optional<ToolOffset> offset() const {
+    if (!length) return ToolOffset{};
     return tool_offset;
   }
   [[nodiscard]] LengthCompensation mode() const {

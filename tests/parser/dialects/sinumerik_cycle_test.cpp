@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "parser/interpret/cycles/drilling_cycle.hpp"
+#include "parser/interpret/cycles/drilling_steps.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {

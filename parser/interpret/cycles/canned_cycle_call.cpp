@@ -1,0 +1,273 @@
+#include "parser/interpret/cycles/canned_cycle_call.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/constants.hpp"
+#include "parser/arc.hpp"
+#include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/move_words.hpp"
+#include "parser/interpret/moves/polar_words.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxHoles = 99'999;
+
+bool needs_peck(MotionMode cycle) {
+  return cycle == MotionMode::peck || cycle == MotionMode::peck_short;
+}
+
+bool words_shift_by_q(MotionMode cycle) {
+  return cycle == MotionMode::fine_bore || cycle == MotionMode::bore_back;
+}
+
+bool needs_dwell(MotionMode cycle) {
+  return cycle == MotionMode::drill_dwell || cycle == MotionMode::bore_stop ||
+         cycle == MotionMode::bore_manual || cycle == MotionMode::bore_dwell;
+}
+
+// Words that the block gives replace those in force.
+Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Movement& movement,
+                  AxisLetter depth_axis) {
+  const char depth_letter = to_char(depth_axis);
+  const bool goes_on = state.modes.cycle && is_cycle(state.modes.cycle->last);
+  CannedCycle cycle = goes_on ? *state.modes.cycle : CannedCycle{};
+  if (goes_on && state.rules.cycles.words_end_with_their_g_word && cycle.last != movement.motion) {
+    cycle = CannedCycle{.initial = cycle.initial};
+  }
+  if (!goes_on) {
+    if (!state.position[depth_axis]) {
+      return fail(state, movement.column, state.position.unknown_id(depth_axis),
+                  fmt::format("the cycle starts at an unknown {}: {}", depth_letter,
+                              state.position.why_unknown(depth_axis)),
+                  fmt::format("program {} in absolute coordinates (G90) before it", depth_letter));
+    }
+    cycle.initial = *state.position[depth_axis];
+  }
+  cycle.last = movement.motion;
+  const auto read = [&](char letter, std::optional<double>& value, double scale) {
+    if (words.has(letter)) value = words[letter].value * scale;
+  };
+  read('R', cycle.level, unit_scale(state));
+  read(depth_letter, cycle.bottom, unit_scale(state));
+  const bool incremental = state.modes.distance == DistanceMode::incremental;
+  const bool any_block = !state.rules.cycles.words_keep_their_mode;
+  if (any_block || words.has('R')) cycle.level_is_step = incremental;
+  if (any_block || words.has(depth_letter)) cycle.bottom_is_step = incremental;
+  read('Q', cycle.peck, unit_scale(state));
+  const bool milliseconds =
+      state.rules.dialect == Dialect::fanuc && words.has('P') && !words['P'].decimal_point;
+  read('P', cycle.dwell, milliseconds ? 1.0 / kMillisecondsPerSecond : 1.0);
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  read("IJK"[axes.u], cycle.shift_u, unit_scale(state));
+  read("IJK"[axes.v], cycle.shift_v, unit_scale(state));
+  read("IJK"[3 - axes.u - axes.v], cycle.back, unit_scale(state));
+
+  const auto missing = [&](char letter, std::string what) {
+    return fail(state, movement.column, "cycle-word-missing"_id,
+                fmt::format("the cycle has no {}", letter), std::move(what));
+  };
+  if (!cycle.level) return missing('R', "give R, where feeding begins");
+  if (!cycle.bottom) {
+    return missing(depth_letter, fmt::format("give {}, the bottom of the hole", depth_letter));
+  }
+  if (needs_peck(cycle.last) && (!cycle.peck || *cycle.peck <= 0.0)) {
+    return missing('Q', "give Q, the depth of a peck, above zero");
+  }
+  if (state.rules.dialect == Dialect::linuxcnc && needs_dwell(cycle.last) && !cycle.dwell) {
+    return missing('P', "give P, the dwell at the bottom in seconds");
+  }
+  if (cycle.dwell.value_or(0.0) < 0.0) return missing('P', "P is a time that is not negative");
+  const bool by_q = state.rules.cycles.tool_shift_by_q && words_shift_by_q(cycle.last);
+  if (by_q && (!cycle.peck || *cycle.peck <= 0.0)) {
+    return missing('Q', "give Q, the shift of the tool, above zero");
+  }
+  if (by_q) {
+    cycle.shift_u = cycle.peck;
+    cycle.shift_v = 0.0;
+  }
+  if (cycle.last == MotionMode::bore_back && !by_q &&
+      (!cycle.shift_u || !cycle.shift_v || !cycle.back)) {
+    return missing('I', "give I and J, the shift of the tool, and K, how far the bore goes up");
+  }
+  state.modes.cycle = cycle;
+  return Done{};
+}
+
+}  // namespace
+
+Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  const auto u = static_cast<AxisLetter>(axes.u);
+  const auto v = static_cast<AxisLetter>(axes.v);
+  const auto w = static_cast<AxisLetter>(3 - axes.u - axes.v);
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  if (state.modes.programmed_frame.scale != 1.0 ||
+      state.modes.programmed_frame.mirrors.at(static_cast<std::size_t>(w))) {
+    return fail(state, movement.column, "cycle-frame"_id,
+                "a canned cycle where the depths are scaled or mirrored",
+                fmt::format("end it before, by G50 or G50.1 {}0", to_char(w)));
+  }
+  if (auto done = set_cycle(state, words, movement, w); !done) return done;
+  const CannedCycle& cycle = *state.modes.cycle;
+  if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
+    return fail(state, words[rotary].column, "cycle-rotary"_id,
+                fmt::format("{} in a canned cycle", words.text_of(rotary)),
+                "turn the axes on the block before");
+  }
+  const auto feed = feed_for(state, words, movement, true);
+  if (!feed) return feed.error();
+
+  CycleDepths depths;
+  depths.level = *cycle.level + (cycle.level_is_step ? cycle.initial : 0.0);
+  depths.bottom = *cycle.bottom + (cycle.bottom_is_step ? depths.level : 0.0);
+  depths.clear =
+      state.modes.retract_to_initial ? std::max(cycle.initial, depths.level) : depths.level;
+  depths.feed_out = state.rules.cycles.feed_out_to_clearance ? depths.clear : depths.level;
+  depths.peck = cycle.peck.value_or(0.0);
+  depths.dwell = cycle.dwell.value_or(0.0);
+  depths.back = cycle.back.value_or(0.0) + (cycle.bottom_is_step ? depths.bottom : 0.0);
+  if (needs_peck(cycle.last) && depths.level - depths.bottom > kMostPecks * depths.peck) {
+    return fail(state, movement.column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks), "give a larger Q");
+  }
+  depths.from_level = state.rules.cycles.tool_shift_by_q && cycle.last == MotionMode::bore_back;
+  if (depths.from_level) {
+    depths.clear = cycle.initial;
+    if (depths.bottom <= depths.level || cycle.initial <= depths.bottom) {
+      return fail(
+          state, movement.column, "cycle-depth"_id,
+          fmt::format("G87 bores from R ({:g} mm) up to {} ({:g} mm), below the tool ({:g} mm)",
+                      depths.level, to_char(w), depths.bottom, cycle.initial),
+          "give R below the bore, the other depth above R, and start above both");
+    }
+  } else if (depths.bottom > depths.level) {
+    return fail(state, movement.column, "cycle-depth"_id,
+                fmt::format("the bottom of the hole ({:g} mm) lies above R ({:g} mm)",
+                            depths.bottom, depths.level),
+                "give R above the bottom");
+  }
+  int holes = 1;
+  for (const char letter : {'L', 'K'}) {
+    const bool repeats = letter == 'L' || state.rules.dialect == Dialect::fanuc;
+    if (!repeats || !words.has(letter)) continue;
+    const auto given = whole(state, words, letter, 0, kMaxHoles);
+    if (!given) return given.error();
+    holes = *given;
+  }
+  const auto rapid = [&](std::uint32_t column) {
+    emit(state, column,
+         Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  };
+  const double stands = state.rules.cycles.start_from_initial ? cycle.initial : *state.position[w];
+  if (holes > 0 && stands < depths.level) {
+    state.position.set(w, depths.level);
+    rapid(movement.column);
+  }
+  // With G99 it goes up to a higher R on the way.
+  if (state.rules.cycles.start_from_initial) {
+    state.position.set(w, state.modes.retract_to_initial
+                              ? depths.clear
+                              : std::max(*state.position[w], depths.level));
+  }
+  for (int hole = 0; hole < holes; ++hole) {
+    if (auto done = set_place_in_plane(state, words); !done) return done;
+    for (const AxisLetter axis : {u, v}) {
+      if (state.position[axis]) continue;
+      return fail(
+          state, movement.column, state.position.unknown_id(axis),
+          fmt::format("the place of the hole is not known: {}", state.position.why_unknown(axis)),
+          fmt::format("give {} on this block", to_char(axis)));
+    }
+    rapid(movement.column);
+    if (*state.position[w] != depths.level && !depths.from_level) {
+      state.position.set(w, depths.level);
+      rapid(movement.column);
+    }
+    Vec3 centre;
+    for (const AxisLetter axis : {u, v, w}) {
+      centre[static_cast<Eigen::Index>(axis)] = *state.position[axis];
+    }
+    const auto place = [&](double depth, bool shifted) {
+      Vec3 point = centre;
+      if (shifted) {
+        point[axes.u] += state.modes.cycle->shift_u.value_or(0.0);
+        point[axes.v] += state.modes.cycle->shift_v.value_or(0.0);
+      }
+      point[axes.w] = depth;
+      return point;
+    };
+    drill(state, steps_at_hole(cycle.last, depths), movement.column, place, *feed, *feed);
+  }
+  return Done{};
+}
+
+void drill(InterpreterState& state, const std::vector<CycleStep>& steps, std::uint32_t column,
+           const PlaceInHole& place, const Feed& feed, const Feed& feed_out) {
+  const SpindleDirection turned = state.modes.spindle;
+  const auto turn = [&](SpindleDirection direction) {
+    state.modes.spindle = direction;
+    emit(state, column, SpindleChange{direction, state.modes.spindle_speed});
+  };
+  double depth = std::numeric_limits<double>::infinity();
+  for (const CycleStep& step : steps) {
+    switch (step.action) {
+      case CycleAction::rapid:
+      case CycleAction::feed: {
+        const AxisTarget before = state.position.target();
+        const Vec3 point = place(step.value, step.shifted);
+        for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
+          state.position.set(axis, point[static_cast<Eigen::Index>(axis)]);
+        }
+        if (step.action == CycleAction::feed) {
+          Feed now = step.value > depth ? feed_out : feed;
+          now.value *= step.share;
+          emit(state, column,
+               LinearFeed{state.position.target(), state.modes.tool_axis, Coordinates::program,
+                          now});
+        } else if (!(before == state.position.target())) {
+          emit(state, column,
+               Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+        }
+        depth = step.value;
+        break;
+      }
+      case CycleAction::dwell:
+        emit(state, column, Dwell{step.value});
+        break;
+      case CycleAction::stop_spindle:
+        turn(SpindleDirection::off);
+        break;
+      case CycleAction::start_spindle:
+        turn(turned);
+        break;
+      case CycleAction::reverse_spindle:
+        if (step.value > 0.0) state.modes.spindle_speed = step.value;
+        turn(turned == SpindleDirection::clockwise ? SpindleDirection::counterclockwise
+                                                   : SpindleDirection::clockwise);
+        break;
+      case CycleAction::orient_spindle:
+        emit(state, column, Event{"orient_spindle", {}});
+        break;
+      case CycleAction::wait:
+        emit(state, column, Stop{StopKind::program_stop});
+        break;
+    }
+  }
+}
+
+}  // namespace frustum::parser

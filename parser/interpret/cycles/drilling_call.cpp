@@ -1,0 +1,320 @@
+#include "parser/interpret/cycles/drilling_call.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/constants.hpp"
+#include "parser/arc.hpp"
+#include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/cycles/canned_cycle_call.hpp"
+#include "parser/interpret/cycles/drilling_steps.hpp"
+#include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/move_words.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMostMode = 1'000'000'000;
+
+// Seconds; below zero, or where the call says so, turns of the spindle.
+Result<double> drilling_dwell(const InterpreterState& state, const BlockWords& words, char letter,
+                              bool turns) {
+  const double value = words[letter].value;
+  if (value >= 0.0 && !turns) return value;
+  if (state.modes.spindle_speed <= 0.0) {
+    return fail(state, words[letter].column, "dwell-without-speed"_id,
+                "a dwell in revolutions with no spindle speed", "give a spindle speed before");
+  }
+  return std::abs(value) * kSecondsPerMinute / state.modes.spindle_speed;
+}
+
+// The modes of the call: what its other numbers mean.
+Result<int> drilling_modes(const InterpreterState& state, const BlockWords& words) {
+  const int w = axes_of(state.modes.plane).w;
+  if (words['x'].value != 0.0 && words['x'].value != w + 1) {
+    return fail(state, words['x'].column, "cycle-plane"_id,
+                fmt::format("{} drills across the plane", words.text_of('x')),
+                "choose the plane by G17, G18 or G19 so that the tool is along its normal");
+  }
+  if (words['g'].value != 0.0) {
+    return fail(state, words['g'].column, "not-simulated"_id,
+                fmt::format("{} is not simulated", words.text_of('g')),
+                "give the depth of the tool's tip, with _GMODE 0");
+  }
+  for (const char letter : {'h', 'i'}) {
+    if (!words.has(letter)) continue;
+    if (const auto mode = whole(state, words, letter, 0, kMostMode); !mode) return mode.error();
+  }
+  const int plane = static_cast<int>(words['h'].value) % 10;
+  if (plane != 0 && plane != static_cast<int>(state.modes.plane) + 1) {
+    return fail(state, words['h'].column, "cycle-plane"_id,
+                fmt::format("{} is another plane than that in force", words.text_of('h')),
+                "choose the plane by G17, G18 or G19 before");
+  }
+  return static_cast<int>(std::round(words['i'].value));
+}
+
+// The heights that all of them have.
+Result<DrillingCycle> drilling_heights(const InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::drilling_cycle];
+  const std::string name = code.code->name();
+  for (const char letter : {'z', 'V'}) {
+    if (words.has(letter)) continue;
+    return fail(state, code.column, "cycle-word-missing"_id,
+                fmt::format("{} has no {}", name, letter == 'z' ? "RTP" : "RFP"),
+                fmt::format("give {}(RTP, RFP, SDIS, DP)", name));
+  }
+  for (const char letter : {'u', 'd', 'Q', 'W'}) {
+    if (!words.has(letter) || words[letter].value >= 0.0) continue;
+    return fail(state, words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
+                "distances and times have no sign");
+  }
+  const auto modes = drilling_modes(state, words);
+  if (!modes) return modes.error();
+  DrillingCycle cycle;
+  const double scale = unit_scale(state);
+  cycle.kind = static_cast<DrillingWord>(code.code->value);
+  cycle.back = words['z'].value * scale;
+  cycle.reference = words['V'].value * scale;
+  cycle.level = cycle.reference + words['u'].value * scale;
+  const int measure = *modes % 10;
+  const bool relative = measure == 1 || (measure == 0 && words['d'].value > 0.0);
+  const char depth = relative ? 'd' : 'Z';
+  if (!words.has(depth)) {
+    return fail(state, code.column, "cycle-word-missing"_id, name + " has no depth",
+                "give DP, the coordinate of the bottom, or DPR, how far it is below RFP");
+  }
+  cycle.bottom = relative ? cycle.reference - words['d'].value * scale : words['Z'].value * scale;
+  if (!(cycle.bottom < cycle.reference)) {
+    return fail(state, words[depth].column, "cycle-depth"_id,
+                fmt::format("the bottom of the hole ({:g} mm) is not below RFP ({:g} mm)",
+                            cycle.bottom, cycle.reference),
+                "give RFP above the bottom");
+  }
+  if (cycle.back < cycle.reference) {
+    return fail(state, words['z'].column, "cycle-depth"_id,
+                fmt::format("RTP ({:g} mm) lies below RFP ({:g} mm)", cycle.back, cycle.reference),
+                "the tool goes back to RTP by rapid: give it above the part");
+  }
+  const auto dwell = drilling_dwell(state, words, 'P', *modes / 10 % 10 == 2);
+  if (!dwell) return dwell.error();
+  cycle.dwell = *dwell;
+  return cycle;
+}
+
+Outcome set_pecks(const InterpreterState& state, const BlockWords& words, DrillingCycle& cycle) {
+  const GivenCode& code = words[CodeGroup::drilling_cycle];
+  const double scale = unit_scale(state);
+  const char first = words['Q'].value > 0.0 ? 'Q' : 'K';
+  cycle.first =
+      first == 'Q' ? words['Q'].value * scale : cycle.reference - words['K'].value * scale;
+  const double total = cycle.reference - cycle.bottom;
+  if (!words.has(first) || !(cycle.first > 0.0) || cycle.first > total) {
+    return fail(state, words.has(first) ? words[first].column : code.column, "cycle-depth"_id,
+                fmt::format("the first depth of {} is not within the hole", code.code->name()),
+                "give FDEP, its coordinate, or FDPR, how far it is below RFP");
+  }
+  const double amount = words['r'].value;
+  cycle.degression = amount > 0.0 ? amount * scale : amount;
+  if (amount <= -1.0) {
+    return fail(state, words['r'].column, "out-of-range"_id,
+                fmt::format("{} is no factor", words.text_of('r')),
+                "DAM is an amount, or below zero a factor down to -1");
+  }
+  cycle.least = words['m'].value * scale;
+  const auto clears = whole(state, words, 'e', 0, 1);
+  if (!clears) return clears.error();
+  cycle.clears = *clears == 1;
+  cycle.dwell_above = words['W'].value;
+  cycle.dwell_below = cycle.dwell;
+  if (words['t'].value != 0.0) {
+    const auto bottom = drilling_dwell(state, words, 't', false);
+    if (!bottom) return bottom.error();
+    cycle.dwell = *bottom;
+  }
+  if (words['f'].value != 0.0) cycle.first_feed = words['f'].value;
+  if (!(cycle.first_feed > 0.0 && cycle.first_feed <= 1.0)) {
+    return fail(state, words['f'].column, "out-of-range"_id,
+                fmt::format("{} is out of range", words.text_of('f')),
+                "FRF is the share of the feed for the first depth, from 0.001 to 1");
+  }
+  if (words['v'].value > 0.0) cycle.chip = words['v'].value * scale;
+  if (words['w'].value > 0.0) cycle.near = words['w'].value * scale;
+  if (!pecks(cycle).empty()) return Done{};
+  return fail(state, code.column, "cycle-pecks"_id,
+              fmt::format("the cycle makes more than {} pecks", kMostPecks),
+              "give a larger first depth, or an amount of degression (DAM)");
+}
+
+Result<std::optional<SpindleDirection>> drilling_direction(const InterpreterState& state,
+                                                           const BlockWords& words) {
+  if (words['e'].value == 0.0) return std::optional<SpindleDirection>{};
+  const auto word = whole(state, words, 'e', 3, 5);
+  if (!word) return word.error();
+  constexpr std::array kDirections{SpindleDirection::clockwise, SpindleDirection::counterclockwise,
+                                   SpindleDirection::off};
+  return std::optional(kDirections.at(static_cast<std::size_t>(*word - 3)));
+}
+
+Outcome set_tap(const InterpreterState& state, const BlockWords& words, DrillingCycle& cycle) {
+  const GivenCode& code = words[CodeGroup::drilling_cycle];
+  const bool by_size = words['m'].value != 0.0;
+  const auto metric =
+      by_size ? metric_lead(words['m'].value) : std::optional(words['k'].value * unit_scale(state));
+  if (!metric) {
+    return fail(state, words['m'].column, "cycle-lead"_id,
+                fmt::format("{} is no metric thread", words.text_of('m')),
+                "give M3 to M48 by its number, or the lead by PIT");
+  }
+  if (*metric == 0.0) {
+    return fail(state, code.column, "cycle-lead"_id, code.code->name() + " has no lead",
+                "give MPIT, the size of a metric thread, or PIT, its lead");
+  }
+  cycle.lead = *metric;
+  cycle.speed = words['s'].value;
+  cycle.speed_back = words['l'].value != 0.0 ? words['l'].value : cycle.speed;
+  if (!(cycle.speed > 0.0 && cycle.speed_back > 0.0)) {
+    return fail(state, words.has('s') ? words['s'].column : code.column, "cycle-speed-missing"_id,
+                code.code->name() + " has no spindle speed", "give SST, in revolutions per minute");
+  }
+  return Done{};
+}
+
+Result<DrillingCycle> drilling_cycle_of(const InterpreterState& state, const BlockWords& words) {
+  auto cycle = drilling_heights(state, words);
+  if (!cycle) return cycle;
+  const double scale = unit_scale(state);
+  switch (cycle->kind) {
+    case DrillingWord::peck:
+      if (auto done = set_pecks(state, words, *cycle); !done) return std::move(done).error();
+      return cycle;
+    case DrillingWord::tap:
+      if (auto done = set_tap(state, words, *cycle); !done) return std::move(done).error();
+      break;
+    case DrillingWord::ream:
+      for (const char letter : {'f', 'r'}) {
+        if (words[letter].value < 0.0) {
+          return fail(state, words[letter].column, "value-negative"_id,
+                      fmt::format("{} is negative", words.text_of(letter)),
+                      "give a feed above zero");
+        }
+        if (words[letter].value > 0.0) {
+          (letter == 'f' ? cycle->feed : cycle->feed_out) = words[letter].value * scale;
+        }
+      }
+      return cycle;
+    default:
+      break;
+  }
+  for (const char letter : {'I', 'J', 'K'}) {
+    cycle->retract[letter - 'I'] = words[letter].value * scale;
+  }
+  const auto direction = drilling_direction(state, words);
+  if (!direction) return direction.error();
+  cycle->direction = *direction;
+  return cycle;
+}
+
+Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uint32_t column) {
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  const auto w = static_cast<AxisLetter>(axes.w);
+  const Movement movement{NonModal::none, MotionMode::linear, column};
+  for (const int slot : {axes.u, axes.v}) {
+    const auto axis = static_cast<AxisLetter>(slot);
+    if (state.position[axis]) continue;
+    return fail(
+        state, column, state.position.unknown_id(axis),
+        fmt::format("the place of the hole is not known: {}", state.position.why_unknown(axis)),
+        "move to the hole before");
+  }
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (state.modes.tool_axis) {
+    return fail(state, column, "cycle-tool-vector"_id, "a cycle with a tool vector",
+                "tilt the plane by CYCLE800 before");
+  }
+  if (state.modes.programmed_frame.scale != 1.0 ||
+      state.modes.programmed_frame.mirrors.at(static_cast<std::size_t>(w))) {
+    return fail(state, column, "cycle-frame"_id, "a cycle where the depths are scaled or mirrored",
+                "end that before, by SCALE or MIRROR alone");
+  }
+  const bool own_feeds = cycle.kind == DrillingWord::tap || (cycle.feed && cycle.feed_out);
+  if (!own_feeds && state.modes.feed_mode == FeedMode::inverse_time) {
+    return fail(state, column, "cycle-inverse-time"_id, "a cycle in G93",
+                "give the feed per minute, in G94");
+  }
+  if (!own_feeds && !state.modes.feed) {
+    return fail(state, column, "feed-missing"_id, "a cycle without a feed rate",
+                "give F before, above zero");
+  }
+  const double given = state.modes.feed ? state.modes.feed->scaled : 0.0;
+  Feed feed{cycle.feed.value_or(given), state.modes.feed_mode};
+  Feed feed_out{cycle.feed_out.value_or(given), state.modes.feed_mode};
+  const auto turn = [&](SpindleDirection direction, double speed) {
+    state.modes.spindle = direction;
+    state.modes.spindle_speed = speed;
+    emit(state, column, SpindleChange{direction, speed});
+  };
+  if (cycle.kind == DrillingWord::tap) {
+    feed = feed_out = {std::abs(cycle.lead), FeedMode::per_revolution, true};
+  }
+  const double speed_before = state.modes.spindle_speed;
+  state.position.set(w, cycle.level);
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  emit(state, column,
+       Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  if (cycle.kind == DrillingWord::tap) {
+    turn(cycle.lead > 0.0 ? SpindleDirection::clockwise : SpindleDirection::counterclockwise,
+         cycle.speed);
+  } else if (cycle.direction && *cycle.direction != state.modes.spindle) {
+    turn(*cycle.direction, state.modes.spindle_speed);
+  }
+  Vec3 hole = Vec3::Zero();
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
+    hole[static_cast<Eigen::Index>(axis)] = *state.position[axis];
+  }
+  const auto place = [&](double depth, bool shifted) {
+    Vec3 point = hole;
+    if (shifted) {
+      point[axes.u] += cycle.retract.x();
+      point[axes.v] += cycle.retract.y();
+    }
+    point[axes.w] = depth;
+    return point;
+  };
+  drill(state, steps_of(cycle), column, place, feed, feed_out);
+  if (cycle.kind == DrillingWord::tap) {
+    turn(cycle.direction.value_or(SpindleDirection::off), speed_before);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Outcome call_drilling_cycle(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::drilling_cycle];
+  const bool modal = words.has(CodeGroup::hole_call);
+  if (code.code == nullptr) {
+    if (modal) state.modes.drilling.reset();
+    if (!state.modes.drilling || !state.at_work.moved) return Done{};
+    const DrillingCycle cycle = *state.modes.drilling;
+    return drill_here(state, cycle, 1);
+  }
+  const auto cycle = drilling_cycle_of(state, words);
+  if (!cycle) return cycle.error();
+  if (!modal) return drill_here(state, *cycle, code.column);
+  state.modes.drilling = *cycle;
+  return Done{};
+}
+
+}  // namespace frustum::parser

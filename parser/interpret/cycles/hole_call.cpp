@@ -1,0 +1,292 @@
+#include "parser/interpret/cycles/hole_call.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/cycles/canned_cycle_call.hpp"
+#include "parser/interpret/cycles/deep_hole.hpp"
+#include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/move_words.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxBreaks = 99'999;
+
+constexpr double kSameAxis = 1e-9;  // the sine of the angle between two tool axes
+
+MotionMode kind_of(HoleWord word, bool dwells) {
+  switch (word) {
+    case HoleWord::peck:
+      return MotionMode::peck;
+    case HoleWord::break_chip:
+      return MotionMode::peck_short;
+    case HoleWord::tap:
+      return MotionMode::tap;
+    case HoleWord::bore:
+      return dwells ? MotionMode::bore_dwell : MotionMode::bore;
+    default:
+      return dwells ? MotionMode::drill_dwell : MotionMode::drill;
+  }
+}
+
+std::optional<Vec3> point_of_hole(const AxisTarget& target) {
+  Vec3 point;
+  for (const AxisLetter axis : kLinearAxes) {
+    if (!target[axis]) return std::nullopt;
+    point[static_cast<Eigen::Index>(axis)] = *target[axis];
+  }
+  return point;
+}
+
+Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord word) {
+  for (const char letter : std::string_view("QDLHEgh")) {
+    if (words[letter].value >= 0.0) continue;
+    return fail(state, words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
+                "lengths of a peck count downwards without a sign");
+  }
+  HoleCycle& cycle = state.modes.hole_cycle;
+  const auto length = [&](char letter, double otherwise) {
+    return words.has(letter) ? words[letter].value * unit_scale(state) : otherwise;
+  };
+  DeepHole hole;
+  hole.depth = cycle.depth;
+  hole.first = length('Q', 0.0);
+  hole.decrement = length('D', 0.0);
+  hole.least = length('L', 0.0);
+  hole.chip = length('H', hole.chip);
+  hole.break_each = length('E', 0.0);
+  hole.dwell = cycle.dwell;
+  hole.dwell_above = cycle.dwell_above;
+  const bool in_pecks = word == HoleWord::deep_pecks;
+  hole.first_stop = in_pecks ? length('g', 0.2) : cycle.clear;
+  hole.last_stop = in_pecks ? length('h', hole.first_stop) : cycle.clear;
+  hole.clears_by_feed = !in_pecks;
+  hole.leaves_by_feed = !in_pecks || words.has('W');
+  if (words.has('K')) {
+    const auto breaks = whole(state, words, 'K', 0, kMaxBreaks);
+    if (!breaks) return breaks.error();
+    hole.breaks = *breaks;
+  }
+  const double pecks = peck_count(hole);
+  if (!std::isfinite(pecks)) {
+    return fail(state, words['D'].column, "cycle-pecks"_id,
+                "the pecks shrink to nothing above the bottom", "give the least one: Q205=1");
+  }
+  if (pecks > kMostPecks) {
+    return fail(state, words[words.has('E') ? 'E' : 'Q'].column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks),
+                "give a larger step");
+  }
+  cycle.deep = hole;
+  return Done{};
+}
+
+// From where the tool is, over the hole and down. After a turn of the tool its place says nothing about heights.
+void drill_from_top(InterpreterState& state, const Vec3& top, const std::optional<Vec3>& from,
+                    bool turns, std::uint32_t column) {
+  const HoleCycle& cycle = state.modes.hole_cycle;
+  const Vec3 axis = state.modes.tool_axis ? state.modes.tool_axis->vec() : Vec3::UnitZ();
+  const auto place = [&](double height, bool /*shifted*/) -> Vec3 { return top + height * axis; };
+  // The tool has not gone to the top.
+  bool must_move = !from || turns;
+  if (from) {
+    for (const AxisLetter letter : kLinearAxes) {
+      state.position.set(letter, (*from)[static_cast<Eigen::Index>(letter)]);
+    }
+  }
+  const auto rapid_to = [&](const Vec3& point) {
+    const AxisTarget before = state.position.target();
+    for (const AxisLetter letter : kLinearAxes) {
+      state.position.set(letter, point[static_cast<Eigen::Index>(letter)]);
+    }
+    if (before == state.position.target() && !must_move) return;
+    must_move = false;
+    emit(state, column,
+         Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  };
+  const double stands = from && !turns ? (*from - top).dot(axis) : cycle.clear;
+  if (from && stands < cycle.clear) {
+    // Up first, so that the way to the hole is clear.
+    rapid_to(*from + (cycle.clear - stands) * axis);
+  }
+  rapid_to(place(std::max(stands, cycle.clear), false));
+  rapid_to(place(cycle.clear, false));
+  rapid_to(place(cycle.level, false));
+
+  CycleDepths depths;
+  depths.level = cycle.level;
+  depths.bottom = -cycle.depth;
+  depths.clear = cycle.back.value_or(cycle.clear);
+  if (cycle.back_to_start && cycle.start) {
+    depths.clear = std::max((*cycle.start - top).dot(axis), cycle.clear);
+  }
+  depths.feed_out = depths.level;
+  depths.peck = cycle.peck;
+  depths.dwell = cycle.dwell;
+  depths.peck_from = cycle.level;
+  if (cycle.top) {
+    depths.chip = cycle.clear;
+    depths.peck_from = 0.0;
+    depths.dwell_above = cycle.dwell_above;
+  }
+  drill(state,
+        cycle.deep ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
+                   : steps_at_hole(cycle.kind, depths),
+        column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
+}
+
+}  // namespace
+
+Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::hole_cycle];
+  if (code.code == nullptr) return Done{};
+  HoleCycle& cycle = state.modes.hole_cycle;
+  const auto word = static_cast<HoleWord>(code.code->value);
+  cycle.start.reset();
+  if (word == HoleWord::off || word == HoleWord::on) {
+    cycle.on = word == HoleWord::on;
+    if (!cycle.on || cycle.kind != MotionMode::none) return Done{};
+    return fail(state, code.column, "cycle-missing"_id, "there is no cycle to switch on",
+                "define one before");
+  }
+  const double scale = unit_scale(state);
+  cycle = {};
+  const bool from_surface = words.has('V');
+  const double depth = from_surface ? -words['z'].value : words['Z'].value;
+  const bool pecks = from_surface && words['Q'].value > 0.0 && words['Q'].value < depth;
+  cycle.kind = kind_of(pecks ? HoleWord::peck : word, words['P'].value > 0.0);
+  cycle.on = true;
+  cycle.depth = depth * scale;
+  cycle.level = words[from_surface ? 'u' : 'R'].value * scale;
+  cycle.clear = words['u'].value * scale;
+  if (words.has('v')) cycle.back = words['v'].value * scale;
+  cycle.back_to_start = words.has('I');
+  cycle.peck = words['Q'].value * scale;
+  cycle.dwell = words['P'].value;
+  const char feed = words.has('r') ? 'r' : 'f';
+  const FeedMode mode = feed == 'r' ? FeedMode::per_revolution : FeedMode::per_minute;
+  cycle.feed = {words[feed].value * feed_scale(state, mode), mode};
+  if (from_surface) {
+    cycle.top = words['V'].value * scale;
+    cycle.dwell_above = words['w'].value;
+    cycle.back = std::max(cycle.back.value_or(0.0), cycle.clear);
+    if (words['W'].value > 0.0)
+      cycle.feed_out = Feed{words['W'].value * feed_scale(state, mode), mode};
+    if (depth <= 0.0) {
+      return fail(state, words['z'].column, "cycle-depth"_id,
+                  fmt::format("{} is not below zero", words.text_of('z')),
+                  "the depth counts from the surface, downwards: Q201=-20");
+    }
+    if (cycle.clear < 0.0) {
+      return fail(state, words['u'].column, "value-negative"_id,
+                  fmt::format("{} is negative", words.text_of('u')),
+                  "give the set-up clearance above the surface");
+    }
+  }
+  if (cycle.feed.value <= 0.0) {
+    return fail(state, words[feed].column, "feed-not-positive"_id,
+                "the feed of the cycle is not above zero", "give a feed above zero");
+  }
+  for (const char letter : {'P', 'w'}) {
+    if (words[letter].value >= 0.0) continue;
+    return fail(state, words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
+                "a dwell takes a time that is not negative");
+  }
+  if (cycle.back && *cycle.back < cycle.level) {
+    return fail(state, words['v'].column, "cycle-depth"_id,
+                fmt::format("{} lies below where feeding begins", words.text_of('v')),
+                "give a height above it");
+  }
+  if (word == HoleWord::deep || word == HoleWord::deep_pecks)
+    return set_deep_hole(state, words, word);
+  const bool steps = cycle.kind == MotionMode::peck || cycle.kind == MotionMode::peck_short;
+  if (steps && cycle.level + cycle.depth > kMostPecks * cycle.peck) {
+    return fail(state, words['Q'].column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks),
+                "give a larger step");
+  }
+  return Done{};
+}
+
+void set_called_program(InterpreterState& state, std::string name) {
+  state.modes.hole_cycle = {};
+  state.modes.hole_cycle.program = std::move(name);
+}
+
+Outcome make_hole(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  HoleCycle& cycle = state.modes.hole_cycle;
+  if (movement.motion != MotionMode::linear && movement.motion != MotionMode::traverse) {
+    return fail(state, movement.column, "cycle-arc"_id, "an arc while a cycle is on",
+                "end the cycle before, by CYCLE/OFF");
+  }
+  for (const char letter : {'X', 'Y', 'Z'}) {
+    if (!words.has(letter) || words[letter].measure != Measure::incremental) continue;
+    return fail(state, words[letter].column, "cycle-step"_id, "a step while a cycle is on",
+                "name the hole by its place");
+  }
+  const auto from = point_of_hole(state.position.target());
+  const auto axis_before = state.modes.tool_axis;
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = set_targets(state, words); !done) return done;
+  if (auto done = set_tool_axis(state, words); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  const auto top = point_of_hole(state.position.target());
+  if (!top)
+    return fail(state, movement.column, "position-unknown"_id, "the place of the hole is not known",
+                "give X, Y and Z");
+  const Vec3 axis = state.modes.tool_axis ? state.modes.tool_axis->vec() : Vec3::UnitZ();
+  const bool turns = axis_before.has_value() != state.modes.tool_axis.has_value() ||
+                     (axis_before && axis_before->vec().cross(axis).norm() > kSameAxis);
+  if (!cycle.start) cycle.start = from;
+  drill_from_top(state, *top, from, turns, movement.column);
+  return Done{};
+}
+
+Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::hole_call];
+  if (code.code == nullptr || !state.modes.hole_cycle.program.empty()) return Done{};
+  if (!state.modes.hole_cycle.on) {
+    return fail(state, code.column, "cycle-missing"_id, code.code->name() + " without a cycle",
+                "define it before, for example by CYCL DEF 200");
+  }
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
+    if (state.position[axis]) continue;
+    return fail(
+        state, code.column, state.position.unknown_id(axis),
+        fmt::format("the place of the hole is not known: {}", state.position.why_unknown(axis)),
+        "move to the hole before");
+  }
+  const Movement movement{NonModal::none, MotionMode::linear, code.column};
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  if (state.modes.programmed_frame.scale != 1.0 || state.modes.programmed_frame.mirrors[2]) {
+    return fail(state, code.column, "cycle-frame"_id,
+                "a cycle where the depths are scaled or mirrored",
+                "end that before, by CYCL DEF 11.1 SCL 1 or CYCL DEF 8.1");
+  }
+  if (state.modes.tool_axis) {
+    return fail(state, code.column, "cycle-tool-vector"_id, "a cycle with a tool vector",
+                "tilt the plane by PLANE before");
+  }
+  const Vec3 top(*state.position[AxisLetter::X], *state.position[AxisLetter::Y],
+                 *state.modes.hole_cycle.top);
+  drill_from_top(state, top, point_of_hole(state.position.target()), false, code.column);
+  return Done{};
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,152 @@
+#include "parser/interpret/feed_and_tool.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "core/constants.hpp"
+#include "parser/interpret/frames/tool_compensation.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxTool = 99'999'999;
+
+}  // namespace
+
+Outcome set_feed(InterpreterState& state, const BlockWords& words) {
+  const auto mode = words.value_or(CodeGroup::feed_mode, state.modes.feed_mode);
+  if (mode != state.modes.feed_mode) state.modes.feed.reset();
+  state.modes.feed_mode = mode;
+  if (const GivenCode& source = words[CodeGroup::feed_source]; source.code != nullptr) {
+    if (!state.modes.tool_feed) {
+      return fail(state, source.column, "tool-feed-missing"_id,
+                  source.code->name() + " without a feed in the tool call",
+                  "give F in TOOL CALL, or a number here");
+    }
+    state.modes.feed = state.modes.tool_feed;
+  }
+  if (!words.has('F')) return Done{};
+  const double feed = words['F'].value;
+  if (feed < 0.0) {
+    return fail(state, words['F'].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of('F')), "give a feed above zero");
+  }
+  state.modes.feed =
+      feed > 0.0 ? std::optional(FeedWord{feed, feed * feed_scale(state, mode)}) : std::nullopt;
+  // F AUTO comes back to that of the tool.
+  if (state.rules.tool_brings_feed && words.has(CodeGroup::tool_change))
+    state.modes.tool_feed = state.modes.feed;
+  return Done{};
+}
+
+Outcome set_tool(InterpreterState& state, const BlockWords& words) {
+  if (words.has('T')) {
+    const auto tool = whole(state, words, 'T', 0, kMaxTool);
+    if (!tool) return tool.error();
+    if (auto done = check_tool_exists(state, *tool, words['T'].column); !done) return done;
+    state.modes.selected_tool = *tool;
+  }
+  const GivenCode& change = words[CodeGroup::tool_change];
+  if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
+    if (!words.has('Q')) {
+      return fail(state, change.column, "tool-missing"_id, change.code->name() + " without a tool",
+                  fmt::format("give the tool that is in the spindle, for example {} Q1",
+                              change.code->name()));
+    }
+    const auto tool = whole(state, words, 'Q', 0, kMaxTool);
+    if (!tool) return tool.error();
+    if (auto done = check_tool_exists(state, *tool, words['Q'].column); !done) return done;
+    state.modes.tool = state.data.tool = *tool;
+    emit(state, change.column, ToolChange{state.modes.tool});
+  } else if (change.code != nullptr) {
+    if (!state.modes.selected_tool) {
+      return fail(state, change.column, "tool-missing"_id, change.code->name() + " without a tool",
+                  "give T on this block or before");
+    }
+    if (state.modes.spindle != SpindleDirection::off) {
+      state.modes.spindle = SpindleDirection::off;
+      emit(state, change.column, SpindleChange{state.modes.spindle, state.modes.spindle_speed});
+    }
+    state.modes.tool = state.data.tool = *state.modes.selected_tool;
+    emit(state, change.column, ToolChange{state.modes.tool});
+  }
+  return Done{};
+}
+
+void set_spindle_and_coolant(InterpreterState& state, const BlockWords& words, bool speed) {
+  const GivenCode& spindle = words[CodeGroup::spindle];
+  if (spindle.code != nullptr || (speed && state.modes.spindle != SpindleDirection::off)) {
+    state.modes.spindle = words.value_or(CodeGroup::spindle, state.modes.spindle);
+    emit(state, spindle.code != nullptr ? spindle.column : words['S'].column,
+         SpindleChange{state.modes.spindle, state.modes.spindle_speed});
+  }
+  const GivenCode& coolant = words[CodeGroup::coolant];
+  if (coolant.code != nullptr && !coolant.code->event) {
+    state.modes.flood = static_cast<CoolantWord>(coolant.code->value) == CoolantWord::flood;
+    emit(state, coolant.column, CoolantChange{state.modes.flood});
+  }
+}
+
+Outcome dwell(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  const DwellWord* given = nullptr;
+  for (const DwellWord& word : state.rules.dwell) {
+    if (!words.has(word.letter)) continue;
+    if (given != nullptr) {
+      return fail(
+          state, words[word.letter].column, "dwell-time"_id,
+          fmt::format("{} has both {} and {}", code.code->name(), given->letter, word.letter),
+          "give one time");
+    }
+    given = &word;
+  }
+  if (given == nullptr) {
+    return fail(state, code.column, "dwell-time"_id, code.code->name() + " without a time",
+                std::string(state.rules.dwell_hint));
+  }
+  const GivenWord& time = words[given->letter];
+  if (time.value < 0.0) {
+    return fail(state, time.column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(given->letter)),
+                "a dwell takes a time that is not negative");
+  }
+  if (given->unit == DwellUnit::revolutions && state.modes.spindle_speed <= 0.0) {
+    return fail(state, time.column, "dwell-without-speed"_id,
+                "a dwell in revolutions with no spindle speed", "give a spindle speed before");
+  }
+  const bool milliseconds =
+      given->unit == DwellUnit::milliseconds_without_point && !time.decimal_point;
+  emit(state, code.column,
+       Dwell{milliseconds ? time.value / kMillisecondsPerSecond
+             : given->unit == DwellUnit::revolutions
+                 ? time.value * kSecondsPerMinute / state.modes.spindle_speed
+                 : time.value});
+  return Done{};
+}
+
+Result<bool> set_speed(InterpreterState& state, const BlockWords& words, bool counts) {
+  const bool any_speed = words.has('S') && counts;
+  if (any_speed && words['S'].value < 0.0) {
+    return fail(state, words['S'].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of('S')),
+                "give the direction by M3 or M4 and a speed that is not negative");
+  }
+  state.modes.surface_speed =
+      words.value_or(CodeGroup::speed_mode,
+                     state.modes.surface_speed ? SpeedWord::surface : SpeedWord::revolutions) ==
+      SpeedWord::surface;
+  const bool speed = any_speed && !state.modes.surface_speed;
+  if (any_speed && state.modes.surface_speed) {
+    emit(state, words['S'].column, Event{"surface_speed", words.text_of('S')});
+  } else if (speed) {
+    state.modes.spindle_speed = words['S'].value;
+  }
+  return speed;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,75 @@
+#include "parser/interpret/filters/corner_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "parser/interpret/filters/motion_filters.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// What may stand in the block of the second move.
+constexpr std::array kBesideMoves{CodeGroup::motion, CodeGroup::feed_source, CodeGroup::spindle,
+                                  CodeGroup::coolant, CodeGroup::corner};
+
+}  // namespace
+
+Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const BlockWords& words) {
+  if (!state.rules.inserts_corners) return Done{};
+  const GivenCode& code = words[CodeGroup::corner];
+  const auto side = words.value_or(CodeGroup::radius_compensation, RadiusWord::off);
+  const bool same_side =
+      filters.radius.is_on()
+          ? side == (filters.radius.setting().side == ToolSide::left ? RadiusWord::left
+                                                                     : RadiusWord::right)
+          : side == RadiusWord::off;
+  if (filters.corners.corner()) {
+    for (std::size_t group = 0; group < kCodeGroups; ++group) {
+      const GivenCode& other = words[static_cast<CodeGroup>(group)];
+      const bool repeated =
+          other.code != nullptr && same_side && other.code->group == CodeGroup::radius_compensation;
+      const bool pole = group == static_cast<std::size_t>(CodeGroup::non_modal) &&
+                        words.value_or(CodeGroup::non_modal, NonModal::none) == NonModal::pole;
+      if (other.code == nullptr || other.code->event || repeated || pole ||
+          std::find(kBesideMoves.begin(), kBesideMoves.end(), other.code->group) !=
+              kBesideMoves.end()) {
+        continue;
+      }
+      return fail(state, other.column, "corner-interrupted"_id,
+                  fmt::format("{} between {} and the move behind it", other.code->name(),
+                              filters.corners.corner()->name),
+                  "write the moves of the contour one behind the other");
+    }
+  } else if (code.code == nullptr) {
+    filters.corners.release(filters.to_radius);
+  }
+  if (code.code == nullptr) return Done{};
+  Corner corner{.name = code.code->name()};
+  corner.rounds = static_cast<CornerWord>(code.code->value) == CornerWord::rounding;
+  corner.size = words['R'].value * unit_scale(state);
+  corner.place = state.at_work.block->place_of(code.column);
+  corner.place.file = state.at_work.file;
+  if (!(corner.size > 0.0)) {
+    return fail(state, words['R'].column, "value-not-positive"_id,
+                fmt::format("the size of {} is not above zero", corner.name),
+                "give a size above zero, or leave it out");
+  }
+  if (words.has('f')) {
+    if (!(words['f'].value > 0.0)) {
+      return fail(state, words['f'].column, "feed-not-positive"_id,
+                  fmt::format("{} is not above zero", words.text_of('f')),
+                  "give a feed above zero");
+    }
+    corner.feed = words['f'].value * unit_scale(state);
+  }
+  if (auto failure = filters.corners.insert(corner)) return *std::move(failure);
+  return Done{};
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,38 @@
+#include "parser/interpret/filters/motion_filters.hpp"
+
+#include <utility>
+
+namespace frustum::parser {
+namespace {
+
+void place_and_send(InterpreterState& state, const MotionSink& sink, Motion&& motion) {
+  const ModalState& modes = state.modes;
+  if (!modes.programmed_frame.is_identity()) modes.programmed_frame.place(motion.command);
+  if (!modes.offset_frame.is_identity()) modes.offset_frame.place(motion.command);
+  ++state.output.motions;
+  sink(std::move(motion));
+}
+
+// The first failure of a block counts.
+void keep_failure(Output& output, std::optional<Diagnostic>&& failure) {
+  if (failure && !output.failure) output.failure = std::move(failure);
+}
+
+}  // namespace
+
+MotionFilters::MotionFilters(InterpreterState& state, const MotionSink& sink)
+    : to_sink([&state, &sink](Motion&& motion) { place_and_send(state, sink, std::move(motion)); }),
+      to_radius([this, &state](Motion&& motion) {
+        if (!radius.is_on()) return to_sink(std::move(motion));
+        keep_failure(state.output, radius.take(std::move(motion), to_sink));
+      }) {
+  if (!state.rules.inserts_corners) {
+    state.output.take = to_radius;
+    return;
+  }
+  state.output.take = [this, &state](Motion&& motion) {
+    keep_failure(state.output, corners.take(std::move(motion), to_radius));
+  };
+}
+
+}  // namespace frustum::parser

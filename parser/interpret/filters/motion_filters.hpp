@@ -1,0 +1,28 @@
+// The filters that motions pass on their way out: roundings and chamfers between them, then radius compensation; and
+// last the frames between the words and the coordinates of the work offset.
+//
+// Units : mm, rad
+// Errors: a motion that a filter cannot make is Output::failure of the state
+#pragma once
+
+#include "parser/interpret/filters/corner_insertion.hpp"
+#include "parser/interpret/filters/radius_compensation.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/motion.hpp"
+
+namespace frustum::parser {
+
+struct MotionFilters {
+  // From now on the state's output passes them on its way to the sink.
+  MotionFilters(InterpreterState& state, const MotionSink& sink);
+  MotionFilters(const MotionFilters&) = delete;  // the output looks at them
+  MotionFilters& operator=(const MotionFilters&) = delete;
+
+  CornerInsertion corners{};
+  RadiusCompensation radius{};
+  SourcePlace radius_since{};  // where it was switched on
+  RadiusCompensation::Sink to_sink;
+  CornerInsertion::Sink to_radius;
+};
+
+}  // namespace frustum::parser

@@ -1,0 +1,240 @@
+#include "parser/interpret/filters/radius_words.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "parser/arc.hpp"
+#include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/filters/motion_filters.hpp"
+#include "parser/interpret/frames/tool_compensation.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxToolNumber = 99'999;
+
+// Where a mill's centre is its control point; other values are the shapes of lathe tools.
+constexpr int kCentred = 0;
+
+constexpr int kCentredToo = 9;
+
+// What changes the tool, the coordinates or the plane under a contour.
+constexpr std::array kGroupsOff{CodeGroup::length_compensation,
+                                CodeGroup::tool_tip,
+                                CodeGroup::work_offset,
+                                CodeGroup::tilted_plane,
+                                CodeGroup::tool_change,
+                                CodeGroup::scaling,
+                                CodeGroup::mirror,
+                                CodeGroup::hole_call,
+                                CodeGroup::drilling_cycle};
+
+bool leaves_contour(NonModal word) {
+  return word != NonModal::none && word != NonModal::dwell && !is_pole(word);
+}
+
+std::string_view off_word(Dialect dialect) { return dialect == Dialect::heidenhain ? "R0" : "G40"; }
+
+// The radius, below zero for a tool of negative diameter.
+Result<double> radius_for(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::radius_compensation];
+  const std::string name = code.code->name();
+  const auto word = static_cast<RadiusWord>(code.code->value);
+  if (words.has('L')) {
+    const auto shape = whole(state, words, 'L', kCentred, kCentredToo);
+    if (!shape) return shape.error();
+    if (*shape != kCentred && *shape != kCentredToo) {
+      return fail(state, words['L'].column, "not-simulated"_id,
+                  fmt::format("{} is not simulated", words.text_of('L')),
+                  "shapes of lathe tools are not simulated; leave L out");
+    }
+  }
+  if (word == RadiusWord::left_by_diameter || word == RadiusWord::right_by_diameter) {
+    if (!words.has('D'))
+      return fail(state, code.column, "radius-number-missing"_id, name + " without D",
+                  "give the diameter by D");
+    return words['D'].value / 2.0 * unit_scale(state);
+  }
+  const bool has_d = words.has('D') && code.code->arguments.has('D');
+  int number = state.modes.tool;
+  if (has_d) {
+    const auto given = whole(state, words, 'D', 0, kMaxToolNumber);
+    if (!given) return given.error();
+    number = *given;
+    state.modes.radius_number = number;
+  } else if (state.rules.radius.source == RadiusSource::last_d) {
+    if (!state.modes.radius_number) {
+      return fail(state, code.column, "radius-number-missing"_id, name + " without D",
+                  fmt::format("give the number of the offset, for example {} D1", name));
+    }
+    number = *state.modes.radius_number;
+  } else if (number == 0) {
+    return fail(state, code.column, "radius-number-missing"_id,
+                name + " without a tool in the spindle",
+                has_d ? "" : "call the tool before, by its number");
+  }
+  const std::uint32_t column = has_d ? words['D'].column : code.column;
+  const auto tool = state.data.tools.find(number);
+  if (tool == state.data.tools.end()) {
+    return fail(state, column, "radius-compensation"_id,
+                fmt::format("the tool table has no tool {}", number),
+                "give the tool's diameter in the tool table");
+  }
+  return tool->second.diameter / 2.0;
+}
+
+void switch_radius_off(InterpreterState& state, MotionFilters& filters, std::uint32_t column) {
+  if (!filters.radius.is_on()) return;
+  state.modes.tool_side.reset();
+  const Plane plane = filters.radius.setting().plane;
+  const auto centre = filters.radius.stop(filters.to_sink);
+  emit(state, column, Event{"radius_compensation", "off"});
+  if (!centre) return;
+  state.contour_exit.arc_waits = true;
+  if (state.rules.radius.any_move_leaves) return;
+  const PlaneAxes axes = axes_of(plane);
+  state.contour_exit.place[static_cast<AxisLetter>(axes.u)] = centre->x();
+  state.contour_exit.place[static_cast<AxisLetter>(axes.v)] = centre->y();
+}
+
+}  // namespace
+
+Outcome check_radius_compensation(const InterpreterState& state, const MotionFilters& filters,
+                                  const BlockWords& words, const Movement& movement) {
+  const GivenCode& given = words[CodeGroup::radius_compensation];
+  const auto word = words.value_or(CodeGroup::radius_compensation,
+                                   filters.radius.is_on() ? RadiusWord::left : RadiusWord::off);
+  if (word == RadiusWord::off) return Done{};
+  const auto refuse = [&](const GivenCode& code) {
+    return fail(state, code.column, "radius-compensation"_id,
+                fmt::format("{} with radius compensation on", code.code->name()),
+                fmt::format("switch it off before, by {} and a straight move",
+                            off_word(state.rules.dialect)));
+  };
+  const GivenCode& non_modal = words[CodeGroup::non_modal];
+  if (non_modal.code != nullptr && leaves_contour(static_cast<NonModal>(non_modal.code->value))) {
+    return refuse(non_modal);
+  }
+  if (movement.motion > MotionMode::arc_tangential) {
+    return fail(
+        state, movement.column, "radius-compensation"_id,
+        fmt::format("{} with radius compensation on", is_cycle(movement.motion) ? "a canned cycle"
+                                                      : is_spline(movement.motion) ? "a spline"
+                                                      : movement.motion == MotionMode::arc_through
+                                                          ? "an arc through a point"
+                                                          : "a thread or a probing move"),
+        fmt::format("switch it off before, by {}", off_word(state.rules.dialect)));
+  }
+  if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
+    return fail(state, words[rotary].column, "radius-compensation"_id,
+                fmt::format("{} with radius compensation on", words.text_of(rotary)),
+                "turn the axes before it is switched on");
+  }
+  if (!filters.radius.is_on()) {
+    for (const CodeGroup group : {CodeGroup::scaling, CodeGroup::mirror}) {
+      if (words.has(group)) return refuse(words[group]);
+    }
+    if (!guides_tip(state, words)) return Done{};
+    return fail(state, given.column, "radius-compensation"_id,
+                "radius compensation with tool-tip control",
+                "switch one of them off; with tool vectors the path is that of the tool's tip");
+  }
+  for (const CodeGroup group : kGroupsOff) {
+    if (words.has(group)) return refuse(words[group]);
+  }
+  if (words.has('D') && state.rules.always_claimed.has('D')) {
+    return fail(state, words['D'].column, "radius-compensation"_id,
+                fmt::format("{} with radius compensation on", words.text_of('D')),
+                "choose the tool's edge before it is switched on");
+  }
+  if (words.value_or(CodeGroup::plane, state.modes.plane) != state.modes.plane) {
+    return refuse(words[CodeGroup::plane]);
+  }
+  return Done{};
+}
+
+Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
+                                const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::radius_compensation];
+  if (code.code == nullptr) return Done{};
+  const auto word = static_cast<RadiusWord>(code.code->value);
+  if (word == RadiusWord::off) {
+    switch_radius_off(state, filters, code.column);
+    return Done{};
+  }
+  if (!state.rules.radius.in_yz && state.modes.plane == Plane::yz) {
+    return fail(state, code.column, "radius-plane"_id, code.code->name() + " in G19",
+                "radius compensation works in G17 and G18");
+  }
+  const auto radius = radius_for(state, words);
+  if (!radius) return radius.error();
+  if (*radius == 0.0) {
+    return fail(state, words.has('D') ? words['D'].column : code.column, "radius-compensation"_id,
+                code.code->name() + " with a tool of no diameter",
+                "give the tool's diameter, or leave radius compensation out");
+  }
+  const bool left =
+      (word == RadiusWord::left || word == RadiusWord::left_by_diameter) == (*radius > 0.0);
+  const ToolSide side = left ? ToolSide::left : ToolSide::right;
+  // The path is made in words, which the frame scales.
+  const double in_words = std::abs(*radius) / state.modes.programmed_frame.scale;
+  if (filters.radius.is_on()) {
+    const bool same =
+        filters.radius.setting().side == side && filters.radius.setting().radius == in_words;
+    if (same && state.rules.radius.may_be_repeated) return Done{};
+    return fail(state, code.column, "radius-compensation"_id,
+                fmt::format("{} while radius compensation is on, since line {}", code.code->name(),
+                            filters.radius_since.line),
+                fmt::format("switch it off before, by {} and a straight move",
+                            off_word(state.rules.dialect)));
+  }
+  if (!state.modes.programmed_frame.keeps(state.modes.plane) ||
+      !state.modes.offset_frame.keeps(state.modes.plane)) {
+    return fail(state, code.column, "radius-plane"_id,
+                code.code->name() + " in a plane that the frame turns",
+                "turn the frame about the normal of the plane");
+  }
+  filters.radius_since = state.at_work.block->place_of(code.column);
+  state.modes.tool_side = side;
+  AxisTarget from = state.position.target();
+  // Another contour may begin before the tool has left the last one: it comes from where it is.
+  for (const AxisLetter axis : kAxisLetters) {
+    if (state.contour_exit.place[axis]) from[axis] = state.contour_exit.place[axis];
+  }
+  state.contour_exit.place = {};
+  state.contour_exit.arc_waits = false;
+  emit(state, code.column,
+       Event{"radius_compensation", fmt::format("{} of the contour, radius {:.9g} mm",
+                                                left ? "left" : "right", std::abs(*radius))});
+  filters.radius.start({side, in_words, state.modes.plane, state.rules.radius}, from);
+  return Done{};
+}
+
+Outcome end_radius_compensation(InterpreterState& state, MotionFilters& filters,
+                                const SourcePlace& place) {
+  if (!filters.radius.is_on()) return Done{};
+  if (state.rules.radius.ends_with_program) {
+    state.modes.tool_side.reset();
+    filters.radius.stop(filters.to_sink);
+    return Done{};
+  }
+  Diagnostic failure = error(
+      "radius-compensation"_id,
+      fmt::format("radius compensation, on since line {}, is still on at the end of the program",
+                  filters.radius_since.line),
+      fmt::format("leave the contour by {} and a straight move", off_word(state.rules.dialect)));
+  failure.line = static_cast<int>(place.line);
+  failure.column = static_cast<int>(place.column);
+  return failure;
+}
+
+}  // namespace frustum::parser

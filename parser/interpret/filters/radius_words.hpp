@@ -1,0 +1,22 @@
+// Cutter radius compensation in a program: its words, what may not happen while it is on, and how it ends.
+//
+// Units : mm, rad, mm/min
+// Errors: the first one of the block, with line, column and hint
+#pragma once
+
+#include "parser/interpret/filters/motion_filters.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+
+namespace frustum::parser {
+
+[[nodiscard]] Outcome check_radius_compensation(const InterpreterState& state,
+                                                const MotionFilters& filters,
+                                                const BlockWords& words, const Movement& movement);
+[[nodiscard]] Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
+                                              const BlockWords& words);
+[[nodiscard]] Outcome end_radius_compensation(InterpreterState& state, MotionFilters& filters,
+                                              const SourcePlace& place);
+
+}  // namespace frustum::parser

@@ -1,0 +1,290 @@
+#include "parser/interpret/frames/data_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/units.hpp"
+#include "parser/interpret/frames/datum.hpp"
+#include "parser/interpret/frames/tool_compensation.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxNumber = 99'999;
+
+constexpr int kFixture = 9;  // G59.3
+constexpr int kOrientations = 9;
+
+constexpr int kExtendedOffsets = 300;
+
+std::string known_inputs(const DialectRules& rules) {
+  std::string text;
+  for (const DataWord& word : rules.data_words) {
+    text += fmt::format("{}L{}", text.empty() ? "" : " ", word.number);
+  }
+  return text;
+}
+
+std::string letters_of(LetterSet set) {
+  std::string text;
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if (set.has(letter)) text += fmt::format(" {}", letter);
+  }
+  return text;
+}
+
+bool measures_tool(DataInput input) {
+  return input == DataInput::tool || input == DataInput::tool_here ||
+         input == DataInput::tool_at_fixture;
+}
+
+// L2, and Fanuc's L20.
+Outcome set_work_offset_data(InterpreterState& state, const BlockWords& words,
+                             const DataWord& data) {
+  const bool extended = data.input == DataInput::extended_offset;
+  const bool fanuc = state.rules.data_follow_distance_mode;
+  const auto given = extended ? whole(state, words, 'P', 1, kExtendedOffsets)
+                              : whole(state, words, 'P', 0, fanuc ? 6 : kFixture);
+  if (!given) return given.error();
+  // P0 is the one in force; Fanuc has the external offset there.
+  int number = *given + (extended ? kExtendedWorkOffset : 0);
+  if (*given == 0 && !fanuc) number = state.modes.work_offset;
+  const std::uint32_t column = words[CodeGroup::non_modal].column;
+  WorkOffset offset = state.data.work_offset(number);
+  const bool adds = fanuc && state.modes.distance == DistanceMode::incremental;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    const bool zero_at_first = is_rotary(axis) || number == 0;
+    if (adds && !offset.origin[axis] && !zero_at_first) {
+      return fail(state, words[letter].column, "offset-unknown"_id,
+                  fmt::format("{} adds to {}, whose {} the program has not placed",
+                              words.text_of(letter), work_offset_name(number), letter),
+                  "place it in G90 before");
+    }
+    const double value = scaled(state, axis, words[letter].value);
+    offset.origin[axis] = adds ? offset.origin[axis].value_or(0.0) + value : value;
+  }
+  if (words.has('R')) offset.rotation = words['R'].value * kRadPerDeg;
+  state.data.work_offsets[number] = offset;
+  if (number == 0 || number == state.modes.work_offset) return replace_datum(state, column);
+  return tell_origin(state, number, column);
+}
+
+// L20: where the axes stand the words are to be what the block says; the other words stay what they are.
+Outcome set_offset_here(InterpreterState& state, const BlockWords& words) {
+  const std::uint32_t column = words[CodeGroup::non_modal].column;
+  const auto given = whole(state, words, 'P', 0, kFixture);
+  if (!given) return given.error();
+  const int number = *given == 0 ? state.modes.work_offset : *given;
+  WorkOffset offset = state.data.work_offset(number);
+  // The frame that the offset makes, without its origin.
+  const ModalState before = state.modes;
+  const AxisTarget axes = axis_positions(state);
+  place_datum(state, {{}, offset.rotation});
+  const ProgrammedFrame frame = state.modes.offset_frame;
+  state.modes = before;
+  const auto tool = state.modes.compensation.offset();
+  AxisTarget place = axes;  // relative to the old origin
+  for (const AxisLetter axis : kLinearAxes) {
+    const auto& origin = offset.origin[axis];
+    const bool known = place[axis] && origin && (axis != AxisLetter::Z || tool);
+    const bool mixed = frame.turns() && axis != AxisLetter::Z;
+    const bool needed = words.has(to_char(axis)) || mixed;
+    if (!known && needed) {
+      return fail(state, column, axis_unknown_id(state, axis),
+                  fmt::format("G10 L20 starts from where {} is, but {}", to_char(axis),
+                              place[axis] ? fmt::format("only the setup knows where {} lies",
+                                                        work_offset_name(number))
+                                          : why_axis_unknown(state, axis)),
+                  "place the offset with G10 L2, or shift the words with G92");
+    }
+    place[axis] =
+        known ? *place[axis] - *origin - (axis == AxisLetter::Z ? tool->at(2) : 0.0) : 0.0;
+  }
+  AxisTarget wanted = state.modes.programmed_frame.to_words(frame.to_words(place));
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (words.has(letter)) wanted[axis] = scaled(state, axis, words[letter].value);
+  }
+  const AxisTarget new_place = frame.from_words(state.modes.programmed_frame.from_words(wanted));
+  for (const AxisLetter axis : kAxisLetters) {
+    const bool mixed = frame.turns() && !is_rotary(axis) && axis != AxisLetter::Z;
+    if (!words.has(to_char(axis)) && !mixed) continue;
+    if (!place[axis] || !new_place[axis]) {
+      return fail(state, column, axis_unknown_id(state, axis),
+                  fmt::format("G10 L20 starts from where {} is, but {}", to_char(axis),
+                              why_axis_unknown(state, axis)),
+                  "move it there once in absolute coordinates (G90) before");
+    }
+    const double before_it = is_rotary(axis) ? 0.0 : offset.origin[axis].value_or(0.0);
+    offset.origin[axis] = before_it + *place[axis] - *new_place[axis];
+  }
+  state.data.work_offsets[number] = offset;
+  if (number == state.modes.work_offset) return replace_datum(state, column);
+  return tell_origin(state, number, column);
+}
+
+Outcome set_tool_offsets(InterpreterState& state, const BlockWords& words, DataInput input,
+                         Tool& tool) {
+  const AxisTarget axes = axis_positions(state);
+  // Where the words of the block lie without tool.
+  AxisTarget place;
+  WorkOffset datum = state.modes.datum;
+  AxisTarget target = state.position.target();
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (words.has(letter)) target[axis] = scaled(state, axis, words[letter].value);
+  }
+  if (input != DataInput::tool) {
+    const ModalState before = state.modes;
+    state.modes.compensation = {};
+    if (input == DataInput::tool_at_fixture) datum = state.data.work_offset(kFixture);
+    place_datum(state, datum);
+    const ProgrammedFrame own =
+        input == DataInput::tool_at_fixture ? ProgrammedFrame{} : state.modes.programmed_frame;
+    place = state.modes.offset_frame.from_words(own.from_words(target));
+    state.modes = before;
+  }
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    auto& offset = tool.offset.at(static_cast<std::size_t>(axis));
+    if (input == DataInput::tool) {
+      offset = *target[axis];
+      continue;
+    }
+    const auto origin = is_rotary(axis) ? std::optional(0.0) : datum.origin[axis];
+    if (!axes[axis] || !place[axis] || !origin) {
+      return fail(
+          state, words[letter].column, axis_unknown_id(state, axis),
+          fmt::format("the tool is measured from where {} is, but {}", letter,
+                      axes[axis] && !origin ? fmt::format("only the setup knows where {} lies",
+                                                          work_offset_name(kFixture))
+                                            : why_axis_unknown(state, axis)),
+          "give the tool's offset with G10 L1, or place the work offset with G10 L2");
+    }
+    offset = *axes[axis] - *place[axis] - *origin;
+  }
+  return Done{};
+}
+
+// L1, L10, L11.
+Outcome set_tool_data(InterpreterState& state, const BlockWords& words, const DataWord& data) {
+  const auto number = whole(state, words, 'P', 1, kMaxNumber);
+  if (!number) return number.error();
+  if (auto done = check_tool_exists(state, *number, words['P'].column); !done) return done;
+  const auto found = state.data.tools.find(*number);
+  Tool tool = found == state.data.tools.end() ? Tool{} : found->second;
+  if (found == state.data.tools.end()) tool.has_length = false;
+  if (auto done = set_tool_offsets(state, words, data.input, tool); !done) return done;
+  if (words.has('R')) tool.diameter = 2.0 * words['R'].value * unit_scale(state);
+  if (words.has('I')) tool.front_angle = words['I'].value;
+  if (words.has('J')) tool.back_angle = words['J'].value;
+  if (words.has('Q')) {
+    const auto orientation = whole(state, words, 'Q', 0, kOrientations);
+    if (!orientation) return orientation.error();
+    tool.orientation = *orientation;
+  }
+  if (words.has('Z')) tool.has_length = true;
+  state.data.tools[*number] = tool;
+  return Done{};
+}
+
+// Fanuc: L10 to L13.
+Outcome set_offset_memory(InterpreterState& state, const BlockWords& words, const DataWord& data) {
+  constexpr int kOffsets = 999;
+  const auto number = whole(state, words, 'P', 1, kOffsets);
+  if (!number) return number.error();
+  const auto found = state.data.tools.find(*number);
+  Tool tool = found == state.data.tools.end() ? Tool{} : found->second;
+  if (found == state.data.tools.end()) tool.has_length = false;
+  const bool adds = state.modes.distance == DistanceMode::incremental;
+  const double value = words['R'].value * unit_scale(state);
+  const bool length = data.input == DataInput::length;
+  if (length && adds && !tool.has_length) {
+    return fail(state, words['R'].column, "tool-length-unknown"_id,
+                fmt::format("{} adds to the length of offset {}, which only the setup knows",
+                            words.text_of('R'), *number),
+                "give the length in G90");
+  }
+  const bool of_radius = data.input == DataInput::radius || data.input == DataInput::radius_wear;
+  double& set = length                                 ? tool.offset.at(2)
+                : data.input == DataInput::length_wear ? tool.length_wear
+                : data.input == DataInput::radius      ? tool.diameter
+                                                       : tool.diameter_wear;
+  set = (adds ? set : 0.0) + (of_radius ? 2.0 : 1.0) * value;
+  if (length) tool.has_length = true;
+  state.data.tools[*number] = tool;
+  return Done{};
+}
+
+}  // namespace
+
+Outcome set_data(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  const std::string name = code.code->name();
+  if (!words.has('L')) {
+    return fail(state, code.column, "word-missing"_id, name + " without L",
+                fmt::format("say what it sets: {}", known_inputs(state.rules)));
+  }
+  const auto number = whole(state, words, 'L', 0, kMaxNumber);
+  if (!number) return number.error();
+  const auto data = std::find_if(state.rules.data_words.begin(), state.rules.data_words.end(),
+                                 [&](const DataWord& word) { return word.number == *number; });
+  if (data == state.rules.data_words.end()) {
+    return fail(state, words['L'].column, "data-unknown"_id,
+                fmt::format("{} L{} is not known", name, *number),
+                fmt::format("known are {}", known_inputs(state.rules)));
+  }
+  const std::string spelled = fmt::format("{} L{}", name, *number);
+  const LetterSet own = code.code->arguments.without(LetterSet("LP"));
+  if (const char letter = words.first_of(own.without(data->words)); letter != 0) {
+    return fail(state, words[letter].column, "word-unused"_id,
+                fmt::format("{} has no meaning with {}", words.text_of(letter), spelled),
+                fmt::format("{} takes P{}", spelled, letters_of(data->words)));
+  }
+  if (data->input == DataInput::tool_table) {
+    emit(state, code.column, Event{"G10 L0", {}});
+    return Done{};
+  }
+  if (!words.has('P')) {
+    return fail(state, code.column, "word-missing"_id, spelled + " without P",
+                measures_tool(data->input) ? "P is the number of the tool"
+                                           : "P is the number of the offset");
+  }
+  if (words.first_of(data->words) == 0) {
+    const bool only_r = data->words.has('R') && !data->words.has('X');
+    return fail(state, code.column, "data-empty"_id,
+                only_r ? spelled + " without R" : spelled + " names no axis",
+                fmt::format("give what it sets:{}", letters_of(data->words)));
+  }
+  switch (data->input) {
+    case DataInput::tool_table:
+      break;
+    case DataInput::work_offset:
+    case DataInput::extended_offset:
+      return set_work_offset_data(state, words, *data);
+    case DataInput::offset_here:
+      return set_offset_here(state, words);
+    case DataInput::tool:
+    case DataInput::tool_here:
+    case DataInput::tool_at_fixture:
+      return set_tool_data(state, words, *data);
+    case DataInput::length:
+    case DataInput::length_wear:
+    case DataInput::radius:
+    case DataInput::radius_wear:
+      return set_offset_memory(state, words, *data);
+  }
+  return Done{};
+}
+
+}  // namespace frustum::parser

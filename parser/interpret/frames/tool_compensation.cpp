@@ -1,0 +1,243 @@
+#include "parser/interpret/frames/tool_compensation.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "parser/interpret/frames/datum.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr std::size_t kLengthAxis = 2;  // Z
+
+constexpr int kMaxOffsetNumber = 9999;
+
+constexpr int kMaxEdge = 12;
+
+// What a length word makes of the two switches; the offset number is the caller's.
+Compensation compensation_of(LengthWord word, const Compensation& before) {
+  switch (word) {
+    case LengthWord::off:
+      return {};
+    case LengthWord::length:
+      return {true, false, false, 0};
+    case LengthWord::tool_centre_point:
+      return {true, true, false, 0};
+    case LengthWord::tool_vectors:
+      return {true, true, true, 0};
+    case LengthWord::length_only:
+      return {true, before.tip, false, 0};
+    case LengthWord::dynamic:
+    case LengthWord::additional:
+      return {true, before.tip, false, before.offset_number};
+    case LengthWord::length_only_off:
+      return {false, before.tip, false, 0};
+  }
+  return before;
+}
+
+bool same(const CompensationChange& a, const CompensationChange& b) {
+  return a.mode == b.mode && a.tool_vectors == b.tool_vectors &&
+         a.offset_number == b.offset_number && a.length == b.length;
+}
+
+// X1 Z20: offsets in the order of the axes; zero where not given.
+Result<ToolOffset> given_tool_offset(const InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::length_compensation];
+  ToolOffset given{};
+  if ((words.given() & kAxisWords).empty()) {
+    return fail(state, code.column, "axes-missing"_id, code.code->name() + " names no axis",
+                fmt::format("give the tool's offset, for example {} Z50", code.code->name()));
+  }
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (words.has(letter))
+      given.at(static_cast<std::size_t>(axis)) = scaled(state, axis, words[letter].value);
+  }
+  return given;
+}
+
+// The tool's offset after a length word, as far as the program knows it.
+Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
+                                                 const BlockWords& words,
+                                                 const Compensation& next) {
+  using Known = std::optional<ToolOffset>;
+  const GivenCode& code = words[CodeGroup::length_compensation];
+  const auto word = static_cast<LengthWord>(code.code->value);
+  const auto before = state.modes.compensation.offset();
+  if (word == LengthWord::dynamic) {
+    const auto given = given_tool_offset(state, words);
+    if (!given) return given.error();
+    if (!before && !words.has('Z')) {
+      return fail(state, code.column, "tool-length-unknown"_id,
+                  code.code->name() + " leaves a length in force that the setup has", "give Z too");
+    }
+    ToolOffset offset = before.value_or(ToolOffset{});
+    for (const AxisLetter axis : kAxisLetters) {
+      const auto slot = static_cast<std::size_t>(axis);
+      if (words.has(to_char(axis))) offset.at(slot) = given->at(slot);
+    }
+    return Known{offset};
+  }
+  const auto tool = state.data.tools.find(next.offset_number);
+  const bool in_table = tool != state.data.tools.end() && tool->second.has_length;
+  const bool by_number = word != LengthWord::additional || words.has('H');
+  if (by_number && !in_table && state.data.tools_are_listed && next.offset_number != 0) {
+    const std::uint32_t column = words.has('H') ? words['H'].column : code.column;
+    return fail(state, column, "tool-missing"_id,
+                fmt::format("tool {} is not in the tool table", next.offset_number),
+                fmt::format("add a line T{} to the tool table", next.offset_number));
+  }
+  Known of_tool;
+  if (in_table) {
+    of_tool = tool->second.offset;
+    of_tool->at(kLengthAxis) += tool->second.length_wear;
+  } else if (state.data.tools_are_listed) {
+    of_tool = ToolOffset{};  // no tool
+  }
+  if (word != LengthWord::additional) return of_tool;
+  const bool both = words.has('H') && !(words.given() & kAxisWords).empty();
+  if (both) {
+    return fail(state, words['H'].column, "tool-offset-twice"_id,
+                code.code->name() + " with both H and axes",
+                "give the number of a tool, or its offset along the axes");
+  }
+  if (!words.has('H')) {
+    const auto given = given_tool_offset(state, words);
+    if (!given) return given.error();
+    of_tool = *given;
+  }
+  if (!before || !of_tool) {
+    return fail(state, code.column, "tool-length-unknown"_id,
+                code.code->name() + " adds to a length that only the setup knows",
+                "use G43.1 with the whole offset, or give the tool table");
+  }
+  for (std::size_t i = 0; i < of_tool->size(); ++i) of_tool->at(i) += before->at(i);
+  return of_tool;
+}
+
+Result<Compensation> compensation_after(const InterpreterState& state, const BlockWords& words) {
+  Compensation next = state.modes.compensation;
+  const GivenCode& length = words[CodeGroup::length_compensation];
+  if (length.code != nullptr) {
+    next = compensation_of(static_cast<LengthWord>(length.code->value), next);
+    if (words.has('H')) {
+      const auto number = whole(state, words, 'H', 1, kMaxOffsetNumber);
+      if (!number) return number.error();
+      next.offset_number = *number;
+    } else if (state.rules.dialect != Dialect::fanuc && next.length &&
+               length.code->arguments.has('H') &&
+               length.code->value != static_cast<std::uint8_t>(LengthWord::additional)) {
+      next.offset_number = state.modes.tool;
+    }
+    if (next.length) {
+      auto offset = tool_offset_of(state, words, next);
+      if (!offset) return offset.error();
+      next.tool_offset = *offset;
+    }
+  }
+  if (state.rules.tool_brings_length && words.has(CodeGroup::tool_change)) next.length = true;
+  if (words.has('D') && state.rules.always_claimed.has('D')) {
+    const auto edge = whole(state, words, 'D', 0, kMaxEdge);
+    if (!edge) return edge.error();
+    if (*edge > 1) {
+      return fail(state, words['D'].column, "not-simulated"_id,
+                  fmt::format("{} is not simulated", words.text_of('D')),
+                  "tools have one edge here: D1, or D0 for no length");
+    }
+    next.length = *edge == 1;
+  }
+  if (state.rules.tool_brings_length) {
+    next.length = next.length && state.modes.tool != 0;
+    next.offset_number = next.length ? state.modes.tool : 0;
+  }
+  next.tip =
+      words.value_or(CodeGroup::tool_tip, next.tip ? TipWord::on : TipWord::off) == TipWord::on;
+  return next;
+}
+
+}  // namespace
+
+Outcome check_tool_exists(const InterpreterState& state, int tool, std::uint32_t column) {
+  const bool listed = state.rules.dialect == Dialect::linuxcnc && state.data.tools_are_listed;
+  if (!listed || tool == 0 || state.data.tools.contains(tool)) return Done{};
+  return fail(state, column, "tool-missing"_id,
+              fmt::format("tool {} is not in the tool table", tool),
+              fmt::format("add a line T{} to the tool table", tool));
+}
+
+bool guides_tip(const InterpreterState& state, const BlockWords& words) {
+  const Code* length = words[CodeGroup::length_compensation].code;
+  const bool tip =
+      length == nullptr
+          ? state.modes.compensation.tip
+          : compensation_of(static_cast<LengthWord>(length->value), state.modes.compensation).tip;
+  return words.value_or(CodeGroup::tool_tip, tip ? TipWord::on : TipWord::off) == TipWord::on;
+}
+
+Outcome change_compensation(InterpreterState& state, const BlockWords& words,
+                            const Compensation& next) {
+  const ModalState before = state.modes;
+  const AxisTarget axes = axis_positions(state);
+  if (next.tip && next.tool_offset) {
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      if (i == 2 || next.tool_offset->at(i) == 0.0) continue;
+      const GivenCode& length = words[CodeGroup::length_compensation];
+      const GivenCode& cause = length.code != nullptr ? length : words[CodeGroup::tool_tip];
+      return fail(state, cause.column, "tool-offset-across"_id,
+                  fmt::format("the tool-tip control with a tool offset along {}",
+                              to_char(kAxisLetters.at(i))),
+                  "it knows the tool's length (Z) alone");
+    }
+  }
+  const CompensationChange reported_before = compensation_change(before.compensation);
+  const CompensationChange reported_after = compensation_change(next);
+  const bool tip_before = reported_before.mode == LengthCompensation::tool_centre_point;
+  const bool tip_after = reported_after.mode == LengthCompensation::tool_centre_point;
+  if (!next.tip) state.modes.tool_axis.reset();
+  state.modes.compensation = next;
+  place_datum(state, state.modes.datum);
+  const bool same_tool = reported_before.offset_number == reported_after.offset_number &&
+                         reported_before.length == reported_after.length;
+  if (tip_before != tip_after || (tip_after && !same_tool)) {
+    forget(state, kLinearWords, PositionLoss::length_compensation);
+  } else {
+    follow_datum(state, before, axes, PositionLoss::length_compensation);
+  }
+  return Done{};
+}
+
+Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
+  const auto next = compensation_after(state, words);
+  if (!next) return next.error();
+  const CompensationChange before = compensation_change(state.modes.compensation);
+  const CompensationChange after = compensation_change(*next);
+  if (!(*next == state.modes.compensation)) {
+    if (auto done = change_compensation(state, words, *next); !done) return done;
+  }
+
+  const GivenCode& length = words[CodeGroup::length_compensation];
+  const GivenCode& tip = words[CodeGroup::tool_tip];
+  const GivenCode& tool = words[CodeGroup::tool_change];
+  const GivenCode& cause = length.code != nullptr ? length : tip.code != nullptr ? tip : tool;
+  if (length.code != nullptr || !same(before, after)) {
+    emit(state, cause.code != nullptr ? cause.column : words['D'].column, after);
+  }
+  return Done{};
+}
+
+CompensationChange compensation_change(const Compensation& compensation) {
+  return {compensation.length ? compensation.mode() : LengthCompensation::off,
+          compensation.tool_vectors && compensation.length, compensation.offset_number,
+          compensation.length && compensation.tool_offset
+              ? std::optional(compensation.tool_offset->at(2))
+              : std::nullopt};
+}
+
+}  // namespace frustum::parser

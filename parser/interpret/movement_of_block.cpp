@@ -1,0 +1,250 @@
+#include "parser/interpret/movement_of_block.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "parser/interpret/frames/tool_compensation.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr LetterSet kMoveWords{"XYZABCIJKRabcpquvw"};
+
+LetterSet centre_letters(Plane plane) {
+  constexpr std::array kLetters{LetterSet("IJ"), LetterSet("IK"), LetterSet("JK")};
+  return kLetters.at(static_cast<std::size_t>(plane));
+}
+
+LetterSet letters_of_spline(MotionMode mode) {
+  switch (mode) {
+    case MotionMode::cubic_spline:
+      return kAxisWords | LetterSet("IJPQ");
+    case MotionMode::quadratic_spline:
+      return kAxisWords | LetterSet("IJ");
+    case MotionMode::nurbs:
+      return kAxisWords | LetterSet("PL");
+    default:
+      return {};
+  }
+}
+
+LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
+                       const Movement& movement) {
+  switch (movement.motion) {
+    default:
+      // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
+      return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
+    case MotionMode::thread:
+      if (state.rules.leads_by_axis) return kAxisWords | LetterSet("IJK");
+      return state.rules.thread_lead == 'K' ? kAxisWords | LetterSet("K") : kAxisWords;
+    case MotionMode::rigid_tap:
+      return kLinearWords | LetterSet("K");
+    case MotionMode::thread_cycle:
+      return kLinearWords | LetterSet("PIJKRQHEL");
+    case MotionMode::probe_towards:
+    case MotionMode::probe_towards_if_any:
+    case MotionMode::probe_away:
+    case MotionMode::probe_away_if_any:
+      return kAxisWords;
+    case MotionMode::traverse:
+    case MotionMode::linear: {
+      const bool vectors =
+          guides_tip(state, words) && movement.non_modal != NonModal::machine_coordinates;
+      LetterSet letters = kAxisWords | state.rules.polar_words;
+      if (vectors) letters = letters | LetterSet(state.rules.vector_letters);
+      if (movement.motion == MotionMode::linear) letters.add('t');
+      return letters;
+    }
+    case MotionMode::cubic_spline:
+    case MotionMode::quadratic_spline:
+    case MotionMode::nurbs:
+    case MotionMode::nurbs_end:
+      return letters_of_spline(movement.motion);
+    case MotionMode::arc_through:
+    case MotionMode::arc_tangential: {
+      LetterSet letters = kAxisWords;
+      letters = letters | (movement.motion == MotionMode::arc_through ? LetterSet("uvw")
+                                                                      : state.rules.polar_words);
+      return guides_tip(state, words) ? letters | LetterSet(state.rules.vector_letters) : letters;
+    }
+    case MotionMode::arc_clockwise:
+    case MotionMode::arc_counterclockwise: {
+      const LetterSet letters = kAxisWords | LetterSet("RPet") | state.rules.polar_words |
+                                centre_letters(words.value_or(CodeGroup::plane, state.modes.plane));
+      // Where I J K are the tool vector, an arc has them for its centre.
+      const bool vectors = guides_tip(state, words) && state.rules.vector_letters != "IJK";
+      return vectors ? letters | LetterSet(state.rules.vector_letters) : letters;
+    }
+  }
+}
+
+// A non-modal word that uses the axis words, with what else the block says.
+struct NonModalWord {
+  const InterpreterState& state;
+  const BlockWords& words;
+  const GivenCode& given;
+  MotionMode mode;
+
+  [[nodiscard]] NonModal word() const { return static_cast<NonModal>(given.code->value); }
+  [[nodiscard]] std::string name() const { return given.code->name(); }
+  [[nodiscard]] bool names_no_axis() const { return (words.given() & kAxisWords).empty(); }
+  [[nodiscard]] Diagnostic without_axes(std::string hint) const {
+    return fail(state, given.column, "axes-missing"_id, name() + " names no axis", std::move(hint));
+  }
+};
+
+// Only a rapid move goes with it.
+Outcome check_alone(const NonModalWord& used) {
+  const GivenCode& motion = used.words[CodeGroup::motion];
+  if (motion.code == nullptr || used.mode == MotionMode::traverse) return Done{};
+  return fail(used.state, motion.column, "axis-words-shared"_id,
+              fmt::format("{} and {} both use the axis words", used.name(), motion.code->name()),
+              "write two blocks");
+}
+
+Result<Movement> to_home(const NonModalWord& used) {
+  if (auto done = check_alone(used); !done) return std::move(done).error();
+  if (used.names_no_axis() && !used.state.rules.home_without_axes_is_all) {
+    return used.without_axes(
+        fmt::format("give the axes to send home, for example G91 {} Z0", used.name()));
+  }
+  return Movement{used.word(), MotionMode::none, used.given.column};
+}
+
+Result<Movement> to_end(const NonModalWord& used) {
+  if (auto done = check_alone(used); !done) return std::move(done).error();
+  if (used.names_no_axis()) {
+    return used.without_axes(
+        fmt::format("give the end of the move, for example {} Z0", used.name()));
+  }
+  const bool skips = used.word() == NonModal::skip;
+  return Movement{used.word(), skips ? MotionMode::probe_towards_if_any : MotionMode::none,
+                  used.given.column};
+}
+
+Result<Movement> in_machine_coordinates(const NonModalWord& used) {
+  const std::uint32_t column = used.given.column;
+  if (used.mode != MotionMode::traverse && used.mode != MotionMode::linear) {
+    return fail(used.state, column, "machine-coordinates"_id,
+                used.name() + " without a straight move",
+                "machine coordinates belong to a straight move, for example G53 G0 Z0");
+  }
+  if (used.names_no_axis()) return used.without_axes("give the axes to move, for example Z0");
+  if (used.words.value_or(CodeGroup::distance, used.state.modes.distance) ==
+      DistanceMode::incremental) {
+    return fail(used.state, column, "machine-coordinates"_id, used.name() + " in G91",
+                "machine coordinates need G90");
+  }
+  return Movement{used.word(), used.mode, column};
+}
+
+// The non-modal words whose axis words are a place to go to.
+struct PlaceWord {
+  NonModal word;
+  Result<Movement> (*movement)(const NonModalWord& used);
+};
+constexpr std::array kPlaceWords{
+    PlaceWord{NonModal::home, to_home},
+    PlaceWord{NonModal::second_home, to_home},
+    PlaceWord{NonModal::skip, to_end},
+    PlaceWord{NonModal::check_home, to_end},
+    PlaceWord{NonModal::from_home, to_end},
+    PlaceWord{NonModal::machine_coordinates, in_machine_coordinates},
+};
+
+// Groups whose words, where they have arguments, take the axis words.
+constexpr std::array kGroupsWithAxes{
+    CodeGroup::tilted_plane, CodeGroup::program_frame,  CodeGroup::scaling, CodeGroup::mirror,
+    CodeGroup::hole_cycle,   CodeGroup::drilling_cycle, CodeGroup::corner};
+
+// Whether the axis words are of another word than the motion's.
+bool axes_are_taken(const BlockWords& words) {
+  for (const CodeGroup group : kGroupsWithAxes) {
+    const Code* code = words[group].code;
+    if (code != nullptr && !code->arguments.empty()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+MotionMode motion_of(const InterpreterState& state, const BlockWords& words) {
+  const MotionMode after_cancel =
+      state.rules.cycles.cancel_brings_motion_back ? state.modes.before_cycle : MotionMode::none;
+  return words.value_or(CodeGroup::motion,
+                        words.has(CodeGroup::cycle) ? after_cancel : state.modes.motion);
+}
+
+Result<Movement> movement_of(const InterpreterState& state, const BlockWords& words) {
+  const MotionMode mode = motion_of(state, words);
+  const GivenCode& motion = words[CodeGroup::motion];
+  const GivenCode& given = words[CodeGroup::non_modal];
+  const auto non_modal = words.value_or(CodeGroup::non_modal, NonModal::none);
+  const Movement none{non_modal, MotionMode::none, given.column};
+  if (non_modal != NonModal::none) {
+    for (const PlaceWord& place : kPlaceWords) {
+      if (place.word == non_modal) return place.movement({state, words, given, mode});
+    }
+    if (motion.code == nullptr) return none;
+  }
+  if (axes_are_taken(words)) return none;
+  const bool of_nurbs = mode == MotionMode::nurbs || mode == MotionMode::nurbs_end;
+  if (motion.code != nullptr && of_nurbs) return Movement{non_modal, mode, motion.column};
+  const GivenCode& length = words[CodeGroup::length_compensation];
+  const bool axes_of_tool =
+      length.code != nullptr && !(length.code->arguments & kAxisWords).empty();
+  if (axes_of_tool && motion.code == nullptr) return none;
+  // Without an end the arc about the pole goes once round.
+  const bool circle =
+      state.rules.arcs_turn_about_pole && motion.code != nullptr &&
+      (mode == MotionMode::arc_clockwise || mode == MotionMode::arc_counterclockwise);
+  const LetterSet move_words = words.given() & kMoveWords;
+  if (move_words.empty() && !circle) return none;
+  return Movement{
+      non_modal, mode,
+      motion.code != nullptr ? motion.column : words[words.first_of(move_words)].column};
+}
+
+Outcome check_claims(const InterpreterState& state, const BlockWords& words,
+                     const Movement& movement) {
+  LetterSet claimed = state.rules.always_claimed;
+  LetterSet twice;
+  const auto claim = [&](LetterSet letters) {
+    twice = twice | (claimed & letters);
+    claimed = claimed | letters;
+  };
+  for (std::uint64_t groups = words.groups(); groups != 0; groups &= groups - 1) {
+    const Code* code = words[static_cast<CodeGroup>(std::countr_zero(groups))].code;
+    if (!code->event) claim(code->arguments);
+  }
+  for (const GivenCode& event : words.events()) claim(event.code->arguments);
+  claim(motion_words(state, words, movement));
+
+  if (const char letter = words.first_of(words.given() & twice); letter != 0) {
+    return fail(state, words[letter].column, "word-ambiguous"_id,
+                fmt::format("{} could belong to two words of the block", words.text_of(letter)),
+                "write two blocks");
+  }
+  const char letter = words.first_of(words.given().without(claimed));
+  if (letter == 0) return Done{};
+  const std::string_view use = letter_use(state.rules, letter);
+  if (use.empty()) {
+    return fail(state, words[letter].column, "unknown-word"_id,
+                "unknown word " + words.text_of(letter),
+                fmt::format("known are the letters {}", state.rules.known_letters));
+  }
+  return fail(state, words[letter].column, "word-unused"_id,
+              fmt::format("{} has no meaning in this block", words.text_of(letter)),
+              std::string(use));
+}
+
+}  // namespace frustum::parser

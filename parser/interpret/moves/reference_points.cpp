@@ -1,0 +1,201 @@
+#include "parser/interpret/moves/reference_points.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "parser/interpret/frames/datum.hpp"
+#include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/move_words.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+void leave_program_coordinates(InterpreterState& state, LetterSet axes, PositionLoss loss) {
+  // With the tool-centre-point control on, X Y Z are of the tip, which any axis may carry along.
+  forget(state, state.modes.tool_centre_point() ? axes | kLinearWords : axes, loss);
+  if (!(axes & kRotaryWords).empty()) state.modes.tool_axis.reset();
+}
+
+// By rapid, with the words where the program knows them: in a turned frame named words move, not axes.
+void go_to_axis_positions(InterpreterState& state, const AxisTarget& point, LetterSet named,
+                          std::uint32_t column) {
+  AxisTarget axes = axis_positions(state);
+  AxisTarget end;
+  AxisTarget all_there = axes;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (point[axis]) all_there[axis] = point[axis];
+    if (!named.has(to_char(axis))) continue;
+    axes[axis] = end[axis] = point[axis];
+  }
+  ProgramPosition there;
+  std::swap(there, state.position);
+  arrive(state, all_there);
+  const AxisTarget words = state.position.target();
+  std::swap(there, state.position);
+  bool all = !state.modes.tool_centre_point();
+  for (const AxisLetter axis : kAxisLetters) {
+    if (named.has(to_char(axis)) && !words[axis]) all = false;
+  }
+  if (!all) {
+    emit(state, column, Traverse{end, std::nullopt, Coordinates::machine});
+    leave_program_coordinates(state, named, PositionLoss::home);
+    if (!state.modes.tool_centre_point()) arrive(state, axes);
+    return;
+  }
+  for (const AxisLetter axis : kAxisLetters) {
+    if (named.has(to_char(axis))) state.position.set(axis, *words[axis]);
+  }
+  emit(state, column, Traverse{state.position.target(), std::nullopt, Coordinates::program});
+  if (!(named & kRotaryWords).empty()) state.modes.tool_axis.reset();
+}
+
+void return_to_point(InterpreterState& state, std::size_t point, LetterSet axes,
+                     std::uint32_t column) {
+  const bool kept = point <= state.data.reference_points.size();
+  const AxisTarget& known = kept ? state.data.reference_points.at(point - 1) : AxisTarget{};
+  HomeReturn home{.point = static_cast<int>(point)};
+  LetterSet to_place;
+  LetterSet to_machine;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (!axes.has(to_char(axis))) continue;
+    home.axes.at(static_cast<std::size_t>(axis)) = !known[axis];
+    (known[axis] ? to_place : to_machine).add(to_char(axis));
+  }
+  if (!to_place.empty()) go_to_axis_positions(state, known, to_place, column);
+  if (to_machine.empty()) return;
+  emit(state, column, Command{home});
+  leave_program_coordinates(state, to_machine, PositionLoss::home);
+}
+
+}  // namespace
+
+Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t point) {
+  const std::uint32_t column = words[CodeGroup::non_modal].column;
+  if (words.has('P')) {
+    const auto given = whole(state, words, 'P', 2, 4);
+    if (!given) return given.error();
+    point = static_cast<std::size_t>(*given);
+  }
+  const AxisTarget before = state.position.target();
+  LetterSet named;
+  if ((words.given() & kAxisWords).empty()) named = kAxisWords;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    named.add(letter);
+    // "G91 G28 Z0" from a place that is not known goes straight home: zero needs no start.
+    const bool stays =
+        state.modes.distance == DistanceMode::incremental && words[letter].value == 0.0;
+    if (stays) continue;
+    if (auto done = set_target(state, words, axis); !done) return done;
+  }
+  if (!(state.position.target() == before)) {
+    emit(state, column,
+         Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  }
+  for (const AxisLetter axis : kAxisLetters) {
+    if (named.has(to_char(axis))) state.modes.way_home[axis] = state.position[axis];
+  }
+  return_to_point(state, point, named, column);
+  return Done{};
+}
+
+Outcome check_home(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  if (auto done = set_targets(state, words); !done) return done;
+  if (auto done =
+          check_programmed_frame(state, {NonModal::none, MotionMode::traverse, code.column});
+      !done) {
+    return done;
+  }
+  emit(state, code.column,
+       Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  std::string axes;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (words.has(to_char(axis))) axes += to_char(axis);
+  }
+  emit(state, code.column, Event{code.code->name(), std::move(axes)});
+  return Done{};
+}
+
+Outcome come_from_home(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    if (!state.modes.way_home[axis]) {
+      return fail(state, words[letter].column, "home-place-missing"_id,
+                  fmt::format("{} goes by the place of G28, which has none for {}",
+                              code.code->name(), letter),
+                  fmt::format("give {} of the place in G28 or G30 before, in G90", letter));
+    }
+    state.position.set(axis, *state.modes.way_home[axis]);
+  }
+  const Movement rapid{NonModal::none, MotionMode::traverse, code.column};
+  if (auto done = check_programmed_frame(state, rapid); !done) return done;
+  const AxisTarget way = state.position.target();
+  emit(state, code.column, Traverse{way, state.modes.tool_axis, Coordinates::program});
+  if (auto done = set_targets(state, words); !done) return done;
+  if (state.position.target() == way) return Done{};
+  emit(state, code.column,
+       Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  return Done{};
+}
+
+Outcome keep_point(InterpreterState& state, std::size_t point, std::uint32_t column) {
+  const AxisTarget axes = axis_positions(state);
+  for (const AxisLetter axis : kAxisLetters) {
+    if (axes[axis] || state.position.never_known(axis)) continue;
+    return fail(state, column, axis_unknown_id(state, axis),
+                fmt::format("the reference point is where the axes are, but {}",
+                            why_axis_unknown(state, axis)),
+                "place the work offset with G10 L2 before, or move there with G53");
+  }
+  state.data.reference_points.at(point) = axes;
+  return Done{};
+}
+
+Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& words,
+                                    const Movement& movement) {
+  const AxisTarget axes_before = axis_positions(state);
+  AxisTarget end;
+  LetterSet named;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    named.add(letter);
+    end[axis] = scaled(state, axis, words[letter].value);
+  }
+  const Compensation& kept = state.modes.compensation;
+  const bool tip_moves = kept.tip || (kept.length && !(named & kLinearWords).empty());
+  if (state.rules.machine_coordinates_keep_length && tip_moves) {
+    return fail(state, words[CodeGroup::non_modal].column, "tool-length-active"_id,
+                fmt::format("{} with a tool length or TRAORI would place the tool's tip",
+                            words[CodeGroup::non_modal].code->name()),
+                "switch them off before: TRAFOOF, and D0 on this block");
+  }
+  if (movement.motion == MotionMode::traverse) {
+    emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::machine});
+  } else {
+    const auto feed = feed_for(state, words, movement,
+                               end[AxisLetter::X] || end[AxisLetter::Y] || end[AxisLetter::Z]);
+    if (!feed) return feed.error();
+    emit(state, movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
+  }
+  AxisTarget axes = axes_before;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (end[axis]) axes[axis] = end[axis];
+  }
+  leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
+  if (!state.modes.tool_centre_point()) arrive(state, axes);
+  return Done{};
+}
+
+}  // namespace frustum::parser

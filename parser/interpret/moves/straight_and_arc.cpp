@@ -1,0 +1,181 @@
+#include "parser/interpret/moves/straight_and_arc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "parser/arc.hpp"
+#include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/move_words.hpp"
+#include "parser/interpret/moves/polar_words.hpp"
+#include "parser/interpret/moves/pole.hpp"
+#include "parser/interpret/moves/rotary_paths.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+constexpr int kMaxHelixTurns = 10'000;
+
+// Whether X, Y or Z moves between two targets; an axis first placed now counts as moving.
+bool moves_linearly(const AxisTarget& before, const AxisTarget& after) {
+  for (const AxisLetter axis : kLinearAxes) {
+    if (after[axis] && before[axis] != after[axis]) return true;
+  }
+  return false;
+}
+
+// Of an angle in degrees; a whole turn and a little is one.
+int started_turns(double angle) {
+  constexpr double kDegreesOfATurn = 360.0;
+  constexpr double kRounding = 1e-6;
+  const double turns = std::ceil(std::abs(angle) / kDegreesOfATurn - kRounding);
+  return static_cast<int>(std::clamp(turns, 1.0, static_cast<double>(kMaxHelixTurns)));
+}
+
+Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
+  Vec3 point = otherwise;
+  for (const AxisLetter axis : kLinearAxes) {
+    const auto slot = static_cast<Eigen::Index>(axis);
+    point[slot] = target[axis].value_or(otherwise[slot]);
+  }
+  return point;
+}
+
+// Behind G40 the tool stays beside the contour until a move in the plane.
+AxisTarget leaving_contour(InterpreterState& state, const BlockWords& words, AxisTarget end) {
+  const bool polar = !(words.given() & state.rules.polar_words).empty();
+  bool leaves = polar || state.rules.radius.any_move_leaves;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (state.contour_exit.place[axis] && words.has(to_char(axis))) leaves = true;
+  }
+  if (leaves) {
+    state.contour_exit.place = {};
+    state.contour_exit.arc_waits = false;
+    return end;
+  }
+  for (const AxisLetter axis : kAxisLetters) {
+    if (state.contour_exit.place[axis]) end[axis] = state.contour_exit.place[axis];
+  }
+  return end;
+}
+
+}  // namespace
+
+Outcome move_straight(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  const AxisTarget before = state.position.target();
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = set_targets(state, words); !done) return done;
+  if (auto done = set_tool_axis(state, words); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  keep_heading(state, before);
+  const AxisTarget end = leaving_contour(state, words, end_of(state, words));
+  if (movement.motion == MotionMode::traverse) {
+    emit(state, movement.column, Traverse{end, state.modes.tool_axis, Coordinates::program});
+    return Done{};
+  }
+  const auto feed = feed_for(state, words, movement, moves_linearly(before, end));
+  if (!feed) return feed.error();
+  emit(state, movement.column, LinearFeed{end, state.modes.tool_axis, Coordinates::program, *feed});
+  return Done{};
+}
+
+Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  if (state.contour_exit.arc_waits) {
+    return fail(state, movement.column, "radius-compensation"_id,
+                "the first move after radius compensation is an arc",
+                "leave the contour by a straight move");
+  }
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  for (const int axis : {axes.u, axes.v}) {
+    const auto letter = static_cast<AxisLetter>(axis);
+    if (!state.position[letter]) {
+      return fail(
+          state, movement.column, state.position.unknown_id(letter),
+          fmt::format("the start of the arc is not known: {}", state.position.why_unknown(letter)),
+          state.rules.dialect == Dialect::heidenhain
+              ? "move to the start by L before, with X and Y without I"
+              : "move to the start with G0 or G1 in G90 first");
+    }
+  }
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  if (auto done = check_polar_arc(state, words); !done) return done;
+  ArcWords arc_words;
+  arc_words.plane = state.modes.plane;
+  arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;
+  arc_words.centre_is_absolute = state.modes.arc_distance == DistanceMode::absolute;
+  const AxisTarget before = state.position.target();
+  if (auto done = set_targets(state, words); !done) return done;
+  if (state.rules.vector_letters != "IJK") {
+    if (auto done = set_tool_axis(state, words); !done) return done;
+  }
+  // Where the height of the start is not known, that of the end stands for it.
+  arc_words.end = spatial(state.position.target(), Vec3::Zero());
+  arc_words.start = spatial(before, arc_words.end);
+  for (std::size_t i = 0; i < arc_words.centre.size(); ++i) {
+    const char letter = "IJK"[i];
+    if (!words.has(letter)) continue;
+    const bool absolute = words[letter].measure == Measure::absolute;
+    arc_words.centre.at(i) = words[letter].value * unit_scale(state) -
+                             (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);
+  }
+  const bool polar = state.rules.polar.about_pole && words.first_of(LetterSet("pq")) != 0;
+  if (words.has(kTangential) || movement.motion == MotionMode::arc_tangential) {
+    if (auto done = lead_on(state, movement, arc_words); !done) return done;
+  } else if (polar && !state.rules.arcs_turn_about_pole) {
+    if (auto done = turn_about_pole(state, words, movement, arc_words); !done) return done;
+  } else if (state.rules.arcs_turn_about_pole && !words.has('R')) {
+    if (!state.modes.pole) {
+      return fail(state, movement.column, "arc-centre-missing"_id, "the arc has no centre",
+                  "give the centre by CC before");
+    }
+    arc_words.centre_is_absolute = true;
+    arc_words.centre = {state.modes.pole->at[0], state.modes.pole->at[1], std::nullopt};
+  }
+  if (words.has('R')) arc_words.radius = words['R'].value * unit_scale(state);
+
+  auto arc = arc_of(arc_words);
+  if (!arc) {
+    const LetterSet shape = words.given() & LetterSet(words.has('R') ? "R" : "IJK");
+    const std::uint32_t column =
+        shape.empty() ? movement.column : words[words.first_of(shape)].column;
+    return fail(state, column, arc.error().front());
+  }
+  for (const int axis : {axes.u, axes.v}) {
+    state.position.set(static_cast<AxisLetter>(axis), arc->end[axis]);
+  }
+  int turns = 1;
+  if (state.rules.arcs_turn_about_pole && words[kPolarAngle].measure == Measure::incremental) {
+    if (auto done = check_turned_angle(state, words, arc_words); !done) return done;
+    turns = started_turns(words[kPolarAngle].value);
+  }
+  if (state.rules.arcs_lead_on) {
+    const Vec3 arm = arc->end - arc->centre;
+    const Vec3 along = Vec3::Unit(axes.w).cross(arm) * (arc_words.clockwise ? -1.0 : 1.0);
+    state.modes.heading = Heading{spatial(state.position.target(), Vec3::Zero()), along};
+  }
+  if (words.has('P')) {
+    const auto given = whole(state, words, 'P', 1, kMaxHelixTurns);
+    if (!given) return given.error();
+    turns = *given;
+  }
+  if (words.has('e')) {
+    const auto more = whole(state, words, 'e', 0, kMaxHelixTurns);
+    if (!more) return more.error();
+    turns += *more;
+  }
+  const auto feed = feed_for(state, words, movement, true);
+  if (!feed) return feed.error();
+  emit(state, movement.column,
+       ArcFeed{end_of(state, words), arc->centre, state.modes.plane,
+               arc_words.clockwise ? -turns : turns, state.modes.tool_axis, *feed});
+  return Done{};
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,27 @@
+// The values of words as lengths in mm, angles in rad, whole numbers and vectors, by the modes in force.
+//
+// Units : mm, rad; a feed scale is mm per unit of the F word
+// Errors: a number that has to be whole and is not, or is out of range
+#pragma once
+
+#include <string_view>
+
+#include "core/result.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+
+namespace frustum::parser {
+
+// mm of a length that the program writes as 1.
+[[nodiscard]] double unit_scale(const InterpreterState& state);
+[[nodiscard]] double scaled(const InterpreterState& state, AxisLetter axis, double value);
+// Lengths in mm that a feed counts in.
+[[nodiscard]] double feed_scale(const InterpreterState& state, FeedMode mode);
+[[nodiscard]] Result<int> whole(const InterpreterState& state, const BlockWords& words, char letter,
+                                int least, int most);
+[[nodiscard]] Vec3 vector_of(const BlockWords& words, std::string_view letters);
+// The value of one of the block's expressions.
+[[nodiscard]] Result<double> value_of(InterpreterState& state, const Block& block,
+                                      ExpressionRange range);
+
+}  // namespace frustum::parser
