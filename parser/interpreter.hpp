@@ -1,18 +1,19 @@
 // Runs a program: its blocks in order, subprograms and their repeats, into a stream of motions.
 //
-// Start    : the state of ModalState's defaults; no axis position is known but by `start`, no tool is in the
-//            spindle. A motion's target holds only axes the program has placed; an absent axis
-//            stays where it is.
+// Start    : the state of ModalState's defaults; no axis position is known but by `start`, no tool
+//            is in the spindle. A motion's target holds only axes the program has placed; an absent
+//            axis stays where it is.
 // End      : M2, M30, the tape mark at the end, or the end of the text. What follows is not run.
 // Units    : mm, rad, mm/min, 1/min, seconds (see motion.hpp).
 // G4       : X and U in seconds; P in milliseconds, in seconds when written with a decimal point.
 // M98      : P names the subprogram, L repeats it; without L, P with more than four digits is
 //            repeats and number together (P00032000 is O2000 three times).
 // /        : blocks that begin with it run, unless `block_delete` is on.
-// Flow     : flow.hpp. What counts is what runs: blocks that are passed over are read for their flow
-//            statements alone.
+// Flow     : flow.hpp. What counts is what runs: blocks that are passed over are read for their
+//            flow statements alone.
 // Errors   : the first block that cannot be run ends the run with its diagnostic; the motions
-//            before it have reached the sink already. A syntax error brings those of the rest of the text.
+//            before it have reached the sink already. A syntax error brings those of the rest of
+//            the text.
 #pragma once
 
 #include <cstdint>
@@ -43,10 +44,11 @@ struct InterpreterOptions {
   bool block_delete = false;
   // Where the axes stand at the start, in program coordinates, as far as it is known (mm, rad).
   AxisTarget start{};
-  // What D, H and T words refer to. G10 L1 of a program changes its own copy. Where it is empty the program takes tools
-  // as the setup has them.
+  // What D, H and T words refer to. G10 L1 of a program changes its own copy. Where it is empty the
+  // program takes tools as the setup has them.
   ToolTable tools{};
-  // Where work offsets and the points of G28 and G30 lie before the program, as far as that is known of the setup.
+  // Where work offsets and the points of G28 and G30 lie before the program, as far as that is
+  // known of the setup.
   WorkOffsets work_offsets{};
   std::array<AxisTarget, 2> reference_points{};
   // LinuxCNC: the unit of the machine, in which parameters such as #5221 and #5403 count.
@@ -61,8 +63,8 @@ struct InterpreterOptions {
   std::uint64_t max_idle_blocks = 2'000'000;
   // Looks on: called before each block that is run or passed over; false ends the run there.
   std::function<bool(const BlockAhead&)> watch{};
-  // Takes the error of a block that cannot be run, which is then passed over as if it were not there; false
-  // ends the run. Without it the first error ends the run.
+  // Takes the error of a block that cannot be run, which is then passed over as if it were not
+  // there; false ends the run. Without it the first error ends the run.
   std::function<bool(Diagnostic&&)> go_on{};
 };
 

@@ -2,8 +2,8 @@
 //
 // Units: mm, rad, mm/min; positions are in the active work offset's program coordinates unless the
 // motion says machine coordinates. Inch programs, incremental and modal words are already resolved.
-// Axis words that a block does not give keep their last value; words never given are absent, so that a
-// consumer can tell "not programmed" from zero.
+// Axis words that a block does not give keep their last value; words never given are absent, so
+// that a consumer can tell "not programmed" from zero.
 #pragma once
 
 #include <array>
@@ -72,7 +72,8 @@ struct Traverse {
   std::optional<UnitVec3> tool_axis{};
   Coordinates coordinates = Coordinates::program;
 };
-// G28: the named axes go to the machine's home position, by rapid; G30: to its second reference point, or the
+// G28: the named axes go to the machine's home position, by rapid; G30: to its second reference
+//      point, or the
 // third or fourth. A point that the program itself has stored (G28.1, G30.1) is a Traverse instead.
 struct HomeReturn {
   std::array<bool, 6> axes{};  // indexed by AxisLetter
@@ -85,9 +86,9 @@ struct LinearFeed {
   Coordinates coordinates = Coordinates::program;
   Feed feed{};
 };
-// G2/G3: `center` in program coordinates; `turns` > 0 counterclockwise seen from the plane's positive
-// normal (XY: +Z, ZX: +Y, YZ: +X), |turns| = number of started revolutions (1 for an ordinary arc or a
-// full circle). The third axis moves linearly (helix), rotary axes too.
+// G2/G3: `center` in program coordinates; `turns` > 0 counterclockwise seen from the plane's
+// positive normal (XY: +Z, ZX: +Y, YZ: +X), |turns| = number of started revolutions (1 for an
+// ordinary arc or a full circle). The third axis moves linearly (helix), rotary axes too.
 struct ArcFeed {
   AxisTarget end{};
   Vec3 center = Vec3::Zero();
@@ -96,8 +97,8 @@ struct ArcFeed {
   std::optional<UnitVec3> tool_axis{};
   Feed feed{};
 };
-// G38.2 to G38.5: a feed that ends where the probe meets the part, or (away) leaves it, at `end` at the latest.
-// Where there is a part no program knows: what knows none goes to `end`.
+// G38.2 to G38.5: a feed that ends where the probe meets the part, or (away) leaves it, at `end` at
+// the latest. Where there is a part no program knows: what knows none goes to `end`.
 struct Probe {
   AxisTarget end{};
   std::optional<UnitVec3> tool_axis{};
@@ -112,8 +113,9 @@ struct Dwell {
 struct ToolChange {
   int tool = 0;
 };
-// G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given); `length` is set where the program or its
-// tool table gives the length itself (G43.1, G10 L1), and goes before what the setup has under that number.
+// G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given); `length` is set where
+// the program or its tool table gives the length itself (G43.1, G10 L1), and goes before what the
+// setup has under that number.
 enum class LengthCompensation : std::uint8_t { off, length, tool_centre_point };
 struct CompensationChange {
   LengthCompensation mode = LengthCompensation::off;
@@ -126,24 +128,25 @@ constexpr int kExtendedWorkOffset = 100;
 struct WorkOffsetChange {
   int number = 1;
 };
-// G10 L2, L20, #5221=..: the program places a work offset. `origin` are the positions of X, Y and Z without tool, with
-// the rotary axes at zero, at which the words are zero; an absent one stays as the setup has it. Turns and rotary
-// offsets are resolved in the motions. A setting of the offset in force counts at once.
+// G10 L2, L20, #5221=..: the program places a work offset. `origin` are the positions of X, Y and Z
+// without tool, with the rotary axes at zero, at which the words are zero; an absent one stays as
+// the setup has it. Turns and rotary offsets are resolved in the motions. A setting of the offset
+// in force counts at once.
 struct WorkOffsetSetting {
   int number = 1;
   std::array<std::optional<double>, 3> origin{};  // mm
 };
 // "G54", "G59.1", "G54.1 P1".
 [[nodiscard]] std::string work_offset_name(int number);
-// How the tool axis goes from one programmed orientation to the next under tool-centre-point control:
-// the rotary axes linear (G43.4, ORIAXES, PATHCTRL AXIS), or the vector on the great circle (ORIVECT,
-// PATHCTRL VECTOR).
+// How the tool axis goes from one programmed orientation to the next under tool-centre-point
+// control: the rotary axes linear (G43.4, ORIAXES, PATHCTRL AXIS), or the vector on the great
+// circle (ORIVECT, PATHCTRL VECTOR).
 enum class OrientationPath : std::uint8_t { rotary_axes, great_circle };
 struct OrientationPathChange {
   OrientationPath path = OrientationPath::rotary_axes;
 };
-// How a rotary axis turns to a programmed position: to that very value, or to that angle, the shortest way
-// (M126, DC()), or always in one direction (ACP(), ACN()), by less than a full turn.
+// How a rotary axis turns to a programmed position: to that very value, or to that angle, the
+// shortest way (M126, DC()), or always in one direction (ACP(), ACN()), by less than a full turn.
 enum class RotaryPath : std::uint8_t { as_programmed, shortest, positive, negative };
 struct RotaryPathChange {
   RotaryPath path = RotaryPath::as_programmed;

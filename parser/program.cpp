@@ -21,8 +21,8 @@ Diagnostic second_program(const Program& program, const Block& block, std::uint3
   return twice;
 }
 
-// Reads from where the cursor is to the end of the text; `take` gets each block. What is wrong, but no more of it than
-// kMaxSyntaxErrors.
+// Reads from where the cursor is to the end of the text; `take` gets each block. What is wrong, but
+// no more of it than kMaxSyntaxErrors.
 template <typename Take>
 Diagnostics read_to_end(const Program& program, BlockCursor& cursor, const Take& take) {
   Diagnostics failures;

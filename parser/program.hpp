@@ -1,5 +1,6 @@
-// An NC program: its text and the language it is written in. The text is read into blocks once: of a text in memory
-// when its syntax is checked, of a file as it runs, so that a program may be larger than memory.
+// An NC program: its text and the language it is written in. The text is read into blocks once: of
+// a text in memory when its syntax is checked, of a file as it runs, so that a program may be
+// larger than memory.
 //
 //   %                      tape mark: nothing before the program, end of it after
 //   O1000 (main)           the first program of the file is the main one, its O word may be missing

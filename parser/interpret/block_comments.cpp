@@ -15,7 +15,8 @@
 namespace frustum::parser {
 namespace {
 
-// Comments that speak to someone: (MSG, text), and in LinuxCNC those whose parameters are filled in.
+// Comments that speak to someone: (MSG, text), and in LinuxCNC those whose parameters are filled
+// in.
 struct SpokenComment {
   std::string_view prefix;
   const char* event;

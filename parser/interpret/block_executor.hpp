@@ -1,8 +1,9 @@
-// Carries out one block after another: the state of the program, and the motions that follow from it.
+// Carries out one block after another: the state of the program, and the motions that follow from
+// it.
 //
-// Order within a block, RS-274's: comments; parameters; units (LinuxCNC: after F); feed mode; F; S; T; M6; M3 M4 M5; M7
-// M8 M9; words that are only events; G4; plane; compensation; work offset; distance mode; G28 or
-// the motion; M words that count after it; stops and calls.
+// Order within a block, RS-274's: comments; parameters; units (LinuxCNC: after F); feed mode; F; S;
+// T; M6; M3 M4 M5; M7 M8 M9; words that are only events; G4; plane; compensation; work offset;
+// distance mode; G28 or the motion; M words that count after it; stops and calls.
 // Units: writes mm, rad, mm/min; reads what the block's G20 or G21 says. G20 scales X Y Z, arc
 // centres, R and F; never rotary words, tool vectors, or the F of a purely rotary move.
 // Errors: with line, column and hint; the file is left to the caller. Nothing of the block that
@@ -34,8 +35,8 @@ class BlockExecutor {
   MotionFilters filters_;
 };
 
-// After a block that could not be carried out: the axes that it names are where it says, as far as that is
-// plain, and not known otherwise.
+// After a block that could not be carried out: the axes that it names are where it says, as far as
+// that is plain, and not known otherwise.
 void pass_over(InterpreterState& state, const Block& block);
 
 }  // namespace frustum::parser

@@ -1,6 +1,7 @@
 // Macro calls of Custom Macro (G65, G66, G67), and the system variables that a program sets.
 //
-// Arguments: each letter has a parameter of its own. A second I J K, and each further one, goes on at #7, #10, ..; what
+// Arguments: each letter has a parameter of its own. A second I J K, and each further one, goes on
+//            at #7, #10, ..; what
 // is written later counts. M is an argument, G, L, N, O and P are none.
 //
 // Units : mm, rad, mm/min

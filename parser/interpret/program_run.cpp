@@ -1,4 +1,5 @@
-// The blocks in their order, and the calls that words make. Flow statements are in program_flow.cpp.
+// The blocks in their order, and the calls that words make. Flow statements are in
+// program_flow.cpp.
 #include "parser/interpret/program_run.hpp"
 
 #include <fmt/format.h>

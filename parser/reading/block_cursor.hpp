@@ -1,8 +1,8 @@
 // Reads a program block by block, from any place on.
 //
 // Units : as written
-// Shape : one cursor a reader; the program is shared. Blocks that the program has are given as they are, others are read
-//         from its text
+// Shape : one cursor a reader; the program is shared. Blocks that the program has are given as they
+//         are, others are read from its text
 // Errors: the syntax error of a block, with file, line and column; the cursor then stands behind it
 #pragma once
 

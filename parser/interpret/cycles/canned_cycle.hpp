@@ -13,8 +13,8 @@
 // Units : mm, seconds
 // Shape : the steps of one hole, in order
 // Errors: none; the words are checked by the caller
-// Source: ISO 6983-1 table of canned cycles; the chip-breaking retract and the clearance of a peck are those of
-//         LinuxCNC, 0.010 in
+// Source: ISO 6983-1 table of canned cycles; the chip-breaking retract and the clearance of a peck
+//         are those of LinuxCNC, 0.010 in
 #pragma once
 
 #include <cstdint>

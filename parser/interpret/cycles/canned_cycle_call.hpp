@@ -1,4 +1,5 @@
-// Canned cycles in a program: their words, which stay in force until the motion changes, and their repeats.
+// Canned cycles in a program: their words, which stay in force until the motion changes, and their
+// repeats.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

@@ -1,12 +1,15 @@
-// Deep holes of Klartext: what the tool does at one hole of CYCL DEF 203 and 205, whose pecks shrink from one to the next.
+// Deep holes of Klartext: what the tool does at one hole of CYCL DEF 203 and 205, whose pecks
+// shrink from one to the next.
 //
-// Model : peck n goes (first - n decrement), but no less than `least`, deeper than the one before; the last one to the
-//         depth. After a peck the tool breaks the chip (goes back by `chip`), or clears the hole (goes up to `level`,
-//         waits, comes back by rapid to a stop above the last depth).
+// Model : peck n goes (first - n decrement), but no less than `least`, deeper than the one before;
+//         the last one to the depth. After a peck the tool breaks the chip (goes back by `chip`),
+//         or clears the hole (goes up to `level`, waits, comes back by rapid to a stop above the
+//         last depth).
 // Units : mm along the axis of the hole, upwards from its top; seconds
 // Shape : the tool is above the hole at `level`
 // Errors: none; the caller checks that peck_count() is no more than kMostPecks
-// Source: Heidenhain cycle programming manual, cycles 203 (universal drilling) and 205 (universal pecking)
+// Source: Heidenhain cycle programming manual, cycles 203 (universal drilling) and 205 (universal
+//         pecking)
 #pragma once
 
 #include <vector>

@@ -1,8 +1,10 @@
-// Drilling cycles whose heights are coordinates along the normal of the plane: CYCLE81 to CYCLE89 of Sinumerik, at the
-// place where the tool is.
+// Drilling cycles whose heights are coordinates along the normal of the plane: CYCLE81 to CYCLE89
+// of Sinumerik, at the place where the tool is.
 //
-// The letters of the words: z RTP, V RFP, u SDIS, Z DP, d DPR, P DTB; x the axis, g h i the modes of the call.
-//   CYCLE83 K FDEP, Q FDPR, r DAM, W DTS, f FRF, e VARI, m the least stroke, v the retract that breaks the chip,
+// The letters of the words: z RTP, V RFP, u SDIS, Z DP, d DPR, P DTB; x the axis, g h i the modes
+// of the call.
+//   CYCLE83 K FDEP, Q FDPR, r DAM, W DTS, f FRF, e VARI, m the least stroke, v the retract that
+//   breaks the chip,
 //           t the dwell at the bottom, w the distance kept on the way back
 //   CYCLE84 e SDAC, m MPIT, k PIT, E POSS, s SST, l SST1     CYCLE85 f FFR, r RFF
 //   CYCLE86 e SDIR, I J K the retract, E POSS                CYCLE87, CYCLE88 e SDIR

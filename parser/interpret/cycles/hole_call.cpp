@@ -95,7 +95,8 @@ Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord
   return Done{};
 }
 
-// From where the tool is, over the hole and down. After a turn of the tool its place says nothing about heights.
+// From where the tool is, over the hole and down. After a turn of the tool its place says nothing
+// about heights.
 void drill_from_top(InterpreterState& state, const Vec3& top, const std::optional<Vec3>& from,
                     bool turns, std::uint32_t column) {
   const HoleCycle& cycle = state.modes.hole_cycle;

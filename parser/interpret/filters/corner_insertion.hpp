@@ -1,12 +1,14 @@
 // Roundings and chamfers between two moves of a contour: RND and CHF of Klartext.
 //
-// Model    : a stage that the motions of a program pass before radius compensation. A cutting move in the plane waits
-//            until the next block tells whether its end is a corner to round or to break. A rounding is the arc that
-//            touches both moves inside the corner; a chamfer cuts the same length from both
+// Model    : a stage that the motions of a program pass before radius compensation. A cutting move
+//            in the plane waits until the next block tells whether its end is a corner to round or
+//            to break. A rounding is the arc that touches both moves inside the corner; a chamfer
+//            cuts the same length from both
 // Units    : mm
 // Shape    : take() every motion; insert() behind the first move; release() where no corner follows
-// Errors   : no cutting move in the plane on either side; moves that lead on without a corner, or go straight back; a
-//            corner that takes more of a move than there is, with the amounts; a chamfer at an arc
+// Errors   : no cutting move in the plane on either side; moves that lead on without a corner, or
+//            go straight back; a corner that takes more of a move than there is, with the amounts;
+//            a chamfer at an arc
 // Accuracy : 1e-9 mm
 // Source   : Heidenhain conversational programming manual, path contours: RND and CHF
 #pragma once

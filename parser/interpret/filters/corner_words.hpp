@@ -1,4 +1,5 @@
-// RND and CHF of Klartext in a block: their words, and what may stand between them and the moves that they join.
+// RND and CHF of Klartext in a block: their words, and what may stand between them and the moves
+// that they join.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

@@ -1,19 +1,22 @@
 // Cutter radius compensation: the path of the tool's centre beside a programmed contour.
 //
-// Model    : a stage that the motions of a program pass. Straight and circular moves in the plane are replaced by
-//            their parallels at the tool's radius; a convex corner is gone round by an arc about it (a rapid move
-//            goes straight to where it begins), at a concave corner both moves end where their parallels meet. The
-//            third axis goes as programmed. A move waits until the next one in the plane tells where it ends;
-//            what comes between waits with it, in order. Only neighbours are looked at: a pocket that narrows
-//            over several moves is not noticed.
-// Units    : mm; feeds stay those of the program, at the tool's centre. In inverse time a move and the arc before
-//            it share the time of their block.
-// Shape    : start(), any number of motions, stop(); the axes of the plane are known from the entry move on
-// Errors   : an entry that is an arc, or not longer than the radius; a concave arc or corner that the tool does not
-//            fit into, with the amount; an entry of unknown start; too many motions that wait
+// Model    : a stage that the motions of a program pass. Straight and circular moves in the plane
+//            are replaced by their parallels at the tool's radius; a convex corner is gone round by
+//            an arc about it (a rapid move goes straight to where it begins), at a concave corner
+//            both moves end where their parallels meet. The third axis goes as programmed. A move
+//            waits until the next one in the plane tells where it ends; what comes between waits
+//            with it, in order. Only neighbours are looked at: a pocket that narrows over several
+//            moves is not noticed.
+// Units    : mm; feeds stay those of the program, at the tool's centre. In inverse time a move and
+//            the arc before it share the time of their block.
+// Shape    : start(), any number of motions, stop(); the axes of the plane are known from the entry
+//            move on
+// Errors   : an entry that is an arc, or not longer than the radius; a concave arc or corner that
+//            the tool does not fit into, with the amount; an entry of unknown start; too many
+//            motions that wait
 // Accuracy : 1e-9 mm between contour and path (tests/parser/interpret/radius_compensation_test.cpp)
-// Source   : ISO 6983-1 (G40 to G42); the rules of entry and of nearly straight corners of LinuxCNC, User manual,
-//            Cutter Compensation
+// Source   : ISO 6983-1 (G40 to G42); the rules of entry and of nearly straight corners of
+//            LinuxCNC, User manual, Cutter Compensation
 #pragma once
 
 #include <deque>
@@ -45,13 +48,16 @@ class RadiusCompensation {
 
   // `position`: where the tool is, as far as it is known.
   void start(const RadiusSetting& setting, const AxisTarget& position);
-  // A motion of the program. On, what it and those before it give goes to the sink when it is final.
+  // A motion of the program. On, what it and those before it give goes to the sink when it is
+  // final.
   [[nodiscard]] Failure take(Motion&& motion, const Sink& sink);
-  // All that waits goes to the sink. The place of the tool in the plane is that of its centre, if known.
+  // All that waits goes to the sink. The place of the tool in the plane is that of its centre, if
+  // known.
   std::optional<Vec2> stop(const Sink& sink);
 
  private:
-  // The last move in the plane, which the next one may shorten. Its motion is at the front of what waits.
+  // The last move in the plane, which the next one may shorten. Its motion is at the front of what
+  // waits.
   struct LastMove {
     PathPiece programmed{};
     PathPiece beside{};  // whole, before corners

@@ -1,4 +1,5 @@
-// Cutter radius compensation in a program: its words, what may not happen while it is on, and how it ends.
+// Cutter radius compensation in a program: its words, what may not happen while it is on, and how
+// it ends.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

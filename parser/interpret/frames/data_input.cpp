@@ -78,7 +78,8 @@ Outcome set_work_offset_data(InterpreterState& state, const BlockWords& words,
   return tell_origin(state, number, column);
 }
 
-// L20: where the axes stand the words are to be what the block says; the other words stay what they are.
+// L20: where the axes stand the words are to be what the block says; the other words stay what they
+//      are.
 Outcome set_offset_here(InterpreterState& state, const BlockWords& words) {
   const std::uint32_t column = words[CodeGroup::non_modal].column;
   const auto given = whole(state, words, 'P', 0, kFixture);

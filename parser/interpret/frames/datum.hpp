@@ -1,6 +1,7 @@
-// What lies between the words of a program and the positions of the axes: the origin and turn of the work offset, the
-// offsets of the tool. When it changes, the axes stay where they are and their coordinates follow, as far as the
-// program knows both sides; what only the setup knows is left open.
+// What lies between the words of a program and the positions of the axes: the origin and turn of
+// the work offset, the offsets of the tool. When it changes, the axes stay where they are and their
+// coordinates follow, as far as the program knows both sides; what only the setup knows is left
+// open.
 //
 // axis position = origin + turn (words in their own frame) + tool offset
 //

@@ -1,4 +1,5 @@
-// PLANE of Klartext: tilted planes by angles, vectors, points, and on top of each other. The datum stays.
+// PLANE of Klartext: tilted planes by angles, vectors, points, and on top of each other. The datum
+// stays.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

@@ -1,5 +1,5 @@
-// The programmable frame: TRANS, ROT, SCALE, MIRROR, which replace it, and ATRANS, AROT, ASCALE, AMIRROR,
-// which go on within it.
+// The programmable frame: TRANS, ROT, SCALE, MIRROR, which replace it, and ATRANS, AROT, ASCALE,
+// AMIRROR, which go on within it.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

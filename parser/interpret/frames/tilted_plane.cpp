@@ -47,7 +47,8 @@ std::optional<Mat3> swivelled(int mode, const Vec3& angles) {
   return rotation;
 }
 
-// What a tilted plane is given in: the offset's coordinates, or, on top of the last plane, its words.
+// What a tilted plane is given in: the offset's coordinates, or, on top of the last plane, its
+// words.
 Result<Pose> plane_below(const InterpreterState& state, const BlockWords& words) {
   if (!words.has(kSwivelOnTop)) return Pose{Mat3::Identity(), Vec3::Zero()};
   const ProgramFrame& frame = state.modes.program_frame;
@@ -82,7 +83,8 @@ Outcome set_tilted_plane(InterpreterState& state, const BlockWords& words) {
     change_programmed_frame(state, straight);
     if (!state.modes.tilted) return Done{};
   }
-  // A new plane begins without programmable frame; on top of the last one, it begins where its words are.
+  // A new plane begins without programmable frame; on top of the last one, it begins where its
+  // words are.
   const auto below = plane_below(state, words);
   if (!below) return below.error();
   if (state.rules.planes_end_frames) set_program_frame(state, {});

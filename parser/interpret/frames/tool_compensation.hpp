@@ -1,4 +1,5 @@
-// Tool length and tool-tip control: what the words switch, and the offsets that follow from the tool table.
+// Tool length and tool-tip control: what the words switch, and the offsets that follow from the
+// tool table.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

@@ -22,7 +22,8 @@ namespace {
 constexpr std::string_view kBetween = "uvw";
 
 constexpr double kInPlane = 1e-6;  // mm: below every control's increment
-// A circle through three points that deviate by less from a line is not told by written coordinates.
+// A circle through three points that deviate by less from a line is not told by written
+// coordinates.
 constexpr double kOnLine = 1e-9;
 
 // How far a chord stays within its arc, a tenth of what a control resolves.
@@ -50,7 +51,8 @@ SpaceArc arc_through(const Vec3& start, const Vec3& between, const Vec3& end) {
   return {centre, normal, angle};
 }
 
-// I1= J1= K1=, as the words of the end count. A coordinate that is left out is that of start and end.
+// I1= J1= K1=, as the words of the end count. A coordinate that is left out is that of start and
+// end.
 Result<Vec3> point_between(const InterpreterState& state, const BlockWords& words,
                            const Movement& movement, const Vec3& start, const Vec3& end) {
   Vec3 point = start;

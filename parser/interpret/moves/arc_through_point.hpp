@@ -1,5 +1,5 @@
-// Arcs through a point between start and end: CIP of Sinumerik. In a plane of X, Y and Z they stay arcs; in space they
-// become chords.
+// Arcs through a point between start and end: CIP of Sinumerik. In a plane of X, Y and Z they stay
+// arcs; in space they become chords.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

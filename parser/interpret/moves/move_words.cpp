@@ -9,7 +9,6 @@
 
 #include "core/constants.hpp"
 #include "parser/arc.hpp"
-#include "parser/interpret/cycles/canned_cycle.hpp"
 #include "parser/interpret/moves/polar_words.hpp"
 #include "parser/interpret/moves/pole.hpp"
 #include "parser/interpret/moves/rotary_paths.hpp"

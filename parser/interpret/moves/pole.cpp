@@ -32,7 +32,8 @@ Result<Pole> pole_for(const InterpreterState& state, std::uint32_t column) {
   return fail(state, column, "pole-missing"_id, "there is no pole", give);
 }
 
-// What is left out or steps goes on from the tool's place; that has to be where it was written last.
+// What is left out or steps goes on from the tool's place; that has to be where it was written
+// last.
 Outcome check_place_about_pole(const InterpreterState& state, const BlockWords& words,
                                const Pole& pole, double radius, double angle) {
   if (!state.rules.polar.words_stay) return Done{};

@@ -1,5 +1,5 @@
-// Poles, places about them, and arcs that lead on from the move before: CC, LP, CP, CTP and CT of Klartext; G110 to
-// G112, AP=, RP= and CT of Sinumerik.
+// Poles, places about them, and arcs that lead on from the move before: CC, LP, CP, CTP and CT of
+// Klartext; G110 to G112, AP=, RP= and CT of Sinumerik.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint

@@ -23,7 +23,8 @@ void leave_program_coordinates(InterpreterState& state, LetterSet axes, Position
   if (!(axes & kRotaryWords).empty()) state.modes.tool_axis.reset();
 }
 
-// By rapid, with the words where the program knows them: in a turned frame named words move, not axes.
+// By rapid, with the words where the program knows them: in a turned frame named words move, not
+// axes.
 void go_to_axis_positions(InterpreterState& state, const AxisTarget& point, LetterSet named,
                           std::uint32_t column) {
   AxisTarget axes = axis_positions(state);

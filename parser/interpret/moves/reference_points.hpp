@@ -1,4 +1,5 @@
-// Moves to reference points (G28, G30) and in machine coordinates (G53), and the points that a program stores.
+// Moves to reference points (G28, G30) and in machine coordinates (G53), and the points that a
+// program stores.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint
@@ -12,14 +13,16 @@
 
 namespace frustum::parser {
 
-// G28 and G30: by the place that the words name, then the axes named to the reference point. One that the program
-// knows is a place like any other; else it is the machine's.
+// G28 and G30: by the place that the words name, then the axes named to the reference point. One
+// that the program knows is a place like any other; else it is the machine's.
 [[nodiscard]] Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t point);
 // G27: by rapid to where the words say, which the control holds against the reference point.
 [[nodiscard]] Outcome check_home(InterpreterState& state, const BlockWords& words);
-// G29: the axes named go by rapid to the place that G28 or G30 went by, then to the end. Steps count from that place.
+// G29: the axes named go by rapid to the place that G28 or G30 went by, then to the end. Steps
+//      count from that place.
 [[nodiscard]] Outcome come_from_home(InterpreterState& state, const BlockWords& words);
-// G28.1, G30.1: the reference point is where the axes are. An axis that has never moved keeps the machine's.
+// G28.1, G30.1: the reference point is where the axes are. An axis that has never moved keeps the
+// machine's.
 [[nodiscard]] Outcome keep_point(InterpreterState& state, std::size_t point, std::uint32_t column);
 [[nodiscard]] Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& words,
                                                   const Movement& movement);

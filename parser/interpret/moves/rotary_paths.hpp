@@ -16,8 +16,8 @@ void set_paths(InterpreterState& state, const BlockWords& words);
                                             std::uint32_t column);
 // Axes that went another way than to a value are left where they are until they are named again.
 [[nodiscard]] AxisTarget end_of(const InterpreterState& state, const BlockWords& words);
-// In the frame of the machine a direction is the same as in the words' only while that is not turned; and whether
-// the tool then goes along a great circle is a setting of the machine.
+// In the frame of the machine a direction is the same as in the words' only while that is not
+// turned; and whether the tool then goes along a great circle is a setting of the machine.
 [[nodiscard]] Outcome check_orientation_reference(const InterpreterState& state,
                                                   const BlockWords& words);
 

@@ -1,8 +1,9 @@
 // Splines of the plane as straight lines and arcs that join without a corner.
 //
-// Model    : a rational B-spline of control points with weights, order k (degree k - 1), knots uniform and clamped
-//            at both ends; k points of weight 1 are a Bezier curve. Each part of it is replaced by two arcs with
-//            its ends and its tangents there (a biarc), in halves until they are near enough
+// Model    : a rational B-spline of control points with weights, order k (degree k - 1), knots
+//            uniform and clamped at both ends; k points of weight 1 are a Bezier curve. Each part
+//            of it is replaced by two arcs with its ends and its tangents there (a biarc), in
+//            halves until they are near enough
 // Units    : mm
 // Shape    : at least `order` points, order >= 2, weights above zero
 // Errors   : none; points that coincide give no pieces

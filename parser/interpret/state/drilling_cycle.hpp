@@ -1,5 +1,5 @@
-// The drilling cycle in force or called, with its heights as coordinates along the normal of the plane: CYCLE81 to
-// CYCLE89 of Sinumerik. What it does at a hole is in cycles/drilling_steps.hpp.
+// The drilling cycle in force or called, with its heights as coordinates along the normal of the
+// plane: CYCLE81 to CYCLE89 of Sinumerik. What it does at a hole is in cycles/drilling_steps.hpp.
 //
 // Units : mm, mm/min, seconds
 // Errors: none

@@ -1,11 +1,12 @@
-// Hole cycles: defined once, done at each hole that the program names afterwards. CYCLE of CLDATA; CYCL DEF 200, 201,
-// 203, 205 and 207 of Klartext, called by CYCL CALL or M99 where the tool is.
+// Hole cycles: defined once, done at each hole that the program names afterwards. CYCLE of CLDATA;
+// CYCL DEF 200, 201, 203, 205 and 207 of Klartext, called by CYCL CALL or M99 where the tool is.
 //
-// The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v how high it goes
-// afterwards (I: as high as before the first hole), Q the peck, P the dwell in seconds, f or r the feed.
-// Of Klartext: z the depth, below zero; V the height of the top; Q counts from the top; w the dwell above; W the feed out.
-// Of 203 and 205: D how much a peck is less than the one before, L the least peck, H how far a chip is broken, K how often
-// before the hole is cleared, E how deep each time, g and h the stops above the last depth.
+// The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v
+// how high it goes afterwards (I: as high as before the first hole), Q the peck, P the dwell in
+// seconds, f or r the feed. Of Klartext: z the depth, below zero; V the height of the top; Q counts
+// from the top; w the dwell above; W the feed out. Of 203 and 205: D how much a peck is less than
+// the one before, L the least peck, H how far a chip is broken, K how often before the hole is
+// cleared, E how deep each time, g and h the stops above the last depth.
 // Units : mm along the axis of the hole, from its top; seconds
 // Errors: none
 #pragma once
@@ -27,7 +28,8 @@ struct DeepHole {
   int breaks = 0;           // Q213 of 203: so many pecks break the chip before one clears the hole
   double break_each = 0.0;  // Q257 of 205: so deep the chip is broken, within a peck
   double chip = 0.2;        // Q256
-  // Q258, Q259 of 205: the stop above the last depth before the second peck and before the last one, even between them.
+  // Q258, Q259 of 205: the stop above the last depth before the second peck and before the last
+  // one, even between them.
   double first_stop = 0.0;
   double last_stop = 0.0;
   double dwell_above = 0.0;

@@ -1,6 +1,6 @@
-// All that the interpreter of a program keeps from one block to the next, and how its parts say what is wrong or give
-// a motion. What is done with it are free functions: frames/, moves/, cycles/, and the order within a block in
-// block_executor.hpp.
+// All that the interpreter of a program keeps from one block to the next, and how its parts say
+// what is wrong or give a motion. What is done with it are free functions: frames/, moves/,
+// cycles/, and the order within a block in block_executor.hpp.
 //
 // Units : mm, rad, mm/min
 // Errors: diagnostics with line, column and hint; the file is left to the caller

@@ -30,7 +30,8 @@ struct Compensation {
   bool tip = false;
   bool tool_vectors = false;
   int offset_number = 0;
-  // Of the tool, along the axes, where the program or its tool table gives them; else only the setup knows.
+  // Of the tool, along the axes, where the program or its tool table gives them; else only the
+  // setup knows.
   std::optional<ToolOffset> tool_offset{};
 
   // What is added to the positions of the axes; none where only the setup knows.
@@ -51,7 +52,8 @@ struct FeedWord {
   double scaled = 0.0;  // in mm/min when per minute
 };
 
-// The words of the canned cycle at work, in mm and seconds. Steps count from `initial` and from the level.
+// The words of the canned cycle at work, in mm and seconds. Steps count from `initial` and from the
+// level.
 struct CannedCycle {
   MotionMode last = MotionMode::none;
   double initial = 0.0;  // depth before the first hole
@@ -79,7 +81,8 @@ struct Heading {
   Vec3 along = Vec3::Zero();
 };
 
-// What polar positions count from, and those of LP and CP; with radius and angle as they were written last.
+// What polar positions count from, and those of LP and CP; with radius and angle as they were
+// written last.
 struct Pole {
   Vec3 at = Vec3::Zero();
   Plane plane = Plane::xy;
@@ -102,8 +105,9 @@ struct ModalState {
   std::optional<ToolSide> tool_side{};  // G41, G42; absent: G40
   std::optional<int> radius_number{};   // the last D of a radius compensation
   int work_offset = 1;
-  // Of the work offset in force: its origin, as far as the program knows it, and from it and the tool the frame between
-  // the words' frame and the axes: the turn, the tool's offset along X and Y, the rotary offsets.
+  // Of the work offset in force: its origin, as far as the program knows it, and from it and the
+  // tool the frame between the words' frame and the axes: the turn, the tool's offset along X and
+  // Y, the rotary offsets.
   WorkOffset datum{};
   ProgrammedFrame offset_frame{};
   std::optional<int> selected_tool{};

@@ -1,4 +1,5 @@
-// A spline whose blocks are being read: the control points since G5.2, and how G5 goes on from the last one.
+// A spline whose blocks are being read: the control points since G5.2, and how G5 goes on from the
+// last one.
 //
 // Units : mm
 // Errors: none

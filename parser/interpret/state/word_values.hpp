@@ -1,4 +1,5 @@
-// The values of words as lengths in mm, angles in rad, whole numbers and vectors, by the modes in force.
+// The values of words as lengths in mm, angles in rad, whole numbers and vectors, by the modes in
+// force.
 //
 // Units : mm, rad; a feed scale is mm per unit of the F word
 // Errors: a number that has to be whole and is not, or is out of range
