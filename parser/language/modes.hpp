@@ -20,8 +20,7 @@ enum class MotionMode : std::uint8_t {
   quadratic_spline,  // G5.1
   nurbs,             // G5.2: a control point
   nurbs_end,         // G5.3
-  // Synchronised with the spindle, and probing: threading_cycle.hpp, block_threads.cpp,
-  // block_moves.cpp.
+  // Synchronised with the spindle, and probing: cycles/thread_moves.hpp, moves/probing.hpp.
   thread,
   rigid_tap,
   thread_cycle,

@@ -33,7 +33,6 @@ using Exceptions = std::map<std::string, std::string>;
 const Exceptions& long_sources() {
   static const Exceptions kFiles{
       {"kinematics/errors/error_text.cpp", "until its parts are apart"},
-      {"parser/interpret/block_executor.cpp", "until its parts are apart"},
       {"post/nc_writer.cpp", "until there is one writer"},
       {"post/planning/machine_program.cpp", "until its parts are apart"},
   };

@@ -29,12 +29,6 @@ const std::map<std::string, Room>& rooms() {
 const std::vector<UpwardArrow>& upward_arrows() {
   static const std::vector<UpwardArrow> kArrows{
       {"app/job", "app/view/console.hpp", "names the nearest known word"},
-      {"parser/interpret", "parser/interpret/block_executor.hpp",
-       "until its parts are free functions"},
-      {"parser/interpret/moves", "parser/interpret/cycles", "until threads are a cycle"},
-      {"parser/interpret/moves", "parser/interpret/filters", "until plane paths are below moves"},
-      {"parser/interpret/state", "parser/interpret/cycles", "until the state holds no cycles"},
-      {"parser/interpret/state", "parser/interpret/frames", "until the state holds no frames"},
       {"kinematics/controller", "kinematics/path", "until commands and paths are apart"},
       {"kinematics/model", "kinematics/path/tool_path.hpp", "until poses are of the model"},
       {"kinematics/model", "kinematics/errors", "the machine holds its error functions"},
