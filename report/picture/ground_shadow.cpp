@@ -39,7 +39,7 @@ std::vector<float> darkness(const Scene& scene, int width, int height) {
   const Eigen::Vector3f light =
       (camera * Eigen::Vector3f(-slant.x(), -slant.y(), 1.0F)).normalized();
   const float samples = static_cast<float>(scene.samples());
-  // From a little below, so that the face on which the part stands counts.
+  // From a little below, so that the bottom face counts.
   const float below = samples / scene.view().pixels_per_mm;
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {

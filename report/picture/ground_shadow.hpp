@@ -1,7 +1,7 @@
 // The soft shadow of the part on the ground it is on.
 //
-// Model   : a ray from the ground towards the light at each pixel, then blurred. The light stands
-//           high behind the viewer's left shoulder: shadows fall back and to the right
+// Model   : a ray from the ground towards the light at each pixel, then blurred. The light is
+//           high and to the left at the viewer's back: shadows fall back and to the right
 // Units   : pixels
 // Errors  : none; a view along the ground shows none of it
 // Accuracy: for the eye

@@ -31,7 +31,7 @@ class Scene {
     return seen_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
                  static_cast<std::size_t>(x)];
   }
-  // The part's highest direction, and how far below the camera's origin it stands.
+  // z of the workpiece in the camera frame, and the lowest z of the part.
   [[nodiscard]] const Eigen::Vector3f& up() const { return up_; }
   [[nodiscard]] float ground() const { return ground_; }
 

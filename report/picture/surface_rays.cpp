@@ -11,8 +11,7 @@ namespace {
 
 constexpr std::size_t kPacket = 8;
 
-// A buffer of a geometry, filled from `values`, which has `width` numbers of 4 bytes in each
-// element.
+// A buffer of a geometry, filled from `values`.
 template <typename T>
 void fill_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                  std::span<const T> values) {
@@ -40,11 +39,8 @@ SurfaceRays::SurfaceRays(std::span<const Eigen::Vector3f> vertices,
                          std::span<const std::array<std::uint32_t, 3>> triangles)
     : scene_(std::make_unique<Scene>()) {
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  nearest_ = farthest_ = vertices.front().z();
-  for (const Eigen::Vector3f& vertex : vertices) {
-    nearest_ = std::max(nearest_, vertex.z());
-    farthest_ = std::min(farthest_, vertex.z());
-  }
+  nearest_ = vertices.front().z();
+  for (const Eigen::Vector3f& vertex : vertices) nearest_ = std::max(nearest_, vertex.z());
   scene_->device = rtcNewDevice(nullptr);
   if (scene_->device == nullptr) throw std::bad_alloc();
   scene_->scene = rtcNewScene(scene_->device);

@@ -41,15 +41,10 @@ class SurfaceRays {
   [[nodiscard]] bool is_hidden(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                                float reach) const;
 
-  // How far the part reaches, in camera z.
-  [[nodiscard]] float nearest() const { return nearest_; }
-  [[nodiscard]] float farthest() const { return farthest_; }
-
  private:
   struct Scene;
   std::unique_ptr<Scene> scene_;
-  float nearest_ = 0.0F;
-  float farthest_ = 0.0F;
+  float nearest_ = 0.0F;  // camera z of the part's nearest point (mm)
 };
 
 }  // namespace frustum::report

@@ -213,7 +213,7 @@ std::optional<Middle> Round::sharp_middle(const Edge& edge, const Vec3& middle,
   return Middle{at, placed->normal, placed->kind, (at - middle).cross(along).norm()};
 }
 
-// Exact normals tell more than triangles, which may stand askew; at a sharp edge there are several.
+// Exact normals say more than triangles, which may be askew; at a sharp edge there are several.
 Vec3 Round::outward_of(const Edge& edge) const {
   Vec3 exact = Vec3::Zero();
   for (const std::uint32_t v : {edge.from, edge.to}) {

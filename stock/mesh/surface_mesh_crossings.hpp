@@ -1,6 +1,6 @@
 // The grid edges that the surface crosses, with the exact point and normal of each crossing.
 //
-// A grid node is inside the material when the Z ray through it says so; the X and Y rays only tell
+// A grid node is inside the material when the Z ray through it says so; the X and Y rays only say
 // where. So the three directions cannot contradict each other: where an X or Y ray, by rounding,
 // does not see the crossing that the nodes demand, the node in dispute is on the surface within
 // rounding, and the nearest interval end of the three rays through it gives point and normal. Edges

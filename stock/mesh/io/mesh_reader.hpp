@@ -3,7 +3,7 @@
 // STL binary or text, PLY text or binary of either byte order, OBJ. Corners of an STL that agree to
 // the last bit become one vertex; polygons are split into fans of triangles; triangles that name a
 // vertex twice are left out. Only vertices and triangles are read.
-// Units: mm, as the numbers stand (none of the formats says its unit).
+// Units: mm, as the numbers are (none of the formats says its unit).
 // Errors: a file that cannot be read, that is cut short or malformed (with line or byte), whose
 //         numbers are not finite, or that has no triangles; a format that is only written (3MF,
 //         VTP).

@@ -120,7 +120,7 @@ Result<SurfaceMesh> text_stl(std::string_view text) {
 
 }  // namespace
 
-// Some programs begin binary files with "solid" too; their size tells.
+// Some programs begin binary files with "solid" too; their size decides.
 Result<SurfaceMesh> parse_stl(std::string_view bytes) {
   if (bytes.size() >= 84) {
     const auto count = *ByteReader(bytes, 80).next<std::uint32_t>();
