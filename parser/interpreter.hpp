@@ -42,12 +42,12 @@ struct BlockAhead {
 struct InterpreterOptions {
   // The operator's switch: on, blocks that begin with / are left out (and reported as events).
   bool block_delete = false;
-  // Where the axes stand at the start, in program coordinates, as far as it is known (mm, rad).
+  // Where the axes are at the start, in program coordinates, as far as it is known (mm, rad).
   AxisTarget start{};
   // What D, H and T words refer to. G10 L1 of a program changes its own copy. Where it is empty the
   // program takes tools as the setup has them.
   ToolTable tools{};
-  // Where work offsets and the points of G28 and G30 lie before the program, as far as that is
+  // Where work offsets and the points of G28 and G30 are before the program, as far as that is
   // known of the setup.
   WorkOffsets work_offsets{};
   std::array<AxisTarget, 2> reference_points{};

@@ -36,7 +36,7 @@ constexpr std::array kSpoken{
 
 constexpr std::string_view kUnset = "######";
 
-// What stands behind the prefix, which may be written in lower case and behind blanks.
+// What stands after the prefix, which may be written in lower case and after blanks.
 std::optional<std::string_view> behind(std::string_view comment, std::string_view prefix) {
   const std::size_t start = std::min(comment.find_first_not_of(" \t"), comment.size());
   if (comment.size() - start < prefix.size()) return std::nullopt;

@@ -91,7 +91,7 @@ ProgramRun::Failure ProgramRun::turn_loop(const Block& block, const Landmark& he
   return std::nullopt;
 }
 
-// What is behind the last block of a repeated part.
+// What is after the last block of a repeated part.
 std::optional<std::uint64_t> ProgramRun::end_of_part(const FlowStatement& flow, TextPlace begin) {
   const TextPlace here = frame().cursor.block_place();
   const ProgramMap& map = frame().program->map();

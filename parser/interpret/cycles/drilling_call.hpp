@@ -1,4 +1,4 @@
-// Drilling cycles at the place where the tool is, called once or, by MCALL, behind each block that
+// Drilling cycles at the place where the tool is, called once or, by MCALL, after each block that
 // moves.
 //
 // Units : mm, rad, mm/min

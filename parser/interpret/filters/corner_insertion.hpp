@@ -5,7 +5,7 @@
 //            to break. A rounding is the arc that touches both moves inside the corner; a chamfer
 //            cuts the same length from both
 // Units    : mm
-// Shape    : take() every motion; insert() behind the first move; release() where no corner follows
+// Shape    : take() every motion; insert() after the first move; release() where no corner follows
 // Errors   : no cutting move in the plane on either side; moves that lead on without a corner, or
 //            go straight back; a corner that takes more of a move than there is, with the amounts;
 //            a chamfer at an arc
@@ -37,7 +37,7 @@ class CornerInsertion {
   using Sink = std::function<void(Motion&&)>;
   using Failure = std::optional<Diagnostic>;
 
-  // Whether a corner waits for the move behind it.
+  // Whether a corner waits for the move after it.
   [[nodiscard]] const std::optional<Corner>& corner() const { return corner_; }
   [[nodiscard]] Failure take(Motion&& motion, const Sink& sink);
   [[nodiscard]] Failure insert(const Corner& corner);
@@ -45,12 +45,12 @@ class CornerInsertion {
   void release(const Sink& sink);
 
  private:
-  // `piece` then begins behind the corner.
+  // `piece` then begins after the corner.
   [[nodiscard]] Failure cut(Motion& next, PathPiece& piece, const Sink& sink);
 
   AxisTarget reached_{};              // by the motions taken; absent where a motion lost it
   std::vector<Motion> waiting_{};     // the move first, then what cuts nothing
-  std::optional<PathPiece> piece_{};  // of the move, when it lies in the plane
+  std::optional<PathPiece> piece_{};  // of the move, when it is in the plane
   std::optional<Corner> corner_{};
 };
 

@@ -14,7 +14,7 @@
 namespace frustum::parser {
 namespace {
 
-// What may stand in the block of the second move.
+// What may be in the block of the second move.
 constexpr std::array kBesideMoves{CodeGroup::motion, CodeGroup::feed_source, CodeGroup::spindle,
                                   CodeGroup::coolant, CodeGroup::corner};
 

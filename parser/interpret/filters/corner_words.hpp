@@ -1,4 +1,4 @@
-// RND and CHF of Klartext in a block: their words, and what may stand between them and the moves
+// RND and CHF of Klartext in a block: their words, and what may be between them and the moves
 // that they join.
 //
 // Units : mm, rad, mm/min

@@ -71,7 +71,7 @@ class RadiusCompensation {
   [[nodiscard]] Failure follow(Motion&& motion, const PathPiece& piece, const Sink& sink);
   [[nodiscard]] Failure cut_corner(LastMove& next, const Motion& motion);
   [[nodiscard]] Failure check_arc(const PathPiece& piece, const Motion& motion) const;
-  // `move_length`: of the move behind the corner.
+  // `move_length`: of the move after the corner.
   void go_round_corner(Motion& motion, const PathPiece& corner, double move_length,
                        const Sink& sink);
   void wait(Motion&& motion, LastMove&& move);

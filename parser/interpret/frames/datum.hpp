@@ -1,4 +1,4 @@
-// What lies between the words of a program and the positions of the axes: the origin and turn of
+// What is between the words of a program and the positions of the axes: the origin and turn of
 // the work offset, the offsets of the tool. When it changes, the axes stay where they are and their
 // coordinates follow, as far as the program knows both sides; what only the setup knows is left
 // open.
@@ -29,7 +29,7 @@ void place_datum(InterpreterState& state, const WorkOffset& datum);
 // `axes`: where they stand.
 void follow_datum(InterpreterState& state, const ModalState& before, const AxisTarget& axes,
                   PositionLoss loss);
-// Axes whose program coordinate is not known stand there.
+// Axes whose program coordinate is not known are there.
 void arrive(InterpreterState& state, const AxisTarget& axes);
 
 }  // namespace frustum::parser

@@ -18,7 +18,7 @@ void change_programmed_frame(InterpreterState& state, const ProgrammedFrame& nex
 [[nodiscard]] Outcome turn_words(InterpreterState& state, const BlockWords& words);
 // G51 X Y Z P: lengths times P about a centre.
 [[nodiscard]] Outcome set_scaling(InterpreterState& state, const BlockWords& words);
-// G51.1 X10: what is beyond X10 lies on this side of it.
+// G51.1 X10: what is beyond X10 is on this side of it.
 [[nodiscard]] Outcome set_mirror(InterpreterState& state, const BlockWords& words);
 // A turned frame mixes the axes, so that all of them have to be known before one of them moves.
 [[nodiscard]] Outcome check_programmed_frame(const InterpreterState& state,

@@ -15,7 +15,7 @@ namespace frustum::parser {
 [[nodiscard]] Outcome align(InterpreterState& state, std::uint32_t column);
 // TURN and MOVE; STAY leaves the axes where they are. MOVE holds the tip, as tool-tip control does.
 [[nodiscard]] Outcome turn_to_plane(InterpreterState& state, const BlockWords& words);
-// The plane lies in the frame of the words at work, which is that of the words again after G69.
+// The plane is in the frame of the words at work, which is that of the words again after G69.
 [[nodiscard]] Outcome tilt(InterpreterState& state, const GivenCode& code, const Pose& plane,
                            bool within);
 

@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kBetween = "uvw";
 
 constexpr double kInPlane = 1e-6;  // mm: below every control's increment
-// A circle through three points that deviate by less from a line is not told by written
+// A circle through three points that deviate by less from a line is not determined by written
 // coordinates.
 constexpr double kOnLine = 1e-9;
 

@@ -115,7 +115,7 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   if (state.rules.vector_letters != "IJK") {
     if (auto done = set_tool_axis(state, words); !done) return done;
   }
-  // Where the height of the start is not known, that of the end stands for it.
+  // Where the height of the start is not known, that of the end represents it.
   arc_words.end = spatial(state.position.target(), Vec3::Zero());
   arc_words.start = spatial(before, arc_words.end);
   for (std::size_t i = 0; i < arc_words.centre.size(); ++i) {

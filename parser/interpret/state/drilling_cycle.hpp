@@ -36,7 +36,7 @@ struct DrillingCycle {
   double speed = 0.0;  // of the spindle, 1/min; while it goes back
   double speed_back = 0.0;
   Vec3 retract = Vec3::Zero();                  // along the plane's first, second and third axis
-  std::optional<SpindleDirection> direction{};  // before the hole, of a tap behind it
+  std::optional<SpindleDirection> direction{};  // before the hole, of a tap after it
 };
 
 }  // namespace frustum::parser

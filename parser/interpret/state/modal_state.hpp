@@ -86,7 +86,7 @@ struct Heading {
 struct Pole {
   Vec3 at = Vec3::Zero();
   Plane plane = Plane::xy;
-  bool given = true;  // else the origin stands for it
+  bool given = true;  // else the origin represents it
   std::optional<double> radius{};
   std::optional<double> angle{};
 };
@@ -128,7 +128,7 @@ struct ModalState {
   ProgramFrame program_frame{};       // of Sinumerik, which is its word frame
   AxisTarget way_home{};              // the place that the last G28 or G30 went by
   LetterSet placed_in_other_frame{};  // axes that no absolute word has placed since it changed
-  std::optional<ProgrammedFrame> frame_below{};  // of the words before G68.2: that plane lies in it
+  std::optional<ProgrammedFrame> frame_below{};  // of the words before G68.2: that plane is in it
   std::optional<Pole> pole{};                    // CC, G110 to G112
   bool pole_lost = false;                        // it was one of another frame
   std::optional<Heading> heading{};              // of the last move
