@@ -1,2 +1,2 @@
-; 2:8: error: the bracket is not closed (hint: close it with ])
+; [bracket-not-closed] 2:8: error: the bracket is not closed (hint: close it with ])
 G0 XSIN[30

@@ -1,2 +1,2 @@
-; 2:13: error: comment inside a comment (hint: use other brackets inside comments)
+; [comment-in-comment] 2:13: error: comment inside a comment (hint: use other brackets inside comments)
 G0 X1 (tool (flat) 10)

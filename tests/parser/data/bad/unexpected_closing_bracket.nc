@@ -1,2 +1,2 @@
-; 2:6: error: unexpected ] (hint: open the expression with [)
+; [unexpected-character] 2:6: error: unexpected ] (hint: open the expression with [)
 G0 X5]
