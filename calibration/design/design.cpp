@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -198,15 +199,15 @@ class Enumeration {
   }
 
   [[nodiscard]] DesignChoice judged(Set set) const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information_of(set));
+    const SymmetricEigen eigen = symmetric_eigen(information_of(set));
     const Eigen::Index free = size_.size();
-    const Eigen::VectorXd singular = eigen.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::VectorXd singular = eigen.values.reverse().cwiseMax(0.0).cwiseSqrt();
     DesignChoice choice;
     choice.blocks = blocks_of(set);
     choice.rank = rank_of(singular);
     choice.identifies_all = choice.rank == free;
-    const Eigen::VectorXd identified = eigen.eigenvalues().tail(choice.rank);
-    const Eigen::MatrixXd v = eigen.eigenvectors().rightCols(choice.rank);
+    const Eigen::VectorXd identified = eigen.values.tail(choice.rank);
+    const Eigen::MatrixXd v = eigen.vectors.rightCols(choice.rank);
     const Eigen::VectorXd variances = v.cwiseAbs2() * identified.cwiseInverse();
     const double log_det = identified.array().log().sum();
     if (choice.identifies_all) choice.log_det = log_det;
@@ -214,7 +215,7 @@ class Enumeration {
 
     choice.standard_deviations.assign(observations_.unknowns.size(), 0.0);
     const std::vector<bool> seen =
-        identified_by(eigen.eigenvectors().leftCols(free - choice.rank), variances);
+        identified_by(eigen.vectors.leftCols(free - choice.rank), variances);
     for (Eigen::Index j = 0; j < free; ++j) {
       const auto k = static_cast<std::size_t>(j);
       auto& sd = choice.standard_deviations[static_cast<std::size_t>(free_[k])];

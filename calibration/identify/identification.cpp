@@ -1,10 +1,11 @@
 #include "calibration/identify/identification.hpp"
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "calibration/identify/distributions.hpp"
 #include "calibration/identify/findings.hpp"
+#include "core/linear_algebra.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -15,11 +16,10 @@ struct Solution {
 };
 
 Solution solve(const WeightedSystem& system, int rank) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.matrix,
-                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd inverse = svd.singularValues().head(rank).cwiseInverse();
-  const Eigen::MatrixXd v = svd.matrixV().leftCols(rank) * inverse.asDiagonal();
-  return {v * (svd.matrixU().leftCols(rank).transpose() * system.right), v * v.transpose()};
+  const SingularValues svd = singular_values(system.matrix, SingularVectors::thin);
+  const Eigen::VectorXd inverse = svd.values.head(rank).cwiseInverse();
+  const Eigen::MatrixXd v = svd.right.leftCols(rank) * inverse.asDiagonal();
+  return {v * (svd.left.leftCols(rank).transpose() * system.right), v * v.transpose()};
 }
 
 void fill_estimates(const Observations& observations, const WeightedSystem& system,

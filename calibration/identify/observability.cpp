@@ -2,26 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "calibration/identify/combination_text.hpp"
 #include "calibration/identify/sparse_basis.hpp"
+#include "core/linear_algebra.hpp"
 #include "core/units.hpp"
 
 namespace frustum::calibration {
 namespace {
 
-Eigen::VectorXd singular_values_of(const Eigen::MatrixXd& matrix) {
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
-}
-
 std::optional<double> condition(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd values = singular_values_of(matrix);
+  const Eigen::VectorXd values = singular_values(matrix).values;
   const double smallest = values[values.size() - 1];
   if (matrix.rows() < matrix.cols() || !(smallest > 0.0)) return std::nullopt;
   return values[0] / smallest;
@@ -42,11 +36,11 @@ Eigen::VectorXd per_micro_unit(const Observations& observations, const WeightedS
 Eigen::MatrixXd complement(const Eigen::MatrixXd& null_space,
                            const std::vector<Eigen::Index>& touched) {
   const Eigen::MatrixXd part = null_space(touched, Eigen::all);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(part, Eigen::ComputeFullU);
+  const Eigen::MatrixXd left = singular_values(part, SingularVectors::full_left).left;
   const auto rest = static_cast<Eigen::Index>(touched.size()) - part.cols();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(null_space.rows(), rest);
   for (std::size_t i = 0; i < touched.size(); ++i) {
-    all.row(touched[i]) = svd.matrixU().row(static_cast<Eigen::Index>(i)).tail(rest);
+    all.row(touched[i]) = left.row(static_cast<Eigen::Index>(i)).tail(rest);
   }
   return all;
 }
@@ -65,8 +59,7 @@ std::vector<Term> terms_of(const Eigen::VectorXd& vector, const WeightedSystem& 
 Eigen::MatrixXd restricted(const Eigen::MatrixXd& null_space,
                            const std::vector<Eigen::Index>& touched) {
   const Eigen::MatrixXd part = null_space(touched, Eigen::all);
-  const Eigen::MatrixXd orthonormal = Eigen::HouseholderQR<Eigen::MatrixXd>(part).householderQ() *
-                                      Eigen::MatrixXd::Identity(part.rows(), part.cols());
+  const Eigen::MatrixXd orthonormal = orthonormal_columns(part);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(null_space.rows(), null_space.cols());
   for (std::size_t i = 0; i < touched.size(); ++i) {
     all.row(touched[i]) = orthonormal.row(static_cast<Eigen::Index>(i));
@@ -118,8 +111,7 @@ Eigen::MatrixXd information_of(const WeightedSystem& system) {
 
 // Singular values (largest first) of a matrix by its information.
 Eigen::VectorXd roots(const Eigen::MatrixXd& information) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  return symmetric_eigenvalues(information).reverse().cwiseMax(0.0).cwiseSqrt();
 }
 
 Result<Eigen::MatrixXd> information_of(const Candidate& candidate, const Observations& base,
@@ -188,10 +180,10 @@ int rank_of(const Eigen::VectorXd& singular_values) {
 }
 
 Observability observability(const Observations& observations, const WeightedSystem& system) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.matrix, Eigen::ComputeFullV);
+  const SingularValues svd = singular_values(system.matrix, SingularVectors::full_right);
   const Eigen::Index free = system.matrix.cols();
   Eigen::VectorXd values = Eigen::VectorXd::Zero(free);
-  values.head(svd.singularValues().size()) = svd.singularValues();
+  values.head(svd.values.size()) = svd.values;
 
   Observability result;
   result.singular_values.assign(values.data(), values.data() + values.size());
@@ -207,8 +199,8 @@ Observability observability(const Observations& observations, const WeightedSyst
   }
   const Eigen::VectorXd told_values = values.head(result.rank);
   const Eigen::VectorXd variances =
-      svd.matrixV().leftCols(result.rank).cwiseAbs2() * told_values.cwiseAbs2().cwiseInverse();
-  describe(observations, system, svd.matrixV().rightCols(free - result.rank), variances, result);
+      svd.right.leftCols(result.rank).cwiseAbs2() * told_values.cwiseAbs2().cwiseInverse();
+  describe(observations, system, svd.right.rightCols(free - result.rank), variances, result);
   complete_sentences(result);
   return result;
 }

@@ -1,9 +1,11 @@
 #include "calibration/identify/sparse_basis.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 #include <vector>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -78,18 +80,16 @@ class Search {
       const auto row = basis_.row(touched_[static_cast<std::size_t>(i)]);
       outside -= row.transpose() * row;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(outside);
+    const SymmetricEigen eigen = symmetric_eigen(outside);
     // Squares: the part outside is below the tolerance.
-    if (!(eigen.eigenvalues()[0] < tolerance_ * tolerance_)) return std::nullopt;
-    return cleaned(basis_ * eigen.eigenvectors().col(0), tolerance_);
+    if (!(eigen.values[0] < tolerance_ * tolerance_)) return std::nullopt;
+    return cleaned(basis_ * eigen.vectors.col(0), tolerance_);
   }
 
   void keep(const Eigen::VectorXd& vector) {
     Eigen::MatrixXd more(basis_.rows(), found_.cols() + 1);
     more << found_, vector;
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(more);
-    qr.setThreshold(tolerance_);
-    if (qr.rank() == more.cols()) found_ = more;
+    if (column_rank(more, tolerance_) == more.cols()) found_ = more;
   }
 
   // Elimination with the largest entry as pivot: each vector owns one entry of its own.

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -24,9 +25,9 @@ Diagnostics whiten(WeightedSystem& system) {
   const Eigen::VectorXd sd = system.covariance.diagonal().cwiseSqrt();
   const Eigen::MatrixXd correlation =
       sd.cwiseInverse().asDiagonal() * system.covariance * sd.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  if (eigen.info() != Eigen::Success) return {error("the covariance has no eigenvalues")};
-  const Eigen::VectorXd& values = eigen.eigenvalues();  // ascending
+  const SymmetricEigen eigen = symmetric_eigen(correlation);
+  if (!eigen.converged) return {error("the covariance has no eigenvalues")};
+  const Eigen::VectorXd& values = eigen.values;  // ascending
   if (values[0] < -kRounding) {
     return {
         error(fmt::format("the covariance has a negative eigenvalue ({:.3g} of its correlations)",
@@ -36,10 +37,9 @@ Diagnostics whiten(WeightedSystem& system) {
   const Eigen::Index dropped = (values.array() < kRounding).count();
   const Eigen::Index kept = values.size() - dropped;
   system.whitened_rows = kept;
-  system.without_noise = eigen.eigenvectors().leftCols(dropped);
+  system.without_noise = eigen.vectors.leftCols(dropped);
   system.whitening = values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
-                     eigen.eigenvectors().rightCols(kept).transpose() *
-                     sd.cwiseInverse().asDiagonal();
+                     eigen.vectors.rightCols(kept).transpose() * sd.cwiseInverse().asDiagonal();
   return {};
 }
 

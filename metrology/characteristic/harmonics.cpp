@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 
@@ -28,8 +30,8 @@ Result<std::vector<Harmonic>> harmonics(std::span<const double> angle,
       waves(i, 2 * k) = std::sin(k * turn);
     }
   }
-  const Eigen::LDLT<Eigen::MatrixXd> normal(waves.transpose() * waves);
-  const auto pivots = normal.vectorD().cwiseAbs();
+  const SymmetricFactors normal(waves.transpose() * waves);
+  const Eigen::VectorXd pivots = normal.pivots().cwiseAbs();
   // The normal matrix is n/2 times the identity for equal steps; 1e-8 of it leaves half the digits.
   if (!(pivots.minCoeff() > 1e-8 * pivots.maxCoeff())) {
     return error(fmt::format("the points leave gaps in which {} undulations per revolution cannot "
@@ -37,8 +39,9 @@ Result<std::vector<Harmonic>> harmonics(std::span<const double> angle,
                              highest),
                  "measure the whole turn, or ask for fewer harmonics");
   }
-  Eigen::VectorXd x = normal.solve(waves.transpose() * profile);
-  x += normal.solve(waves.transpose() * (profile - waves * x));  // restores the digits lost
+  Eigen::VectorXd x = normal.solve(Eigen::VectorXd(waves.transpose() * profile));
+  x += normal.solve(
+      Eigen::VectorXd(waves.transpose() * (profile - waves * x)));  // restores the digits lost
   std::vector<Harmonic> found;
   for (int k = 1; k <= highest; ++k) {
     const double c = x[2 * k - 1];

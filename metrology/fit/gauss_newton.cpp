@@ -1,8 +1,11 @@
 #include "metrology/fit/gauss_newton.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -135,7 +138,7 @@ Eigen::MatrixXd GaussNewton::rows() const {
 ElementStep GaussNewton::step_by_factors() const {
   const Eigen::MatrixXd all = rows();
   const Eigen::Index n = right_.size();
-  const ElementStep scaled = all.leftCols(n).colPivHouseholderQr().solve(-all.col(n));
+  const ElementStep scaled = least_squares_solution(all.leftCols(n), -all.col(n));
   return scaled.cwiseQuotient(length_);
 }
 
@@ -154,16 +157,14 @@ GaussNewton::Square GaussNewton::root_of_cofactor(Minimum& result) const {
     return normal_.llt().matrixL().solve(Square::Identity(n, n)).transpose();
   }
   const Eigen::MatrixXd all = rows();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all.leftCols(n),
-                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
+  const SingularValues svd = singular_values(all.leftCols(n), SingularVectors::thin);
+  const Eigen::VectorXd& values = svd.values;
   // With a ratio of 1e-9 rounding in the coordinates moves the weakest parameter by a ten millionth of
   // the part: the points do not tell it.
-  result.well_posed =
-      svd.info() == Eigen::Success && values.size() == n && values[n - 1] > 1e-9 * values[0];
+  result.well_posed = svd.converged && values.size() == n && values[n - 1] > 1e-9 * values[0];
   if (!result.well_posed) return Square::Zero(n, n);
   result.condition = values[0] / values[n - 1];
-  return svd.matrixV() * values.cwiseInverse().asDiagonal();
+  return svd.right * values.cwiseInverse().asDiagonal();
 }
 
 void GaussNewton::report(Minimum& result) const {

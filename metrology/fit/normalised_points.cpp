@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/constraint_steps.hpp"
 
 namespace frustum::metrology {
@@ -151,9 +152,8 @@ NormalisedPoints thinned(const NormalisedPoints& local, std::size_t most) {
 double condition_of(const Eigen::MatrixXd& normal_equations) {
   if (normal_equations.size() == 0) return 1.0;
   const Eigen::VectorXd scale = normal_equations.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      scale.asDiagonal() * normal_equations * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const Eigen::VectorXd values =
+      symmetric_eigenvalues(scale.asDiagonal() * normal_equations * scale.asDiagonal());
   return std::sqrt(values[values.size() - 1] / std::max(values[0], 1e-300));
 }
 

@@ -1,7 +1,8 @@
 #include "metrology/uncertainty/fit_response.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
@@ -79,8 +80,9 @@ FitResponse fit_response(const FittedFeature& feature) {
     }
   }
   // A point in a hole that moves out of the material moves toward the axis.
-  response.weights = -material_sign(*feature.planned) *
-                     (jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose());
+  response.weights =
+      -material_sign(*feature.planned) * SymmetricFactors(jacobian.transpose() * jacobian)
+                                             .solve(Eigen::MatrixXd(jacobian.transpose()));
   return response;
 }
 

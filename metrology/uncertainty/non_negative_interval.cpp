@@ -1,11 +1,13 @@
 #include "metrology/uncertainty/non_negative_interval.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -92,19 +94,19 @@ ShapeEstimate::ShapeEstimate(SizeRule rule, std::span<const Vec3> places,
     few.push_back(places[static_cast<std::size_t>(chosen_[i] / parts)]);
   }
   const Eigen::MatrixXd some = noise(chosen_, Eigen::all);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance_of(some));
-  const Eigen::VectorXd& variances = eigen.eigenvalues();
+  const SymmetricEigen eigen = symmetric_eigen(covariance_of(some));
+  const Eigen::VectorXd& variances = eigen.values;
   // What the fit took out of the residuals is left in second order, 1e-3 of the other deviations at most.
   Eigen::Index first = 0;
   while (first < variances.size() && !(variances[first] > 1e-6 * variances.tail(1)[0])) ++first;
   const Eigen::Index rank = variances.size() - first;
   if (rank == 0) return;
-  const Eigen::MatrixXd basis = eigen.eigenvectors().rightCols(rank);
+  const Eigen::MatrixXd basis = eigen.vectors.rightCols(rank);
   const Eigen::VectorXd deviation = without_chance(variances.tail(rank), noise.cols()).cwiseSqrt();
   const Eigen::MatrixXd whiten = deviation.cwiseInverse().asDiagonal() * basis.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> surface(whiten * likeness(few, parts) *
-                                                               whiten.transpose());
-  const Eigen::MatrixXd modes = surface.eigenvectors().rowwise().reverse();
+  const SymmetricEigen surface =
+      symmetric_eigen(whiten * likeness(few, parts) * whiten.transpose());
+  const Eigen::MatrixXd modes = surface.vectors.rowwise().reverse();
   to_modes_ = modes.transpose() * whiten;
   from_modes_ = basis * deviation.asDiagonal() * modes;
 }

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "core/linear_algebra.hpp"
 #include "post/comparing/fault.hpp"
 
 namespace frustum::post {
@@ -269,10 +269,7 @@ class AmountFit {
   }
 
   static Eigen::VectorXd step(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& off) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-9);  // amounts that change nothing stay zero
-    solver.compute(slopes);
-    return solver.solve(off);
+    return shortest_solution(slopes, off, 1e-9);  // amounts that change nothing stay zero
   }
 
   const Machine& machine_;

@@ -1,10 +1,11 @@
 #include "metrology/fit/minimax/minimax.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/minimax/minimax_contacts.hpp"
 
 namespace frustum::metrology {
@@ -192,8 +193,7 @@ SurfaceSteps even_steps(const MinimaxProblem& problem, const SurfaceParameters& 
   if (rows.rows() < unknowns) {
     rows.conservativeResizeLike(Eigen::MatrixXd::Zero(unknowns, unknowns));
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
-  Eigen::MatrixXd triangle = qr.matrixR().topRows(unknowns).template triangularView<Eigen::Upper>();
+  auto [triangle, columns] = pivoted_triangle(rows);
   // What the points hardly tell is moved no farther than a millionfold.
   const double floor = std::max(1e-6 * std::abs(triangle(0, 0)), 1e-12);
   for (Eigen::Index i = 0; i < unknowns; ++i) {
@@ -201,7 +201,7 @@ SurfaceSteps even_steps(const MinimaxProblem& problem, const SurfaceParameters& 
   }
   const Eigen::MatrixXd inverse =
       triangle.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
-  return problem.allowed * (qr.colsPermutation() * inverse);
+  return problem.allowed * (columns * inverse);
 }
 
 MinimaxSolution minimax_near(const MinimaxProblem& problem, std::span<const Vec3> points,

@@ -1,8 +1,10 @@
 #include "metrology/fit/minimax/minimax_contacts.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -47,15 +49,11 @@ Linearised linearised(const MinimaxProblem& problem, std::span<const Vec3> point
 double least_bend(const Linearised& at) {
   const double size = at.hessian.cwiseAbs().maxCoeff();
   if (!(size > 0.0)) return 0.0;
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(at.rows);
-  lu.setThreshold(1e-9);
-  const Eigen::MatrixXd free = lu.kernel();
-  if (lu.dimensionOfKernel() == 0) return 0.0;
-  const Eigen::MatrixXd orthogonal = Eigen::HouseholderQR<Eigen::MatrixXd>(free).householderQ() *
-                                     Eigen::MatrixXd::Identity(free.rows(), free.cols());
+  const Eigen::MatrixXd free = null_space(at.rows, 1e-9);
+  if (free.cols() == 0) return 0.0;
+  const Eigen::MatrixXd orthogonal = orthonormal_columns(free);
   const Eigen::MatrixXd reduced = orthogonal.transpose() * at.hessian * orthogonal;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] / size;
+  return symmetric_eigenvalues(reduced)[0] / size;
 }
 
 std::optional<Eigen::VectorXd> newton(const Linearised& at) {
@@ -71,7 +69,7 @@ std::optional<Eigen::VectorXd> newton(const Linearised& at) {
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   right[unknowns] = -1.0;
   right.tail(count) = -at.values;
-  const Eigen::VectorXd solution = matrix.fullPivLu().solve(right);
+  const Eigen::VectorXd solution = solution_of(matrix, right);
   if (!solution.allFinite()) return std::nullopt;
   return solution.head(unknowns);
 }
@@ -82,7 +80,7 @@ Eigen::VectorXd balanced(const Eigen::MatrixXd& rows) {
   matrix << rows.transpose(), Eigen::RowVectorXd::Ones(rows.rows());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.cols() + 1);
   right[rows.cols()] = 1.0;
-  return matrix.completeOrthogonalDecomposition().solve(right);
+  return shortest_solution(matrix, right);
 }
 
 // 1e-9 mm on a part of 100 mm: what is farther from a minimum is none.

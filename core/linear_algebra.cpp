@@ -1,0 +1,105 @@
+#include "core/linear_algebra.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace frustum {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+unsigned options_for(SingularVectors vectors) {
+  switch (vectors) {
+    case SingularVectors::none:
+      break;
+    case SingularVectors::thin:
+      return Eigen::ComputeThinU | Eigen::ComputeThinV;
+    case SingularVectors::full_left:
+      return Eigen::ComputeFullU;
+    case SingularVectors::full_right:
+      return Eigen::ComputeFullV;
+  }
+  return 0;
+}
+
+}  // namespace
+
+SymmetricEigen symmetric_eigen(const MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
+  return {eigen.eigenvalues(), eigen.eigenvectors(), eigen.info() == Eigen::Success};
+}
+
+VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+SingularValues singular_values(const MatrixXd& matrix, SingularVectors vectors) {
+  const Eigen::JacobiSVD<MatrixXd> svd(matrix, options_for(vectors));
+  SingularValues found{svd.singularValues(), {}, {}, svd.info() == Eigen::Success};
+  if (svd.computeU()) found.left = svd.matrixU();
+  if (svd.computeV()) found.right = svd.matrixV();
+  return found;
+}
+
+MatrixXd orthonormal_columns(const MatrixXd& matrix) {
+  return Eigen::HouseholderQR<MatrixXd>(matrix).householderQ() *
+         MatrixXd::Identity(matrix.rows(), matrix.cols());
+}
+
+MatrixXd null_space(const MatrixXd& matrix, double threshold) {
+  Eigen::FullPivLU<MatrixXd> lu(matrix);
+  lu.setThreshold(threshold);
+  if (lu.dimensionOfKernel() == 0) return MatrixXd(matrix.cols(), 0);
+  return lu.kernel();
+}
+
+Eigen::Index column_rank(const MatrixXd& matrix, double threshold) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix);
+  qr.setThreshold(threshold);
+  return qr.rank();
+}
+
+VectorXd solution_of(const MatrixXd& square, const VectorXd& right) {
+  return Eigen::FullPivLU<MatrixXd>(square).solve(right);
+}
+
+VectorXd least_squares_solution(const MatrixXd& rows, const VectorXd& right) {
+  return Eigen::ColPivHouseholderQR<MatrixXd>(rows).solve(right);
+}
+
+VectorXd shortest_solution(const MatrixXd& rows, const VectorXd& right,
+                           std::optional<double> threshold) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+  if (threshold) solver.setThreshold(*threshold);
+  solver.compute(rows);
+  return solver.solve(right);
+}
+
+PivotedTriangle pivoted_triangle(const MatrixXd& matrix) {
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix);
+  return {qr.matrixR().topRows(matrix.cols()).triangularView<Eigen::Upper>(), qr.colsPermutation()};
+}
+
+struct SymmetricFactors::Factors {
+  Eigen::LDLT<MatrixXd> ldlt;
+};
+
+SymmetricFactors::SymmetricFactors(const MatrixXd& matrix)
+    : factors_(std::make_unique<const Factors>(Factors{Eigen::LDLT<MatrixXd>(matrix)})) {}
+SymmetricFactors::~SymmetricFactors() = default;
+SymmetricFactors::SymmetricFactors(SymmetricFactors&&) noexcept = default;
+SymmetricFactors& SymmetricFactors::operator=(SymmetricFactors&&) noexcept = default;
+
+VectorXd SymmetricFactors::pivots() const { return factors_->ldlt.vectorD(); }
+VectorXd SymmetricFactors::solve(const VectorXd& right) const {
+  return factors_->ldlt.solve(right);
+}
+MatrixXd SymmetricFactors::solve(const MatrixXd& right) const {
+  return factors_->ldlt.solve(right);
+}
+
+}  // namespace frustum
