@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
-#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/evaluation.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "metrology/probing/ball_contact.hpp"
 #include "metrology/probing/cmm_errors.hpp"

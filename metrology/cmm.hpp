@@ -22,6 +22,7 @@
 #include "core/result.hpp"
 #include "metrology/measurement.hpp"
 #include "metrology/plan/inspection_plan.hpp"
+#include "metrology/points/feature_points.hpp"
 #include "metrology/probing/cmm_model.hpp"
 #include "metrology/probing/surface_probe.hpp"
 
@@ -29,17 +30,6 @@ namespace frustum::metrology {
 
 [[nodiscard]] Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part,
                                           const CmmModel& cmm = {});
-
-// Points of one feature that somebody else probed.
-struct FeaturePoints {
-  std::string feature{};
-  std::vector<Vec3> points{};           // mm, in any frame near the workpiece frame of the plan
-  std::vector<std::size_t> sections{};  // one each (first = 0); empty: the nearest planned section
-  // Where the first of them stands, for diagnostics; empty and 0 when that is no line of a file.
-  std::string file{};
-  int line = 0;
-};
-enum class PointMeaning { surface, ball_centre };
 
 // Evaluates real CMM points. `cmm` states the machine's accuracy for the uncertainties only.
 [[nodiscard]] Result<Measurement> evaluate(const InspectionPlan& plan,

@@ -16,8 +16,8 @@
 
 #include "core/diagnostic.hpp"
 #include "core/pose.hpp"
+#include "metrology/non_negative.hpp"
 #include "metrology/probing/surface_probe.hpp"
-#include "metrology/uncertainty/non_negative.hpp"
 
 namespace frustum::metrology {
 
@@ -96,7 +96,7 @@ struct CharacteristicResult {
   std::vector<double> plot_deviation{};
   std::vector<LineProfile> profiles{};  // of characteristics that compare lines: first, second
   std::vector<Harmonic> harmonics{};    // of the plotted deviations, where the plan asks for them
-  NonNegative magnitude{};  // what the value is the size of; kind none for values of either sign
+  NonNegative measurand{};  // what the value is the size of; kind none for values of either sign
 };
 
 // In mm or rad, from the unit of a characteristic: "um", "mm", "deg", "urad". Any other text means

@@ -12,7 +12,7 @@
 #include "app/view/console.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/points/point_scale.hpp"
-#include "metrology/uncertainty/uncertainty.hpp"
+#include "metrology/characteristic/standard_uncertainty.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/terminal_report.hpp"
 #include "trials/mesh_probe.hpp"

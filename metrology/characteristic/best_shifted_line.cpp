@@ -42,16 +42,4 @@ Result<StraightLine> straight_line(std::span<const PlaceOnLine> places) {
   return StraightLine{mean.across - slope * mean.along, slope};
 }
 
-std::optional<LineAxes> line_axes(CharacteristicKind kind, const Vec3& line,
-                                  const Vec3& direction) {
-  const auto along = UnitVec3::of(line);
-  if (!along) return std::nullopt;
-  const Vec3 u = *along;
-  const auto across =
-      UnitVec3::of(kind == CharacteristicKind::line_angle ? Vec3(direction.cross(u))
-                                                          : Vec3(direction - direction.dot(u) * u));
-  if (!across) return std::nullopt;
-  return LineAxes{u, *across, u.cross(across->vec())};
-}
-
 }  // namespace frustum::metrology

@@ -10,22 +10,14 @@
 // Source   : ours
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/result.hpp"
 #include "metrology/measurement.hpp"
-#include "metrology/plan/inspection_plan.hpp"
+#include "metrology/plan/line_axes.hpp"
 
 namespace frustum::metrology {
-
-// Unit vectors, right-handed: along x across = height.
-struct LineAxes {
-  Vec3 along = Vec3::UnitX();
-  Vec3 across = Vec3::UnitY();
-  Vec3 height = Vec3::UnitZ();
-};
 
 struct PlaceOnLine {
   double along = 0.0;
@@ -41,11 +33,5 @@ struct StraightLine {
   double slope = 0.0;
 };
 [[nodiscard]] Result<StraightLine> straight_line(std::span<const PlaceOnLine> places);
-
-// The axes in which a line kind is measured, from the planned direction of its lines: along = that;
-// across = `direction` for a distance, direction x along for an angle. Nothing when the direction
-// lies along the lines.
-[[nodiscard]] std::optional<LineAxes> line_axes(CharacteristicKind kind, const Vec3& line,
-                                                const Vec3& direction);
 
 }  // namespace frustum::metrology

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "metrology/characteristic/feature_extent.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
@@ -44,6 +45,27 @@ Result<Element> datum_element(const FittedFeature& feature, Criterion criterion,
   auto association = associated(feature, criterion, constraints);
   if (!association) return std::move(association).error();
   return association->fit.element;
+}
+
+Result<Line> common_axis(std::span<const FittedFeature* const> datums, Criterion criterion) {
+  if (datums.size() == 1) {
+    const auto element = datum_element(*datums.front(), criterion);
+    if (!element) return element.error();
+    return Line{point_of(*element), *axis_of(*element)};
+  }
+  std::vector<Vec3> centres;
+  for (const FittedFeature* datum : datums) {
+    if (datum->planned->kind == FeatureKind::circle) {
+      centres.push_back(point_of(datum->element));
+      continue;
+    }
+    const auto of_datum = median_line(*datum);
+    if (!of_datum) return of_datum.error();
+    centres.insert(centres.end(), of_datum->begin(), of_datum->end());
+  }
+  const auto line = fit_line(centres);
+  if (!line) return line.error();
+  return line->element;
 }
 
 }  // namespace frustum::metrology

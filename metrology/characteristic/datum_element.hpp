@@ -10,6 +10,8 @@
 // Source   : ISO 5459, ISO 1101:2017
 #pragma once
 
+#include <span>
+
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
 #include "metrology/fit/association.hpp"
@@ -21,5 +23,10 @@ namespace frustum::metrology {
                                              const Constraints& constraints = {});
 [[nodiscard]] Result<Element> datum_element(const FittedFeature& feature, Criterion criterion,
                                             const Constraints& constraints = {});
+
+// The axis that one datum feature or several have in common: of several the least-squares line
+// through the centres of their sections.
+[[nodiscard]] Result<Line> common_axis(std::span<const FittedFeature* const> datums,
+                                       Criterion criterion);
 
 }  // namespace frustum::metrology

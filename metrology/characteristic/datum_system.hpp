@@ -19,29 +19,23 @@
 #pragma once
 
 #include <span>
-#include <string>
-#include <vector>
 
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
+#include "metrology/plan/datum_precedence.hpp"
 
 namespace frustum::metrology {
-
-struct FoundDatum {
-  Pose workpiece_from_datum{};
-  std::vector<DatumShare> datums{};
-  std::vector<std::string> free_degrees{};
-};
-
-// Its features, in order.
-[[nodiscard]] std::vector<std::string> features_of(const DatumSystem& system);
 
 // `features` are in the workpiece frame; the system is one that check() accepts.
 [[nodiscard]] Result<FoundDatum> found_datum(const DatumSystem& system,
                                              std::span<const FittedFeature> features);
 
-// What each datum takes of a perfect part: in the order of features_of.
-[[nodiscard]] std::vector<DatumShare> planned_shares(const InspectionPlan& plan,
-                                                     const DatumSystem& system);
+// True when results of this plan refer to measured datum features.
+[[nodiscard]] bool uses_datum(const InspectionPlan& plan);
+[[nodiscard]] bool is_datum_feature(const InspectionPlan& plan, const PlannedFeature& feature);
+
+// workpiece_from_datum; the identity for a plan without datum system.
+[[nodiscard]] Result<Pose> alignment_of(const InspectionPlan& plan,
+                                        std::span<const FittedFeature> features);
 
 }  // namespace frustum::metrology

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "metrology/characteristic/characteristic.hpp"
+#include "metrology/characteristic/round_profile.hpp"
 #include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology {

@@ -299,7 +299,7 @@ struct InspectionPlan {
 [[nodiscard]] bool compares_lines(CharacteristicKind kind);
 // Its value and its tolerance are angles.
 [[nodiscard]] bool is_angle(CharacteristicKind kind);
-// Whether a small change of the part changes the value in proportion. Forms and zones are magnitudes: about
+// Whether a small change of the part changes the value in proportion. Forms and zones cannot be negative: about
 // a perfect part every change makes them larger.
 [[nodiscard]] bool has_derivative(CharacteristicKind kind);
 

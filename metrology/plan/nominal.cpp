@@ -94,4 +94,10 @@ std::optional<double> deviation_from_nominal(const InspectionPlan& plan, const V
   return best;
 }
 
+Element planned_surface(const PlannedFeature& planned) {
+  if (planned.kind != FeatureKind::line) return nominal_element(planned);
+  const Vec3 axis = unit(planned.axis);
+  return Plane{planned.point, unit(planned.normal - planned.normal.dot(axis) * axis)};
+}
+
 }  // namespace frustum::metrology

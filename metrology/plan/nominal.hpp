@@ -27,4 +27,7 @@ namespace frustum::metrology {
 // +1 when the material's outward normal is the element's, -1 for a hole.
 [[nodiscard]] double material_sign(const PlannedFeature& feature);
 
+// The surface that a feature is of: that of a line is the plane through it that its normal gives.
+[[nodiscard]] Element planned_surface(const PlannedFeature& planned);
+
 }  // namespace frustum::metrology

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
-#include "metrology/characteristic/datum_system.hpp"
 #include "metrology/fit/element.hpp"
+#include "metrology/plan/datum_precedence.hpp"
 #include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology {

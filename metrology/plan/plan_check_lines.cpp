@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
-#include "metrology/characteristic/best_shifted_line.hpp"
 #include "metrology/fit/element.hpp"
+#include "metrology/plan/line_axes.hpp"
 #include "metrology/plan/plan_check.hpp"
 
 namespace frustum::metrology {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "metrology/cmm.hpp"
+#include "metrology/points/feature_points.hpp"
 #include "metrology/points/length_unit.hpp"
 
 namespace frustum::metrology {

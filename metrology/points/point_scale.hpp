@@ -14,8 +14,8 @@
 #include <span>
 
 #include "core/diagnostic.hpp"
-#include "metrology/cmm.hpp"
 #include "metrology/plan/inspection_plan.hpp"
+#include "metrology/points/feature_points.hpp"
 
 namespace frustum::metrology {
 

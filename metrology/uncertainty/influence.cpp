@@ -7,7 +7,8 @@
 
 #include "metrology/characteristic/best_shifted_line.hpp"
 #include "metrology/characteristic/characteristic.hpp"
-#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/characteristic/datum_system.hpp"
+#include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/workpiece_frame.hpp"
 #include "metrology/uncertainty/fit_response.hpp"
 
@@ -79,11 +80,9 @@ Result<std::optional<Eigen::RowVectorXd>> Influence::of(const PlannedCharacteris
           "measure the feature, or take the characteristic out of the plan");
     }
   }
-  const bool is_size = planned.kind == CharacteristicKind::half_angle ||
-                       planned.kind == CharacteristicKind::radius ||
-                       planned.kind == CharacteristicKind::diameter;
-  if (!is_size && !compares_lines(planned.kind)) return std::optional<Eigen::RowVectorXd>{};
-  auto row = is_size ? size(planned) : lines(planned);
+  const Gradient gradient = evaluator_of(planned.kind).gradient;
+  if (gradient == Gradient::none) return std::optional<Eigen::RowVectorXd>{};
+  auto row = gradient == Gradient::size ? size(planned) : lines(planned);
   if (!row) return std::move(row).error();
   return std::optional(std::move(*row));
 }

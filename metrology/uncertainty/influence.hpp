@@ -22,7 +22,7 @@
 
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
-#include "metrology/uncertainty/uncertainty.hpp"
+#include "metrology/characteristic/standard_uncertainty.hpp"
 
 namespace frustum::metrology {
 

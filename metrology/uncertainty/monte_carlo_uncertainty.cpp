@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/characteristic/measured_values.hpp"
 #include "metrology/probing/cmm_errors.hpp"
 #include "metrology/uncertainty/non_negative_interval.hpp"
 #include "metrology/uncertainty/refit.hpp"
-#include "metrology/uncertainty/uncertainty.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -45,11 +44,11 @@ Estimate of_values(std::vector<double> values) {
 class Tally {
  public:
   explicit Tally(const CharacteristicResult& measured)
-      : rule_(measured.magnitude.rule),
-        places_(measured.magnitude.places),
+      : rule_(measured.measurand.rule),
+        places_(measured.measurand.places),
         parts_(Eigen::Map<const Eigen::VectorXd>(
-            measured.magnitude.parts.data(),
-            static_cast<Eigen::Index>(measured.magnitude.parts.size()))),
+            measured.measurand.parts.data(),
+            static_cast<Eigen::Index>(measured.measurand.parts.size()))),
         value_(measured.value),
         per_mm_(1.0 / internal_value(1.0, measured.unit)),
         size_(value_ / per_mm_) {}
@@ -60,7 +59,7 @@ class Tally {
   }
   void add(const CharacteristicResult& drawn) {
     if (rule_.kind != NonNegativeKind::none) {
-      const auto& parts = drawn.magnitude.parts;
+      const auto& parts = drawn.measurand.parts;
       noise_.col(static_cast<Eigen::Index>(values_.size())) =
           Eigen::Map<const Eigen::VectorXd>(parts.data(), parts_.size()) - parts_;
     }
@@ -126,7 +125,7 @@ class Tally {
   Eigen::VectorXd parts_;
   double value_;
   double per_mm_;
-  double size_;             // mm, of magnitudes
+  double size_;             // mm, of non-negative measurands
   Eigen::VectorXd bias_{};  // of their parts
   Eigen::MatrixXd noise_{};
   Eigen::VectorXd shape_{};

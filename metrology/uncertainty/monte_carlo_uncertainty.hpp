@@ -3,7 +3,7 @@
 // Model    : every draw moves the measured ball centres by errors of the CMM, fits all features again from
 //            their known elements and evaluates the whole plan: frames, datum system, characteristics. A
 //            value of either sign gets the interval between the 2.5 % and 97.5 % quantiles of its draws; a
-//            magnitude that of non_negative_interval.hpp, whose noise is how its parts move from draw to draw.
+//            non-negative measurand that of non_negative_interval.hpp, whose noise is how its parts move from draw to draw.
 //            Blocks of 2,000 draws are added, five at least, until twice the standard error of the block
 //            means of the standard uncertainty and of both ends is below half a unit of the last of
 //            `digits` digits of the standard uncertainty, for every characteristic
@@ -22,7 +22,6 @@
 
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
-#include "metrology/cmm.hpp"
 #include "metrology/plan/monte_carlo_settings.hpp"
 
 namespace frustum::metrology {

@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-#include "metrology/uncertainty/non_negative.hpp"
+#include "metrology/non_negative.hpp"
 
 namespace frustum::metrology {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "metrology/characteristic/characteristic.hpp"
-#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/characteristic/datum_system.hpp"
 #include "metrology/uncertainty/influence.hpp"
 
 namespace frustum::metrology {

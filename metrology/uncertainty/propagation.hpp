@@ -17,9 +17,9 @@
 #include <Eigen/Core>
 
 #include "core/result.hpp"
-#include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
 #include "metrology/plan/inspection_plan.hpp"
+#include "metrology/probing/cmm_model.hpp"
 
 namespace frustum::metrology {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "metrology/characteristic/evaluation.hpp"
+#include "metrology/evaluation.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
 #include "metrology/uncertainty/non_negative_interval.hpp"
 
@@ -31,8 +31,8 @@ inline std::vector<FittedFeature> fitted(const InspectionPlan& plan, const Measu
 }
 
 inline Eigen::VectorXd parts_of(const CharacteristicResult& c) {
-  return Eigen::Map<const Eigen::VectorXd>(c.magnitude.parts.data(),
-                                           static_cast<Eigen::Index>(c.magnitude.parts.size()));
+  return Eigen::Map<const Eigen::VectorXd>(c.measurand.parts.data(),
+                                           static_cast<Eigen::Index>(c.measurand.parts.size()));
 }
 
 // The draws of all characteristics about one measurement.
@@ -55,7 +55,7 @@ inline Noise noise_about(const InspectionPlan& plan, const Measurement& one,
     for (std::size_t c = 0; c < about.size(); ++c) {
       const CharacteristicResult& drawn = m->characteristics[c];
       noise.values[c].push_back(drawn.value - about[c].value);
-      if (!drawn.magnitude.is_known()) continue;
+      if (!drawn.measurand.is_known()) continue;
       noise.parts[c].conservativeResize(parts_of(drawn).size(), count);
       noise.parts[c].col(draw) = parts_of(drawn) - parts_of(about[c]);
     }
@@ -63,7 +63,7 @@ inline Noise noise_about(const InspectionPlan& plan, const Measurement& one,
   for (std::size_t c = 0; c < about.size(); ++c) {
     std::sort(noise.values[c].begin(), noise.values[c].end());
     if (noise.parts[c].size() == 0) continue;
-    noise.shapes[c].emplace(about[c].magnitude.rule, about[c].magnitude.places, noise.parts[c]);
+    noise.shapes[c].emplace(about[c].measurand.rule, about[c].measurand.places, noise.parts[c]);
   }
   return noise;
 }
@@ -77,7 +77,7 @@ inline bool holds(const Noise& noise, std::size_t c, const CharacteristicResult&
            off <= sorted[sorted.size() - 1 - sorted.size() / 40];
   }
   const Eigen::VectorXd shape = (*noise.shapes[c])(parts_of(measured));
-  const SizeUnderNoise sizes(measured.magnitude.rule, noise.parts[c], shape);
+  const SizeUnderNoise sizes(measured.measurand.rule, noise.parts[c], shape);
   const double exact = internal_value(truth);
   // Rounding is no form.
   return sizes.accepts(internal_value(measured), exact < 1e-8 ? 0.0 : exact);

@@ -1,5 +1,5 @@
 // Probes, temperatures and machines that are stated: what they add to uncertainties, linear and simulated.
-#include "metrology/uncertainty/uncertainty.hpp"
+#include "metrology/characteristic/standard_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

@@ -92,7 +92,7 @@ bool plain_quantiles_hold(const Eigen::MatrixXd& noise, const CharacteristicResu
   for (Eigen::Index i = 0; i < noise.cols(); ++i) {
     const Eigen::VectorXd drawn = parts + noise.col(i);
     sizes.push_back(
-        measured.magnitude.rule({drawn.data(), static_cast<std::size_t>(drawn.size())}));
+        measured.measurand.rule({drawn.data(), static_cast<std::size_t>(drawn.size())}));
   }
   std::sort(sizes.begin(), sizes.end());
   const double twice = 2.0 * internal_value(measured);
@@ -121,8 +121,8 @@ std::vector<Share> shares(const char* title, const InspectionPlan& plan,
     for (std::size_t c = 0; c < found.size(); ++c) {
       const CharacteristicResult& truth = exact->characteristics[c];
       const CharacteristicResult& seen = m->characteristics[c];
-      EXPECT_TRUE(seen.magnitude.is_known()) << seen.name;
-      if (!seen.magnitude.is_known()) continue;
+      EXPECT_TRUE(seen.measurand.is_known()) << seen.name;
+      if (!seen.measurand.is_known()) continue;
       found[c].interval += coverage::holds(noise, c, seen, truth) ? 1.0 / count : 0.0;
       found[c].plain +=
           plain_quantiles_hold(noise.parts[c], seen, internal_value(truth)) ? 1.0 / count : 0.0;
@@ -154,7 +154,7 @@ TEST(ZoneMagnitude, IsAsLargeAsTheValue) {
   for (const CharacteristicResult& c : m->characteristics) {
     // A disc is told by 72 points of its rim.
     const double lost = 1e-9 + (c.name.find("disc") != std::string::npos ? 1e-3 * c.value : 0.0);
-    EXPECT_NEAR(1e3 * size_of(c.magnitude), c.value, lost) << c.name;
+    EXPECT_NEAR(1e3 * size_of(c.measurand), c.value, lost) << c.name;
   }
 }
 

@@ -1,10 +1,12 @@
+// Circular and total run-out.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "metrology/characteristic/datum_element.hpp"
+#include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/gaussian_filter.hpp"
 #include "metrology/characteristic/harmonics.hpp"
-#include "metrology/characteristic/zone.hpp"
 #include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology {
@@ -61,11 +63,11 @@ std::set<std::size_t> sections_of(const Toleranced& what) {
   return all;
 }
 
-Result<Zone> of_profile(const Toleranced& what, RoundProfile profile) {
+Result<Evaluated> of_profile(const Toleranced& what, RoundProfile profile) {
   if (profile.deviation.size() < 2) {
     return error("a run-out of fewer than 2 points", "measure two points of it or more");
   }
-  Zone zone;
+  Evaluated zone;
   if (what.planned.filter) {
     auto kept = closed_band(*what.planned.filter, profile.angle, profile.deviation);
     if (!kept) return std::move(kept).error();
@@ -84,15 +86,15 @@ Result<Zone> of_profile(const Toleranced& what, RoundProfile profile) {
 
 }  // namespace
 
-Result<Zone> run_out_zone(const Toleranced& what) {
+Result<Evaluated> evaluate_run_out(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
   const std::span<const FittedFeature* const> datums = std::span(what.features).subspan(1);
   const auto axis = common_axis(datums, what.planned.datum_criterion);
   if (!axis) return axis.error();
   const Turning turning(feature, *axis);
-  Zone worst;
+  Evaluated worst;
   NonNegative readings{{NonNegativeKind::peak_to_valley}, {}, {}};
-  const auto add = [&](const Zone& zone, const std::vector<Vec3>& points) {
+  const auto add = [&](const Evaluated& zone, const std::vector<Vec3>& points) {
     const std::vector<double>& parts = zone.profile.deviation;
     readings.rule.rows.push_back(points.size());
     readings.parts.insert(readings.parts.end(), parts.begin(), parts.end());
@@ -112,7 +114,7 @@ Result<Zone> run_out_zone(const Toleranced& what) {
       if (worst.profile.angle.empty() || zone->value > worst.value) worst = std::move(*zone);
     }
   }
-  worst.magnitude = std::move(readings);
+  worst.measurand = std::move(readings);
   const double away = (point_of(feature.element) - axis->point).norm();
   worst.uncertainty = std::hypot(form_uncertainty(what.u, feature.planned->radius),
                                  place_uncertainty(what.u, *datums.front(), away));

@@ -16,7 +16,7 @@
 namespace frustum::metrology {
 
 enum class NonNegativeKind {
-  none,                  // the value is no magnitude, or nobody told its parts
+  none,                  // the value has either sign, or its parts are not known
   peak_to_valley,        // one part a place; where there are rows of places, of the worst row
   twice_largest,         // three parts a place, a vector: twice the longest
   twice_largest_height,  // one part a place, of either sign: twice the largest amount
@@ -42,7 +42,7 @@ struct NonNegative {
   [[nodiscard]] bool is_known() const { return rule.kind != NonNegativeKind::none; }
 };
 
-[[nodiscard]] double size_of(const NonNegative& magnitude);
+[[nodiscard]] double size_of(const NonNegative& measurand);
 
 // Heights of places along a direction, counted from their mean.
 [[nodiscard]] NonNegative heights_along(const Vec3& direction, std::vector<Vec3> places);

@@ -1,4 +1,4 @@
-#include "metrology/uncertainty/uncertainty.hpp"
+#include "metrology/characteristic/standard_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +115,26 @@ double perpendicularity_uncertainty(const PointUncertainty& u, const FittedFeatu
                                     const FittedFeature& datum, double extent) {
   return extent * std::sqrt(square(u.probing) * (tilt_cofactor(toleranced) + tilt_cofactor(datum)) +
                             square(u.scale));
+}
+
+double place_uncertainty(const PointUncertainty& u, const FittedFeature& feature, double away) {
+  // Shift and tilt as least_squares.hpp orders them.
+  const bool is_plane = std::holds_alternative<Plane>(feature.element);
+  const Eigen::Index shifts = is_plane ? 1 : 2;
+  const Eigen::MatrixXd& q = feature.cofactor;
+  double variance = 0.0;
+  for (Eigen::Index k = 0; k < std::min(shifts, q.rows()); ++k) {
+    variance = std::max(variance, q(k, k));
+  }
+  double tilt = 0.0;
+  if (axis_of(feature.element) != nullptr && !std::holds_alternative<Circle>(feature.element)) {
+    for (Eigen::Index k = shifts; k < std::min(shifts + 2, q.rows()); ++k) {
+      tilt = std::max(tilt, q(k, k));
+    }
+  }
+  const double reach = std::max(away, point_of(feature.element).norm());
+  return 2.0 * std::sqrt(u.probing * u.probing * (variance + away * away * tilt) +
+                         u.scale * u.scale * reach * reach);
 }
 
 }  // namespace frustum::metrology

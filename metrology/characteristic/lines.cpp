@@ -1,4 +1,5 @@
-#include "metrology/characteristic/line_comparison.hpp"
+// Distance and angle of two lines on surfaces, less the planned: what both of them lack or have too much.
+#include "metrology/characteristic/evaluators.hpp"
 
 #include <fmt/format.h>
 
@@ -11,18 +12,18 @@ namespace frustum::metrology {
 namespace {
 
 // What one line adds to the comparison.
-struct Read {
+struct ReadLine {
   LineProfile profile{};
   double turned = 0.0;  // rad, angle of the measured line less that of the planned one
 };
 
-Result<Read> read(const FittedFeature& feature, const LineAxes& axes, double origin) {
+Result<ReadLine> read_line(const FittedFeature& feature, const LineAxes& axes, double origin) {
   const PlannedFeature& planned = *feature.planned;
   const Vec3& place = planned.point;
   const double slope = planned.axis.dot(axes.across) / planned.axis.dot(axes.along);
   std::vector<PlaceOnLine> places =
       shifted(feature.points, axes, planned.normal, place.dot(axes.height));
-  Read out;
+  ReadLine out;
   out.profile.feature = planned.name;
   for (PlaceOnLine& p : places) {
     p.across -= place.dot(axes.across) + slope * (p.along - place.dot(axes.along));
@@ -46,22 +47,25 @@ Result<Read> read(const FittedFeature& feature, const LineAxes& axes, double ori
 
 }  // namespace
 
-Result<LineComparison> compare_lines(const PlannedCharacteristic& planned,
-                                     const FittedFeature& first, const FittedFeature& second) {
-  const auto axes = line_axes(planned.kind, first.planned->axis, planned.direction);
+Result<Evaluated> evaluate_lines(const Toleranced& what) {
+  const FittedFeature& first = *what.features.front();
+  const FittedFeature& second = *what.features.back();
+  const auto axes = line_axes(what.planned.kind, first.planned->axis, what.planned.direction);
   if (!axes) {
     return error("the direction lies along the lines", "choose one across them");
   }
   const double origin = first.planned->point.dot(axes->along);
-  auto a = read(first, *axes, origin);
+  auto a = read_line(first, *axes, origin);
   if (!a) return std::move(a).error();
-  auto b = read(second, *axes, origin);
+  auto b = read_line(second, *axes, origin);
   if (!b) return std::move(b).error();
-  LineComparison out;
-  out.value = planned.kind == CharacteristicKind::line_angle
+  Evaluated out;
+  out.value = what.planned.kind == CharacteristicKind::line_angle
                   ? b->turned - a->turned
                   : b->profile.fit_offset - a->profile.fit_offset;
-  out.profiles = {std::move(a->profile), std::move(b->profile)};
+  out.uncertainty = what.line_uncertainty;
+  out.nominal = 0.0;
+  out.lines = {std::move(a->profile), std::move(b->profile)};
   return out;
 }
 

@@ -27,7 +27,7 @@
 #pragma once
 
 #include "metrology/characteristic/fitted_feature.hpp"
-#include "metrology/cmm.hpp"
+#include "metrology/probing/cmm_model.hpp"
 
 namespace frustum::metrology {
 
@@ -55,5 +55,9 @@ struct PointUncertainty {
 [[nodiscard]] double perpendicularity_uncertainty(const PointUncertainty& u,
                                                   const FittedFeature& toleranced,
                                                   const FittedFeature& datum, double extent);
+
+// Of twice the distance of a point of the feature's element, `away` mm from its middle.
+[[nodiscard]] double place_uncertainty(const PointUncertainty& u, const FittedFeature& feature,
+                                       double away);
 
 }  // namespace frustum::metrology

@@ -1,4 +1,4 @@
-#include "metrology/uncertainty/non_negative.hpp"
+#include "metrology/non_negative.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ double SizeRule::operator()(std::span<const double> parts) const {
   return std::sqrt(square);
 }
 
-double size_of(const NonNegative& magnitude) { return magnitude.rule(magnitude.parts); }
+double size_of(const NonNegative& measurand) { return measurand.rule(measurand.parts); }
 
 NonNegative heights_along(const Vec3& direction, std::vector<Vec3> places) {
   NonNegative heights{{NonNegativeKind::peak_to_valley}, {}, std::move(places)};

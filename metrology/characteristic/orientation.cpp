@@ -1,10 +1,12 @@
+// Parallelism, perpendicularity and angularity.
 #include <algorithm>
 #include <cmath>
 
 #include "metrology/characteristic/datum_element.hpp"
+#include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/feature_extent.hpp"
-#include "metrology/characteristic/zone.hpp"
 #include "metrology/fit/minimax/smallest_circle.hpp"
+#include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -91,14 +93,15 @@ Result<NonNegative> zone_of_points(const FittedFeature& feature, const Wanted& w
 }
 
 // What the associated element needs over its extent.
-Zone zone_of_element(const PlannedFeature& planned, const Element& element, const Wanted& want) {
-  Zone zone;
+Evaluated zone_of_element(const PlannedFeature& planned, const Element& element,
+                          const Wanted& want) {
+  Evaluated zone;
   if (planned.kind == FeatureKind::plane) {
     const Vec3 normal = *axis_of(element);
     const Vec3 steepest = want.direction - want.direction.dot(normal) * normal;
     zone.value = range_along(extremes(planned, element, steepest), want.direction);
-    zone.magnitude = heights_along(want.direction, outline(planned, element));
-    zone.magnitude.places.clear();  // all corners move together
+    zone.measurand = heights_along(want.direction, outline(planned, element));
+    zone.measurand.places.clear();  // all corners move together
     return zone;
   }
   const std::vector<Vec3> points = extremes(planned, element, want.direction);
@@ -106,8 +109,8 @@ Zone zone_of_element(const PlannedFeature& planned, const Element& element, cons
   const Vec3 along =
       planned.kind == FeatureKind::line ? surface_normal(planned, want.direction) : want.direction;
   const Vec3 rise = run.dot(along) * along;
-  zone.magnitude = length_of(planned.kind == FeatureKind::line ? rise : Vec3(run - rise));
-  zone.value = size_of(zone.magnitude);
+  zone.measurand = length_of(planned.kind == FeatureKind::line ? rise : Vec3(run - rise));
+  zone.value = size_of(zone.measurand);
   return zone;
 }
 
@@ -116,9 +119,45 @@ double largest_extent(const PlannedFeature& planned, const Element& element) {
   return (points.back() - points.front()).norm();
 }
 
-}  // namespace
+// Length of the toleranced feature over which it may tilt.
+double tilted_length(const PlannedFeature& planned, const Vec3& datum_direction) {
+  if (planned.kind != FeatureKind::plane) {
+    const AxialExtent range = axial_extent(planned);
+    return range.to - range.from;
+  }
+  const Vec3 normal = unit(planned.axis);
+  const auto direction = UnitVec3::of(datum_direction - datum_direction.dot(normal) * normal);
+  const auto across = [&](const Vec3& u, const Vec3& v) {
+    // Without a direction in the plane (datum along its normal) the larger side counts.
+    if (!direction) return std::max(u.norm(), v.norm());
+    return std::abs(u.dot(direction->vec())) + std::abs(v.dot(direction->vec()));
+  };
+  if (const auto* e = std::get_if<RectangleExtent>(&planned.extent)) return across(e->u, e->v);
+  if (const auto* e = std::get_if<RadialExtent>(&planned.extent)) return 2.0 * e->outer;
+  if (const auto* s = std::get_if<GridStrategy>(&planned.strategy)) return across(s->u, s->v);
+  const auto& rings = std::get<RingStrategy>(planned.strategy).rings;
+  return 2.0 * *std::max_element(rings.begin(), rings.end());
+}
 
-Result<Zone> orientation_zone(const Toleranced& what) {
+// From two least-squares elements alone: how far one tilts over its planned extent.
+Evaluated tilt_of_elements(const Toleranced& what) {
+  const FittedFeature& toleranced = *what.features.front();
+  const FittedFeature& datum = *what.features.back();
+  const Vec3 a = *axis_of(toleranced.element);
+  const Vec3 b = *axis_of(datum.element);
+  const bool alike = std::holds_alternative<Plane>(toleranced.element) ==
+                     std::holds_alternative<Plane>(datum.element);
+  // Two planes or two axes are perpendicular when their directions are; a plane and an axis when
+  // theirs are parallel.
+  const double length = tilted_length(*toleranced.planned, unit(datum.planned->axis));
+  const Vec3 tilt = length * (alike ? Vec3(a.dot(b), 0.0, 0.0) : Vec3(a.cross(b)));
+  Evaluated found{tilt.norm(), perpendicularity_uncertainty(what.u, toleranced, datum, length)};
+  found.measurand = length_of(tilt);
+  return found;
+}
+
+// The zone of ISO 1101 about the element or its points.
+Result<Evaluated> orientation_zone(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
   const bool of_points = what.planned.criterion == Criterion::minimum_zone;
   const auto element =
@@ -132,18 +171,28 @@ Result<Zone> orientation_zone(const Toleranced& what) {
     if (!datum_as) return datum_as.error();
     want = wanted(*axis_of(*element), planned, *axis_of(*datum_as), unit(datum.planned->axis));
   }
-  Zone zone;
+  Evaluated zone;
   if (of_points) {
     auto points = zone_of_points(feature, want);
     if (!points) return std::move(points).error();
-    zone.magnitude = std::move(*points);
-    zone.value = size_of(zone.magnitude);
+    zone.measurand = std::move(*points);
+    zone.value = size_of(zone.measurand);
   } else {
     zone = zone_of_element(*feature.planned, *element, want);
   }
   zone.uncertainty = perpendicularity_uncertainty(what.u, feature, *what.features.back(),
                                                   largest_extent(*feature.planned, *element));
   return zone;
+}
+
+}  // namespace
+
+Result<Evaluated> evaluate_orientation(const Toleranced& what) { return orientation_zone(what); }
+
+Result<Evaluated> evaluate_perpendicularity(const Toleranced& what) {
+  const bool of_elements = is_plain(what.planned) && what.planned.features.size() == 2 &&
+                           what.planned.datum_criterion == Criterion::least_squares;
+  return of_elements ? Result<Evaluated>(tilt_of_elements(what)) : orientation_zone(what);
 }
 
 }  // namespace frustum::metrology

@@ -1,33 +1,28 @@
+// Profile of a line or of surfaces.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "metrology/characteristic/zone.hpp"
+#include "metrology/characteristic/evaluators.hpp"
 #include "metrology/fit/best_fit.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-// A line of a plan is on a surface that its normal tells.
-Element planned_surface(const PlannedFeature& planned) {
-  if (planned.kind != FeatureKind::line) return nominal_element(planned);
-  const Vec3 axis = unit(planned.axis);
-  return Plane{planned.point, unit(planned.normal - planned.normal.dot(axis) * axis)};
-}
-
-struct Surface {
+struct ProbedSurface {
   const FittedFeature* feature = nullptr;
   Element planned{};
   std::vector<Vec3> points{};
 };
 
 // Out of the material, feature after feature.
-Result<std::vector<double>> deviations(const std::vector<Surface>& surfaces, bool floating) {
+Result<std::vector<double>> profile_deviations(const std::vector<ProbedSurface>& surfaces,
+                                               bool floating) {
   Pose measured_from_planned;
   if (floating) {
     std::vector<PointOnElement> all;
-    for (const Surface& s : surfaces) {
+    for (const ProbedSurface& s : surfaces) {
       for (const Vec3& p : s.points) all.push_back({p, &s.planned});
     }
     const auto fit = best_fit(all);
@@ -36,7 +31,7 @@ Result<std::vector<double>> deviations(const std::vector<Surface>& surfaces, boo
   }
   const Pose planned_from_measured = measured_from_planned.inverse();
   std::vector<double> found;
-  for (const Surface& s : surfaces) {
+  for (const ProbedSurface& s : surfaces) {
     const double sign = material_sign(*s.feature->planned);
     for (const Vec3& p : s.points) {
       found.push_back(sign * residual(s.planned, planned_from_measured.point(p)));
@@ -54,19 +49,19 @@ RoundProfile plotted(const FittedFeature& feature, const std::vector<Vec3>& poin
   return profile;
 }
 
-Result<Zone> line_profile(const Toleranced& what) {
+Result<Evaluated> profile_of_sections(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
   std::set<std::size_t> sections(what.planned.sections.begin(), what.planned.sections.end());
   if (sections.empty()) {
     for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
   }
-  Zone worst;
+  Evaluated worst;
   NonNegative all{{NonNegativeKind::twice_largest_height}, {}, {}};
   for (const std::size_t section : sections) {
     const std::vector<Vec3> points = feature.section(section);
     if (points.empty()) return about_section(feature, section, {});
-    auto found =
-        deviations({{&feature, planned_surface(*feature.planned), points}}, what.planned.floating);
+    auto found = profile_deviations({{&feature, planned_surface(*feature.planned), points}},
+                                    what.planned.floating);
     if (!found) return about_section(feature, section, std::move(found).error());
     const double value = all.rule(*found);
     const bool is_first = all.parts.empty();
@@ -79,22 +74,22 @@ Result<Zone> line_profile(const Toleranced& what) {
       worst.profile = plotted(feature, points, std::move(*found));
     }
   }
-  worst.magnitude = std::move(all);
+  worst.measurand = std::move(all);
   return worst;
 }
 
-Result<Zone> surface_profile(const Toleranced& what) {
-  std::vector<Surface> surfaces;
+Result<Evaluated> profile_of_surfaces(const Toleranced& what) {
+  std::vector<ProbedSurface> surfaces;
   for (const FittedFeature* feature : what.features) {
     surfaces.push_back({feature, planned_surface(*feature->planned), feature->all_points()});
   }
-  auto found = deviations(surfaces, what.planned.floating);
+  auto found = profile_deviations(surfaces, what.planned.floating);
   if (!found) return std::move(found).error();
-  Zone zone;
-  zone.magnitude = {{NonNegativeKind::twice_largest_height}, *found, {}};
+  Evaluated zone;
+  zone.measurand = {{NonNegativeKind::twice_largest_height}, *found, {}};
   // Near points of different surfaces are not alike.
-  if (surfaces.size() == 1) zone.magnitude.places = surfaces.front().points;
-  zone.value = size_of(zone.magnitude);
+  if (surfaces.size() == 1) zone.measurand.places = surfaces.front().points;
+  zone.value = size_of(zone.measurand);
   const FittedFeature& first = *what.features.front();
   if (surfaces.size() == 1 && is_round(first.planned->kind)) {
     zone.profile = plotted(first, surfaces.front().points, std::move(*found));
@@ -102,18 +97,25 @@ Result<Zone> surface_profile(const Toleranced& what) {
   return zone;
 }
 
-}  // namespace
-
-Result<Zone> profile_zone(const Toleranced& what) {
-  auto zone = what.planned.kind == CharacteristicKind::line_profile ? line_profile(what)
-                                                                    : surface_profile(what);
-  if (!zone) return zone;
+// Every point counts by itself.
+Result<Evaluated> with_uncertainty(Result<Evaluated> profile, const Toleranced& what) {
+  if (!profile) return profile;
   double reach = 0.0;
   for (const MeasuredPoint& p : what.features.front()->points) {
     reach = std::max(reach, p.point.norm());
   }
-  zone->uncertainty = 2.0 * std::hypot(what.u.probing, what.u.scale * reach);
-  return zone;
+  profile->uncertainty = 2.0 * std::hypot(what.u.probing, what.u.scale * reach);
+  return profile;
+}
+
+}  // namespace
+
+Result<Evaluated> evaluate_line_profile(const Toleranced& what) {
+  return with_uncertainty(profile_of_sections(what), what);
+}
+
+Result<Evaluated> evaluate_surface_profile(const Toleranced& what) {
+  return with_uncertainty(profile_of_surfaces(what), what);
 }
 
 }  // namespace frustum::metrology

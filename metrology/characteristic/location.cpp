@@ -1,10 +1,11 @@
+// Position, coaxiality, concentricity and symmetry.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "metrology/characteristic/datum_element.hpp"
+#include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/feature_extent.hpp"
-#include "metrology/characteristic/zone.hpp"
 #include "metrology/fit/median_plane.hpp"
 #include "metrology/plan/strategy.hpp"
 
@@ -107,20 +108,20 @@ double half_length(const std::vector<Vec3>& points) {
   return 0.5 * (points.back() - points.front()).norm();
 }
 
-Result<Zone> centred_on(const Target& target, const FittedFeature& feature,
-                        const Toleranced& what) {
+Result<Evaluated> centred_on(const Target& target, const FittedFeature& feature,
+                             const Toleranced& what) {
   auto within = content(feature, what.planned.criterion, target);
   if (!within) return std::move(within).error();
-  Zone zone;
+  Evaluated zone;
   zone.value = 2.0 * farthest(target, within->farthest);
   zone.uncertainty = place_uncertainty(what.u, feature, half_length(within->farthest));
-  zone.magnitude = offsets(target, within->all);
-  if (within->is_measured) zone.magnitude.places = std::move(within->all);
+  zone.measurand = offsets(target, within->all);
+  if (within->is_measured) zone.measurand.places = std::move(within->all);
   return zone;
 }
 
 // Two sections of one feature; their common axis would run through both and hide what is asked.
-Result<Zone> concentricity_within(const Toleranced& what) {
+Result<Evaluated> concentricity_within(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
   const std::vector<std::size_t>& named = what.planned.sections;
   const Vec3 axis = unit(feature.planned->axis);
@@ -130,15 +131,15 @@ Result<Zone> concentricity_within(const Toleranced& what) {
       section_circle(feature, named.empty() ? section_count(*feature.planned) - 1 : named[1], axis);
   if (!second) return second.error();
   const Vec3 apart = second->element.point - first->element.point;
-  Zone zone;
-  zone.magnitude = length_of(2.0 * apart.cross(axis));
-  zone.value = size_of(zone.magnitude);
+  Evaluated zone;
+  zone.measurand = length_of(2.0 * apart.cross(axis));
+  zone.value = size_of(zone.measurand);
   zone.uncertainty = concentricity_uncertainty(what.u, *first, *second, feature);
   return zone;
 }
 
 // The centres of the sections about the axis of the datum.
-Result<Zone> concentricity_to_datum(const Toleranced& what) {
+Result<Evaluated> concentricity_to_datum(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
   const FittedFeature& datum = *what.features.back();
   const Line axis{point_of(datum.element), *axis_of(datum.element)};
@@ -147,7 +148,7 @@ Result<Zone> concentricity_to_datum(const Toleranced& what) {
     sections.resize(section_count(*feature.planned));
     std::iota(sections.begin(), sections.end(), std::size_t{0});
   }
-  Zone zone;
+  Evaluated zone;
   std::vector<Vec3> centres;
   for (const std::size_t section : sections) {
     const auto circle = section_circle(feature, section, axis.axis);
@@ -156,8 +157,8 @@ Result<Zone> concentricity_to_datum(const Toleranced& what) {
     zone.uncertainty =
         std::max(zone.uncertainty, concentricity_uncertainty(what.u, *circle, datum));
   }
-  zone.magnitude = offsets(axis, centres);
-  zone.value = size_of(zone.magnitude);
+  zone.measurand = offsets(axis, centres);
+  zone.value = size_of(zone.measurand);
   return zone;
 }
 
@@ -195,7 +196,7 @@ double planned_sense(const FittedFeature& first, const FittedFeature& second,
                        datum_is_axis);
 }
 
-Result<Zone> symmetry_zone(const Toleranced& what) {
+Result<Evaluated> symmetry_zone(const Toleranced& what) {
   const std::span<const FittedFeature* const> features = what.features;
   const FittedFeature& first = *features.front();
   const std::size_t toleranced = is_plane(first) && features.size() > 2 ? 2 : 1;
@@ -222,7 +223,7 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
   const Vec3 normal = median.axis;
   const Vec3 wanted = direction_of(*target);
   const Vec3 middle = 0.5 * (first.planned->point + last.planned->point);
-  Zone zone;
+  Evaluated zone;
   std::vector<Vec3> ends;
   for (std::size_t i = 0; i < toleranced; ++i) {
     // The faces end where the median plane ends: half a width off along their normal.
@@ -236,68 +237,28 @@ Result<Zone> symmetry_zone(const Toleranced& what) {
     const std::vector<Vec3> all = outline(end, median);
     ends.insert(ends.end(), all.begin(), all.end());
   }
-  zone.magnitude = offsets(*target, ends);
+  zone.measurand = offsets(*target, ends);
   return zone;
 }
 
 }  // namespace
 
-Result<Line> common_axis(std::span<const FittedFeature* const> datums, Criterion criterion) {
-  if (datums.size() == 1) {
-    const auto element = datum_element(*datums.front(), criterion);
-    if (!element) return element.error();
-    return Line{point_of(*element), *axis_of(*element)};
-  }
-  std::vector<Vec3> centres;
-  for (const FittedFeature* datum : datums) {
-    if (datum->planned->kind == FeatureKind::circle) {
-      centres.push_back(point_of(datum->element));
-      continue;
-    }
-    const auto of_datum = median_line(*datum);
-    if (!of_datum) return of_datum.error();
-    centres.insert(centres.end(), of_datum->begin(), of_datum->end());
-  }
-  const auto line = fit_line(centres);
-  if (!line) return line.error();
-  return line->element;
+Result<Evaluated> evaluate_position(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  return centred_on(planned_place(*feature.planned), feature, what);
 }
 
-double place_uncertainty(const PointUncertainty& u, const FittedFeature& feature, double away) {
-  // Shift and tilt as least_squares.hpp orders them.
-  const bool is_plane = std::holds_alternative<Plane>(feature.element);
-  const Eigen::Index shifts = is_plane ? 1 : 2;
-  const Eigen::MatrixXd& q = feature.cofactor;
-  double variance = 0.0;
-  for (Eigen::Index k = 0; k < std::min(shifts, q.rows()); ++k) {
-    variance = std::max(variance, q(k, k));
-  }
-  double tilt = 0.0;
-  if (axis_of(feature.element) != nullptr && !std::holds_alternative<Circle>(feature.element)) {
-    for (Eigen::Index k = shifts; k < std::min(shifts + 2, q.rows()); ++k) {
-      tilt = std::max(tilt, q(k, k));
-    }
-  }
-  const double reach = std::max(away, point_of(feature.element).norm());
-  return 2.0 * std::sqrt(u.probing * u.probing * (variance + away * away * tilt) +
-                         u.scale * u.scale * reach * reach);
-}
-
-Result<Zone> location_zone(const Toleranced& what) {
+Result<Evaluated> evaluate_coaxiality(const Toleranced& what) {
   const std::span<const FittedFeature* const> features = what.features;
-  switch (what.planned.kind) {
-    case CharacteristicKind::position:
-      return centred_on(planned_place(*features.front()->planned), *features.front(), what);
-    case CharacteristicKind::coaxiality: {
-      const auto axis = common_axis(features.subspan(1), what.planned.datum_criterion);
-      if (!axis) return axis.error();
-      return centred_on(*axis, *features.front(), what);
-    }
-    case CharacteristicKind::concentricity:
-      return features.size() == 1 ? concentricity_within(what) : concentricity_to_datum(what);
-    default:
-      return symmetry_zone(what);
-  }
+  const auto axis = common_axis(features.subspan(1), what.planned.datum_criterion);
+  if (!axis) return axis.error();
+  return centred_on(*axis, *features.front(), what);
 }
+
+Result<Evaluated> evaluate_concentricity(const Toleranced& what) {
+  return what.features.size() == 1 ? concentricity_within(what) : concentricity_to_datum(what);
+}
+
+Result<Evaluated> evaluate_symmetry(const Toleranced& what) { return symmetry_zone(what); }
 
 }  // namespace frustum::metrology

@@ -1,0 +1,70 @@
+#include "metrology/characteristic/evaluators.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "core/units.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+constexpr Evaluator zone_by(CharacteristicKind kind,
+                            Result<Evaluated> (*evaluate)(const Toleranced&)) {
+  return {kind, evaluate, Gradient::none, "um", kUmPerMm};
+}
+
+// Where each characteristic is evaluated.
+const auto& evaluators() {
+  using enum CharacteristicKind;
+  static constexpr std::array kAll{
+      // Form
+      zone_by(roundness, evaluate_roundness),
+      zone_by(equivalent_cone_form, evaluate_equivalent_cone_form),
+      zone_by(cylindricity, evaluate_surface_form),
+      zone_by(cone_form, evaluate_surface_form),
+      zone_by(flatness, evaluate_surface_form),
+      zone_by(straightness, evaluate_straightness),
+      zone_by(axis_straightness, evaluate_axis_straightness),
+      // Orientation
+      zone_by(parallelism, evaluate_orientation),
+      zone_by(angularity, evaluate_orientation),
+      zone_by(perpendicularity, evaluate_perpendicularity),
+      // Location
+      zone_by(position, evaluate_position),
+      zone_by(coaxiality, evaluate_coaxiality),
+      zone_by(concentricity, evaluate_concentricity),
+      zone_by(symmetry, evaluate_symmetry),
+      // Run-out
+      zone_by(circular_run_out, evaluate_run_out),
+      zone_by(total_run_out, evaluate_run_out),
+      // Profile
+      zone_by(line_profile, evaluate_line_profile),
+      zone_by(surface_profile, evaluate_surface_profile),
+      // Size
+      Evaluator{radius, evaluate_radius, Gradient::size, "mm", 1.0},
+      Evaluator{diameter, evaluate_diameter, Gradient::size, "mm", 1.0},
+      Evaluator{half_angle, evaluate_half_angle, Gradient::size, "deg", kDegPerRad},
+      // Lines
+      Evaluator{line_distance, evaluate_lines, Gradient::lines, "um", kUmPerMm},
+      Evaluator{line_angle, evaluate_lines, Gradient::lines, "urad", kUradPerRad},
+  };
+  return kAll;
+}
+
+}  // namespace
+
+const Evaluator& evaluator_of(CharacteristicKind kind) {
+  const auto& all = evaluators();
+  const auto* const found =
+      std::find_if(all.begin(), all.end(), [&](const Evaluator& e) { return e.kind == kind; });
+  assert(found != all.end());
+  return *found;
+}
+
+bool is_plain(const PlannedCharacteristic& planned) {
+  return planned.criterion == Criterion::least_squares && !planned.parameter && !planned.filter &&
+         planned.harmonics == 0;
+}
+
+}  // namespace frustum::metrology

@@ -1,0 +1,94 @@
+// One evaluator a characteristic: value, standard uncertainty and what the value is made of. The table of
+// evaluators.cpp says which; docs/characteristics.md defines them.
+//
+// Model    : each evaluator is one family of tolerances: form.cpp, straightness.cpp, orientation.cpp,
+//            location.cpp, run_out.cpp, profile.cpp, size.cpp, lines.cpp
+// Units    : mm, rad; all features in one frame, in which the plan holds
+// Shape    : one characteristic a call
+// Errors   : sections with too few points, fits and filters that fail
+// Accuracy : 1e-9 mm (tests/metrology/zone_test.cpp, form_characteristic_test.cpp)
+// Source   : ISO 1101:2017, ISO 12180, ISO 12181, ISO 12780, ISO 12781, ISO 1660
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+#include "metrology/characteristic/round_profile.hpp"
+#include "metrology/characteristic/standard_uncertainty.hpp"
+#include "metrology/measurement.hpp"
+
+namespace frustum::metrology {
+
+struct Evaluated {
+  double value = 0.0;        // mm or rad
+  double uncertainty = 0.0;  // standard
+  std::optional<double> nominal{};
+  RoundProfile profile{};
+  std::vector<LineProfile> lines{};
+  std::vector<Harmonic> harmonics{};
+  NonNegative measurand{};  // what the value is the size of; kind none where that is not known
+};
+
+struct Toleranced {
+  const PlannedCharacteristic& planned;
+  std::vector<const FittedFeature*> features{};  // in the order in which it names them
+  PointUncertainty u{};
+  double line_uncertainty = 0.0;  // standard, of a characteristic that compares lines
+};
+
+// Whose gradient by the points influence.hpp knows: values that may have either sign.
+enum class Gradient { none, lines, size };
+
+struct Evaluator {
+  CharacteristicKind kind{};
+  Result<Evaluated> (*evaluate)(const Toleranced&) = nullptr;
+  Gradient gradient = Gradient::none;
+  std::string_view unit{};    // of the result
+  double per_internal = 1.0;  // such units in a mm or rad
+};
+[[nodiscard]] const Evaluator& evaluator_of(CharacteristicKind kind);
+
+// Least squares, without parameter, filter and harmonics.
+[[nodiscard]] bool is_plain(const PlannedCharacteristic& planned);
+
+// form.cpp
+[[nodiscard]] Result<Evaluated> evaluate_roundness(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_equivalent_cone_form(const Toleranced& what);
+// Cylindricity, cone form, flatness: all points from one element.
+[[nodiscard]] Result<Evaluated> evaluate_surface_form(const Toleranced& what);
+// Peak to valley, highest peak, deepest valley or root mean square; deviations count out of the
+// material.
+[[nodiscard]] double form_parameter(FormParameter parameter, const std::vector<double>& deviations);
+
+// straightness.cpp
+[[nodiscard]] Result<Evaluated> evaluate_straightness(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_axis_straightness(const Toleranced& what);
+
+// orientation.cpp: parallelism and angularity; perpendicularity.
+[[nodiscard]] Result<Evaluated> evaluate_orientation(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_perpendicularity(const Toleranced& what);
+
+// location.cpp
+[[nodiscard]] Result<Evaluated> evaluate_position(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_coaxiality(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_concentricity(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_symmetry(const Toleranced& what);
+
+// run_out.cpp: circular and total.
+[[nodiscard]] Result<Evaluated> evaluate_run_out(const Toleranced& what);
+
+// profile.cpp
+[[nodiscard]] Result<Evaluated> evaluate_line_profile(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_surface_profile(const Toleranced& what);
+
+// size.cpp
+[[nodiscard]] Result<Evaluated> evaluate_radius(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_diameter(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_half_angle(const Toleranced& what);
+
+// lines.cpp: their distance and their angle.
+[[nodiscard]] Result<Evaluated> evaluate_lines(const Toleranced& what);
+
+}  // namespace frustum::metrology

@@ -1,0 +1,129 @@
+// Roundness, cylindricity, cone form and flatness by any criterion, parameter and filter; the equivalent
+// form of a cone.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "metrology/characteristic/datum_element.hpp"
+#include "metrology/characteristic/evaluators.hpp"
+#include "metrology/characteristic/gaussian_filter.hpp"
+#include "metrology/characteristic/harmonics.hpp"
+#include "metrology/plan/nominal.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// The circle of the profile, its deviations filtered, associated anew by the criterion.
+Result<std::vector<double>> round_deviations(const RoundProfile& profile,
+                                             std::span<const Vec3> section,
+                                             const PlannedCharacteristic& planned) {
+  std::vector<double> kept = profile.deviation;
+  if (planned.filter) {
+    auto band = closed_band(*planned.filter, profile.angle, kept);
+    if (!band) return band;
+    kept = std::move(*band);
+  } else if (planned.criterion == Criterion::least_squares) {
+    return kept;
+  }
+  const double radius = fit_circle(section)->element.radius;
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double r = radius + kept[i];
+    points.emplace_back(r * std::cos(profile.angle[i]), r * std::sin(profile.angle[i]), 0.0);
+  }
+  auto circle = associate("circle2d", points, {.criterion = planned.criterion});
+  if (!circle) return std::move(circle).error();
+  return std::move(circle->fit.residuals);
+}
+
+std::size_t first_section(const PlannedCharacteristic& planned) {
+  return planned.sections.empty() ? 0 : planned.sections.front();
+}
+
+}  // namespace
+
+Result<Evaluated> evaluate_roundness(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  const std::size_t section = first_section(what.planned);
+  std::vector<Vec3> points = at_one_height(feature, section, *axis_of(feature.element));
+  auto profile = roundness(points, angle_frame(feature));
+  if (!profile) return about_section(feature, section, std::move(profile).error());
+  auto deviations = round_deviations(*profile, points, what.planned);
+  if (!deviations) return std::move(deviations).error();
+  profile->deviation = std::move(*deviations);
+  std::vector<double> outward = profile->deviation;
+  for (double& d : outward) d *= material_sign(*feature.planned);
+  Evaluated form;
+  form.value = form_parameter(what.planned.parameter.value_or(FormParameter::t), outward);
+  form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
+  if (what.planned.harmonics > 0) {
+    auto waves = harmonics(profile->angle, profile->deviation, what.planned.harmonics);
+    if (!waves) return std::move(waves).error();
+    form.harmonics = std::move(*waves);
+  }
+  if (is_plain(what.planned)) {
+    form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, std::move(points)};
+  }
+  form.profile = std::move(*profile);
+  return form;
+}
+
+Result<Evaluated> evaluate_equivalent_cone_form(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  const std::size_t section = first_section(what.planned);
+  std::vector<Vec3> points = feature.section(section);
+  auto profile = equivalent_cone_form(points, feature.planned->half_angle,
+                                      -unit(feature.planned->axis), angle_frame(feature));
+  if (!profile) return about_section(feature, section, std::move(profile).error());
+  Evaluated form;
+  form.value = profile->peak_to_valley;
+  form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
+  form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, std::move(points)};
+  form.profile = std::move(*profile);
+  return form;
+}
+
+Result<Evaluated> evaluate_surface_form(const Toleranced& what) {
+  const FittedFeature& feature = *what.features.front();
+  std::vector<double> outward;
+  if (what.planned.criterion == Criterion::least_squares) {
+    for (const MeasuredPoint& p : feature.points) outward.push_back(p.deviation);
+  } else {
+    auto association = associated(feature, what.planned.criterion);
+    if (!association) return std::move(association).error();
+    outward = std::move(association->fit.residuals);
+    for (double& d : outward) d *= material_sign(*feature.planned);
+  }
+  Evaluated form;
+  form.value = form_parameter(what.planned.parameter.value_or(FormParameter::t), outward);
+  form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
+  if (is_plain(what.planned)) {
+    form.measurand = {{NonNegativeKind::peak_to_valley}, outward, feature.all_points()};
+  }
+  if (feature.planned->kind == FeatureKind::plane) return form;
+  const AngleFrame frame = angle_frame(feature);
+  for (const MeasuredPoint& p : feature.points) {
+    form.profile.angle.push_back(angle_of(p.point - point_of(feature.element), frame));
+  }
+  form.profile.deviation = std::move(outward);
+  return form;
+}
+
+double form_parameter(FormParameter parameter, const std::vector<double>& deviations) {
+  const auto [low, high] = std::minmax_element(deviations.begin(), deviations.end());
+  switch (parameter) {
+    case FormParameter::t:
+      return *high - *low;
+    case FormParameter::p:
+      return *high;
+    case FormParameter::v:
+      return -*low;
+    case FormParameter::q:
+      break;
+  }
+  const double squares =
+      std::inner_product(deviations.begin(), deviations.end(), deviations.begin(), 0.0);
+  return std::sqrt(squares / static_cast<double>(deviations.size()));
+}
+
+}  // namespace frustum::metrology

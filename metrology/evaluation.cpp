@@ -1,0 +1,67 @@
+#include "metrology/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "metrology/decision_rule.hpp"
+#include "metrology/uncertainty/influence.hpp"
+#include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+constexpr std::string_view kStateAccuracy =
+    "state its accuracy: inspection.cmm of a job, or --e0 and --l-per-um of frustum measure";
+
+// iso14253 decides by the uncertainty: without one it is no stricter than simple.
+std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
+  std::string names;
+  std::size_t count = 0;
+  for (const CharacteristicResult& c : measurement.characteristics) {
+    if (c.simulated || c.expanded_uncertainty > 0.0) continue;
+    ++count;
+    names += (names.empty() ? "'" : ", '") + c.name + "'";
+  }
+  if (count == 0) return std::nullopt;
+  if (count == measurement.characteristics.size()) names = "all characteristics";
+  return warning(fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", names),
+                 std::string(kStateAccuracy));
+}
+
+}  // namespace
+
+Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeature> features,
+                              const CmmModel& cmm) {
+  Influence influence(plan, features);
+  const PointUncertainty u = point_uncertainty(cmm);
+  // A characteristic that cannot be evaluated says why elsewhere.
+  const LineUncertainty line_uncertainty = [&](const PlannedCharacteristic& planned) {
+    const auto gradient = influence.of(planned);
+    return gradient && *gradient ? std::sqrt(variance(**gradient, influence.of_field(), u)) : 0.0;
+  };
+  auto measurement =
+      evaluated_values(plan, features, cmm, u.is_zero() ? LineUncertainty() : line_uncertainty);
+  if (!measurement) return measurement;
+  if (plan.monte_carlo && u.is_zero()) {
+    measurement->diagnostics.push_back(
+        warning("uncertainty: nothing was simulated, because the CMM is said to have no errors",
+                std::string(kStateAccuracy)));
+  } else if (plan.monte_carlo) {
+    const auto simulated = simulated_uncertainties(
+        plan, features, error_draws(cmm, plan.monte_carlo->seed), *plan.monte_carlo);
+    if (!simulated) return simulated.error();
+    for (std::size_t i = 0; i < simulated->size(); ++i) {
+      measurement->characteristics[i].simulated = (*simulated)[i];
+    }
+  }
+  decide(*measurement, plan.decision);
+  if (plan.decision == DecisionRule::iso14253) {
+    if (auto undecided = without_uncertainty(*measurement)) {
+      measurement->diagnostics.push_back(*std::move(undecided));
+    }
+  }
+  return measurement;
+}
+
+}  // namespace frustum::metrology
