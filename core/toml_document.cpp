@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <variant>
 
 #include "core/spelling.hpp"
+#include "core/whole_file.hpp"
 
 namespace frustum {
 namespace toml_detail {
@@ -183,7 +182,7 @@ std::size_t TomlTable::choice(std::string_view key, const std::vector<std::strin
   }
   if (std::holds_alternative<std::string>(node->value)) {
     const auto nearest = nearest_word(word, choices);
-    fail(key, fmt::format("'{}' is not one of the choices", word),
+    fail(key, "unknown-choice"_id, fmt::format("'{}' is not one of the choices", word),
          fmt::format("{}choices: {}", nearest ? "did you mean " + *nearest + "? " : "",
                      fmt::join(choices, ", ")));
   }
@@ -265,7 +264,7 @@ double TomlTable::scaled(std::string_view key, UnitKind kind, double bare_number
   // Judged as written.
   if (parsed->kind == UnitKind::none) return bounded(key, parsed->value, bound) * bare_number_scale;
   if (parsed->kind == kind) return bounded(key, parsed->value, bound);
-  fail(key,
+  fail(key, "wrong-unit"_id,
        kind == UnitKind::length ? "expected a length, found an angle"
                                 : "expected an angle, found a length",
        kind == UnitKind::length ? "units: mm um nm m in" : "units: deg rad mrad urad arcsec");
@@ -426,17 +425,9 @@ std::filesystem::path TomlTable::file_path(std::string_view key) const {
 }
 
 Result<TomlDocument> TomlDocument::load(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  // Inserting an empty buffer would set the fail bit, and an empty file is valid TOML.
-  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-  if (!in.is_open() || in.bad() || !text) {
-    Diagnostic failure =
-        frustum::error("the file cannot be read", "check the path and permissions");
-    failure.file = file.string();
-    return failure;
-  }
-  return parse(text.str(), file);
+  const auto text = read_whole_file(file);
+  if (!text) return text.error();
+  return parse(*text, file);
 }
 
 Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::filesystem::path& file) {
@@ -445,8 +436,8 @@ Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::files
   try {  // toml++ reports by exception; it ends here
     state->root = convert(toml::parse(text, file.string()));
   } catch (const toml::parse_error& problem) {
-    Diagnostic failure =
-        frustum::error(std::string(problem.description()), "the file is not valid TOML");
+    Diagnostic failure = frustum::error("toml-syntax"_id, std::string(problem.description()),
+                                        "the file is not valid TOML");
     failure.file = file.string();
     failure.line = static_cast<int>(problem.source().begin.line);
     failure.column = static_cast<int>(problem.source().begin.column);

@@ -43,14 +43,15 @@ Result<ParsedQuantity> parse_quantity(std::string_view text) {
   // Below the largest double by more than any unit's factor, so that the product is finite too.
   constexpr double kLargest = 1e300;
   if (status != std::errc{} || !(std::abs(number) < kLargest) || (plus && rest.starts_with('-'))) {
-    return error(fmt::format("'{}' is not a number with a unit", text), "write for example 10 um");
+    return error("wrong-quantity"_id, fmt::format("'{}' is not a number with a unit", text),
+                 "write for example 10 um");
   }
   const std::string_view name = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   if (name.empty()) return ParsedQuantity{number, UnitKind::none};
   for (const Unit& unit : kUnits) {
     if (unit.name == name) return ParsedQuantity{number * unit.to_internal, unit.kind};
   }
-  return error(fmt::format("unknown unit '{}' in '{}'", name, text),
+  return error("unknown-unit"_id, fmt::format("unknown unit '{}' in '{}'", name, text),
                "lengths: mm um nm m in; angles: deg rad mrad urad arcsec");
 }
 
@@ -58,14 +59,15 @@ Result<Mm> parse_length(std::string_view text) {
   const auto parsed = parse_quantity(text);
   if (!parsed) return parsed.error();
   if (parsed->kind == UnitKind::length) return Mm{parsed->value};
-  return error(fmt::format("'{}' is not a length", text), "write a length such as 10 um or 0.5 mm");
+  return error("wrong-quantity"_id, fmt::format("'{}' is not a length", text),
+               "write a length such as 10 um or 0.5 mm");
 }
 
 Result<Rad> parse_angle(std::string_view text) {
   const auto parsed = parse_quantity(text);
   if (!parsed) return parsed.error();
   if (parsed->kind == UnitKind::angle) return Rad{parsed->value};
-  return error(fmt::format("'{}' is not an angle", text),
+  return error("wrong-quantity"_id, fmt::format("'{}' is not an angle", text),
                "write an angle such as 30 urad or 15 deg");
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -40,9 +41,30 @@ std::optional<PartFile> open_part(const fs::path& target) {
 
 }  // namespace
 
+Result<std::string> read_whole_file(const fs::path& path) {
+  std::error_code unknown;
+  std::string bytes;
+  bool read = false;
+  if (!fs::is_directory(path, unknown)) {
+    if (const File file{std::fopen(path.c_str(), "rb")}) {
+      std::array<char, 1 << 16> some{};
+      while (const std::size_t count = std::fread(some.data(), 1, some.size(), file.get())) {
+        bytes.append(some.data(), count);
+      }
+      read = std::ferror(file.get()) == 0;
+    }
+  }
+  if (read) return bytes;
+  Diagnostic diagnostic =
+      error("file-unreadable"_id, "the file cannot be read", "check the path and permissions");
+  diagnostic.file = path.string();
+  return diagnostic;
+}
+
 Diagnostic cannot_write(const fs::path& path, std::string_view reason) {
-  Diagnostic diagnostic = error(fmt::format("cannot write '{}': {}", path.string(), reason),
-                                "name a file in an existing folder that you may write to");
+  Diagnostic diagnostic =
+      error("file-unwritable"_id, fmt::format("cannot write '{}': {}", path.string(), reason),
+            "name a file in an existing folder that you may write to");
   diagnostic.file = path.string();
   return diagnostic;
 }

@@ -1,16 +1,21 @@
-// Writing a finished file: whole or not at all.
+// Files as a whole: read, and written whole or not at all.
 //
-// The bytes go to a new file beside the target, which is then renamed over it, so that an existing
-// file is untouched until the new one is complete, and a failure leaves nothing behind.
-// Units: none. Errors: a diagnostic that names the file and the reason when it cannot be written.
+// The house reads files here, but for NC programs, which are read line by line (parser/reading).
+// What is written goes to a new file beside the target, which is then renamed over it, so that an
+// existing file is untouched until the new one is complete, and a failure leaves nothing behind.
+// Units: none. Errors: a diagnostic that names the file when it cannot be read or written.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "core/result.hpp"
 
 namespace frustum {
+
+// All bytes of a file; a folder is none.
+[[nodiscard]] Result<std::string> read_whole_file(const std::filesystem::path& path);
 
 // The folder must exist. Returns the path.
 [[nodiscard]] Result<std::filesystem::path> write_whole_file(const std::filesystem::path& path,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
+#include "metrology/characteristic/datum_system.hpp"
 #include "metrology/evaluation.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "metrology/probing/ball_contact.hpp"
@@ -25,12 +26,14 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
                   ContactState state, const ProbeSettings& probe) {
   const std::string place = place_of(feature, index, planned);
   if (state == ContactState::starts_inside) {
-    return error(fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
+    return error("approach-in-material"_id,
+                 fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
                              "surface",
                              place, probe.clearance),
                  "check the nominal geometry and the cut, or enlarge probe.clearance");
   }
   return error(
+      "plan-misses-part"_id,
       fmt::format("{}: the plan misses the part: no surface within {} mm past the nominal one",
                   place, probe.reach),
       "check the nominal geometry and the blank or mesh, or enlarge probe.reach");
@@ -64,7 +67,8 @@ class Probing {
         return missed(feature, centres.size(), planned, contact.state, plan_.probe);
       }
       if (!errors_.reaches(contact.centre)) {
-        return error(fmt::format("{} lies beyond the machine's travel",
+        return error("cmm-travel"_id,
+                     fmt::format("{} lies beyond the machine's travel",
                                  place_of(feature, centres.size(), planned)),
                      "enlarge the cmm's travel, or move its position");
       }
@@ -147,16 +151,18 @@ Diagnostic at(const FeaturePoints& points, Diagnostic d) {
 // Points of a feature that the plan does not have.
 Diagnostic unknown_feature(const InspectionPlan& plan, const FeaturePoints& points) {
   if (points.feature.empty()) {
-    return at(points, error("the points name no feature, and the plan has several",
-                            "begin the file with the header feature,section,x,y,z"));
+    return at(points,
+              error("unknown-feature"_id, "the points name no feature, and the plan has several",
+                    "begin the file with the header feature,section,x,y,z"));
   }
   std::vector<std::string> names;
   for (const PlannedFeature& feature : plan.features) names.push_back(feature.name);
   const auto meant = nearest_word(points.feature, names);
-  return at(points, error(fmt::format("the plan has no feature '{}'", points.feature),
-                          fmt::format("{}the plan has {}",
-                                      meant ? "did you mean " + *meant + "? " : std::string(),
-                                      fmt::join(names, ", "))));
+  return at(points,
+            error("unknown-feature"_id, fmt::format("the plan has no feature '{}'", points.feature),
+                  fmt::format("{}the plan has {}",
+                              meant ? "did you mean " + *meant + "? " : std::string(),
+                              fmt::join(names, ", "))));
 }
 
 }  // namespace
@@ -164,7 +170,8 @@ Diagnostic unknown_feature(const InspectionPlan& plan, const FeaturePoints& poin
 Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm) {
   if (Diagnostics faults = check(plan); has_error(faults)) return faults;
   if (cmm.stylus && cmm.stylus->diameter >= plan.probe.ball_diameter) {
-    return error(fmt::format("a shank of {} mm behind a ball of {} mm touches before it",
+    return error("stylus-shank"_id,
+                 fmt::format("a shank of {} mm behind a ball of {} mm touches before it",
                              cmm.stylus->diameter, plan.probe.ball_diameter),
                  "state a thinner cmm.stylus or a larger probe.ball_diameter");
   }
@@ -235,7 +242,8 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
     if (std::none_of(found.begin(), found.end(),
                      [&](const MeasuredFeature& f) { return f.name == feature.name; })) {
       measurement->diagnostics.push_back(
-          warning(fmt::format("feature '{}' of the plan has no points", feature.name)));
+          warning("feature-without-points"_id,
+                  fmt::format("feature '{}' of the plan has no points", feature.name)));
     }
   }
   return measurement;

@@ -25,7 +25,8 @@ std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
   }
   if (count == 0) return std::nullopt;
   if (count == measurement.characteristics.size()) names = "all characteristics";
-  return warning(fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", names),
+  return warning("decision-without-uncertainty"_id,
+                 fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", names),
                  std::string(kStateAccuracy));
 }
 
@@ -45,7 +46,8 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
   if (!measurement) return measurement;
   if (plan.monte_carlo && u.is_zero()) {
     measurement->diagnostics.push_back(
-        warning("uncertainty: nothing was simulated, because the CMM is said to have no errors",
+        warning("nothing-simulated"_id,
+                "uncertainty: nothing was simulated, because the CMM is said to have no errors",
                 std::string(kStateAccuracy)));
   } else if (plan.monte_carlo) {
     const auto simulated = simulated_uncertainties(

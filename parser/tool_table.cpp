@@ -6,11 +6,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <optional>
 
 #include "core/units.hpp"
+#include "core/whole_file.hpp"
 #include "parser/language/letter_set.hpp"
 
 namespace frustum::parser {
@@ -178,15 +178,14 @@ Result<ToolTable> tool_table_of(std::string_view text, const std::string& file, 
 }
 
 Result<ToolTable> read_tool_table(const std::filesystem::path& file, LengthUnit unit) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file)) {
+  const auto text = read_whole_file(file);
+  if (!text) {
     Diagnostic diagnostic =
         error("file-unreadable"_id, "the tool table cannot be read", "is the path right?");
     diagnostic.file = file.string();
     return diagnostic;
   }
-  return tool_table_of(text, file.string(), unit);
+  return tool_table_of(*text, file.string(), unit);
 }
 
 }  // namespace frustum::parser

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "app/job/export_request.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/job/mesh_input.hpp"
 #include "core/spelling.hpp"
 #include "core/toml_document.hpp"
+#include "core/whole_file.hpp"
 #include "cutter/body/cutter_file.hpp"
 
 namespace frustum::app {
@@ -18,12 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<std::string> read_text(const fs::path& file, const TomlTable& table, std::string_view key) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in && fs::is_regular_file(file)) {
-    text << in.rdbuf();
-    return text.str();
-  }
+  auto text = read_whole_file(file);
+  if (text) return text;
   table.fail(key, fmt::format("the file {} cannot be read", file.string()),
              "paths are relative to the job file");
   return error("unreadable");

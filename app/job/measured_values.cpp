@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/spelling.hpp"
 #include "core/toml_document.hpp"
+#include "core/whole_file.hpp"
 #include "metrology/characteristic/characteristic.hpp"
 #include "metrology/points/point_file.hpp"
 
@@ -89,9 +89,9 @@ bool suits(const std::string& unit, bool angular) {
 }
 
 Result<MeasuredPart> from_json(const fs::path& file, const InspectionPlan& plan) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || !fs::is_regular_file(file)) return not_a_result(file, "the file cannot be read");
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto text = read_whole_file(file);
+  if (!text) return not_a_result(file, "the file cannot be read");
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
   if (json.is_discarded()) return not_a_result(file, "this is not JSON");
   if (!json.is_object() || !json.contains("characteristics") ||
       !json["characteristics"].is_array()) {

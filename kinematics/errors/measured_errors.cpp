@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 
+#include "core/whole_file.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/number_table.hpp"
 
@@ -37,10 +38,9 @@ class CalibrationReader {
   explicit CalibrationReader(std::filesystem::path file) : file_(std::move(file)) {}
 
   Result<std::vector<ErrorEntry>> read() {
-    std::ifstream in(file_);
-    if (!in || !std::filesystem::is_regular_file(file_)) {
-      return problem(0, 0, "the file cannot be read");
-    }
+    const auto all = read_whole_file(file_);
+    if (!all) return problem(0, 0, "the file cannot be read");
+    std::istringstream in(*all);
     for (std::string text; std::getline(in, text);) {
       ++line_;
       if (const auto comment = text.find("//"); comment != std::string::npos) text.erase(comment);

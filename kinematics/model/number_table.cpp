@@ -4,8 +4,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <string_view>
+
+#include "core/whole_file.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -51,10 +53,9 @@ Diagnostic NumberTable::problem(int line, int place, std::string message, std::s
 
 Result<NumberTable> read_number_table(const std::filesystem::path& file) {
   NumberTable table{.file = file};
-  std::ifstream in(file);
-  if (!in || !std::filesystem::is_regular_file(file)) {
-    return table.problem(0, 0, "the file cannot be read");
-  }
+  const auto text = read_whole_file(file);
+  if (!text) return table.problem(0, 0, "the file cannot be read");
+  std::istringstream in(*text);
   std::vector<double> scales;
   int number = 0;
   for (std::string line; std::getline(in, line);) {

@@ -19,6 +19,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     });
     if (found == features.end()) {
       return error(
+          "feature-without-points"_id,
           fmt::format("characteristic '{}': feature '{}' has no points", planned.name, name),
           "measure the feature, or take the characteristic out of the plan");
     }

@@ -14,7 +14,7 @@ namespace frustum::metrology {
 namespace {
 
 Diagnostic missing(const std::string& name) {
-  return error(fmt::format("datum feature '{}' has no points", name),
+  return error("feature-without-points"_id, fmt::format("datum feature '{}' has no points", name),
                "measure it, or set alignment = \"plan\"");
 }
 

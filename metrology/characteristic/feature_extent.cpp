@@ -104,6 +104,7 @@ Result<std::vector<Vec3>> median_line(const FittedFeature& feature) {
   for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
   if (sections.size() < 2) {
     return error(
+        "too-few-points"_id,
         fmt::format("'{}' has one section, a median line needs two or more", feature.planned->name),
         "measure more sections, or take criterion = \"ls\"");
   }

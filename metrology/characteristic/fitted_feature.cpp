@@ -21,12 +21,12 @@ constexpr std::array kElements{ElementKind::plane,  ElementKind::cylinder, Eleme
 // One touch tells a place along the planned normal and nothing else: a plane that keeps the planned
 // normal, through the mean of what was touched.
 Result<Fit<Element>> fit_touches(const PlannedFeature& planned, std::span<const Vec3> centres) {
-  if (centres.empty()) return error("no point given, 1 needed");
+  if (centres.empty()) return error("too-few-points"_id, "no point given, 1 needed");
   const UnitVec3 normal = unit(planned.axis);
   const double count = static_cast<double>(centres.size());
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : centres) mean += p / count;
-  if (!mean.allFinite()) return error("a coordinate is not a finite number");
+  if (!mean.allFinite()) return error("point-not-finite"_id, "a coordinate is not a finite number");
   Fit<Element> fit;
   fit.element = Plane{mean, normal};
   for (const Vec3& p : centres) {
@@ -84,6 +84,7 @@ Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> f
   if (const auto* cone = std::get_if<Cone>(&fit.element);
       cone != nullptr && cone->axis.vec().dot(planned.axis) < 0.0) {
     return error(
+        "cone-opens-against-plan"_id,
         fmt::format("feature '{}': the measured cone opens against the planned axis", planned.name),
         "the axis of a cone points toward the growing radius");
   }
@@ -130,7 +131,8 @@ Diagnostics about_section(const FittedFeature& feature, std::size_t section, Dia
   }
   std::set<std::size_t> measured;
   for (const MeasuredPoint& p : feature.points) measured.insert(p.section);
-  return {error(fmt::format("section {} of '{}' has no points, measured are {}", section, name,
+  return {error("section-without-points"_id,
+                fmt::format("section {} of '{}' has no points, measured are {}", section, name,
                             fmt::join(measured, ", ")),
                 "measure it, or name another section; the first is 0")};
 }

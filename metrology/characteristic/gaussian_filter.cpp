@@ -64,6 +64,7 @@ std::vector<double> unsorted(const Samples& s, const std::vector<double>& smooth
 
 Diagnostic too_coarse(double widest, double cutoff, std::string_view what) {
   return error(
+      "profile-filter"_id,
       fmt::format("the {} has {:.3g} points a wave of the filter's cut-off, it needs {:.0f}", what,
                   cutoff / widest, kSamplesPerWave),
       "measure more points, or choose a cut-off of longer waves");
@@ -92,7 +93,7 @@ struct Moments {
 
 Result<std::vector<double>> open_waviness(std::span<const double> place,
                                           std::span<const double> deviation, double cutoff) {
-  if (place.size() < 2) return error("too few points to filter: 2 needed");
+  if (place.size() < 2) return error("too-few-points"_id, "too few points to filter: 2 needed");
   const Samples s = sorted({place.begin(), place.end()}, deviation);
   if (s.widest * kSamplesPerWave > cutoff * kUneven) {
     return too_coarse(s.widest, cutoff, "profile");
@@ -114,9 +115,10 @@ Result<std::vector<double>> open_waviness(std::span<const double> place,
 
 Result<std::vector<double>> closed_waviness(std::span<const double> angle,
                                             std::span<const double> deviation, double undulations) {
-  if (angle.size() < 2) return error("too few points to filter: 2 needed");
+  if (angle.size() < 2) return error("too-few-points"_id, "too few points to filter: 2 needed");
   if (!(undulations >= 1.0)) {
-    return error(fmt::format("a closed profile has no cut-off at {:.3g} undulations per revolution",
+    return error("profile-filter"_id,
+                 fmt::format("a closed profile has no cut-off at {:.3g} undulations per revolution",
                              undulations),
                  "1 or more");
   }

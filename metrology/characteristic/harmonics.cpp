@@ -15,7 +15,8 @@ Result<std::vector<Harmonic>> harmonics(std::span<const double> angle,
   const auto rows = static_cast<Eigen::Index>(angle.size());
   const Eigen::Index columns = 2 * highest + 1;
   if (rows < columns) {
-    return error(fmt::format("{} undulations per revolution need {} points, given are {}", highest,
+    return error("too-few-points"_id,
+                 fmt::format("{} undulations per revolution need {} points, given are {}", highest,
                              columns, rows),
                  "measure more points, or ask for fewer harmonics");
   }
@@ -34,7 +35,8 @@ Result<std::vector<Harmonic>> harmonics(std::span<const double> angle,
   const Eigen::VectorXd pivots = normal.pivots().cwiseAbs();
   // The normal matrix is n/2 times the identity for equal steps; 1e-8 of it leaves half the digits.
   if (!(pivots.minCoeff() > 1e-8 * pivots.maxCoeff())) {
-    return error(fmt::format("the points leave gaps in which {} undulations per revolution cannot "
+    return error("harmonics-undetermined"_id,
+                 fmt::format("the points leave gaps in which {} undulations per revolution cannot "
                              "be told apart",
                              highest),
                  "measure the whole turn, or ask for fewer harmonics");

@@ -215,7 +215,7 @@ Result<Evaluated> symmetry_zone(const Toleranced& what) {
     const Vec3 along = axis->axis;
     const auto normal = UnitVec3::of(median.axis.vec() - median.axis.vec().dot(along) * along);
     if (!normal) {
-      return error("the datum axis stands upright on the faces",
+      return error("datum-unsuitable"_id, "the datum axis stands upright on the faces",
                    "choose an axis that lies along them");
     }
     target = Target{Plane{axis->point, *normal}};

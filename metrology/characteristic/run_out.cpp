@@ -65,7 +65,8 @@ std::set<std::size_t> sections_of(const Toleranced& what) {
 
 Result<Evaluated> of_profile(const Toleranced& what, RoundProfile profile) {
   if (profile.deviation.size() < 2) {
-    return error("a run-out of fewer than 2 points", "measure two points of it or more");
+    return error("too-few-points"_id, "a run-out of fewer than 2 points",
+                 "measure two points of it or more");
   }
   Evaluated zone;
   if (what.planned.filter) {

@@ -132,6 +132,7 @@ Result<Evaluated> evaluate_straightness(const Toleranced& what) {
       is_line ? std::vector<PlanarProfile>{profile_of_line(feature)} : generatrices(feature);
   if (profiles.empty()) {
     return error(
+        "too-few-points"_id,
         fmt::format("no three points of '{}' lie on one generatrix", feature.planned->name),
         "plan three sections or more with the same number of points");
   }
@@ -150,7 +151,8 @@ Result<Evaluated> evaluate_axis_straightness(const Toleranced& what) {
   const auto centres = median_line(*what.features.front());
   if (!centres) return centres.error();
   if (centres->size() < 3) {
-    return error(fmt::format("'{}' has two sections, and two centres are always straight",
+    return error("too-few-points"_id,
+                 fmt::format("'{}' has two sections, and two centres are always straight",
                              what.features.front()->planned->name),
                  "measure three sections or more");
   }

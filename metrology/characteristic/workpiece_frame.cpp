@@ -23,7 +23,8 @@ const FittedFeature* measured_feature(std::span<const FittedFeature> features,
 }
 
 Diagnostic missing(const PlannedFrame& frame, const std::string& name) {
-  return error(fmt::format("frame '{}': feature '{}' has no points", frame.name, name),
+  return error("feature-without-points"_id,
+               fmt::format("frame '{}': feature '{}' has no points", frame.name, name),
                "measure it, or take the characteristics in this frame out of the plan");
 }
 

@@ -41,7 +41,7 @@ Normal normal_of(std::span<const PointOnElement> points, const Pose& planned_fro
 
 Result<BestFit> best_fit(std::span<const PointOnElement> points,
                          const std::array<bool, 6>& locked) {
-  if (points.empty()) return error("a best fit without points");
+  if (points.empty()) return error("too-few-points"_id, "a best fit without points");
   Vec3 centre = Vec3::Zero();
   for (const PointOnElement& p : points) centre += p.point / static_cast<double>(points.size());
   // Locked rotations are about the origin: only there do they leave shifts alone.
@@ -80,7 +80,7 @@ Result<BestFit> best_fit(std::span<const PointOnElement> points,
     }
     return found;
   }
-  return error("the best fit does not settle",
+  return error("fit-not-converged"_id, "the best fit does not settle",
                "check that the points belong to the planned features and lie near them");
 }
 

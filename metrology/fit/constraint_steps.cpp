@@ -25,24 +25,26 @@ bool has_radius(ElementKind kind) {
 
 std::optional<Diagnostic> lacking(const Constraints& c, ElementKind kind, std::string_view what) {
   if ((c.parallel_to || c.perpendicular_to) && !has_axis(kind)) {
-    return error(fmt::format("a {} has no direction to keep", what),
+    return error("constraint-not-applicable"_id, fmt::format("a {} has no direction to keep", what),
                  "leave out parallel_to and perpendicular_to");
   }
   if (c.axis && !is_round(kind)) {
-    return error(fmt::format("a {} cannot keep an axis", what),
+    return error("constraint-not-applicable"_id, fmt::format("a {} cannot keep an axis", what),
                  "an axis can be kept by circle, cylinder, cone and torus");
   }
   if (c.radius && !has_radius(kind)) {
-    return error(fmt::format("a {} has no radius to keep", what),
+    return error("constraint-not-applicable"_id, fmt::format("a {} has no radius to keep", what),
                  kind == ElementKind::cone
                      ? "a cone has one at every height; fix half_angle instead"
                      : "leave out radius");
   }
   if (c.tube_radius && kind != ElementKind::torus) {
-    return error(fmt::format("a {} has no tube_radius to keep", what), "leave out tube_radius");
+    return error("constraint-not-applicable"_id,
+                 fmt::format("a {} has no tube_radius to keep", what), "leave out tube_radius");
   }
   if (c.half_angle && kind != ElementKind::cone) {
-    return error(fmt::format("a {} has no half_angle to keep", what), "leave out half_angle");
+    return error("constraint-not-applicable"_id,
+                 fmt::format("a {} has no half_angle to keep", what), "leave out half_angle");
   }
   return std::nullopt;
 }
@@ -50,30 +52,36 @@ std::optional<Diagnostic> lacking(const Constraints& c, ElementKind kind, std::s
 std::optional<Diagnostic> senseless(const Constraints& c) {
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   if (c.radius && !positive(*c.radius)) {
-    return error(fmt::format("the radius to keep is {} mm", *c.radius), "give a positive number");
+    return error("constraint-value"_id, fmt::format("the radius to keep is {} mm", *c.radius),
+                 "give a positive number");
   }
   if (c.tube_radius && !positive(*c.tube_radius)) {
-    return error(fmt::format("the tube_radius to keep is {} mm", *c.tube_radius),
+    return error("constraint-value"_id,
+                 fmt::format("the tube_radius to keep is {} mm", *c.tube_radius),
                  "give a positive number");
   }
   if (c.radius && c.tube_radius && *c.tube_radius >= *c.radius) {
-    return error(fmt::format("a tube of radius {} mm about a circle of radius {} mm cuts itself",
+    return error("constraint-value"_id,
+                 fmt::format("a tube of radius {} mm about a circle of radius {} mm cuts itself",
                              *c.tube_radius, *c.radius),
                  "tube_radius is smaller than radius");
   }
   if (c.half_angle && !(*c.half_angle > 0.0 && *c.half_angle < std::numbers::pi / 2.0)) {
-    return error(fmt::format("the half_angle to keep is {} rad", *c.half_angle),
+    return error("constraint-value"_id,
+                 fmt::format("the half_angle to keep is {} rad", *c.half_angle),
                  "half angles of cones lie between 0 and 90 deg");
   }
   if (c.axis && !c.axis->point.allFinite()) {
-    return error("the axis to keep is not finite", "give finite coordinates");
+    return error("constraint-value"_id, "the axis to keep is not finite",
+                 "give finite coordinates");
   }
   return std::nullopt;
 }
 
 std::optional<Diagnostic> contradicting(const Constraints& c) {
   const auto contradiction = [](std::string_view a, std::string_view b) {
-    return error(fmt::format("{} and {} contradict each other", a, b), "leave out one of them");
+    return error("constraints-contradict"_id, fmt::format("{} and {} contradict each other", a, b),
+                 "leave out one of them");
   };
   if (c.parallel_to && c.perpendicular_to &&
       std::abs(c.parallel_to->vec().dot(c.perpendicular_to->vec())) > kSameDirection) {

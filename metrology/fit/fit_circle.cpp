@@ -80,7 +80,8 @@ std::optional<Diagnostic> elsewhere(const Constraints& keep, const UnitVec3& nor
       (!keep.axis || parallel(keep.axis->axis)) &&
       (!keep.perpendicular_to || std::abs(keep.perpendicular_to->vec().dot(normal.vec())) < 1e-9);
   if (agrees) return std::nullopt;
-  return error("the normal of a circle2d is not the direction to keep",
+  return error("constraint-not-applicable"_id,
+               "the normal of a circle2d is not the direction to keep",
                "a circle2d lies in the coordinate plane of its points, or in x y");
 }
 

@@ -52,7 +52,8 @@ Result<Fit<Element>> fit_element(std::string_view name, std::span<const Vec3> po
   }
   std::vector<std::string> known(kElementNames.begin(), kElementNames.end());
   known.insert(known.end(), {"line2d", "circle2d"});
-  return error(fmt::format("'{}' is not an element", name), suggestion(name, known));
+  return error("unknown-element"_id, fmt::format("'{}' is not an element", name),
+               suggestion(name, known));
 }
 
 }  // namespace frustum::metrology

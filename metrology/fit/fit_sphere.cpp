@@ -40,7 +40,7 @@ Result<Minimum> solve_sphere(const NormalisedPoints& local) {
   const PrincipalDirections principal = principal_directions(local);
   const std::optional<double>& radius = local.constraints.radius;
   if (principal.spread[2] < kFlat * principal.spread[0] && !radius) {
-    return error("degenerate points for a sphere: they lie in one plane",
+    return error("degenerate-points"_id, "degenerate points for a sphere: they lie in one plane",
                  "probe the sphere also away from that plane");
   }
   const PointBlocks all = PointBlocks::of(local);
@@ -64,7 +64,8 @@ Result<Minimum> solve_sphere(const NormalisedPoints& local) {
 }  // namespace
 
 Result<Fit<Sphere>> fit_sphere(std::span<const Vec3> points, const FitOptions& options) {
-  return round_fit<Sphere>(points, options, {ElementKind::sphere, kSphereWording.what, 4}, solve_sphere);
+  return round_fit<Sphere>(points, options, {ElementKind::sphere, kSphereWording.what, 4},
+                           solve_sphere);
 }
 
 }  // namespace frustum::metrology

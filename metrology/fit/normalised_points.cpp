@@ -19,12 +19,14 @@ namespace {
 std::optional<Diagnostic> bad_weights(const std::vector<double>& weights, std::size_t points) {
   if (weights.empty()) return std::nullopt;
   if (weights.size() != points) {
-    return error(fmt::format("{} weights for {} points", weights.size(), points),
+    return error("point-weights"_id,
+                 fmt::format("{} weights for {} points", weights.size(), points),
                  "give one weight a point, or none");
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!(weights[i] >= 0.0) || !std::isfinite(weights[i])) {
-      return error(fmt::format("the weight of point {} is {}", i + 1, weights[i]),
+      return error("point-weights"_id,
+                   fmt::format("the weight of point {} is {}", i + 1, weights[i]),
                    "weights are finite and not negative");
     }
   }
@@ -86,13 +88,15 @@ Result<NormalisedPoints> normalise(std::span<const Vec3> points, const Needed& n
   const std::size_t least =
       std::max<std::size_t>(1, (parameters + needed.per_point - 1) / needed.per_point);
   if (local.count() < least) {
-    return error(fmt::format("too few points for a {}: {} {}, {} needed", what, local.count(),
+    return error("too-few-points"_id,
+                 fmt::format("too few points for a {}: {} {}, {} needed", what, local.count(),
                              local.weights.empty() ? "given" : "with weight", least));
   }
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
-      return error(fmt::format("point {} is not finite", i + 1), "remove it from the points");
+      return error("point-not-finite"_id, fmt::format("point {} is not finite", i + 1),
+                   "remove it from the points");
     }
     sum += local.weight(i) * points[i];
   }
@@ -105,13 +109,15 @@ Result<NormalisedPoints> normalise(std::span<const Vec3> points, const Needed& n
   }
   // Beyond, squares and fourth powers leave the doubles.
   if (!(farthest < 1e60)) {
-    return error(fmt::format("the points of the {} lie {} mm from each other", what, farthest),
+    return error("points-far-apart"_id,
+                 fmt::format("the points of the {} lie {} mm from each other", what, farthest),
                  "check the unit and the numbers");
   }
   // Coordinates of 1000 mm are rounded to 1e-13 mm: what is nearer than ten times that is one
   // point.
   if (!(farthest > 1e-15 * (1e3 + local.centre.norm()))) {
-    return error(fmt::format("degenerate points for a {}: all of them coincide", what));
+    return error("degenerate-points"_id,
+                 fmt::format("degenerate points for a {}: all of them coincide", what));
   }
   local.scale = std::exp2(std::round(std::log2(farthest)));
   const double inverse = 1.0 / local.scale;  // a power of two: exact

@@ -36,7 +36,8 @@ std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
       principal.spread[2] > kFlat * principal.spread[0]) {
     return std::nullopt;
   }
-  return error(fmt::format("degenerate points for a {}: they lie in one plane", what),
+  return error("degenerate-points"_id,
+               fmt::format("degenerate points for a {}: they lie in one plane", what),
                "probe at two or more heights along the axis");
 }
 
@@ -60,17 +61,20 @@ Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
   const std::string_view what = wording.what;
   if (!found.well_posed) {
     return error(
+        "degenerate-points"_id,
         fmt::format("degenerate points for a {}: they do not tell all of its parameters", what),
         std::string(wording.remedy));
   }
   if (!found.converged) {
-    return error(fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
+    return error("fit-not-converged"_id,
+                 fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
                  constraints.any()
                      ? fmt::format("check the points, and what the {} is to keep", what)
                      : fmt::format("the points lie far from any {}", what));
   }
   if (auto reason = implausible(found.element)) {
-    return error(fmt::format("degenerate points for a {}: {}", what, *reason),
+    return error("degenerate-points"_id,
+                 fmt::format("degenerate points for a {}: {}", what, *reason),
                  std::string(wording.remedy));
   }
   return found;
@@ -104,7 +108,8 @@ Result<Minimum> best_minimum(const std::vector<Element>& starts, const Normalise
     }
   }
   if (finalists.empty()) {
-    return error(fmt::format("degenerate points for a {}: {}", wording.what,
+    return error("degenerate-points"_id,
+                 fmt::format("degenerate points for a {}: {}", wording.what,
                              reason.value_or("none fits them")),
                  fmt::format("check that the points lie near a {}", wording.what));
   }

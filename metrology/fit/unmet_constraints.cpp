@@ -88,7 +88,8 @@ std::optional<Diagnostic> unmet(const Constraints& keep, const Element& free,
                                 std::string_view what) {
   const Unmet all = unmet_by(free, keep);
   if (all.names.empty()) return std::nullopt;
-  return error(fmt::format("the points contradict what the {} is to keep: they ask for {}", what,
+  return error("constraints-unmet"_id,
+               fmt::format("the points contradict what the {} is to keep: they ask for {}", what,
                            fmt::join(all.asked, "; for ")),
                fmt::format("leave out {}, or check the points", fmt::join(all.names, " and ")));
 }

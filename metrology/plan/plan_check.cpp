@@ -212,6 +212,24 @@ std::string key_path(PlanPart part, std::size_t index, std::string_view key) {
 
 }  // namespace
 
+DiagnosticId id_of(PlanPart part) {
+  switch (part) {
+    case PlanPart::root:
+      break;
+    case PlanPart::probe:
+      return "plan-probe"_id;
+    case PlanPart::datum:
+      return "plan-datum"_id;
+    case PlanPart::frame:
+      return "plan-frame"_id;
+    case PlanPart::feature:
+      return "plan-feature"_id;
+    case PlanPart::characteristic:
+      return "plan-characteristic"_id;
+  }
+  return "plan"_id;
+}
+
 const PlannedFeature* suitable(const InspectionPlan& plan, const std::string& name,
                                const FeatureKinds& kinds, std::string_view purpose,
                                const std::function<void(std::string, std::string)>& fault) {
@@ -261,7 +279,7 @@ Diagnostics check(const InspectionPlan& plan) {
   Diagnostics found;
   check(plan, [&](PlanPart part, std::size_t index, std::string_view key, std::string message,
                   std::string hint) {
-    Diagnostic d = error(std::move(message), std::move(hint));
+    Diagnostic d = error(id_of(part), std::move(message), std::move(hint));
     d.key = key_path(part, index, key);
     found.push_back(std::move(d));
   });

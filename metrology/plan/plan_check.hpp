@@ -23,6 +23,9 @@ using PlanFault =
 
 void check(const InspectionPlan& plan, const PlanFault& fault);
 
+// What is wrong with that part: "plan-feature", ...
+[[nodiscard]] DiagnosticId id_of(PlanPart part);
+
 // Directions nearer than this (rad) to parallel or perpendicular do not fix a frame or a place.
 inline constexpr double kSlack = 0.1;
 

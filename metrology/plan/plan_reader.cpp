@@ -18,7 +18,8 @@ std::vector<std::string> words(const std::array<std::string_view, N>& names) {
 int count(const TomlTable& table, std::string_view key) {
   const std::int64_t value = table.integer(key, Bound::positive);
   // A million points on one circle are a slip of the pen, and would not fit an int times sections.
-  if (value > 1000000) table.fail(key, fmt::format("must be at most 1000000, is {}", value));
+  if (value > 1000000)
+    table.fail(key, "plan-value"_id, fmt::format("must be at most 1000000, is {}", value));
   return static_cast<int>(std::min<std::int64_t>(value, 1000000));
 }
 
@@ -31,7 +32,7 @@ void read_spacing(const TomlTable& table, std::string_view points, int& number, 
   if (table.has("pitch")) {
     s.pitch = table.length("pitch", Bound::positive).value;
     if (table.has(points)) {
-      table.fail("pitch", fmt::format("{} and pitch exclude each other", points));
+      table.fail("pitch", "plan-value"_id, fmt::format("{} and pitch exclude each other", points));
       static_cast<void>(count(table, points));
     }
   } else {
@@ -51,7 +52,7 @@ SphereStrategy read_sphere_strategy(const TomlTable& table) {
   s.points.clear();
   for (const double value : table.numbers("points")) {
     if (!(value >= 1.0 && value <= 1e6) || value != std::floor(value)) {
-      table.fail("points",
+      table.fail("points", "plan-value"_id,
                  fmt::format("a number of points is a whole number from 1, found {}", value));
       break;
     }
@@ -158,7 +159,7 @@ double read_tolerance(const TomlTable& table, CharacteristicKind kind) {
   const bool angle = is_angle(kind);
   const ParsedQuantity tolerance = table.quantity("tolerance");
   if (table.has("tolerance") && tolerance.kind == UnitKind::none) {
-    table.fail("tolerance", "a tolerance needs a unit",
+    table.fail("tolerance", "plan-value"_id, "a tolerance needs a unit",
                angle ? "write for example \"600 urad\"" : "write for example \"8 um\"");
     return 1.0;
   }
@@ -174,7 +175,8 @@ std::vector<std::size_t> read_sections(const TomlTable& table) {
   if (!table.has("sections")) return sections;
   for (const double value : table.numbers("sections")) {
     if (value < 0.0 || value != std::floor(value)) {
-      table.fail("sections", fmt::format("a section is a whole number from 0, found {}", value));
+      table.fail("sections", "plan-value"_id,
+                 fmt::format("a section is a whole number from 0, found {}", value));
       return sections;
     }
     sections.push_back(static_cast<std::size_t>(value));
@@ -208,7 +210,8 @@ PlannedCharacteristic read_characteristic(const TomlTable& table) {
   c.tolerance = read_tolerance(table, c.kind);
   if (table.has("frame")) {
     c.frame = table.text("frame");
-    if (c.frame.empty()) table.fail("frame", "must not be empty", "leave it out for none");
+    if (c.frame.empty())
+      table.fail("frame", "plan-value"_id, "must not be empty", "leave it out for none");
   }
   if (compares_lines(c.kind) || table.has("direction")) c.direction = table.vector("direction");
   c.criterion = read_criterion(table, "criterion");
@@ -228,9 +231,10 @@ DatumSystem read_datum(const TomlTable& table) {
   const bool best_fit = table.has("best_fit");
   if (table.is_array("best_fit")) {
     datum.best_fit = table.texts_or("best_fit", {});
-    if (datum.best_fit.empty()) table.fail("best_fit", "name one feature or more, or \"all\"");
+    if (datum.best_fit.empty())
+      table.fail("best_fit", "plan-value"_id, "name one feature or more, or \"all\"");
   } else if (best_fit && table.text("best_fit") != "all") {
-    table.fail("best_fit", "must be a list of features or \"all\"");
+    table.fail("best_fit", "plan-value"_id, "must be a list of features or \"all\"");
   }
   datum.primary = best_fit ? table.text_or("primary", "") : table.text("primary");
   datum.secondary = table.text_or("secondary", "");
@@ -243,7 +247,7 @@ DatumSystem read_datum(const TomlTable& table) {
 PlannedFrame read_frame(const TomlTable& table) {
   PlannedFrame frame;
   frame.name = table.text("name");
-  if (!table.has("planes")) table.fail("planes", "this key is missing");
+  if (!table.has("planes")) table.fail("planes", "plan-value"_id, "this key is missing");
   frame.planes = table.texts_or("planes", {});
   frame.line = table.text("line");
   return frame;
@@ -286,7 +290,7 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
                              : part == PlanPart::feature        ? features[index]
                              : part == PlanPart::characteristic ? characteristics[index]
                                                                 : root;
-    table.fail(key, std::move(message), std::move(hint));
+    table.fail(key, id_of(part), std::move(message), std::move(hint));
   });
   if (Diagnostics found = document.finish(); has_error(found)) return found;
   return plan;

@@ -81,7 +81,7 @@ Result<std::optional<LengthUnit>> stated_unit(std::string_view comment) {
   const std::string text = lower(trimmed(comment));
   if (const auto word = after_unit_key(text)) {
     if (auto unit = length_unit(*word)) return unit;
-    return error(fmt::format("'{}' is not a unit of length", *word),
+    return error("length-unit"_id, fmt::format("'{}' is not a unit of length", *word),
                  "write unit: mm, um, nm, cm, m or inch");
   }
   // "# in" or "# m" may mean anything; nobody writes "# inch" for another reason.

@@ -6,10 +6,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
 #include "core/spelling.hpp"
+#include "core/whole_file.hpp"
 #include "metrology/points/ply_points.hpp"
 
 namespace frustum::metrology {
@@ -77,7 +77,8 @@ std::optional<double> number_in(std::string_view text) {
 }
 
 Diagnostic unlike_units(const LengthUnit& stated, const LengthUnit& asked) {
-  return error(fmt::format("the file states the unit {}, --unit says {}", stated.name, asked.name),
+  return error("length-unit"_id,
+               fmt::format("the file states the unit {}, --unit says {}", stated.name, asked.name),
                "leave --unit out, or correct the file");
 }
 
@@ -123,18 +124,21 @@ class PointReader {
     d.column = column;
     return d;
   }
-  [[nodiscard]] Diagnostic fault(int column, std::string message, std::string hint) const {
-    return placed(error(std::move(message), std::move(hint)), column);
+  [[nodiscard]] Diagnostic fault(DiagnosticId id, int column, std::string message,
+                                 std::string hint) const {
+    return placed(error(id, std::move(message), std::move(hint)), column);
   }
 
   [[nodiscard]] Problem wrong_count() const {
     std::size_t total = 0;
     for (const FoundPoints& f : found_) total += f.feature.points.size();
     if (total == 0)
-      return fault(0, "the file holds no points", "write one point x y z (mm) a line");
+      return fault("file-without-points"_id, 0, "the file holds no points",
+                   "write one point x y z (mm) a line");
     if (count_ && *count_ != static_cast<double>(total)) {
       return fault(
-          0, fmt::format("the first line announces {} points, the file holds {}", *count_, total),
+          "point-count"_id, 0,
+          fmt::format("the first line announces {} points, the file holds {}", *count_, total),
           "correct the count or leave the line out");
     }
     return std::nullopt;
@@ -142,11 +146,13 @@ class PointReader {
 
   Problem take_unit(const LengthUnit& unit, int column) {
     if (!found_.empty()) {
-      return fault(column, fmt::format("the unit {} stands behind points", unit.name),
+      return fault("length-unit"_id, column,
+                   fmt::format("the unit {} stands behind points", unit.name),
                    "state it before the first point");
     }
     if (unit_ && *unit_ != unit) {
-      return fault(column, fmt::format("the unit is {} here, {} before", unit.name, unit_->name),
+      return fault("length-unit"_id, column,
+                   fmt::format("the unit is {} here, {} before", unit.name, unit_->name),
                    "a file has one unit");
     }
     if (default_unit_ && *default_unit_ != unit) {
@@ -160,7 +166,7 @@ class PointReader {
     const auto number = number_in(words.front().text);
     if (words.size() == 1 && number) {
       if (!(*number >= 0.0) || *number != std::floor(*number)) {
-        return fault(words.front().column,
+        return fault("point-count"_id, words.front().column,
                      fmt::format("'{}' is not a number of points", words.front().text),
                      "a line with one number announces how many points follow");
       }
@@ -178,19 +184,20 @@ class PointReader {
     for (const Word& word : words) {
       ApproachDirection heading = approach_direction_of(word.text);
       if (std::find(known.begin(), known.end(), heading.name) == known.end()) {
-        return fault(word.column, fmt::format("unknown column '{}'", word.text),
+        return fault("point-columns"_id, word.column, fmt::format("unknown column '{}'", word.text),
                      suggestion(heading.name, known));
       }
       if (std::find(columns_.begin(), columns_.end(), heading.name) != columns_.end()) {
-        return fault(word.column, fmt::format("column '{}' appears twice", word.text),
-                     "each column once");
+        return fault("point-columns"_id, word.column,
+                     fmt::format("column '{}' appears twice", word.text), "each column once");
       }
       if (auto problem = unit_of_column(heading, word)) return problem;
       columns_.push_back(std::move(heading.name));
     }
     for (const std::string needed : {"x", "y", "z"}) {
       if (std::find(columns_.begin(), columns_.end(), needed) == columns_.end()) {
-        return fault(words.front().column, fmt::format("the header has no column '{}'", needed),
+        return fault("point-columns"_id, words.front().column,
+                     fmt::format("the header has no column '{}'", needed),
                      "a point needs x, y and z");
       }
     }
@@ -208,7 +215,7 @@ class PointReader {
       if (heading.name.size() == 1) (heading.unit.empty() ? without : with) = &word;
     }
     if (with == nullptr || without == nullptr) return std::nullopt;
-    return fault(without->column,
+    return fault("length-unit"_id, without->column,
                  fmt::format("'{}' states a unit, '{}' does not", with->text, without->text),
                  fmt::format("state the unit at each of x, y and z, or once above: # unit: {}",
                              unit_->name));
@@ -219,14 +226,14 @@ class PointReader {
     const auto unit = length_unit(heading.unit);
     const bool is_coordinate = heading.name.size() == 1;
     if (unit && is_coordinate) return take_unit(*unit, word.column);
-    return fault(word.column,
+    return fault("length-unit"_id, word.column,
                  fmt::format("'{}' is not a unit for column '{}'", heading.unit, heading.name),
                  is_coordinate ? "mm, um, nm, cm, m or inch" : "leave the unit out");
   }
 
   Problem point_line(const std::vector<Word>& words) {
     if (words.size() != columns_.size()) {
-      return fault(words.back().column,
+      return fault("point-columns"_id, words.back().column,
                    fmt::format("{} columns, expected {}", words.size(), columns_.size()),
                    fmt::format("a line holds {}", joined_columns()));
     }
@@ -242,20 +249,22 @@ class PointReader {
       }
       const auto number = number_in(word.text);
       if (!number || !std::isfinite(*number)) {
-        return fault(word.column, fmt::format("'{}' is not a finite number", word.text),
+        return fault("point-columns"_id, word.column,
+                     fmt::format("'{}' is not a finite number", word.text),
                      fmt::format("{} expected here", columns_[i]));
       }
       if (columns_[i] == "section") {
         // Larger than any plan has: a coordinate in the wrong column.
         if (*number < 0.0 || *number != std::floor(*number) || *number > 1e6) {
-          return fault(word.column, fmt::format("'{}' is not a section", word.text),
+          return fault("point-columns"_id, word.column,
+                       fmt::format("'{}' is not a section", word.text),
                        "sections are whole numbers, the first is 0");
         }
         section = static_cast<std::size_t>(*number);
       } else if (columns_[i] == "weight") {
         if (*number < 0.0) {
-          return fault(word.column, fmt::format("'{}' is not a weight", word.text),
-                       "weights are 0 or more");
+          return fault("point-columns"_id, word.column,
+                       fmt::format("'{}' is not a weight", word.text), "weights are 0 or more");
         }
         weight = *number;
       } else {
@@ -299,7 +308,8 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
                                            const std::optional<LengthUnit>& unit) {
   auto ply = parse_ply_points(bytes);
   Diagnostics problems = ply ? Diagnostics() : ply.error();
-  if (ply && ply->points.empty()) problems.push_back(error("the file holds no points"));
+  if (ply && ply->points.empty())
+    problems.push_back(error("file-without-points"_id, "the file holds no points"));
   if (ply && ply->unit && unit && *ply->unit != *unit) {
     problems.push_back(unlike_units(*ply->unit, *unit));
   }
@@ -312,21 +322,18 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
 
 Result<std::vector<FoundPoints>> read_file(const std::filesystem::path& file,
                                            const std::optional<LengthUnit>& unit) {
-  const auto refused = [&](std::string message, std::string hint) {
-    Diagnostic d = error(std::move(message), std::move(hint));
-    d.file = file.string();
-    return d;
-  };
   std::error_code unknown;
   if (std::filesystem::is_directory(file, unknown)) {
-    return refused("this is a directory, not a file of points", "name one of the files in it");
+    Diagnostic d = error("file-unreadable"_id, "this is a directory, not a file of points",
+                         "name one of the files in it");
+    d.file = file.string();
+    return d;
   }
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) return refused("the file cannot be read", "check the path and permissions");
+  const auto text = read_whole_file(file);
+  if (!text) return text.error();
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".ply" ? parse_ply(text, file, unit) : PointReader(file, unit).read(text);
+  return extension == ".ply" ? parse_ply(*text, file, unit) : PointReader(file, unit).read(*text);
 }
 
 Result<std::vector<FeaturePoints>> without_weights(Result<std::vector<FoundPoints>> found,
@@ -335,7 +342,8 @@ Result<std::vector<FeaturePoints>> without_weights(Result<std::vector<FoundPoint
   std::vector<FeaturePoints> features;
   for (FoundPoints& f : *found) {
     if (!f.weights.empty()) {
-      Diagnostic d = error("points of a plan have no weights", "leave the column weight out");
+      Diagnostic d = error("point-columns"_id, "points of a plan have no weights",
+                           "leave the column weight out");
       d.file = file.string();
       return d;
     }
@@ -365,7 +373,8 @@ Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
     std::string names;
     for (const FoundPoints& f : *found) names += (names.empty() ? "" : ", ") + f.feature.feature;
     Diagnostic several =
-        error(fmt::format("the file has points of {} features: {}", found->size(), names),
+        error("several-features"_id,
+              fmt::format("the file has points of {} features: {}", found->size(), names),
               "one element goes through the points of one feature; leave the others out");
     several.file = file.string();
     return several;

@@ -31,7 +31,8 @@ void add_planned(const PlannedFeature& feature, Box& box) {
 }
 
 Diagnostic unit_fault(const char* what, double size, double expected, const LengthUnit& unit) {
-  return error(fmt::format("{} span {:.4g} mm where the plan spans {:.4g} mm: the numbers look "
+  return error("point-scale"_id,
+               fmt::format("{} span {:.4g} mm where the plan spans {:.4g} mm: the numbers look "
                            "like {}",
                            what, size, expected, unit.name),
                fmt::format("state the unit with --unit {}, or write mm", unit.name));
@@ -42,7 +43,8 @@ std::optional<Diagnostic> fault_of(const char* what, double size, double expecte
     return unit_fault(what, size, expected, *unit);
   }
   if (const auto unit = likely_unit(expected, size); unit && unit->name == "inch") {
-    return error(fmt::format("the plan spans {:.4g} mm where {} span {:.4g} mm: its numbers look "
+    return error("point-scale"_id,
+                 fmt::format("the plan spans {:.4g} mm where {} span {:.4g} mm: its numbers look "
                              "like inches",
                              expected, what, size),
                  "lengths of a plan are in mm");
@@ -76,6 +78,7 @@ std::optional<Diagnostic> scale_fault(const InspectionPlan& plan, std::span<cons
   // Half of what is probed: no part of these features.
   if (size > 0.5 * expected) return std::nullopt;
   return error(
+      "point-scale"_id,
       fmt::format("the mesh spans {:.4g} mm, the points of the plan {:.4g} mm", size, expected),
       "state the unit of the mesh with --unit inch, m, cm or um");
 }

@@ -34,7 +34,7 @@ Stylus read_stylus(const TomlTable& table) {
   if (const auto known = UnitVec3::of(direction)) {
     s.direction = *known;
   } else {
-    table.fail("direction", "must be a direction, is [0, 0, 0]",
+    table.fail("direction", "cmm-stylus"_id, "must be a direction, is [0, 0, 0]",
                "from the ball to the head, for example [0, 0, 1]");
   }
   s.length = table.length("length", Bound::positive).value;
@@ -52,7 +52,8 @@ ThermalState read_temperature(const TomlTable& table) {
   const auto temperature = [&](std::string_view key, double usual) {
     const double value = table.number_or(key, usual);
     if (value < -40.0 || value > 60.0) {
-      table.fail(key, fmt::format("must lie between -40 and 60 degC, is {}", value),
+      table.fail(key, "cmm-temperature"_id,
+                 fmt::format("must lie between -40 and 60 degC, is {}", value),
                  "temperatures are in degC");
     }
     return value;
@@ -60,7 +61,8 @@ ThermalState read_temperature(const TomlTable& table) {
   const auto expansion = [&](std::string_view key, double usual) {
     const double value = table.number_or(key, usual / kMicro, Bound::non_negative);
     if (value > 0.0 && value < 0.01) {
-      table.fail(key, fmt::format("is {} um/(m K)", value), "write 11.5 for 11.5e-6 1/K");
+      table.fail(key, "cmm-temperature"_id, fmt::format("is {} um/(m K)", value),
+                 "write 11.5 for 11.5e-6 1/K");
     }
     return kMicro * value;
   };
@@ -72,7 +74,7 @@ ThermalState read_temperature(const TomlTable& table) {
   t.sensor_error = table.number_or("sensor_error", 0.0, Bound::non_negative);
   t.expansion_error = kMicro * table.number_or("expansion_error", 0.0, Bound::non_negative);
   if (!t.compensated && (t.sensor_error > 0.0 || t.expansion_error > 0.0)) {
-    table.fail(t.sensor_error > 0.0 ? "sensor_error" : "expansion_error",
+    table.fail(t.sensor_error > 0.0 ? "sensor_error" : "expansion_error", "cmm-temperature"_id,
                "belongs to a compensated machine", "write compensated = true");
   }
   return t;
@@ -82,12 +84,12 @@ void read_field(const TomlTable& table, CmmModel& cmm) {
   if (table.has("p_form")) cmm.probing_limit = table.length("p_form", Bound::positive).value;
   cmm.travel = table.vector_or("travel", cmm.travel);
   if (!(cmm.travel.minCoeff() > 0.0)) {
-    table.fail("travel", "must be three lengths greater than 0");
+    table.fail("travel", "cmm-volume"_id, "must be three lengths greater than 0");
     cmm.travel = CmmModel{}.travel;
   }
   cmm.position = table.vector_or("position", cmm.position);
   if ((cmm.position.cwiseAbs().array() > 0.5 * cmm.travel.array()).any()) {
-    table.fail("position", "lies outside of the travel",
+    table.fail("position", "cmm-volume"_id, "lies outside of the travel",
                "the place of the workpiece's origin from the centre of the volume");
   }
 }
@@ -95,7 +97,8 @@ void read_field(const TomlTable& table, CmmModel& cmm) {
 void refuse_field_keys(const TomlTable& table) {
   for (const char* key : {"p_form", "travel", "position"}) {
     if (table.has(key)) {
-      table.fail(key, "belongs to a machine with a field", "write model = \"field\"");
+      table.fail(key, "cmm-volume"_id, "belongs to a machine with a field",
+                 "write model = \"field\"");
     }
   }
 }
@@ -107,13 +110,13 @@ void check_budget(const TomlTable& table, const CmmModel& cmm) {
   constexpr double kRounding = 1e-11;  // mm, of a fitted sphere: what an ideal probe is off by
   const char* key = table.has("probe") ? "probe" : "p_form";
   if (errors.probing_share() > 0.9 * cmm.e0_mm + kRounding) {
-    table.fail(key,
+    table.fail(key, "cmm-probe"_id,
                fmt::format("the probe alone may cost a length {:.3g} um, e0 is {:.3g} um",
                            errors.probing_share() * kUmPerMm, cmm.e0_mm * kUmPerMm),
                "state smaller probe errors, a shorter stylus, or a larger e0");
   }
   if (errors.form_share() > probing_limit(cmm) + kRounding) {
-    table.fail(key,
+    table.fail(key, "cmm-probe"_id,
                fmt::format("the probe alone makes a form of {:.3g} um of the 25-point sphere, {} "
                            "is {:.3g} um",
                            errors.form_share() * kUmPerMm, table.has("p_form") ? "p_form" : "e0",
@@ -160,7 +163,7 @@ CmmModel read_cmm_model(const TomlTable& table) {
   if (const auto probe = table.table_if("probe")) {
     cmm.probe = read_probe(*probe, probe_errors(cmm));
     if (cmm.probe->force > 0.0 && !cmm.stylus) {
-      probe->fail("force", "bends a stylus, and none is stated",
+      probe->fail("force", "cmm-stylus"_id, "bends a stylus, and none is stated",
                   "write stylus = { length = 50, diameter = 2 }");
     }
   }

@@ -65,6 +65,7 @@ std::optional<Diagnostic> StylusFaults::warning_for(std::string_view feature,
                                                     std::size_t points) const {
   if (count_ == 0) return std::nullopt;
   return warning(
+      "stylus-collision"_id,
       fmt::format("feature '{}', point {}: {}; {} of {} points are not reached freely", feature,
                   first_ + 1, words(kind_), count_, points),
       "state a longer, thinner or differently directed cmm.stylus, or leave these points "

@@ -76,6 +76,7 @@ Result<std::optional<Eigen::RowVectorXd>> Influence::of(const PlannedCharacteris
   for (const std::string& name : planned.features) {
     if (find(name) < 0) {
       return error(
+          "feature-without-points"_id,
           fmt::format("characteristic '{}': feature '{}' has no points", planned.name, name),
           "measure the feature, or take the characteristic out of the plan");
     }
@@ -92,7 +93,9 @@ Result<Eigen::RowVectorXd> Influence::lines(const PlannedCharacteristic& planned
   if (!here) return here.error();
   const PlannedFeature& first = *find_feature(plan_, planned.features.front());
   const auto axes = line_axes(planned.kind, first.axis, planned.direction);
-  if (!axes) return error("the direction lies along the lines", "choose one across them");
+  if (!axes)
+    return error("line-direction"_id, "the direction lies along the lines",
+                 "choose one across them");
   const Pose place_from_workpiece = here->workpiece_from_place.inverse();
   Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(first_point_.back());
   // How the value changes with a motion of the frame, which moves every point against it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.hpp"
 #include "core/random.hpp"
 #include "metrology/characteristic/measured_values.hpp"
 #include "metrology/probing/cmm_errors.hpp"
@@ -22,22 +23,14 @@ struct Estimate {
   double standard = 0.0;
 };
 
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = std::clamp(share * static_cast<double>(sorted.size()) - 0.5, 0.0,
-                                  static_cast<double>(sorted.size() - 1));
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 Estimate of_values(std::vector<double> values) {
   const auto count = static_cast<double>(values.size());
   double mean = 0.0;
   for (const double v : values) mean += v / count;
   double square = 0.0;
   for (const double v : values) square += (v - mean) * (v - mean) / (count - 1.0);
-  std::sort(values.begin(), values.end());
-  return {quantile(values, 0.025), quantile(values, 0.975), std::sqrt(square)};
+  const double low = quantile(values, 0.025);
+  return {low, quantile(values, 0.975), std::sqrt(square)};
 }
 
 // One characteristic through all blocks.

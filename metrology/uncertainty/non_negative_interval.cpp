@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/linear_algebra.hpp"
+#include "core/quantile.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -66,19 +67,6 @@ Eigen::VectorXd without_chance(const Eigen::VectorXd& variances, Eigen::Index dr
 }
 
 double normal_below(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-
-// The value that a share of `values` lies below, interpolated.
-double quantile(std::vector<double>& values, double share) {
-  const double place = share * static_cast<double>(values.size()) - 0.5;
-  const auto last = static_cast<double>(values.size() - 1);
-  const double clamped = std::clamp(place, 0.0, last);
-  const auto below = static_cast<std::ptrdiff_t>(clamped);
-  std::nth_element(values.begin(), values.begin() + below, values.end());
-  const double low = values[static_cast<std::size_t>(below)];
-  if (static_cast<double>(below) >= last) return low;
-  const double high = *std::min_element(values.begin() + below + 1, values.end());
-  return low + (clamped - static_cast<double>(below)) * (high - low);
-}
 
 }  // namespace
 

@@ -20,7 +20,7 @@ Result<std::vector<FittedFeature>> refitted(const InspectionPlan& plan,
   for (const MeasuredFeature& measured : measurement.features) {
     const PlannedFeature* planned = find_feature(plan, measured.name);
     if (planned == nullptr) {
-      return error(fmt::format("the plan has no feature '{}'", measured.name),
+      return error("unknown-feature"_id, fmt::format("the plan has no feature '{}'", measured.name),
                    std::string(kRemedy));
     }
     std::vector<Vec3> points;
@@ -59,7 +59,8 @@ Result<Eigen::MatrixXd> covariance(const InspectionPlan& plan, const Measurement
     const auto planned = std::find_if(plan.characteristics.begin(), plan.characteristics.end(),
                                       [&](const auto& c) { return c.name == name; });
     if (planned == plan.characteristics.end()) {
-      return error(fmt::format("the plan has no characteristic '{}'", name), std::string(kRemedy));
+      return error("unknown-characteristic"_id,
+                   fmt::format("the plan has no characteristic '{}'", name), std::string(kRemedy));
     }
     auto gradient = influence.of(*planned);
     if (!gradient) return std::move(gradient).error();

@@ -50,7 +50,8 @@ Result<ExportFormat> export_format(const fs::path& file) {
     if (row.extension == extension) return row.format;
     known += fmt::format("{}{}", known.empty() ? "" : " ", row.extension);
   }
-  return error(fmt::format("{}: '{}' names no format of results", file.string(), extension),
+  return error("unknown-format"_id,
+               fmt::format("{}: '{}' names no format of results", file.string(), extension),
                "known: " + known + " (.xml is JUnit)");
 }
 

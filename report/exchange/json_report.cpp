@@ -109,6 +109,7 @@ Json datum_json(const metrology::Measurement& measurement) {
 Json diagnostic_json(const Diagnostic& diagnostic) {
   Json json;
   json["severity"] = to_string(diagnostic.severity);
+  json["id"] = diagnostic.id.text();
   json["message"] = diagnostic.message;
   if (!diagnostic.file.empty()) json["file"] = diagnostic.file;
   if (diagnostic.line > 0) json["line"] = diagnostic.line;

@@ -46,6 +46,26 @@ TEST_F(WholeFile, LeavesTheOldFileAndNothingElseWhenItCannotWrite) {
   EXPECT_EQ(files(), 0);
 }
 
+TEST_F(WholeFile, ReadsAllBytes) {
+  const fs::path file = folder_ / "a.bin";
+  for (const std::string& bytes :
+       {std::string(), std::string("a\0\r\n\xff", 5), std::string(200000, 'x')}) {
+    ASSERT_TRUE(write_whole_file(file, bytes));
+    const auto read = read_whole_file(file);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, bytes);
+  }
+}
+
+TEST_F(WholeFile, SaysWhatCannotBeRead) {
+  for (const fs::path& file : {folder_, folder_ / "absent"}) {
+    const auto read = read_whole_file(file);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().front().id, "file-unreadable"_id);
+    EXPECT_EQ(read.error().front().file, file.string());
+  }
+}
+
 TEST_F(WholeFile, RefusesAFolder) {
   const auto written = write_whole_file(folder_, "x");
   ASSERT_FALSE(written);

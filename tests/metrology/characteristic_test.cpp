@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "metrology/characteristic/evaluators.hpp"
+#include "metrology/plan/plan_names.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {
@@ -91,6 +93,17 @@ TEST(Roundness, PlotsDeviationsOverTheAngleAboutTheAxis) {
   }
   EXPECT_EQ(roundness(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, {}).error().front().message,
             "too few points for a circle: 2 given, 3 needed");
+}
+
+TEST(Evaluators, AreOneForEachKind) {
+  for (std::size_t i = 0; i < kCharacteristicNames.size(); ++i) {
+    const auto kind = static_cast<CharacteristicKind>(i);
+    const Evaluator& evaluator = evaluator_of(kind);
+    EXPECT_EQ(evaluator.kind, kind) << name_of(kind);
+    EXPECT_NE(evaluator.evaluate, nullptr) << name_of(kind);
+    EXPECT_EQ(evaluator.gradient == Gradient::lines, compares_lines(kind)) << name_of(kind);
+    EXPECT_EQ(evaluator.gradient != Gradient::none, has_derivative(kind)) << name_of(kind);
+  }
 }
 
 }  // namespace

@@ -217,7 +217,8 @@ TEST(PlyPoints, NamesWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(fault("element vertex 1\nproperty quad x\n").find("'quad' is no type"),
             std::string::npos);
-  EXPECT_NE(fault("comment unit: cubit\n").find("'cubit' is not a unit"), std::string::npos);
+  EXPECT_NE(fault("comment unit: cubit\nelement vertex 0\n" + xyz).find("'cubit' is not a unit"),
+            std::string::npos);
   EXPECT_NE(fault("element face 0\nend_header\n").find("has no vertices"), std::string::npos);
 }
 

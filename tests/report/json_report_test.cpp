@@ -39,6 +39,7 @@ TEST(JsonReport, HasTheStableNames) {
   EXPECT_TRUE(characteristic["nominal"].is_null());
   EXPECT_DOUBLE_EQ(json["timing"]["cut"], 3.2);
   EXPECT_EQ(json["diagnostics"][0]["severity"], "warning");
+  EXPECT_EQ(json["diagnostics"][0]["id"], "no-program-end");
   EXPECT_NEAR(json["axis_ranges"][0]["axes"]["X"]["range"].get<double>(), 185.6, 1e-9);
   EXPECT_EQ(json["errors"][1]["name"], "EB0C");
 }

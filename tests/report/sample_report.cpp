@@ -191,7 +191,8 @@ RunReport sample_report(std::size_t steps, std::size_t rings) {
   report.volumes = {380132.7, 251204.1, 128928.6};
   report.timings = {{"parse", 0.04}, {"tool path", 0.61}, {"cut", 3.2}, {"measure", 1.13}};
   report.budget = {{"tool path chord", 0.01, 0.0098, "um"}, {"ray and sweep", 1.0, {}, "nm"}};
-  report.diagnostics = {warning("the program ends without M30", "add M30 as the last block")};
+  report.diagnostics = {
+      warning("no-program-end"_id, "the program ends without M30", "add M30 as the last block")};
   report.notes = {"The C axis turns at up to 2.7 degrees per degree of cone angle near phi = 0."};
   return report;
 }

@@ -35,7 +35,8 @@ Result<Sought> sought(const ExtremeKind& kind, const AssociationOptions& options
     case Criterion::least_squares:
       break;
   }
-  return error(fmt::format("a {} has no association '{}'", kind.name, name_of(options.criterion)),
+  return error("criterion-not-applicable"_id,
+               fmt::format("a {} has no association '{}'", kind.name, name_of(options.criterion)),
                kind.has_size ? "it has ls, mz, mi, mc and om"
                : is_flat     ? "it has ls, mz and om"
                              : "it has ls and mz");
@@ -44,16 +45,19 @@ Result<Sought> sought(const ExtremeKind& kind, const AssociationOptions& options
 std::optional<Diagnostic> contradiction(const ExtremeKind& kind, Sought what,
                                         const AssociationOptions& options) {
   if (!options.weights.empty()) {
-    return error("weights go with least squares only", "leave them out, or use 'ls'");
+    return error("point-weights"_id, "weights go with least squares only",
+                 "leave them out, or use 'ls'");
   }
   if (what != Sought::zone && options.constraints.radius) {
-    return error(fmt::format("the radius of a {} cannot be kept and sought by '{}' at once",
+    return error("constraints-contradict"_id,
+                 fmt::format("the radius of a {} cannot be kept and sought by '{}' at once",
                              kind.name, name_of(options.criterion)),
                  "leave out radius, or use 'ls' or 'mz'");
   }
   const bool one_sided = options.criterion == Criterion::outside_material && !kind.has_size;
   if (one_sided && !(options.outward && UnitVec3::of(*options.outward))) {
-    return error(fmt::format("the side of the {} that is free of material is not given", kind.name),
+    return error("outward-direction"_id,
+                 fmt::format("the side of the {} that is free of material is not given", kind.name),
                  "give the direction out of the material (fit: --outward)");
   }
   return std::nullopt;
@@ -68,7 +72,8 @@ std::optional<Diagnostic> sideways(const ExtremeKind& kind, const Element& eleme
   // Nearer than 6 deg to the element it is a slip, and form would choose the side.
   constexpr double kLeast = 0.1;
   if (std::abs(normal.dot(options.outward->normalized())) >= kLeast) return std::nullopt;
-  return error(fmt::format("the direction out of the material lies along the {}", kind.name),
+  return error("outward-direction"_id,
+               fmt::format("the direction out of the material lies along the {}", kind.name),
                fmt::format("give one nearer to its normal, which is +-({:.4g}, {:.4g}, {:.4g})",
                            normal.x(), normal.y(), normal.z()));
 }
@@ -273,11 +278,13 @@ Association finished(const Task& task, const ExtremeFound& found) {
 Diagnostic unproven(const Task& task) {
   if (task.what == Sought::inscribed) {
     return error(
+        "association-open"_id,
         fmt::format("no largest {} lies within these points: they leave it open on one side",
                     task.kind.name),
         "probe around more than half of the circumference, or use 'ls' or 'mz'");
   }
-  return error(fmt::format("no {} by '{}' could be proven: the points hardly tell it",
+  return error("association-unproven"_id,
+               fmt::format("no {} by '{}' could be proven: the points hardly tell it",
                            task.kind.name, name_of(task.options.criterion)),
                "probe more of the surface, or use 'ls'");
 }
@@ -287,7 +294,8 @@ Diagnostic unproven(const Task& task) {
 Result<Association> extreme_association(std::string_view name, std::span<const Vec3> points,
                                         const AssociationOptions& options) {
   const ExtremeKind* kind = extreme_kind(name);
-  if (kind == nullptr) return error(fmt::format("'{}' is not an element", name));
+  if (kind == nullptr)
+    return error("unknown-element"_id, fmt::format("'{}' is not an element", name));
   const auto what = sought(*kind, options);
   if (!what) return what.error();
   if (auto problem = contradiction(*kind, *what, options)) return *problem;

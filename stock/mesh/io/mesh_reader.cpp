@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <utility>
 
+#include "core/whole_file.hpp"
 #include "stock/mesh/io/mesh_formats.hpp"
 
 namespace frustum::stock {
@@ -65,13 +65,12 @@ Result<SurfaceMesh> read_mesh(const std::filesystem::path& file) {
     return named(error("file-unreadable"_id, "this is a directory, not a mesh",
                        "name one of the files in it"));
   }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
+  const auto bytes = read_whole_file(file);
+  if (!bytes) {
     return named(
         error("file-unreadable"_id, "the mesh cannot be read", "check the path and permissions"));
   }
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  auto mesh = parse_mesh(bytes, *format);
+  auto mesh = parse_mesh(*bytes, *format);
   if (!mesh) return named(mesh.error().front());
   return mesh;
 }
