@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 namespace frustum::report {
@@ -91,6 +93,14 @@ std::string tick_text(double value, double step) {
   const double exponent = std::floor(std::log10(std::abs(step)) + 1e-9);
   const int decimals = std::isfinite(exponent) ? std::clamp(static_cast<int>(-exponent), 0, 9) : 0;
   return fixed_text(value, decimals);
+}
+
+std::string exact_decimal(double value) {
+  if (!std::isfinite(value) || value == 0.0) return "0";  // -0 too
+  std::array<char, 1100> text;                            // the smallest double has 1074 decimals
+  const auto [end, status] =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  return status == std::errc{} ? std::string(text.data(), end) : "0";
 }
 
 }  // namespace frustum::report

@@ -1,4 +1,4 @@
-// How results are printed for people: decimals by unit, shares of a tolerance, unit symbols.
+// Numbers as text: for people by unit, with shares of a tolerance and unit symbols; for files exactly.
 //
 // Units: a characteristic's own unit ("um", "mm", "deg", "urad"); unknown units get six digits.
 // Errors: none; a number that is not finite prints as "-".
@@ -48,5 +48,9 @@ namespace frustum::report {
 
 // The smallest form without trailing zeros that tells ticks of `step` apart: "0.5", "20".
 [[nodiscard]] std::string tick_text(double value, double step);
+
+// Numbers as files hold them: the shortest digits that read back to the same double, never an exponent;
+// "0" for what is not finite.
+[[nodiscard]] std::string exact_decimal(double value);
 
 }  // namespace frustum::report

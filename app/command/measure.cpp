@@ -11,7 +11,7 @@
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "metrology/points/point_file.hpp"
-#include "metrology/points/point_scale.hpp"
+#include "metrology/plan/point_scale.hpp"
 #include "metrology/characteristic/standard_uncertainty.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/terminal_report.hpp"

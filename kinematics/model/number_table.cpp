@@ -53,9 +53,9 @@ Diagnostic NumberTable::problem(int line, int place, std::string message, std::s
 
 Result<NumberTable> read_number_table(const std::filesystem::path& file) {
   NumberTable table{.file = file};
-  const auto text = read_whole_file(file);
-  if (!text) return table.problem(0, 0, "the file cannot be read");
-  std::istringstream in(*text);
+  const auto whole = read_whole_file(file);
+  if (!whole) return table.problem(0, 0, "the file cannot be read");
+  std::istringstream in(*whole);
   std::vector<double> scales;
   int number = 0;
   for (std::string line; std::getline(in, line);) {

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "report/exchange/csv_field.hpp"
-#include "report/exchange/exact_decimal.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
 

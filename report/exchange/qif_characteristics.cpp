@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/exchange/exact_decimal.hpp"
+#include "report/number_text.hpp"
 #include "report/verdict.hpp"
 
 namespace frustum::report::qif {

@@ -7,7 +7,7 @@
 
 #include "core/units.hpp"
 #include "metrology/plan/strategy.hpp"
-#include "report/exchange/exact_decimal.hpp"
+#include "report/number_text.hpp"
 
 namespace frustum::report::qif {
 namespace {

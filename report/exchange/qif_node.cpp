@@ -3,8 +3,8 @@
 #include <array>
 #include <iterator>
 
-#include "report/exchange/exact_decimal.hpp"
 #include "report/html/html_text.hpp"
+#include "report/number_text.hpp"
 
 namespace frustum::report::qif {
 

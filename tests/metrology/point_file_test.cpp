@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "metrology/plan/point_scale.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "metrology/points/ply_points.hpp"
-#include "metrology/points/point_scale.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -14,7 +14,7 @@
 #include <set>
 
 #include "metrology/cmm.hpp"
-#include "report/exchange/exact_decimal.hpp"
+#include "report/number_text.hpp"
 #include "tests/metrology/test_part.hpp"
 
 namespace frustum::report {

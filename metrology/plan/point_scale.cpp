@@ -1,4 +1,4 @@
-#include "metrology/points/point_scale.hpp"
+#include "metrology/plan/point_scale.hpp"
 
 #include <fmt/format.h>
 
