@@ -1,10 +1,11 @@
-// Decompositions of matrices of any size, compiled once for all rooms: their templates are the most costly
-// to compile that the house uses.
+// Decompositions of matrices of any size, compiled once for all rooms: their templates are the most
+// costly to compile that the house uses.
 //
 // Model    : plain functions over Eigen's decompositions, which say how each is computed
 // Units    : none
 // Shape    : matrices of dynamic size; small ones whose size the compiler knows stay with Eigen
-// Errors   : none; what does not converge says so in `converged`, what has no solution is not finite
+// Errors   : none; what does not converge says so in `converged`, what has no solution is not
+//            finite
 // Accuracy : rounding, times the condition where equations are solved
 // Source   : Golub, Van Loan, Matrix Computations, chapters 3, 5 and 8
 #pragma once
@@ -48,8 +49,8 @@ struct SingularValues {
 // Least squares by column pivoting.
 [[nodiscard]] Eigen::VectorXd least_squares_solution(const Eigen::MatrixXd& rows,
                                                      const Eigen::VectorXd& right);
-// Of all least-squares solutions the shortest, by a complete orthogonal decomposition. Pivots below the
-// threshold, relative to the largest, count as zero.
+// Of all least-squares solutions the shortest, by a complete orthogonal decomposition. Pivots below
+// the threshold, relative to the largest, count as zero.
 [[nodiscard]] Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& rows,
                                                 const Eigen::VectorXd& right,
                                                 std::optional<double> threshold = std::nullopt);

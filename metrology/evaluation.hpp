@@ -1,7 +1,8 @@
-// What both kinds of points take, those of the virtual CMM and real ones: characteristics of fitted features,
-// their uncertainties, verdicts.
+// What both kinds of points take, those of the virtual CMM and real ones: characteristics of fitted
+// features, their uncertainties, verdicts.
 //
-// Model    : measured_values.hpp, influence.hpp, monte_carlo_uncertainty.hpp and decision_rule.hpp in turn
+// Model    : measured_values.hpp, influence.hpp, monte_carlo_uncertainty.hpp and decision_rule.hpp
+//            in turn
 // Units    : mm, rad
 // Shape    : all features of a plan
 // Errors   : those of datum_system.hpp and characteristic.hpp; a datum feature without points
@@ -16,8 +17,8 @@
 
 namespace frustum::metrology {
 
-// `features` are in the workpiece frame. With uncertainties by simulation and verdicts by the rule that the
-// plan asks for.
+// `features` are in the workpiece frame. With uncertainties by simulation and verdicts by the rule
+// that the plan asks for.
 [[nodiscard]] Result<Measurement> evaluated(const InspectionPlan& plan,
                                             std::vector<FittedFeature> features,
                                             const CmmModel& cmm);

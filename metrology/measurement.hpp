@@ -41,8 +41,8 @@ struct MeasuredFeature {
   std::map<std::string, std::vector<double>> parameters{};
   double form = 0.0;  // mm, peak to valley of the residuals
   double rms = 0.0;   // mm
-  // mm: how far the two ways to compensate the ball set a point apart at most, along the normal; only
-  // the virtual CMM knows its approaches.
+  // mm: how far the two ways to compensate the ball set a point apart at most, along the normal;
+  // only the virtual CMM knows its approaches.
   double compensation_difference = 0.0;
 };
 
@@ -81,8 +81,8 @@ struct CharacteristicResult {
   std::string kind{};
   double value = 0.0;
   std::string unit{};  // "um", "deg", "urad", "mm"
-  // For characteristics that have one (half angle). 0 for those that compare lines: their value is a
-  // deviation of either sign.
+  // For characteristics that have one (half angle). 0 for those that compare lines: their value is
+  // a deviation of either sign.
   std::optional<double> nominal{};
   double tolerance = 0.0;             // in `unit`: limit of the value, or of |value - nominal|
   double expanded_uncertainty = 0.0;  // k = 2, in `unit`

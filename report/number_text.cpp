@@ -81,18 +81,13 @@ std::optional<double> used_share(const metrology::CharacteristicResult& characte
 
 double round_up_125(double value) {
   if (!(value > 0.0) || !std::isfinite(value)) return 1.0;
-  // A value that is a step already, but for rounding, stays: 1e-9 is far above the rounding of a log.
+  // A value that is a step already, but for rounding, stays: 1e-9 is far above the rounding of a
+  // log.
   const double decade = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (value <= factor * decade * (1.0 + 1e-9)) return factor * decade;
   }
   return 10.0 * decade;
-}
-
-std::string tick_text(double value, double step) {
-  const double exponent = std::floor(std::log10(std::abs(step)) + 1e-9);
-  const int decimals = std::isfinite(exponent) ? std::clamp(static_cast<int>(-exponent), 0, 9) : 0;
-  return fixed_text(value, decimals);
 }
 
 std::string exact_decimal(double value) {

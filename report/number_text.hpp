@@ -1,4 +1,5 @@
-// Numbers as text: for people by unit, with shares of a tolerance and unit symbols; for files exactly.
+// Numbers as text: for people by unit, with shares of a tolerance and unit symbols; for files
+// exactly.
 //
 // Units: a characteristic's own unit ("um", "mm", "deg", "urad"); unknown units get six digits.
 // Errors: none; a number that is not finite prints as "-".
@@ -21,8 +22,8 @@ namespace frustum::report {
 // The decimals that the unit deserves: 3 for um, 4 for mm, 5 for deg, 2 for urad.
 [[nodiscard]] std::string value_text(double value, std::string_view unit);
 
-// The value of a characteristic; with its sign, also "+", where it is a deviation of either sign (its
-// nominal is 0).
+// The value of a characteristic; with its sign, also "+", where it is a deviation of either sign
+// (its nominal is 0).
 [[nodiscard]] std::string result_text(const metrology::CharacteristicResult& characteristic);
 // Its nominal; empty when it has none or is a deviation itself.
 [[nodiscard]] std::string nominal_text(const metrology::CharacteristicResult& characteristic);
@@ -43,14 +44,12 @@ namespace frustum::report {
 [[nodiscard]] std::optional<double> used_share(
     const metrology::CharacteristicResult& characteristic);
 
-// The smallest of 1, 2, 5 times a power of ten that is not below `value` (> 0); 1 for anything else.
+// The smallest of 1, 2, 5 times a power of ten that is not below `value` (> 0); 1 for anything
+// else.
 [[nodiscard]] double round_up_125(double value);
 
-// The smallest form without trailing zeros that tells ticks of `step` apart: "0.5", "20".
-[[nodiscard]] std::string tick_text(double value, double step);
-
-// Numbers as files hold them: the shortest digits that read back to the same double, never an exponent;
-// "0" for what is not finite.
+// Numbers as files hold them: the shortest digits that read back to the same double, never an
+// exponent; "0" for what is not finite.
 [[nodiscard]] std::string exact_decimal(double value);
 
 }  // namespace frustum::report

@@ -1,7 +1,9 @@
 // Everything that a report of one run shows: filled by whoever ran it, read by every writer here.
 //
-// Plain values; writers neither compute results nor judge them. Empty parts are left out of the output.
-// Units: mm, mm3 and seconds, except where a member says otherwise; axis values are mm for linear and
+// Plain values; writers neither compute results nor judge them. Empty parts are left out of the
+// output.
+// Units: mm, mm3 and seconds, except where a member says otherwise; axis values are mm for linear
+//        and
 // degrees for rotary axes, because that is what people read.
 // Errors: none; numbers that are not finite are written as "no value", never as NaN.
 #pragma once
@@ -52,20 +54,21 @@ struct AxisTrace {
 // The stated range of a series, or the range of its finite values; nothing when it has none.
 [[nodiscard]] std::optional<AxisRange> range_of(const AxisSeries& series);
 
-// A picture of the finished surface in the workpiece frame; a closed triangle mesh, counter-clockwise
-// seen from outside.
+// A picture of the finished surface in the workpiece frame; a closed triangle mesh,
+// counter-clockwise seen from outside.
 struct SurfacePicture {
   std::vector<std::array<float, 3>> vertices{};           // mm
   std::vector<std::array<std::uint32_t, 3>> triangles{};  // indices into vertices
-  // Per vertex, mm, positive where material is left; nothing where no nominal surface is known. Either
-  // empty or as long as `vertices`.
+  // Per vertex, mm, positive where material is left; nothing where no nominal surface is known.
+  // Either empty or as long as `vertices`.
   std::vector<std::optional<float>> deviation{};
-  // Per vertex, unit, out of the material, for shading; zero where several faces meet. Empty or as long
-  // as `vertices`.
+  // Per vertex, unit, out of the material, for shading; zero where several faces meet. Empty or as
+  // long as `vertices`.
   std::vector<std::array<float, 3>> normals{};
 
   [[nodiscard]] bool empty() const { return vertices.empty() || triangles.empty(); }
-  // True when every index and the lengths of `deviation` and `normals` fit and every coordinate is finite.
+  // True when every index and the lengths of `deviation` and `normals` fit and every coordinate is
+  // finite.
   [[nodiscard]] bool is_valid() const;
 };
 

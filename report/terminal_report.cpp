@@ -10,7 +10,8 @@
 namespace frustum::report {
 namespace {
 
-// Columns that a UTF-8 text takes: one for each code point, which holds for the texts of this trade.
+// Columns that a UTF-8 text takes: one for each code point, which holds for the texts of this
+// trade.
 std::size_t columns_of(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;

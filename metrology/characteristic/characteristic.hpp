@@ -1,6 +1,7 @@
 // From fitted features to the numbers on a drawing.
 //
-// Model    : see CharacteristicKind (inspection_plan.hpp); evaluators.hpp says where each is evaluated
+// Model    : see CharacteristicKind (inspection_plan.hpp); evaluators.hpp says where each is
+//            evaluated
 // Units    : mm, rad inside; a CharacteristicResult is in its own unit: um for forms and zones, deg
 //            for half angles, mm for radii and diameters, um and urad for lines
 // Shape    : one characteristic a call
@@ -19,9 +20,9 @@
 
 namespace frustum::metrology {
 
-// `features` are all that were measured, in the frame in which the plan holds: that of its datum system, or
-// without one the workpiece's. Concentricity within one feature looks along its planned axis (its own
-// fitted axis runs through any two of its sections and would hide what is asked).
+// `features` are all that were measured, in the frame in which the plan holds: that of its datum
+// system, or without one the workpiece's. Concentricity within one feature looks along its planned
+// axis (its own fitted axis runs through any two of its sections and would hide what is asked).
 // `line_uncertainty` is the standard uncertainty, mm or rad, of a characteristic that compares
 // lines: it depends on their frame, which is not known here.
 [[nodiscard]] Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,

@@ -1,15 +1,16 @@
 // Where the datum system of a part sits: six degrees of freedom, taken by datums in their order.
 //
-// Model    : a datum gives a direction (normal of a plane; axis of a cylinder, cone or line), a place
-//            and the directions in which it holds that place (a plane and a touch: its normal; a line:
-//            the normal of its surface across it; an axis and a circle: across; a cone also along, at
-//            its planned radius; a sphere: all). The first direction is laid onto the planned one; the
-//            second, or the line from the first held place to a later one, is laid into the plane across
-//            the first. Then each datum in turn holds its place in the planned direction, as far as those
-//            before it have left that free. An axis across a primary plane is held where it pierces that
-//            plane, all else at the middle of its points. Rotation about the first direction that no
-//            datum takes keeps workpiece Y (X where Y stands nearly upright) in the plane of both
-//            directions; other degrees left keep their planned value
+// Model    : a datum gives a direction (normal of a plane; axis of a cylinder, cone or line), a
+//            place and the directions in which it holds that place (a plane and a touch: its
+//            normal; a line: the normal of its surface across it; an axis and a circle: across; a
+//            cone also along, at its planned radius; a sphere: all). The first direction is laid
+//            onto the planned one; the second, or the line from the first held place to a later
+//            one, is laid into the plane across the first. Then each datum in turn holds its place
+//            in the planned direction, as far as those before it have left that free. An axis
+//            across a primary plane is held where it pierces that plane, all else at the middle of
+//            its points. Rotation about the first direction that no datum takes keeps workpiece Y
+//            (X where Y stands nearly upright) in the plane of both directions; other degrees left
+//            keep their planned value
 // Units    : mm, rad
 // Shape    : one system; workpiece_from_datum is the identity for a perfect part
 // Errors   : a datum without points; a best fit that does not settle

@@ -1,8 +1,8 @@
-// One evaluator a characteristic: value, standard uncertainty and what the value is made of. The table of
-// evaluators.cpp says which; docs/characteristics.md defines them.
+// One evaluator a characteristic: value, standard uncertainty and what the value is made of. The
+// table of evaluators.cpp says which; docs/characteristics.md defines them.
 //
-// Model    : each evaluator is one family of tolerances: form.cpp, straightness.cpp, orientation.cpp,
-//            location.cpp, run_out.cpp, profile.cpp, size.cpp, lines.cpp
+// Model    : each evaluator is one family of tolerances: form.cpp, straightness.cpp,
+//            orientation.cpp, location.cpp, run_out.cpp, profile.cpp, size.cpp, lines.cpp
 // Units    : mm, rad; all features in one frame, in which the plan holds
 // Shape    : one characteristic a call
 // Errors   : sections with too few points, fits and filters that fail

@@ -1,5 +1,5 @@
-// Roundness, cylindricity, cone form and flatness by any criterion, parameter and filter; the equivalent
-// form of a cone.
+// Roundness, cylindricity, cone form and flatness by any criterion, parameter and filter; the
+// equivalent form of a cone.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,4 +1,5 @@
-// Distance and angle of two lines on surfaces, less the planned: what both of them lack or have too much.
+// Distance and angle of two lines on surfaces, less the planned: what both of them lack or have too
+// much.
 #include "metrology/characteristic/evaluators.hpp"
 
 #include <fmt/format.h>

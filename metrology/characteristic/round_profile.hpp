@@ -51,7 +51,8 @@ struct AngleFrame {
 [[nodiscard]] std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t section,
                                               const Vec3& along);
 
-// Least-squares circle of a section's points, those of a cone at_one_height. Errors name the section.
+// Least-squares circle of a section's points, those of a cone at_one_height. Errors name the
+// section.
 [[nodiscard]] Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
                                                  const Vec3& along);
 

@@ -86,12 +86,12 @@ std::vector<Element> rings(const std::vector<AxisCandidate>& candidates,
   return starts_from(candidates, [&](const AxisCandidate& c) { return around(c, points.few); });
 }
 
-std::vector<Element> initial_toruss(const AxialPoints& points) {
+std::vector<Element> initial_rings(const AxialPoints& points) {
   return rings(points.axes.initial_estimates(RoundKind::cylinder), points);
 }
 
 std::vector<Element> searched_torus(const AxialPoints& points) {
-  std::vector<Element> starts = initial_toruss(points);
+  std::vector<Element> starts = initial_rings(points);
   // The axis of the ring is no axis of a tube: its search keeps no direction.
   NormalisedPoints unbound = points.few;
   unbound.constraints = {};
@@ -105,13 +105,14 @@ std::vector<Element> searched_torus(const AxialPoints& points) {
 }
 
 Result<Minimum> solve_torus(const NormalisedPoints& local) {
-  return axial_minimum(local, kTorusWording, initial_toruss, searched_torus);
+  return axial_minimum(local, kTorusWording, initial_rings, searched_torus);
 }
 
 }  // namespace
 
 Result<Fit<Torus>> fit_torus(std::span<const Vec3> points, const FitOptions& options) {
-  return round_fit<Torus>(points, options, {ElementKind::torus, kTorusWording.what, 7}, solve_torus);
+  return round_fit<Torus>(points, options, {ElementKind::torus, kTorusWording.what, 7},
+                          solve_torus);
 }
 
 }  // namespace frustum::metrology

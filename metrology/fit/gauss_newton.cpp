@@ -65,13 +65,15 @@ Minimum GaussNewton::settle() {
 
 bool GaussNewton::converged_by_full_steps(bool by_factors) {
   double previous = std::numeric_limits<double>::infinity();
-  // Large residuals make convergence linear: 300 steps of rate 0.9. Newton's steps take over sooner.
+  // Large residuals make convergence linear: 300 steps of rate 0.9. Newton's steps take over
+  // sooner.
   const int most = by_factors ? 300 : 40;
   for (int i = 0; i < most && std::isfinite(cost()); ++i) {
     const ElementStep full = by_factors ? step_by_factors() : step(0.0);
     const double length = full.norm();
     if (!std::isfinite(length)) return false;
-    // 1e-10 of the part is what the fits promise; steps that small which stop shrinking are rounding.
+    // 1e-10 of the part is what the fits promise; steps that small which stop shrinking are
+    // rounding.
     if (length < 1e-15 || (length < 1e-10 && length > 0.7 * previous)) return true;
     const Element trial = moved_by(full);
     accept(trial, gram_of(trial, *points_));
@@ -159,8 +161,8 @@ GaussNewton::Square GaussNewton::root_of_cofactor(Minimum& result) const {
   const Eigen::MatrixXd all = rows();
   const SingularValues svd = singular_values(all.leftCols(n), SingularVectors::thin);
   const Eigen::VectorXd& values = svd.values;
-  // With a ratio of 1e-9 rounding in the coordinates moves the weakest parameter by a ten millionth of
-  // the part: the points do not tell it.
+  // With a ratio of 1e-9 rounding in the coordinates moves the weakest parameter by a ten millionth
+  // of the part: the points do not tell it.
   result.well_posed = svd.converged && values.size() == n && values[n - 1] > 1e-9 * values[0];
   if (!result.well_posed) return Square::Zero(n, n);
   result.condition = values[0] / values[n - 1];

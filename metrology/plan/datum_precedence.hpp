@@ -1,5 +1,5 @@
-// Which degrees of freedom each datum of a system takes, in order of precedence, and where that sets the
-// system.
+// Which degrees of freedom each datum of a system takes, in order of precedence, and where that
+// sets the system.
 //
 // Model    : as datum_system.hpp says. Planned directions alone decide what a datum takes
 // Units    : mm, rad

@@ -24,8 +24,8 @@
 
 namespace frustum::metrology {
 
-// Where a touch is taken to lie: from the centre of the ball toward the fitted surface, or against the
-// approach, which leaves the cosine error where the surface is turned from its planned normal.
+// Where a touch is taken to lie: from the centre of the ball toward the fitted surface, or against
+// the approach, which leaves the cosine error where the surface is turned from its planned normal.
 enum class Compensation { fitted, approach };
 
 struct ProbeSettings {
@@ -41,9 +41,9 @@ struct ProbeSettings {
 enum class FeatureKind { plane, cylinder, cone, circle, line, sphere, point };
 enum class Side { outside, inside };  // a boss, probed from without; a hole, probed from within
 
-// Strategies take a number of points or, where `pitch` is greater than 0, a distance between points: the
-// number is 0 then, and so many points are taken that they lie no farther apart. `scan`: the ball
-// stays in contact from point to point, with a scanning probe's noise.
+// Strategies take a number of points or, where `pitch` is greater than 0, a distance between
+// points: the number is 0 then, and so many points are taken that they lie no farther apart.
+// `scan`: the ball stays in contact from point to point, with a scanning probe's noise.
 
 // Circles around the axis of a cylinder, cone or circle; circles of latitude of a sphere.
 struct SectionStrategy {
@@ -113,8 +113,8 @@ struct SpiralStrategy {
 
   bool operator==(const SpiralStrategy&) const = default;
 };
-// Circles of latitude about the axis of a sphere, at equal steps of the angle from the axis; a circle is
-// a section. The default is the pattern of 25 points of ISO 10360-5.
+// Circles of latitude about the axis of a sphere, at equal steps of the angle from the axis; a
+// circle is a section. The default is the pattern of 25 points of ISO 10360-5.
 struct SphereStrategy {
   std::vector<int> points{1, 4, 8, 4, 8};  // of each circle
   double polar_from = 0.0;                 // rad from the axis
@@ -173,13 +173,14 @@ struct PlannedFeature {
 // instead.)
 
 // By order of precedence: each datum takes the degrees of freedom that those before it left
-// (datum_system.hpp). Or, when best_fit names features, all of them at once: the planned geometry laid
-// into their points by least squares.
+// (datum_system.hpp). Or, when best_fit names features, all of them at once: the planned geometry
+// laid into their points by least squares.
 struct DatumSystem {
   std::string primary{};
   std::string secondary{};  // may be empty, as may
   std::string tertiary{};
-  // How a plane stands for its points: least_squares, or outside_material as it would touch a table.
+  // How a plane stands for its points: least_squares, or outside_material as it would touch a
+  // table.
   Criterion criterion = Criterion::least_squares;
   std::vector<std::string> best_fit{};
   // Degrees that a best fit leaves as planned: of kDegreeNames.
@@ -225,8 +226,8 @@ enum class CharacteristicKind {
   // `point` of the first
   line_angle,  // features = [first, second], lines: angle of the second minus that of the first,
                // right-handed about `direction`, minus the planned one
-  // Zones of ISO 1101, defined in docs/characteristics.md. Where one feature is named instead of two
-  // or more, the datum is the plan's datum system.
+  // Zones of ISO 1101, defined in docs/characteristics.md. Where one feature is named instead of
+  // two or more, the datum is the plan's datum system.
   axis_straightness,  // of the centres of the sections
   parallelism,        // features = [toleranced, datum]
   angularity,         // features = [toleranced, datum]
@@ -239,7 +240,8 @@ enum class CharacteristicKind {
   surface_profile,    // all points of one feature or several against the planned surfaces
 };
 
-// Of a form: peak to valley, highest peak, deepest valley, root mean square (RONt, RONp, RONv, RONq).
+// Of a form: peak to valley, highest peak, deepest valley, root mean square (RONt, RONp, RONv,
+// RONq).
 enum class FormParameter { t, p, v, q };
 
 // The undulations that count: cut-offs of Gaussian filters (gaussian_filter.hpp). 0: none there.
@@ -299,8 +301,8 @@ struct InspectionPlan {
 [[nodiscard]] bool compares_lines(CharacteristicKind kind);
 // Its value and its tolerance are angles.
 [[nodiscard]] bool is_angle(CharacteristicKind kind);
-// Whether a small change of the part changes the value in proportion. Forms and zones cannot be negative: about
-// a perfect part every change makes them larger.
+// Whether a small change of the part changes the value in proportion. Forms and zones cannot be
+// negative: about a perfect part every change makes them larger.
 [[nodiscard]] bool has_derivative(CharacteristicKind kind);
 
 [[nodiscard]] Result<InspectionPlan> load_plan(const std::filesystem::path& file);

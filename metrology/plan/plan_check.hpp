@@ -43,8 +43,8 @@ void check_characteristic(const InspectionPlan& plan, std::size_t index, const P
 
 // Message and hint.
 using PlaceFault = std::function<void(std::string, std::string)>;
-// Whether the planned places and directions of the features that a characteristic names allow what it asks
-// for: parallel, perpendicular, on one axis, symmetric (plan_check_places.cpp).
+// Whether the planned places and directions of the features that a characteristic names allow what
+// it asks for: parallel, perpendicular, on one axis, symmetric (plan_check_places.cpp).
 void check_places(const PlannedCharacteristic& planned,
                   std::span<const PlannedFeature* const> features, const PlaceFault& fault);
 

@@ -54,8 +54,8 @@ std::string lower(std::string_view text) {
   return copy;
 }
 
-// What follows "unit" or "units" and a colon, equals sign or blank: "# unit inch" too. Behind a blank only a unit
-// counts, since "# units of the part" says nothing.
+// What follows "unit" or "units" and a colon, equals sign or blank: "# unit inch" too. Behind a
+// blank only a unit counts, since "# units of the part" says nothing.
 std::optional<std::string_view> after_unit_key(std::string_view text) {
   for (const std::string_view key : {"units", "unit"}) {
     if (!text.starts_with(key)) continue;

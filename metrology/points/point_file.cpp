@@ -387,10 +387,4 @@ Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
   return cloud;
 }
 
-Result<std::vector<Vec3>> read_points(const std::filesystem::path& file) {
-  auto cloud = read_point_cloud(file);
-  if (!cloud) return std::move(cloud).error();
-  return std::move(cloud->points);
-}
-
 }  // namespace frustum::metrology

@@ -1,14 +1,16 @@
 // Files of measured points: CSV, columns separated by blanks (XYZ), PLY.
 //
-// Text: "x y z" or "x,y,z" lines; an optional first line that holds only the number of points; an optional
-//       header such as feature,section,x,y,z (names in any order; feature, section and weight may be left
-//       out); names with a comma in quotes as RFC 4180 says; comments from # to the end of the line; blank
-//       lines. PLY (by the extension .ply): the vertices, text or binary.
-// Units  : mm, unless the file says otherwise: a comment "# unit: inch" before the first point, a heading
-//          "x [inch]" at each of x, y and z, or the caller who knows. Points come out in mm
-// Errors : wrong number of columns, text where a number belongs, NaN or infinity, a count that does not fit,
-//          an unknown unit, two that contradict each other (the caller's counts) or one that holds for some
-//          coordinates only, an empty file, a directory: each with file, line and column
+// Text: "x y z" or "x,y,z" lines; an optional first line that holds only the number of points; an
+//       optional header such as feature,section,x,y,z (names in any order; feature, section and
+//       weight may be left out); names with a comma in quotes as RFC 4180 says; comments from # to
+//       the end of the line; blank lines. PLY (by the extension .ply): the vertices, text or
+//       binary.
+// Units  : mm, unless the file says otherwise: a comment "# unit: inch" before the first point, a
+//          heading "x [inch]" at each of x, y and z, or the caller who knows. Points come out in mm
+// Errors : wrong number of columns, text where a number belongs, NaN or infinity, a count that does
+//          not fit, an unknown unit, two that contradict each other (the caller's counts) or one
+//          that holds for some coordinates only, an empty file, a directory: each with file, line
+//          and column
 #pragma once
 
 #include <filesystem>
@@ -26,13 +28,13 @@ struct PointCloud {
   std::vector<Vec3> points{};     // mm
   std::vector<double> weights{};  // one a point, or none at all
 };
-// The points of a file in order; an error when they are of several features. `unit`: of a file that states no other.
+// The points of a file in order; an error when they are of several features. `unit`: of a file that
+// states no other.
 [[nodiscard]] Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
                                                   const std::optional<LengthUnit>& unit = {});
-[[nodiscard]] Result<std::vector<Vec3>> read_points(const std::filesystem::path& file);
 
-// Points by feature, in order of appearance; without a feature column one entry with an empty name. Weights
-// are refused: the evaluation of a plan has none.
+// Points by feature, in order of appearance; without a feature column one entry with an empty name.
+// Weights are refused: the evaluation of a plan has none.
 [[nodiscard]] Result<std::vector<FeaturePoints>> read_feature_points(
     const std::filesystem::path& file, const std::optional<LengthUnit>& unit = {});
 [[nodiscard]] Result<std::vector<FeaturePoints>> parse_feature_points(

@@ -39,7 +39,8 @@ class Descent {
     const auto travel_at = [&](const Vec3& m) {
       return ray(m.normalized()) ? last_ : approach_.clearance + approach_.reach;
     };
-    // 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then is exact to rounding.
+    // 40 steps shrink an arc of 1 rad to 4e-9 rad; near the minimum the travel then is exact to
+    // rounding.
     static_cast<void>(golden_section([&](double share) { return travel_at(a + share * (b - a)); },
                                      0.0, 1.0, 0.0, 40));
   }

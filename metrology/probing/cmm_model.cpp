@@ -136,7 +136,8 @@ double probing_limit(const CmmModel& cmm) { return cmm.probing_limit.value_or(cm
 ProbeErrors probe_errors(const CmmModel& cmm) {
   if (cmm.probe) return *cmm.probe;
   if (cmm.kind == CmmKind::linear) return {};
-  // The sphere's form is about twice lobe and ball form, and the noise of 25 points four deviations.
+  // The sphere's form is about twice lobe and ball form, and the noise of 25 points four
+  // deviations.
   const double limit = probing_limit(cmm);
   // A lobe lies anywhere.
   const RandomKey key{.seed = cmm.seed, .purpose = RandomPurpose::cmm_probe};

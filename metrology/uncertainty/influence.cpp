@@ -194,7 +194,8 @@ Result<Influence::Motion> Influence::motion_of_frame(const PlannedFrame& frame) 
       columns.push_back(column++);
     }
   }
-  // Height over the floor: c + a x + b y, so the frame rises by c and turns by b about x, -a about y.
+  // Height over the floor: c + a x + b y, so the frame rises by c and turns by b about x, -a about
+  // y.
   Mat3 information = Mat3::Zero();
   for (const Vec3& p : floor) {
     const Vec3 row(1.0, p.x(), p.y());

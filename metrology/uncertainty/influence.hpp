@@ -1,10 +1,10 @@
-// How far the error of each probed point moves a characteristic: the gradients that uncertainties are
-// made of.
+// How far the error of each probed point moves a characteristic: the gradients that uncertainties
+// are made of.
 //
 // Model    : d value / d e_i, where e_i moves point i along its outward normal. Lines and frames in
 //            closed form, from the weights of their regressions and the small motion that floors
-//            and wall give the frame; radii, diameters and half angles, and what a datum system adds
-//            to them, by the responses of the fits (fit_response.hpp)
+//            and wall give the frame; radii, diameters and half angles, and what a datum system
+//            adds to them, by the responses of the fits (fit_response.hpp)
 // Units    : mm, rad; points in the workpiece frame
 // Shape    : one row a characteristic, one column a point: features in order, points in order
 // Errors   : those of the frame and of the fits
@@ -48,8 +48,8 @@ class Influence {
   [[nodiscard]] Result<Motion> motion_of_frame(const PlannedFrame& frame) const;
   [[nodiscard]] Result<Motion> motion_of_datum() const;
 
-  // Where characteristics in a frame are evaluated, and how the points move that place: shift of the
-  // workpiece origin and rotation, in planned directions, a column a point.
+  // Where characteristics in a frame are evaluated, and how the points move that place: shift of
+  // the workpiece origin and rotation, in planned directions, a column a point.
   struct Place {
     Pose workpiece_from_place{};
     Motion motion{};

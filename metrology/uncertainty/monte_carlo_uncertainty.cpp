@@ -56,7 +56,8 @@ class Tally {
       noise_.col(static_cast<Eigen::Index>(values_.size())) =
           Eigen::Map<const Eigen::VectorXd>(parts.data(), parts_.size()) - parts_;
     }
-    // What errors add to the measured value is what they have added to the true one: they count the other way.
+    // What errors add to the measured value is what they have added to the true one: they count the
+    // other way.
     values_.push_back(2.0 * value_ - drawn.value);
   }
   void end() {
@@ -87,7 +88,8 @@ class Tally {
   }
 
  private:
-  // What all draws share, such as the lobes of a probe or a part that is warm: the parts are corrected for it.
+  // What all draws share, such as the lobes of a probe or a part that is warm: the parts are
+  // corrected for it.
   void take_bias() {
     constexpr double kSure = 5.0;  // standard deviations of a mean
     const auto count = static_cast<double>(noise_.cols());
@@ -126,8 +128,8 @@ class Tally {
   std::vector<Estimate> blocks_{};
 };
 
-// Beyond noise and a linear field: every draw is another machine of the same kind, with the probe and in the
-// temperature that are stated.
+// Beyond noise and a linear field: every draw is another machine of the same kind, with the probe
+// and in the temperature that are stated.
 ErrorDraws drawn_machines(const CmmModel& cmm, std::uint64_t seed) {
   return [cmm, seed](std::uint32_t draw) -> MeasuringErrors {
     CmmModel other = cmm;

@@ -1,17 +1,18 @@
 // Uncertainties of all characteristics of a measurement by simulating it many times.
 //
-// Model    : every draw moves the measured ball centres by errors of the CMM, fits all features again from
-//            their known elements and evaluates the whole plan: frames, datum system, characteristics. A
-//            value of either sign gets the interval between the 2.5 % and 97.5 % quantiles of its draws; a
-//            non-negative measurand that of non_negative_interval.hpp, whose noise is how its parts move from draw to draw.
-//            Blocks of 2,000 draws are added, five at least, until twice the standard error of the block
-//            means of the standard uncertainty and of both ends is below half a unit of the last of
-//            `digits` digits of the standard uncertainty, for every characteristic
+// Model    : every draw moves the measured ball centres by errors of the CMM, fits all features
+//            again from their known elements and evaluates the whole plan: frames, datum system,
+//            characteristics. A value of either sign gets the interval between the 2.5 % and 97.5 %
+//            quantiles of its draws; a non-negative measurand that of non_negative_interval.hpp,
+//            whose noise is how its parts move from draw to draw. Blocks of 2,000 draws are added,
+//            five at least, until twice the standard error of the block means of the standard
+//            uncertainty and of both ends is below half a unit of the last of `digits` digits of
+//            the standard uncertainty, for every characteristic
 // Units    : mm, rad; results in the units of their characteristics
 // Shape    : all characteristics of a plan
 // Errors   : a draw whose points no longer tell an element
-// Accuracy : coverage 93 % to 97 % (tests/metrology/coverage_test.cpp); results with digits = 1 to half a
-//            digit of u. Draws are pure functions of seed and number, added in order
+// Accuracy : coverage 93 % to 97 % (tests/metrology/coverage_test.cpp); results with digits = 1 to
+//            half a digit of u. Draws are pure functions of seed and number, added in order
 // Source   : JCGM 101:2008, sections 5 and 7.9 (blocks of 100/(1 - p) draws instead of 10,000)
 #pragma once
 
@@ -26,8 +27,8 @@
 
 namespace frustum::metrology {
 
-// Where a measurement sees a ball centre: centre (workpiece frame), approach (outward normal), feature and
-// point of the plan.
+// Where a measurement sees a ball centre: centre (workpiece frame), approach (outward normal),
+// feature and point of the plan.
 using MeasuringErrors = std::function<Vec3(const Vec3& centre, const Vec3& approach,
                                            std::size_t feature, std::size_t point)>;
 // The errors of one measurement; another one for each draw.
@@ -37,7 +38,8 @@ using ErrorDraws = std::function<MeasuringErrors(std::uint32_t draw)>;
 // measurement that the seed of the model itself makes.
 [[nodiscard]] ErrorDraws error_draws(const CmmModel& cmm, std::uint64_t seed);
 
-// The measurement again with the errors of one draw. `features` as measured, in the workpiece frame.
+// The measurement again with the errors of one draw. `features` as measured, in the workpiece
+// frame.
 [[nodiscard]] Result<Measurement> remeasured(const InspectionPlan& plan,
                                              std::span<const FittedFeature> features,
                                              const MeasuringErrors& errors);

@@ -34,8 +34,8 @@ Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& noise) {
          static_cast<double>(std::max<Eigen::Index>(noise.cols() - 1, 1));
 }
 
-// How alike a rough surface is at the places: its modes are waves, the long ones first. Parts of one place
-// are independent.
+// How alike a rough surface is at the places: its modes are waves, the long ones first. Parts of
+// one place are independent.
 Eigen::MatrixXd likeness(std::span<const Vec3> places, Eigen::Index parts) {
   const auto count = static_cast<Eigen::Index>(places.size());
   double size = 0.0;
@@ -52,8 +52,8 @@ Eigen::MatrixXd likeness(std::span<const Vec3> places, Eigen::Index parts) {
   return like;
 }
 
-// Variances that differ from each other by no more than those of as few draws do become their mean: what
-// is left of draws that differ by chance would mix the waves.
+// Variances that differ from each other by no more than those of as few draws do become their mean:
+// what is left of draws that differ by chance would mix the waves.
 Eigen::VectorXd without_chance(const Eigen::VectorXd& variances, Eigen::Index draws) {
   const double middle = variances[variances.size() / 2];
   const double spread =
@@ -84,7 +84,8 @@ ShapeEstimate::ShapeEstimate(SizeRule rule, std::span<const Vec3> places,
   const Eigen::MatrixXd some = noise(chosen_, Eigen::all);
   const SymmetricEigen eigen = symmetric_eigen(covariance_of(some));
   const Eigen::VectorXd& variances = eigen.values;
-  // What the fit took out of the residuals is left in second order, 1e-3 of the other deviations at most.
+  // What the fit took out of the residuals is left in second order, 1e-3 of the other deviations at
+  // most.
   Eigen::Index first = 0;
   while (first < variances.size() && !(variances[first] > 1e-6 * variances.tail(1)[0])) ++first;
   const Eigen::Index rank = variances.size() - first;
@@ -149,8 +150,8 @@ Eigen::VectorXd ShapeEstimate::smoothed(const Eigen::VectorXd& parts) const {
   }
   // What no noise reaches is known.
   Eigen::VectorXd out = some - from_modes_ * seen;
-  // Waves that are more likely there than not, or the initial_estimates one: the rest would be ripples, whose peaks
-  // take from what noise adds to flat ones.
+  // Waves that are more likely there than not, or the initial_estimates one: the rest would be
+  // ripples, whose peaks take from what noise adds to flat ones.
   kept /= total;
   const double least = std::min(0.5, kept.maxCoeff());
   out += from_modes_ * (kept >= least).select(seen.array(), 0.0).matrix();

@@ -88,8 +88,8 @@ Vec3 coordinate_normal(std::span<const Vec3> points) {
   return Vec3::UnitZ();
 }
 
-// Of a proof, on the local part: 1e-9 mm, but no less than that on a part of 100 mm and no more than on one of
-// 1 mm.
+// Of a proof, on the local part: 1e-9 mm, but no less than that on a part of 100 mm and no more
+// than on one of 1 mm.
 double tolerance(const NormalisedPoints& local) {
   return std::clamp(1e-9 / local.scale, 1e-11, 1e-9);
 }
@@ -165,7 +165,8 @@ ExtremeFound searched(const Task& task, const Element& start) {
   return best_extreme(search, task.local.points);
 }
 
-// The element as it is: all there is to say where nothing can move, or where points lie on it to rounding.
+// The element as it is: all there is to say where nothing can move, or where points lie on it to
+// rounding.
 ExtremeFound as_it_stands(const Task& task, const Element& start) {
   const MinimaxProblem problem = problem_of(task.kind, task.what, task.options.constraints);
   ExtremeFound found;
@@ -235,7 +236,8 @@ Element outside(const Element& middle, const Vec3& outward, const Vec3& across, 
               line.axis};
 }
 
-// As residual(); of a line in a plane with the sign of its left side, seen from the tip of the normal.
+// As residual(); of a line in a plane with the sign of its left side, seen from the tip of the
+// normal.
 double signed_residual(const Task& task, const Element& element, const Vec3& point) {
   if (task.kind.name != "line2d") return residual(element, point);
   const Line& line = std::get<Line>(element);

@@ -74,7 +74,8 @@ std::optional<Eigen::VectorXd> newton(const Linearised& at) {
   return solution.head(unknowns);
 }
 
-// Multipliers that balance the gradients best and add up to one; the shortest such vector, which ties share.
+// Multipliers that balance the gradients best and add up to one; the shortest such vector, which
+// ties share.
 Eigen::VectorXd balanced(const Eigen::MatrixXd& rows) {
   Eigen::MatrixXd matrix(rows.cols() + 1, rows.rows());
   matrix << rows.transpose(), Eigen::RowVectorXd::Ones(rows.rows());
@@ -101,13 +102,15 @@ void certify(const MinimaxProblem& problem, std::span<const Vec3> points, const 
   if (!(found.gap <= kProof)) found.proven = false;
   if (found.proven && here.rows.rows() <= here.rows.cols()) {
     here = linearised(problem, points, basis, found.at, found.contacts);
-    // Differences of slopes carry ten digits; a bend nearer to none holds nothing and loses nothing.
+    // Differences of slopes carry ten digits; a bend nearer to none holds nothing and loses
+    // nothing.
     found.proven = least_bend(here) > -1e-7;
   }
 }
 
-// Where distances tie, the contacts that a linear programme picks among them may carry nothing, and leave free
-// what the others hold. All that tie, those taken out that would have to pull, prove it together.
+// Where distances tie, the contacts that a linear programme picks among them may carry nothing, and
+// leave free what the others hold. All that tie, those taken out that would have to pull, prove it
+// together.
 void certify_ties(const MinimaxProblem& problem, std::span<const Vec3> points,
                   const SurfaceSteps& basis, MinimaxSolution& found) {
   const Eigen::VectorXd values = distances(problem.surface, found.at, points);
