@@ -8,6 +8,7 @@
 
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/model/machine.hpp"
+#include "kinematics/path/path_recorder.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -49,21 +50,24 @@ Totals interpolate(const Machine& machine, std::int64_t blocks, bool limits) {
   setup.tools = {{1, {.length = 120.0, .flute_length = 20.0}}};
   const GeometricErrors none;
   Totals totals;
-  ControllerOptions options;
+  TravelOptions options;
   options.time_law.limits = limits;
   options.sink = [&](const ToolPath& part) {
     totals.poses += part.poses.size() - 1;
     totals.blocks += part.blocks.size();
   };
-  Controller controller(machine, none, setup, options);
-  controller.execute({{1, 1}, parser::ToolChange{1}});
-  controller.execute(
-      {{1, 1},
-       parser::CompensationChange{parser::LengthCompensation::tool_centre_point, false, 1}});
-  for (std::int64_t i = 0; i < blocks; ++i) {
-    if (!controller.execute(block_of(i))) break;
-  }
-  if (const auto done = std::move(controller).finish()) totals.seconds = done->cycle_time;
+  PathRecorder recorder(machine, setup, none, machine.home(), options);
+  Controller controller(machine, setup, [&](CommandedStep&& step) { recorder.follow(step); });
+  const auto command = [&](const parser::Motion& motion) {
+    return controller.command(motion).empty();
+  };
+  bool good = command({{1, 1}, parser::ToolChange{1}});
+  good = good && command({{1, 1},
+                          parser::CompensationChange{parser::LengthCompensation::tool_centre_point,
+                                                     false, 1}});
+  for (std::int64_t i = 0; i < blocks && good; ++i) good = command(block_of(i));
+  static_cast<void>(recorder.finish());
+  totals.seconds = recorder.clock();
   return totals;
 }
 

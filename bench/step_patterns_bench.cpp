@@ -1,6 +1,7 @@
 // How long the step pattern study takes: all eleven patterns, from definition to measured values.
 #include <benchmark/benchmark.h>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "programs/step/step_pattern.hpp"
 #include "trials/sensitivity.hpp"
 #include "trials/trial.hpp"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "kinematics/model/machine.hpp"
 #include "lint/finding_list.hpp"
 #include "parser/interpreter.hpp"

@@ -11,7 +11,7 @@
 
 #include "core/golden_section.hpp"
 #include "core/units.hpp"
-#include "kinematics/controller/block_motion.hpp"
+#include "kinematics/controller/controller.hpp"
 #include "kinematics/model/inverse.hpp"
 #include "lint/run_errors.hpp"
 
@@ -77,7 +77,8 @@ class TravelCheck::State {
       : machine_(machine),
         setup_(with_first_offset(std::move(setup))),
         findings_(findings),
-        controller_(machine, errors_, setup_, options()) {
+        controller_(machine, setup_, [this](kinematics::CommandedStep&& step) { watch(step); },
+                    {.check_travel = false, .feeds_need_tool = false}) {
     for (const auto& offset : setup_.work_offsets) placed_.insert(offset.first);
     for (const Joint& joint : machine.joints()) axes_.push_back({joint, {}});
     hastes_.resize(axes_.size());
@@ -86,7 +87,7 @@ class TravelCheck::State {
   void see(const parser::Motion& motion) {
     place_ = motion.place;
     std::visit([this](const auto& command) { assume(command); }, motion.command);
-    controller_.execute(motion);
+    command(motion);
   }
 
   void finish() {
@@ -94,25 +95,15 @@ class TravelCheck::State {
       for (const std::size_t side : {0U, 1U}) end_excursion(axis, side);
     }
     tell_hastes();
-    const auto execution = std::move(controller_).finish();
-    if (!execution) return;
-    for (const Diagnostic& warning : execution->warnings) {
-      if (warning.message.starts_with("H")) continue;  // length-of-other-tool says it
-      problem(warning);
-    }
+    for (const Diagnostic& warning : controller_.warnings()) problem(warning);
   }
 
  private:
-  kinematics::ControllerOptions options() {
-    kinematics::ControllerOptions options;
-    options.sample_path = false;
-    options.check_travel = false;
-    options.feeds_need_tool = false;
-    options.watch = [this](const BlockMotion& motion, const kinematics::PathBlock& block) {
-      judge(motion, block);
-    };
-    options.problems = [this](Diagnostic&& diagnostic) { problem(diagnostic); };
-    return options;
+  void command(const parser::Motion& motion) {
+    for (const Diagnostic& diagnostic : controller_.command(motion)) problem(diagnostic);
+  }
+  void watch(const kinematics::CommandedStep& step) {
+    if (const auto* move = std::get_if<kinematics::CommandedMove>(&step)) judge(*move);
   }
 
   void problem(const Diagnostic& diagnostic) {
@@ -164,7 +155,7 @@ class TravelCheck::State {
     motion.place = place_;
     motion.command = parser::WorkOffsetSetting{
         number, {at_table[AxisLetter::X], at_table[AxisLetter::Y], at_table[AxisLetter::Z]}};
-    controller_.execute(motion);
+    command(motion);
     const std::string name = parser::work_offset_name(number);
     findings_.raise(Check::setup_assumed, FindingList::key_of(name), place_, [&] {
       return Words{
@@ -176,16 +167,17 @@ class TravelCheck::State {
 
   // --- one move ---------------------------------------------------------------------------------
 
-  void judge(const BlockMotion& motion, const kinematics::PathBlock& block) {
+  void judge(const kinematics::CommandedMove& move) {
+    const BlockMotion& motion = move.motion;
     samples_.clear();
     // Where the move begins, the one before has ended and been judged.
-    const int parts = motion.straight ? 1 : std::max(kLeastParts, motion.least_parts());
+    const int parts = motion.straight() ? 1 : std::max(kLeastParts, motion.least_parts());
     for (int i = 0; i <= parts; ++i) {
-      samples_.push_back(i == 0       ? motion.start
-                         : i == parts ? motion.end
+      samples_.push_back(i == 0       ? motion.start()
+                         : i == parts ? motion.end()
                                       : motion.at(static_cast<double>(i) / parts));
     }
-    const double seconds = block.kind == kinematics::PathKind::feed ? block.feed_duration : 0.0;
+    const double seconds = move.kind == kinematics::PathKind::feed ? move.feed_duration : 0.0;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       AxisWatch& axis = axes_[i];
       if (!axis.joint.endless) judge_reach(axis, reach_of(motion, axis.joint.letter));
@@ -201,7 +193,7 @@ class TravelCheck::State {
     const auto [least, greatest] =
         std::minmax_element(samples_.begin() + 1, samples_.end(), by_axis);
     Reach reach{(*least)[letter], (*greatest)[letter]};
-    if (motion.straight) return reach;
+    if (motion.straight()) return reach;
     const auto parts = static_cast<double>(samples_.size() - 1);
     const auto peak = [&](auto sample, double sign) {
       const auto at = static_cast<double>(sample - samples_.begin());
@@ -301,7 +293,6 @@ class TravelCheck::State {
 
   const kinematics::Machine& machine_;
   kinematics::Setup setup_;
-  kinematics::GeometricErrors errors_{};
   FindingList& findings_;
   std::set<int> placed_{};        // work offsets
   std::set<int> of_no_length_{};  // tools

@@ -12,7 +12,7 @@
 #include <functional>
 #include <memory>
 
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "kinematics/model/machine.hpp"
 #include "lint/finding_list.hpp"
 #include "parser/motion.hpp"

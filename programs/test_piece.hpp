@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cutter/body/cutter.hpp"
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "parser/dialect.hpp"
 #include "stock/solid/blank.hpp"

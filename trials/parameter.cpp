@@ -1,4 +1,5 @@
 #include "trials/parameter.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 #include <fmt/format.h>
 

@@ -29,8 +29,9 @@ TrialOptions quiet(double path_bound) {
 // A trial whose measured features were all cut by what should cut them: a derivative of anything else would
 // be of no use to anybody.
 Result<Trial> clean_trial(const Machine& machine, const GeometricErrors& errors,
-                          const TestPiece& piece, double path_bound) {
-  auto trial = run_trial(machine, errors, piece, {}, quiet(path_bound));
+                          const TestPiece& piece, const CommandedPiece& commanded,
+                          double path_bound) {
+  auto trial = run_trial(machine, errors, piece, commanded, {}, quiet(path_bound));
   if (!trial || trial->wrong_cuts.empty()) return trial;
   Diagnostics wrong = std::move(trial->wrong_cuts);
   for (Diagnostic& d : wrong) d.severity = Severity::error;
@@ -83,14 +84,14 @@ void set_column(Sensitivity& s, Eigen::Index column, double step, const Eigen::V
 
 // The machine or the tools with one parameter raised by `amount`.
 Result<Trial> varied_trial(const Machine& machine, const GeometricErrors& errors,
-                           const TestPiece& piece, const Parameter& parameter, double amount,
-                           double path_bound) {
+                           const TestPiece& piece, const CommandedPiece& commanded,
+                           const Parameter& parameter, double amount, double path_bound) {
   if (parameter.unit) {
-    return clean_trial(machine, errors.plus(*parameter.unit, amount), piece, path_bound);
+    return clean_trial(machine, errors.plus(*parameter.unit, amount), piece, commanded, path_bound);
   }
   TestPiece varied = piece;
   for (auto& [number, tool] : varied.tools) tool.radius_error.value += amount;
-  return clean_trial(machine, errors, varied, path_bound);
+  return clean_trial(machine, errors, varied, commanded, path_bound);
 }
 
 }  // namespace
@@ -107,7 +108,15 @@ Eigen::VectorXd values_of(const metrology::Measurement& measurement) {
 Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& errors,
                                 const TestPiece& piece, std::span<const Parameter> parameters,
                                 double path_bound) {
-  const auto trial = clean_trial(machine, errors, piece, path_bound);
+  const auto commanded = command_piece(machine, piece);
+  if (!commanded) return commanded.error();
+  return sensitivity(machine, errors, piece, *commanded, parameters, path_bound);
+}
+
+Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& errors,
+                                const TestPiece& piece, const CommandedPiece& commanded,
+                                std::span<const Parameter> parameters, double path_bound) {
+  const auto trial = clean_trial(machine, errors, piece, commanded, path_bound);
   if (!trial) return trial.error();
   const auto gains = surface_gains(machine, piece, *trial, parameters);
   if (!gains) return gains.error();
@@ -132,15 +141,19 @@ Result<Sensitivity> sensitivity_by_differences(const Machine& machine,
                                                const TestPiece& piece,
                                                std::span<const Parameter> parameters,
                                                const DifferenceSteps& steps, double path_bound) {
-  const auto trial = clean_trial(machine, errors, piece, path_bound);
+  const auto commanded = command_piece(machine, piece);
+  if (!commanded) return commanded.error();
+  const auto trial = clean_trial(machine, errors, piece, *commanded, path_bound);
   if (!trial) return trial.error();
   const Eigen::VectorXd centre = values_of(trial->measurement);
   Sensitivity s = empty_for(trial->measurement, parameters);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const double step = step_of(parameters[k], steps);
-    const auto plus = varied_trial(machine, errors, piece, parameters[k], step, path_bound);
+    const auto plus =
+        varied_trial(machine, errors, piece, *commanded, parameters[k], step, path_bound);
     if (!plus) return plus.error();
-    const auto minus = varied_trial(machine, errors, piece, parameters[k], -step, path_bound);
+    const auto minus =
+        varied_trial(machine, errors, piece, *commanded, parameters[k], -step, path_bound);
     if (!minus) return minus.error();
     set_column(s, static_cast<Eigen::Index>(k), step, values_of(plus->measurement),
                values_of(minus->measurement), centre);

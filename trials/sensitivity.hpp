@@ -25,6 +25,7 @@
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
 #include "trials/parameter.hpp"
+#include "trials/trial.hpp"
 
 namespace frustum::trials {
 
@@ -38,6 +39,13 @@ struct Sensitivity {
 [[nodiscard]] Result<Sensitivity> sensitivity(const kinematics::Machine& machine,
                                               const kinematics::GeometricErrors& errors,
                                               const programs::TestPiece& piece,
+                                              std::span<const Parameter> parameters,
+                                              double path_bound = 1e-5);
+// Of a piece that has been commanded before (trial.hpp).
+[[nodiscard]] Result<Sensitivity> sensitivity(const kinematics::Machine& machine,
+                                              const kinematics::GeometricErrors& errors,
+                                              const programs::TestPiece& piece,
+                                              const CommandedPiece& commanded,
                                               std::span<const Parameter> parameters,
                                               double path_bound = 1e-5);
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/path/travel.hpp"
 #include "parser/interpreter.hpp"
 #include "trials/cut_check.hpp"
 
@@ -14,7 +16,6 @@ namespace {
 
 using kinematics::AxisSample;
 using kinematics::AxisSpans;
-using kinematics::Execution;
 using kinematics::GeometricErrors;
 using kinematics::Machine;
 using programs::TestPiece;
@@ -62,7 +63,8 @@ Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<Operatio
     if (trace.name == piece.error_span) return trace.ranges;
   }
   Diagnostic failure =
-      error(fmt::format("there is no operation '{}' with axis motion", piece.error_span),
+      error("unknown-operation"_id,
+            fmt::format("there is no operation '{}' with axis motion", piece.error_span),
             "name one of the job's [[operation]] entries");
   failure.key = "error_span.operation";
   return failure;
@@ -90,82 +92,63 @@ Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) 
   return stock::Workpiece(*std::move(blank), *std::move(swept));
 }
 
-// What the program commands, whatever the machine's errors.
-struct CommandedRun {
-  std::vector<parser::Motion> motions{};
-  kinematics::Setup setup{};
-  std::vector<OperationTrace> operations{};
-  Diagnostics warnings{};
-};
-
-void tell(const TrialOptions& options, Stage stage) {
-  if (options.on_stage) options.on_stage(stage);
+void begin(const std::function<void(Stage)>& on_stage, Stage stage) {
+  if (on_stage) on_stage(stage);
 }
 
-Result<CommandedRun> commanded_run(const Machine& machine, const TestPiece& piece,
-                                   const TrialOptions& options) {
-  tell(options, Stage::parse);
+}  // namespace
+
+Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& piece,
+                                     const std::function<void(Stage)>& on_stage) {
+  begin(on_stage, Stage::parse);
   const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
   if (!program) return program.error();
-  // Subprograms lie beside the program.
+  // Subprograms are beside the program.
   const auto folder = std::filesystem::path(piece.program_file).parent_path();
   parser::InterpreterOptions interpreter;
   interpreter.tools = diameters_of(piece);
   interpreter.search_path = {folder};
-  auto motions = parser::motions_of(*program, interpreter);
+  const auto motions = parser::motions_of(*program, interpreter);
   if (!motions) return motions.error();
-  CommandedRun run;
-  run.motions = *std::move(motions);
-  run.setup = setup_of(piece);
-  tell(options, Stage::execute);
-  const auto execution =
-      kinematics::execute(machine, GeometricErrors{}, run.setup, run.motions,
-                          {.path_bound = options.path_bound, .sample_path = false});
-  if (!execution) return in_file(execution.error(), piece.program_file);
-  run.operations = traces_of(machine, piece, execution->axes);
-  run.warnings = in_file(execution->warnings, piece.program_file);
-  return run;
+  begin(on_stage, Stage::execute);
+  auto commanded = kinematics::command(machine, setup_of(piece), *motions);
+  if (!commanded) return in_file(commanded.error(), piece.program_file);
+  CommandedPiece result{.program = *std::move(commanded)};
+  result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
+  result.warnings = in_file(std::move(result.program.warnings), piece.program_file);
+  return result;
 }
 
-Result<GeometricErrors> injected(const Machine& machine,
-                                 std::span<const kinematics::ErrorEntry> errors,
-                                 const TestPiece& piece, const CommandedRun& run) {
-  const auto spans = error_spans(piece, run.operations);
-  if (!spans) return spans.error();
-  return kinematics::resolve(machine, errors, *spans);
-}
-
-Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
-                       const TestPiece& piece, CommandedRun run, const metrology::CmmModel& cmm,
-                       const TrialOptions& options) {
-  auto execution = kinematics::execute(machine, errors, run.setup, run.motions,
-                                       {.path_bound = options.path_bound,
-                                        .time_law = options.time_law,
-                                        .servo_lag = options.servo_lag});
-  if (!execution) return in_file(execution.error(), piece.program_file);
+Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
+                        const TestPiece& piece, const CommandedPiece& commanded,
+                        const metrology::CmmModel& cmm, const TrialOptions& options) {
+  auto travel = kinematics::travel(machine, setup_of(piece), commanded.program, errors,
+                                   {.path_bound = options.path_bound,
+                                    .time_law = options.time_law,
+                                    .servo_lag = options.servo_lag});
   Trial trial;
-  trial.operations = std::move(run.operations);
-  trial.warnings = std::move(run.warnings);
-  if (execution->path.segments.empty()) {
-    Diagnostic idle = warning("the program moves no tool: the blank stays as it is",
+  trial.operations = commanded.operations;
+  trial.warnings = commanded.warnings;
+  if (travel.path.segments.empty()) {
+    Diagnostic idle = warning("no-motion"_id, "the program moves no tool: the blank stays as it is",
                               "check that it is the right file");
     idle.file = piece.program_file;
     trial.warnings.push_back(std::move(idle));
   }
-  trial.cycle_time = execution->cycle_time;
-  trial.slowed = kinematics::slowed_blocks(execution->path);
+  trial.cycle_time = travel.cycle_time;
+  trial.slowed = kinematics::slowed_blocks(travel.path);
 
-  tell(options, Stage::cut);
-  auto workpiece = cut(piece, std::move(execution->path));
+  begin(options.on_stage, Stage::cut);
+  auto workpiece = cut(piece, std::move(travel.path));
   if (!workpiece) return workpiece.error();
   trial.workpiece = std::make_shared<const stock::Workpiece>(*std::move(workpiece));
 
   if (options.find_collisions) {
-    tell(options, Stage::collide);
+    begin(options.on_stage, Stage::collide);
     trial.collisions = stock::find_collisions(*trial.workpiece);
   }
   if (options.measure) {
-    tell(options, Stage::measure);
+    begin(options.on_stage, Stage::measure);
     const WorkpieceProbe probe(*trial.workpiece);
     auto measurement = metrology::measure(piece.plan, probe, cmm);
     if (!measurement) return measurement.error();
@@ -174,8 +157,6 @@ Result<Trial> finished(const Machine& machine, const GeometricErrors& errors,
   }
   return trial;
 }
-
-}  // namespace
 
 std::string_view name_of(Stage stage) {
   constexpr std::string_view kNames[] = {"parse", "execute", "cut", "find collisions", "measure"};
@@ -207,27 +188,35 @@ kinematics::Setup setup_of(const TestPiece& piece) {
 Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::ErrorEntry> errors,
                         const TestPiece& piece, const metrology::CmmModel& cmm,
                         const TrialOptions& options) {
-  auto run = commanded_run(machine, piece, options);
-  if (!run) return std::move(run).error();
-  const auto resolved = injected(machine, errors, piece, *run);
+  const auto commanded = command_piece(machine, piece, options.on_stage);
+  if (!commanded) return commanded.error();
+  const auto resolved = errors_for(machine, errors, piece, *commanded);
   if (!resolved) return resolved.error();
-  return finished(machine, *resolved, piece, *std::move(run), cmm, options);
+  return run_trial(machine, *resolved, piece, *commanded, cmm, options);
 }
 
 Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
                         const TestPiece& piece, const metrology::CmmModel& cmm,
                         const TrialOptions& options) {
-  auto run = commanded_run(machine, piece, options);
-  if (!run) return std::move(run).error();
-  return finished(machine, errors, piece, *std::move(run), cmm, options);
+  const auto commanded = command_piece(machine, piece, options.on_stage);
+  if (!commanded) return commanded.error();
+  return run_trial(machine, errors, piece, *commanded, cmm, options);
 }
 
 Result<GeometricErrors> errors_for(const Machine& machine,
                                    std::span<const kinematics::ErrorEntry> errors,
                                    const TestPiece& piece) {
-  const auto run = commanded_run(machine, piece, {});
-  if (!run) return run.error();
-  return injected(machine, errors, piece, *run);
+  const auto commanded = command_piece(machine, piece);
+  if (!commanded) return commanded.error();
+  return errors_for(machine, errors, piece, *commanded);
+}
+
+Result<GeometricErrors> errors_for(const Machine& machine,
+                                   std::span<const kinematics::ErrorEntry> errors,
+                                   const TestPiece& piece, const CommandedPiece& commanded) {
+  const auto spans = error_spans(piece, commanded.operations);
+  if (!spans) return spans.error();
+  return kinematics::resolve(machine, errors, *spans);
 }
 
 std::optional<metrology::Touch> WorkpieceProbe::touch(const Vec3& start, const UnitVec3& direction,

@@ -1,7 +1,8 @@
-// One trip round the loop: parse, interpret, execute with errors, cut, measure.
+// One trip round the loop: parse, interpret, command, travel with errors, cut, measure.
 //
 // A pure function of its arguments: the same input gives the same bits. Everything that runs the loop,
-// once or a million times, goes through run_trial().
+// once or a million times, goes through run_trial(). What does not depend on the machine's errors, from the
+// program's text to the commanded axes, is done once: CommandedPiece.
 // Units: mm, rad
 // Errors: those of every room on the way, with the place in the NC program or the plan
 #pragma once
@@ -13,10 +14,13 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/commanded_program.hpp"
+#include "kinematics/controller/setup.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
 #include "kinematics/path/slowed_blocks.hpp"
+#include "kinematics/timing/time_law.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
 #include "parser/tool_table.hpp"
@@ -55,7 +59,7 @@ struct TrialOptions {
   bool servo_lag = false;
   bool find_collisions = true;
   bool measure = true;  // false: stop with the finished workpiece
-  // Told when a stage begins; for progress bars and clocks, which live above this room.
+  // Called when a stage begins; for progress bars and clocks, which are above this room.
   std::function<void(Stage)> on_stage{};
 };
 
@@ -63,6 +67,16 @@ struct TrialOptions {
 [[nodiscard]] parser::ToolTable diameters_of(const programs::TestPiece& piece);
 // What the controller knows of the piece: placement, offsets and tools.
 [[nodiscard]] kinematics::Setup setup_of(const programs::TestPiece& piece);
+
+// A piece's program as the controller commands it, whatever the errors of machine and tools.
+struct CommandedPiece {
+  kinematics::CommandedProgram program{};
+  std::vector<OperationTrace> operations{};
+  Diagnostics warnings{};
+};
+[[nodiscard]] Result<CommandedPiece> command_piece(const kinematics::Machine& machine,
+                                                   const programs::TestPiece& piece,
+                                                   const std::function<void(Stage)>& on_stage = {});
 
 [[nodiscard]] Result<Trial> run_trial(const kinematics::Machine& machine,
                                       std::span<const kinematics::ErrorEntry> errors,
@@ -75,12 +89,22 @@ struct TrialOptions {
                                       const programs::TestPiece& piece,
                                       const metrology::CmmModel& cmm,
                                       const TrialOptions& options = {});
+// Of a piece that has been commanded before; its tools may since have other radius and length errors.
+[[nodiscard]] Result<Trial> run_trial(const kinematics::Machine& machine,
+                                      const kinematics::GeometricErrors& errors,
+                                      const programs::TestPiece& piece,
+                                      const CommandedPiece& commanded,
+                                      const metrology::CmmModel& cmm,
+                                      const TrialOptions& options = {});
 
 // The errors as this piece's program meets them: shapes without a span lie over what the operation that
 // its error_span names travels.
 [[nodiscard]] Result<kinematics::GeometricErrors> errors_for(
     const kinematics::Machine& machine, std::span<const kinematics::ErrorEntry> errors,
     const programs::TestPiece& piece);
+[[nodiscard]] Result<kinematics::GeometricErrors> errors_for(
+    const kinematics::Machine& machine, std::span<const kinematics::ErrorEntry> errors,
+    const programs::TestPiece& piece, const CommandedPiece& commanded);
 
 // Makes a workpiece answer approaches: the bridge between stock and metrology.
 class WorkpieceProbe {

@@ -11,6 +11,7 @@
 #include "app/job/error_sources.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
 

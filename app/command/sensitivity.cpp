@@ -31,14 +31,17 @@ Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const
       options.parameters.empty() ? trials::constant_errors(job.machine) : options.parameters;
   const auto parameters = trials::parameters_named(job.machine, names);
   if (!parameters) return parameters.error();
-  const auto errors = trials::errors_for(job.machine, job.errors, job.piece);
+  const auto commanded = trials::command_piece(job.machine, job.piece);
+  if (!commanded) return commanded.error();
+  const auto errors = trials::errors_for(job.machine, job.errors, job.piece, *commanded);
   if (!errors) return errors.error();
   if (options.method == "analytic") {
     if (options.step_um || options.step_urad) {
       return error("--step-um and --step-urad are steps of differences",
                    "add --method differences, or leave them out");
     }
-    return trials::sensitivity(job.machine, *errors, job.piece, *parameters, job.path_bound);
+    return trials::sensitivity(job.machine, *errors, job.piece, *commanded, *parameters,
+                               job.path_bound);
   }
   trials::DifferenceSteps steps;
   if (options.step_um) steps.length = *options.step_um / kUmPerMm;

@@ -12,6 +12,7 @@
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "core/whole_file.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_ranking.hpp"
 #include "kinematics/errors/volumetric.hpp"
 #include "report/page/volumetric_page.hpp"

@@ -1,6 +1,7 @@
 #include "app/job/error_sources.hpp"
 
 #include "app/job/machine_files.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_draw.hpp"
 
 namespace frustum::app {

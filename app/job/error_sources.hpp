@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_table.hpp"
 #include "kinematics/model/machine.hpp"
 

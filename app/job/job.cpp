@@ -9,6 +9,7 @@
 #include "core/toml_document.hpp"
 #include "core/whole_file.hpp"
 #include "cutter/body/cutter_file.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 namespace frustum::app {
 namespace {

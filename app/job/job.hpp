@@ -13,6 +13,7 @@
 #include "app/job/controller_settings.hpp"
 #include "app/job/error_sources.hpp"
 #include "core/result.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
 #include "metrology/cmm.hpp"

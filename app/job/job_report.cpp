@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "metrology/plan/nominal.hpp"
 #include "stock/mesh/deviation.hpp"
 #include "stock/mesh/refine_surface.hpp"

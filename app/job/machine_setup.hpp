@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "kinematics/model/machine.hpp"
 #include "parser/tool_table.hpp"
 

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/controller_state.hpp"
 #include "kinematics/model/actual_inverse.hpp"
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
-#include "kinematics/model/work_offset.hpp"
 #include "kinematics/path/path_comparison.hpp"
+#include "kinematics/path/travel.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -27,7 +28,6 @@ using kinematics::PathKind;
 using kinematics::Setup;
 using kinematics::ToolPath;
 using kinematics::ToolPose;
-using parser::LengthCompensation;
 using parser::Motion;
 
 constexpr double kReach = 20.0;  // mm: what a radian of the tool axis weighs
@@ -47,28 +47,25 @@ Words between(const Words& from, const Words& to, double t) {
   return words;
 }
 
-// The coordinates that words are written in: the modes of the program at one block.
+// The coordinates that words are written in: the programmed frame at one block, without tilted planes, which
+// are resolved.
 class ProgrammedFrame {
  public:
-  ProgrammedFrame(const Machine& machine, const Vec3& offset, bool tip_words, double length)
-      : machine_(&machine), tip_words_(tip_words), length_(length), zero_(offset) {
-    if (tip_words_) return;
-    const AxisPositions shift = kinematics::place_tip(machine, offset, length, AxisPositions{});
-    zero_ = {shift[AxisLetter::X], shift[AxisLetter::Y], shift[AxisLetter::Z]};
-  }
+  ProgrammedFrame(const Machine& machine, const kinematics::ControllerState& state)
+      : machine_(&machine),
+        tip_words_(state.modes().tip_control()),
+        length_(state.tool_length()),
+        zero_(tip_words_ ? state.origin() : state.axis_shift()) {}
 
   [[nodiscard]] Words words_of(const AxisPositions& q) const {
     const Vec3 linear = tip_words_ ? kinematics::nominal_pose(*machine_, q, length_).translation
-                                   : Vec3(q[AxisLetter::X], q[AxisLetter::Y], q[AxisLetter::Z]);
+                                   : kinematics::linear_positions(q);
     return {linear - zero_, q};
   }
   [[nodiscard]] AxisPositions axes_of(const Words& words) const {
     const Vec3 linear = words.linear + zero_;
     if (tip_words_) return kinematics::place_tip(*machine_, linear, length_, words.rotary);
-    AxisPositions q = words.rotary;
-    for (const AxisLetter letter : kLinearAxes)
-      q[letter] = linear[static_cast<Eigen::Index>(letter)];
-    return q;
+    return kinematics::with_linear_positions(words.rotary, linear);
   }
 
  private:
@@ -88,7 +85,7 @@ class Compensator {
         setup_(setup),
         path_(path),
         options_(options),
-        work_offsets_(setup.work_offsets) {
+        state_(machine, setup) {
     segment_ends_.reserve(path.blocks.size());
     for (std::size_t k = 0; k < path.segments.size(); ++k) {
       const std::uint32_t block = path.segments[k].block;
@@ -100,38 +97,19 @@ class Compensator {
   [[nodiscard]] std::vector<Motion> rewritten(std::span<const Motion> motions) {
     for (const Motion& motion : motions) {
       place_ = motion.place;
+      state_.follow(motion.command);
       std::visit([&](const auto& command) { rewrite(motion, command); }, motion.command);
     }
     return std::move(out_);
   }
 
  private:
+  // Modes and what moves no axis.
   template <typename Command>
   void rewrite(const Motion& motion, const Command& /*not a motion*/) {
     out_.push_back(motion);
   }
-  void rewrite(const Motion& motion, const parser::ToolChange& change) {
-    tool_ = change.tool;
-    out_.push_back(motion);
-  }
-  void rewrite(const Motion& motion, const parser::WorkOffsetChange& change) {
-    offset_number_ = change.number;
-    out_.push_back(motion);
-  }
-  // The path has been executed, so that what it needs is there.
-  void rewrite(const Motion& motion, const parser::WorkOffsetSetting& setting) {
-    const auto before = work_offsets_.find(setting.number);
-    const auto origin = kinematics::placed_origin(
-        machine_, setting,
-        before == work_offsets_.end() ? std::nullopt : std::optional(before->second));
-    if (origin) work_offsets_[setting.number] = *origin;
-    out_.push_back(motion);
-  }
-  void rewrite(const Motion& motion, const parser::CompensationChange& change) {
-    mode_ = change.mode;
-    length_ = mode_ == LengthCompensation::off ? 0.0
-              : change.length                  ? *change.length
-                                               : setup_.tools.at(change.offset_number).length;
+  void rewrite(const Motion& motion, const parser::CompensationChange& /*change*/) {
     Motion written = motion;
     std::get<parser::CompensationChange>(written.command).tool_vectors = false;
     out_.push_back(std::move(written));
@@ -164,20 +142,18 @@ class Compensator {
   // Every motion with a tool in the spindle is one block of the path, in the same order.
   void keep(const Motion& motion) {
     out_.push_back(motion);
-    if (tool_ == 0) return;
+    if (tool() == 0) return;
     at_ = path_.axes[last_pose(next_block_++)].q;
   }
 
   void replace(const Motion& motion, const parser::Feed& feed) {
-    if (tool_ == 0) {
+    if (tool() == 0) {
       out_.push_back(motion);
       return;
     }
     const auto block = static_cast<std::uint32_t>(next_block_++);
     const std::uint32_t first = first_pose(block), last = last_pose(block);
-    const Vec3 offset = work_offsets_.at(offset_number_);
-    const ProgrammedFrame frame(machine_, offset, mode_ == LengthCompensation::tool_centre_point,
-                                length_);
+    const ProgrammedFrame frame(machine_, state_);
     const Words start = frame.words_of(at_.value_or(path_.axes[first].q));
     const bool rapid = path_.blocks[block].kind == PathKind::rapid;
     pieces_.clear();
@@ -256,7 +232,8 @@ class Compensator {
         wanted(pose).axis);
   }
 
-  [[nodiscard]] double tool_length() const { return setup_.tools.at(tool_).length; }
+  [[nodiscard]] int tool() const { return state_.modes().tool.value_or(0); }
+  [[nodiscard]] double tool_length() const { return setup_.tools.at(tool()).length; }
   [[nodiscard]] ToolPose wanted(std::uint32_t pose) const {
     return kinematics::tool_pose(
         kinematics::nominal_pose(machine_, path_.axes[pose].q, tool_length()));
@@ -307,7 +284,7 @@ class Compensator {
   const Setup& setup_;
   const ToolPath& path_;
   CompensationOptions options_;
-  std::map<int, Vec3> work_offsets_;  // of the setup, and as the program places them
+  kinematics::ControllerState state_;
   std::vector<std::pair<std::size_t, std::size_t>> segment_ends_;  // of each block
   std::vector<Piece> pieces_;                                      // of the block at work
   std::uint32_t piece_start_ = 0;                                  // pose it starts from
@@ -315,10 +292,6 @@ class Compensator {
   std::size_t next_block_ = 0;
   std::optional<AxisPositions> at_{};  // commanded so far
   parser::SourcePlace place_{};
-  LengthCompensation mode_ = LengthCompensation::off;
-  double length_ = 0.0;
-  int offset_number_ = 1;
-  int tool_ = 0;
 };
 
 // Where the axes are commanded to, on the machine as it is and as it should be.
@@ -354,21 +327,19 @@ PathError beside(const ToolPath& nominal, const ToolPath& actual) {
 Result<CompensatedProgram> compensated(const Machine& machine, const GeometricErrors& errors,
                                        const Setup& setup, std::span<const Motion> motions,
                                        const CompensationOptions& options) {
-  const kinematics::ControllerOptions control{.path_bound = 0.5 * options.bound};
-  const auto run = [&](const GeometricErrors& e, std::span<const Motion> program) {
-    return kinematics::execute(machine, e, setup, program, control);
-  };
-  const auto nominal = run({}, motions);
-  if (!nominal) return nominal.error();
-  const auto actual = run(errors, motions);
-  if (!actual) return actual.error();
+  const kinematics::TravelOptions sampling{.path_bound = 0.5 * options.bound};
+  const auto commanded = kinematics::command(machine, setup, motions);
+  if (!commanded) return commanded.error();
+  const ToolPath nominal = kinematics::travel(machine, setup, *commanded, {}, sampling).path;
+  const ToolPath actual = kinematics::travel(machine, setup, *commanded, errors, sampling).path;
 
   CompensatedProgram result;
-  result.motions = Compensator(machine, errors, setup, actual->path, options).rewritten(motions);
-  const auto proof = run(errors, result.motions);
-  if (!proof) return proof.error();
-  result.before = without_correction(machine, setup, actual->path);
-  result.after = beside(nominal->path, proof->path);
+  result.motions = Compensator(machine, errors, setup, actual, options).rewritten(motions);
+  const auto corrected = kinematics::command(machine, setup, result.motions);
+  if (!corrected) return corrected.error();
+  const ToolPath proof = kinematics::travel(machine, setup, *corrected, errors, sampling).path;
+  result.before = without_correction(machine, setup, actual);
+  result.after = beside(nominal, proof);
   return result;
 }
 

@@ -17,7 +17,10 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
+#include "kinematics/model/geometric_errors.hpp"
+#include "kinematics/model/machine.hpp"
+#include "parser/motion.hpp"
 
 namespace frustum::calibration {
 

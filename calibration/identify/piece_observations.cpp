@@ -182,7 +182,8 @@ Result<PieceObservations> observations_of(const kinematics::Machine& machine,
     const auto names = rows_of(piece, found.left_out);
     if (!names) return names.error();
     const std::size_t index = studied.size();
-    studied.push_back({piece.name, piece.piece, piece.base, *names, piece.path_bound});
+    studied.push_back(commanded(
+        machine, {piece.name, piece.piece, piece.base, *names, piece.path_bound, nullptr}));
     const auto answer = answer_of(machine, studied.back(), index, causes, zero);
     if (!answer) return answer.error();
     const auto at_zero = rows_of(studied.back(), index, causes, *answer);

@@ -28,6 +28,14 @@ std::vector<std::size_t> causes_on(std::size_t piece, const std::vector<Cause>& 
   return acting;
 }
 
+StudiedPiece commanded(const kinematics::Machine& machine, StudiedPiece piece) {
+  if (piece.commanded) return piece;
+  if (auto program = trials::command_piece(machine, piece.piece)) {
+    piece.commanded = std::make_shared<const trials::CommandedPiece>(*std::move(program));
+  }
+  return piece;
+}
+
 Result<trials::Sensitivity> answer_of(const kinematics::Machine& machine,
                                       const StudiedPiece& studied, std::size_t index,
                                       const std::vector<Cause>& causes, const Eigen::VectorXd& x) {
@@ -44,7 +52,10 @@ Result<trials::Sensitivity> answer_of(const kinematics::Machine& machine,
       for (auto& [number, tool] : piece.tools) tool.radius_error.value += amount;
     }
   }
-  auto answer = trials::sensitivity(machine, errors, piece, parameters, studied.path_bound);
+  auto answer = studied.commanded
+                    ? trials::sensitivity(machine, errors, piece, *studied.commanded, parameters,
+                                          studied.path_bound)
+                    : trials::sensitivity(machine, errors, piece, parameters, studied.path_bound);
   if (!answer) return named(answer.error(), studied.name);
   return answer;
 }
@@ -60,7 +71,8 @@ Result<Prediction> rows_of(const StudiedPiece& piece, std::size_t index,
     const std::string& name = piece.characteristics[static_cast<std::size_t>(row)];
     const auto found = answer.measurement.find(name);
     if (!found) {
-      return error(fmt::format("part '{}' has no characteristic '{}'", piece.name, name),
+      return error("unknown-characteristic"_id,
+                   fmt::format("part '{}' has no characteristic '{}'", piece.name, name),
                    "take it out of the measured values, or add it to the plan");
     }
     const auto at = static_cast<Eigen::Index>(*found);
@@ -75,6 +87,7 @@ Result<Prediction> rows_of(const StudiedPiece& piece, std::size_t index,
 
 Model trial_model(kinematics::Machine machine, std::vector<StudiedPiece> pieces,
                   std::vector<Cause> causes) {
+  for (StudiedPiece& piece : pieces) piece = commanded(machine, std::move(piece));
   return [machine = std::move(machine), pieces = std::move(pieces),
           causes = std::move(causes)](const Eigen::VectorXd& x) -> Result<Prediction> {
     const Eigen::Index rows = total_rows(pieces);

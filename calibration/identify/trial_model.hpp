@@ -11,6 +11,7 @@
 // Source   : ours
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct StudiedPiece {
   kinematics::GeometricErrors base{};          // errors that are there whatever the causes
   std::vector<std::string> characteristics{};  // rows, by name
   double path_bound = 1e-5;                    // mm
+  // Its program as commanded; null: whoever needs it commands it.
+  std::shared_ptr<const trials::CommandedPiece> commanded{};
 };
 
 // Something that changes what is cut: a machine error for all pieces, a tool radius for all or one.
@@ -36,6 +39,9 @@ struct Cause {
   trials::Parameter parameter{};
   std::optional<std::size_t> only_piece{};
 };
+
+// The piece with its program commanded; as it was where the controller refuses it.
+[[nodiscard]] StudiedPiece commanded(const kinematics::Machine& machine, StudiedPiece piece);
 
 // One piece cut by a machine with all causes at x: what is measured, and the derivatives to the causes that
 // act on it (columns in the order of causes_on()).
@@ -51,7 +57,7 @@ struct Cause {
                                          const std::vector<Cause>& causes,
                                          const trials::Sensitivity& answer);
 
-// The pieces and causes are copied into the model.
+// The pieces and causes are copied into the model; every program is commanded once.
 [[nodiscard]] Model trial_model(kinematics::Machine machine, std::vector<StudiedPiece> pieces,
                                 std::vector<Cause> causes);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "kinematics/controller/orientation_path.hpp"
 #include "kinematics/model/inverse.hpp"
 
 namespace frustum::kinematics {
@@ -25,23 +25,8 @@ double rotary_degrees(const AxisPositions& from, const AxisPositions& to) {
   return std::sqrt(sum);
 }
 
-double feed_length(double linear, const AxisPositions& from, const AxisPositions& to) {
-  return linear > kStanding ? linear : rotary_degrees(from, to);
-}
-
-AxisPositions rotary_between(const AxisPositions& from, const AxisPositions& to, double u) {
-  AxisPositions q = from;
-  for (const AxisLetter letter : kRotaryAxes) {
-    q[letter] = from[letter] + u * (to[letter] - from[letter]);
-  }
-  return q;
-}
-
-BlockMotion finished(BlockMotion motion, const AxisPositions& from, double linear) {
-  motion.start = from;
-  motion.end = motion.at(1.0);
-  motion.feed_length = feed_length(linear, from, motion.end);
-  return motion;
+std::array<double, 3> rotary_positions(const AxisPositions& q) {
+  return {q[AxisLetter::A], q[AxisLetter::B], q[AxisLetter::C]};
 }
 
 }  // namespace
@@ -63,58 +48,93 @@ AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, doubl
   return q;
 }
 
-int BlockMotion::least_parts() const {
-  double rotary_travel = std::abs(arc_turn);
+BlockMotion::BlockMotion(const AxisPositions& from, Law law, double linear)
+    : start_(from), law_(std::move(law)), end_(at(1.0)) {
+  feed_length_ = linear > kStanding ? linear : rotary_degrees(from, end_);
+}
+
+AxisPositions BlockMotion::at(double u) const {
+  return std::visit([&](const auto& law) { return position(law, u); }, law_);
+}
+
+AxisPositions BlockMotion::with_rotary(const RotaryPositions& to, double u) const {
+  AxisPositions q = start_;
   for (const AxisLetter letter : kRotaryAxes) {
-    rotary_travel = std::max(rotary_travel, std::abs(end[letter] - start[letter]));
+    const double end = to[static_cast<std::size_t>(letter) - kLinearAxes.size()];
+    q[letter] = start_[letter] + u * (end - start_[letter]);
   }
-  const double linear_travel = (linear_positions(end) - linear_positions(start)).norm();
+  return q;
+}
+
+AxisPositions BlockMotion::position(const AxesLaw& law, double u) const {
+  return part_way(start_, law.to, u);
+}
+
+AxisPositions BlockMotion::position(const WordsLaw& law, double u) const {
+  return with_linear_positions(with_rotary(law.rotary_to, u), law.words.at(u) + law.shift);
+}
+
+AxisPositions BlockMotion::position(const TipLaw& law, double u) const {
+  return place_tip(*law.machine, law.frame->table_from_words.point(law.tip.at(u)),
+                   law.frame->tool_length, with_rotary(law.rotary_to, u));
+}
+
+AxisPositions BlockMotion::position(const VectorLaw& law, double u) const {
+  return place_tip(*law.machine, law.frame->table_from_words.point(law.tip.at(u)),
+                   law.frame->tool_length, law.orientation->at(u));
+}
+
+bool BlockMotion::straight() const {
+  if (const auto* words = std::get_if<WordsLaw>(&law_)) return words->words.turn == 0.0;
+  return std::holds_alternative<AxesLaw>(law_);
+}
+
+std::span<const double> BlockMotion::breaks() const {
+  const auto* vector = std::get_if<VectorLaw>(&law_);
+  return vector == nullptr ? std::span<const double>() : vector->orientation->breaks();
+}
+
+double BlockMotion::arc_turn() const {
+  if (const auto* words = std::get_if<WordsLaw>(&law_)) return words->words.turn;
+  if (const auto* tip = std::get_if<TipLaw>(&law_)) return tip->tip.turn;
+  if (const auto* vector = std::get_if<VectorLaw>(&law_)) return vector->tip.turn;
+  return 0.0;
+}
+
+int BlockMotion::least_parts() const {
+  double rotary_travel = std::abs(arc_turn());
+  for (const AxisLetter letter : kRotaryAxes) {
+    rotary_travel = std::max(rotary_travel, std::abs(end_[letter] - start_[letter]));
+  }
+  const double linear_travel = (linear_positions(end_) - linear_positions(start_)).norm();
   return 1 + static_cast<int>(rotary_travel / kRotaryPart + linear_travel / kLinearPart);
 }
 
 BlockMotion axes_motion(const AxisPositions& from, const AxisPositions& to) {
-  BlockMotion motion{.at = [from, to](double u) { return part_way(from, to, u); },
-                     .straight = true};
-  return finished(std::move(motion), from, (linear_positions(to) - linear_positions(from)).norm());
+  return {from, BlockMotion::AxesLaw{to}, (linear_positions(to) - linear_positions(from)).norm()};
 }
 
 BlockMotion words_motion(const AxisPositions& from, const AxisPositions& rotary_to,
                          const TipCurve& words, const Vec3& shift) {
-  BlockMotion motion{.at =
-                         [from, rotary_to, words, shift](double u) {
-                           return with_linear_positions(rotary_between(from, rotary_to, u),
-                                                        words.at(u) + shift);
-                         },
-                     .arc_turn = words.turn,
-                     .straight = words.turn == 0.0};
-  return finished(std::move(motion), from, words.length());
+  return {from, BlockMotion::WordsLaw{rotary_positions(rotary_to), words, shift}, words.length()};
 }
 
 BlockMotion tip_motion(const Machine& machine, const AxisPositions& from,
-                       const AxisPositions& rotary_to, const TipCurve& tip, const TipFrame& frame) {
-  BlockMotion motion{.at =
-                         [&machine, from, rotary_to, tip, frame](double u) {
-                           return place_tip(machine, frame.table_from_words.point(tip.at(u)),
-                                            frame.tool_length, rotary_between(from, rotary_to, u));
-                         },
-                     .arc_turn = tip.turn};
-  return finished(std::move(motion), from, tip.length());
+                       const AxisPositions& rotary_to, const TipCurve& tip,
+                       std::shared_ptr<const TipFrame> frame) {
+  return {from, BlockMotion::TipLaw{&machine, rotary_positions(rotary_to), tip, std::move(frame)},
+          tip.length()};
 }
 
 Result<BlockMotion> vector_motion(const Machine& machine, const AxisPositions& from,
                                   const Vec3& to_tool_axis, const TipCurve& tip,
-                                  const TipFrame& frame) {
+                                  std::shared_ptr<const TipFrame> frame) {
   auto path = orientation_path(machine, from, to_tool_axis);
   if (!path) return path.error();
-  std::vector<double> breaks = path->breaks();
-  BlockMotion motion{.at =
-                         [&machine, path = *std::move(path), tip, frame](double u) {
-                           return place_tip(machine, frame.table_from_words.point(tip.at(u)),
-                                            frame.tool_length, path.at(u));
-                         },
-                     .arc_turn = tip.turn,
-                     .breaks = std::move(breaks)};
-  return finished(std::move(motion), from, tip.length());
+  auto orientation = std::make_shared<const OrientationPath>(*std::move(path));
+  return BlockMotion(
+      from, BlockMotion::VectorLaw{&machine, std::move(orientation), tip, std::move(frame)},
+      tip.length());
 }
 
 }  // namespace frustum::kinematics

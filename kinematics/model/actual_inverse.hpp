@@ -13,7 +13,7 @@
 
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
-#include "kinematics/path/tool_path.hpp"
+#include "kinematics/model/tool_pose.hpp"
 
 namespace frustum::kinematics {
 

@@ -23,7 +23,7 @@
 #include "core/pose.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
-#include "kinematics/path/tool_path.hpp"
+#include "kinematics/model/tool_pose.hpp"
 
 namespace frustum::kinematics {
 

@@ -4,28 +4,24 @@
 //            and six location errors, constants (EX0C, EB0C, ...). They are physical displacements of the
 //            moving part in its stator frame.
 // Units    : mm, rad
-// Errors   : resolve names the error, what is wrong with it and what the machine accepts
+// Errors   : none: error_assignment.hpp checks what people write
 // Source   : ISO 230-1 names; where each acts: chain.hpp. The older short names (X0C for EX0C) and the
 //            letter O for the digit 0 are read too.
 #pragma once
 
 #include <array>
-#include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/result.hpp"
-#include "kinematics/errors/error_shape.hpp"
+#include "core/pose.hpp"
 #include "kinematics/model/axes.hpp"
 #include "kinematics/model/error_function.hpp"
+#include "kinematics/model/volumetric_grid.hpp"
 
 namespace frustum::kinematics {
-
-class Machine;
 
 // Directions of an error: three displacements, three small rotations.
 enum class ErrorDirection : std::uint8_t { X, Y, Z, A, B, C };  // NOLINT: the standard's letters
@@ -48,7 +44,8 @@ struct AxisErrors {
   std::array<double, 6> location{};
   Vec3 carried_tilt =
       Vec3::Zero();  // rad: linear axes, a tilt that also turns what the axis carries
-  // mm or rad: travel after a reversal over which the axis's play is taken up (kinematics/path/heading.hpp).
+  // mm or rad: travel after a reversal over which the axis's play is taken up
+  // (kinematics/path/approach_direction.hpp).
   double lost_motion = 0.0;
 
   [[nodiscard]] bool depends_on_direction() const;
@@ -81,18 +78,5 @@ class GeometricErrors {
   std::array<AxisErrors, 6> axes_{};
   std::vector<WeightedGrid> grids_{};
 };
-
-// Default spans of shapes, by axis; axes not named use their travel.
-using AxisSpans = std::map<AxisLetter, AxisRange>;
-
-// What is wrong with a name that no error of the machine has.
-[[nodiscard]] std::optional<Diagnostic> unknown_error(const Machine& machine,
-                                                      const std::string& name);
-
-// Later entries replace earlier ones of the same error. Amounts that are drawn from distributions must have
-// been drawn before (kinematics/errors/error_draw.hpp).
-[[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine,
-                                              std::span<const ErrorEntry> entries,
-                                              const AxisSpans& spans = {});
 
 }  // namespace frustum::kinematics

@@ -15,7 +15,7 @@
 #include "kinematics/model/few.hpp"
 #include "kinematics/model/machine.hpp"
 #include "kinematics/model/rotary_axes.hpp"
-#include "kinematics/path/tool_path.hpp"
+#include "kinematics/model/tool_pose.hpp"
 
 namespace frustum::kinematics {
 

@@ -20,7 +20,7 @@
 
 #include "core/result.hpp"
 #include "kinematics/model/machine.hpp"
-#include "kinematics/path/tool_path.hpp"
+#include "kinematics/model/tool_pose.hpp"
 
 namespace frustum::kinematics {
 

@@ -79,7 +79,7 @@ struct AxisRun {
 };
 
 std::vector<AxisRun> runs_of(const AxisCourse& course, AxisLetter axis,
-                                     std::span<const Sample> samples) {
+                             std::span<const Sample> samples) {
   const double reach = still(axis);
   std::vector<AxisRun> segments;
   double furthest = samples.front().q[axis];

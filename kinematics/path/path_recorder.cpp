@@ -13,28 +13,8 @@ namespace {
 
 // A sink gets its part of the path when it has grown to this many poses.
 constexpr std::size_t kBatch = 16384;
-// An axis limit that costs less than this share of a block's time is not worth telling.
+// An axis limit that costs less than this share of a block's time is not worth reporting.
 constexpr double kNoticed = 0.01;
-
-// Inverse solutions are dear, and sampling, cutting and checking ask for the same places.
-class Remembered {
- public:
-  explicit Remembered(const AxisMotion& motion) : motion_(motion) {}
-
-  AxisPositions operator()(double u) {
-    for (std::size_t i = 0; i < std::min(count_, seen_.size()); ++i) {
-      if (seen_[i].first == u) return seen_[i].second;
-    }
-    auto& place = seen_[count_++ % seen_.size()];
-    place = {u, motion_(u)};
-    return place.second;
-  }
-
- private:
-  const AxisMotion& motion_;
-  std::array<std::pair<double, AxisPositions>, 12> seen_{};
-  std::size_t count_ = 0;
-};
 
 // The longest step between which axes at their acceleration stay within the bound of a straight line.
 double lag_step(const Machine& machine, double bound) {
@@ -59,12 +39,13 @@ AxisPositions minus(const AxisPositions& a, const AxisPositions& b) {
 
 }  // namespace
 
-PathRecorder::PathRecorder(const Machine& machine, const GeometricErrors& errors,
-                           const Pose& workpiece_from_table, const AxisPositions& start,
-                           RecorderOptions options)
+PathRecorder::PathRecorder(const Machine& machine, const Setup& setup,
+                           const GeometricErrors& errors, const AxisPositions& start,
+                           TravelOptions options)
     : machine_(machine),
+      setup_(setup),
       errors_(errors),
-      workpiece_from_table_(workpiece_from_table),
+      workpiece_from_table_(setup.table_from_workpiece.inverse()),
       options_(std::move(options)),
       tracker_(errors),
       law_(machine, options_.time_law),
@@ -73,23 +54,32 @@ PathRecorder::PathRecorder(const Machine& machine, const GeometricErrors& errors
   path_.bound = options_.path_bound;
 }
 
-void PathRecorder::travel(BlockOrder order) {
-  Pending pending{.order = std::move(order)};
-  const AxisMotion& exact = pending.order.motion.at;
-  Remembered remembered(exact);
-  const AxisMotion motion = [&remembered](double u) { return remembered(u); };
-  const int parts = pending.order.motion.least_parts();
-  if (pending.order.has_tool) {
+void PathRecorder::follow(const CommandedStep& step) {
+  if (const auto* move = std::get_if<CommandedMove>(&step)) {
+    travel(*move);
+  } else if (const auto* wait = std::get_if<CommandedRest>(&step)) {
+    rest(wait->seconds);
+  } else {
+    rest(0.0);
+    chain_broken_ = true;  // another tool
+  }
+}
+
+void PathRecorder::travel(const CommandedMove& move) {
+  Pending pending{.move = move};
+  const int parts = move.motion.least_parts();
+  if (pending.has_tool()) {
+    const ToolGeometry& tool = setup_.tools.at(move.tool);
+    pending.tool_length = tool.length + tool.length_error;
+    pending.reach = tool.flute_length;
     pending.starts_chain = chain_broken_;
     chain_broken_ = false;
   }
-  if (!options_.servo_lag) sample(pending, motion, parts);
-  give_to_time_law(pending, motion, parts);
+  if (!options_.servo_lag) sample(pending, parts);
+  give_to_time_law(pending, parts);
   pending_.push_back(std::move(pending));
   collect_times();
 }
-
-void PathRecorder::break_chain() { chain_broken_ = true; }
 
 ToolPose PathRecorder::pose_at(const AxisState& axes, double tool_length) {
   if (!chain_ || tool_length != chain_length_) {
@@ -99,28 +89,26 @@ ToolPose PathRecorder::pose_at(const AxisState& axes, double tool_length) {
   return tool_pose(workpiece_from_table_ * chain_->table_from_tool(axes));
 }
 
-void PathRecorder::sample(Pending& pending, const AxisMotion& motion, int parts) {
-  const BlockOrder& order = pending.order;
-  const ApproachProfile approach_directions = tracker_.follow(motion, parts);
-  if (!order.has_tool) return;
-  const auto arriving = [&](double u) {
-    const AxisPositions q = motion(u);
-    return AxisState(q, approach_directions.at(u, q));
-  };
+void PathRecorder::sample(Pending& pending, int parts) {
+  const BlockMotion& motion = pending.move.motion;
+  const ApproachProfile approach =
+      tracker_.follow([&motion](double u) { return motion.at(u); }, parts);
+  if (!pending.has_tool()) return;
   const auto add = [&](double u, const AxisState& axes, const ToolPose& pose) {
     pending.samples.push_back({u, pose, axes});
     last_pose_ = pose;
   };
   const auto add_leaving = [&](double u) {
-    const AxisState axes(motion(u), approach_directions.after(u));
-    add(u, axes, pose_at(axes, order.tool_length));
+    const AxisState axes(motion.at(u), approach.after(u));
+    add(u, axes, pose_at(axes, pending.tool_length));
   };
-  const auto turns = approach_directions.turning_points();
+  const auto turns = approach.turning_points();
   const auto turns_at = [&](double u) {
     return std::find(turns.begin(), turns.end(), u) != turns.end();
   };
+  const auto breaks = motion.breaks();
   std::vector<double> ends(turns.begin(), turns.end());
-  ends.insert(ends.end(), order.motion.breaks.begin(), order.motion.breaks.end());
+  ends.insert(ends.end(), breaks.begin(), breaks.end());
   ends.push_back(1.0);
   std::sort(ends.begin(), ends.end());
 
@@ -129,31 +117,35 @@ void PathRecorder::sample(Pending& pending, const AxisMotion& motion, int parts)
   for (const double u1 : ends) {
     if (u1 <= u0) continue;
     const double width = u1 - u0;
-    const auto actual = [&](double w) {
-      return pose_at(arriving(w == 1.0 ? u1 : u0 + w * width), order.tool_length);
+    const auto arriving = [&](double w) {
+      const double u = w == 1.0 ? u1 : u0 + w * width;
+      const AxisPositions q = motion.at(u);
+      const AxisState axes(q, approach.at(u, q));
+      return Sample{u, pose_at(axes, pending.tool_length), axes};
     };
     const int least = std::max(1, static_cast<int>(std::ceil(parts * width)));
-    for (const PathSample& s :
-         sample_motion(actual, last_pose_, {options_.path_bound, order.reach, least})) {
-      const double u = s.u == 1.0 ? u1 : u0 + s.u * width;
-      add(u, arriving(u), s.pose);
-    }
+    const SamplingOptions sampling{options_.path_bound, pending.reach, least};
+    PathSampler(arriving, sampling).sample(last_pose_, [&](double /*w*/, const Sample& s) {
+      add(s.u, s.axes, s.pose);
+    });
     // An error that jumps here moves the tool at once.
     if (u1 < 1.0 && turns_at(u1)) add_leaving(u1);
     u0 = u1;
   }
 }
 
-void PathRecorder::give_to_time_law(Pending& pending, const AxisMotion& motion, int parts) {
-  const BlockMotion& block = pending.order.motion;
-  const double feed_time = pending.order.block.feed_duration;
-  if (block.straight || (feed_time > 0.0 && !law_.limits_any() && !options_.servo_lag)) {
-    if (law_.add(minus(block.end, block.start), {}, feed_time, true)) pending.ends.push_back(1.0);
+void PathRecorder::give_to_time_law(Pending& pending, int parts) {
+  const BlockMotion& motion = pending.move.motion;
+  const double feed_time = pending.move.feed_duration;
+  if (motion.straight() || (feed_time > 0.0 && !law_.limits_any() && !options_.servo_lag)) {
+    if (law_.add(minus(motion.end(), motion.start()), {}, feed_time, true))
+      pending.ends.push_back(1.0);
     return;
   }
   double u0 = 0.0;
-  AxisPositions from = block.start;
-  for (const EvenPart& part : even_parts(motion, parts, block.breaks)) {
+  AxisPositions from = motion.start();
+  for (const EvenPart& part :
+       even_parts([&motion](double u) { return motion.at(u); }, parts, motion.breaks())) {
     // What does not move the axes adds its share of the feed's time to what does.
     if (law_.add(minus(part.to, from), part.unevenness, feed_time * (part.end - u0),
                  pending.ends.empty())) {
@@ -180,7 +172,13 @@ void PathRecorder::collect_times() {
 }
 
 void PathRecorder::deliver(Pending& pending) {
-  PathBlock& block = pending.order.block;
+  const CommandedMove& move = pending.move;
+  PathBlock block{.source_line = move.source_line,
+                  .kind = move.kind,
+                  .spindle_on = move.spindle_on,
+                  .tool = move.tool,
+                  .feed = move.feed,
+                  .feed_duration = move.feed_duration};
   const auto& segments = pending.segments;
   const double start = segments.empty() ? clock_ : segments.front().start;
   if (!segments.empty()) clock_ = segments.back().start + segments.back().duration;
@@ -195,8 +193,8 @@ void PathRecorder::deliver(Pending& pending) {
     block.limited_by = kAxisLetters.at(static_cast<std::size_t>(worst - lost.begin()));
   }
   const std::vector<TimedPose> poses =
-      options_.servo_lag ? lagged_samples(pending) : timed_samples(pending);
-  if (!pending.order.has_tool) return;
+      options_.servo_lag ? lagged_samples(pending, block.duration) : timed_samples(pending);
+  if (!pending.has_tool()) return;
   path_.blocks.push_back(block);
   append(poses, !pending.starts_chain);
   hand_over();
@@ -235,12 +233,12 @@ PathRecorder::TimedPose PathRecorder::lagged(const AxisPositions& commanded, dou
   return {pose_at(axes, tool_length), axes, time, velocity};
 }
 
-std::vector<PathRecorder::TimedPose> PathRecorder::lagged_samples(const Pending& pending) {
-  const BlockOrder& order = pending.order;
+std::vector<PathRecorder::TimedPose> PathRecorder::lagged_samples(const Pending& pending,
+                                                                  double duration) {
+  const BlockMotion& motion = pending.move.motion;
   std::vector<TimedPose> poses;
   if (pending.starts_chain) {
-    poses.push_back(
-        lagged(order.motion.start, 0.0, clock_ - order.block.duration, order.tool_length));
+    poses.push_back(lagged(motion.start(), 0.0, clock_ - duration, pending.tool_length));
   }
   double begin = 0.0;
   for (std::size_t k = 0; k < pending.segments.size(); ++k) {
@@ -250,13 +248,12 @@ std::vector<PathRecorder::TimedPose> PathRecorder::lagged_samples(const Pending&
       const double time = segment.start + segment.duration * i / steps;
       const double share = i == steps ? 1.0 : segment.share_at(time);
       const double u = begin + share * (pending.ends[k] - begin);
-      poses.push_back(
-          lagged(order.motion.at(u), segment.duration / steps, time, order.tool_length));
+      poses.push_back(lagged(motion.at(u), segment.duration / steps, time, pending.tool_length));
     }
     begin = pending.ends[k];
   }
-  lag_tool_ = order.tool_length;
-  lag_has_path_ = order.has_tool;
+  lag_tool_ = pending.tool_length;
+  lag_has_path_ = pending.has_tool();
   return poses;
 }
 

@@ -1,9 +1,9 @@
-// From commanded block motions to the tool path: approach_directions, sampling, times, servo lag; streamed.
+// From commanded moves to the tool path: directions of approach, sampling, times, servo lag; streamed.
 //
-// Model    : the commanded motion of each block goes through the heading memory (direction-dependent errors),
-//            is sampled to the path bound, cut where an error jumps (both sides of the jump are in the
-//            path), and given times by the time law. With servo lag the axes follow their commands late, and
-//            the path is where they really are
+// Model    : the commanded motion of each block goes through the memory of the directions of approach
+//            (direction-dependent errors), is sampled to the path bound, cut where an error jumps (both sides
+//            of the jump are in the path), and given times by the time law. With servo lag the axes follow
+//            their commands late, and the path is where they really are
 // Units    : mm, rad, s
 // Errors   : none; motions have been checked before they come here
 #pragma once
@@ -13,7 +13,8 @@
 #include <optional>
 #include <vector>
 
-#include "kinematics/controller/block_motion.hpp"
+#include "kinematics/controller/commanded_program.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/path/approach_direction.hpp"
@@ -27,32 +28,20 @@ namespace frustum::kinematics {
 // path goes on.
 using PathSink = std::function<void(const ToolPath&)>;
 
-struct RecorderOptions {
+struct TravelOptions {
   double path_bound = 1e-5;  // mm
   TimeLawOptions time_law{};
-  bool servo_lag = false;
-  PathSink sink{};  // without one the whole path is kept
-};
-
-struct BlockOrder {
-  BlockMotion motion{};
-  PathBlock block{};         // what is known of it beforehand
-  double tool_length = 0.0;  // mm, of the real tool
-  double reach = 0.0;        // mm above the tip up to which the bound holds
-  bool has_tool = true;      // false: it takes its time, but leaves no path
+  bool servo_lag = false;  // the path is where the axes are behind their commands
+  PathSink sink{};  // takes the path in parts as it grows; without one the whole path is kept
 };
 
 class PathRecorder {
  public:
-  PathRecorder(const Machine& machine, const GeometricErrors& errors,
-               const Pose& workpiece_from_table, const AxisPositions& start,
-               RecorderOptions options);
+  // Machine, set-up and errors must outlive it.
+  PathRecorder(const Machine& machine, const Setup& setup, const GeometricErrors& errors,
+               const AxisPositions& start, TravelOptions options);
 
-  void travel(BlockOrder order);
-  // The axes come to rest, then wait.
-  void rest(double seconds);
-  // The next pose does not continue the last one: another tool.
-  void break_chain();
+  void follow(const CommandedStep& step);
 
   // Rest, and the path that no sink has taken.
   [[nodiscard]] ToolPath finish();
@@ -67,11 +56,15 @@ class PathRecorder {
   };
   // Waits for its times.
   struct Pending {
-    BlockOrder order{};
+    CommandedMove move;
+    double tool_length = 0.0;  // mm, of the real tool
+    double reach = 0.0;        // mm above the tip up to which the bound holds
     bool starts_chain = false;
     std::vector<Sample> samples{};
     std::vector<double> ends{};  // u at the ends of its segments
     std::vector<TimedSegment> segments{};
+
+    [[nodiscard]] bool has_tool() const { return move.tool != 0; }
   };
   struct TimedPose {
     ToolPose pose{};
@@ -80,13 +73,15 @@ class PathRecorder {
     AxisPositions velocity{};
   };
 
+  void travel(const CommandedMove& move);
+  void rest(double seconds);
   [[nodiscard]] ToolPose pose_at(const AxisState& axes, double tool_length);
-  void sample(Pending& pending, const AxisMotion& motion, int parts);
-  void give_to_time_law(Pending& pending, const AxisMotion& motion, int parts);
+  void sample(Pending& pending, int parts);
+  void give_to_time_law(Pending& pending, int parts);
   void collect_times();
   void deliver(Pending& pending);
   [[nodiscard]] std::vector<TimedPose> timed_samples(const Pending& pending) const;
-  [[nodiscard]] std::vector<TimedPose> lagged_samples(const Pending& pending);
+  [[nodiscard]] std::vector<TimedPose> lagged_samples(const Pending& pending, double duration);
   [[nodiscard]] TimedPose lagged(const AxisPositions& commanded, double seconds, double time,
                                  double tool_length);
   void settle(double seconds);
@@ -94,9 +89,10 @@ class PathRecorder {
   void hand_over();
 
   const Machine& machine_;
+  const Setup& setup_;
   const GeometricErrors& errors_;
   Pose workpiece_from_table_;
-  RecorderOptions options_;
+  TravelOptions options_;
   std::optional<ForwardChain> chain_{};  // with the tool of chain_length_
   double chain_length_ = 0.0;
   ApproachTracker tracker_;

@@ -8,23 +8,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "core/pose.hpp"
+#include "kinematics/controller/path_kind.hpp"
 #include "kinematics/model/axes.hpp"
+#include "kinematics/model/tool_pose.hpp"
 
 namespace frustum::kinematics {
-
-struct ToolPose {
-  Vec3 tip = Vec3::Zero();
-  Vec3 axis = Vec3::UnitZ();  // unit
-};
-
-// The pose a fraction t in [0, 1] of the way: tip linear, axis on the great circle.
-[[nodiscard]] ToolPose between(const ToolPose& from, const ToolPose& to, double t);
-
-enum class PathKind : std::uint8_t { rapid, feed };
 
 // One NC block's motion: what is common to all its segments.
 struct PathBlock {

@@ -11,6 +11,7 @@
 
 #include <string>
 
+#include "kinematics/controller/commanded_program.hpp"
 #include "post/comparing/path_difference.hpp"
 
 namespace frustum::post {
@@ -19,6 +20,7 @@ namespace frustum::post {
                                        const kinematics::ToolPath& first,
                                        const kinematics::ToolPath& second,
                                        const ComparedProgram& second_program,
+                                       const kinematics::CommandedProgram& second_commanded,
                                        const PathDifference& difference,
                                        const DifferenceLimits& limits);
 

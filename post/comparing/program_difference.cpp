@@ -2,25 +2,32 @@
 
 #include <utility>
 
+#include "kinematics/controller/controller.hpp"
+#include "kinematics/path/travel.hpp"
 #include "post/comparing/difference_cause.hpp"
 #include "post/comparing/path_difference.hpp"
 
 namespace frustum::post {
 namespace {
 
-Result<kinematics::ToolPath> path_of(const kinematics::Machine& machine,
-                                     const ComparedProgram& program,
-                                     const DifferenceLimits& limits) {
-  // The sampling must not show in the comparison.
-  auto run = kinematics::execute(
-      machine, {}, program.setup, program.motions,
-      {.path_bound = 0.05 * limits.tip, .check_travel = false, .time_law = {.limits = false}});
-  if (run) return std::move(run->path);
+Result<kinematics::CommandedProgram> commanded(const kinematics::Machine& machine,
+                                               const ComparedProgram& program) {
+  auto run = kinematics::command(machine, program.setup, program.motions, {.check_travel = false});
+  if (run) return run;
   Diagnostics problems = run.error();
   for (Diagnostic& d : problems) {
     if (d.file.empty()) d.file = program.file;
   }
   return problems;
+}
+
+kinematics::ToolPath path_of(const kinematics::Machine& machine, const ComparedProgram& program,
+                             const kinematics::CommandedProgram& commanded,
+                             const DifferenceLimits& limits) {
+  // The sampling must not show in the comparison.
+  return kinematics::travel(machine, program.setup, commanded, {},
+                            {.path_bound = 0.05 * limits.tip, .time_law = {.limits = false}})
+      .path;
 }
 
 }  // namespace
@@ -29,21 +36,23 @@ Result<ProgramComparison> compare_programs(const kinematics::Machine& machine,
                                            const ComparedProgram& first,
                                            const ComparedProgram& second,
                                            const DifferenceLimits& limits) {
-  const auto first_path = path_of(machine, first, limits);
-  if (!first_path) return first_path.error();
-  const auto second_path = path_of(machine, second, limits);
-  if (!second_path) return second_path.error();
-  if (!has_feed(*first_path) && !has_feed(*second_path)) {
-    return error("neither program has a feed move: there is nothing to compare",
+  const auto first_commanded = commanded(machine, first);
+  if (!first_commanded) return first_commanded.error();
+  const auto second_commanded = commanded(machine, second);
+  if (!second_commanded) return second_commanded.error();
+  const kinematics::ToolPath first_path = path_of(machine, first, *first_commanded, limits);
+  const kinematics::ToolPath second_path = path_of(machine, second, *second_commanded, limits);
+  if (!has_feed(first_path) && !has_feed(second_path)) {
+    return error("no-feed-move"_id, "neither program has a feed move: there is nothing to compare",
                  "the tool is fed by G1, G2, G3 and their like");
   }
-  const PathDifference found = path_difference(*first_path, *second_path, limits);
+  const PathDifference found = path_difference(first_path, second_path, limits);
   ProgramComparison comparison{.first = found.first,
                                .largest_tip = found.largest_tip,
                                .largest_axis = found.largest_axis,
                                .largest_time_ratio = found.largest_time_ratio};
   comparison.first.likely_cause =
-      likely_cause(machine, *first_path, *second_path, second, found, limits);
+      likely_cause(machine, first_path, second_path, second, *second_commanded, found, limits);
   return comparison;
 }
 

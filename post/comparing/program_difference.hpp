@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "kinematics/model/machine.hpp"
 
 namespace frustum::post {

@@ -257,7 +257,7 @@ class Planner {
     if (rotary->unwind) rewind(rotary->resume, wanted, block.feed != nullptr);
     if (!problems_.empty()) return;
     const BlockMotion motion = kinematics::tip_motion(
-        machine_, q_, rotary->axes, curve_of(block, start, end), {table_from_words, length()});
+        machine_, q_, rotary->axes, curve_of(block, start, end), frame_of(table_from_words));
     hand_on(block, motion, wanted, tip_control(wanted),
             [&] { return arc_image(block, wanted, table_from_words.rotation, start); });
   }
@@ -273,13 +273,13 @@ class Planner {
                           ? table_from_words.direction(*block.tool_axis)
                           : Vec3(kinematics::nominal_pose(machine_, written, 0.0).rotation.col(2));
     const auto motion = kinematics::vector_motion(machine_, q_, axis, curve_of(block, start, end),
-                                                  {table_from_words, length()});
+                                                  frame_of(table_from_words));
     if (!motion) {
       fail(motion.error().front());
       return;
     }
     vector_block_ = true;
-    end_of_rotary_ = motion->end;
+    end_of_rotary_ = motion->end();
     hand_on(block, *motion, wanted, tip_control(wanted) && options_.great_circle,
             [&] { return arc_image(block, wanted, table_from_words.rotation, start); });
   }
@@ -317,14 +317,14 @@ class Planner {
     const Piece whole{block, motion, 0.0, 1.0, minutes};
     if (block.arc != nullptr) {
       if (const auto arc = image()) {
-        emit_piece(whole, motion.end, arc);
+        emit_piece(whole, motion.end(), arc);
         return;
       }
     } else if (followed) {
-      emit_piece(whole, motion.end, {});
+      emit_piece(whole, motion.end(), {});
       return;
     }
-    split(whole, motion.end, 0);
+    split(whole, motion.end(), 0);
   }
 
   // A part of a block, from where the axes are.
@@ -564,8 +564,8 @@ class Planner {
     Block full = block;
     for (const auto& joint : machine_.joints()) full.end[joint.letter] = 0.0;
     const BlockMotion motion = kinematics::axes_motion(q_, to);
-    if (motion.feed_length <= kStanding) return;
-    const double minutes = block.feed == nullptr ? 0.0 : motion.feed_length / block.feed->value;
+    if (motion.feed_length() <= kStanding) return;
+    const double minutes = block.feed == nullptr ? 0.0 : motion.feed_length() / block.feed->value;
     emit_piece({full, motion, 0.0, 1.0, minutes}, to, {});
   }
 
@@ -573,7 +573,7 @@ class Planner {
 
   double minutes_of(const Block& block, const BlockMotion& motion) {
     if (block.feed == nullptr) return 0.0;
-    const auto minutes = post::minutes_of(*block.feed, motion.feed_length, spindle_.speed);
+    const auto minutes = post::minutes_of(*block.feed, motion.feed_length(), spindle_.speed);
     if (minutes) return *minutes;
     fail(minutes.error().front());
     return 0.0;
@@ -633,6 +633,9 @@ class Planner {
     const auto tool = setup_.tools.find(compensation_.offset_number);
     const bool off = compensation_.mode == LengthCompensation::off;
     return off || tool == setup_.tools.end() ? 0.0 : tool->second.length;
+  }
+  [[nodiscard]] std::shared_ptr<const kinematics::TipFrame> frame_of(const Pose& words) const {
+    return std::make_shared<const kinematics::TipFrame>(kinematics::TipFrame{words, length()});
   }
   [[nodiscard]] Vec3 offset() const { return setup_.work_offsets.at(offset_); }
   [[nodiscard]] Vec3 tip_at(const AxisPositions& q) const {

@@ -21,7 +21,7 @@
 
 #include "core/result.hpp"
 #include "core/units.hpp"
-#include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/setup.hpp"
 #include "kinematics/model/machine.hpp"
 #include "parser/motion.hpp"
 

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/path/path_comparison.hpp"
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
 #include "post/nc_writer.hpp"
 #include "programs/cone/cone_frustum.hpp"
+#include "tests/kinematics/executing.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::calibration {

@@ -1,4 +1,5 @@
 #include "kinematics/model/actual_inverse.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 #include <gtest/gtest.h>
 

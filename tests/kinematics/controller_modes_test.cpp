@@ -8,6 +8,7 @@
 
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/model/chain.hpp"
+#include "tests/kinematics/executing.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {
@@ -52,7 +53,7 @@ Setup setup() {
 }
 
 Result<Execution> run(const Machine& machine, const Motions& motions,
-                      const ControllerOptions& options = {}, const GeometricErrors& errors = {}) {
+                      const TravelOptions& options = {}, const GeometricErrors& errors = {}) {
   return execute(machine, errors, setup(), motions, options);
 }
 
@@ -65,7 +66,7 @@ double block_time(const Execution& e, std::uint32_t line) {
   return -1.0;
 }
 
-const ControllerOptions kNoLimits{.time_law = {.limits = false}};
+const TravelOptions kNoLimits{.time_law = {.limits = false}};
 
 TEST(ControllerFeed, CountsTheTipUnderTcpAndDegreesWhereTheTipStands) {
   const auto e = run(
@@ -321,7 +322,7 @@ TEST(ControllerLaws, GivesASinkTheSamePathInParts) {
   const auto whole = run(machine, motions);
   ASSERT_TRUE(whole);
   std::size_t at = 0, blocks = 0, parts = 0;
-  ControllerOptions options;
+  TravelOptions options;
   options.sink = [&](const ToolPath& part) {
     ++parts;
     ASSERT_LE(at + part.poses.size(), whole->path.poses.size());
@@ -369,7 +370,7 @@ TEST(ControllerServoLag, ShrinksACircleByTheGains) {
   const Machine machine = shipped("iwf-bc");
   const double gain = machine.joint(X)->dynamics.servo_gain;
   ArcFeed circle{.end = target({{X, 20}, {Y, 0}}), .turns = 3, .feed = feed(6000)};
-  ControllerOptions options;
+  TravelOptions options;
   options.servo_lag = true;
   const auto e =
       run(machine,

@@ -6,6 +6,7 @@
 
 #include "kinematics/model/chain.hpp"
 #include "parser/interpreter.hpp"
+#include "tests/kinematics/executing.hpp"
 #include "tests/kinematics/machines.hpp"
 
 namespace frustum::kinematics {

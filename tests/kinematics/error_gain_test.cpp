@@ -1,4 +1,5 @@
 #include "kinematics/errors/error_gain.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 #include <gtest/gtest.h>
 

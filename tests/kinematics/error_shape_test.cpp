@@ -1,5 +1,6 @@
 // Shapes of errors, in words and in tables: their values along the axis.
 #include "kinematics/errors/error_shape.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/toml_document.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_draw.hpp"
 #include "kinematics/errors/error_gain.hpp"
 #include "kinematics/errors/error_table.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_gain.hpp"
 #include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"

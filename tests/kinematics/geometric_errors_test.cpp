@@ -1,4 +1,5 @@
 #include "kinematics/model/geometric_errors.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/path/approach_direction.hpp"
 
 #include <gtest/gtest.h>

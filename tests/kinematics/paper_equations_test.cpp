@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/chain.hpp"
 #include "tests/kinematics/machines.hpp"
 

@@ -12,6 +12,7 @@
 #include "core/random.hpp"
 #include "kinematics/model/chain.hpp"
 #include "programs/cone/cone_frustum.hpp"
+#include "tests/kinematics/executing.hpp"
 #include "tests/kinematics/machines.hpp"
 #include "tests/post/read_back.hpp"
 
@@ -86,7 +87,7 @@ Case freeform_on(const std::string& name) {
 }
 
 Execution executed(const Case& c, const std::vector<Motion>& motions, double bound = 1e-5) {
-  kinematics::ControllerOptions options;
+  kinematics::TravelOptions options;
   options.path_bound = bound;
   auto done = kinematics::execute(c.machine, {}, c.setup, motions, options);
   EXPECT_TRUE(done) << (done ? "" : first_of(done.error()));

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "kinematics/controller/controller.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "parser/interpreter.hpp"
 #include "programs/step/step_pattern.hpp"
@@ -160,11 +161,11 @@ TEST(StepPattern, NoBlockTurnsTheTableWhileItCuts) {
     kinematics::Setup setup;
     setup.work_offsets = step.piece.work_offsets;
     setup.tools[1] = {.length = 150.0};
-    const auto run = kinematics::execute(on, {}, setup, *motions, {.sample_path = false});
+    const auto run = kinematics::command(on, setup, *motions);
     ASSERT_TRUE(run) << to_string(run.error().front());
     kinematics::AxisPositions before = on.home();
     std::size_t feeds = 0;
-    for (const kinematics::AxisSample& sample : run->axes) {
+    for (const kinematics::AxisSample& sample : kinematics::block_ends(*run)) {
       bool rotary = false, linear = false;
       for (const AxisLetter letter : kinematics::kAxisLetters) {
         if (std::abs(sample.axes[letter] - before[letter]) < 1e-12) continue;

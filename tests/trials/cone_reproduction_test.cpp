@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/inverse.hpp"
 #include "tests/document_section.hpp"
 #include "tests/trials/cone_trial.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "metrology/characteristic/characteristic.hpp"
 #include "programs/cone/cone_frustum.hpp"
 #include "tests/trials/tip_trace.hpp"

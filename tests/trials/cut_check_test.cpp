@@ -1,4 +1,5 @@
 #include "trials/cut_check.hpp"
+#include "kinematics/errors/error_assignment.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "tests/document_section.hpp"
 #include "tests/trials/step_trial.hpp"
 

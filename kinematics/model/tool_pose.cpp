@@ -1,4 +1,4 @@
-#include "kinematics/path/tool_path.hpp"
+#include "kinematics/model/tool_pose.hpp"
 
 #include <cmath>
 
