@@ -32,8 +32,8 @@ std::string_view length_words(Dialect dialect) {
 }  // namespace
 
 void check_spindle(const CuttingMove& move, const MotionState& state, FindingList& findings) {
-  const bool stands = state.spindle.direction == SpindleDirection::off;
-  const bool no_speed = !(state.spindle.speed > 0.0) && !state.surface_speed;
+  const bool stands = state.modes.spindle.direction == SpindleDirection::off;
+  const bool no_speed = !(state.modes.spindle.speed > 0.0) && !state.surface_speed;
   if (!stands && !no_speed) return;
   findings.raise(Check::spindle_off, state.spindle_changes, move.place, [&] {
     return stands ? Words{"cutting move with the spindle off",
@@ -45,7 +45,7 @@ void check_spindle(const CuttingMove& move, const MotionState& state, FindingLis
 
 void check_tool(const CuttingMove& move, const MotionState& state, Dialect dialect,
                 FindingList& findings) {
-  if (!state.tool) {
+  if (!state.modes.tool) {
     findings.raise(Check::tool_missing, 0, move.place, [] {
       return Words{"cutting move before any tool is called",
                    "call the tool, so that the program does not cut with what happens to be in the "
@@ -53,10 +53,11 @@ void check_tool(const CuttingMove& move, const MotionState& state, Dialect diale
     });
     return;
   }
-  if (*state.tool == 0 || state.compensation.mode != LengthCompensation::off) return;
+  if (*state.modes.tool == 0 || state.modes.compensation.mode != LengthCompensation::off) return;
   findings.raise(Check::length_missing, state.compensation_changes, move.place, [&] {
-    return Words{fmt::format("tool {} cuts without its length being compensated", *state.tool),
-                 std::string(length_words(dialect))};
+    return Words{
+        fmt::format("tool {} cuts without its length being compensated", *state.modes.tool),
+        std::string(length_words(dialect))};
   });
 }
 
@@ -64,12 +65,13 @@ void check_length_number(const parser::Motion& motion, const MotionState& state,
                          FindingList& findings) {
   const auto* change = std::get_if<parser::CompensationChange>(&motion.command);
   if (change == nullptr || change->mode == LengthCompensation::off) return;
-  if (!state.tool || change->offset_number == 0 || change->offset_number == *state.tool) return;
+  if (!state.modes.tool || change->offset_number == 0 || change->offset_number == *state.modes.tool)
+    return;
   findings.raise(Check::length_of_other_tool, FindingList::key_of(motion.place), motion.place, [&] {
     return Words{fmt::format("the length of tool {} is put in force, and tool {} is in the "
                              "spindle",
-                             change->offset_number, *state.tool),
-                 fmt::format("H{} is meant?", *state.tool)};
+                             change->offset_number, *state.modes.tool),
+                 fmt::format("H{} is meant?", *state.modes.tool)};
   });
 }
 

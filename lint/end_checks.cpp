@@ -30,7 +30,7 @@ constexpr std::array kRules{
             [](const MotionState& state, const ModalState&) { return !state.ended; },
             "the program ends without M30 or M2", "end it with M30"},
     EndRule{Check::end_tip_control,
-            [](const MotionState& state, const ModalState&) { return state.tip_control(); },
+            [](const MotionState& state, const ModalState&) { return state.modes.tip_control(); },
             "the program ends with the tool-centre-point control on",
             "switch it off before the end: G49, M429, TRAFOOF, M129"},
     EndRule{Check::end_incremental,
@@ -43,10 +43,11 @@ constexpr std::array kRules{
               return modes.feed_mode == parser::FeedMode::inverse_time;
             },
             "the program ends in G93", "give G94 before the end", Resets::linuxcnc},
-    EndRule{Check::end_tilted_plane,
-            [](const MotionState& state, const ModalState&) { return state.tilted; },
-            "the program ends in a tilted plane",
-            "cancel it before the end: G69, CYCLE800(), PLANE RESET"},
+    EndRule{
+        Check::end_tilted_plane,
+        [](const MotionState& state, const ModalState&) { return state.modes.plane.has_value(); },
+        "the program ends in a tilted plane",
+        "cancel it before the end: G69, CYCLE800(), PLANE RESET"},
     EndRule{Check::end_shifted_frame,
             [](const MotionState&, const ModalState& modes) {
               return !modes.programmed_frame.is_identity();
@@ -55,7 +56,7 @@ constexpr std::array kRules{
             "cancel it before the end: G69, G52 X0 Y0 Z0, G92.1, TRANS"},
     EndRule{Check::end_spindle,
             [](const MotionState& state, const ModalState&) {
-              return state.spindle.direction != parser::SpindleDirection::off;
+              return state.modes.spindle.direction != parser::SpindleDirection::off;
             },
             "the program ends with the spindle on",
             "give M5 before the end; not every control stops it at M30",

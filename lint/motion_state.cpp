@@ -37,6 +37,7 @@ bool rotary_axis_moves(const AxisTarget& from, const AxisTarget& to) {
 }
 
 void MotionState::follow(const parser::Motion& motion) {
+  modes.follow(motion.command);
   std::visit([this](const auto& command) { after(command); }, motion.command);
   if (!std::holds_alternative<parser::Event>(motion.command)) place = motion.place;
   if (std::holds_alternative<parser::LinearFeed>(motion.command) ||
@@ -85,23 +86,13 @@ void MotionState::after(const parser::Probe& /*move*/) {
   // Where the probe has met the part nobody knows.
   position = {};
 }
-void MotionState::after(const parser::ToolChange& change) {
-  tool = change.tool;
-  ++compensation_changes;
-}
-void MotionState::after(const parser::CompensationChange& change) {
-  compensation = change;
+void MotionState::after(const parser::ToolChange& /*change*/) { ++compensation_changes; }
+void MotionState::after(const parser::CompensationChange& /*change*/) {
   ++compensation_changes;
   forget_linear();
 }
-void MotionState::after(const parser::SpindleChange& change) {
-  spindle = change;
-  ++spindle_changes;
-}
-void MotionState::after(const parser::TiltedPlaneChange& change) {
-  tilted = change.program_from_plane.has_value();
-  forget_linear();
-}
+void MotionState::after(const parser::SpindleChange& /*change*/) { ++spindle_changes; }
+void MotionState::after(const parser::TiltedPlaneChange& /*change*/) { forget_linear(); }
 void MotionState::after(const parser::WorkOffsetChange& /*change*/) { position = {}; }
 void MotionState::after(const parser::AlignToPlane& /*align*/) { position = {}; }
 void MotionState::after(const parser::Stop& stop) {

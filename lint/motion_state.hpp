@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "kinematics/controller/controller_modes.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::lint {
@@ -14,12 +15,9 @@ namespace frustum::lint {
 struct MotionState {
   // In program coordinates; absent where it is not known.
   parser::AxisTarget position{};
-  parser::SpindleChange spindle{};
+  kinematics::ControllerModes modes{};
   bool surface_speed = false;  // G96: the spindle's speed is the controller's
-  std::optional<int> tool{};   // the last one that was called
-  parser::CompensationChange compensation{};
-  bool tilted = false;
-  // Count the changes, so that what holds between two of them is told once.
+  // Count the changes, so that what holds between two of them is reported once.
   std::uint64_t spindle_changes = 0;
   std::uint64_t compensation_changes = 0;
   bool ended = false;  // a program end has come
@@ -29,10 +27,7 @@ struct MotionState {
   parser::SourcePlace place{};  // of the last motion
   parser::SourcePlace last_cut{};
 
-  [[nodiscard]] bool tip_control() const {
-    return compensation.mode == parser::LengthCompensation::tool_centre_point;
-  }
-  // What the motion leaves behind.
+  // What the motion leaves.
   void follow(const parser::Motion& motion);
 
  private:

@@ -40,7 +40,7 @@ const AxisTarget* target_of(const parser::Motion& motion) {
 
 void check_tip_control(const CuttingMove& move, const MotionState& state, Dialect dialect,
                        FindingList& findings) {
-  if (!move.linear || !move.rotary || state.tip_control()) return;
+  if (!move.linear || !move.rotary || state.modes.tip_control()) return;
   const auto linear = moving_axis(move.start, move.end, false);
   const auto rotary = moving_axis(move.start, move.end, true);
   if (!linear || !rotary) return;
@@ -59,7 +59,9 @@ void check_tip_control(const CuttingMove& move, const MotionState& state, Dialec
 
 void check_rotary_with_length(const parser::Motion& motion, const MotionState& state,
                               Dialect dialect, FindingList& findings) {
-  if (state.compensation.mode != parser::LengthCompensation::length || state.tilted) return;
+  if (state.modes.compensation.mode != parser::LengthCompensation::length ||
+      state.modes.plane.has_value())
+    return;
   const AxisTarget* target = target_of(motion);
   if (target == nullptr) return;
   const auto rotary = moving_axis(state.position, *target, true);

@@ -1,62 +1,46 @@
 #include "lint/run_errors.hpp"
 
+#include <algorithm>
 #include <array>
-#include <string_view>
-
-#include "parser/interpret/state/program_position.hpp"
 
 namespace frustum::lint {
 namespace {
 
-struct Wording {
-  std::string_view part;
+struct CheckOfId {
+  DiagnosticId id;
   Check check;
 };
 
-constexpr std::array kWordings{
-    Wording{"without a feed rate", Check::feed_missing},
-    Wording{"without F in G93", Check::feed_missing},
-    Wording{"a feed move with feed", Check::feed_missing},
-    Wording{"feed per revolution while the spindle stands", Check::spindle_off},
-    Wording{"from the centre, its end", Check::arc_radii},
-    Wording{"is too small: the end is", Check::arc_radii},
-    Wording{"an arc with R ends at its start", Check::arc_full_by_radius},
-    Wording{"the tool, of radius", Check::radius_gouge},
-    Wording{"radius compensation", Check::radius_compensation},
-    Wording{"entry move", Check::radius_compensation},
-    Wording{"the start of the entry", Check::radius_compensation},
-    Wording{"the tool table has no tool", Check::radius_compensation},
-    Wording{"with a tool of no diameter", Check::radius_compensation},
-    Wording{"has no value", Check::parameter_unset},
-    Wording{"parameter #", Check::program_error},
-    Wording{"does not exist", Check::missing_subprogram},
-    Wording{"no subprogram", Check::missing_subprogram},
-    Wording{"there is no part", Check::missing_label},
-    Wording{"to go to", Check::missing_label},
-    Wording{"subprograms within each other", Check::recursion},
-    Wording{"blocks have run", Check::endless_loop},
-    Wording{"M99 in the main program would repeat it for ever", Check::endless_loop},
-    Wording{"no tool length is in force", Check::length_missing},
-    Wording{"tool length compensation without an H word", Check::length_missing},
-    Wording{"has no axis", Check::unknown_axis},
-    Wording{"cannot be reached", Check::unreachable_orientation},
-    Wording{"deg off the spindle", Check::unreachable_orientation},
-    Wording{"great circle", Check::unreachable_orientation},
-    Wording{"over-travel", Check::rotary_over_travel},
+constexpr std::array kChecksOfIds{
+    CheckOfId{"feed-missing"_id, Check::feed_missing},
+    CheckOfId{"spindle-off"_id, Check::spindle_off},
+    CheckOfId{"arc-radius"_id, Check::arc_radii},
+    CheckOfId{"arc-full-by-radius"_id, Check::arc_full_by_radius},
+    CheckOfId{"radius-gouge"_id, Check::radius_gouge},
+    CheckOfId{"radius-compensation"_id, Check::radius_compensation},
+    CheckOfId{"parameter-unset"_id, Check::parameter_unset},
+    CheckOfId{"missing-subprogram"_id, Check::missing_subprogram},
+    CheckOfId{"missing-label"_id, Check::missing_label},
+    CheckOfId{"recursion"_id, Check::recursion},
+    CheckOfId{"endless-loop"_id, Check::endless_loop},
+    CheckOfId{"tool-length-missing"_id, Check::length_missing},
+    CheckOfId{"length-of-other-tool"_id, Check::length_of_other_tool},
+    CheckOfId{"unknown-axis"_id, Check::unknown_axis},
+    CheckOfId{"unreachable-orientation"_id, Check::unreachable_orientation},
+    CheckOfId{"off-great-circle"_id, Check::unreachable_orientation},
+    CheckOfId{"axis-over-travel"_id, Check::rotary_over_travel},
 };
 
 }  // namespace
 
 Check check_of(const Diagnostic& error, Check otherwise) {
-  for (const Wording& wording : kWordings) {
-    if (error.message.find(wording.part) != std::string::npos) return wording.check;
-  }
-  return otherwise;
+  const auto found = std::find_if(kChecksOfIds.begin(), kChecksOfIds.end(),
+                                  [&](const CheckOfId& known) { return known.id == error.id; });
+  return found == kChecksOfIds.end() ? otherwise : found->check;
 }
 
 bool follows_from_an_earlier_one(const Diagnostic& error) {
-  const std::string since = std::string("since ") + parser::kMistake;
-  return (error.message + error.hint).find(since) != std::string::npos;
+  return error.id == "follows-mistake"_id;
 }
 
 }  // namespace frustum::lint

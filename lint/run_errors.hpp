@@ -1,4 +1,4 @@
-// Which check an error of the interpreter or the controller belongs to, told by its words.
+// Which check an error of the interpreter or the controller belongs to, by its id.
 //
 // Units : none
 // Errors: none

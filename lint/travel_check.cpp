@@ -109,7 +109,10 @@ class TravelCheck::State {
   void problem(const Diagnostic& diagnostic) {
     // The interpreter or another check says so already, with or without a machine.
     const Check check = check_of(diagnostic, Check::machine_refuses);
-    if (check == Check::feed_missing || check == Check::spindle_off) return;
+    if (check == Check::feed_missing || check == Check::spindle_off ||
+        check == Check::length_of_other_tool) {
+      return;
+    }
     findings_.raise(check, FindingList::key_of(diagnostic.message), place_, [&] {
       return Words{diagnostic.message, diagnostic.hint};
     });

@@ -42,7 +42,8 @@ Result<std::vector<Parameter>> parameters_named(const Machine& machine,
     const std::string& name = names[i];
     const auto before = names.first(i);
     if (std::find(before.begin(), before.end(), name) != before.end()) {
-      problems.push_back(error(fmt::format("{} is given twice", name), "once is enough"));
+      problems.push_back(
+          error("given-twice"_id, fmt::format("{} is given twice", name), "once is enough"));
     } else if (auto parameter = Parameter::named(machine, name)) {
       parameters.push_back(*std::move(parameter));
     } else {

@@ -25,25 +25,29 @@ std::vector<std::size_t> blocks_of(Set set) {
 
 Diagnostics wrong_blocks(const Observations& observations, std::span<const DesignBlock> blocks,
                          const DesignOptions& options) {
-  if (blocks.empty()) return {error("no patterns to choose from")};
+  if (blocks.empty()) return {error("unknown-pattern"_id, "no patterns to choose from")};
   if (blocks.size() > kMostBlocks) {
-    return {error(fmt::format("{} blocks; at most {} can be combined", blocks.size(), kMostBlocks),
+    return {error("too-many"_id,
+                  fmt::format("{} blocks; at most {} can be combined", blocks.size(), kMostBlocks),
                   "leave out what the machine or the workpiece does not allow")};
   }
   Diagnostics found;
   std::vector<std::string> owner(observations.rows.size());
   for (const DesignBlock& block : blocks) {
-    if (block.rows.empty()) found.push_back(error(block.name + " has no characteristics"));
+    if (block.rows.empty())
+      found.push_back(error("unknown-characteristic"_id, block.name + " has no characteristics"));
     for (const Eigen::Index row : block.rows) {
       if (row < 0 || row >= static_cast<Eigen::Index>(owner.size())) {
-        found.push_back(error(fmt::format("{} names row {} of {}", block.name, row, owner.size())));
+        found.push_back(error("inconsistent-design"_id,
+                              fmt::format("{} names row {} of {}", block.name, row, owner.size())));
         continue;
       }
       std::string& name = owner[static_cast<std::size_t>(row)];
       if (!name.empty()) {
-        found.push_back(error(fmt::format("{} belongs to {} and to {}",
-                                          observations.rows[static_cast<std::size_t>(row)].name,
-                                          name, block.name)));
+        found.push_back(error(
+            "inconsistent-design"_id,
+            fmt::format("{} belongs to {} and to {}",
+                        observations.rows[static_cast<std::size_t>(row)].name, name, block.name)));
       }
       name = block.name;
     }
@@ -57,10 +61,12 @@ Diagnostics wrong_blocks(const Observations& observations, std::span<const Desig
                                  [&](const auto& p) { return known(p.first) && known(p.second); });
   if (!required || !exclusive || !needs) {
     found.push_back(
-        error("a required, exclusive or needed pattern is not among those to choose from"));
+        error("inconsistent-design"_id,
+              "a required, exclusive or needed pattern is not among those to choose from"));
   }
   if (!options.limits.empty() && options.limits.size() != observations.unknowns.size()) {
-    found.push_back(error(fmt::format("{} limits for {} unknowns", options.limits.size(),
+    found.push_back(error("inconsistent-design"_id,
+                          fmt::format("{} limits for {} unknowns", options.limits.size(),
                                       observations.unknowns.size())));
   }
   return found;

@@ -132,7 +132,8 @@ Result<StepCatalogue> step_catalogue(const kinematics::Machine& machine,
   if (pieces.empty()) {
     Diagnostics reasons;
     for (const UnreachablePattern& u : catalogue.unreachable) {
-      reasons.push_back(error(fmt::format("pattern {}: {}", u.pattern, u.reason),
+      reasons.push_back(error("pattern-not-possible"_id,
+                              fmt::format("pattern {}: {}", u.pattern, u.reason),
                               "choose another machine, or place the workpiece elsewhere"));
     }
     return reasons;

@@ -34,17 +34,19 @@ Diagnostics wrong_names(const StepCatalogue& catalogue, const StepDesignOptions&
       if (contains(reachable, name)) continue;
       const auto out = std::find_if(catalogue.unreachable.begin(), catalogue.unreachable.end(),
                                     [&](const auto& u) { return u.pattern == name; });
-      wrong.push_back(
-          out != catalogue.unreachable.end()
-              ? error(out->reason, "leave the pattern out")
-              : error(fmt::format("there is no pattern '{}'", name), suggestion(name, reachable)));
+      wrong.push_back(out != catalogue.unreachable.end()
+                          ? error("unknown-pattern"_id, out->reason, "leave the pattern out")
+                          : error("unknown-pattern"_id,
+                                  fmt::format("there is no pattern '{}'", name),
+                                  suggestion(name, reachable)));
     }
   }
   if (options.among.empty()) return wrong;
   for (const std::string& name : options.required) {
     if (!contains(options.among, name) && contains(reachable, name)) {
       wrong.push_back(
-          error(fmt::format("pattern {} is required but not among those to choose from", name),
+          error("unknown-pattern"_id,
+                fmt::format("pattern {} is required but not among those to choose from", name),
                 "add it to the patterns, or do not require it"));
     }
   }

@@ -54,7 +54,7 @@ Diagnostics wrong_inputs(std::span<const StepMeasurement> measured, std::span<co
   }
   Diagnostics found;
   if (!missing.empty()) {
-    found.push_back(error(fmt::format("{} needs {}", title, missing),
+    found.push_back(error("step-value-missing"_id, fmt::format("{} needs {}", title, missing),
                           "the weighted identification takes whatever was measured"));
   }
   for (const StepMeasurement& m : measured) {
@@ -63,15 +63,17 @@ Diagnostics wrong_inputs(std::span<const StepMeasurement> measured, std::span<co
       sum += quantity_of(m, quantity).value_or(0.0);
     }
     if (!std::isfinite(sum)) {
-      found.push_back(error("a size or value of pattern " + m.pattern + " is not a finite number"));
+      found.push_back(error("not-a-number"_id,
+                            "a size or value of pattern " + m.pattern + " is not a finite number"));
     } else if (m.centre_y == 0.0 || m.width + m.step_width + 2.0 * m.centre_y == 0.0) {
       // Height differences divide by both.
-      found.push_back(error("pattern " + m.pattern + " is on the turn axis: Cy is too near to 0",
+      found.push_back(error("pattern-on-axis"_id,
+                            "pattern " + m.pattern + " is on the turn axis: Cy is too near to 0",
                             "give Cy of the workpiece centre"));
     }
   }
   if (!std::isfinite(known.gamma_YX + known.alpha_ZY + known.beta_ZX)) {
-    found.push_back(error("a known squareness is not a finite number"));
+    found.push_back(error("not-a-number"_id, "a known squareness is not a finite number"));
   }
   return found;
 }
@@ -189,7 +191,8 @@ class Steps {
   [[nodiscard]] Result<Recipe> finish(const RecipeErrors& errors) && {
     for (const RecipeStep& step : steps_) {
       if (std::isfinite(step.value)) continue;
-      return error(fmt::format("{} of step {} is not a finite number", step.quantity, step.step),
+      return error("not-a-number"_id,
+                   fmt::format("{} of step {} is not a finite number", step.quantity, step.step),
                    "check the units of the measured values and sizes");
     }
     return Recipe{std::move(steps_), errors};

@@ -35,6 +35,7 @@ void contradictions(const Observations& observations, const WeightedSystem& syst
     const std::string names = names_of(combinations.col(k), observations);
     if (std::abs(left) > kContradiction) {
       found.push_back(warning(
+          "observations-contradict"_id,
           fmt::format("{} contradict each other by {:.2g} standard deviations: by their covariance "
                       "they share all their noise",
                       names, std::abs(left)),
@@ -44,6 +45,7 @@ void contradictions(const Observations& observations, const WeightedSystem& syst
         (share.transpose() * system.gain * system.size.asDiagonal()).transpose();
     if (effect.cwiseAbs().maxCoeff() > kFaintest) {
       found.push_back(warning(
+          "observations-contradict"_id,
           fmt::format("what {} say together would be free of noise by their covariance although it "
                       "depends on the errors; it was left out",
                       names),
@@ -55,6 +57,7 @@ void contradictions(const Observations& observations, const WeightedSystem& syst
 void verdict(const Agreement& agreement, Diagnostics& found) {
   if (!agreement.rejected) return;
   found.push_back(warning(
+      "model-misfit"_id,
       fmt::format(
           "the model does not explain the measurements: chi2 = {:.4g} with {} degrees of "
           "freedom (probability {:.2g}). The stated uncertainties hold for a model that does; "
@@ -73,7 +76,8 @@ void outliers(const Identification& result, Diagnostics& found) {
       residual.residual * unit, residual.angular ? "urad" : "um", *residual.w);
   if (result.agreement.rejected)
     message += "; where the model fails as a whole this may be the model";
-  found.push_back(warning(std::move(message), "measure it again, or leave it out and compare"));
+  found.push_back(warning("outlying-value"_id, std::move(message),
+                          "measure it again, or leave it out and compare"));
 }
 
 }  // namespace
@@ -82,7 +86,7 @@ Diagnostics findings(const Observations& observations, const WeightedSystem& sys
                      const Identification& identification) {
   Diagnostics found;
   for (const NullDirection& direction : identification.observability.null_space) {
-    found.push_back(warning(direction.text));
+    found.push_back(warning("not-identifiable"_id, direction.text));
   }
   contradictions(observations, system, identification, found);
   verdict(identification.agreement, found);

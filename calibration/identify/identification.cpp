@@ -148,11 +148,13 @@ std::optional<std::size_t> suspect_of(const std::vector<Residual>& residuals) {
 
 Result<Identification> identify(const Observations& observations, const IdentifyOptions& options) {
   if (!(options.confidence > 0.0 && options.confidence < 1.0)) {
-    return error("the confidence of the intervals must be between 0 and 1", "0.95 is usual");
+    return error("option-out-of-range"_id, "the confidence of the intervals must be between 0 and 1",
+                 "0.95 is usual");
   }
   if (options.degrees_of_freedom &&
       (!(*options.degrees_of_freedom >= 1.0) || !std::isfinite(*options.degrees_of_freedom))) {
-    return error("the degrees of freedom of the covariance have to be at least 1 and finite");
+    return error("covariance"_id,
+                 "the degrees of freedom of the covariance have to be at least 1 and finite");
   }
   const auto system = weighted_system(observations, options.floor);
   if (!system) return system.error();
@@ -161,7 +163,8 @@ Result<Identification> identify(const Observations& observations, const Identify
   const Solution solution = solve(*system, result.observability.rank);
   result.agreement.chi_square = (system->right - system->matrix * solution.scaled).squaredNorm();
   if (!solution.scaled.allFinite() || !std::isfinite(result.agreement.chi_square)) {
-    return error("the measurements leave the range of numbers", "check their units");
+    return error("range-of-numbers"_id, "the measurements leave the range of numbers",
+                 "check their units");
   }
   const double coverage = coverage_factor(options.confidence, options.degrees_of_freedom);
   fill_estimates(observations, *system, solution, coverage, result);

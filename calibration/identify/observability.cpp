@@ -214,7 +214,8 @@ Result<Observability> observability(const Observations& observations, const Floo
 Result<Separation> separating(const Observations& observations,
                               std::span<const Candidate> candidates, const Floor& floor) {
   if (candidates.size() > kMostCandidates) {
-    return error(fmt::format("{} candidates; at most {} can be compared", candidates.size(),
+    return error("too-many"_id,
+                 fmt::format("{} candidates; at most {} can be compared", candidates.size(),
                              kMostCandidates),
                  "leave out patterns that the machine cannot cut");
   }

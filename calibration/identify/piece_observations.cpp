@@ -14,7 +14,7 @@ namespace frustum::calibration {
 namespace {
 
 Diagnostic in_piece(const MeasuredPiece& piece, const std::string& what, const std::string& hint) {
-  return error(fmt::format("part '{}': {}", piece.name, what), hint);
+  return error("measured-part"_id, fmt::format("part '{}': {}", piece.name, what), hint);
 }
 
 // The measured characteristics in the order of the plan; forms and zones go to `left_out`.

@@ -26,13 +26,14 @@ Diagnostics wrong_prediction(const Prediction& prediction, const Observations& o
   const auto unknowns = static_cast<Eigen::Index>(observations.unknowns.size());
   if (prediction.values.size() != rows || prediction.gain.rows() != rows ||
       prediction.gain.cols() != unknowns) {
-    return {error(fmt::format(
-        "the model answers {} values and {} x {} sensitivities for {} "
-        "characteristics and {} unknowns",
-        prediction.values.size(), prediction.gain.rows(), prediction.gain.cols(), rows, unknowns))};
+    return {error("wrong-size"_id,
+                  fmt::format("the model answers {} values and {} x {} sensitivities for {} "
+                              "characteristics and {} unknowns",
+                              prediction.values.size(), prediction.gain.rows(),
+                              prediction.gain.cols(), rows, unknowns))};
   }
   if (!prediction.values.allFinite() || !prediction.gain.allFinite()) {
-    return {error("the model answers a number that is not finite",
+    return {error("not-a-number"_id, "the model answers a number that is not finite",
                   "the estimate may have left what the machine can do; start from known values")};
   }
   return {};
@@ -68,12 +69,13 @@ Change largest_change(const Identification& identification, const Eigen::VectorX
 Result<Refinement> refine(Observations observations, const Model& model,
                           const RefineOptions& options) {
   if (options.most_rounds < 1 || !(options.settled > 0.0)) {
-    return error("a refinement needs at least one round and a positive limit");
+    return error("option-out-of-range"_id,
+                 "a refinement needs at least one round and a positive limit");
   }
   const Eigen::VectorXd measured = observations.values;
   if (measured.size() != static_cast<Eigen::Index>(observations.rows.size())) {
-    return error(
-        fmt::format("{} values for {} characteristics", measured.size(), observations.rows.size()));
+    return error("wrong-size"_id, fmt::format("{} values for {} characteristics", measured.size(),
+                                              observations.rows.size()));
   }
   Eigen::VectorXd x = start_of(observations);
   Refinement result;
@@ -102,6 +104,7 @@ Result<Refinement> refine(Observations observations, const Model& model,
     }
   }
   return error(
+      "not-converged"_id,
       fmt::format("the estimate did not settle in {} rounds: {} still moved by {:.3g} of its "
                   "standard uncertainty",
                   options.most_rounds, change.name, change.size),

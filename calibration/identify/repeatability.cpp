@@ -11,22 +11,26 @@ namespace {
 Diagnostics wrong_parts(std::span<const Row> rows, std::span<const Eigen::VectorXd> parts,
                         const Eigen::MatrixXd& covariance) {
   const auto n = static_cast<Eigen::Index>(rows.size());
-  if (parts.empty()) return {error("no measured part", "give at least one")};
+  if (parts.empty())
+    return {error("nothing-to-identify"_id, "no measured part", "give at least one")};
   if (covariance.rows() != n || covariance.cols() != n) {
-    return {error(fmt::format("the covariance is {} x {} for {} characteristics", covariance.rows(),
-                              covariance.cols(), n))};
+    return {error("covariance"_id, fmt::format("the covariance is {} x {} for {} characteristics",
+                                               covariance.rows(), covariance.cols(), n))};
   }
   if (!covariance.allFinite() || !(covariance.diagonal().array() > 0.0).all()) {
-    return {error("a variance of the measuring machine is not positive and finite")};
+    return {error("uncertainty-not-positive"_id,
+                  "a variance of the measuring machine is not positive and finite")};
   }
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (parts[p].size() != n) {
       return {error(
+          "wrong-size"_id,
           fmt::format("part {} has {} values for {} characteristics", p + 1, parts[p].size(), n),
           "pool only parts that were measured by the same plan")};
     }
     if (!parts[p].allFinite()) {
-      return {error(fmt::format("part {} has a value that is not a finite number", p + 1))};
+      return {error("not-a-number"_id,
+                    fmt::format("part {} has a value that is not a finite number", p + 1))};
     }
   }
   return {};

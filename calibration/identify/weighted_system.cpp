@@ -26,11 +26,12 @@ Diagnostics whiten(WeightedSystem& system) {
   const Eigen::MatrixXd correlation =
       sd.cwiseInverse().asDiagonal() * system.covariance * sd.cwiseInverse().asDiagonal();
   const SymmetricEigen eigen = symmetric_eigen(correlation);
-  if (!eigen.converged) return {error("the covariance has no eigenvalues")};
+  if (!eigen.converged) return {error("covariance"_id, "the covariance has no eigenvalues")};
   const Eigen::VectorXd& values = eigen.values;  // ascending
   if (values[0] < -kRounding) {
     return {
-        error(fmt::format("the covariance has a negative eigenvalue ({:.3g} of its correlations)",
+        error("covariance"_id,
+              fmt::format("the covariance has a negative eigenvalue ({:.3g} of its correlations)",
                           values[0]),
               "a covariance is a sum of squares: check its signs")};
   }
@@ -67,15 +68,18 @@ Result<WeightedSystem> weighted_system(const Observations& observations, const F
   Diagnostics wrong = check(observations);
   if (!wrong.empty()) return wrong;
   if (!(floor.length >= 0.0 && floor.angle >= 0.0) || !std::isfinite(floor.length + floor.angle)) {
-    return error("the floor of the uncertainties is negative or not finite");
+    return error("uncertainty-not-positive"_id,
+                 "the floor of the uncertainties is negative or not finite");
   }
   WeightedSystem system;
   take_off_fixed(observations, system);
   if (system.free.empty()) {
-    return error("every unknown is fixed: nothing is left to identify", "release one of them");
+    return error("nothing-to-identify"_id, "every unknown is fixed: nothing is left to identify",
+                 "release one of them");
   }
   system.covariance = with_floor(observations, floor);
-  if (!system.covariance.allFinite()) return error("the covariance with its floor is too large");
+  if (!system.covariance.allFinite())
+    return error("covariance"_id, "the covariance with its floor is too large");
   wrong = whiten(system);
   if (!wrong.empty()) return wrong;
 
@@ -95,7 +99,8 @@ Result<WeightedSystem> weighted_system(const Observations& observations, const F
     system.right[rows + p] = prior.value / prior.standard_deviation;
   }
   if (!system.matrix.allFinite() || !system.right.allFinite()) {
-    return error("measurements over their standard deviations leave the range of numbers",
+    return error("range-of-numbers"_id,
+                 "measurements over their standard deviations leave the range of numbers",
                  "check the units of values and covariance");
   }
   return system;

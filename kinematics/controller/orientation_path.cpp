@@ -42,7 +42,7 @@ Diagnostic beyond_travel(const RotaryAxes& axes, const RotaryAngles& q) {
                         to_char(joint.letter), q[i] * kDegPerRad, joint.travel.lo * kDegPerRad,
                         joint.travel.hi * kDegPerRad);
   }
-  return error("over-travel: " + text,
+  return error("axis-over-travel"_id, "over-travel: " + text,
                "turn the workpiece on the table, or begin from the other axis solution");
 }
 
@@ -134,7 +134,8 @@ class OrientationPathMaker {
       return path_;
     }
     if (path_.arc_ > kPi - kOpposite) {
-      return error("the tool axis is to turn to the opposite direction: no great circle is given",
+      return error("off-great-circle"_id,
+                   "the tool axis is to turn to the opposite direction: no great circle is given",
                    "put a tool axis between the two");
     }
     path_.tangent_ = path_.start_.cross(to).cross(path_.start_).normalized();
@@ -168,7 +169,8 @@ class OrientationPathMaker {
     const Vec3 normal = path_.start_.cross(path_.tangent_);
     if (angle_between(normal, axes.first_axis()) > kReachSlack &&
         angle_between(normal, -axes.first_axis()) > kReachSlack) {
-      return error(fmt::format("the great circle leaves the cone that the one rotary axis {} "
+      return error("unreachable-orientation"_id,
+                   fmt::format("the great circle leaves the cone that the one rotary axis {} "
                                "turns the tool through",
                                to_char(axes.joint(0).letter)),
                    "turn the rotary axis linearly instead");
@@ -188,7 +190,8 @@ class OrientationPathMaker {
       if (arc <= 0.0 || arc >= path_.arc_) continue;
       const Vec3 u = path_.axis_at(arc);
       if (const double off = path_.axes_.shortfall(u); off > kReachSlack) {
-        return error(fmt::format("on the great circle the tool axis would leave the reach of the "
+        return error("unreachable-orientation"_id,
+                     fmt::format("on the great circle the tool axis would leave the reach of the "
                                  "rotary axes by {:.6f} deg",
                                  off * kDegPerRad),
                      "turn the rotary axes linearly instead, or put a tool axis between the two");

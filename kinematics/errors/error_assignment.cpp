@@ -88,7 +88,7 @@ Result<NamedError> find_error(const Machine& machine, const std::string& name,
   const auto error_name = ErrorName::parse(name);
   if (const auto reason = machine.refused(*error_name, datum)) {
     return error(
-        fmt::format("error {}: {}", name, *reason),
+        "reference-axes"_id, fmt::format("error {}: {}", name, *reason),
         "choose other reference axes with the machine file's key datum, or say which ones the "
         "errors are written for: [errors] datum");
   }
@@ -109,7 +109,7 @@ bool is_drawn(const ErrorShape& shape) {
 std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& entry,
                                       const ErrorShape& shape, const ErrorName& name) {
   const auto problem = [&](const std::string& what, std::string hint) {
-    return error(fmt::format("error {} = {}: {}", entry.name, entry.written, what),
+    return error("error-kind"_id, fmt::format("error {} = {}: {}", entry.name, entry.written, what),
                  std::move(hint));
   };
   const UnitKind wanted = is_rotation(name.direction) ? UnitKind::angle : UnitKind::length;
@@ -208,7 +208,8 @@ class Resolver {
       const auto before = first_.emplace(own.axis, &own).first->second;
       if (before->distance != own.distance) {
         refuse(*own.entry,
-               error(fmt::format("error {}: {} settles over another distance than in {}",
+               error("settling-distance"_id,
+                     fmt::format("error {}: {} settles over another distance than in {}",
                                  own.entry->name, to_char(own.axis), before->entry->name),
                      "an axis has one play: give one settling distance"));
       }
@@ -234,12 +235,14 @@ class Resolver {
     const std::string others =
         undrawn_.size() > 1 ? fmt::format(", nor {} others", undrawn_.size() - 1) : "";
     refuse(first,
-           error(fmt::format("error {} = {}: the amount is a distribution and has not been drawn{}",
+           error("error-not-drawn"_id,
+                 fmt::format("error {} = {}: the amount is a distribution and has not been drawn{}",
                              first.name, first.written, others),
                  "draw it: --draw SEED, or error_draw = { seed = 1 } in the job"));
   }
   void refuse_settle(const ErrorEntry& entry, const NamedError& named) {
-    refuse(entry, error(fmt::format("error {}: two settling distances of {}", entry.name,
+    refuse(entry, error("settling-distance"_id,
+                        fmt::format("error {}: two settling distances of {}", entry.name,
                                     to_char(named.error.axis)),
                         "an axis has one play: give one settling distance"));
   }
@@ -264,11 +267,13 @@ std::optional<Diagnostic> unknown_error(const Machine& machine, const std::strin
     std::vector<std::string> known;
     for (const ErrorName& e : machine.error_names()) known.push_back(e.text());
     for (const auto& [alias, meaning] : machine.aliases()) known.push_back(alias);
-    return error(fmt::format("unknown error name '{}' for machine {}", name, machine.name()),
+    return error("unknown-error"_id,
+                 fmt::format("unknown error name '{}' for machine {}", name, machine.name()),
                  nearest_word(name, known) ? suggestion(name, known) : lists);
   }
   if (machine.joint(error_name->axis) == nullptr) {
-    return error(fmt::format("error {}: machine {} ({}) has no axis {}", name, machine.name(),
+    return error("unknown-axis"_id,
+                 fmt::format("error {}: machine {} ({}) has no axis {}", name, machine.name(),
                              machine.structure(), to_char(error_name->axis)),
                  lists);
   }
@@ -283,7 +288,8 @@ Result<GeometricErrors> resolve(const Machine& machine, std::span<const ErrorEnt
   if (restate) {
     for (const AxisLetter axis : stated->datum) {
       if (machine.joint(axis) != nullptr) continue;
-      return error(fmt::format("datum: machine {} has no axis {}", machine.name(), to_char(axis)));
+      return error("unknown-axis"_id,
+                   fmt::format("datum: machine {} has no axis {}", machine.name(), to_char(axis)));
     }
   }
   Resolver resolver(machine, restate ? stated->datum : machine.datum(), spans);

@@ -20,7 +20,8 @@ double position_scale(AxisLetter axis) { return is_rotary(axis) ? kRadPerDeg : 1
 bool increase(const TomlTable& table, std::string_view key, const std::vector<double>& positions) {
   for (std::size_t i = 1; i < positions.size(); ++i) {
     if (positions[i] > positions[i - 1]) continue;
-    table.fail(key, fmt::format("position {} follows {}", positions[i], positions[i - 1]),
+    table.fail(key, "not-increasing"_id,
+               fmt::format("position {} follows {}", positions[i], positions[i - 1]),
                "positions must increase");
     return false;
   }
@@ -65,7 +66,8 @@ class ShapeReader {
           if (kind != UnitKind::none) shape_.amount.kind = kind;
         }
         if (shape_.coefficients.empty())
-          table_.fail("polynomial", "expected coefficients", "polynomial = [\"1 um\", \"-2 um\"]");
+          table_.fail("polynomial", "error-table"_id, "expected coefficients",
+                      "polynomial = [\"1 um\", \"-2 um\"]");
         break;
       case Kind::harmonic:
         shape_.order = static_cast<int>(
@@ -76,7 +78,8 @@ class ShapeReader {
         shape_.amount = amount("cyclic");
         shape_.period = position("period").value_or(0.0);
         if (!(shape_.period > 0.0))
-          table_.fail("period", "a cyclic error needs its period", "period = \"5 mm\"");
+          table_.fail("period", "error-table"_id, "a cyclic error needs its period",
+                      "period = \"5 mm\"");
         break;
       case Kind::reversal:
         shape_.amount = amount("reversal");
@@ -89,7 +92,7 @@ class ShapeReader {
         break;
       default:
         if (!table_.has("value"))
-          table_.fail("", "an error needs a shape", kShapeKeys);
+          table_.fail("", "error-table"_id, "an error needs a shape", kShapeKeys);
         else
           shape_.amount = amount("value");
         return;
@@ -105,7 +108,8 @@ class ShapeReader {
       return;
     }
     shape_.phase = parsed("phase", table_.text("phase"));
-    if (shape_.phase.kind != UnitKind::angle) table_.fail("phase", "expected an angle");
+    if (shape_.phase.kind != UnitKind::angle)
+      table_.fail("phase", "error-kind"_id, "expected an angle");
   }
 
   Amount parsed(std::string_view key, const std::string& text) {
@@ -124,16 +128,16 @@ class ShapeReader {
       read = parsed(key, table_.text(key));
     }
     if (read.kind == UnitKind::none && (read.value != 0.0 || !read.drawn.empty())) {
-      table_.fail(key, "needs a unit", "for example \"10 um\" or \"30 urad\"");
+      table_.fail(key, "unit-missing"_id, "needs a unit", "for example \"10 um\" or \"30 urad\"");
     }
     return read;
   }
 
   void place(std::string_view key, UnitKind kind) {
     if (kind == UnitKind::none)
-      table_.fail(key, "needs a unit", "for example \"10 mm\" or \"15 deg\"");
+      table_.fail(key, "unit-missing"_id, "needs a unit", "for example \"10 mm\" or \"15 deg\"");
     if (shape_.position_kind != UnitKind::none && kind != shape_.position_kind)
-      table_.fail(key, "positions in mm and in degrees are mixed");
+      table_.fail(key, "unit-mixed"_id, "positions in mm and in degrees are mixed");
     shape_.position_kind = kind;
   }
 
@@ -149,7 +153,7 @@ class ShapeReader {
     const std::vector<std::string> ends = table_.texts_or("span", {});
     const auto range = ends.size() == 2 ? parse_range(ends[0] + ".." + ends[1]) : std::nullopt;
     if (!range || range->first.kind == UnitKind::none) {
-      table_.fail("span", "expected two increasing positions with units",
+      table_.fail("span", "error-table"_id, "expected two increasing positions with units",
                   "span = [\"0 mm\", \"200 mm\"]");
       return;
     }
@@ -174,14 +178,14 @@ class ShapeReader {
         static_cast<TableKind>(table_.choice_or("interpolation", {"linear", "cubic"}, 0));
     shape_.periodic = table_.boolean_or("periodic", false);
     if (positions.size() != values.size() || positions.size() < 2) {
-      table_.fail("values",
+      table_.fail("values", "error-table"_id,
                   fmt::format("{} positions and {} values", positions.size(), values.size()),
                   "give as many values as positions, at least two");
       return;
     }
     if (!increase(table_, "table", positions)) return;
     if (shape_.periodic && values.front() != values.back()) {
-      table_.fail("values", "the last value of a periodic table is its first",
+      table_.fail("values", "error-table"_id, "the last value of a periodic table is its first",
                   "the table covers one whole period");
     }
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -206,11 +210,12 @@ class ShapeReader {
     const auto rows =
         table_.rows("values", std::max<std::size_t>(1, surface.second_positions.size()));
     if (surface.first == surface.second) {
-      table_.fail("surface", "expected two axes", "surface = [\"A\", \"C\"]");
+      table_.fail("surface", "error-table"_id, "expected two axes", "surface = [\"A\", \"C\"]");
       return;
     }
     if (surface.first_positions.size() < 2 || surface.second_positions.size() < 2) {
-      table_.fail("first", "a surface needs at least two positions of either axis");
+      table_.fail("first", "error-table"_id,
+                  "a surface needs at least two positions of either axis");
       return;
     }
     if (!increase(table_, "first", surface.first_positions) ||
@@ -218,7 +223,7 @@ class ShapeReader {
       return;
     }
     if (rows.size() != surface.first_positions.size()) {
-      table_.fail("values",
+      table_.fail("values", "wrong-size"_id,
                   fmt::format("{} rows for {} positions of {}", rows.size(),
                               surface.first_positions.size(), names[0]),
                   "a row of values for each position of the first axis");
@@ -236,11 +241,11 @@ class ShapeReader {
     const auto positions = table.numbers("table");
     const auto values = table.numbers("values");
     if (!axis) {
-      table.fail("axis", "expected an axis letter");
+      table.fail("axis", "error-table"_id, "expected an axis letter");
       return;
     }
     if (positions.size() != values.size() || positions.size() < 2) {
-      table.fail("values",
+      table.fail("values", "error-table"_id,
                  fmt::format("{} positions and {} values", positions.size(), values.size()),
                  "give as many values as positions, at least two");
       return;
@@ -317,7 +322,8 @@ class ErrorsReader {
 
   void read_file() {
     if (in_error_file_) {
-      table_.fail("file", "an error file does not name another one", "only a job does");
+      table_.fail("file", "error-table"_id, "an error file does not name another one",
+                  "only a job does");
       return;
     }
     const std::filesystem::path file =
@@ -366,7 +372,7 @@ class ErrorsReader {
       entry.terms.front().interpolation = kind;
       return put(std::move(entry));
     }
-    shape.fail("csv", fmt::format("the file has no column {}", name));
+    shape.fail("csv", "unknown-column"_id, fmt::format("the file has no column {}", name));
   }
 
   void read_grid() {
@@ -386,7 +392,7 @@ class ErrorsReader {
     for (const std::string& text : table_.texts_or("datum", {})) {
       const auto axis = axis_named(text);
       if (!axis || is_rotary(*axis)) {
-        table_.fail("datum", fmt::format("'{}' is not a linear axis", text),
+        table_.fail("datum", "reference-axes"_id, fmt::format("'{}' is not a linear axis", text),
                     "the primary and the secondary reference axis: datum = [\"Y\", \"Z\"]");
         return;
       }
@@ -394,7 +400,7 @@ class ErrorsReader {
       entry.written += (entry.written.empty() ? "" : ", ") + text;
     }
     if (entry.datum.size() != 2 || entry.datum[0] == entry.datum[1]) {
-      table_.fail("datum", "expected two different linear axes",
+      table_.fail("datum", "reference-axes"_id, "expected two different linear axes",
                   "the primary and the secondary reference axis: datum = [\"Y\", \"Z\"]");
       return;
     }
@@ -453,7 +459,8 @@ std::optional<Diagnostic> mismatch(const ErrorFileHead& file, const Machine& mac
                                     ? fmt::format("has no axis {}", to_char(axis))
                                     : fmt::format("carries {} on the other side", to_char(axis));
       Diagnostic problem =
-          error(fmt::format("the errors are written for {} ({}); machine {} ({}) {}", file.machine,
+          error("error-table"_id,
+                fmt::format("the errors are written for {} ({}); machine {} ({}) {}", file.machine,
                             file.structure, machine.name(), machine.structure(), lacks),
                 "errors belong to the machine they were found on");
       problem.file = file.file.string();

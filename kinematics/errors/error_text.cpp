@@ -243,7 +243,7 @@ class TermReader {
       in_.fail("a cyclic error needs its period, above 0: period 5mm");
     if (shape_.kind == ErrorShape::Kind::tent && shape_.peak.kind == UnitKind::none)
       in_.fail("a tent needs the place of its peak: at 90deg");
-    if (!in_.problem().empty()) return error(in_.problem(), kForms);
+    if (!in_.problem().empty()) return error("error-text"_id, in_.problem(), kForms);
     return shape_;
   }
 
@@ -360,48 +360,6 @@ class TermReader {
   ErrorShape shape_;
 };
 
-std::string quantity_text(double value, UnitKind kind) {
-  if (kind == UnitKind::length) return fmt::format("{:.6g} um", value * kUmPerMm);
-  if (kind == UnitKind::angle) return fmt::format("{:.6g} urad", value * kUradPerRad);
-  return fmt::format("{:.6g}", value);
-}
-
-std::string distribution_text(const Distribution& d) {
-  if (d.kind == Distribution::Kind::uniform)
-    return "uniform " + quantity_text(d.lo, d.unit) + " .. " + quantity_text(d.hi, d.unit);
-  return "normal " + quantity_text(d.mean, d.unit) + " sd " + quantity_text(d.deviation, d.unit) +
-         (d.limit ? " limit " + quantity_text(*d.limit, d.unit) : "");
-}
-
-std::string amount_text(const Amount& amount) {
-  if (amount.drawn.empty()) return quantity_text(amount.value, amount.kind);
-  std::string text;
-  if (amount.value != 1.0) text = fmt::format("{:.6g} * ", amount.value);
-  for (std::size_t i = 0; i < amount.drawn.size(); ++i) {
-    const DrawnFactor& factor = amount.drawn[i];
-    std::string drawn = factor.name.empty() ? distribution_text(factor.distribution) : factor.name;
-    if (factor.shift != 0.0) drawn += " + " + quantity_text(factor.shift, factor.distribution.unit);
-    if (i > 0) text += " * ";
-    switch (factor.function) {
-      case DrawnFactor::Function::itself:
-        text += drawn;
-        break;
-      case DrawnFactor::Function::cosine:
-        text += fmt::format("cos({})", drawn);
-        break;
-      case DrawnFactor::Function::sine:
-        text += fmt::format("sin({})", drawn);
-        break;
-    }
-  }
-  return text;
-}
-
-std::string position_text(double value, UnitKind kind) {
-  return kind == UnitKind::angle ? fmt::format("{:g} deg", value * kDegPerRad)
-                                 : fmt::format("{:g} mm", value);
-}
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
@@ -429,7 +387,8 @@ Result<Distribution> parse_distribution(std::string_view text) {
   const Distribution distribution = in.distribution();
   if (in.problem().empty() && !in.done())
     in.fail(fmt::format("'{}' is not understood here", in.peek()));
-  if (!in.problem().empty()) return error(fmt::format("'{}': {}", text, in.problem()), kAmounts);
+  if (!in.problem().empty())
+    return error("error-text"_id, fmt::format("'{}': {}", text, in.problem()), kAmounts);
   return distribution;
 }
 
@@ -438,63 +397,15 @@ Result<Amount> parse_amount(std::string_view text, const DrawnQuantities& drawn)
   Amount amount = in.amount("an amount with its unit");
   if (in.problem().empty() && !in.done())
     in.fail(fmt::format("'{}' is not understood here", in.peek()));
-  if (!in.problem().empty()) return error(fmt::format("'{}': {}", text, in.problem()), kAmounts);
+  if (!in.problem().empty())
+    return error("error-text"_id, fmt::format("'{}': {}", text, in.problem()), kAmounts);
   return amount;
-}
-
-std::string written(const ErrorShape& shape) {
-  std::string text;
-  if (shape.kind != ErrorShape::Kind::constant) text = std::string(name_of(shape.kind)) + " ";
-  const UnitKind positions = shape.position_kind;
-  switch (shape.kind) {
-    case ErrorShape::Kind::table:
-      text += fmt::format("of {} points", shape.points.size());
-      break;
-    case ErrorShape::Kind::surface:
-      text += fmt::format("of {} x {} points over {} and {}", shape.surface.first_positions.size(),
-                          shape.surface.second_positions.size(), to_char(shape.surface.first),
-                          to_char(shape.surface.second));
-      break;
-    case ErrorShape::Kind::polynomial:
-      for (std::size_t i = 0; i < shape.coefficients.size(); ++i) {
-        text += (i > 0 ? ", " : "") + amount_text(shape.coefficients[i]);
-      }
-      break;
-    case ErrorShape::Kind::harmonic:
-      text += fmt::format("{} {}", shape.order, amount_text(shape.amount));
-      break;
-    default:
-      text += amount_text(shape.amount);
-  }
-  if (shape.kind == ErrorShape::Kind::cyclic)
-    text += " period " + position_text(shape.period, positions);
-  if (shape.kind == ErrorShape::Kind::tent) {
-    text += " at " + (shape.peak.drawn.empty() ? position_text(shape.peak.value, positions)
-                                               : amount_text(shape.peak));
-  }
-  if (!shape.phase.drawn.empty()) text += " phase " + amount_text(shape.phase);
-  if (shape.phase.drawn.empty() && shape.phase.value != 0.0)
-    text += fmt::format(" phase {:g} deg", shape.phase.value * kDegPerRad);
-  if (shape.span) {
-    text += fmt::format(" over {} .. {}", position_text(shape.span->lo, positions),
-                        position_text(shape.span->hi, positions));
-  }
-  if (shape.zero) text += " zero " + position_text(*shape.zero, positions);
-  if (shape.settle) text += " settle " + position_text(*shape.settle, positions);
-  if (shape.factor) text += fmt::format(" times a factor of {}", to_char(shape.factor->axis));
-  return text;
-}
-
-std::string written(const std::vector<ErrorShape>& terms) {
-  std::string text;
-  for (const ErrorShape& shape : terms) text += (text.empty() ? "" : " + ") + written(shape);
-  return text;
 }
 
 Result<ErrorEntry> parse_error(std::string_view text, const DrawnQuantities& drawn) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    return error(fmt::format("'{}' is not an error", text), kForms);
+    return error("error-text"_id, fmt::format("'{}' is not an error", text), kForms);
   }
   const std::string name(trimmed(text.substr(0, equals)));
   const std::string value(text.substr(equals + 1));

@@ -13,7 +13,8 @@ Vec3 orientation_of(const AxisErrors& errors) {
 }
 
 Diagnostic refusal(const std::string& reason) {
-  return error("the errors cannot be stated for other reference axes: " + reason,
+  return error("reference-axes"_id,
+               "the errors cannot be stated for other reference axes: " + reason,
                "leave out `datum` and write them for the machine's own reference axes");
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/quantile.hpp"
 #include "kinematics/model/chain.hpp"
 
 namespace frustum::kinematics {
@@ -13,18 +14,21 @@ namespace {
 
 std::optional<Diagnostic> problem_of(const Machine& machine, const VolumetricOptions& options) {
   if (options.grid < 2)
-    return error(fmt::format("a grid of {} points an axis", options.grid), "2 or more");
-  if (options.positions.empty()) return error("no position to look at");
+    return error("volumetric-grid"_id, fmt::format("a grid of {} points an axis", options.grid),
+                 "2 or more");
+  if (options.positions.empty()) return error("volumetric-grid"_id, "no position to look at");
   for (const HeldAxes& held : options.positions) {
     for (const auto& [letter, q] : held) {
       const Joint* joint = machine.joint(letter);
       if (joint == nullptr) {
-        return error(fmt::format("machine {} ({}) has no axis {}", machine.name(),
+        return error("unknown-axis"_id,
+                     fmt::format("machine {} ({}) has no axis {}", machine.name(),
                                  machine.structure(), to_char(letter)));
       }
       if (!joint->endless && !joint->travel.contains(q)) {
         const double unit = joint->rotary() ? kDegPerRad : 1.0;
-        return error(fmt::format("{} = {} lies outside its travel {} .. {} {}", to_char(letter),
+        return error("outside-travel"_id,
+                     fmt::format("{} = {} lies outside its travel {} .. {} {}", to_char(letter),
                                  q * unit, joint->travel.lo * unit, joint->travel.hi * unit,
                                  joint->rotary() ? "deg" : "mm"));
       }
@@ -32,6 +36,7 @@ std::optional<Diagnostic> problem_of(const Machine& machine, const VolumetricOpt
     for (const AxisLetter letter : kLinearAxes) {
       if (held.contains(letter) != options.positions.front().contains(letter)) {
         return error(
+            "volumetric-grid"_id,
             fmt::format("axis {} is held in one position and not in another", to_char(letter)),
             "all positions are looked at on the same grid");
       }
@@ -58,10 +63,8 @@ VolumetricStatistics statistics(const std::vector<VolumetricPoint>& points,
     lengths.push_back((p.*vector).norm());
     sum += lengths.back();
   }
-  std::sort(lengths.begin(), lengths.end());
-  const auto count = static_cast<double>(lengths.size());
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count)) - 1;
-  return {lengths.back(), sum / count, lengths[rank]};
+  const double most = *std::max_element(lengths.begin(), lengths.end());
+  return {most, sum / static_cast<double>(lengths.size()), nearest_rank(lengths, 0.95)};
 }
 
 }  // namespace

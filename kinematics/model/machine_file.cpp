@@ -21,7 +21,8 @@ Vec3 unit_direction(const TomlTable& table, std::string_view key, const Vec3& fa
   const Vec3 direction = table.vector_or(key, fallback);
   constexpr double kWrittenDigits = 1e-9;  // a direction written with ten digits passes
   if (std::abs(direction.norm() - 1.0) > kWrittenDigits) {
-    table.fail(key, fmt::format("the direction has length {}, not 1", direction.norm()),
+    table.fail(key, "axis-directions"_id,
+               fmt::format("the direction has length {}, not 1", direction.norm()),
                "give a unit vector");
     return fallback;
   }
@@ -70,7 +71,7 @@ class MachineReader {
       const auto letter = axis_letter(key);
       if (letter && machine.joint(*letter) != nullptr) continue;
       (void)axes.has(key);  // told here, not once more as an unknown key
-      axes.fail(key,
+      axes.fail(key, "structure-code"_id,
                 letter ? fmt::format("axis {} is not in the structure {}", key, machine.structure_)
                        : fmt::format("'{}' is not an axis", key),
                 letter ? "add it to the structure code or take its table away" : "X Y Z A B C");
@@ -98,7 +99,8 @@ class MachineReader {
     joint.offset = table.vector_or("offset", Vec3::Zero());
     joint.endless = table.boolean_or("endless", false);
     if (joint.endless && !joint.rotary()) {
-      table.fail("endless", "a linear axis has a travel", "write travel = [lowest, highest] in mm");
+      table.fail("endless", "axis-travel"_id, "a linear axis has a travel",
+                 "write travel = [lowest, highest] in mm");
     }
     if (joint.endless) {
       joint.travel = {-std::numbers::pi, std::numbers::pi};
@@ -108,18 +110,19 @@ class MachineReader {
         joint.travel = {travel[0] * scale, travel[1] * scale};
         constexpr double kMostDegrees = 360'000.0;  // 1000 turns
         if (is_rotary(letter) && std::max(-travel[0], travel[1]) > kMostDegrees) {
-          table.fail("travel", "more than 1000 turns", "write endless = true");
+          table.fail("travel", "axis-travel"_id, "more than 1000 turns", "write endless = true");
           joint.travel = {-std::numbers::pi, std::numbers::pi};
         }
       } else if (!travel.empty()) {
-        table.fail("travel", "expected [lowest, highest]",
+        table.fail("travel", "axis-travel"_id, "expected [lowest, highest]",
                    is_rotary(letter) ? "in degrees, or endless = true" : "in mm");
       }
     }
     joint.dynamics = dynamics(table, scale);
     joint.home = table.number_or("home", 0.0) * scale;
     if (!joint.endless && !joint.travel.contains(joint.home)) {
-      table.fail("home", fmt::format("{} lies outside the travel", joint.home / scale));
+      table.fail("home", "outside-travel"_id,
+                 fmt::format("{} lies outside the travel", joint.home / scale));
     }
     if (table.is_array("functional_point")) {
       joint.functional_point.point = table.vector("functional_point");
@@ -153,10 +156,11 @@ class MachineReader {
     }
     // 1e-3: axes within 0.06 deg of one plane are a mistake in the file, not a machine.
     if (std::abs(directions.determinant()) < 1e-3) {
-      root.fail("axis", "the directions of X, Y and Z lie in one plane", "they must span space");
+      root.fail("axis", "axis-directions"_id, "the directions of X, Y and Z lie in one plane",
+                "they must span space");
     }
     if (rotary.size() == 2 && rotary[0].cross(rotary[1]).norm() < 1e-3) {
-      root.fail("axis", "the two rotary axes are parallel",
+      root.fail("axis", "axis-directions"_id, "the two rotary axes are parallel",
                 "they must orient the tool in two ways");
     }
   }
@@ -165,7 +169,7 @@ class MachineReader {
     for (const std::string& text : root.texts_or("datum", {})) {
       const auto letter = axis_letter(text);
       if (!letter || is_rotary(*letter)) {
-        root.fail("datum", fmt::format("'{}' is not a linear axis", text),
+        root.fail("datum", "reference-axes"_id, fmt::format("'{}' is not a linear axis", text),
                   "name the primary and the secondary reference axis, for example [\"X\", \"Y\"]");
         return;
       }
@@ -173,7 +177,7 @@ class MachineReader {
     }
     if (machine.datum_.size() > 2 ||
         (machine.datum_.size() == 2 && machine.datum_[0] == machine.datum_[1])) {
-      root.fail("datum", "expected at most two different axes");
+      root.fail("datum", "reference-axes"_id, "expected at most two different axes");
       machine.datum_.clear();
     }
   }
@@ -188,13 +192,14 @@ class MachineReader {
       if (name.empty() && !table.has("error")) continue;
       const auto error = ErrorName::parse(name);
       if (!error) {
-        table.fail("error", fmt::format("unknown error name '{}'", name),
+        table.fail("error", "unknown-error"_id, fmt::format("unknown error name '{}'", name),
                    "E, the direction X Y Z A B C, 0 for a location error, the axis: EXX, EB0C");
         continue;
       }
       if (machine.joint(error->axis) == nullptr) {
-        table.fail("error", fmt::format("error {}: the structure {} has no axis {}", name,
-                                        machine.structure_, to_char(error->axis)));
+        table.fail("error", "unknown-axis"_id,
+                   fmt::format("error {}: the structure {} has no axis {}", name,
+                               machine.structure_, to_char(error->axis)));
         continue;
       }
       alias.error = *error;
@@ -203,7 +208,8 @@ class MachineReader {
       alias.meaning = table.text_or("meaning", error->meaning());
       if (alias.carries &&
           (is_rotary(error->axis) || !error->location || !is_rotation(error->direction))) {
-        table.fail("carries", "only an orientation error of a linear axis can carry");
+        table.fail("carries", "error-kind"_id,
+                   "only an orientation error of a linear axis can carry");
       }
       machine.aliases_.emplace(symbol, std::move(alias));
     }

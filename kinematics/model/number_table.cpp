@@ -43,8 +43,9 @@ const NumberTable::Column* NumberTable::column(std::string_view name) const {
   return nullptr;
 }
 
-Diagnostic NumberTable::problem(int line, int place, std::string message, std::string hint) const {
-  Diagnostic diagnostic = error(std::move(message), std::move(hint));
+Diagnostic NumberTable::problem(DiagnosticId id, int line, int place, std::string message,
+                                std::string hint) const {
+  Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
   diagnostic.file = file.string();
   diagnostic.line = line;
   diagnostic.column = place;
@@ -54,7 +55,7 @@ Diagnostic NumberTable::problem(int line, int place, std::string message, std::s
 Result<NumberTable> read_number_table(const std::filesystem::path& file) {
   NumberTable table{.file = file};
   const auto whole = read_whole_file(file);
-  if (!whole) return table.problem(0, 0, "the file cannot be read");
+  if (!whole) return table.problem("file-unreadable"_id, 0, 0, "the file cannot be read");
   std::istringstream in(*whole);
   std::vector<double> scales;
   int number = 0;
@@ -69,19 +70,20 @@ Result<NumberTable> read_number_table(const std::filesystem::path& file) {
       for (const Cell& cell : cells) {
         const std::size_t bar = cell.text.rfind('_');
         if (bar == std::string_view::npos || bar == 0) {
-          return table.problem(number, cell.place,
+          return table.problem("unit-missing"_id, number, cell.place,
                                fmt::format("column '{}' has no unit", cell.text), kHeaderHint);
         }
         const std::string name(cell.text.substr(0, bar));
         const auto unit = parse_quantity("1 " + std::string(cell.text.substr(bar + 1)));
         if (!unit || unit->kind == UnitKind::none) {
           return table.problem(
-              number, cell.place,
+              "number-table"_id, number, cell.place,
               fmt::format("column '{}': unknown unit '{}'", cell.text, cell.text.substr(bar + 1)),
               kHeaderHint);
         }
         if (table.column(name) != nullptr) {
-          return table.problem(number, cell.place, fmt::format("column '{}' stands twice", name));
+          return table.problem("given-twice"_id, number, cell.place,
+                               fmt::format("column '{}' stands twice", name));
         }
         table.columns.push_back({name, unit->kind, cell.place, {}});
         scales.push_back(unit->value);
@@ -89,7 +91,7 @@ Result<NumberTable> read_number_table(const std::filesystem::path& file) {
       continue;
     }
     if (cells.size() != table.columns.size()) {
-      return table.problem(number, 1,
+      return table.problem("number-table"_id, number, 1,
                            fmt::format("{} values in a row, {} columns in the header", cells.size(),
                                        table.columns.size()));
     }
@@ -98,13 +100,15 @@ Result<NumberTable> read_number_table(const std::filesystem::path& file) {
       double value = 0.0;
       const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (status != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-        return table.problem(number, cells[i].place, fmt::format("'{}' is not a number", text));
+        return table.problem("not-a-number"_id, number, cells[i].place,
+                             fmt::format("'{}' is not a number", text));
       }
       table.columns[i].values.push_back(value * scales[i]);
     }
     table.lines.push_back(number);
   }
-  if (table.columns.empty()) return table.problem(1, 0, "the file has no header", kHeaderHint);
+  if (table.columns.empty())
+    return table.problem("unknown-column"_id, 1, 0, "the file has no header", kHeaderHint);
   return table;
 }
 

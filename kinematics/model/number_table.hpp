@@ -27,7 +27,7 @@ struct NumberTable {
   std::vector<int> lines{};  // of each row
 
   [[nodiscard]] const Column* column(std::string_view name) const;
-  [[nodiscard]] Diagnostic problem(int line, int place, std::string message,
+  [[nodiscard]] Diagnostic problem(DiagnosticId id, int line, int place, std::string message,
                                    std::string hint = {}) const;
 };
 

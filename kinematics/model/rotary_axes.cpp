@@ -194,7 +194,8 @@ Result<OrientationSolutions> RotaryAxes::solve(const Vec3& u) const {
     const RotaryTriangle t = triangle(u);
     if (t.beyond_reach) {
       if (const double off = shortfall(u); off > kReachSlack) {
-        return error(fmt::format("tool direction {} cannot be reached with axes {} and {}: it is "
+        return error("unreachable-orientation"_id,
+                     fmt::format("tool direction {} cannot be reached with axes {} and {}: it is "
                                  "{:.6f} deg from the nearest direction they reach",
                                  in_words(u), to_char(joint(0).letter), to_char(joint(1).letter),
                                  off * kDegPerRad),
@@ -216,7 +217,8 @@ Result<OrientationSolutions> RotaryAxes::solve(const Vec3& u) const {
   const double off = shortfall(u);
   if (count_ == 0) {
     if (off > kReachSlack) {
-      return error(fmt::format("tool direction {} is {:.6f} deg off the spindle, and the machine "
+      return error("unreachable-orientation"_id,
+                   fmt::format("tool direction {} is {:.6f} deg off the spindle, and the machine "
                                "has no rotary axis",
                                in_words(u), off * kDegPerRad),
                    "use a five-axis machine, or keep the tool parallel to the spindle");
@@ -225,7 +227,8 @@ Result<OrientationSolutions> RotaryAxes::solve(const Vec3& u) const {
     return solutions;
   }
   if (off > kReachSlack) {
-    return error(fmt::format("tool direction {} cannot be reached with the one rotary axis {}: it "
+    return error("unreachable-orientation"_id,
+                 fmt::format("tool direction {} cannot be reached with the one rotary axis {}: it "
                              "is {:.6f} deg off",
                              in_words(u), to_char(joint(0).letter), off * kDegPerRad),
                  "directions must lie on the cone that the axis turns through");

@@ -143,7 +143,7 @@ class Planner {
       }
     }
     if (!candidates_.empty()) return std::nullopt;
-    return at_pose(i, error("beyond travel: " + in_the_way,
+    return at_pose(i, error("axis-over-travel"_id, "beyond travel: " + in_the_way,
                             "move the workpiece on the table, or choose a larger machine"));
   }
 
@@ -284,7 +284,8 @@ class Planner {
   }
 
   [[nodiscard]] Diagnostic no_step(std::size_t i) const {
-    return error(fmt::format("from pose {} to pose {} the rotary axes would have to turn through "
+    return error("unwinding-needed"_id,
+                 fmt::format("from pose {} to pose {} the rotary axes would have to turn through "
                              "the end of their travel, or by more than {:g} deg",
                              anchors_.back().pose, i, options_.largest_step * kDegPerRad),
                  "put poses between the two, or lift the tool off there");
@@ -348,7 +349,8 @@ class Planner {
       plan[i].singular = true;
       if (!within_travel(machine_, plan[i].axes)) {
         return at_pose(i,
-                       error("beyond travel at the pole: " + travel_violations_if_any(plan[i].axes),
+                       error("axis-over-travel"_id,
+                             "beyond travel at the pole: " + travel_violations_if_any(plan[i].axes),
                              "move the workpiece on the table"));
       }
     }

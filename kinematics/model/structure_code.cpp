@@ -31,7 +31,7 @@ std::optional<AxisLetter> axis_of(const std::string& part) {
 
 Result<StructureCode> parse_structure(std::string_view code) {
   const auto refuse = [&](const std::string& what) {
-    return error(fmt::format("structure code '{}': {}", code, what),
+    return error("structure-code"_id, fmt::format("structure code '{}': {}", code, what),
                  "tool first, b the bed, workpiece last, for example t-(C)-Z-Y-b-X-B-C-w");
   };
   const std::vector<std::string> parts = parts_of(code);

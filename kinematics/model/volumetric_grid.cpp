@@ -85,11 +85,11 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
     const auto* known = std::find_if(kColumns.begin(), kColumns.end(),
                                      [&](const GridColumn& c) { return column.name == c.name; });
     if (known == kColumns.end()) {
-      return table->problem(table->header_line, column.place,
+      return table->problem("unknown-column"_id, table->header_line, column.place,
                             fmt::format("unknown column '{}'", column.name), kColumnsHint);
     }
     if ((column.unit == UnitKind::angle) != known->angle) {
-      return table->problem(table->header_line, column.place,
+      return table->problem("error-grid"_id, table->header_line, column.place,
                             fmt::format("column '{}' must be {}", column.name,
                                         known->angle ? "an angle" : "a length"),
                             kColumnsHint);
@@ -99,7 +99,7 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     columns[c] = table->column(kColumns[c].name);
     if (columns[c] == nullptr && kColumns[c].required) {
-      return table->problem(table->header_line, 0,
+      return table->problem("error-grid"_id, table->header_line, 0,
                             fmt::format("column '{}' is missing", kColumns[c].name), kColumnsHint);
     }
   }
@@ -107,7 +107,7 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
   for (std::size_t d = 0; d < 3; ++d) {
     positions[d] = distinct(columns[d]->values);
     if (positions[d].size() < 2) {
-      return table->problem(0, 0,
+      return table->problem("error-grid"_id, 0, 0,
                             fmt::format("the grid has {} position(s) along {}", positions[d].size(),
                                         kColumns[d].name),
                             "at least two are needed");
@@ -115,7 +115,7 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
   }
   const std::size_t total = positions[0].size() * positions[1].size() * positions[2].size();
   if (total > 8 * table->lines.size() + 64) {
-    return table->problem(0, 0,
+    return table->problem("error-grid"_id, 0, 0,
                           fmt::format("{} points do not fill the {} x {} x {} positions they name",
                                       table->lines.size(), positions[0].size(), positions[1].size(),
                                       positions[2].size()),
@@ -129,7 +129,7 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
       index = index * positions[d].size() + index_of(positions[d], columns[d]->values[row]);
     }
     if (line_of[index] != 0) {
-      return table->problem(table->lines[row], 1,
+      return table->problem("error-grid"_id, table->lines[row], 1,
                             fmt::format("the point of line {} again", line_of[index]));
     }
     line_of[index] = table->lines[row];
@@ -144,7 +144,7 @@ Result<VolumetricGrid> VolumetricGrid::load(const std::filesystem::path& file) {
     const auto index = static_cast<std::size_t>(missing - line_of.begin());
     const std::size_t nz = positions[2].size(), ny = positions[1].size();
     return table->problem(
-        0, 0,
+        "error-grid"_id, 0, 0,
         fmt::format("the grid has no point at x {:g}, y {:g}, z {:g} mm",
                     positions[0][index / (ny * nz)], positions[1][index / nz % ny],
                     positions[2][index % nz]),

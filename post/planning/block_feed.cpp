@@ -19,7 +19,8 @@ Result<double> minutes_of(const Feed& feed, double counted, double spindle_speed
       break;
   }
   if (spindle_speed > 0.0) return counted / (feed.value * spindle_speed);
-  return error("feed per revolution with the spindle at rest", "start the spindle before");
+  return error("spindle-off"_id, "feed per revolution with the spindle at rest",
+               "start the spindle before");
 }
 
 Feed feed_for(const Feed& written, const PartOfBlock& part) {

@@ -29,9 +29,6 @@ const std::map<std::string, Room>& rooms() {
 const std::vector<UpwardArrow>& upward_arrows() {
   static const std::vector<UpwardArrow> kArrows{
       {"app/job", "app/view/console.hpp", "names the nearest known word"},
-      {"kinematics/controller", "kinematics/path", "until commands and paths are apart"},
-      {"kinematics/model", "kinematics/path/tool_path.hpp", "until poses are of the model"},
-      {"kinematics/model", "kinematics/errors", "the machine holds its error functions"},
       {"metrology/characteristic", "metrology/uncertainty", "until one evaluator a characteristic"},
       {"metrology/characteristic", "metrology/cmm.hpp", "until one evaluator a characteristic"},
       {"metrology/characteristic", "metrology/measurement.hpp",

@@ -224,5 +224,16 @@ TEST(Checks, LocalParametersOfASubprogramMayComeFromItsCall) {
   EXPECT_EQ(of(checked(whole("G0 X[#1+1]\n")), "parameter-unset").size(), 1U);
 }
 
+TEST(CheckOfAnAlarm, IsToldByItsIdWhateverItsCommentSays) {
+  for (const char* comment : {"great circle over-travel", "no subprogram has no value"}) {
+    const auto report = checked(whole(std::string("#3000=1 (") + comment + ")\n"));
+    const auto found = of(report, "program-error");
+    ASSERT_EQ(found.size(), 1U) << ids(report);
+    EXPECT_NE(found[0].message.find(comment), std::string::npos) << found[0].message;
+    EXPECT_TRUE(of(report, "unreachable-orientation").empty());
+    EXPECT_TRUE(of(report, "missing-subprogram").empty());
+  }
+}
+
 }  // namespace
 }  // namespace frustum::lint
