@@ -18,7 +18,7 @@ void check_arc(const CuttingMove& move, FindingList& findings) {
   if (apart > kRadiiDisagree) {
     findings.raise(Check::arc_radii, key, move.place, [&] {
       return Words{fmt::format("the radius is {:.4f} mm at the start of the arc and {:.4f} mm at "
-                               "its end, {:.4f} mm apart (told above {} mm)",
+                               "its end, {:.4f} mm apart (reported above {} mm)",
                                shape->start_radius, shape->end_radius, apart, kRadiiDisagree),
                    "some controls refuse the block; correct the centre or the end"};
     });

@@ -20,7 +20,7 @@ constexpr std::array kChecks{
     CheckInfo{unused_subprogram, "unused-subprogram", kWarning, "Nothing calls a subprogram"},
     CheckInfo{unused_label, "unused-label", kNote, "Nothing names a label"},
     CheckInfo{unreachable_code, "unreachable-code", kWarning,
-              "Blocks behind the end of the program or subprogram never run"},
+              "Blocks after the end of the program or subprogram never run"},
     CheckInfo{duplicate_number, "duplicate-number", kWarning,
               "A block number that is jumped to stands on several blocks"},
     CheckInfo{no_program_end, "no-program-end", kWarning, "The program ends without M30 or M2"},

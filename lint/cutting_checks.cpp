@@ -25,7 +25,7 @@ std::string_view length_words(Dialect dialect) {
     case Dialect::cldata:
       return "call the tool again after its length was switched off";
     default:
-      return "give G43 H and the tool's number behind the tool change";
+      return "give G43 H and the tool's number after the tool change";
   }
 }
 

@@ -78,7 +78,7 @@ void check_end(const MotionState& state, const ModalState& modes, Dialect dialec
   }
   if (!state.cuts || state.retracted) return;
   findings.raise(Check::end_no_retract, 0, state.last_cut, [] {
-    return Words{"the last cut of the program, and no retract behind it",
+    return Words{"the last cut of the program, and no retract after it",
                  "lift the tool off by a rapid or home move before the end"};
   });
 }

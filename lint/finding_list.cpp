@@ -51,4 +51,14 @@ std::vector<Finding> FindingList::sorted() const {
   return findings;
 }
 
+void FindingList::raise(Check check, const Diagnostic& said, const parser::SourcePlace& place,
+                        std::optional<Severity> severity) {
+  raise(
+      check, key_of(said.message), place,
+      [&] {
+        return Words{said.message, said.hint};
+      },
+      severity);
+}
+
 }  // namespace frustum::lint

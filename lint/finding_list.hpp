@@ -58,6 +58,9 @@ class FindingList {
     if (counted(check, key)) return;
     add(check, key, place, words(), severity);
   }
+  // What the interpreter or the controller says; the same words are the same finding.
+  void raise(Check check, const Diagnostic& said, const parser::SourcePlace& place,
+             std::optional<Severity> severity = {});
   [[nodiscard]] bool wants(Check check) const { return !disabled_.contains(check); }
 
   // By file (the main program first), line and column.

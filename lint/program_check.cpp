@@ -58,7 +58,7 @@ class ProgramCheck {
     const auto summary = parser::interpret(
         program_, [this](Motion&& motion) { see(motion); }, run_);
     if (!summary) {
-      for (const Diagnostic& error : summary.error()) tell(error);
+      for (const Diagnostic& error : summary.error()) report(error);
     }
     short_segments_.finish(findings_);
     if (travel_) travel_->finish();
@@ -89,24 +89,19 @@ class ProgramCheck {
   bool go_on(const Diagnostic& error) {
     // Where the axes are is no longer sure.
     state_.position = {};
-    tell(error);
+    report(error);
     broken_off_ = ++errors_ > kMostErrors;
     return !broken_off_;
   }
 
-  void tell(const Diagnostic& error) {
+  void report(const Diagnostic& error) {
     if (follows_from_an_earlier_one(error)) return;
     const bool main_file = error.file == program_.file;
     if (main_file && wrong_lines_.contains(static_cast<std::uint32_t>(error.line))) return;
     SourcePlace place{static_cast<std::uint32_t>(error.line),
                       static_cast<std::uint32_t>(error.column), nullptr};
     if (!main_file) place.file = std::make_shared<const std::string>(error.file);
-    findings_.raise(
-        check_of(error, Check::program_error), FindingList::key_of(error.message), place,
-        [&] {
-          return Words{error.message, error.hint};
-        },
-        error.severity);
+    findings_.raise(check_of(error, Check::program_error), error, place, error.severity);
   }
 
   void see(const Motion& motion) {

@@ -107,12 +107,9 @@ class Structure {
 
   void tell_syntax(const Diagnostic& error, FindingList& findings) {
     wrong_lines_.insert(static_cast<std::uint32_t>(error.line));
-    findings.raise(
-        check_of(error, Check::program_error), FindingList::key_of(error.message),
-        {static_cast<std::uint32_t>(error.line), static_cast<std::uint32_t>(error.column), nullptr},
-        [&] {
-          return Words{error.message, error.hint};
-        });
+    findings.raise(check_of(error, Check::program_error), error,
+                   {static_cast<std::uint32_t>(error.line),
+                    static_cast<std::uint32_t>(error.column), nullptr});
   }
 
   void see(const Block& block) {
@@ -239,7 +236,7 @@ class Structure {
       findings.raise(
           Check::unreachable_code, FindingList::key_of(segment.place), segment.place, [&] {
             return Words{
-                fmt::format("{} {} behind {} never run{}", blocks, blocks == 1 ? "block" : "blocks",
+                fmt::format("{} {} after {} never run{}", blocks, blocks == 1 ? "block" : "blocks",
                             segment.end, blocks == 1 ? "s" : ""),
                 "leave out what is not wanted, or move the end"};
           });

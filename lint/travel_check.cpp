@@ -113,9 +113,7 @@ class TravelCheck::State {
         check == Check::length_of_other_tool) {
       return;
     }
-    findings_.raise(check, FindingList::key_of(diagnostic.message), place_, [&] {
-      return Words{diagnostic.message, diagnostic.hint};
-    });
+    findings_.raise(check, diagnostic, place_);
   }
 
   // --- the setup, where it is not known ---------------------------------------------------------

@@ -151,7 +151,7 @@ std::string likely_cause(const Machine& machine, const ToolPath& first, const To
     case DifferenceKind::feed:
       return difference.same_ratio_throughout
                  ? feed_cause(difference.first.time_ratio)
-                 : std::string("the feed of this stretch, or a block left out of it");
+                 : std::string("the feed of this path segment, or a block left out of it");
     case DifferenceKind::missing:
       return "the second program has no feed moves";
     case DifferenceKind::extra:

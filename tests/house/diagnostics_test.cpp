@@ -23,11 +23,7 @@ const std::vector<MessageSite>& message_sites() {
   static const std::vector<MessageSite> kSites{
       {"core/toml_document.cpp", "the same diagnostic is reported once"},
       {"post/nc_writer.cpp", "the same diagnostic is reported once"},
-      // until the findings of lint/ have ids
-      {"lint/run_errors.cpp", ""},
-      {"lint/travel_check.cpp", ""},
-      {"lint/program_check.cpp", ""},
-      {"lint/program_structure.cpp", ""},
+      {"lint/finding_list.cpp", "the same diagnostic is reported once"},
   };
   return kSites;
 }

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
              whole("M98 P7\n") + "O7\nG0 X1\nM99\n"},
         Case{"unused-label", "AGAIN: G0 X1\nM30\n", 1, "AGAIN is not used",
              "GOTOF AGAIN\nAGAIN: G0 X1\nM30\n", Dialect::sinumerik},
-        Case{"unreachable-code", whole("") + "G0 X5\nG0 X6\n", 8, "2 blocks behind M30 on line 7",
+        Case{"unreachable-code", whole("") + "G0 X5\nG0 X6\n", 8, "2 blocks after M30 on line 7",
              whole("G0 X5\n")},
         Case{"duplicate-number", whole("GOTO 5\nN5 G0 X1\nN5 G0 X2\n"), 7, "N5 is jumped to",
              whole("GOTO 5\nN5 G0 X1\nN6 G0 X2\n")},
