@@ -242,7 +242,7 @@ TEST(ControllerRotary, KeepsTheToolAxisOnTheGreatCircleWhenTold) {
   const auto from = UnitVec3::of(Vec3(0.3, 0.1, 1.0)), to = UnitVec3::of(Vec3(-0.2, 0.4, 1.0));
   const auto e =
       run(shipped("iwf-bc"),
-          lines({ToolChange{1}, kTcp, OrientationPathChange{OrientationPath::great_circle},
+          lines({ToolChange{1}, kTcp, OrientationPathChange{parser::OrientationPath::great_circle},
                  Traverse{target({{X, 0}, {Y, 0}, {Z, 80}}), *from},
                  LinearFeed{target({{X, 20}}), *to, Coordinates::program, feed(600)}}));
   ASSERT_TRUE(e) << to_string(e.error().front());
@@ -257,7 +257,8 @@ TEST(ControllerRotary, KeepsTheToolAxisOnTheGreatCircleWhenTold) {
 }
 
 // The tool axis from one side of the pole to the other, `beside` it by an angle.
-Result<Execution> pole_passage(const Machine& machine, double beside, OrientationPath path) {
+Result<Execution> pole_passage(const Machine& machine, double beside,
+                               parser::OrientationPath path) {
   const auto lean = [&](double along) {
     return *UnitVec3::of(Vec3(std::sin(along), std::sin(beside), 1.0));
   };
@@ -276,7 +277,8 @@ TEST(ControllerPole, PassesThroughAndBesideThePoleWithinTheLimitsOfTheAxes) {
   for (const char* name : {"iwf-bc", "zx-yac", "double-pivot-head"}) {
     const Machine machine = shipped(name);
     for (const double beside : {0.0, 0.001 * kDeg, 0.05 * kDeg}) {
-      for (const auto path : {OrientationPath::great_circle, OrientationPath::rotary_axes}) {
+      for (const auto path :
+           {parser::OrientationPath::great_circle, parser::OrientationPath::rotary_axes}) {
         const auto e = pole_passage(machine, beside, path);
         ASSERT_TRUE(e) << name << " " << beside << to_string(e.error().front());
         const ToolPath& p = e->path;
