@@ -1,8 +1,8 @@
 // Holds a program against all checks, in one run of it.
 //
-// The program is read once for its structure (program_structure.hpp) and run once, past the blocks that cannot be run; the
-// motions go through each check and, where there is a machine, through its controller. Repeats are counted, so that a
-// program of any size gives a list that a person reads.
+// The program is read once for its structure (program_structure.hpp) and run once, past the blocks
+// that cannot be run; the motions go through each check and, where there is a machine, through its
+// controller. Repeats are counted, so that a program of any size gives a list that a person reads.
 //
 // Units : as of the checks
 // Shape : memory does not grow with the program, but for its labels and subprograms

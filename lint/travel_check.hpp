@@ -1,10 +1,14 @@
-// The program on a machine: axes beyond their travels, axes that cannot follow the feed, what the controller refuses.
+// The program on a machine: axes beyond their travels, axes that cannot follow the feed, what the
+// controller refuses.
 //
-// Model    : the controller of kinematics/controller/controller.hpp executes every motion, whatever lies behind the travels, and each
-//            move is looked at along its whole way. What goes on being outside is one finding, with the worst place
+// Model    : the controller of kinematics/controller/controller.hpp executes every motion, whatever
+//            lies behind the travels, and each move is looked at along its whole way. What goes on
+//            being outside is one finding, with the worst place
 // Units    : mm, rad
-// Shape    : O(1) memory; a bent move is looked at in its parts and its peaks between them are searched
-// Errors   : none; tool lengths and work offsets that the setup lacks are taken as zero, which is a finding
+// Shape    : O(1) memory; a bent move is looked at in its parts and its peaks between them are
+//            searched
+// Errors   : none; tool lengths and work offsets that the setup lacks are taken as zero, which is a
+//            finding
 // Accuracy : peaks within 1e-6 of a part
 #pragma once
 

@@ -13,7 +13,8 @@ using kinematics::ErrorName;
 using kinematics::ErrorShape;
 using kinematics::Machine;
 
-// Whether the name means a small rotation; an unknown one is left to resolve(), which says what is wrong.
+// Whether the name means a small rotation; an unknown one is left to resolve(), which says what is
+// wrong.
 bool is_angle(const Machine& machine, const std::string& name) {
   const auto alias = machine.aliases().find(name);
   const auto error = alias != machine.aliases().end() ? std::optional(alias->second.error)

@@ -26,8 +26,8 @@ TrialOptions quiet(double path_bound) {
   return options;
 }
 
-// A trial whose measured features were all cut by what should cut them: a derivative of anything else would
-// be of no use to anybody.
+// A trial whose measured features were all cut by what should cut them: a derivative of anything
+// else would be of no use to anybody.
 Result<Trial> clean_trial(const Machine& machine, const GeometricErrors& errors,
                           const TestPiece& piece, const CommandedPiece& commanded,
                           double path_bound) {

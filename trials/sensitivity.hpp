@@ -1,8 +1,10 @@
 // Derivatives of every characteristic of a test piece to machine errors and to the tool radius.
 //
-// Model    : the piece is cut and measured by a noise-free CMM with the errors given. About that trial a
-//            characteristic answers a parameter e by  odd e + even |e|. Two independent ways:
-//              analytic     every measured point is moved by its gain (surface_gain.hpp) and the plan is
+// Model    : the piece is cut and measured by a noise-free CMM with the errors given. About that
+//            trial a characteristic answers a parameter e by  odd e + even |e|. Two independent
+//            ways:
+//              analytic     every measured point is moved by its gain (surface_gain.hpp) and the
+//              plan is
 //                           evaluated again: one trial for all parameters
 //              differences  whole trials with the parameter at +step and -step:
 //                           odd = (f+ - f-) / 2 step, even = (f+ + f- - 2 f0) / 2 step
@@ -11,8 +13,9 @@
 // Errors   : those of the trial and of the evaluation
 // Accuracy : the two agree to 2e-4 um or urad per um or urad on the step patterns
 //            (tests/trials/step_sensitivity_test.cpp); 1e-6 against an independent computation
-// Source   : ours; the odd part is what linear models of machining tests call sensitivity, the even part
-//            is the dish that a leaning end face cuts, and what forms answer about a perfect part
+// Source   : ours; the odd part is what linear models of machining tests call sensitivity, the even
+//            part is the dish that a leaning end face cuts, and what forms answer about a perfect
+//            part
 #pragma once
 
 #include <Eigen/Core>

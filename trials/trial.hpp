@@ -1,8 +1,8 @@
 // One trip round the loop: parse, interpret, command, travel with errors, cut, measure.
 //
-// A pure function of its arguments: the same input gives the same bits. Everything that runs the loop,
-// once or a million times, goes through run_trial(). What does not depend on the machine's errors, from the
-// program's text to the commanded axes, is done once: CommandedPiece.
+// A pure function of its arguments: the same input gives the same bits. Everything that runs the
+// loop, once or a million times, goes through run_trial(). What does not depend on the machine's
+// errors, from the program's text to the commanded axes, is done once: CommandedPiece.
 // Units: mm, rad
 // Errors: those of every room on the way, with the place in the NC program or the plan
 #pragma once
@@ -89,7 +89,8 @@ struct CommandedPiece {
                                       const programs::TestPiece& piece,
                                       const metrology::CmmModel& cmm,
                                       const TrialOptions& options = {});
-// Of a piece that has been commanded before; its tools may since have other radius and length errors.
+// Of a piece that has been commanded before; its tools may since have other radius and length
+// errors.
 [[nodiscard]] Result<Trial> run_trial(const kinematics::Machine& machine,
                                       const kinematics::GeometricErrors& errors,
                                       const programs::TestPiece& piece,
@@ -97,8 +98,8 @@ struct CommandedPiece {
                                       const metrology::CmmModel& cmm,
                                       const TrialOptions& options = {});
 
-// The errors as this piece's program meets them: shapes without a span lie over what the operation that
-// its error_span names travels.
+// The errors as this piece's program meets them: shapes without a span lie over what the operation
+// that its error_span names travels.
 [[nodiscard]] Result<kinematics::GeometricErrors> errors_for(
     const kinematics::Machine& machine, std::span<const kinematics::ErrorEntry> errors,
     const programs::TestPiece& piece);

@@ -32,8 +32,8 @@ using parser::Motion;
 
 constexpr double kReach = 20.0;  // mm: what a radian of the tool axis weighs
 
-// What the controller interpolates linearly between two blocks, and what a program writes: tip or linear
-// axes, and the rotary axes.
+// What the controller interpolates linearly between two blocks, and what a program writes: tip or
+// linear axes, and the rotary axes.
 struct Words {
   Vec3 linear = Vec3::Zero();
   AxisPositions rotary{};
@@ -47,8 +47,8 @@ Words between(const Words& from, const Words& to, double t) {
   return words;
 }
 
-// The coordinates that words are written in: the programmed frame at one block, without tilted planes, which
-// are resolved.
+// The coordinates that words are written in: the programmed frame at one block, without tilted
+// planes, which are resolved.
 class ProgrammedFrame {
  public:
   ProgrammedFrame(const Machine& machine, const kinematics::ControllerState& state)

@@ -1,15 +1,17 @@
-// A program rewritten for a machine with known errors, so that the actual tool follows the nominal path.
+// A program rewritten for a machine with known errors, so that the actual tool follows the nominal
+// path.
 //
-// Model    : the program is executed on the machine with its errors; where each block's commanded axes
-//            would take a perfect machine is where the tool is wanted. The axes are moved so that the
-//            actual tool gets there (kinematics/model/actual_inverse.hpp), at the block's end and at as many
-//            places within it as keep the actual path within the bound. Blocks keep their mode: under
-//            tool-centre-point control tip and rotary positions, otherwise axis positions. Tool vectors
-//            become rotary positions, arcs become short lines, tilted planes are resolved. Moves in
-//            machine coordinates and without a tool stay as they are; rapids are corrected at their ends
+// Model    : the program is executed on the machine with its errors; where each block's commanded
+//            axes would take a perfect machine is where the tool is wanted. The axes are moved so
+//            that the actual tool gets there (kinematics/model/actual_inverse.hpp), at the block's
+//            end and at as many places within it as keep the actual path within the bound. Blocks
+//            keep their mode: under tool-centre-point control tip and rotary positions, otherwise
+//            axis positions. Tool vectors become rotary positions, arcs become short lines, tilted
+//            planes are resolved. Moves in machine coordinates and without a tool stay as they are;
+//            rapids are corrected at their ends
 // Units    : mm, rad
-// Errors   : what the controller refuses, before or after the correction (a corrected position beyond
-//            the travel), with the NC line
+// Errors   : what the controller refuses, before or after the correction (a corrected position
+//            beyond the travel), with the NC line
 // Accuracy : proven by running the result: `after` is what was measured on it
 #pragma once
 

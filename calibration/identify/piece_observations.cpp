@@ -43,7 +43,8 @@ Result<std::vector<std::string>> rows_of(const MeasuredPiece& piece,
   return rows;
 }
 
-// Stated standard uncertainty of a row, the quadratic mean of the parts'; nothing when none states one.
+// Stated standard uncertainty of a row, the quadratic mean of the parts'; nothing when none states
+// one.
 Result<std::optional<double>> stated_uncertainty(const MeasuredPiece& piece,
                                                  const std::string& row) {
   double squares = 0.0;

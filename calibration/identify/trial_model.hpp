@@ -1,12 +1,13 @@
 // What a machine with given errors would make of some test pieces: whole trials as the model of a
 // refinement.
 //
-// Model    : every piece is cut with the base errors plus the causes at x and measured without noise;
-//            values and derivatives are those of trials::sensitivity()
+// Model    : every piece is cut with the base errors plus the causes at x and measured without
+//            noise; values and derivatives are those of trials::sensitivity()
 // Units    : mm, rad
 // Shape    : rows: the characteristics of the first piece in their order, then those of the next;
 //            columns: the causes
-// Errors   : those of the trials, with the piece's name; a characteristic that its plan does not have
+// Errors   : those of the trials, with the piece's name; a characteristic that its plan does not
+//            have
 // Accuracy : that of trials::sensitivity()
 // Source   : ours
 #pragma once
@@ -43,8 +44,8 @@ struct Cause {
 // The piece with its program commanded; as it was where the controller refuses it.
 [[nodiscard]] StudiedPiece commanded(const kinematics::Machine& machine, StudiedPiece piece);
 
-// One piece cut by a machine with all causes at x: what is measured, and the derivatives to the causes that
-// act on it (columns in the order of causes_on()).
+// One piece cut by a machine with all causes at x: what is measured, and the derivatives to the
+// causes that act on it (columns in the order of causes_on()).
 [[nodiscard]] Result<trials::Sensitivity> answer_of(const kinematics::Machine& machine,
                                                     const StudiedPiece& piece, std::size_t index,
                                                     const std::vector<Cause>& causes,

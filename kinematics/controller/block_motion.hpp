@@ -1,9 +1,10 @@
 // What one NC block commands: the positions of all axes as a function of u in [0, 1].
 //
-// Model    : three ways to move. Axes: every axis linear. Words: X Y Z on a line or arc as axis positions,
-//            rotary axes linear (tool centre point control off). Tip: the tip on a line or arc in the
-//            programmed frame, rotary axes linear or the tool axis on the great circle, linear axes by the
-//            closed form of the nominal machine (tool centre point control on, tilted plane)
+// Model    : three ways to move. Axes: every axis linear. Words: X Y Z on a line or arc as axis
+//            positions, rotary axes linear (tool centre point control off). Tip: the tip on a line
+//            or arc in the programmed frame, rotary axes linear or the tool axis on the great
+//            circle, linear axes by the closed form of the nominal machine (tool centre point
+//            control on, tilted plane)
 // Units    : mm, rad
 // Errors   : a great circle that the machine cannot follow
 #pragma once
@@ -27,8 +28,8 @@ namespace frustum::kinematics {
 // A fraction u of the way, every axis on its own.
 [[nodiscard]] AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, double u);
 
-// A value of some 300 bytes, so that a program of a million blocks fits into memory; the machine must
-// outlive it.
+// A value of some 300 bytes, so that a program of a million blocks fits into memory; the machine
+// must outlive it.
 class BlockMotion {
  public:
   [[nodiscard]] AxisPositions at(double u) const;
@@ -38,8 +39,8 @@ class BlockMotion {
   [[nodiscard]] bool straight() const;
   // u in (0, 1), increasing: where the axes change their law.
   [[nodiscard]] std::span<const double> breaks() const;
-  // What the feed counts, uniform in u: mm of the tip or of the linear axes; degrees of the rotary axes
-  // where those are at rest.
+  // What the feed counts, uniform in u: mm of the tip or of the linear axes; degrees of the rotary
+  // axes where those are at rest.
   [[nodiscard]] double feed_length() const { return feed_length_; }
   // Equal parts so fine that what bends or repeats within the block cannot hide between them.
   [[nodiscard]] int least_parts() const;

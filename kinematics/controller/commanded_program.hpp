@@ -1,7 +1,9 @@
-// What a controller commands for a program: the motions of the axes, block by block. No error enters here.
+// What a controller commands for a program: the motions of the axes, block by block. No error
+// enters here.
 //
-// Model    : the nominal machine gives every block its axis motion, once; how long it takes, and where an
-//            actual machine then goes, is for kinematics/path/travel.hpp, as often as one likes
+// Model    : the nominal machine gives every block its axis motion, once; how long it takes, and
+//            where an actual machine then goes, is for kinematics/path/travel.hpp, as often as one
+//            likes
 // Units    : mm, rad, s
 // Errors   : none
 #pragma once

@@ -186,7 +186,8 @@ class Controller::State {
     }
   }
 
-  // Tool-centre-point control: tip as programmed, the rotary axes or the tool axis on their own path.
+  // Tool-centre-point control: tip as programmed, the rotary axes or the tool axis on their own
+  // path.
   void move_tip(const AxisTarget& target, const std::optional<UnitVec3>& tool_axis,
                 const Manner& manner, const parser::ArcFeed* arc) {
     const Vec3 start = state_.tip_in_words(q_);
@@ -238,7 +239,8 @@ class Controller::State {
     travel(*std::move(motion), manner);
   }
 
-  // Rotary positions for a tool axis in the table frame: the solution nearest to where the axes are.
+  // Rotary positions for a tool axis in the table frame: the solution nearest to where the axes
+  // are.
   bool orient_to(const Vec3& tool_axis, const Vec3& tip, AxisPositions& rotary_end) {
     const auto solutions = inverse(machine_, {tip, tool_axis}, state_.tool_length(), q_);
     if (!solutions) {
@@ -249,8 +251,8 @@ class Controller::State {
     return true;
   }
 
-  // A tilted plane without tool-centre-point control: where the block ends, the tip is where its words
-  // say; all axes move linearly. A block of rotary words alone turns these and nothing else.
+  // A tilted plane without tool-centre-point control: where the block ends, the tip is where its
+  // words say; all axes move linearly. A block of rotary words alone turns these and nothing else.
   void move_in_plane(const AxisTarget& target, const Manner& manner) {
     AxisPositions end = rotary_end(target);
     const bool has_linear_words = std::any_of(kLinearAxes.begin(), kLinearAxes.end(),

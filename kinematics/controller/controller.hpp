@@ -1,15 +1,16 @@
 // The controller: canonical motions in, commanded axis motions out.
 //
-// Model    : with tool centre point control the tip moves as programmed in the programmed frame (straight, or
-//            on an arc) while the rotary axes move linearly or the tool axis runs on the great circle;
-//            without it all axes move linearly. The controller sees the nominal machine only; where the tool
-//            really goes, and when, is for kinematics/path/travel.hpp. Modes and feeds in words:
-//            docs/controller.md
+// Model    : with tool centre point control the tip moves as programmed in the programmed frame
+//            (straight, or on an arc) while the rotary axes move linearly or the tool axis runs on
+//            the great circle; without it all axes move linearly. The controller sees the nominal
+//            machine only; where the tool really goes, and when, is for kinematics/path/travel.hpp.
+//            Modes and feeds in words: docs/controller.md
 // Frames   : controller_state.hpp. Machine coordinates (G53) are axis positions
 // Units    : mm, rad, s
-// Errors   : over-travel (axis, value, limits), axes the machine lacks, unreachable directions, tools and
-//            work offsets that the setup lacks, feed without a tool, feed per revolution without a turning
-//            spindle, alignment without a plane, rotary positions off the great circle; each with the NC line
+// Errors   : over-travel (axis, value, limits), axes the machine lacks, unreachable directions,
+//            tools and work offsets that the setup lacks, feed without a tool, feed per revolution
+//            without a turning spindle, alignment without a plane, rotary positions off the great
+//            circle; each with the NC line
 #pragma once
 
 #include <functional>
@@ -42,8 +43,8 @@ class Controller {
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
-  // One motion. What is wrong with it, with its place: it is then not made, and the next one starts from
-  // where the axes are.
+  // One motion. What is wrong with it, with its place: it is then not made, and the next one starts
+  // from where the axes are.
   [[nodiscard]] Diagnostics command(const parser::Motion& motion);
   // So far.
   [[nodiscard]] const Diagnostics& warnings() const;

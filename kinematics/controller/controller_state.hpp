@@ -1,8 +1,8 @@
 // What the words of a program mean on a machine with its set-up: modes, work offsets, tool lengths.
 //
-// Frames : programmed frame = table frame shifted by the work offset in force, then the tilted plane.
-//          Without tool centre point control or plane a word is an axis position: at rotary zero the tip is
-//          where the words say
+// Frames : programmed frame = table frame shifted by the work offset in force, then the tilted
+//          plane. Without tool centre point control or plane a word is an axis position: at rotary
+//          zero the tip is where the words say
 // Units  : mm, rad
 // Errors : none; who needs what the set-up lacks asks for it and reports it
 #pragma once
@@ -24,8 +24,8 @@ class ControllerState {
   // Both must outlive it; tools may be added to the set-up later.
   ControllerState(const Machine& machine, const Setup& setup);
 
-  // What a command switches; a work offset that the program places along some axes only stays as it was
-  // where nothing gives the others.
+  // What a command switches; a work offset that the program places along some axes only stays as it
+  // was where nothing gives the others.
   void follow(const parser::Command& command);
 
   [[nodiscard]] const ControllerModes& modes() const { return modes_; }

@@ -97,8 +97,8 @@ RotaryAngles OrientationPath::angles(const Piece& piece, double arc) const {
   }
   const RotaryTriangle now = axes_.triangle(u);
   double turned = std::remainder(now.azimuth - piece.triangle.azimuth, kTurn);
-  // Less than half a great circle turns the azimuth by less than pi, always in one sense; beside the pole
-  // the remainder cannot tell which.
+  // Less than half a great circle turns the azimuth by less than pi, always in one sense; beside
+  // the pole the remainder cannot tell which.
   const double sense = axes_.first_axis().dot(start_.cross(tangent_)) < 0.0 ? -1.0 : 1.0;
   if (turned * sense < -1.0) turned += sense * kTurn;
   return {piece.at_start[0] + turned - piece.sign * (now.psi - piece.triangle.psi),

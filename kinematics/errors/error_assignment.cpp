@@ -22,7 +22,8 @@ HarmonicTerm wave(const ErrorShape& shape, double frequency, double origin) {
   return {shape.amount.value, frequency, origin, shape.phase.value};
 }
 
-// +1 where +q moves the part that the axis carries along its letter's direction, -1 where against it.
+// +1 where +q moves the part that the axis carries along its letter's direction, -1 where against
+// it.
 double sense_of_motion(const Joint& joint) {
   const auto along = static_cast<Eigen::Index>(joint.letter) % 3;
   return joint.side * (joint.direction[along] < 0.0 ? -1.0 : 1.0);
@@ -45,8 +46,8 @@ PlainTerm plain_term(const ErrorShape& shape, const Joint& joint, const AxisSpan
     case ErrorShape::Kind::polynomial:
       return PolynomialTerm{values_of(shape.coefficients), span.middle(), 0.5 * span.width()};
     case ErrorShape::Kind::harmonic:
-      // Linear axes: half periods over the span, counted from its middle; rotary axes: whole periods,
-      // counted from zero.
+      // Linear axes: half periods over the span, counted from its middle; rotary axes: whole
+      // periods, counted from zero.
       if (joint.rotary()) return wave(shape, kTurn * shape.order / span.width(), 0.0);
       return wave(shape, 0.5 * kTurn * shape.order / span.width(), span.middle());
     case ErrorShape::Kind::cyclic:

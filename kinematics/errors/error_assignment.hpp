@@ -1,7 +1,7 @@
 // The errors that people write, laid over the axes of one machine.
 //
-// Model    : each entry names an error of the machine, by its ISO name or an alias; its shapes lie over their
-//            own span, the default span of the axis, or its travel
+// Model    : each entry names an error of the machine, by its ISO name or an alias; its shapes lie
+//            over their own span, the default span of the axis, or its travel
 // Units    : mm, rad
 // Errors   : the error, what is wrong with it and what the machine accepts
 // Source   : ISO 230-1 names; ETH thesis sections 3.8 and 3.9 for the spans
@@ -26,8 +26,8 @@ using AxisSpans = std::map<AxisLetter, AxisRange>;
 [[nodiscard]] std::optional<Diagnostic> unknown_error(const Machine& machine,
                                                       const std::string& name);
 
-// Later entries replace earlier ones of the same error. Amounts that are drawn from distributions must have
-// been drawn before (kinematics/errors/error_draw.hpp).
+// Later entries replace earlier ones of the same error. Amounts that are drawn from distributions
+// must have been drawn before (kinematics/errors/error_draw.hpp).
 [[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine,
                                               std::span<const ErrorEntry> entries,
                                               const AxisSpans& spans = {});

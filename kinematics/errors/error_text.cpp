@@ -1,4 +1,5 @@
-// Reads errors as people write them in words: on the command line and as texts of an [errors] table.
+// Reads errors as people write them in words: on the command line and as texts of an [errors]
+// table.
 #include <fmt/format.h>
 
 #include <algorithm>

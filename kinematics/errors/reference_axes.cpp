@@ -53,8 +53,8 @@ std::optional<std::string> obstacle(const Machine& machine, const GeometricError
   return std::nullopt;
 }
 
-// The turn of the bed's frame that leaves the primary axis no orientation error and the secondary one
-// none about the primary.
+// The turn of the bed's frame that leaves the primary axis no orientation error and the secondary
+// one none about the primary.
 Vec3 turn_of_frame(const Machine& machine, const GeometricErrors& errors) {
   const AxisLetter first = machine.datum()[0], second = machine.datum()[1];
   const Vec3 e = machine.joint(first)->direction;

@@ -1,15 +1,16 @@
-// Forward kinematics: axis positions to the tool's pose in the table frame, with all geometric errors.
+// Forward kinematics: axis positions to the tool's pose in the table frame, with all geometric
+// errors.
 //
 // Model    : workpiece_from_tool = (product of the work chain)^-1 (product of the tool chain)
 //            Trans(spindle offset) Trans(0, 0, -tool length), each joint (side = +1 tool, -1 work):
 //              linear        Trans(offset) Trans(location) Trans(line(q) + d(q)) Rot(eps(q))
 //              rotary stator Trans(offset) Loc Trans(d(q)) Rot(eps(q)) Rot_e(side q)
 //              rotary rotor  Trans(offset) Loc Rot_e(side q) Rot(eps(q)) Trans(d(q))
-//            Loc: a rotary axis's location errors move all that it carries; a linear axis's orientation
-//            errors only tilt the line along which its functional point p runs, about the joint's origin:
-//            line(q) = side q e + (Rot - 1)(side q e + p), unless declared to carry.
-//            A volumetric grid moves the whole tool chain: bed_from_tool = Trans(d) Rot(r) (the product above),
-//            turning about joint_motion.hpp's grid_pivot.
+//            Loc: a rotary axis's location errors move all that it carries; a linear axis's
+//            orientation errors only tilt the line along which its functional point p runs, about
+//            the joint's origin: line(q) = side q e + (Rot - 1)(side q e + p), unless declared to
+//            carry. A volumetric grid moves the whole tool chain: bed_from_tool = Trans(d) Rot(r)
+//            (the product above), turning about joint_motion.hpp's grid_pivot.
 //            Full rotations throughout; no small-angle shortcut.
 // Units    : mm, rad; frame: table (the last joint of the work chain)
 // Errors   : none: every position has a pose, within travel or not
@@ -30,8 +31,9 @@ namespace frustum::kinematics {
 struct SineCosine;
 class PoseRows;
 
-// The chain of one machine with its errors and one tool, prepared once for many poses: what does not
-// depend on the axis positions is multiplied out beforehand. Refers to `errors`, which must outlive it.
+// The chain of one machine with its errors and one tool, prepared once for many poses: what does
+// not depend on the axis positions is multiplied out beforehand. Refers to `errors`, which must
+// outlive it.
 class ForwardChain {
  public:
   // Both must outlive the chain.
@@ -46,8 +48,8 @@ class ForwardChain {
 
  private:
   enum class Motion : std::uint8_t { linear, about_x, about_y, about_z, about_any };
-  // Where the component rotations of a joint turn: at the origin of its frame, at a point of it, or at
-  // the nominal end of the chain.
+  // Where the component rotations of a joint turn: at the origin of its frame, at a point of it, or
+  // at the nominal end of the chain.
   enum class Pivot : std::uint8_t { origin, point, end };
 
   struct Link {
@@ -67,8 +69,8 @@ class ForwardChain {
   };
 
   void prepare(Link& link, const Joint& joint, const AxisErrors& errors);
-  // From the end of the chain back to the bed, so that the nominal place of the end, about which some
-  // errors turn, comes along the way.
+  // From the end of the chain back to the bed, so that the nominal place of the end, about which
+  // some errors turn, comes along the way.
   [[nodiscard]] PoseRows walk(std::span<const Link> links, const Vec3& end,
                               const AxisState& at) const;
   void prepend_linear(const Link& link, const AxisState& at, Vec3& end, PoseRows& pose) const;

@@ -1,12 +1,12 @@
 // Geometric errors of a machine under their ISO 230-1 names.
 //
-// Model    : each axis has six component errors, functions of its commanded position (EXX, EYX, ..., ECC)
-//            and six location errors, constants (EX0C, EB0C, ...). They are physical displacements of the
-//            moving part in its stator frame.
+// Model    : each axis has six component errors, functions of its commanded position (EXX, EYX,
+//            ..., ECC) and six location errors, constants (EX0C, EB0C, ...). They are physical
+//            displacements of the moving part in its stator frame.
 // Units    : mm, rad
 // Errors   : none: error_assignment.hpp checks what people write
-// Source   : ISO 230-1 names; where each acts: chain.hpp. The older short names (X0C for EX0C) and the
-//            letter O for the digit 0 are read too.
+// Source   : ISO 230-1 names; where each acts: chain.hpp. The older short names (X0C for EX0C) and
+//            the letter O for the digit 0 are read too.
 #pragma once
 
 #include <array>
@@ -59,11 +59,13 @@ class GeometricErrors {
   }
   // Whether any error needs the approach_directions of AxisState.
   [[nodiscard]] bool depends_on_direction() const;
-  // These errors plus `factor` times the others; of two lost_motion distances of an axis the longer.
+  // These errors plus `factor` times the others; of two lost_motion distances of an axis the
+  // longer.
   [[nodiscard]] GeometricErrors plus(const GeometricErrors& others, double factor) const;
 
-  // Volumetric grids: a displacement of the whole tool chain in the directions of the bed; it turns about the
-  // functional point of the chain's last linear axis, or about the bed's origin where there is none.
+  // Volumetric grids: a displacement of the whole tool chain in the directions of the bed; it turns
+  // about the functional point of the chain's last linear axis, or about the bed's origin where
+  // there is none.
   [[nodiscard]] bool has_grid() const { return !grids_.empty(); }
   [[nodiscard]] GridErrors grid_at(const AxisPositions& q) const;
   void add_grid(std::shared_ptr<const VolumetricGrid> grid, double factor) {

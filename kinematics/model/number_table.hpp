@@ -1,8 +1,8 @@
 // Tables of numbers in CSV files whose header names a quantity and its unit: X_mm,EXX_um,EBX_urad.
 //
 // Units    : values are turned into mm and rad by the header's units
-// Errors   : file, line and column of: no header, a name without unit, an unknown unit, a name twice, a row of
-//            another length, a cell that is no number
+// Errors   : file, line and column of: no header, a name without unit, an unknown unit, a name
+//            twice, a row of another length, a cell that is no number
 #pragma once
 
 #include <filesystem>

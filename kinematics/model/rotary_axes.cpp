@@ -32,7 +32,8 @@ RotaryAngles polished(const RotaryAxes& rotary, const Vec3& u, RotaryAngles q) {
     Eigen::Matrix<double, 3, 2> jacobian;
     jacobian.col(0) = w1.cross(now);
     jacobian.col(1) = (rotation_about(w1, q[0]) * rotary.joint(1).direction).cross(now);
-    // A direction in which the tool axis cannot move (the pole) is left alone by the pseudo-inverse.
+    // A direction in which the tool axis cannot move (the pole) is left alone by the
+    // pseudo-inverse.
     Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, 3, 2>> solver;
     solver.setThreshold(kPole);
     solver.compute(jacobian);
@@ -50,7 +51,8 @@ double nearest_turn(double angle, double near) {
 }
 
 bool within_travel(const Joint& joint, double position) {
-  // Half a nanometre or nanoradian: a position on the limit, reached with rounding, counts as within.
+  // Half a nanometre or nanoradian: a position on the limit, reached with rounding, counts as
+  // within.
   constexpr double kLimitSlack = 5e-10;
   if (joint.endless) return std::abs(position) <= kMostTurned;
   return position >= joint.travel.lo - kLimitSlack && position <= joint.travel.hi + kLimitSlack;
@@ -84,8 +86,8 @@ double turn_to(const Joint& joint, double word, double near, parser::RotaryPath 
 }
 
 RotaryAxes::RotaryAxes(const Machine& machine) {
-  // In the order in which they turn the tool axis as seen from the table, each by +q: the work chain from
-  // the table inwards, then the tool chain outwards.
+  // In the order in which they turn the tool axis as seen from the table, each by +q: the work
+  // chain from the table inwards, then the tool chain outwards.
   const auto& work = machine.work_chain();
   for (auto joint = work.rbegin(); joint != work.rend(); ++joint) {
     if (joint->rotary()) joints_[count_++] = &*joint;
@@ -115,7 +117,8 @@ RotaryAxes::RotaryAxes(const Machine& machine) {
   const double beside = -v.dot(normal_);
   azimuth_of_v_ = std::atan2(beside, along);
   v_off_axis_ = std::hypot(beside, along);
-  // The closed form loses as many digits as these sines are small: one here, of the three it has to spare.
+  // The closed form loses as many digits as these sines are small: one here, of the three it has to
+  // spare.
   needs_polish_ = v_off_axis_ < 0.1 || sin_between_ < 0.1;
 }
 

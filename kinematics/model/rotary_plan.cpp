@@ -14,7 +14,8 @@
 namespace frustum::kinematics {
 namespace {
 
-// An axis with room for more turns than this follows its path like an endless one; its limits are checked.
+// An axis with room for more turns than this follows its path like an endless one; its limits are
+// checked.
 constexpr double kCountedTurns = 6.0;
 // A change to the other orientation must save at least this: ties stay.
 constexpr double kChangeOfSign = 1e-6;  // rad
@@ -267,8 +268,9 @@ class Planner {
     return std::nullopt;
   }
 
-  // Between neighbours the rotary axes run linearly. Half-way the tool axis must not be farther from the path
-  // than the neighbours are: a change of the solution away from the pole would swing it through the pole.
+  // Between neighbours the rotary axes run linearly. Half-way the tool axis must not be farther
+  // from the path than the neighbours are: a change of the solution away from the pole would swing
+  // it through the pole.
   [[nodiscard]] bool keeps_to_path(std::size_t i, const State& from, double sign,
                                    const RotaryAngles& to) const {
     if (i != anchors_.back().pose + 1) return true;  // the poses between are at the pole
@@ -329,8 +331,8 @@ class Planner {
     return place_tip(machine_, path_[i].tip, tool_length_, axes_.with({}, q));
   }
 
-  // Poses at the pole in [first, last): the free axis goes evenly from `left` to `right`, or turns before the
-  // pose that is come to through the air.
+  // Poses at the pole in [first, last): the free axis goes evenly from `left` to `right`, or turns
+  // before the pose that is come to through the air.
   std::optional<Diagnostic> fill(std::vector<PlannedPose>& plan, std::size_t first,
                                  std::size_t last, const RotaryAngles& left,
                                  const RotaryAngles& right) const {

@@ -37,8 +37,8 @@ class AxisCourse {
 
   [[nodiscard]] double operator()(double u) const { return motion_(u)[axis_]; }
 
-  // Where it turns back between lo and hi, having come in `sense`: golden section, until the position no
-  // longer tells two places apart.
+  // Where it turns back between lo and hi, having come in `sense`: golden section, until the
+  // position no longer tells two places apart.
   [[nodiscard]] double turn_between(double lo, double hi, double sense) const {
     constexpr double kGolden = 0.6180339887498949;
     double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
@@ -57,7 +57,8 @@ class AxisCourse {
     return 0.5 * (lo + hi);
   }
 
-  // The last u between lo and hi before the axis has gone further than `reach` from its place at `origin`.
+  // The last u between lo and hi before the axis has gone further than `reach` from its place at
+  // `origin`.
   [[nodiscard]] double leaves(double origin, double reach, double lo, double hi) const {
     for (int step = 0; step < 60 && hi - lo > 1e-15; ++step) {
       const double middle = 0.5 * (lo + hi);

@@ -16,7 +16,8 @@ constexpr std::size_t kBatch = 16384;
 // An axis limit that costs less than this share of a block's time is not worth reporting.
 constexpr double kNoticed = 0.01;
 
-// The longest step between which axes at their acceleration stay within the bound of a straight line.
+// The longest step between which axes at their acceleration stay within the bound of a straight
+// line.
 double lag_step(const Machine& machine, double bound) {
   double acceleration = 1000.0;  // mm/s^2: of machines that state none
   for (const Joint& joint : machine.joints()) {

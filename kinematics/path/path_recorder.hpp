@@ -1,9 +1,11 @@
-// From commanded moves to the tool path: directions of approach, sampling, times, servo lag; streamed.
+// From commanded moves to the tool path: directions of approach, sampling, times, servo lag;
+// streamed.
 //
-// Model    : the commanded motion of each block goes through the memory of the directions of approach
-//            (direction-dependent errors), is sampled to the path bound, cut where an error jumps (both sides
-//            of the jump are in the path), and given times by the time law. With servo lag the axes follow
-//            their commands late, and the path is where they really are
+// Model    : the commanded motion of each block goes through the memory of the directions of
+//            approach (direction-dependent errors), is sampled to the path bound, cut where an
+//            error jumps (both sides of the jump are in the path), and given times by the time law.
+//            With servo lag the axes follow their commands late, and the path is where they really
+//            are
 // Units    : mm, rad, s
 // Errors   : none; motions have been checked before they come here
 #pragma once
@@ -24,8 +26,8 @@
 
 namespace frustum::kinematics {
 
-// A part of the tool path in program order. Its first pose is the last of the part before, where the
-// path goes on.
+// A part of the tool path in program order. Its first pose is the last of the part before, where
+// the path goes on.
 using PathSink = std::function<void(const ToolPath&)>;
 
 struct TravelOptions {

@@ -5,7 +5,8 @@
 namespace frustum::kinematics {
 namespace {
 
-// The quarter points see at least 3/4 of the sagitta of a cubic; half the bound leaves room for more.
+// The quarter points see at least 3/4 of the sagitta of a cubic; half the bound leaves room for
+// more.
 constexpr double kShareOfBound = 0.5;
 
 double pose_distance(const ToolPose& a, const ToolPose& b, double reach) {

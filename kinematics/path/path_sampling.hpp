@@ -1,7 +1,8 @@
 // Adaptive sampling of a continuous tool motion to the ToolPath bound.
 //
-// Model    : the motion is halved until straight line + great circle between neighbours stays within
-//            `bound` of it at the tip and at `reach` above the tip, checked at the quarter points
+// Model    : the motion is halved until straight line + great circle between neighbours stays
+//            within `bound` of it at the tip and at `reach` above the tip, checked at the quarter
+//            points
 // Units    : mm
 // Errors   : none
 // Accuracy : tests/kinematics/path_sampling_test.cpp holds the bound at a thousand points a block
@@ -20,7 +21,8 @@ struct SamplingOptions {
   int least_parts = 1;  // the motion is cut into this many equal parts first
 };
 
-// Whether `exact`, a share t of the way, is where the straight way from one pose to the other has it.
+// Whether `exact`, a share t of the way, is where the straight way from one pose to the other has
+// it.
 [[nodiscard]] bool is_on_the_way(const ToolPose& from, const ToolPose& to, double t,
                                  const ToolPose& exact, const SamplingOptions& options);
 

@@ -1,8 +1,8 @@
 // Where the tool really is: poses in the workpiece frame, close enough together.
 //
 // Between neighbouring poses of a segment the tip moves on a straight line and the axis on a great
-// circle (slerp), both uniform; that is within `bound` (default 0.01 um, measured at the tip and at the
-// upper end of the cutter) of the true motion.
+// circle (slerp), both uniform; that is within `bound` (default 0.01 um, measured at the tip and at
+// the upper end of the cutter) of the true motion.
 // Units: mm; frame: workpiece. The axis is the unit vector from the tip to the spindle.
 #pragma once
 

@@ -144,8 +144,8 @@ std::optional<Eigen::VectorXd> AmountFit::operator()(const Amounts& amounts) con
   if (!slopes || slopes->norm() < 1e-6) return std::nullopt;
 
   p = least_squares_step(*slopes, by_progress(poses));
-  // The displacement is linear in the amounts; what changes from step to step is which places of the
-  // two paths belong together.
+  // The displacement is linear in the amounts; what changes from step to step is which places of
+  // the two paths belong together.
   constexpr int kMostSteps = 8;
   for (int k = 0; k < kMostSteps; ++k) {
     const auto path = run(amounts, p);

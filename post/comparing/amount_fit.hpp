@@ -1,5 +1,5 @@
-// Amounts by which a program's set-up or a machine differs, fitted so that the program agrees with the right
-// tool path.
+// Amounts by which a program's set-up or a machine differs, fitted so that the program agrees with
+// the right tool path.
 //
 // Units  : mm; an amount has as many parameters as it takes
 // Errors : none; no amounts where none explain the difference

@@ -1,12 +1,13 @@
-// Whether two NC programs move the tool the same way on one machine, and if not, where they part and why.
+// Whether two NC programs move the tool the same way on one machine, and if not, where they part
+// and why.
 //
-// Model    : both programs are executed on the machine without errors; tip, tool axis and the time that
-//            each segment takes are compared along the path (kinematics/path/path_comparison.hpp), so that
-//            block division, dialect and the way a pose is written play no part. Only feed moves count;
-//            travels are not looked at
+// Model    : both programs are executed on the machine without errors; tip, tool axis and the time
+//            that each segment takes are compared along the path
+//            (kinematics/path/path_comparison.hpp), so that block division, dialect and the way a
+//            pose is written play no part. Only feed moves count; travels are not looked at
 // Units    : mm, rad, s; frame: table
-// Errors   : what the controller refuses in either program, with file and NC line; programs that both
-//            have no feed moves
+// Errors   : what the controller refuses in either program, with file and NC line; programs that
+//            both have no feed moves
 #pragma once
 
 #include <optional>

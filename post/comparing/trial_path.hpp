@@ -13,8 +13,8 @@
 
 namespace frustum::post {
 
-// How close the samples of a path lie. Coarse ones are exact where they are, with longer straight lines
-// between: enough to see that a path goes elsewhere.
+// How close the samples of a path lie. Coarse ones are exact where they are, with longer straight
+// lines between: enough to see that a path goes elsewhere.
 enum class PathSampling : std::uint8_t { coarse, fine };
 
 [[nodiscard]] std::optional<kinematics::CommandedProgram> commanded_or_nothing(

@@ -20,8 +20,9 @@ class BlockOutput {
   // Writes the part; the axes are then at `end`.
   void write(const BlockPart& part, const kinematics::AxisPositions& end,
              const std::optional<ArcImage>& arc);
-  // The block's arc in the output's words under `wanted`; nothing where it is none or may not be one.
-  // `table_from_in`: directions of the words that the arc is programmed in, `start`: its start in them.
+  // The block's arc in the output's words under `wanted`; nothing where it is none or may not be
+  // one. `table_from_in`: directions of the words that the arc is programmed in, `start`: its start
+  // in them.
   [[nodiscard]] std::optional<ArcImage> arc_image(const PlannedBlock& block,
                                                   const parser::CompensationChange& wanted,
                                                   const Mat3& table_from_in,

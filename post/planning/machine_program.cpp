@@ -33,8 +33,8 @@ using parser::Motion;
 
 constexpr int kDeepest = 18;  // 262,144 points a block
 
-// Follows the program block by block, as the machine's controller would, and writes each in the form asked
-// for.
+// Follows the program block by block, as the machine's controller would, and writes each in the
+// form asked for.
 class Planner {
  public:
   Planner(const Machine& machine, const kinematics::Setup& setup, std::span<const Motion> motions,

@@ -1,18 +1,19 @@
 // Any program for one machine: tool poses become its axes, its words and its feeds.
 //
-// Model    : the program is followed block by block as the machine's controller would follow it. Each
-//            block is handed on in the form asked for: tip coordinates with rotary words
+// Model    : the program is followed block by block as the machine's controller would follow it.
+//            Each block is handed on in the form asked for: tip coordinates with rotary words
 //            (tool-centre-point control on), tip coordinates with tool vectors, or axis positions
-//            (control off). Where the controller would not keep the programmed path in that form, points
-//            are inserted by halving until it does, within the tolerances. Where a rotary axis runs out
-//            of travel the tool is lifted off, the axes turn, and the tool comes back.
-// Feeds    : a block takes the time that the program gave it. Axis positions with rotary motion carry
-//            inverse time, all else the feed of the tip.
+//            (control off). Where the controller would not keep the programmed path in that form,
+//            points are inserted by halving until it does, within the tolerances. Where a rotary
+//            axis runs out of travel the tool is lifted off, the axes turn, and the tool comes
+//            back.
+// Feeds    : a block takes the time that the program gave it. Axis positions with rotary motion
+//            carry inverse time, all else the feed of the tip.
 // Units    : mm, rad
-// Errors   : poses out of reach or travel, axes the machine lacks, tools and work offsets that the setup
-//            lacks where axis positions depend on them; each with the source line
-// Accuracy : tip within `tolerance` of the programmed path at equal fractions of the block, tool axis
-//            within `angle_tolerance`
+// Errors   : poses out of reach or travel, axes the machine lacks, tools and work offsets that the
+//            setup lacks where axis positions depend on them; each with the source line
+// Accuracy : tip within `tolerance` of the programmed path at equal fractions of the block, tool
+//            axis within `angle_tolerance`
 #pragma once
 
 #include <cstddef>
@@ -34,7 +35,8 @@ enum class ArcForm : std::uint8_t { none, flat, all };
 struct PlanOptions {
   OutputForm output = OutputForm::tip;
   ArcForm arcs = ArcForm::all;
-  // The reader follows great circles where the program asks for them; else they become short blocks.
+  // The reader follows great circles where the program asks for them; else they become short
+  // blocks.
   bool great_circle = false;
   Mm tolerance{1e-3};
   Rad angle_tolerance{1e-6};

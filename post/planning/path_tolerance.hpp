@@ -9,7 +9,8 @@
 
 namespace frustum::post {
 
-// From where the axes are to `end`, where the part ends; `depth`: how often the block has been halved.
+// From where the axes are to `end`, where the part ends; `depth`: how often the block has been
+// halved.
 [[nodiscard]] bool keeps_to_path(const PlanState& state, const BlockPart& part,
                                  const kinematics::AxisPositions& end, int depth);
 

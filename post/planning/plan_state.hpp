@@ -1,8 +1,9 @@
-// What a machine program stands at while it is planned: the program's modes, the axes, the output so far.
+// What a machine program stands at while it is planned: the program's modes, the axes, the output
+// so far.
 //
 // Units  : mm, rad; frame: table
-// Errors : collected in `problems`, with the place of the motion at work: axes that the machine lacks, work
-//          offsets and tool lengths that the set-up lacks, positions beyond the travels
+// Errors : collected in `problems`, with the place of the motion at work: axes that the machine
+//          lacks, work offsets and tool lengths that the set-up lacks, positions beyond the travels
 #pragma once
 
 #include <string>

@@ -50,8 +50,8 @@ double RotaryChoice::turned(AxisLetter letter, double word) const {
   return kinematics::turn_to(*state_.machine.joint(letter), word, state_.q[letter], path);
 }
 
-// Rotary words as they are while the axes are on the solution that the program means; else the positions
-// nearest to where they are that point the tool the same way.
+// Rotary words as they are while the axes are on the solution that the program means; else the
+// positions nearest to where they are that point the tool the same way.
 std::optional<PlannedPose> RotaryChoice::written_end(const PlannedBlock& block, const Vec3& tip) {
   PlannedPose as_written{.axes = state_.q};
   for (const AxisLetter letter : kRotaryAxes) {

@@ -1,5 +1,5 @@
-// Where the rotary axes of a block go: as written, by the plan of a run of tool vectors, or, out of travel,
-// to other positions of the same direction.
+// Where the rotary axes of a block go: as written, by the plan of a run of tool vectors, or, out of
+// travel, to other positions of the same direction.
 //
 // Units  : mm, rad; frame: table
 // Errors : noted in the plan state: directions out of reach, no way within the travels
@@ -21,8 +21,8 @@ class RotaryChoice {
  public:
   explicit RotaryChoice(PlanState& state) : state_(state) {}
 
-  // Where the rotary axes go. `tip`: of the block's end, in the table frame; `rest`: the program from this
-  // block on. Nothing: the problem is noted.
+  // Where the rotary axes go. `tip`: of the block's end, in the table frame; `rest`: the program
+  // from this block on. Nothing: the problem is noted.
   std::optional<kinematics::PlannedPose> choose(const PlannedBlock& block, const Vec3& tip,
                                                 std::span<const parser::Motion> rest);
   // As written, words being axis positions.
@@ -32,7 +32,8 @@ class RotaryChoice {
   // Moved in machine coordinates: what a rewind changed is over.
   void set(parser::AxisLetter letter, double position);
 
-  // Of the block at work: where its rotary axes end, and whether it names its direction by a vector.
+  // Of the block at work: where its rotary axes end, and whether it names its direction by a
+  // vector.
   [[nodiscard]] const kinematics::AxisPositions& end() const { return end_; }
   [[nodiscard]] bool by_vector() const { return by_vector_; }
 

@@ -1,4 +1,5 @@
-// Random machines cut and measured for real, their errors found again from what a CMM with noise says.
+// Random machines cut and measured for real, their errors found again from what a CMM with noise
+// says.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -210,8 +211,8 @@ TEST(BlindRoundTripLaws, IntervalsHoldAndEstimatesAreNotBiased) {
       }
       return measured;
     };
-    // The first measurement by reruns of whole trials; the others about where those settled, which is
-    // within a few standard uncertainties of where theirs would.
+    // The first measurement by reruns of whole trials; the others about where those settled, which
+    // is within a few standard uncertainties of where theirs would.
     const auto first = observations_of(machine, input(0), unknowns_of(blind, 0), causes);
     ASSERT_TRUE(first) << to_string(first.error().front());
     const auto settled = refine(first->observations, first->model);

@@ -1,5 +1,5 @@
-// The whole loop: a machine with errors cuts and is measured, its errors are identified, the programs
-// compensated for them, and a second cut measured.
+// The whole loop: a machine with errors cuts and is measured, its errors are identified, the
+// programs compensated for them, and a second cut measured.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -107,7 +107,8 @@ Eigen::VectorXd identified(const Machine& machine, const GeometricErrors& errors
     causes.push_back({*parameter, std::nullopt});
     unknowns.push_back({.name = error.name, .angular = error.value * error.value < 1e-7});
   }
-  // What a laboratory knows beforehand of the squareness, which shifts with the workpiece's own faces.
+  // What a laboratory knows beforehand of the squareness, which shifts with the workpiece's own
+  // faces.
   for (std::size_t k = 8; k < unknowns.size(); ++k) {
     constexpr double kKnown = 5e-6;  // rad
     unknowns[k].prior = Prior{kTruth[k].value + kKnown * normal({.seed = 4712}, k), kKnown};
@@ -133,8 +134,8 @@ TEST(CompensationLoopSystem, StepPatternsShrinkToWhatTheCmmCannotTell) {
     const auto before = cut_and_measured(machine, errors, pieces[i], cmm);
     const auto after = cut_and_measured(machine, errors, second->piece, cmm);
     const auto perfect = cut_and_measured(machine, {}, pieces[i], {});
-    // With its axis level the table cannot tilt about Y: that much of the tool's tilt stays, and lowers
-    // the rim of an end mill that feeds in this direction.
+    // With its axis level the table cannot tilt about Y: that much of the tool's tilt stays, and
+    // lowers the rim of an end mill that feeds in this direction.
     const auto ideal = compensated_piece(machine, errors, pieces[i]);
     ASSERT_TRUE(ideal);
     const auto left = cut_and_measured(machine, errors, ideal->piece, {});

@@ -66,7 +66,8 @@ TEST(ChainReference, HasTheOffsetsOfTheDvf5000) {
   AxisPositions q;
   q[Z] = -479.0;
   EXPECT_NEAR(nominal_pose(machine, q, 150.0).translation.norm(), 0.0, 1e-9);
-  // Gains of Table 4-3 at Y = -225, Z = -480 (um per urad): a 1 urad error moves the tip by the lever.
+  // Gains of Table 4-3 at Y = -225, Z = -480 (um per urad): a 1 urad error moves the tip by the
+  // lever.
   q[Y] = -225.0, q[Z] = -480.0;
   const auto moved = [&](const std::string& error) {
     return Vec3((actual_pose(machine, errors(machine, {error}), q, 150.0).translation -

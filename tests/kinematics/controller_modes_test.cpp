@@ -264,7 +264,8 @@ Result<Execution> pole_passage(const Machine& machine, double beside,
   };
   Motions motions = lines({ToolChange{1}, kTcp, OrientationPathChange{path},
                            Traverse{target({{X, -20}, {Y, 0}, {Z, 80}}), lean(-0.2)}});
-  // Vector blocks as a programming system writes them, one of them from before the pole to behind it.
+  // Vector blocks as a programming system writes them, one of them from before the pole to behind
+  // it.
   for (int i = 1; i <= 20; ++i) {
     add(motions, static_cast<std::uint32_t>(100 + i),
         LinearFeed{target({{X, -20 + 2.0 * i}}), lean(-0.2 + 0.02 * i), Coordinates::program,

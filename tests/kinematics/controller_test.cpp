@@ -79,7 +79,8 @@ TEST(Controller, GivesTheSamePathForVectorsAndAngles) {
 }
 
 TEST(Controller, StartsAtTheMachinesHomeAndCutsNothingBefore_Complaint11) {
-  // Complaint 11: a simulator that starts at the program's zero gouges the part with the first move.
+  // Complaint 11: a simulator that starts at the program's zero gouges the part with the first
+  // move.
   const auto e =
       run("three-axis", "G21 G90\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z40 F100\n");
   ASSERT_TRUE(e);

@@ -279,7 +279,8 @@ TEST(VolumetricGrid, AddsUpInSumsOfErrors) {
   EXPECT_LT((sum.grid_at({}).turn - 0.75 * Vec3(4, 5, 6)).norm(), 1e-15);
 }
 
-// What the grid says of a machine with X, Y, Z on the tool side, its straightness errors say as well.
+// What the grid says of a machine with X, Y, Z on the tool side, its straightness errors say as
+// well.
 TEST(VolumetricGrid, MovesTheToolAgainstTheBed) {
   const Machine machine = shipped("dvf5000");
   const GridErrors everywhere{Vec3(0.01, -0.02, 0.03), Vec3(20e-6, -30e-6, 40e-6)};

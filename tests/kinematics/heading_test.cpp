@@ -141,9 +141,9 @@ TEST(HeadingTrackerLaws, AgreeWithAMarchedPlayOperator) {
   EXPECT_NEAR(tracker.heading()[kX], heading, 1e-6);
 }
 
-// The inclined cone of the ETH thesis on its table machine (alpha 45, beta 30 deg, r 40 mm, cone centre at
-// (-65, 0, 150) mm), evaluated as section 3.9 does: peak to valley of the deviation along the normal after its
-// mean, cosine and sine are taken off.
+// The inclined cone of the ETH thesis on its table machine (alpha 45, beta 30 deg, r 40 mm, cone
+// centre at (-65, 0, 150) mm), evaluated as section 3.9 does: peak to valley of the deviation along
+// the normal after its mean, cosine and sine are taken off.
 class ConeDeviation {
  public:
   explicit ConeDeviation(const std::vector<std::string>& texts) : machine_(shipped("iwf-bc")) {
@@ -206,7 +206,8 @@ class ConeDeviation {
   GeometricErrors errors_;
 };
 
-// Table 3.4: 9.9 and 10.0 printed for X and Y; the values of an independent computation with full jumps.
+// Table 3.4: 9.9 and 10.0 printed for X and Y; the values of an independent computation with full
+// jumps.
 TEST(HeadingReference, HysteresisRowsOfThesisTable3_4) {
   EXPECT_NEAR(ConeDeviation({"EXX=reversal 10um"}).circularity_um(), 9.991, 0.01);
   EXPECT_NEAR(ConeDeviation({"EYY=reversal 10um"}).circularity_um(), 10.060, 0.01);

@@ -1,5 +1,5 @@
-// The equations of the papers, written out as their authors print them (products of 4x4 matrices), against
-// the generic chain with the papers' machine files. Misprints are put right where noted.
+// The equations of the papers, written out as their authors print them (products of 4x4 matrices),
+// against the generic chain with the papers' machine files. Misprints are put right where noted.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -103,7 +103,8 @@ Symbols random_symbols(const Machine& machine, Draws& draws, double mm, double r
   return symbols;
 }
 
-// --- Ibaraki et al., machining tests: zx-yac -------------------------------------------------------
+// --- Ibaraki et al., machining tests: zx-yac
+// -------------------------------------------------------
 
 struct Ibaraki {
   Machine machine = shipped("zx-yac");
@@ -160,12 +161,13 @@ TEST(PaperEquationsReference, IbarakiEquation5_ToolInTheWorkpieceFrame) {
   }
 }
 
-// --- Jang, volumetric error thesis: dvf5000 --------------------------------------------------------
+// --- Jang, volumetric error thesis: dvf5000
+// --------------------------------------------------------
 //
-// Put right against the print: aYZ only in the Z joint, not in (4-3); in (4-8) and (4-9) the errors stand
-// after the rotation and the displacements turn with it; Table 4-1 without the surplus zeros, the 50 as
-// -50 at C. The products below have the full small rotations of (3-11), for which the print has their
-// first order.
+// Put right against the print: aYZ only in the Z joint, not in (4-3); in (4-8) and (4-9) the errors
+// stand after the rotation and the displacements turn with it; Table 4-1 without the surplus zeros,
+// the 50 as -50 at C. The products below have the full small rotations of (3-11), for which the
+// print has their first order.
 
 struct Jang {
   Machine machine = shipped("dvf5000");
@@ -313,9 +315,11 @@ TEST(PaperEquationsReference, JangEquations4_2To4_7_AsPrintedWithErrorsWhoseSqua
   }
 }
 
-// --- Bossoni, thesis on a five-axis test piece -----------------------------------------------------
+// --- Bossoni, thesis on a five-axis test piece
+// -----------------------------------------------------
 
-// A cone of tool directions of half angle alpha, inclined by beta, turned by gamma, at radial angle phi.
+// A cone of tool directions of half angle alpha, inclined by beta, turned by gamma, at radial angle
+// phi.
 struct Cone {
   double alpha, beta, gamma, r, l, phi;
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kDeg = kRadPerDeg;
 
-// The inclined cone: half apex angle a, inclination b, radius r, phi from `from` to `to`, in degrees.
+// The inclined cone: half apex angle a, inclination b, radius r, phi from `from` to `to`, in
+// degrees.
 std::vector<ToolPose> cone(double a, double b, double from, double to, int steps = 720) {
   const Mat3 inclined = rotation_y(b * kDeg);
   std::vector<ToolPose> path;
@@ -133,7 +134,8 @@ TEST(RotaryPlanLaws, PassesAThousandthOfADegreeBesideThePoleWithoutAJump) {
     EXPECT_LT(seen.largest_step, 1.1) << name;
     EXPECT_LT(seen.worst_tip, 1e-9) << name;
     EXPECT_LT(seen.worst_axis, tolerant.pole_tolerance) << name;
-    // Held to the exact orientation the table must turn by 90 deg and back, or on, in the poses there.
+    // Held to the exact orientation the table must turn by 90 deg and back, or on, in the poses
+    // there.
     const auto exact = plan_axes(machine, path, 100.0, {});
     ASSERT_TRUE(exact);
     const Seen held = follow(machine, path, *exact, 100.0);
@@ -143,7 +145,8 @@ TEST(RotaryPlanLaws, PassesAThousandthOfADegreeBesideThePoleWithoutAJump) {
 }
 
 TEST(RotaryPlanLaws, TurnsEvenlyWhereTheTiltAxisCannotChangeItsSign) {
-  // A tilts to one side only: through the pole C has to turn by 180 deg, spread over the poses there.
+  // A tilts to one side only: through the pole C has to turn by 180 deg, spread over the poses
+  // there.
   const auto machine = machine_from_text(R"(
 name = "one-sided"
 structure = "t-Z-X-b-Y-A-C-w"
@@ -215,7 +218,8 @@ TEST(RotaryPlan, BeginsNearThePreferredSolution) {
   }
 }
 
-// Half-way between two axis positions the tool axis is no farther from the path's middle than the ends are.
+// Half-way between two axis positions the tool axis is no farther from the path's middle than the
+// ends are.
 bool stays_near(const Machine& machine, const AxisPositions& a, const AxisPositions& b) {
   AxisPositions middle;
   for (const AxisLetter letter : kAxisLetters) middle[letter] = 0.5 * (a[letter] + b[letter]);

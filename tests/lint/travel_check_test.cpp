@@ -60,8 +60,8 @@ TEST_F(TravelCheckTest, FindsRotaryAxesBeyondTheirs) {
 }
 
 TEST_F(TravelCheckTest, FollowsTheLinearAxesUnderTipControl) {
-  // The tip stands 200 mm beside the axis of C; half a turn of the table takes X to the other side, and Y out to
-  // 200 mm of way in between.
+  // The tip stands 200 mm beside the axis of C; half a turn of the table takes X to the other side,
+  // and Y out to 200 mm of way in between.
   const CheckReport report = on(
       "iwf-bc", "G49\nG43.4 H1\nG0 X350 Y0 Z50 B0 C0\nG1 X350 Y0 Z50 C180 F5000\nG49\nG0 X0 Y0\n");
   const auto found = of(report, "over-travel");

@@ -1,4 +1,5 @@
-// Bossoni's Tables 3.1, 3.3, 3.4 and 3.6 through the whole loop; writes docs/reproduction.md on request.
+// Bossoni's Tables 3.1, 3.3, 3.4 and 3.6 through the whole loop; writes docs/reproduction.md on
+// request.
 #include <cmath>
 #include <numbers>
 
@@ -154,7 +155,8 @@ TEST(ConeReproductionReference, HoldsTheMixedFamilyRange) {
   EXPECT_NEAR(mixed.z, 66.06601717798212, 0.001);
 }
 
-// Rotary ranges alone do not need a part: the tool vectors of the circle through the inverse solver.
+// Rotary ranges alone do not need a part: the tool vectors of the circle through the inverse
+// solver.
 Ranges vector_ranges(const char* name, double alpha_deg, double beta_deg, double gamma_deg,
                      double start_deg, double radius, double length) {
   const auto machine =
@@ -199,7 +201,8 @@ TEST(ConeReproductionReference, HoldsTheRotaryRangesOfTable31) {
 }
 
 TEST(ConeReproductionReference, HoldsTheLinearRangesOfTable33) {
-  // Ranges of a head machine's linear axes in units of 2 rQ, rQ = r - l sin(alpha) (upside down: +).
+  // Ranges of a head machine's linear axes in units of 2 rQ, rQ = r - l sin(alpha) (upside down:
+  // +).
   const struct {
     double beta, gamma, x, y, z;
   } rows[] = {{0, 33, 1, 1, 0},

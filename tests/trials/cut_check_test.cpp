@@ -77,7 +77,8 @@ TEST(CutCheck, FindsNothingOnAPartThatEveryStepCut) {
 }
 
 TEST(CutCheck, CountsThePointsOfAFeatureThatLieOnTheUncutBlank) {
-  // The table stands 60 um low, the blank is 20 um larger than the part: level cuts do not reach it.
+  // The table stands 60 um low, the blank is 20 um larger than the part: level cuts do not reach
+  // it.
   const Cut cut = Cut::with(0.02, {"dz_AY=-60um"});
   const std::size_t points = cut.points_of("ref.B_a");
   ASSERT_GT(points, 20U);

@@ -1,5 +1,6 @@
-// Every coefficient of the eleven step patterns, through NC text, cut and CMM, against an independent
-// first-principles computation; against the paper's closed forms and its Table 2, entry by entry.
+// Every coefficient of the eleven step patterns, through NC text, cut and CMM, against an
+// independent first-principles computation; against the paper's closed forms and its Table 2, entry
+// by entry.
 #include <fmt/format.h>
 
 #include <array>
@@ -152,7 +153,8 @@ TEST(StepSensitivityReference, HoldsAboutAMachineWithErrorsToo) {
       // um or urad per um or urad.
       const double unit =
           (angle ? 1e3 : 1.0) / (parameters[static_cast<std::size_t>(k)].angular ? 1e3 : 1.0);
-      // Gains are those of the nominal chain: off by the size of the errors, 1e-4 and a few times that.
+      // Gains are those of the nominal chain: off by the size of the errors, 1e-4 and a few times
+      // that.
       EXPECT_NEAR(gains->odd(i, k) * unit, differences->odd(i, k) * unit, 3e-4)
           << c.name << ' ' << parameters[static_cast<std::size_t>(k)].name;
       EXPECT_NEAR(gains->even(i, k) * unit, 0.0, 1e-5) << c.name;
@@ -201,8 +203,8 @@ bool is_centre_term(double difference) {
   return false;
 }
 
-// Leaning floors and walls are cut about the tool's axis, 10 mm beside the surface: where the paper leaves
-// that out.
+// Leaning floors and walls are cut about the tool's axis, 10 mm beside the surface: where the paper
+// leaves that out.
 bool is_tool_radius_term(const std::string& pattern, std::string_view quantity,
                          std::string_view symbol) {
   if (quantity == "dH") return symbol == (pattern[0] == '1' ? "a_ZY" : "b_ZX");
