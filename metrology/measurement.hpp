@@ -17,7 +17,7 @@
 #include "core/diagnostic.hpp"
 #include "core/pose.hpp"
 #include "metrology/non_negative.hpp"
-#include "metrology/probing/surface_probe.hpp"
+#include "metrology/touch.hpp"
 
 namespace frustum::metrology {
 

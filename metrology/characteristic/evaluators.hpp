@@ -6,7 +6,7 @@
 // Units    : mm, rad; all features in one frame, in which the plan holds
 // Shape    : one characteristic a call
 // Errors   : sections with too few points, fits and filters that fail
-// Accuracy : 1e-9 mm (tests/metrology/zone_test.cpp, form_characteristic_test.cpp)
+// Accuracy : 1e-9 mm (tests/metrology/zone_test.cpp, characteristic_test.cpp)
 // Source   : ISO 1101:2017, ISO 12180, ISO 12181, ISO 12780, ISO 12781, ISO 1660
 #pragma once
 

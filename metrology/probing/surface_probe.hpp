@@ -8,16 +8,9 @@
 #include <optional>
 
 #include "core/pose.hpp"
-#include "core/provenance.hpp"
+#include "metrology/touch.hpp"
 
 namespace frustum::metrology {
-
-struct Touch {
-  Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();  // unit, out of the material
-  // What made the surface there, of probes that know it: passed on, never read in this room.
-  std::optional<Provenance> provenance{};
-};
 
 // First surface point on the segment from `start` along `direction`, `length_mm` long.
 template <typename T>

@@ -5,7 +5,7 @@
 //            six terms of standard deviation 1/(2 k), common to all points. Characteristics that
 //            share points, a frame or long distances are correlated. Forms, zones and
 //            concentricities, which have no gradient at zero, keep the variance of their stated
-//            uncertainty (uncertainty.hpp) and count as uncorrelated
+//            uncertainty (standard_uncertainty.hpp) and count as uncorrelated
 // Units    : rows and columns in mm or rad, as the characteristic is a length or an angle
 // Shape    : as many rows and columns as measurement.characteristics, in that order
 // Errors   : a measurement that is not one of this plan; features without points

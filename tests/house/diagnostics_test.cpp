@@ -21,7 +21,7 @@ struct MessageSite {
 
 const std::vector<MessageSite>& message_sites() {
   static const std::vector<MessageSite> kSites{
-      {"core/toml_document.cpp", "the same diagnostic is reported once"},
+      {"core/toml_table.cpp", "the same diagnostic is reported once"},
       {"post/nc_writer.cpp", "the same diagnostic is reported once"},
       {"lint/finding_list.cpp", "the same diagnostic is reported once"},
   };

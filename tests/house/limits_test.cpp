@@ -32,9 +32,7 @@ using Exceptions = std::map<std::string, std::string>;
 
 const Exceptions& long_sources() {
   static const Exceptions kFiles{
-      {"kinematics/errors/error_text.cpp", "until its parts are apart"},
       {"post/nc_writer.cpp", "until there is one writer"},
-      {"post/planning/machine_program.cpp", "until its parts are apart"},
   };
   return kFiles;
 }
@@ -47,9 +45,7 @@ const Exceptions& crowded_folders() {
 }
 
 const Exceptions& large_classes() {
-  static const Exceptions kClasses{
-      {"post/planning/machine_program.cpp: Planner", "until its parts are apart"},
-  };
+  static const Exceptions kClasses{};
   return kClasses;
 }
 

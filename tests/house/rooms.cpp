@@ -29,16 +29,6 @@ const std::map<std::string, Room>& rooms() {
 const std::vector<UpwardArrow>& upward_arrows() {
   static const std::vector<UpwardArrow> kArrows{
       {"app/job", "app/view/console.hpp", "names the nearest known word"},
-      {"metrology/characteristic", "metrology/uncertainty", "until one evaluator a characteristic"},
-      {"metrology/characteristic", "metrology/cmm.hpp", "until one evaluator a characteristic"},
-      {"metrology/characteristic", "metrology/measurement.hpp",
-       "until one evaluator a characteristic"},
-      {"metrology/characteristic", "metrology/decision_rule.hpp",
-       "until one evaluator a characteristic"},
-      {"metrology/plan", "metrology/decision_rule.hpp", "until the rule is of the plan"},
-      {"metrology/plan", "metrology/characteristic", "until checks of a plan are apart"},
-      {"metrology/points", "metrology/plan", "until planned points are below the plan"},
-      {"metrology/points", "metrology/cmm.hpp", "until planned points are below the plan"},
   };
   return kArrows;
 }
