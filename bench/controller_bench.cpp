@@ -1,5 +1,5 @@
-// A TCP program of a million blocks, made on the fly and forgotten as it goes: time and peak memory of
-// the controller with its time law, and the same without limits.
+// A TCP program of a million blocks, made on the fly and forgotten as it goes: time and peak memory
+// of the controller with its time law, and the same without limits.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -21,7 +21,8 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// Finishing of a wavy surface: rows of 0.25 mm blocks, the tool leaning along the wave and swinging sideways.
+// Finishing of a wavy surface: rows of 0.25 mm blocks, the tool leaning along the wave and swinging
+// sideways.
 parser::Motion block_of(std::int64_t i) {
   constexpr std::int64_t kRow = 800;
   const std::int64_t row = i / kRow;

@@ -1,5 +1,5 @@
-// The cone test from its program to measured characteristics: all at once, and again with other errors, which
-// starts from the commanded axes.
+// The cone test from its program to measured characteristics: all at once, and again with other
+// errors, which starts from the commanded axes.
 #include <benchmark/benchmark.h>
 
 #include "kinematics/errors/error_assignment.hpp"

@@ -186,7 +186,7 @@ class TravelCheck::State {
     }
   }
 
-  // A peak between two samples lies beside the outermost of them.
+  // A peak between two samples is beside the outermost of them.
   [[nodiscard]] Reach reach_of(const BlockMotion& motion, AxisLetter letter) const {
     const auto by_axis = [letter](const AxisPositions& a, const AxisPositions& b) {
       return a[letter] < b[letter];

@@ -2,7 +2,7 @@
 // controller refuses.
 //
 // Model    : the controller of kinematics/controller/controller.hpp executes every motion, whatever
-//            lies behind the travels, and each move is looked at along its whole way. What goes on
+//            is beyond the travels, and each move is looked at along its whole way. What goes on
 //            being outside is one finding, with the worst place
 // Units    : mm, rad
 // Shape    : O(1) memory; a bent move is looked at in its parts and its peaks between them are

@@ -4,12 +4,12 @@
 //            is x + r n(x) on the approach line. The machine's errors are added to the centre
 //            (cmm_errors.hpp). Elements are fitted to ball centres and offset by the qualified ball
 //            radius along the fitted normal, or to centres less the radius against the approach, as
-//            the plan's probe says. Datum features are probed first, again where the part lies
+//            the plan's probe says. Datum features are probed first, again where the part is
 //            askew, and the others are approached in the frame they give
 // Units    : mm, rad; everything in the workpiece frame of the plan
 // Shape    : one pass over all planned points; a pure function, safe to call from many threads
 // Errors   : a plan that cannot be measured (see inspection_plan.hpp), a point that meets no
-//            surface, starts inside material or lies beyond the travels, a fit that fails; each
+//            surface, starts inside material or is beyond the travels, a fit that fails; each
 //            names the feature. A stylus that runs into the part is a warning in the measurement
 // Accuracy : ball centre 1e-9 mm on smooth surfaces (tests/metrology/cmm_test.cpp)
 // Source   : Bossoni 2010, appendix A.4 for the datum system

@@ -34,8 +34,8 @@ struct MeasuredFeature {
   std::string name{};
   std::string kind{};  // "plane", "cylinder", ...
   std::vector<MeasuredPoint> points{};
-  // What the probe touched for each of them, in the workpiece frame of the plan and without the machine's
-  // errors; empty where the points come from elsewhere.
+  // What the probe touched for each of them, in the workpiece frame of the plan and without the
+  // machine's errors; empty where the points come from elsewhere.
   std::vector<Touch> touches{};
   // Stable names of interfaces.md: point, axis (3 numbers), radius (mm), half_angle (rad).
   std::map<std::string, std::vector<double>> parameters{};

@@ -22,12 +22,12 @@ struct Operation {
   std::string name{};
   std::uint32_t first_line = 0;
   std::uint32_t last_line = 0;
-  // Features of the plan that these lines cut; a measured point of theirs that anything else made, or
-  // nothing, is worth a warning.
+  // Features of the plan that these lines cut; a measured point of theirs that anything else made,
+  // or nothing, is worth a warning.
   std::vector<std::string> makes{};
 };
 
-// How the workpiece lies on the table, as people write it.
+// How the workpiece is on the table, as people write it.
 struct Placement {
   Vec3 origin = Vec3::Zero();  // mm, of the workpiece frame in the table frame
   Vec3 tilt = Vec3::Zero();    // rad: Rz(tilt.z) Ry(tilt.y) Rx(tilt.x)
@@ -49,7 +49,7 @@ struct TestPiece {
   Vec3 blank_origin = Vec3::Zero();  // centre of its bottom, workpiece frame
   metrology::InspectionPlan plan{};
   std::vector<Operation> operations{};
-  // Error shapes without a span of their own lie over the range that this operation travels.
+  // Error shapes without a span of their own are over the range that this operation travels.
   std::string error_span{};
 };
 

@@ -98,7 +98,7 @@ struct CommandedPiece {
                                       const metrology::CmmModel& cmm,
                                       const TrialOptions& options = {});
 
-// The errors as this piece's program meets them: shapes without a span lie over what the operation
+// The errors as this piece's program meets them: shapes without a span are over what the operation
 // that its error_span names travels.
 [[nodiscard]] Result<kinematics::GeometricErrors> errors_for(
     const kinematics::Machine& machine, std::span<const kinematics::ErrorEntry> errors,

@@ -1,4 +1,5 @@
-// The errors of a command: what its job says, error files, single errors of the command line, one draw.
+// The errors of a command: what its job says, error files, single errors of the command line, one
+// draw.
 //
 // Units    : as people write them; inside mm and rad
 // Errors   : what cannot be read, and a file that is written for another machine

@@ -1,7 +1,9 @@
 // A job file: machine, program, blank, tools, errors, inspection.
 //
-// Units: as people write them (mm, degrees, "10 um"); inside mm and rad. Paths are relative to the file.
-// Errors: every misspelt or missing key, wrong unit and unreadable file at once, with file, line and key.
+// Units: as people write them (mm, degrees, "10 um"); inside mm and rad. Paths are relative to the
+//        file.
+// Errors: every misspelt or missing key, wrong unit and unreadable file at once, with file, line
+//         and key.
 #pragma once
 
 #include <filesystem>

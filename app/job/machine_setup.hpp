@@ -1,7 +1,8 @@
 // A machine with its work offsets and tools: from a job, and from the words of the command line.
 //
 // Units    : mm, rad inside; options in mm
-// Errors   : what is wrong with the job, a machine, a length, a diameter or an offset, naming the option
+// Errors   : what is wrong with the job, a machine, a length, a diameter or an offset, naming the
+//            option
 #pragma once
 
 #include <optional>

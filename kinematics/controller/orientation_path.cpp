@@ -184,7 +184,7 @@ class OrientationPathMaker {
     return path_;
   }
 
-  // The ends are in reach; what lies between has its extreme where it passes the first axis.
+  // The ends are in reach; what is between has its extreme where it passes the first axis.
   [[nodiscard]] std::optional<Diagnostic> out_of_reach() const {
     for (const double arc : nearest_points()) {
       if (arc <= 0.0 || arc >= path_.arc_) continue;
@@ -303,7 +303,7 @@ class OrientationPathMaker {
   static constexpr double kBreakTurn = 15.0 * kRadPerDeg;
   // Beyond this sine of the distance the azimuth turns no faster than twice the tool axis.
   static constexpr double kFastTurn = 0.5;
-  static constexpr double kLeastStep = 1e-12;  // of t: neighbours that rounding still tells apart
+  static constexpr double kLeastStep = 1e-12;  // of t: neighbours that rounding still distinguish
 
   double tolerance_;
   double along_first_axis_ = 0.0;  // rad along the great circle, nearest to +w1

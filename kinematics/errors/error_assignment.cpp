@@ -141,7 +141,7 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
   return std::nullopt;
 }
 
-// Names the file that an entry stands in.
+// Names the file that an entry is in.
 Diagnostic in_file_of(const ErrorEntry& entry, Diagnostic problem) {
   if (!entry.file.empty()) {
     problem.file = entry.file;

@@ -1,6 +1,6 @@
 // The errors that people write, laid over the axes of one machine.
 //
-// Model    : each entry names an error of the machine, by its ISO name or an alias; its shapes lie
+// Model    : each entry names an error of the machine, by its ISO name or an alias; its shapes are
 //            over their own span, the default span of the axis, or its travel
 // Units    : mm, rad
 // Errors   : the error, what is wrong with it and what the machine accepts

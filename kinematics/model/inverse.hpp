@@ -51,7 +51,7 @@ using InverseSolutions = Few<InverseSolution, 2>;
     const AxisPositions& previous = {});
 
 [[nodiscard]] bool within_travel(const Machine& machine, const AxisPositions& q);
-// Every axis that lies outside its travel, in words: "Z = 512.3 mm, travel -100 .. 500 mm".
+// Every axis that is outside its travel, in words: "Z = 512.3 mm, travel -100 .. 500 mm".
 [[nodiscard]] std::vector<std::string> travel_violations(const Machine& machine,
                                                          const AxisPositions& q);
 

@@ -48,7 +48,7 @@ class MachineReader {
     if (!structure) {
       // Without a structure the rest has no meaning, but its keys are known.
       for (const char* key : {"datum", "spindle", "table", "axis", "alias"}) (void)root.has(key);
-      // One that is missing or no text has been told.
+      // One that is missing or no text has been reported.
       if (!machine.structure_.empty() || !has_error(document.finish())) {
         root.fail("structure", structure.error().front());
       }

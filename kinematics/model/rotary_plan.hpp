@@ -32,7 +32,7 @@ struct PlanOptions {
   // Orientations nearer to the pole than this count as the pole: the tool axis may be off by as
   // much.
   double pole_tolerance = 1e-7;  // rad
-  // Between two neighbouring poses a rotary axis turns at most this far unless an unwinding lies
+  // Between two neighbouring poses a rotary axis turns at most this far unless an unwinding is
   // between.
   double largest_step = 3.2;  // rad
   // Nearer to the pole than this the first rotary axis's travel counts `singular_weight` times.

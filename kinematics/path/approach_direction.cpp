@@ -84,7 +84,7 @@ std::vector<AxisRun> runs_of(const AxisCourse& course, AxisLetter axis,
   const double reach = still(axis);
   std::vector<AxisRun> segments;
   double furthest = samples.front().q[axis];
-  std::size_t first = 0, last = 0;  // samples that stand at the furthest place so far
+  std::size_t first = 0, last = 0;  // samples that are at the furthest place so far
   double sense = 0.0;
   for (std::size_t k = 1; k < samples.size(); ++k) {
     const double moved = samples[k].q[axis] - furthest;

@@ -26,7 +26,7 @@ struct SamplingOptions {
 [[nodiscard]] bool is_on_the_way(const ToolPose& from, const ToolPose& to, double t,
                                  const ToolPose& exact, const SamplingOptions& options);
 
-// `Motion` takes u in [0, 1] to a value with a member `pose`, which is handed on with the sample.
+// `Motion` takes u in [0, 1] to a value with a member `pose`, which is passed on with the sample.
 template <typename Motion>
 class PathSampler {
  public:

@@ -1,4 +1,4 @@
-// The ideal element that stands for a measured feature by a criterion of the plan's choice.
+// The ideal element that represents a measured feature by a criterion of the plan's choice.
 //
 // Model    : least_squares is the element that the feature was fitted with; others are associated
 //            with its points anew (association.hpp). outside_material knows the plan's normal of a

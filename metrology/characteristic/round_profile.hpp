@@ -46,7 +46,7 @@ struct AngleFrame {
 
 // The points of one section of a cone shifted along the generatrix into the plane perpendicular to
 // `along` through their centroid; other features' points as they are. Probed along the normal, the
-// points of a displaced or lobed cone do not lie at one height, and a circle through them would see
+// points of a displaced or lobed cone are not at one height, and a circle through them would see
 // but cos^2 of the half angle of a displacement.
 [[nodiscard]] std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t section,
                                               const Vec3& along);

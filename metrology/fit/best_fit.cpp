@@ -10,8 +10,8 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// A direction in which the sum of squares curves less than this share of the largest is not told:
-// rotations are scaled by the size of the part, so what is told is of order one.
+// A direction in which the sum of squares curves less than this share of the largest is not
+// reported: rotations are scaled by the size of the part, so what is reported is of order one.
 constexpr double kUntold = 1e-10;
 
 // Normal equations of the motion of the points against the planned geometry, about `centre`,

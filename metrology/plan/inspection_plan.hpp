@@ -24,7 +24,7 @@
 
 namespace frustum::metrology {
 
-// Where a touch is taken to lie: from the centre of the ball toward the fitted surface, or against
+// Where a touch is taken to be: from the centre of the ball toward the fitted surface, or against
 // the approach, which leaves the cosine error where the surface is turned from its planned normal.
 enum class Compensation { fitted, approach };
 
@@ -159,7 +159,7 @@ struct PlannedFeature {
   double radius = 0.0;          // mm: cylinder, circle, sphere; cone: section radius, see below
   double half_angle = 0.0;      // rad: cone
   Side side = Side::outside;    // cylinder, cone, circle, sphere
-  Vec3 normal = Vec3::UnitX();  // line: outward normal of the surface it lies on
+  Vec3 normal = Vec3::UnitX();  // line: outward normal of the surface it is on
   // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of
   // X.
   std::optional<Vec3> zero{};
@@ -179,7 +179,7 @@ struct DatumSystem {
   std::string primary{};
   std::string secondary{};  // may be empty, as may
   std::string tertiary{};
-  // How a plane stands for its points: least_squares, or outside_material as it would touch a
+  // How a plane represents its points: least_squares, or outside_material as it would touch a
   // table.
   Criterion criterion = Criterion::least_squares;
   std::vector<std::string> best_fit{};
@@ -265,7 +265,7 @@ struct PlannedCharacteristic {
   double tolerance = 0.0;         // mm or rad: limit of the value, or of |value - nominal|
   std::string frame{};            // evaluated in this frame; empty: as all others
   Vec3 direction = Vec3::Zero();  // line kinds: measured along it, or the angle about it
-  // How the toleranced element stands for its points: mz for the zone itself, mi and mc for fits.
+  // How the toleranced element represents its points: mz for the zone itself, mi and mc for fits.
   Criterion criterion = Criterion::least_squares;
   // Datums of orientation, coaxiality, symmetry and run-out: least_squares or outside_material.
   Criterion datum_criterion = Criterion::least_squares;

@@ -23,7 +23,7 @@ struct LineAxes {
 
 // The axes in which a line kind is measured, from the planned direction of its lines: along = that;
 // across = `direction` for a distance, direction x along for an angle. Nothing when the direction
-// lies along the lines.
+// is along the lines.
 [[nodiscard]] std::optional<LineAxes> line_axes(CharacteristicKind kind, const Vec3& line,
                                                 const Vec3& direction);
 

@@ -22,7 +22,7 @@ namespace frustum::metrology {
 [[nodiscard]] std::optional<double> deviation_from_nominal(const InspectionPlan& plan,
                                                            const Vec3& point, const Vec3& normal);
 
-// The nominal surface of a feature; of a point the plane it lies on. Its outward side is that of
+// The nominal surface of a feature; of a point the plane it is on. Its outward side is that of
 // the geometry, not of the material.
 [[nodiscard]] Element nominal_element(const PlannedFeature& feature);
 // +1 when the material's outward normal is the element's, -1 for a hole.

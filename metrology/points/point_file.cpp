@@ -32,7 +32,7 @@ std::pair<std::string_view, std::string_view> split_comment(std::string_view lin
   return {line, {}};
 }
 
-// A field in quotes, from the first of them; a doubled quote stands for one.
+// A field in quotes, from the first of them; a doubled quote represents one.
 std::string unquoted(std::string_view line, std::size_t& at) {
   std::string text;
   for (++at; at < line.size(); ++at) {

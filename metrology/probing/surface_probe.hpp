@@ -1,7 +1,7 @@
 // Anything that answers an approach with a contact: a workpiece, a mesh, an analytic body.
 //
 // Units  : mm; one frame for starts, directions and answers
-// Errors : nothing is returned when no surface lies on the way or when the start is inside material
+// Errors : nothing is returned when no surface is on the way or when the start is inside material
 #pragma once
 
 #include <concepts>

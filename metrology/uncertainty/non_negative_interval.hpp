@@ -3,7 +3,7 @@
 // Model    : parts measured = parts of the part + noise. Noise makes sizes larger, so an interval
 //            about the measured size would be too high, and would never hold a true size of 0.
 //            Instead every true size t is asked whether the measured size v is a likely one: with
-//            true parts t s, s a shape of size 1, v must lie between the quantiles a1 and 1 - a2 of
+//            true parts t s, s a shape of size 1, v must be between the quantiles a1 and 1 - a2 of
 //            size(t s + noise). The interval is of all t that answer yes. a1 + a2 = 5 %; their
 //            split is that of the likelihood ratio for a normal value with a limit at 0, shifted as
 //            the mean of size(t s + noise) is from that of noise alone: a1 = 0 at t = 0, 2.5 % far

@@ -1,7 +1,7 @@
 // Any program for one machine: tool poses become its axes, its words and its feeds.
 //
 // Model    : the program is followed block by block as the machine's controller would follow it.
-//            Each block is handed on in the form asked for: tip coordinates with rotary words
+//            Each block is passed on in the form asked for: tip coordinates with rotary words
 //            (tool-centre-point control on), tip coordinates with tool vectors, or axis positions
 //            (control off). Where the controller would not keep the programmed path in that form,
 //            points are inserted by halving until it does, within the tolerances. Where a rotary

@@ -1,4 +1,4 @@
-// What a machine program stands at while it is planned: the program's modes, the axes, the output
+// What a machine program is at while it is planned: the program's modes, the axes, the output
 // so far.
 //
 // Units  : mm, rad; frame: table

@@ -218,7 +218,8 @@ TEST_F(CommandLineSystem, TakesErrorsFromFilesAndDrawsThem) {
   const Outcome foreign = run(pose + "--errors jang-key-tolerances --draw 1");
   EXPECT_EQ(foreign.exit_code, 2);
   EXPECT_NE(foreign.err.find("machine iwf-bc"), std::string::npos) << foreign.err;
-  // A workpiece-side X after motion in +: its table lags towards +X, the tip is 5 um nearer in the work.
+  // A workpiece-side X after motion in +: its table lags towards +X, the tip is 5 um nearer in the
+  // work.
   const Outcome lag =
       run("pose --machine iwf-bc --axes X=1 --error \"EXX=reversal 10um\" --heading X=1");
   EXPECT_NE(lag.out.find("error of tip       -5.0"), std::string::npos) << lag.out;

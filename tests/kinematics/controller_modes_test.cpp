@@ -1,4 +1,5 @@
-// What a controller can be told about how to move: frames, rotary paths, feeds, times and streams.
+// What a controller can be commanded about how to move: frames, rotary paths, feeds, times and
+// streams.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,7 +123,7 @@ TEST(ControllerFeed, RefusesAFeedPerRevolutionWhileTheSpindleStands) {
   EXPECT_EQ(e.error().front().line, 3);
 }
 
-// The axes stand where the program says, as its control counts: origin, word and length.
+// The axes are where the program says, as its control counts: origin, word and length.
 TEST(ControllerFrames, FollowAWorkOffsetThatTheProgramPlaces) {
   for (const char* name : {"three-axis", "iwf-bc"}) {
     const auto e = run(shipped(name),

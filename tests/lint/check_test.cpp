@@ -21,7 +21,7 @@ std::string whole(const std::string& body) { return kHead + body + kEnd; }
 struct Case {
   const char* id;
   std::string wrong;
-  std::uint32_t line;  // where it is told
+  std::uint32_t line;  // where it is reported
   const char* says;
   std::string right;
   Dialect dialect = Dialect::fanuc;

@@ -115,7 +115,7 @@ TEST(VirtualCmm, MeasuresAngleShiftAndTilt) {
 
   const Measurement tilted = measured({.cone_tilt = 300e-6});
   // Sections 8 mm apart; a section of constant height through a tilted cone is an ellipse whose
-  // centre lies farther off the axis by tilt tan(a) times its radius: d/dz [z - tan(a) (22 - z
+  // centre is farther off the axis by tilt tan(a) times its radius: d/dz [z - tan(a) (22 - z
   // tan(a))] is 1 + tan^2(a).
   EXPECT_NEAR(named(tilted, "cone.concentricity").value,
               2e3 * 8.0 * 300e-6 * (1.0 + std::pow(std::tan(test_part::kHalfAngle), 2)), 0.01);

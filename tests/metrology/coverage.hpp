@@ -1,5 +1,6 @@
-// Whether intervals hold what is known: the noise of all characteristics about one measurement, simulated as
-// every interval is computed. It hardly depends on the measurement, so one simulation serves for all.
+// Whether intervals hold what is known: the noise of all characteristics about one measurement,
+// simulated as every interval is computed. It hardly depends on the measurement, so one simulation
+// serves for all.
 // Units: as results.
 #pragma once
 

@@ -86,7 +86,7 @@ TEST(CutCheck, CountsThePointsOfAFeatureThatLieOnTheUncutBlank) {
             "feature 'ref.B_a': " + std::to_string(points) + " of " + std::to_string(points) +
                 " measured points are on the uncut blank, not on what operation 'ref a' cuts");
   EXPECT_THAT(cut.finding("ref.B_b"), HasSubstr("uncut blank"));
-  // The sides of the reference steps stand upright: a low table does not matter to them.
+  // The sides of the reference steps are upright: a low table does not matter to them.
   EXPECT_EQ(cut.finding("ref.S_a"), "");
   EXPECT_EQ(cut.finding("ref.S_b"), "");
 }

@@ -232,7 +232,7 @@ struct Comparison {
   int agreeing = 0, total = 0;
 };
 
-// Against the closed forms; `squareness` is the error that stands for gamma_YX, and its sign.
+// Against the closed forms; `squareness` is the error that represents gamma_YX, and its sign.
 Comparison closed_forms(const char* squareness, double sign) {
   Comparison c;
   for (const auto& [pattern, equation] : kEquations) {

@@ -165,7 +165,7 @@ ExtremeFound searched(const Task& task, const Element& start) {
   return best_extreme(search, task.local.points);
 }
 
-// The element as it is: all there is to say where nothing can move, or where points lie on it to
+// The element as it is: all there is to say where nothing can move, or where points are on it to
 // rounding.
 ExtremeFound as_it_stands(const Task& task, const Element& start) {
   const MinimaxProblem problem = problem_of(task.kind, task.what, task.options.constraints);
