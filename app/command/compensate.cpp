@@ -12,7 +12,6 @@
 #include "app/job/number_check.hpp"
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
-#include "programs/in_dialect.hpp"
 #include "programs/test_piece_files.hpp"
 #include "trials/trial.hpp"
 
@@ -72,17 +71,14 @@ int compensate(const CompensateOptions& options) {
   }
   const auto errors = trials::errors_for(job->machine, job->errors, job->piece);
   if (!errors) return refuse(errors.error());
+  const auto dialect =
+      options.dialect.empty() ? std::nullopt : parser::dialect_named(options.dialect);
   auto made = calibration::compensated_piece(job->machine, *errors, job->piece,
-                                             {.bound = options.bound / kUmPerMm});
+                                             {.bound = options.bound / kUmPerMm}, dialect);
   if (!made) return refuse(made.error());
   made->piece.title += ", compensated";
-  made->piece.program_file = fs::path(job->piece.program_file).filename().string();
-  auto written = options.dialect.empty()
-                     ? programs::TranslatedPiece{made->piece, {}}
-                     : Result<programs::TranslatedPiece>(programs::in_dialect(
-                           made->piece, *parser::dialect_named(options.dialect)));
-  if (!written) return refuse(written.error());
-  const auto files = programs::write_test_piece(written->piece, job->machine_file, options.out);
+  made->piece.program_file = fs::path(made->piece.program_file).filename().string();
+  const auto files = programs::write_test_piece(made->piece, job->machine_file, options.out);
   if (!files) return refuse(files.error());
   return report(options, *made, *files);
 }

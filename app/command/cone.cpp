@@ -8,7 +8,6 @@
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "programs/cone/cone_frustum.hpp"
-#include "programs/in_dialect.hpp"
 #include "programs/test_piece_files.hpp"
 
 namespace frustum::app {
@@ -71,11 +70,10 @@ int write_cone(const ConeOptions& options) {
   if (!machine) return refuse(machine.error());
   const auto cone = cone_of(options);
   if (!cone) return refuse(cone.error());
-  const auto piece = programs::cone_frustum(*cone, *machine);
+  const auto piece =
+      programs::cone_frustum(*cone, *machine, *parser::dialect_named(options.dialect));
   if (!piece) return refuse(piece.error());
-  const auto written = programs::in_dialect(*piece, *parser::dialect_named(options.dialect));
-  if (!written) return refuse(written.error());
-  const auto files = programs::write_test_piece(written->piece, *machine_file, options.out);
+  const auto files = programs::write_test_piece(*piece, *machine_file, options.out);
   if (!files) return refuse(files.error());
   for (const auto& file : *files) std::cout << file.string() << '\n';
   return kDone;

@@ -12,8 +12,8 @@
 #include "app/job/number_check.hpp"
 #include "app/view/console.hpp"
 #include "core/whole_file.hpp"
-#include "post/nc_spelling.hpp"
-#include "post/nc_writer.hpp"
+#include "parser/writing/motion_spelling.hpp"
+#include "parser/writing/motion_writer.hpp"
 #include "post/planning/machine_program.hpp"
 
 namespace frustum::app {
@@ -36,7 +36,7 @@ struct PostOptions {
   bool json = false;
 };
 
-post::PlanOptions plan_options(const PostOptions& options, const post::NcSpelling& spelling) {
+post::PlanOptions plan_options(const PostOptions& options, const parser::NcSpelling& spelling) {
   post::PlanOptions plan;
   plan.output = options.form == "axes"      ? post::OutputForm::axes
                 : options.form == "vectors" ? post::OutputForm::vectors
@@ -61,12 +61,12 @@ int post_process(const PostOptions& options) {
   if (!motions) return refuse(motions.error());
   const auto dialect = *parser::dialect_named(options.to);
   const auto plan = post::plan_for_machine(setup_words->machine, setup_words->setup, *motions,
-                                           plan_options(options, *post::spelling_of(dialect)));
+                                           plan_options(options, *parser::spelling_of(dialect)));
   if (!plan) return refuse(in_file(plan.error(), options.file));
-  const auto program = post::write_nc(plan->motions, dialect,
-                                      {.name = program_name(options.out),
-                                       .comments = !options.no_comments,
-                                       .source_lines = options.source_lines});
+  const auto program = parser::write_nc(plan->motions, dialect,
+                                        {.name = program_name(options.out),
+                                         .comments = !options.no_comments,
+                                         .source_lines = options.source_lines});
   if (!program) return refuse(in_file(program.error(), options.file));
   const auto written = write_whole_file(options.out, program->text);
   if (!written) return refuse(written.error());

@@ -8,7 +8,6 @@
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "app/view/step_sheet.hpp"
-#include "programs/in_dialect.hpp"
 #include "programs/step/step_pattern.hpp"
 #include "programs/test_piece_files.hpp"
 
@@ -52,18 +51,6 @@ Result<StepTest> test_of(const StepOptions& o) {
   return test;
 }
 
-// The setup sheet and the job name lines of the program as it is written.
-void take_lines(programs::StepPiece& made, const programs::TranslatedPiece& written) {
-  made.piece = written.piece;
-  if (written.program.source_lines.empty()) return;
-  for (programs::StepCut& cut : made.cuts) {
-    const post::LineRange lines =
-        post::lines_from(written.program, {cut.first_line, cut.last_line});
-    cut.first_line = lines.first;
-    cut.last_line = lines.last;
-  }
-}
-
 int write_step(const StepOptions& options) {
   const auto machine_file = find_machine(options.machine, ".");
   if (!machine_file) return refuse(machine_file.error());
@@ -71,11 +58,9 @@ int write_step(const StepOptions& options) {
   if (!machine) return refuse(machine.error());
   const auto test = test_of(options);
   if (!test) return refuse(test.error());
-  auto made = programs::step_pattern(*test, *machine);
+  const auto made =
+      programs::step_pattern(*test, *machine, *parser::dialect_named(options.dialect));
   if (!made) return refuse(made.error());
-  auto written = programs::in_dialect(made->piece, *parser::dialect_named(options.dialect));
-  if (!written) return refuse(written.error());
-  take_lines(*made, *written);
   auto files = programs::write_test_piece(made->piece, *machine_file, options.out);
   if (!files) return refuse(files.error());
   const auto sheet = report::write_setup_sheet(std::filesystem::path(options.out) / "setup.html",

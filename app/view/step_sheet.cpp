@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 namespace frustum::app {
 namespace {

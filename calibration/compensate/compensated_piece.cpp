@@ -1,10 +1,13 @@
 #include "calibration/compensate/compensated_piece.hpp"
 
+#include <cctype>
+#include <filesystem>
 #include <utility>
 
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
-#include "post/nc_writer.hpp"
+#include "parser/writing/motion_spelling.hpp"
+#include "parser/writing/motion_writer.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::calibration {
@@ -22,7 +25,8 @@ Diagnostics in_file(Diagnostics problems, const std::string& file) {
 Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
                                            const kinematics::GeometricErrors& errors,
                                            const programs::TestPiece& piece,
-                                           const CompensationOptions& options) {
+                                           const CompensationOptions& options,
+                                           std::optional<parser::Dialect> dialect) {
   const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
   if (!program) return program.error();
   const auto motions = parser::motions_of(*program);
@@ -32,11 +36,21 @@ Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
 
   CompensatedPiece made{.piece = piece, .before = result->before, .after = result->after};
   if (piece.dialect == parser::Dialect::cldata) made.piece.dialect = parser::Dialect::fanuc;
-  const auto text = post::write_nc(result->motions, made.piece.dialect);
+  parser::WriterOptions layout;
+  if (dialect && *dialect != made.piece.dialect) {
+    std::filesystem::path file = piece.program_file;
+    layout.name = file.stem().string();
+    for (char& c : layout.name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    made.piece.dialect = *dialect;
+    if (const auto* spelling = parser::spelling_of(*dialect); spelling != nullptr) {
+      made.piece.program_file = file.replace_extension(spelling->extension).string();
+    }
+  }
+  const auto text = parser::write_nc(result->motions, made.piece.dialect, layout);
   if (!text) return in_file(text.error(), piece.program_file);
   made.piece.program = text->text;
   for (programs::Operation& operation : made.piece.operations) {
-    const auto lines = post::lines_from(*text, {operation.first_line, operation.last_line});
+    const auto lines = parser::lines_from(*text, {operation.first_line, operation.last_line});
     operation.first_line = lines.first;
     operation.last_line = lines.last;
   }

@@ -1,13 +1,16 @@
 // A test piece with its program compensated for a machine's errors, ready to be cut again.
 //
-// Model    : the program is compensated (compensation.hpp) and written in its own dialect; APT
-//            CLDATA, which no controller runs, becomes a Fanuc program. Operations keep their
+// Model    : the program is compensated (compensation.hpp) and written in `dialect`, or its own;
+//            APT CLDATA, which no controller runs, becomes a Fanuc program. Operations keep their
 //            blocks
 // Units    : mm, rad
 // Errors   : those of reading, executing and writing the program, with file and NC line
 #pragma once
 
+#include <optional>
+
 #include "calibration/compensate/compensation.hpp"
+#include "parser/dialect.hpp"
 #include "programs/test_piece.hpp"
 
 namespace frustum::calibration {
@@ -18,9 +21,9 @@ struct CompensatedPiece {
   PathError after{};
 };
 
-[[nodiscard]] Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
-                                                         const kinematics::GeometricErrors& errors,
-                                                         const programs::TestPiece& piece,
-                                                         const CompensationOptions& options = {});
+[[nodiscard]] Result<CompensatedPiece> compensated_piece(
+    const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
+    const programs::TestPiece& piece, const CompensationOptions& options = {},
+    std::optional<parser::Dialect> dialect = {});
 
 }  // namespace frustum::calibration

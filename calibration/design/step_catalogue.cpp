@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "calibration/identify/piece_observations.hpp"
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 namespace frustum::calibration {
 namespace {

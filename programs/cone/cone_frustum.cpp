@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "kinematics/model/inverse.hpp"
-#include "post/planning/linearisation.hpp"
 #include "programs/cone/cone_path.hpp"
-#include "programs/nc_text.hpp"
+#include "programs/cone/linearised_axes.hpp"
+#include "programs/piece_program.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -95,41 +95,40 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
   return std::nullopt;
 }
 
-// Writes the moves of one form of program.
+// The blocks of one form of program.
 class ConeProgram {
  public:
   ConeProgram(const ConeFrustum& cone, const Machine& machine)
       : cone_(cone), machine_(machine), axes_(machine.home()) {}
 
-  Result<TestPiece> write(const ConeGeometry& shape, TestPiece piece) {
+  Result<TestPiece> write(const ConeGeometry& shape, TestPiece piece, parser::Dialect dialect) {
     header();
     for (const PathOperation& op : cone_path(cone_, shape)) {
       begin_operation(op.name);
       for (const auto* moves : {&op.lead_in, &op.cut, &op.lead_out}) {
-        const std::uint32_t first = nc_.next_line();
+        const std::uint32_t first = nc_.next_block();
         for (const PathMove& move : *moves) {
-          if (auto problem = write_move(move)) return *problem;
+          if (auto problem = add_move(move)) return *problem;
         }
-        if (moves == &op.cut) piece.operations.push_back({op.name, first, nc_.next_line() - 1});
+        if (moves == &op.cut) piece.operations.push_back({op.name, first, nc_.next_block() - 1});
       }
     }
     footer();
-    piece.program = nc_.text();
+    const auto written = nc_.write(piece, dialect);
+    if (!written) return written.error();
     return piece;
   }
 
  private:
   void header() {
-    nc_.line("%");
-    nc_.line("O0979 (CONE FRUSTUM)");
     nc_.comment(fmt::format("CONE ANGLE {:g} DEG, INCLINATION {:g} DEG, TIP CIRCLE RADIUS {:g} MM",
                             cone_.cone_angle.value * kDegPerRad,
                             cone_.inclination.value * kDegPerRad, cone_.radius.value));
     nc_.comment(fmt::format("T1 = END MILL D{:g}, LENGTH {:g} MM", cone_.tool_diameter.value,
                             cone_.tool_length.value));
-    nc_.line("G21 G90 G17 G40 G49 G80 G94");
-    nc_.line("T1 M6");
-    nc_.line(fmt::format("S{:g} M3", cone_.spindle_speed));
+    nc_.without_compensation();
+    nc_.block({parser::ToolChange{kTool}});
+    nc_.block({parser::SpindleChange{parser::SpindleDirection::clockwise, cone_.spindle_speed}});
   }
 
   // Every operation starts from the rotary axes' home, so that none inherits turns from the one
@@ -138,39 +137,44 @@ class ConeProgram {
     nc_.comment(name);
     retract();
     const AxisPositions home = machine_.home();
-    if (const std::string words = rotary_words(home); !words.empty()) nc_.line("G53 G0" + words);
-    for (const AxisLetter letter : {AxisLetter::A, AxisLetter::B, AxisLetter::C}) {
-      axes_[letter] = home[letter];
-    }
+    parser::AxisTarget rotary_home;
+    add_rotary(rotary_home, home);
+    if (rotary_home != parser::AxisTarget{}) nc_.block({machine_traverse(rotary_home)});
+    for (const AxisLetter letter : parser::kRotaryAxes) axes_[letter] = home[letter];
     axes_[AxisLetter::Z] = home[AxisLetter::Z];
+    using enum parser::LengthCompensation;
     switch (cone_.form) {
       case ProgramForm::vector:
-        nc_.line("G54 G43.5 H1");
+        begin_frame(1, {.mode = tool_centre_point, .tool_vectors = true, .offset_number = kTool});
         break;
       case ProgramForm::angles:
-        nc_.line("G54 G43.4 H1");
+        begin_frame(1, {.mode = tool_centre_point, .offset_number = kTool});
         break;
       case ProgramForm::axes:
         nc_.comment("G59 is the machine's own origin: words are axis positions of the tool tip");
-        nc_.line("G59 G43 H1");
+        begin_frame(kMachineOffset, {.mode = length, .offset_number = kTool});
         break;
     }
-    last_rapid_.reset();
+  }
+
+  void begin_frame(int work_offset, const parser::CompensationChange& compensation) {
+    nc_.block({compensation, parser::WorkOffsetChange{work_offset}});
   }
 
   void retract() {
-    nc_.line("G49");
-    nc_.line("G53 G0 " + length_word('Z', machine_.joint(AxisLetter::Z)->home));
+    nc_.block({parser::CompensationChange{}});
+    parser::AxisTarget up;
+    up[AxisLetter::Z] = machine_.joint(AxisLetter::Z)->home;
+    nc_.block({machine_traverse(up)});
   }
 
   void footer() {
     retract();
-    nc_.line("M5");
-    nc_.line("M30");
-    nc_.line("%");
+    nc_.block({parser::SpindleChange{}});
+    nc_.block({parser::Stop{}});
   }
 
-  std::optional<Diagnostics> write_move(const PathMove& move) {
+  std::optional<Diagnostics> add_move(const PathMove& move) {
     const kinematics::ToolPose in_table{move.pose.tip + cone_.center, move.pose.axis};
     const auto solutions = kinematics::inverse(machine_, in_table, cone_.tool_length.value, axes_);
     if (!solutions) return solutions.error();
@@ -183,58 +187,51 @@ class ConeProgram {
                 "change --center, --radius or --orientation, or choose a larger machine")};
     }
     if (cone_.form == ProgramForm::vector) {
-      write_line(move, tip_words(move.pose.tip) + " " + vector_words(move.pose.axis));
+      add_block(move, tip_target(move.pose.tip), UnitVec3::of(move.pose.axis));
     } else if (cone_.form == ProgramForm::angles) {
-      write_line(move, tip_words(move.pose.tip) + rotary_words(next));
+      parser::AxisTarget target = tip_target(move.pose.tip);
+      add_rotary(target, next);
+      add_block(move, target);
     } else {
       for (const AxisPositions& q :
-           post::linearised(machine_, axes_, next, cone_.tool_length.value, kLineariseTolerance)) {
-        write_line(move, axis_words(q) + rotary_words(q));
+           linearised(machine_, axes_, next, cone_.tool_length.value, kLineariseTolerance)) {
+        add_block(move, axis_target(q));
       }
     }
     axes_ = next;
     return std::nullopt;
   }
 
-  static std::string tip_words(const Vec3& tip) {
-    return length_word('X', tip.x()) + " " + length_word('Y', tip.y()) + " " +
-           length_word('Z', tip.z());
-  }
-
-  [[nodiscard]] std::string rotary_words(const AxisPositions& q) const {
-    std::string words;
-    for (const AxisLetter letter : {AxisLetter::A, AxisLetter::B, AxisLetter::C}) {
-      if (machine_.joint(letter) != nullptr) {
-        words += " " + angle_word(kinematics::to_char(letter), q[letter]);
-      }
+  void add_rotary(parser::AxisTarget& target, const AxisPositions& q) const {
+    for (const AxisLetter letter : parser::kRotaryAxes) {
+      if (machine_.joint(letter) != nullptr) target[letter] = q[letter];
     }
-    return words;
   }
 
   // Words of G59 with G43: at rotary zero they are the tip's place in the table frame.
-  [[nodiscard]] std::string axis_words(const AxisPositions& q) const {
+  [[nodiscard]] parser::AxisTarget axis_target(const AxisPositions& q) const {
     const AxisPositions origin =
         kinematics::place_tip(machine_, Vec3::Zero(), cone_.tool_length.value, {});
-    return tip_words({q[AxisLetter::X] - origin[AxisLetter::X],
-                      q[AxisLetter::Y] - origin[AxisLetter::Y],
-                      q[AxisLetter::Z] - origin[AxisLetter::Z]});
+    parser::AxisTarget target = tip_target({q[AxisLetter::X] - origin[AxisLetter::X],
+                                            q[AxisLetter::Y] - origin[AxisLetter::Y],
+                                            q[AxisLetter::Z] - origin[AxisLetter::Z]});
+    add_rotary(target, q);
+    return target;
   }
 
-  void write_line(const PathMove& move, const std::string& words) {
-    std::string start = move.rapid ? "G0 " : "G1 ";
-    if (move.rapid == last_rapid_) start.clear();
-    const std::string feed = !move.rapid && !feed_written_ ? fmt::format(" F{:g}", cone_.feed) : "";
-    feed_written_ = feed_written_ || !move.rapid;
-    last_rapid_ = move.rapid;
-    nc_.line(start + words + feed);
+  void add_block(const PathMove& move, const parser::AxisTarget& end,
+                 const std::optional<UnitVec3>& tool_axis = {}) {
+    if (move.rapid) {
+      nc_.block({parser::Traverse{.end = end, .tool_axis = tool_axis}});
+    } else {
+      nc_.block({parser::LinearFeed{.end = end, .tool_axis = tool_axis, .feed = {cone_.feed}}});
+    }
   }
 
   const ConeFrustum& cone_;
   const Machine& machine_;
   AxisPositions axes_;
-  NcText nc_;
-  std::optional<bool> last_rapid_{};
-  bool feed_written_ = false;
+  PieceProgram nc_{"0979", "CONE FRUSTUM"};
 };
 
 }  // namespace
@@ -283,7 +280,8 @@ Result<ConeGeometry> geometry(const ConeFrustum& cone) {
   return shape;
 }
 
-Result<TestPiece> cone_frustum(const ConeFrustum& cone, const Machine& machine) {
+Result<TestPiece> cone_frustum(const ConeFrustum& cone, const Machine& machine,
+                               parser::Dialect dialect) {
   const auto shape = geometry(cone);
   if (!shape) return shape.error();
   TestPiece piece;
@@ -305,7 +303,7 @@ Result<TestPiece> cone_frustum(const ConeFrustum& cone, const Machine& machine) 
   piece.plan = cone_plan(cone, *shape);
   piece.program_file = "cone.nc";
   piece.error_span = "cone finishing";
-  return ConeProgram(cone, machine).write(*shape, std::move(piece));
+  return ConeProgram(cone, machine).write(*shape, std::move(piece), dialect);
 }
 
 }  // namespace frustum::programs

@@ -67,7 +67,8 @@ struct ConeGeometry {
 [[nodiscard]] Result<ConeGeometry> geometry(const ConeFrustum& cone);
 
 [[nodiscard]] Result<TestPiece> cone_frustum(const ConeFrustum& cone,
-                                             const kinematics::Machine& machine);
+                                             const kinematics::Machine& machine,
+                                             parser::Dialect dialect = parser::Dialect::fanuc);
 
 // The inspection plan alone.
 [[nodiscard]] metrology::InspectionPlan cone_plan(const ConeFrustum& cone,

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
-#include "programs/near_net_blank.hpp"
+#include "programs/step/near_net_blank.hpp"
 #include "programs/step/step_plan.hpp"
 #include "programs/step/step_program.hpp"
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -102,7 +102,8 @@ Result<std::vector<std::string>> chosen(const StepTest& test) {
 
 }  // namespace
 
-Result<StepPiece> step_pattern(const StepTest& test, const kinematics::Machine& machine) {
+Result<StepPiece> step_pattern(const StepTest& test, const kinematics::Machine& machine,
+                               parser::Dialect dialect) {
   if (Diagnostics faults = faults_of(test); !faults.empty()) return faults;
   const auto patterns = chosen(test);
   if (!patterns) return patterns.error();
@@ -129,11 +130,16 @@ Result<StepPiece> step_pattern(const StepTest& test, const kinematics::Machine& 
 
   auto places = StepPlaces::of(test, *patterns, machine, *table, blank, piece.placement);
   if (!places) return places.error();
-  piece.program = step_program(test, *patterns, machine, *table, *places);
+  const PieceProgram program = step_program(test, *patterns, machine, *table, *places);
   for (const StepPlace& place : places->steps) {
     piece.operations.push_back(
         {place.name, place.cut.first_line, place.cut.last_line, place.makes});
     made.cuts.push_back(place.cut);
+  }
+  if (const auto written = program.write(piece, dialect); !written) return written.error();
+  for (std::size_t i = 0; i < made.cuts.size(); ++i) {
+    made.cuts[i].first_line = piece.operations[i].first_line;
+    made.cuts[i].last_line = piece.operations[i].last_line;
   }
   return made;
 }

@@ -167,6 +167,7 @@ struct StepPiece {
 };
 
 [[nodiscard]] Result<StepPiece> step_pattern(const StepTest& test,
-                                             const kinematics::Machine& machine);
+                                             const kinematics::Machine& machine,
+                                             parser::Dialect dialect = parser::Dialect::fanuc);
 
 }  // namespace frustum::programs

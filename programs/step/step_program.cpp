@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
+#include <utility>
 
 #include "kinematics/model/inverse.hpp"
-#include "programs/nc_text.hpp"
+#include "parser/writing/number_text.hpp"
 #include "programs/step/step_path.hpp"
 
 namespace frustum::programs {
@@ -177,42 +179,46 @@ class Places {
   std::map<std::pair<std::string, AxisLetter>, Shortfall> worst_;
 };
 
-// "X12. Y3.": the words that differ.
-std::string changed_words(const Vec3& from, const Vec3& to) {
-  std::string words;
-  for (const Eigen::Index k : {0, 1, 2}) {
-    const std::string word = length_word("XYZ"[k], to[k]);
-    if (word != length_word("XYZ"[k], from[k])) words += (words.empty() ? "" : " ") + word;
-  }
-  return words;
+parser::Command traverse(std::initializer_list<std::pair<AxisLetter, double>> words) {
+  parser::Traverse move;
+  for (const auto& [letter, value] : words) move.end[letter] = value;
+  return move;
 }
+
+constexpr int kLengthDecimals = 6;  // mm: as words are written
 
 // One pass from above its beginning to its end; the tool is left in the cut.
-void write_pass(NcText& nc, const StepTest& test, const Vec3& from, const Vec3& to,
-                std::string_view what) {
-  nc.line(length_word('X', from.x()) + " " + length_word('Y', from.y()));
-  nc.line(length_word('Z', from.z()));
-  nc.line(fmt::format("G1 {} F{:g} ({})", changed_words(from, to), test.feed, what));
+void add_pass(PieceProgram& nc, const StepTest& test, const Vec3& from, const Vec3& to,
+              std::string what) {
+  nc.block({traverse({{AxisLetter::X, from.x()}, {AxisLetter::Y, from.y()}})});
+  nc.block({traverse({{AxisLetter::Z, from.z()}})});
+  parser::LinearFeed cut{.feed = {test.feed}};
+  for (const AxisLetter letter : parser::kLinearAxes) {
+    const auto k = static_cast<Eigen::Index>(letter);
+    if (parser::fixed(from[k], kLengthDecimals) != parser::fixed(to[k], kLengthDecimals))
+      cut.end[letter] = to[k];
+  }
+  nc.block({parser::Event{.name = "comment", .text = std::move(what)}, cut});
 }
 
-void write_step(NcText& nc, const StepTest& test, const TiltingTable& table, StepPlace& place,
-                double safe_z) {
+void add_step(PieceProgram& nc, const StepTest& test, const TiltingTable& table, StepPlace& place,
+              double safe_z) {
   StepCut& cut = place.cut;
-  const std::string up = "G0 " + length_word('Z', place.clear_z);
+  const parser::Command up = traverse({{AxisLetter::Z, place.clear_z}});
   nc.comment(place.heading);
-  nc.line("G0 " + angle_word(to_char(table.tilt), place.rotary[table.tilt]) + " " +
-          angle_word(to_char(table.turn), place.rotary[table.turn]));
-  cut.first_line = nc.next_line();
+  nc.block(
+      {traverse({{table.tilt, place.rotary[table.tilt]}, {table.turn, place.rotary[table.turn]}})});
+  cut.first_line = nc.next_block();
   if (test.allowance.value > test.semi_finishing.value) {
     const Vec3 off = test.semi_finishing.value * (place.side + Vec3::UnitZ());
-    write_pass(nc, test, cut.words_from + off, cut.words_to + off, "ROUGHING");
-    nc.line(up);
+    add_pass(nc, test, cut.words_from + off, cut.words_to + off, "ROUGHING");
+    nc.block({up});
   }
-  write_pass(nc, test, cut.words_from, cut.words_to, "SEMI-FINISHING");
-  nc.line(up);
-  write_pass(nc, test, cut.words_from, cut.words_to, "FINISHING");
-  cut.last_line = nc.next_line() - 1;
-  nc.line("G0 " + length_word('Z', safe_z));
+  add_pass(nc, test, cut.words_from, cut.words_to, "SEMI-FINISHING");
+  nc.block({up});
+  add_pass(nc, test, cut.words_from, cut.words_to, "FINISHING");
+  cut.last_line = nc.next_block() - 1;
+  nc.block({traverse({{AxisLetter::Z, safe_z}})});
 }
 
 }  // namespace
@@ -238,33 +244,34 @@ Result<StepPlaces> StepPlaces::of(const StepTest& test, std::span<const std::str
   return std::move(places).places();
 }
 
-std::string step_program(const StepTest& test, std::span<const std::string> patterns,
-                         const Machine& machine, const TiltingTable& table, StepPlaces& places) {
-  const std::string home = "G53 G0 " + length_word('Z', machine.joint(AxisLetter::Z)->home);
-  NcText nc;
-  nc.line("%");
-  nc.line("O1001 (STEP PATTERNS)");
+PieceProgram step_program(const StepTest& test, std::span<const std::string> patterns,
+                          const Machine& machine, const TiltingTable& table, StepPlaces& places) {
+  parser::AxisTarget home;
+  home[AxisLetter::Z] = machine.joint(AxisLetter::Z)->home;
+  PieceProgram nc("1001", "STEP PATTERNS");
+  nc.restate_feed();
   nc.comment(upper(fmt::format("patterns {} on workpiece {}, machine {}", fmt::join(patterns, " "),
                                test.workpiece.number, machine.name())));
   nc.comment(fmt::format("G54: CROSSING OF {} AND {}, ALL ROTARY AXES AT ZERO", to_char(table.tilt),
                          to_char(table.turn)));
   nc.comment(fmt::format("T{} = END MILL D{:g}, LENGTH {:g} MM", kStepTool,
                          test.tool_diameter.value, test.tool_length.value));
-  nc.line("G21 G90 G17 G40 G49 G80 G94");
-  nc.line(home);
-  nc.line(fmt::format("T{} M6", kStepTool));
-  nc.line(fmt::format("S{:g} M3", test.spindle_speed));
-  nc.line("M8");
-  nc.line(fmt::format("G54 G43 H{}", kStepTool));
-  nc.line("G0 " + length_word('Z', places.safe_z));
-  for (StepPlace& place : places.steps) write_step(nc, test, table, place, places.safe_z);
-  nc.line("M9");
-  nc.line("M5");
-  nc.line("G49");
-  nc.line(home);
-  nc.line("M30");
-  nc.line("%");
-  return nc.text();
+  nc.without_compensation();
+  nc.block({machine_traverse(home)});
+  nc.block({parser::ToolChange{kStepTool}});
+  nc.block({parser::SpindleChange{parser::SpindleDirection::clockwise, test.spindle_speed}});
+  nc.block({parser::CoolantChange{true}});
+  nc.block({parser::CompensationChange{.mode = parser::LengthCompensation::length,
+                                       .offset_number = kStepTool},
+            parser::WorkOffsetChange{1}});
+  nc.block({traverse({{AxisLetter::Z, places.safe_z}})});
+  for (StepPlace& place : places.steps) add_step(nc, test, table, place, places.safe_z);
+  nc.block({parser::CoolantChange{false}});
+  nc.block({parser::SpindleChange{}});
+  nc.block({parser::CompensationChange{}});
+  nc.block({machine_traverse(home)});
+  nc.block({parser::Stop{}});
+  return nc;
 }
 
 }  // namespace frustum::programs

@@ -1,4 +1,4 @@
-// Where a machine's axes stand in each step of a step pattern test, and the NC text that goes there.
+// Where a machine's axes are in each step of a step pattern test, and the blocks that go there.
 //
 // Units: mm, rad; X Y Z words: the tip from the crossing of the rotary axes in machine directions.
 // Errors: StepPlaces::of refuses positions out of travel, all of them at once.
@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "programs/piece_program.hpp"
 #include "programs/step/step_pattern.hpp"
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 namespace frustum::programs {
 
@@ -40,9 +41,9 @@ struct StepPlaces {
                                              const Placement& placement);
 };
 
-// Writes the program and fills in the line numbers of the cuts.
-[[nodiscard]] std::string step_program(const StepTest& test, std::span<const std::string> patterns,
-                                       const kinematics::Machine& machine,
-                                       const TiltingTable& table, StepPlaces& places);
+// The program; the cuts get the numbers of their blocks in it.
+[[nodiscard]] PieceProgram step_program(const StepTest& test, std::span<const std::string> patterns,
+                                        const kinematics::Machine& machine,
+                                        const TiltingTable& table, StepPlaces& places);
 
 }  // namespace frustum::programs

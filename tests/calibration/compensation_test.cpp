@@ -12,7 +12,7 @@
 #include "kinematics/path/path_comparison.hpp"
 #include "parser/interpreter.hpp"
 #include "parser/program.hpp"
-#include "post/nc_writer.hpp"
+#include "parser/writing/motion_writer.hpp"
 #include "programs/cone/cone_frustum.hpp"
 #include "tests/kinematics/executing.hpp"
 #include "trials/trial.hpp"
@@ -109,7 +109,7 @@ double tip_left(const Machine& machine, const kinematics::Setup& setup,
   const GeometricErrors errors = errors_of(machine);
   const auto result = compensated(machine, errors, setup, nominal);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
-  const auto text = post::write_nc(result->motions, dialect);
+  const auto text = parser::write_nc(result->motions, dialect);
   EXPECT_TRUE(text) << (text ? "" : to_string(text.error().front()));
   const auto path = [&](const GeometricErrors& e, const std::vector<parser::Motion>& motions) {
     auto run = kinematics::execute(machine, e, setup, motions);

@@ -14,7 +14,7 @@
 #include "programs/cone/cone_frustum.hpp"
 #include "tests/kinematics/executing.hpp"
 #include "tests/kinematics/machines.hpp"
-#include "tests/post/read_back.hpp"
+#include "tests/parser/writing/read_back.hpp"
 
 namespace frustum::post {
 namespace {
@@ -27,6 +27,7 @@ using kinematics::Setup;
 using kinematics::shipped;
 using kinematics::ToolPose;
 using parser::Dialect;
+using parser::first_of;
 using parser::Motion;
 
 constexpr double kLength = 150.0;
@@ -273,7 +274,7 @@ TEST_P(PostLaws, WrittenTextReadBackAndExecutedGivesTheSameToolPath) {
   for (const Case& c : {cone_on(GetParam()), freeform_on(GetParam())}) {
     for (const OutputForm form : {OutputForm::axes, OutputForm::tip, OutputForm::vectors}) {
       const auto motions = planned(c, {.output = form, .tolerance = Mm{kTolerance}});
-      for (const Dialect dialect : written_dialects()) {
+      for (const Dialect dialect : parser::written_dialects()) {
         if (form == OutputForm::vectors && dialect == Dialect::linuxcnc) continue;
         expect_read_back(c, motions, dialect);
       }

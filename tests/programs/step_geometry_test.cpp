@@ -9,9 +9,9 @@
 
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
-#include "programs/near_net_blank.hpp"
+#include "programs/step/near_net_blank.hpp"
 #include "programs/step/step_pattern.hpp"
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 namespace frustum::programs {
 namespace {

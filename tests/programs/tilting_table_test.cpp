@@ -1,5 +1,5 @@
 // Which of the shipped machines, and of machines made from them, have a tilting rotary table.
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 #include <gtest/gtest.h>
 

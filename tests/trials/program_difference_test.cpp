@@ -9,7 +9,6 @@
 #include "parser/program.hpp"
 #include "post/comparing/fault.hpp"
 #include "programs/cone/cone_frustum.hpp"
-#include "programs/in_dialect.hpp"
 #include "tests/trials/cone_trial.hpp"
 
 namespace frustum::trials {
@@ -76,13 +75,14 @@ class SameConeInFourDialects : public ::testing::TestWithParam<parser::Dialect> 
 
 TEST_P(SameConeInFourDialects, Agrees) {
   const ConeTrial trial = ConeTrial::on("iwf-bc", coarse_cone(ProgramForm::angles));
-  const auto written = programs::in_dialect(trial.piece, GetParam());
+  const auto written =
+      programs::cone_frustum(coarse_cone(ProgramForm::angles), trial.machine, GetParam());
   ASSERT_TRUE(written) << to_string(written.error().front());
-  const auto program = parser::parse_program(written->piece.program, "cone", GetParam());
+  const auto program = parser::parse_program(written->program, "cone", GetParam());
   ASSERT_TRUE(program) << to_string(program.error().front());
   const auto motions = parser::motions_of(*program);
   ASSERT_TRUE(motions) << to_string(motions.error().front());
-  const ComparedProgram second{"cone", *motions, setup_of(written->piece)};
+  const ComparedProgram second{"cone", *motions, setup_of(*written)};
   const auto found =
       compare_programs(trial.machine, cone_program("iwf-bc", ProgramForm::vector), second);
   ASSERT_TRUE(found) << to_string(found.error().front());

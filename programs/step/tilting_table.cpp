@@ -1,4 +1,4 @@
-#include "programs/tilting_table.hpp"
+#include "programs/step/tilting_table.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 
 #include "kinematics/model/machine.hpp"
 
-namespace frustum::post {
+namespace frustum::programs {
 
 // Axis positions after `from`, up to and including `to`, such that linear axis motion between them
 // keeps the tip within `tolerance` of the straight line and the rotary axes as they were going
@@ -19,4 +19,4 @@ namespace frustum::post {
     const kinematics::Machine& machine, const kinematics::AxisPositions& from,
     const kinematics::AxisPositions& to, double tool_length, double tolerance);
 
-}  // namespace frustum::post
+}  // namespace frustum::programs

@@ -1,9 +1,9 @@
-#include "post/planning/linearisation.hpp"
+#include "programs/cone/linearised_axes.hpp"
 
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
 
-namespace frustum::post {
+namespace frustum::programs {
 namespace {
 
 using kinematics::AxisLetter;
@@ -45,4 +45,4 @@ std::vector<AxisPositions> linearised(const Machine& machine, const AxisPosition
   return positions;
 }
 
-}  // namespace frustum::post
+}  // namespace frustum::programs

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace frustum::post {
+namespace frustum::parser {
 
 // How a number ends: "12." keeps its point (controllers read "12" in their least increment), "12"
 // does not.
@@ -20,4 +20,4 @@ enum class WholeNumbers : std::uint8_t { with_point, without_point };
 // As many decimals as that many significant digits need; for feeds.
 [[nodiscard]] std::string significant(double value, int digits);
 
-}  // namespace frustum::post
+}  // namespace frustum::parser

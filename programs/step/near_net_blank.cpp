@@ -1,4 +1,4 @@
-#include "programs/near_net_blank.hpp"
+#include "programs/step/near_net_blank.hpp"
 
 #include <cmath>
 

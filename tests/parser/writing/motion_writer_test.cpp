@@ -1,5 +1,5 @@
 // Written and read again, canonical motions stay what they were.
-#include "post/nc_writer.hpp"
+#include "parser/writing/motion_writer.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,22 +13,18 @@
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "parser/arc.hpp"
-#include "tests/post/read_back.hpp"
+#include "tests/parser/writing/read_back.hpp"
 
-namespace frustum::post {
+namespace frustum::parser {
 namespace {
-
-using parser::AxisLetter;
-using parser::Dialect;
-using parser::Motion;
 
 // A motion or stop with the state that it finds: what two programs must agree on.
 struct Seen {
-  parser::Command command{};
-  parser::CompensationChange compensation{};
+  Command command{};
+  CompensationChange compensation{};
   int offset = 1;
   int tool = 0;
-  parser::SpindleChange spindle{};
+  SpindleChange spindle{};
   bool flood = false;
 };
 
@@ -36,21 +32,20 @@ std::vector<Seen> seen_by_a_machine(const std::vector<Motion>& motions) {
   std::vector<Seen> seen;
   Seen now;
   for (const Motion& motion : motions) {
-    const parser::Command& command = motion.command;
-    if (const auto* c = std::get_if<parser::CompensationChange>(&command)) {
-      now.compensation =
-          c->mode == parser::LengthCompensation::off ? parser::CompensationChange{} : *c;
-    } else if (const auto* o = std::get_if<parser::WorkOffsetChange>(&command)) {
+    const Command& command = motion.command;
+    if (const auto* c = std::get_if<CompensationChange>(&command)) {
+      now.compensation = c->mode == LengthCompensation::off ? CompensationChange{} : *c;
+    } else if (const auto* o = std::get_if<WorkOffsetChange>(&command)) {
       now.offset = o->number;
-    } else if (const auto* t = std::get_if<parser::ToolChange>(&command)) {
+    } else if (const auto* t = std::get_if<ToolChange>(&command)) {
       now.tool = t->tool;
-    } else if (const auto* s = std::get_if<parser::SpindleChange>(&command)) {
+    } else if (const auto* s = std::get_if<SpindleChange>(&command)) {
       now.spindle = *s;
-    } else if (const auto* f = std::get_if<parser::CoolantChange>(&command)) {
+    } else if (const auto* f = std::get_if<CoolantChange>(&command)) {
       now.flood = f->flood;
-    } else if (!std::holds_alternative<parser::Event>(command) &&
-               !std::holds_alternative<parser::OrientationPathChange>(command) &&
-               !std::holds_alternative<parser::RotaryPathChange>(command)) {
+    } else if (!std::holds_alternative<Event>(command) &&
+               !std::holds_alternative<OrientationPathChange>(command) &&
+               !std::holds_alternative<RotaryPathChange>(command)) {
       now.command = command;
       seen.push_back(now);
     }
@@ -65,13 +60,13 @@ class RandomProgram {
       : seed_(seed), vectors_(vectors), dialect_(dialect) {}
 
   std::vector<Motion> make() {
-    add(parser::ToolChange{3});
-    add(parser::SpindleChange{parser::SpindleDirection::clockwise, 8333.0});
-    add(parser::WorkOffsetChange{1 + pick(6)});
+    add(ToolChange{3});
+    add(SpindleChange{SpindleDirection::clockwise, 8333.0});
+    add(WorkOffsetChange{1 + pick(6)});
     set_compensation();
     place();
     for (int i = 0; i < 60; ++i) step();
-    add(parser::Stop{parser::StopKind::program_end});
+    add(Stop{StopKind::program_end});
     return motions_;
   }
 
@@ -79,10 +74,10 @@ class RandomProgram {
   double random() { return uniform({.seed = seed_}, draw_++); }
   double random(double size) { return size * (2.0 * random() - 1.0); }
   int pick(int choices) { return static_cast<int>(random() * choices); }
-  void add(parser::Command command) { motions_.push_back({{++line_, 1}, std::move(command)}); }
+  void add(Command command) { motions_.push_back({{++line_, 1}, std::move(command)}); }
 
   void set_compensation() {
-    using enum parser::LengthCompensation;
+    using enum LengthCompensation;
     compensation_ = {pick(2) == 0 && !vectors_ ? length : tool_centre_point, vectors_, 3};
     add(compensation_);
     at_ = {};
@@ -95,39 +90,36 @@ class RandomProgram {
       move(AxisLetter::B);
       move(AxisLetter::C);
     }
-    add(parser::Traverse{at_, axis(), parser::Coordinates::program});
+    add(Traverse{at_, axis(), Coordinates::program});
   }
-  void move(AxisLetter letter) {
-    at_[letter] = parser::is_rotary(letter) ? random(7.0) : random(300.0);
-  }
+  void move(AxisLetter letter) { at_[letter] = is_rotary(letter) ? random(7.0) : random(300.0); }
   std::optional<UnitVec3> axis() {
     if (!vectors_) return {};
     last_axis_ = UnitVec3::of(Vec3(random(1.0), random(1.0), 0.2 + random()));
     return last_axis_;
   }
-  parser::Feed feed() {
-    if (pick(2) == 0) feed_ = {std::pow(10.0, random(3.0)), static_cast<parser::FeedMode>(pick(2))};
+  Feed feed() {
+    if (pick(2) == 0) feed_ = {std::pow(10.0, random(3.0)), static_cast<FeedMode>(pick(2))};
     return feed_;
   }
 
   void step() {
     switch (pick(12)) {
       case 0:
-        add(parser::CoolantChange{pick(2) == 0});
+        add(CoolantChange{pick(2) == 0});
         break;
       case 1:
-        add(parser::SpindleChange{static_cast<parser::SpindleDirection>(1 + pick(2)),
-                                  1000.0 * (1 + pick(9))});
+        add(SpindleChange{static_cast<SpindleDirection>(1 + pick(2)), 1000.0 * (1 + pick(9))});
         break;
       case 2: {
-        parser::AxisTarget up;
+        AxisTarget up;
         up[AxisLetter::Z] = random(400.0);
-        add(parser::Traverse{up, std::nullopt, parser::Coordinates::machine});
+        add(Traverse{up, std::nullopt, Coordinates::machine});
         place();
         break;
       }
       case 3:
-        add(parser::WorkOffsetChange{1 + pick(6)});
+        add(WorkOffsetChange{1 + pick(6)});
         place();
         break;
       case 4:
@@ -135,38 +127,38 @@ class RandomProgram {
         place();
         break;
       case 5:
-        add(parser::Dwell{random() * 10.0});
+        add(Dwell{random() * 10.0});
         break;
       case 6:
       case 7:
         arc();
         break;
       case 8:
-        add(parser::Event{"comment", "ABOUT TO TURN"});
+        add(Event{"comment", "ABOUT TO TURN"});
         break;
       default:
         some_axes();
         if (pick(3) == 0) {
-          add(parser::Traverse{at_, axis(), parser::Coordinates::program});
+          add(Traverse{at_, axis(), Coordinates::program});
         } else {
-          add(parser::LinearFeed{at_, axis(), parser::Coordinates::program, feed()});
+          add(LinearFeed{at_, axis(), Coordinates::program, feed()});
         }
     }
   }
   void some_axes() {
     for (const AxisLetter letter :
          {AxisLetter::X, AxisLetter::Y, AxisLetter::Z, AxisLetter::B, AxisLetter::C}) {
-      if (pick(2) == 0 && !(vectors_ && parser::is_rotary(letter))) move(letter);
+      if (pick(2) == 0 && !(vectors_ && is_rotary(letter))) move(letter);
     }
   }
   void arc() {
     // Klartext has flat circles in X and Y.
     const bool klartext = dialect_ == Dialect::heidenhain;
-    const auto plane = klartext ? parser::Plane::xy : static_cast<parser::Plane>(pick(3));
-    const parser::PlaneAxes axes = parser::axes_of(plane);
+    const auto plane = klartext ? Plane::xy : static_cast<Plane>(pick(3));
+    const PlaneAxes axes = axes_of(plane);
     const auto u = static_cast<AxisLetter>(axes.u), v = static_cast<AxisLetter>(axes.v);
     const auto w = static_cast<AxisLetter>(axes.w);
-    parser::ArcFeed arc;
+    ArcFeed arc;
     arc.plane = plane;
     const double radius = 1.0 + 100.0 * random(), from = random(3.0), to = random(3.0);
     arc.center[axes.u] = *at_[u] - radius * std::cos(from);
@@ -191,18 +183,18 @@ class RandomProgram {
   std::optional<UnitVec3> last_axis_{};
   std::uint64_t draw_ = 0;
   std::uint32_t line_ = 0;
-  parser::AxisTarget at_{};
-  parser::CompensationChange compensation_{};
-  parser::Feed feed_{500.0, parser::FeedMode::per_minute};
+  AxisTarget at_{};
+  CompensationChange compensation_{};
+  Feed feed_{500.0, FeedMode::per_minute};
   std::vector<Motion> motions_{};
 };
 
-void expect_same_end(const parser::AxisTarget& written, const parser::AxisTarget& read) {
-  for (const AxisLetter letter : parser::kAxisLetters) {
+void expect_same_end(const AxisTarget& written, const AxisTarget& read) {
+  for (const AxisLetter letter : kAxisLetters) {
     if (!written[letter]) continue;
-    ASSERT_TRUE(read[letter]) << parser::to_char(letter);
-    const double bound = parser::is_rotary(letter) ? 0.51e-7 * kRadPerDeg : 0.51e-6;
-    EXPECT_NEAR(*written[letter], *read[letter], bound) << parser::to_char(letter);
+    ASSERT_TRUE(read[letter]) << to_char(letter);
+    const double bound = is_rotary(letter) ? 0.51e-7 * kRadPerDeg : 0.51e-6;
+    EXPECT_NEAR(*written[letter], *read[letter], bound) << to_char(letter);
   }
 }
 void expect_same_axis(const std::optional<UnitVec3>& written, const std::optional<UnitVec3>& read) {
@@ -211,35 +203,33 @@ void expect_same_axis(const std::optional<UnitVec3>& written, const std::optiona
     EXPECT_LT(angle_between(*written, *read), 1e-10);
   }
 }
-void expect_same_feed(const parser::Feed& written, const parser::Feed& read) {
+void expect_same_feed(const Feed& written, const Feed& read) {
   EXPECT_EQ(written.mode, read.mode);
   EXPECT_NEAR(read.value / written.value, 1.0, 1e-8);
 }
 
-void expect_same(const parser::Traverse& a, const parser::Traverse& b) {
+void expect_same(const Traverse& a, const Traverse& b) {
   expect_same_end(a.end, b.end);
   expect_same_axis(a.tool_axis, b.tool_axis);
   EXPECT_EQ(a.coordinates, b.coordinates);
 }
-void expect_same(const parser::LinearFeed& a, const parser::LinearFeed& b) {
+void expect_same(const LinearFeed& a, const LinearFeed& b) {
   expect_same_end(a.end, b.end);
   expect_same_axis(a.tool_axis, b.tool_axis);
   EXPECT_EQ(a.coordinates, b.coordinates);
   expect_same_feed(a.feed, b.feed);
 }
-void expect_same(const parser::ArcFeed& a, const parser::ArcFeed& b) {
+void expect_same(const ArcFeed& a, const ArcFeed& b) {
   expect_same_end(a.end, b.end);
   expect_same_axis(a.tool_axis, b.tool_axis);
   expect_same_feed(a.feed, b.feed);
   EXPECT_EQ(a.plane, b.plane);
   EXPECT_EQ(a.turns, b.turns);
-  for (const int axis : {parser::axes_of(a.plane).u, parser::axes_of(a.plane).v}) {
+  for (const int axis : {axes_of(a.plane).u, axes_of(a.plane).v}) {
     EXPECT_NEAR(a.center[axis], b.center[axis], 1.1e-6);
   }
 }
-void expect_same(const parser::Dwell& a, const parser::Dwell& b) {
-  EXPECT_NEAR(a.seconds, b.seconds, 1e-3);
-}
+void expect_same(const Dwell& a, const Dwell& b) { EXPECT_NEAR(a.seconds, b.seconds, 1e-3); }
 template <typename Command>
 void expect_same(const Command& /*a*/, const Command& /*b*/) {}
 
@@ -254,11 +244,11 @@ void expect_same(const Seen& written, const Seen& read) {
   EXPECT_EQ(written.tool, read.tool);
   EXPECT_EQ(written.flood, read.flood);
   EXPECT_EQ(written.spindle.direction, read.spindle.direction);
-  if (written.spindle.direction != parser::SpindleDirection::off) {
+  if (written.spindle.direction != SpindleDirection::off) {
     EXPECT_EQ(written.spindle.speed, read.spindle.speed);
   }
-  const auto* move = std::get_if<parser::Traverse>(&written.command);
-  const bool machine = move != nullptr && move->coordinates == parser::Coordinates::machine;
+  const auto* move = std::get_if<Traverse>(&written.command);
+  const bool machine = move != nullptr && move->coordinates == Coordinates::machine;
   if (machine) return;
   EXPECT_EQ(written.compensation.mode, read.compensation.mode);
   EXPECT_EQ(written.compensation.offset_number, read.compensation.offset_number);
@@ -304,7 +294,7 @@ TEST(NcWriterLaws, NothingIsSaidTwiceAndEveryLineKnowsItsSource) {
   EXPECT_EQ(lines_from(*written, {5000, 6000}).first, 0U);
 }
 
-std::string fanuc_of(std::vector<parser::Command> commands) {
+std::string fanuc_of(std::vector<Command> commands) {
   std::vector<Motion> motions;
   for (auto& command : commands) motions.push_back({{1, 1}, std::move(command)});
   const auto written = write_nc(motions, Dialect::fanuc);
@@ -312,25 +302,24 @@ std::string fanuc_of(std::vector<parser::Command> commands) {
 }
 
 TEST(NcWriter, LeavesOutWordsThatAreInForce) {
-  parser::AxisTarget a, b;
+  AxisTarget a, b;
   a[AxisLetter::X] = 1.0;
   a[AxisLetter::Y] = -2.5;
   b = a;
   b[AxisLetter::Y] = 1e-9;
-  const parser::Feed feed{500.0, parser::FeedMode::per_minute};
-  const auto program = parser::Coordinates::program;
-  EXPECT_EQ(fanuc_of({parser::Traverse{a, {}, program}, parser::LinearFeed{b, {}, program, feed},
-                      parser::LinearFeed{a, {}, program, feed},
-                      parser::LinearFeed{b, {}, program, {2.0, parser::FeedMode::inverse_time}},
-                      parser::LinearFeed{a, {}, program, {2.0, parser::FeedMode::inverse_time}}}),
+  const Feed feed{500.0, FeedMode::per_minute};
+  const auto program = Coordinates::program;
+  EXPECT_EQ(fanuc_of({Traverse{a, {}, program}, LinearFeed{b, {}, program, feed},
+                      LinearFeed{a, {}, program, feed},
+                      LinearFeed{b, {}, program, {2.0, FeedMode::inverse_time}},
+                      LinearFeed{a, {}, program, {2.0, FeedMode::inverse_time}}}),
             "%\nO1001 (FRUSTUM)\nG21 G90 G17 G40 G49 G80 G94\n"
             "G0 X1. Y-2.5\nG1 Y0. F500\nY-2.5\nY0. G93 F2\nY-2.5 F2\n%\n");
 }
 
 TEST(NcWriter, SaysWhatADialectHasNoWordsFor) {
   const std::vector<Motion> vectors{
-      {{12, 3},
-       parser::CompensationChange{parser::LengthCompensation::tool_centre_point, true, 1}}};
+      {{12, 3}, CompensationChange{LengthCompensation::tool_centre_point, true, 1}}};
   const auto linuxcnc = write_nc(vectors, Dialect::linuxcnc);
   ASSERT_FALSE(linuxcnc);
   EXPECT_EQ(linuxcnc.error().front().message, "LinuxCNC has no words for tool vectors");
@@ -339,15 +328,15 @@ TEST(NcWriter, SaysWhatADialectHasNoWordsFor) {
 }
 
 TEST(NcWriter, WritesThreadsWhereTheDialectHasThemAndNoProbing) {
-  parser::AxisTarget a, b;
+  AxisTarget a, b;
   a[AxisLetter::Z] = -5.0;
   b[AxisLetter::Z] = -9.0;
-  const auto program = parser::Coordinates::program;
-  const parser::Feed lead{1.5, parser::FeedMode::per_revolution, true};
-  const parser::Feed feed{500.0, parser::FeedMode::per_minute};
-  const std::vector<Motion> threads{{{1, 1}, parser::LinearFeed{a, {}, program, lead}},
-                                    {{2, 1}, parser::LinearFeed{b, {}, program, lead}},
-                                    {{3, 1}, parser::LinearFeed{a, {}, program, feed}}};
+  const auto program = Coordinates::program;
+  const Feed lead{1.5, FeedMode::per_revolution, true};
+  const Feed feed{500.0, FeedMode::per_minute};
+  const std::vector<Motion> threads{{{1, 1}, LinearFeed{a, {}, program, lead}},
+                                    {{2, 1}, LinearFeed{b, {}, program, lead}},
+                                    {{3, 1}, LinearFeed{a, {}, program, feed}}};
   const auto written = write_nc(threads, Dialect::linuxcnc);
   ASSERT_TRUE(written) << first_of(written.error());
   EXPECT_NE(written->text.find("G33 Z-5. K1.5\nZ-9. K1.5\nG1 Z-5. F500\n"), std::string::npos)
@@ -356,16 +345,16 @@ TEST(NcWriter, WritesThreadsWhereTheDialectHasThemAndNoProbing) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().front().message,
             "Sinumerik has no words for a move synchronised with the spindle");
-  const std::vector<Motion> probe{{{7, 1}, parser::Probe{a, {}, feed}}};
+  const std::vector<Motion> probe{{{7, 1}, Probe{a, {}, feed}}};
   const auto probing = write_nc(probe, Dialect::linuxcnc);
   ASSERT_FALSE(probing);
   EXPECT_EQ(probing.error().front().line, 7);
 }
 
 TEST(NcWriter, KeepsCommentsReadable) {
-  EXPECT_EQ(fanuc_of({parser::Event{"comment", "a (b) \xC3\xA4 c  "}}),
+  EXPECT_EQ(fanuc_of({Event{"comment", "a (b) \xC3\xA4 c  "}}),
             "%\nO1001 (FRUSTUM)\nG21 G90 G17 G40 G49 G80 G94\n(A [B] ? C)\n%\n");
 }
 
 }  // namespace
-}  // namespace frustum::post
+}  // namespace frustum::parser

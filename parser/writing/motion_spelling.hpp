@@ -11,16 +11,17 @@
 #include <string_view>
 
 #include "parser/dialect.hpp"
-#include "post/nc_number.hpp"
+#include "parser/writing/number_text.hpp"
 
-namespace frustum::post {
+namespace frustum::parser {
 
 struct NcSpelling {
   std::string_view title;      // of the controller
   std::string_view extension;  // of program files
 
-  // Around the program. `$` represents its name.
+  // Around the program. `$` represents its name, `#` its number.
   std::string_view header;
+  std::string_view modes;  // that it begins with
   std::string_view footer;
   bool numbered_blocks;  // every block begins with its number
 
@@ -70,6 +71,6 @@ struct NcSpelling {
 };
 
 // Nothing for dialects that machines do not read.
-[[nodiscard]] const NcSpelling* spelling_of(parser::Dialect dialect);
+[[nodiscard]] const NcSpelling* spelling_of(Dialect dialect);
 
-}  // namespace frustum::post
+}  // namespace frustum::parser

@@ -1,4 +1,4 @@
-#include "post/nc_number.hpp"
+#include "parser/writing/number_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/random.hpp"
 
-namespace frustum::post {
+namespace frustum::parser {
 namespace {
 
 TEST(NcNumber, WritesNeitherExponentsNorNegativeZero) {
@@ -39,4 +39,4 @@ TEST(NcNumberLaws, ReadsBackWithinHalfAUnitOfTheLastDecimal) {
 }
 
 }  // namespace
-}  // namespace frustum::post
+}  // namespace frustum::parser

@@ -7,19 +7,19 @@
 #include <vector>
 
 #include "parser/interpreter.hpp"
-#include "post/nc_writer.hpp"
+#include "parser/writing/motion_writer.hpp"
 
-namespace frustum::post {
+namespace frustum::parser {
 
 inline std::string first_of(const Diagnostics& problems) { return to_string(problems.front()); }
 
-inline std::vector<parser::Motion> motions_in(const std::string& text, parser::Dialect dialect) {
-  const auto program = parser::parse_program(text, "written", dialect);
+inline std::vector<Motion> motions_in(const std::string& text, Dialect dialect) {
+  const auto program = parse_program(text, "written", dialect);
   if (!program) {
     ADD_FAILURE() << first_of(program.error());
     return {};
   }
-  auto motions = parser::motions_of(*program);
+  auto motions = motions_of(*program);
   if (!motions) {
     ADD_FAILURE() << first_of(motions.error());
     return {};
@@ -28,9 +28,8 @@ inline std::vector<parser::Motion> motions_in(const std::string& text, parser::D
 }
 
 // Languages that are both written and read.
-inline std::vector<parser::Dialect> written_dialects() {
-  return {parser::Dialect::fanuc, parser::Dialect::linuxcnc, parser::Dialect::sinumerik,
-          parser::Dialect::heidenhain};
+inline std::vector<Dialect> written_dialects() {
+  return {Dialect::fanuc, Dialect::linuxcnc, Dialect::sinumerik, Dialect::heidenhain};
 }
 
-}  // namespace frustum::post
+}  // namespace frustum::parser

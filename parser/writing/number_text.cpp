@@ -1,11 +1,11 @@
-#include "post/nc_number.hpp"
+#include "parser/writing/number_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace frustum::post {
+namespace frustum::parser {
 
 std::string fixed(double value, int decimals, WholeNumbers ending) {
   std::string text = fmt::format("{:#.{}f}", value, decimals);
@@ -21,4 +21,4 @@ std::string significant(double value, int digits) {
   return fixed(value, std::max(0, digits - before), WholeNumbers::without_point);
 }
 
-}  // namespace frustum::post
+}  // namespace frustum::parser

@@ -1,77 +1,93 @@
-#include "post/nc_writer.hpp"
+#include "parser/writing/motion_writer.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <utility>
 
 #include "core/constants.hpp"
 #include "core/units.hpp"
 #include "parser/arc.hpp"
-#include "post/nc_spelling.hpp"
+#include "parser/writing/motion_spelling.hpp"
 
-namespace frustum::post {
+namespace frustum::parser {
 namespace {
-
-using parser::AxisLetter;
-using parser::AxisTarget;
-using parser::Feed;
-using parser::FeedMode;
-using parser::LengthCompensation;
-using parser::Motion;
 
 template <typename Enum>
 constexpr std::size_t index_of(Enum value) {
   return static_cast<std::size_t>(value);
 }
 
-std::string filled(std::string_view pattern, char hole, std::string_view with) {
-  std::string text;
-  for (const char c : pattern) {
-    if (c == hole) {
-      text += with;
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
-class NcWriter {
+class MotionWriter {
  public:
-  NcWriter(const NcSpelling& spelling, const WriterOptions& options)
-      : spelling_(spelling), options_(options) {}
+  MotionWriter(const NcSpelling& spelling, const WriterOptions& options)
+      : spelling_(spelling), options_(options), out_(spelling, options) {}
 
   Result<NcProgram> write(std::span<const Motion> motions) {
-    lines(filled(spelling_.header, '$', as_comment(options_.name)));
-    for (std::size_t i = 0; i < motions.size(); ++i) {
+    const std::size_t first = write_head(motions);
+    const Motion* remark = nullptr;  // of the block at work
+    for (std::size_t i = first; i < motions.size(); ++i) {
+      const std::uint32_t line = motions[i].place.line;
+      if (as_given() && line == 0) continue;  // the modes say it
+      const bool before_its_block =
+          as_given() && i + 1 < motions.size() && motions[i + 1].place.line == line;
+      if (before_its_block && is_comment(motions[i])) {
+        remark = &motions[i];
+        continue;
+      }
       rest_ = motions.subspan(i + 1);
-      place_ = motions[i].place;
-      std::visit([this](const auto& command) { write(command); }, motions[i].command);
+      write(motions[i]);
+      if (remark != nullptr) write(*std::exchange(remark, nullptr));
     }
-    place_ = {};
-    lines(filled(spelling_.footer, '$', as_comment(options_.name)));
+    begin({});
+    out_.lines(filled(spelling_.footer, '$', out_.as_comment(options_.name)));
     if (!problems_.empty()) return problems_;
-    return std::move(program_);
+    return out_.take();
   }
 
  private:
-  // --- motions --------------------------------------------------------------------------------
+  [[nodiscard]] bool as_given() const { return options_.layout == NcLayout::as_given; }
+  static bool is_comment(const Motion& motion) {
+    const auto* event = std::get_if<Event>(&motion.command);
+    return event != nullptr && event->name == "comment";
+  }
+  void begin(const SourcePlace& place) {
+    block_line_ = std::exchange(place_, place).line;
+    out_.begin(place.line);
+  }
+  void write(const Motion& motion) {
+    begin(motion.place);
+    std::visit([this](const auto& command) { write(command); }, motion.command);
+  }
 
-  void write(const parser::Traverse& move) {
+  // What the program begins with; the number of motions that it says.
+  std::size_t write_head(std::span<const Motion> motions) {
+    std::size_t said = 0;
+    std::string title = options_.name;
+    if (as_given() && !motions.empty() && is_comment(motions.front())) {
+      title = std::get<Event>(motions[said++].command).text;
+    }
+    out_.lines(filled(filled(spelling_.header, '#', options_.number), '$', out_.as_comment(title)));
+    for (; as_given() && said < motions.size() && is_comment(motions[said]); ++said) {
+      out_.comment(std::get<Event>(motions[said].command).text);
+    }
+    out_.lines(spelling_.modes);
+    return said;
+  }
+
+  void write(const Traverse& move) {
     straight(move.end, move.tool_axis, move.coordinates, nullptr);
   }
-  void write(const parser::LinearFeed& move) {
+  void write(const LinearFeed& move) {
     straight(move.end, move.tool_axis, move.coordinates, &move.feed);
   }
 
-  void write(const parser::Probe& /*probe*/) {
+  void write(const Probe& /*probe*/) {
     refuse("a probing move", "leave the blocks that probe out");
   }
 
-  void write(const parser::HomeReturn& home) {
+  void write(const HomeReturn& home) {
     if (spelling_.home_return.empty()) {
       refuse("the return to home (G28)", "give the position in machine coordinates");
       return;
@@ -82,16 +98,16 @@ class NcWriter {
       return;
     }
     std::string block(spelling_.home_return);
-    for (const AxisLetter letter : parser::kAxisLetters) {
-      if (home.axes.at(index_of(letter))) block += fmt::format(" {}0", parser::to_char(letter));
+    for (const AxisLetter letter : kAxisLetters) {
+      if (home.axes.at(index_of(letter))) block += fmt::format(" {}0", to_char(letter));
     }
-    line(block);
-    line("G90");  // home is written incrementally: straight there
+    out_.line(block);
+    out_.line("G90");  // home is written incrementally: straight there
     forget_positions();
   }
 
-  void write(const parser::ArcFeed& arc) {
-    const parser::PlaneAxes axes = parser::axes_of(arc.plane);
+  void write(const ArcFeed& arc) {
+    const PlaneAxes axes = axes_of(arc.plane);
     const auto u = static_cast<AxisLetter>(axes.u), v = static_cast<AxisLetter>(axes.v);
     if (!known_[index_of(u)] || !known_[index_of(v)]) {
       refuse("an arc whose start is not known", "move to its start with a straight line first");
@@ -108,16 +124,16 @@ class NcWriter {
     }
     if (!plane_ || *plane_ != arc.plane) {
       if (!spelling_.planes.at(index_of(arc.plane)).empty()) {
-        line(spelling_.planes.at(index_of(arc.plane)));
+        out_.line(spelling_.planes.at(index_of(arc.plane)));
       }
       plane_ = arc.plane;
     }
     std::string block(arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise);
     const std::string centre = centre_words(arc, axes);
-    if (spelling_.circle_centre_block) line("CC" + centre);
+    if (spelling_.circle_centre_block) out_.line("CC" + centre);
     const bool vectors = arc.tool_axis.has_value();
-    for (const AxisLetter letter : parser::kAxisLetters) {
-      if (!arc.end[letter] || (vectors && parser::is_rotary(letter))) continue;
+    for (const AxisLetter letter : kAxisLetters) {
+      if (!arc.end[letter] || (vectors && is_rotary(letter))) continue;
       const bool in_plane = letter == u || letter == v;
       block += axis_word(letter, *arc.end[letter], in_plane);
     }
@@ -136,14 +152,14 @@ class NcWriter {
     if (spelling_.circle_centre_block) block += arc.turns > 0 ? " DR+" : " DR-";
     block += feed_words(arc.feed);
     motion_word_ = arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise;
-    line(block);
+    out_.line(block);
   }
 
-  [[nodiscard]] bool flat_in_xy(const parser::ArcFeed& arc) const {
-    if (arc.plane != parser::Plane::xy) return false;
-    for (const AxisLetter letter : parser::kAxisLetters) {
+  [[nodiscard]] bool flat_in_xy(const ArcFeed& arc) const {
+    if (arc.plane != Plane::xy) return false;
+    for (const AxisLetter letter : kAxisLetters) {
       if (letter == AxisLetter::X || letter == AxisLetter::Y || !arc.end[letter]) continue;
-      if (arc.tool_axis && parser::is_rotary(letter)) continue;
+      if (arc.tool_axis && is_rotary(letter)) continue;
       const auto& known = known_.at(index_of(letter));
       if (!known || known->text != text_of(letter, *arc.end[letter])) return false;
     }
@@ -151,8 +167,8 @@ class NcWriter {
   }
 
   void straight(const AxisTarget& end, const std::optional<UnitVec3>& tool_axis,
-                parser::Coordinates coordinates, const Feed* feed) {
-    const bool machine = coordinates == parser::Coordinates::machine;
+                Coordinates coordinates, const Feed* feed) {
+    const bool machine = coordinates == Coordinates::machine;
     const bool switched = machine && spelling_.machine_coordinates_compensated &&
                           compensation_.mode != LengthCompensation::off;
     if (switched) spell({});
@@ -160,13 +176,13 @@ class NcWriter {
     if (machine || (tool_axis.has_value() != vectors_)) forget_positions();
     vectors_ = tool_axis.has_value();
     std::string words;
-    for (const AxisLetter letter : parser::kAxisLetters) {
-      if (!end[letter] || (vectors_ && parser::is_rotary(letter))) continue;
+    for (const AxisLetter letter : kAxisLetters) {
+      if (!end[letter] || (vectors_ && is_rotary(letter))) continue;
       words += axis_word(letter, *end[letter], false);
     }
     words += vector_words(tool_axis);
     if (words.empty()) {  // a block that moves nothing still has its line and its time
-      for (const AxisLetter letter : parser::kAxisLetters) {
+      for (const AxisLetter letter : kAxisLetters) {
         if (words.empty() && end[letter]) words += axis_word(letter, *end[letter], true);
       }
     }
@@ -184,6 +200,7 @@ class NcWriter {
     std::string block;
     if (machine) block += spelling_.before_machine_coordinates;
     if (!spelling_.modal || machine || motion != motion_word_) block += motion;
+    if (options_.restate_feed && feed != nullptr && motion != motion_word_) feed_text_.clear();
     motion_word_ = motion;
     block += words;
     block += feed != nullptr ? feed_words(*feed) : std::string(spelling_.traverse_feed);
@@ -191,7 +208,7 @@ class NcWriter {
       block += spelling_.after_machine_coordinates;
       forget_positions();
     }
-    line(block.front() == ' ' ? block.substr(1) : block);
+    out_.line(block.front() == ' ' ? block.substr(1) : block);
     if (switched) spell(compensation_);
   }
 
@@ -206,8 +223,8 @@ class NcWriter {
   }
 
   [[nodiscard]] std::string text_of(AxisLetter letter, double value) const {
-    return parser::is_rotary(letter) ? coordinate(value * kDegPerRad, options_.angle_decimals)
-                                     : coordinate(value, options_.length_decimals);
+    return is_rotary(letter) ? out_.coordinate(value * kDegPerRad, options_.angle_decimals)
+                             : out_.coordinate(value, options_.length_decimals);
   }
 
   // " X12.5", or nothing when the axis is there already.
@@ -216,8 +233,8 @@ class NcWriter {
     std::optional<Known>& known = known_.at(index_of(letter));
     const bool there = known && known->text == number;
     known = Known{number, value};
-    if (there && !always) return {};
-    return fmt::format(" {}{}", parser::to_char(letter), number);
+    if (there && !always && !as_given()) return {};
+    return fmt::format(" {}{}", to_char(letter), number);
   }
 
   std::string vector_words(const std::optional<UnitVec3>& tool_axis) {
@@ -228,21 +245,21 @@ class NcWriter {
     }
     std::string words;
     for (std::size_t i = 0; i < 3; ++i) {
-      words += fmt::format(
-          " {}{}", spelling_.tool_vector.at(i),
-          coordinate(tool_axis->vec()[static_cast<Eigen::Index>(i)], options_.vector_decimals));
+      words += fmt::format(" {}{}", spelling_.tool_vector.at(i),
+                           out_.coordinate(tool_axis->vec()[static_cast<Eigen::Index>(i)],
+                                           options_.vector_decimals));
     }
     vector_text_ = words;
     return words;
   }
 
-  std::string centre_words(const parser::ArcFeed& arc, const parser::PlaneAxes& axes) {
+  std::string centre_words(const ArcFeed& arc, const PlaneAxes& axes) {
     std::string words;
     for (const int axis : {std::min(axes.u, axes.v), std::max(axes.u, axes.v)}) {
       const auto i = static_cast<std::size_t>(axis);
       const double from = spelling_.circle_centre_block ? 0.0 : known_.at(i)->value;
       words += fmt::format(" {}{}", spelling_.circle_centre_block ? "XYZ"[i] : "IJK"[i],
-                           coordinate(arc.center[axis] - from, options_.length_decimals));
+                           out_.coordinate(arc.center[axis] - from, options_.length_decimals));
     }
     return words;
   }
@@ -277,9 +294,7 @@ class NcWriter {
     return words;
   }
 
-  // --- states ---------------------------------------------------------------------------------
-
-  void write(const parser::CompensationChange& change) {
+  void write(const CompensationChange& change) {
     if (change.length) {
       refuse("a tool length that the program sets itself", "take the lengths from the tool table");
       return;
@@ -299,91 +314,89 @@ class NcWriter {
     compensation_ = change;
   }
 
-  static bool guides_tip(const parser::CompensationChange& compensation) {
+  static bool guides_tip(const CompensationChange& compensation) {
     return compensation.mode == LengthCompensation::tool_centre_point;
   }
 
   // The words from what is in force to this.
-  void spell(const parser::CompensationChange& to) {
-    if (guides_tip(in_force_) && !guides_tip(to)) lines(spelling_.leave_tool_centre_point);
+  void spell(const CompensationChange& to) {
+    if (guides_tip(in_force_) && !guides_tip(to)) out_.lines(spelling_.leave_tool_centre_point);
     const std::string_view pattern = to.mode == LengthCompensation::off ? spelling_.no_compensation
                                      : !guides_tip(to)                  ? spelling_.length
                                      : to.tool_vectors                  ? spelling_.tool_vectors
                                                        : spelling_.tool_centre_point;
-    lines(filled(pattern, '#', fmt::format("{}", to.offset_number)));
+    out_.lines(filled(pattern, '#', fmt::format("{}", to.offset_number)));
     in_force_ = to;
-    if (guides_tip(to)) lines(spelling_.orientation_paths.at(index_of(orientation_)));
+    if (guides_tip(to)) out_.lines(spelling_.orientation_paths.at(index_of(orientation_)));
     forget_positions();
   }
 
-  void write(const parser::OrientationPathChange& change) {
+  void write(const OrientationPathChange& change) {
     orientation_ = change.path;
     const std::string_view word = spelling_.orientation_paths.at(index_of(change.path));
-    if (word.empty() && change.path != parser::OrientationPath::rotary_axes) {
+    if (word.empty() && change.path != OrientationPath::rotary_axes) {
       refuse("tool axes that follow great circles", "write rotary axes: --output tcp or axes");
       return;
     }
-    if (guides_tip(in_force_)) lines(word);
+    if (guides_tip(in_force_)) out_.lines(word);
   }
-  void write(const parser::RotaryPathChange& change) {
+  void write(const RotaryPathChange& change) {
     const std::string_view word = spelling_.rotary_paths.at(index_of(change.path));
-    const bool all = change.axes == parser::RotaryPathChange{}.axes;
-    if ((word.empty() || !all) && change.path != parser::RotaryPath::as_programmed) {
-      refuse(change.path == parser::RotaryPath::shortest ? "rotary axes that take the shortest way"
-                                                         : "rotary axes that turn in one direction",
+    const bool all = change.axes == RotaryPathChange{}.axes;
+    if ((word.empty() || !all) && change.path != RotaryPath::as_programmed) {
+      refuse(change.path == RotaryPath::shortest ? "rotary axes that take the shortest way"
+                                                 : "rotary axes that turn in one direction",
              "write the positions that they turn to");
       return;
     }
-    lines(word);
+    out_.lines(word);
   }
-  void write(const parser::TiltedPlaneChange& /*change*/) {
+  void write(const TiltedPlaneChange& /*change*/) {
     refuse("a tilted plane", "let the post-processor resolve it");
   }
-  void write(const parser::AlignToPlane& /*align*/) {
+  void write(const AlignToPlane& /*align*/) {
     refuse("the alignment to a tilted plane", "let the post-processor resolve it");
   }
 
-  void write(const parser::ToolChange& change) {
+  void write(const ToolChange& change) {
     const std::string number = fmt::format("{}", change.tool);
-    const parser::SpindleChange* spindle = next_spindle();
+    const SpindleChange* spindle = next_spindle();
     if (!spelling_.tool_change_with_speed.empty() && spindle != nullptr) {
-      lines(filled(filled(spelling_.tool_change_with_speed, '#', number), '$',
-                   significant(spindle->speed, options_.feed_digits)));
+      out_.lines(filled(filled(spelling_.tool_change_with_speed, '#', number), '$',
+                        significant(spindle->speed, options_.feed_digits)));
       speed_ = spindle->speed;
     } else {
-      lines(filled(spelling_.tool_change, '#', number));
+      out_.lines(filled(spelling_.tool_change, '#', number));
     }
     tool_ = change.tool;
     forget_positions();
   }
 
   // The spindle's start between this tool change and the first motion after it.
-  [[nodiscard]] const parser::SpindleChange* next_spindle() const {
+  [[nodiscard]] const SpindleChange* next_spindle() const {
     for (const Motion& motion : rest_) {
-      if (const auto* spindle = std::get_if<parser::SpindleChange>(&motion.command)) return spindle;
-      if (std::holds_alternative<parser::Traverse>(motion.command) ||
-          std::holds_alternative<parser::LinearFeed>(motion.command) ||
-          std::holds_alternative<parser::ArcFeed>(motion.command) ||
-          std::holds_alternative<parser::ToolChange>(motion.command)) {
+      if (const auto* spindle = std::get_if<SpindleChange>(&motion.command)) return spindle;
+      if (std::holds_alternative<Traverse>(motion.command) ||
+          std::holds_alternative<LinearFeed>(motion.command) ||
+          std::holds_alternative<ArcFeed>(motion.command) ||
+          std::holds_alternative<ToolChange>(motion.command)) {
         return nullptr;
       }
     }
     return nullptr;
   }
 
-  void write(const parser::SpindleChange& change) {
+  void write(const SpindleChange& change) {
     std::string block;
-    const bool turns = change.direction != parser::SpindleDirection::off;
+    const bool turns = change.direction != SpindleDirection::off;
     if (turns && change.speed != speed_) {
       block = filled(spelling_.speed, '#', significant(change.speed, options_.feed_digits));
       speed_ = change.speed;
     }
-    lines(block + std::string(spelling_.spindle.at(index_of(change.direction))));
+    out_.lines(block + std::string(spelling_.spindle.at(index_of(change.direction))));
   }
-  void write(const parser::CoolantChange& change) {
-    line(spelling_.coolant.at(change.flood ? 1 : 0));
-  }
-  void write(const parser::WorkOffsetChange& change) {
+  void write(const CoolantChange& change) { out_.line(spelling_.coolant.at(change.flood ? 1 : 0)); }
+  void write(const WorkOffsetChange& change) {
     const auto index = static_cast<std::size_t>(change.number - 1);
     const std::string_view word = index < spelling_.work_offsets.size()
                                       ? spelling_.work_offsets.at(index)
@@ -392,88 +405,37 @@ class NcWriter {
       refuse(fmt::format("work offset {}", change.number), "use one of the first six");
       return;
     }
-    lines(word.empty() ? filled(spelling_.any_work_offset, '#', fmt::format("{}", change.number))
-                       : std::string(word));
+    out_.lines(word.empty()
+                   ? filled(spelling_.any_work_offset, '#', fmt::format("{}", change.number))
+                   : std::string(word),
+               BlockPart::front);
     forget_positions();
   }
-  void write(const parser::WorkOffsetSetting& setting) {
-    refuse(fmt::format("a program that places {} itself", parser::work_offset_name(setting.number)),
+  void write(const WorkOffsetSetting& setting) {
+    refuse(fmt::format("a program that places {} itself", work_offset_name(setting.number)),
            "give the origin in the setup");
   }
-  void write(const parser::Dwell& dwell) {
-    lines(filled(spelling_.dwell, '#', significant(dwell.seconds, options_.feed_digits)));
+  void write(const Dwell& dwell) {
+    out_.lines(filled(spelling_.dwell, '#', significant(dwell.seconds, options_.feed_digits)));
   }
-  void write(const parser::Stop& stop) { line(spelling_.stops.at(index_of(stop.kind))); }
+  void write(const Stop& stop) { out_.line(spelling_.stops.at(index_of(stop.kind))); }
 
-  void write(const parser::Event& event) {
+  void write(const Event& event) {
     if (!options_.comments) return;
+    if (as_given() && place_.line != block_line_) motion_word_ = {};
     if (event.name == "message" && !spelling_.message.empty()) {
-      lines(filled(spelling_.message, '$', as_comment(event.text)));
+      out_.lines(filled(spelling_.message, '$', out_.as_comment(event.text)));
       return;
     }
     const bool comment = event.name == "comment" || event.name == "message";
     std::string text = comment ? event.text : event.name + " " + event.text;
-    comment_line(text);
-  }
-
-  // --- lines ----------------------------------------------------------------------------------
-
-  void comment_line(std::string_view text) {
-    line(fmt::format("{}{}{}", spelling_.comment_open, as_comment(text), spelling_.comment_close),
-         false);
-  }
-
-  // Only what every controller shows in a comment.
-  [[nodiscard]] std::string as_comment(std::string_view text) const {
-    std::string shown;
-    for (const char c : text) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (c == '(' || c == '{') {
-        shown += '[';
-      } else if (c == ')' || c == '}') {
-        shown += ']';
-      } else if (c == '"') {
-        shown += '\'';
-      } else if (byte < 0x80 && std::isprint(byte) != 0) {
-        shown += spelling_.upper_comments ? static_cast<char>(std::toupper(byte)) : c;
-      } else if ((byte & 0xC0U) != 0x80U) {  // one sign for a character of several bytes
-        shown += byte == '\t' ? ' ' : '?';
-      }
-    }
-    while (!shown.empty() && shown.back() == ' ') shown.pop_back();
-    return shown;
-  }
-
-  // Each line of the text; nothing for an empty one.
-  void lines(std::string_view text) {
-    while (!text.empty()) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      if (end > 0) line(text.substr(0, end));
-      text.remove_prefix(std::min(end + 1, text.size()));
-    }
-  }
-
-  void line(std::string_view text, bool block = true) {
-    if (spelling_.numbered_blocks)
-      program_.text += fmt::format("{} ", program_.source_lines.size());
-    program_.text += text;
-    if (block && options_.source_lines && place_.line != 0) {
-      program_.text +=
-          fmt::format(" {}{}{}", spelling_.comment_open, place_.line, spelling_.comment_close);
-    }
-    program_.text += '\n';
-    program_.source_lines.push_back(place_.line);
-  }
-
-  [[nodiscard]] std::string coordinate(double value, int decimals) const {
-    std::string text = fixed(value, decimals, spelling_.whole_numbers);
-    if (spelling_.plus_signs && text.front() != '-') text.insert(0, 1, '+');
-    return text;
+    out_.comment(text);
   }
 
   void forget_positions() {
     known_ = {};
     vector_text_.clear();
+    if (as_given()) motion_word_ = {};
   }
 
   void refuse(std::string_view what, std::string hint) {
@@ -484,10 +446,10 @@ class NcWriter {
     problem.line = static_cast<int>(place_.line);
     problem.column = static_cast<int>(place_.column);
     // One of a kind is enough: the same motion would fail a million times.
-    const bool told = std::any_of(problems_.begin(), problems_.end(), [&](const Diagnostic& d) {
+    const bool reported = std::any_of(problems_.begin(), problems_.end(), [&](const Diagnostic& d) {
       return d.message == problem.message;
     });
-    if (!told) problems_.push_back(std::move(problem));
+    if (!reported) problems_.push_back(std::move(problem));
   }
 
   struct Known {
@@ -498,47 +460,37 @@ class NcWriter {
   const NcSpelling& spelling_;
   const WriterOptions& options_;
   std::span<const Motion> rest_{};  // after the motion at work
-  parser::SourcePlace place_{};     // of the motion at work
+  SourcePlace place_{};             // of the motion at work
+  std::uint32_t block_line_ = 0;    // source line of the motion before
 
   std::string_view motion_word_{};
   std::array<std::optional<Known>, 6> known_{};
   std::string vector_text_{};  // of the vector in force
   bool vectors_ = false;
-  std::optional<parser::Plane> plane_{};
+  std::optional<Plane> plane_{};
   FeedMode feed_mode_ = FeedMode::per_minute;
   std::string feed_text_{};
-  parser::CompensationChange compensation_{};  // as the motions say
-  parser::CompensationChange in_force_{};
-  parser::OrientationPath orientation_ = parser::OrientationPath::rotary_axes;
+  CompensationChange compensation_{};  // as the motions say
+  CompensationChange in_force_{};
+  OrientationPath orientation_ = OrientationPath::rotary_axes;
   int tool_ = 0;
   double speed_ = -1.0;
 
-  NcProgram program_{};
+  NcLines out_;
   Diagnostics problems_{};
 };
 
 }  // namespace
 
-Result<NcProgram> write_nc(std::span<const Motion> motions, parser::Dialect dialect,
+Result<NcProgram> write_nc(std::span<const Motion> motions, Dialect dialect,
                            const WriterOptions& options) {
   const NcSpelling* spelling = spelling_of(dialect);
   if (spelling == nullptr) {
     return error("not-in-dialect"_id,
-                 fmt::format("{} is no language that machines read", parser::name_of(dialect)),
+                 fmt::format("{} is no language that machines read", name_of(dialect)),
                  "fanuc, sinumerik, heidenhain or linuxcnc");
   }
-  return NcWriter(*spelling, options).write(motions);
+  return MotionWriter(*spelling, options).write(motions);
 }
 
-LineRange lines_from(const NcProgram& program, LineRange source) {
-  LineRange range;
-  for (std::size_t i = 0; i < program.source_lines.size(); ++i) {
-    const std::uint32_t from = program.source_lines[i];
-    if (from < source.first || from > source.last) continue;
-    range.last = static_cast<std::uint32_t>(i + 1);
-    if (range.first == 0) range.first = range.last;
-  }
-  return range;
-}
-
-}  // namespace frustum::post
+}  // namespace frustum::parser

@@ -1,12 +1,13 @@
-#include "post/nc_spelling.hpp"
+#include "parser/writing/motion_spelling.hpp"
 
-namespace frustum::post {
+namespace frustum::parser {
 namespace {
 
-constexpr NcSpelling kFanuc{
+constexpr NcSpelling kFanucWords{
     .title = "Fanuc",
     .extension = ".nc",
-    .header = "%\nO1001 ($)\nG21 G90 G17 G40 G49 G80 G94",
+    .header = "%\nO# ($)",
+    .modes = "G21 G90 G17 G40 G49 G80 G94",
     .footer = "%",
     .numbered_blocks = false,
     .comment_open = "(",
@@ -55,11 +56,12 @@ constexpr NcSpelling kFanuc{
     .stops = {"M0", "M1", "M30"},
 };
 
-constexpr NcSpelling linuxcnc() {
-  NcSpelling s = kFanuc;
+constexpr NcSpelling linuxcnc_words() {
+  NcSpelling s = kFanucWords;
   s.title = "LinuxCNC";
   s.extension = ".ngc";
-  s.header = "%\n($)\nG21 G90 G91.1 G17 G40 G49 G80 G94";
+  s.header = "%\n($)";
+  s.modes = "G21 G90 G91.1 G17 G40 G49 G80 G94";
   s.upper_comments = false;
   s.thread = "G33";
   s.lead = "K";
@@ -74,11 +76,12 @@ constexpr NcSpelling linuxcnc() {
   return s;
 }
 
-constexpr NcSpelling sinumerik() {
-  NcSpelling s = kFanuc;
+constexpr NcSpelling sinumerik_words() {
+  NcSpelling s = kFanucWords;
   s.title = "Sinumerik";
   s.extension = ".mpf";
-  s.header = "; $\nG710 G90 G17 G40 G94\nTRAFOOF";
+  s.header = "; $";
+  s.modes = "G710 G90 G17 G40 G94\nTRAFOOF";
   s.footer = "";
   s.comment_open = "; ";
   s.comment_close = "";
@@ -106,10 +109,11 @@ constexpr NcSpelling sinumerik() {
   return s;
 }
 
-constexpr NcSpelling kHeidenhain{
+constexpr NcSpelling kHeidenhainWords{
     .title = "Heidenhain",
     .extension = ".h",
     .header = "BEGIN PGM $ MM",
+    .modes = "",
     .footer = "END PGM $ MM",
     .numbered_blocks = true,
     .comment_open = "; ",
@@ -159,25 +163,25 @@ constexpr NcSpelling kHeidenhain{
     .stops = {"M0", "M1", "M30"},
 };
 
-constexpr NcSpelling kLinuxCnc = linuxcnc();
-constexpr NcSpelling kSinumerik = sinumerik();
+constexpr NcSpelling kLinuxCncWords = linuxcnc_words();
+constexpr NcSpelling kSinumerikWords = sinumerik_words();
 
 }  // namespace
 
-const NcSpelling* spelling_of(parser::Dialect dialect) {
+const NcSpelling* spelling_of(Dialect dialect) {
   switch (dialect) {
-    case parser::Dialect::fanuc:
-      return &kFanuc;
-    case parser::Dialect::linuxcnc:
-      return &kLinuxCnc;
-    case parser::Dialect::sinumerik:
-      return &kSinumerik;
-    case parser::Dialect::heidenhain:
-      return &kHeidenhain;
-    case parser::Dialect::cldata:
+    case Dialect::fanuc:
+      return &kFanucWords;
+    case Dialect::linuxcnc:
+      return &kLinuxCncWords;
+    case Dialect::sinumerik:
+      return &kSinumerikWords;
+    case Dialect::heidenhain:
+      return &kHeidenhainWords;
+    case Dialect::cldata:
       break;
   }
   return nullptr;
 }
 
-}  // namespace frustum::post
+}  // namespace frustum::parser
