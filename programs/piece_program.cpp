@@ -31,17 +31,19 @@ void PieceProgram::without_compensation() {
 
 Result<parser::NcProgram> PieceProgram::write(TestPiece& piece, parser::Dialect dialect) const {
   std::filesystem::path file = piece.program_file;
-  parser::WriterOptions options{.name = file.stem().string(),
-                                .number = number_,
-                                .restate_feed = restate_feed_,
-                                .feed_digits = 6};
+  parser::WriterOptions options{.name = file.stem().string(), .number = number_, .feed_digits = 6};
   for (char& c : options.name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   if (dialect == parser::Dialect::fanuc) {
     options.layout = parser::NcLayout::as_given;
+    options.restate_feed = restate_feed_;
     options.vector_decimals = 9;
   }
   auto written = parser::write_nc(motions_, dialect, options);
-  if (!written) return written;
+  if (!written) {
+    Diagnostics problems = written.error();
+    for (Diagnostic& problem : problems) problem.line = problem.column = 0;  // of no text
+    return problems;
+  }
   for (Operation& operation : piece.operations) {
     const parser::LineRange lines =
         parser::lines_from(*written, {operation.first_line, operation.last_line});
