@@ -32,7 +32,6 @@ using Exceptions = std::map<std::string, std::string>;
 
 const Exceptions& long_sources() {
   static const Exceptions kFiles{
-      {"post/nc_writer.cpp", "until there is one writer"},
   };
   return kFiles;
 }
