@@ -60,9 +60,7 @@ void expect_within(std::size_t value, std::size_t limit, const std::string& plac
 
 // Rooms whose comments are not wrapped yet.
 const std::set<std::string>& wide_rooms() {
-  static const std::set<std::string> kRooms{
-      "parser",   "metrology", "kinematics", "post", "lint",        "cutter", "stock",
-      "programs", "report",    "trials",     "app",  "calibration", "bench",  "tests"};
+  static const std::set<std::string> kRooms{"app", "programs", "tests"};
   return kRooms;
 }
 
