@@ -1,4 +1,5 @@
-// The NC program of a test piece while it is made: blocks of motions, and the text that they become.
+// The NC program of a test piece while it is made: blocks of motions, and the text that they
+// become.
 //
 // Units  : as motions
 // Errors : what a dialect has no words for (tool vectors on LinuxCNC), with the remedy
@@ -23,9 +24,11 @@ class PieceProgram {
   // Motions that are one block where a dialect can say them in one.
   void block(std::vector<parser::Command> commands);
   void comment(std::string text);
-  // Without compensation, as the modes say that dialects begin with; after the comments about the whole.
+  // Without compensation, as the modes say that dialects begin with; after the comments about the
+  // whole.
   void without_compensation();
-  // The number of the block that comes next, as operations of the piece name it until it is written.
+  // The number of the block that comes next, as operations of the piece name it until it is
+  // written.
   [[nodiscard]] std::uint32_t next_block() const { return blocks_ + 1; }
 
   // F in every block that begins to cut, not only where it changes.

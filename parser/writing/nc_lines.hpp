@@ -19,9 +19,10 @@ namespace frustum::parser {
 enum class NcLayout : std::uint8_t {
   brief,  // a block for each thing said; what is in force already is left out
   // Blocks and words as the motions give them: motions of one source line are one block, with a
-  // comment among them at its end; each axis word is written; the motion word is written again after
-  // a comment and a change of frame. The first comment is the title, those that follow it are before
-  // the modes, and a motion without a source line is what the modes say. Comments keep small letters.
+  // comment among them at its end; each axis word is written; the motion word is written again
+  // after a comment and a change of frame. The first comment is the title, those that follow it are
+  // before the modes, and a motion without a source line is what the modes say. Comments keep small
+  // letters.
   as_given
 };
 
@@ -31,7 +32,7 @@ struct WriterOptions {
   NcLayout layout = NcLayout::brief;
   bool restate_feed = false;  // F whenever cutting begins, not only where it changes
   bool comments = true;
-  bool source_lines = false;  // a comment behind each block: the line of the program it came from
+  bool source_lines = false;  // a comment after each block: the line of the program it came from
   int length_decimals = 6;
   int angle_decimals = 7;
   int vector_decimals = 10;
@@ -44,7 +45,8 @@ struct NcProgram {
   std::vector<std::uint32_t> source_lines{};
 };
 
-// Lines of the text that came from lines first .. last of the source, both included; {0, 0} if none.
+// Lines of the text that came from lines first .. last of the source, both included; {0, 0} if
+// none.
 struct LineRange {
   std::uint32_t first = 0;
   std::uint32_t last = 0;

@@ -25,8 +25,8 @@ Diagnostic refuse(DiagnosticId id, const char* key, const std::string& what,
 // Every number within what a machine could do: checked before anything is computed from it.
 Diagnostics faults_of(const StepTest& test) {
   constexpr double kLongest = 2000.0;  // mm: beyond any machine that cuts this test
-  // Narrower than the ledge of a base, a tool leaves skin; wider, on workpiece 2 the bottom of the tool
-  // of pattern 6 would reach the line of pattern 7, and its rim that of pattern 5.
+  // Narrower than the ledge of a base, a tool leaves skin; wider, on workpiece 2 the bottom of the
+  // tool of pattern 6 would reach the line of pattern 7, and its rim that of pattern 5.
   const double widest = test.workpiece.number == 2 ? 21.0 : 40.0;
   const struct {
     const char* key;

@@ -5,7 +5,7 @@
 //            and two steps c, d of its own in other table positions; a step is a side surface S and
 //            a bottom surface B. Directions and table angles are written for a table tilting by A
 //            about machine X and turning by C (direction map machine -> table M = Rz(C) Rx(A)); on
-//            other tables X stands for the tilt axis, Y for the horizontal direction across it.
+//            other tables X represents the tilt axis, Y for the horizontal direction across it.
 // Frames   : the workpiece frame has the table's directions (X: the tilt axis) at zero and its
 //            origin on the crossing of tilt and turn axis; heights H are its z
 // Units    : mm, rad, mm/min, 1/min
