@@ -9,6 +9,9 @@ set(FRUSTUM_COMMON_HEADERS
     <variant> <vector>)
 set(FRUSTUM_TEST_HEADERS <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h> <rapidcheck/gtest.h>)
 
+# Test sources are compiled in a third less time so, and what they call is in libraries made for speed.
+set(FRUSTUM_TEST_OPTIMISATION $<$<CONFIG:Release>:-O1>)
+
 # The files of TARGET, a library or a test program, start from them.
 function(frustum_precompile target)
   if(NOT FRUSTUM_PRECOMPILE)
@@ -42,6 +45,7 @@ if(FRUSTUM_PRECOMPILE)
     target_link_libraries(
       frustum_precompiled_test PRIVATE frustum_flags Eigen3::Eigen fmt::fmt GTest::gmock GTest::gtest
                                        rapidcheck rapidcheck_gtest)
+    target_compile_options(frustum_precompiled_test PRIVATE ${FRUSTUM_TEST_OPTIMISATION})
     target_precompile_headers(frustum_precompiled_test PRIVATE ${FRUSTUM_COMMON_HEADERS}
                                                                ${FRUSTUM_TEST_HEADERS})
   endif()

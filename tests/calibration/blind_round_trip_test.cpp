@@ -19,13 +19,13 @@ namespace {
 using kinematics::GeometricErrors;
 using kinematics::Machine;
 
-constexpr int kMachines = 10;
-constexpr int kRepetitions = 100;          // on each machine
-constexpr double kSquarenessKnown = 5e-6;  // rad
+constexpr int kBlindMachines = 10;
+constexpr int kMeasurements = 100;         // on each machine
+constexpr double kSquarenessPrior = 5e-6;  // rad
 
 constexpr const char* kAngles[] = {"alpha_AY", "beta_AY", "gamma_AY", "beta_CA"};
 constexpr const char* kOffsets[] = {"dx_AY", "dy_AY", "dz_AY", "dy_CA"};
-constexpr const char* kSquareness[] = {"gamma_YX", "alpha_ZY", "beta_ZX"};
+constexpr const char* kSquarenessNames[] = {"gamma_YX", "alpha_ZY", "beta_ZX"};
 
 Machine tilting_table() {
   auto machine = Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/zx-yac.toml");
@@ -33,7 +33,7 @@ Machine tilting_table() {
   return *machine;
 }
 
-metrology::CmmModel laboratory_cmm(std::uint32_t draw) {
+metrology::CmmModel cmm_of_draw(std::uint32_t draw) {
   metrology::CmmModel cmm;
   cmm.e0_mm = 0.5e-3;
   cmm.length_per_error = 600.0;
@@ -76,7 +76,7 @@ Truth random_machine(int number) {
   };
   for (const char* name : kAngles) add(name, 30e-6);
   for (const char* name : kOffsets) add(name, 15e-3);
-  for (const char* name : kSquareness) add(name, 50e-6);
+  for (const char* name : kSquarenessNames) add(name, 50e-6);
   add("tool_radius_error", 10e-3);
   truth.values =
       Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -131,11 +131,11 @@ class BlindMachine {
 
   // What a laboratory reports of part `piece` the `repetition`-th time.
   [[nodiscard]] MeasuredPart measured(std::size_t piece, int repetition) const {
-    const auto index = static_cast<std::uint32_t>((number_ * kRepetitions + repetition) *
+    const auto index = static_cast<std::uint32_t>((number_ * kMeasurements + repetition) *
                                                   static_cast<int>(pieces_.size())) +
                        piece;
     const auto measurement = metrology::measure(pieces_[piece].plan, probes_[piece],
-                                                laboratory_cmm(static_cast<std::uint32_t>(index)));
+                                                cmm_of_draw(static_cast<std::uint32_t>(index)));
     EXPECT_TRUE(measurement);
     MeasuredPart part;
     for (const auto& c : measurement->characteristics) {
@@ -147,7 +147,7 @@ class BlindMachine {
   [[nodiscard]] double known_before(std::size_t unknown, int repetition) const {
     const auto index = static_cast<std::uint64_t>(1000 + 16 * repetition) + unknown;
     return truth_.values[static_cast<Eigen::Index>(unknown)] +
-           draw(number_, index, kSquarenessKnown);
+           draw(number_, index, kSquarenessPrior);
   }
 
  private:
@@ -164,7 +164,7 @@ std::vector<Unknown> unknowns_of(const BlindMachine& machine, int repetition) {
     const std::string& name = machine.truth().names[k];
     Unknown unknown{.name = name, .angular = k < 4 || (k >= 8 && k < 11)};
     if (k >= 8 && k < 11) {
-      unknown.prior = Prior{machine.known_before(k, repetition), kSquarenessKnown};
+      unknown.prior = Prior{machine.known_before(k, repetition), kSquarenessPrior};
     }
     unknowns.push_back(unknown);
   }
@@ -195,7 +195,7 @@ TEST(BlindRoundTripLaws, IntervalsHoldAndEstimatesAreNotBiased) {
   const Machine machine = tilting_table();
   const std::vector<programs::TestPiece> pieces = workpieces(machine);
   std::vector<Score> scores;
-  for (int number = 0; number < kMachines; ++number) {
+  for (int number = 0; number < kBlindMachines; ++number) {
     const BlindMachine blind(machine, pieces, number);
     scores.resize(blind.truth().names.size());
     const std::vector<Cause> causes = causes_of(machine, blind.truth());
@@ -206,7 +206,7 @@ TEST(BlindRoundTripLaws, IntervalsHoldAndEstimatesAreNotBiased) {
         piece.name = fmt::format("workpiece {}", i + 1);
         piece.piece = pieces[i];
         piece.parts = {blind.measured(i, repetition)};
-        piece.cmm = laboratory_cmm(0);
+        piece.cmm = cmm_of_draw(0);
         measured.push_back(std::move(piece));
       }
       return measured;
@@ -222,7 +222,7 @@ TEST(BlindRoundTripLaws, IntervalsHoldAndEstimatesAreNotBiased) {
     const auto at = first->model(x0);
     ASSERT_TRUE(at);
     Observations observations = first->observations;
-    for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+    for (int repetition = 0; repetition < kMeasurements; ++repetition) {
       observations.unknowns = unknowns_of(blind, repetition);
       Eigen::Index row = 0;
       for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -243,8 +243,8 @@ TEST(BlindRoundTripLaws, IntervalsHoldAndEstimatesAreNotBiased) {
     }
     if (number == 0) {
       // Whole trials for the last measurement too: the shortcut costs nothing.
-      const auto last = observations_of(machine, input(kRepetitions - 1),
-                                        unknowns_of(blind, kRepetitions - 1), causes);
+      const auto last = observations_of(machine, input(kMeasurements - 1),
+                                        unknowns_of(blind, kMeasurements - 1), causes);
       const auto whole = refine(last->observations, last->model);
       const auto shortcut = refine(observations, linear_about(x0, *at));
       ASSERT_TRUE(whole && shortcut);

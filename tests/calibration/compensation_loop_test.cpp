@@ -44,7 +44,7 @@ constexpr NamedValue kTruth[] = {{"alpha_AY", 45e-6},  {"beta_AY", -60e-6}, {"ga
                                  {"dz_AY", 15e-3},     {"dy_CA", -10e-3},   {"gamma_YX", 70e-6},
                                  {"alpha_ZY", -40e-6}, {"beta_ZX", 55e-6}};
 
-GeometricErrors errors_of(const Machine& machine, const Eigen::VectorXd& values) {
+GeometricErrors errors_from_values(const Machine& machine, const Eigen::VectorXd& values) {
   GeometricErrors errors;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     const auto parameter = trials::Parameter::named(machine, kTruth[k].name);
@@ -122,9 +122,9 @@ Eigen::VectorXd identified(const Machine& machine, const GeometricErrors& errors
 
 TEST(CompensationLoopSystem, StepPatternsShrinkToWhatTheCmmCannotTell) {
   const Machine machine = shipped("zx-yac");
-  const GeometricErrors errors = errors_of(machine, true_values());
+  const GeometricErrors errors = errors_from_values(machine, true_values());
   const auto pieces = step_workpieces(machine);
-  const GeometricErrors found = errors_of(machine, identified(machine, errors, pieces));
+  const GeometricErrors found = errors_from_values(machine, identified(machine, errors, pieces));
   int larger_before = 0, beyond_the_table = 0, count = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto second = compensated_piece(machine, found, pieces[i]);
@@ -160,9 +160,9 @@ TEST(CompensationLoopSystem, StepPatternsShrinkToWhatTheCmmCannotTell) {
 // What the step patterns identify of the machine corrects another part.
 TEST(CompensationLoopSystem, TheInclinedConeShrinksToWhatTheCmmCannotTell) {
   const Machine machine = shipped("zx-yac");
-  const GeometricErrors errors = errors_of(machine, true_values());
+  const GeometricErrors errors = errors_from_values(machine, true_values());
   const GeometricErrors found =
-      errors_of(machine, identified(machine, errors, step_workpieces(machine)));
+      errors_from_values(machine, identified(machine, errors, step_workpieces(machine)));
   programs::ConeFrustum cone;
   const auto piece = programs::cone_frustum(cone, machine);
   ASSERT_TRUE(piece) << to_string(piece.error().front());

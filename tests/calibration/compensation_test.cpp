@@ -23,7 +23,7 @@ namespace {
 using kinematics::GeometricErrors;
 using kinematics::Machine;
 
-Machine shipped(const std::string& name) {
+Machine shipped_machine(const std::string& name) {
   auto machine = Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" + name + ".toml");
   EXPECT_TRUE(machine);
   return *std::move(machine);
@@ -59,7 +59,7 @@ struct Case {
 class CompensatedCone : public ::testing::TestWithParam<Case> {};
 
 TEST_P(CompensatedCone, LeavesAtMostOnePercentOrATwentiethOfAMicrometre) {
-  const Machine machine = shipped(GetParam().machine);
+  const Machine machine = shipped_machine(GetParam().machine);
   programs::ConeFrustum cone;
   cone.form = GetParam().form;
   const auto piece = programs::cone_frustum(cone, machine);
@@ -132,12 +132,12 @@ TEST_P(CompensatedInDialect, FollowsTheNominalPathOfAFreeformProgram) {
   setup.work_offsets[1] = Vec3(20.0, -15.0, 120.0);
   setup.tools[1] = {.length = 130.0, .length_error = 0.0, .flute_length = 30.0};
   const auto nominal = motions_of(freeform_program(), parser::Dialect::fanuc);
-  EXPECT_LT(tip_left(shipped(name), setup, nominal, dialect), 5e-5);
+  EXPECT_LT(tip_left(shipped_machine(name), setup, nominal, dialect), 5e-5);
 }
 
 TEST_P(CompensatedInDialect, FollowsTheNominalPathOfTheCone) {
   const auto& [name, dialect] = GetParam();
-  const Machine machine = shipped(name);
+  const Machine machine = shipped_machine(name);
   programs::ConeFrustum cone;
   cone.chord_tolerance = Mm{2e-4};
   const auto piece = programs::cone_frustum(cone, machine);

@@ -10,7 +10,7 @@ namespace {
 
 using cutter::SweptCutter;
 
-SweptCutter sweep(const std::string& kind, kinematics::ToolPath path) {
+SweptCutter sweep_of_kind(const std::string& kind, kinematics::ToolPath path) {
   return *SweptCutter::sweep(std::move(path), {{1, kind_named(kind).cutter}});
 }
 
@@ -26,7 +26,7 @@ TEST(AwkwardChords, LeaveThroughTheTopAboveAnArc) {
   const auto chord = kind_named("barrel").cutter.body().parts()[0].chord({}, up);
   ASSERT_TRUE(chord);
   EXPECT_EQ(chord->hi_face, cutter::kTopFace);
-  const auto swept = sweep(
+  const auto swept = sweep_of_kind(
       "barrel", path_through({{Vec3(-2, 0, 0), Vec3::UnitZ()}, {Vec3(2, 0, 0), Vec3::UnitZ()}}));
   const IntervalSet covered = swept.along(up, {-50.0, 50.0});
   ASSERT_EQ(covered.intervals().size(), 1U);
@@ -36,7 +36,7 @@ TEST(AwkwardChords, LeaveThroughTheTopAboveAnArc) {
 TEST(AwkwardChords, EndOnAHollowedArcToTheLastBit) {
   Draw draw(19, 31);
   const auto path = random_path(MotionFamily::dwell, draw);
-  const auto swept = sweep("waisted", path);
+  const auto swept = sweep_of_kind("waisted", path);
   for (int k = 0; k < 400; ++k) {
     const Ray ray{draw.point(Vec3(-20, -20, -20), Vec3(20, 20, 20)), draw.direction()};
     const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
@@ -57,7 +57,7 @@ TEST(AwkwardChords, PartWhileTheCutterTurns) {
     for (int k = 0; k <= 3; ++k) {
       ray = {draw.point(Vec3(-20, -20, -20), Vec3(20, 20, 20)), draw.direction()};
     }
-    const auto swept = sweep(kind, path);
+    const auto swept = sweep_of_kind(kind, path);
     const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
     for (const auto& segment : path.segments) {
       for (int i = 0; i <= 1000; ++i) {
@@ -72,7 +72,7 @@ TEST(AwkwardChords, PartWhileTheCutterTurns) {
 
 TEST(AwkwardChords, GoOnWhereThePartsOfACutterMeet) {
   Draw draw(26, 31);
-  const auto swept = sweep("measured", random_path(MotionFamily::straight, draw));
+  const auto swept = sweep_of_kind("measured", random_path(MotionFamily::straight, draw));
   for (int k = 0; k < 100; ++k) {
     const Ray ray{draw.point(Vec3(-20, -20, -20), Vec3(20, 20, 20)), draw.direction()};
     const IntervalSet covered = swept.along(ray, {-100.0, 100.0});
@@ -86,7 +86,8 @@ TEST(AwkwardChords, KnowTheNormalThatARimLeaves) {
   // A flat end leans by 5 degrees against its feed: the rim at the heel cuts the floor, whose normal is up.
   const double lean = 5.0 * kRadPerDeg;
   const Vec3 axis(std::sin(lean), 0.0, std::cos(lean));
-  const auto swept = sweep("flat", path_through({{Vec3(-20, 0, 0), axis}, {Vec3(20, 0, 0), axis}}));
+  const auto swept =
+      sweep_of_kind("flat", path_through({{Vec3(-20, 0, 0), axis}, {Vec3(20, 0, 0), axis}}));
   const auto floor = swept.end_of_void({Vec3(0, 0, 3), -Vec3::UnitZ()}, 0.0, 10.0);
   ASSERT_TRUE(floor);
   EXPECT_NEAR((floor->normal + Vec3::UnitZ()).norm(), 0.0, 1e-9);

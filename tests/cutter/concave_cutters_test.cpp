@@ -21,9 +21,9 @@ using cutter::SweptCutter;
 using kinematics::ToolPath;
 using kinematics::ToolPose;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 
-Cutter drill(double tip_angle, double run_out) {
+Cutter twist_drill(double tip_angle, double run_out) {
   return *Cutter::make({.type = CutterType::drill,
                         .diameter = {6.0},
                         .length = {80.0},
@@ -90,7 +90,7 @@ ToolPath short_stroke(Draw& draw) {
 TEST(HollowCutterLaws, EndsOfNarrowRingsLieOnTheSweep) {
   for (const double run_out : {0.05, 0.02, 0.006}) {
     for (const double angle : {60.0, 118.0}) {
-      const Cutter tool = drill(angle * kDegree, run_out);
+      const Cutter tool = twist_drill(angle * kRadPerDegree, run_out);
       int ends = 0;
       for (std::uint32_t p = 0; p < 25; ++p) {
         Draw draw(41, p);
@@ -122,7 +122,8 @@ TEST(HollowCutterLaws, EndsOfNarrowRingsLieOnTheSweep) {
 // What touches the surface at a moment between the ends of a motion moves along it there.
 TEST(HollowCutterLaws, NormalsAreSquareToTheMotion) {
   int contacts = 0;
-  for (const Cutter& tool : {hollow_end(0.5 * kDegree), hollow_end(5.0 * kDegree), coved()}) {
+  for (const Cutter& tool :
+       {hollow_end(0.5 * kRadPerDegree), hollow_end(5.0 * kRadPerDegree), coved()}) {
     for (std::uint32_t p = 0; p < 20; ++p) {
       Draw draw(42, p);
       const ToolPath path = random_path(MotionFamily::five_axis, draw);
@@ -158,7 +159,7 @@ TEST(HollowCutterLaws, LevelLandsAreNotCoveredByRounding) {
                                      .length = {80.0},
                                      .flute_length = {30.0},
                                      .corner_radius = {0.8},
-                                     .end_angle = {2.0 * kDegree},
+                                     .end_angle = {2.0 * kRadPerDegree},
                                      .run_out = {0.5}});
   const ToolPose at{Vec3(0.123, 0.456, 0.0), Vec3(0.1, 0.2, 1.0).normalized()};
   const auto swept = SweptCutter::sweep(path_through({at, at}), {{1, tool}});

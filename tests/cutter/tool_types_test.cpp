@@ -14,7 +14,7 @@
 namespace frustum::cutter {
 namespace {
 
-double draw(std::uint64_t index, double lo, double hi) {
+double draw_between(std::uint64_t index, double lo, double hi) {
   return lo + (hi - lo) * uniform({.seed = 41}, index);
 }
 
@@ -56,8 +56,8 @@ TEST(ToolTypesLaws, DistanceAgreesWithADenselySampledOutline) {
     const Generatrix generatrix = made(spec).body().generatrix();
     const auto points = along(generatrix, 2000);
     for (int i = 0; i < 60; ++i) {
-      const double r = draw(index++, 0.0, 1.3 * generatrix.max_radius());
-      const double z = draw(index++, -2.0, generatrix.height() + 2.0);
+      const double r = draw_between(index++, 0.0, 1.3 * generatrix.max_radius());
+      const double z = draw_between(index++, -2.0, generatrix.height() + 2.0);
       double nearest = 1e9;
       for (const auto& p : points) nearest = std::min(nearest, std::hypot(p.r - r, p.z - z));
       const double d = generatrix.distance(r, z);
@@ -74,8 +74,8 @@ TEST(ToolTypesLaws, APointIsInsideWhenAPartOrACarvedHullWithinTheOutlineHoldsIt)
   for (const CutterSpec& spec : specimens()) {
     const Body body = made(spec).body();
     for (int i = 0; i < 1500; ++i) {
-      const double r = draw(index++, 0.0, 1.1 * body.max_radius());
-      const double z = draw(index++, -0.5, i % 2 == 0 ? 2.0 : body.height() + 0.5);
+      const double r = draw_between(index++, 0.0, 1.1 * body.max_radius());
+      const double z = draw_between(index++, -0.5, i % 2 == 0 ? 2.0 : body.height() + 0.5);
       const double d = body.generatrix().distance(r, z);
       if (std::abs(d) < 1e-9) continue;
       const auto holds = [&](const Profile& p) { return contains(p, r, z); };
@@ -131,8 +131,8 @@ TEST(ToolTypesLaws, ArcsMeetTheirNeighboursSmoothlyWhereTheTypeSaysSo) {
 
 void expect_same(const Generatrix& a, const Generatrix& b) {
   for (int i = 0; i < 400; ++i) {
-    const double r = draw(static_cast<std::uint64_t>(i), 0.0, 9.0);
-    const double z = draw(static_cast<std::uint64_t>(i) + 1000, -1.0, 31.0);
+    const double r = draw_between(static_cast<std::uint64_t>(i), 0.0, 9.0);
+    const double z = draw_between(static_cast<std::uint64_t>(i) + 1000, -1.0, 31.0);
     EXPECT_NEAR(a.distance(r, z), b.distance(r, z), 1e-12);
   }
 }
@@ -190,8 +190,8 @@ TEST(RunOutLaws, TheBodyIsWhatTheTurningToolCovers) {
     spec.run_out = {offset};
     const Generatrix turning = made(spec).body().generatrix();
     for (int i = 0; i < 200; ++i) {
-      const double r = draw(index++, 0.0, i % 3 == 0 ? 1.0 : still.max_radius() + 0.5);
-      const double z = draw(index++, -0.1, i % 2 == 0 ? 1.0 : still.height());
+      const double r = draw_between(index++, 0.0, i % 3 == 0 ? 1.0 : still.max_radius() + 0.5);
+      const double z = draw_between(index++, -0.1, i % 2 == 0 ? 1.0 : still.height());
       if (std::abs(turning.distance(r, z)) < 1e-3) continue;
       bool covered = false;
       for (int k = 0; k <= 4000 && !covered; ++k) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kToolLength = 120.0;
 
-double draw(std::uint64_t index, double size) {
+double drawn(std::uint64_t index, double size) {
   return size * (2.0 * uniform({.seed = 4031}, index) - 1.0);
 }
 
@@ -43,7 +43,7 @@ TEST_P(ActualInverseOfMachine, BringsTheActualToolToTheWantedPoseAwayFromThePole
     for (std::size_t i = 0; i < 6; ++i) {
       if (machine.joint(kAxisLetters[i]) == nullptr) continue;
       const double size = i < 3 ? 150.0 : (kAxisLetters[i] == AxisLetter::C ? 3.0 : 1.2);
-      q[kAxisLetters[i]] = draw(6 * k + i, size);
+      q[kAxisLetters[i]] = drawn(6 * k + i, size);
     }
     if (std::hypot(q[AxisLetter::A], q[AxisLetter::B]) < 0.3) continue;
     const ToolPose wanted = tool_pose(nominal_pose(machine, q, kToolLength));

@@ -17,7 +17,7 @@ double draw(std::uint64_t index, double size) {
   return size * (2.0 * uniform({.seed = 77}, index) - 1.0);
 }
 
-AxisPositions random_position(std::uint64_t k) {
+AxisPositions position_of_draw(std::uint64_t k) {
   AxisPositions q;
   for (std::size_t i = 0; i < 6; ++i) {
     q[kAxisLetters[i]] = draw(6 * k + i, i < 3 ? 200.0 : 1.5);
@@ -61,7 +61,7 @@ TEST_P(ErrorGainOfMachine, AgreesWithCentralDifferencesOfTheExactChainForEveryEr
     const GeometricErrors plus = errors_of(machine, text, false);
     const GeometricErrors minus = errors_of(machine, text, true);
     for (std::uint64_t k = 0; k < 20; ++k) {
-      const AxisPositions q = random_position(k);
+      const AxisPositions q = position_of_draw(k);
       const Pose up = actual_pose(machine, plus, q, kToolLength);
       const Pose down = actual_pose(machine, minus, q, kToolLength);
       const Vec3 tip = 0.5 * (up.translation - down.translation);
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, ErrorGainOfMachine,
 
 TEST(ErrorGain, IsLinearInTheErrors) {
   const Machine machine = shipped("zx-yac");
-  const AxisPositions q = random_position(3);
+  const AxisPositions q = position_of_draw(3);
   const auto of = [&](std::vector<std::string> texts) {
     std::vector<ErrorEntry> entries;
     for (const std::string& text : texts) entries.push_back(*parse_error(text));

@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 constexpr double kUm = 1e-3, kUrad = 1e-6;
 
-std::string problem_of(const std::string& text, const std::string& machine = "iwf-bc") {
+std::string shape_problem(const std::string& text, const std::string& machine = "iwf-bc") {
   const auto entry = parse_error(text);
   if (!entry) return entry.error().front().message;
   const auto errors = resolve(shipped(machine), std::vector{*entry});
@@ -31,8 +31,8 @@ double value_of(const GeometricErrors& errors, const std::string& name, const Ax
   return errors[error.axis].component[static_cast<std::size_t>(error.direction)](error.axis, at);
 }
 
-double value_at(const std::string& text, const AxisState& at,
-                const std::string& machine = "iwf-bc") {
+double shape_value_at(const std::string& text, const AxisState& at,
+                      const std::string& machine = "iwf-bc") {
   const auto entry = parse_error(text);
   if (!entry) ADD_FAILURE() << entry.error().front().message;
   const auto errors = resolve(shipped(machine), std::vector{*entry});
@@ -66,9 +66,10 @@ ErrorList read(const std::string& toml, Diagnostics* problems = nullptr) {
 TEST(ErrorShape, CyclicErrorsCountTheirPeriodFromZero) {
   const auto x = AxisLetter::X;
   const double expected = 2 * kUm * std::cos(2 * pi * 1.3 / 5.0 + pi / 6);
-  EXPECT_NEAR(value_at("EXX=cyclic 2um period 5mm phase 30deg", at(x, 1.3)), expected, 1e-15);
-  EXPECT_NEAR(value_at("EXX=cyclic 2um period 5mm phase 30deg", at(x, 101.3)), expected, 1e-14);
-  EXPECT_NEAR(value_at("EBB=cyclic 4urad period 10deg", at(AxisLetter::B, 5 * pi / 180)),
+  EXPECT_NEAR(shape_value_at("EXX=cyclic 2um period 5mm phase 30deg", at(x, 1.3)), expected, 1e-15);
+  EXPECT_NEAR(shape_value_at("EXX=cyclic 2um period 5mm phase 30deg", at(x, 101.3)), expected,
+              1e-14);
+  EXPECT_NEAR(shape_value_at("EBB=cyclic 4urad period 10deg", at(AxisLetter::B, 5 * pi / 180)),
               -4 * kUrad, 1e-18);
 }
 
@@ -76,7 +77,8 @@ TEST(ErrorShape, PolynomialsAreOfTheCoordinateFromMinusToPlusOneOverTheSpan) {
   const std::string text = "EXX=polynomial 1um 2um -3um over -100mm..300mm";
   for (const double q : {-100.0, 100.0, 150.0, 300.0}) {
     const double t = (q - 100.0) / 200.0;
-    EXPECT_NEAR(value_at(text, at(AxisLetter::X, q)), (1 + 2 * t - 3 * t * t) * kUm, 1e-15) << q;
+    EXPECT_NEAR(shape_value_at(text, at(AxisLetter::X, q)), (1 + 2 * t - 3 * t * t) * kUm, 1e-15)
+        << q;
   }
 }
 
@@ -84,13 +86,13 @@ TEST(ErrorShape, PolynomialsAreOfTheCoordinateFromMinusToPlusOneOverTheSpan) {
 // workpiece-side one moves by -q, so that its lag shows as +h/2; dvf5000 turns B by +q although the
 // work hangs on it.
 TEST(ErrorShape, AReversalLagsBehindTheMotionOfThePart) {
-  EXPECT_DOUBLE_EQ(value_at("EYY=reversal 10um", at(AxisLetter::Y, 3.0, +1.0)), -5 * kUm);
-  EXPECT_DOUBLE_EQ(value_at("EYY=reversal 10um", at(AxisLetter::Y, 3.0, -1.0)), +5 * kUm);
-  EXPECT_DOUBLE_EQ(value_at("EXX=reversal 10um", at(AxisLetter::X, 3.0, +1.0)), +5 * kUm);
-  EXPECT_DOUBLE_EQ(value_at("EBB=reversal 4urad", at(AxisLetter::B, 0.3, +1.0)), +2 * kUrad);
-  EXPECT_DOUBLE_EQ(value_at("EBB=reversal 4urad", at(AxisLetter::B, 0.3, +1.0), "dvf5000"),
+  EXPECT_DOUBLE_EQ(shape_value_at("EYY=reversal 10um", at(AxisLetter::Y, 3.0, +1.0)), -5 * kUm);
+  EXPECT_DOUBLE_EQ(shape_value_at("EYY=reversal 10um", at(AxisLetter::Y, 3.0, -1.0)), +5 * kUm);
+  EXPECT_DOUBLE_EQ(shape_value_at("EXX=reversal 10um", at(AxisLetter::X, 3.0, +1.0)), +5 * kUm);
+  EXPECT_DOUBLE_EQ(shape_value_at("EBB=reversal 4urad", at(AxisLetter::B, 0.3, +1.0)), +2 * kUrad);
+  EXPECT_DOUBLE_EQ(shape_value_at("EBB=reversal 4urad", at(AxisLetter::B, 0.3, +1.0), "dvf5000"),
                    -2 * kUrad);
-  EXPECT_DOUBLE_EQ(value_at("EXX=reversal 10um", at(AxisLetter::X, 3.0)), 0.0);
+  EXPECT_DOUBLE_EQ(shape_value_at("EXX=reversal 10um", at(AxisLetter::X, 3.0)), 0.0);
 }
 
 TEST(ErrorShape, AnAxisHasOneSettlingDistance) {
@@ -106,7 +108,7 @@ TEST(ErrorShape, AnAxisHasOneSettlingDistance) {
   const auto two = resolved({"EXX=reversal 4um settle 0.01mm", "EYX=reversal 1um settle 0.02mm"});
   ASSERT_FALSE(two);
   EXPECT_EQ(two.error().front().message, "error EYX: X settles over another distance than in EXX");
-  EXPECT_EQ(problem_of("EXX=reversal 4um settle 0.01mm + reversal 1um settle 0.02mm"),
+  EXPECT_EQ(shape_problem("EXX=reversal 4um settle 0.01mm + reversal 1um settle 0.02mm"),
             "error EXX: two settling distances of X");
   // A replaced entry leaves nothing behind.
   EXPECT_TRUE(resolved({"EXX=reversal 4um settle 0.01mm", "EXX=reversal 1um settle 0.02mm"}));
@@ -114,7 +116,8 @@ TEST(ErrorShape, AnAxisHasOneSettlingDistance) {
 
 TEST(ErrorShape, ATentRisesToItsPeakAndFalls) {
   const auto tent = [](double deg) {
-    return value_at("EZC=tent 8um at -90deg over -360deg..0deg", at(AxisLetter::C, deg * pi / 180));
+    return shape_value_at("EZC=tent 8um at -90deg over -360deg..0deg",
+                          at(AxisLetter::C, deg * pi / 180));
   };
   EXPECT_NEAR(tent(-360), 0.0, 1e-18);
   EXPECT_NEAR(tent(-225), 4 * kUm, 1e-15);
@@ -129,12 +132,12 @@ TEST(ErrorShape, AFactorOfAnotherAxisMultipliesAShape) {
   AxisState state;
   state.q[AxisLetter::C] = 1.1;
   state.q[AxisLetter::B] = -30 * pi / 180;
-  EXPECT_NEAR(value_at(text, state), 2 * kUm * std::cos(1.1) * (0.5 + 30.0 / 45.0), 1e-15);
+  EXPECT_NEAR(shape_value_at(text, state), 2 * kUm * std::cos(1.1) * (0.5 + 30.0 / 45.0), 1e-15);
 }
 
 TEST(ErrorShape, TermsAddUpWhateverTheirShape) {
   const AxisState state = at(AxisLetter::X, 40.0, -1.0);
-  const double sum = value_at("EXX=reversal 2um + cyclic 1um period 30mm + 3um", state);
+  const double sum = shape_value_at("EXX=reversal 2um + cyclic 1um period 30mm + 3um", state);
   EXPECT_NEAR(sum, (-1.0 + std::cos(2 * pi * 40 / 30) + 3.0) * kUm, 1e-15);
 }
 
@@ -238,21 +241,21 @@ times = { axis = "B", table = [-90, 0, 90], values = [2.5, 0.5, 2.5] }
 }
 
 TEST(ErrorShape, WordsNameWhatIsWrong) {
-  EXPECT_EQ(problem_of("EXX=cyclic 2um"),
+  EXPECT_EQ(shape_problem("EXX=cyclic 2um"),
             "error EXX = cyclic 2um: a cyclic error needs its period, above 0: period 5mm");
-  EXPECT_EQ(problem_of("EXX=cyclic 2um period 5deg"),
+  EXPECT_EQ(shape_problem("EXX=cyclic 2um period 5deg"),
             "error EXX = cyclic 2um period 5deg: a position of X is a length");
-  EXPECT_EQ(problem_of("EBB=linear 2urad over 0mm..10mm"),
+  EXPECT_EQ(shape_problem("EBB=linear 2urad over 0mm..10mm"),
             "error EBB = linear 2urad over 0mm..10mm: a position of B is an angle");
-  EXPECT_EQ(problem_of("EXX=polynomial over 0mm..10mm"),
+  EXPECT_EQ(shape_problem("EXX=polynomial over 0mm..10mm"),
             "error EXX = polynomial over 0mm..10mm: a polynomial needs coefficients");
-  EXPECT_EQ(problem_of("EZC=tent 2um over 0deg..90deg"),
+  EXPECT_EQ(shape_problem("EZC=tent 2um over 0deg..90deg"),
             "error EZC = tent 2um over 0deg..90deg: a tent needs the place of its peak: at 90deg");
-  EXPECT_EQ(problem_of("EXX=1um times Q 0mm:1 1mm:2"),
+  EXPECT_EQ(shape_problem("EXX=1um times Q 0mm:1 1mm:2"),
             "error EXX = 1um times Q 0mm:1 1mm:2: 'Q' is not an axis");
-  EXPECT_EQ(problem_of("EXX=1um times A 0deg:1 1deg:2"),
+  EXPECT_EQ(shape_problem("EXX=1um times A 0deg:1 1deg:2"),
             "error EXX = 1um times A 0deg:1 1deg:2: machine iwf-bc has no axis A");
-  EXPECT_EQ(problem_of("EXX=reversal 2um settle -1mm"),
+  EXPECT_EQ(shape_problem("EXX=reversal 2um settle -1mm"),
             "error EXX = reversal 2um settle -1mm: the settling distance is 0 or more");
 }
 

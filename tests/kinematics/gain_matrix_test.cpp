@@ -18,16 +18,17 @@ GeometricErrors only(const Machine& machine, const MachineError& error, double a
   return *resolve(machine, std::vector{*parse_error(text)});
 }
 
-Vec3 small_turn(const Mat3& r) {
+Vec3 rotation_vector(const Mat3& r) {
   return 0.5 * Vec3(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
 }
 
 using SixVector = Eigen::Matrix<double, 6, 1>;
 
 // Central difference of one of the poses of the exact chain: of `point` in the pose's moving frame.
-SixVector difference(const Machine& machine, const MachineError& error, const AxisPositions& q,
-                     Pose (ForwardChain::*pose)(const AxisState&) const, double tool_length,
-                     const Vec3& point) {
+SixVector error_difference(const Machine& machine, const MachineError& error,
+                           const AxisPositions& q,
+                           Pose (ForwardChain::*pose)(const AxisState&) const, double tool_length,
+                           const Vec3& point) {
   // Rotations: 1e-4 rad leaves 2e-9 of third order and 1e-9 of rounding; translations are linear.
   const double h = is_rotation(error.error.direction) ? 1e-4 : 1e-1;
   const GeometricErrors plus = only(machine, error, h), minus = only(machine, error, -h);
@@ -35,7 +36,7 @@ SixVector difference(const Machine& machine, const MachineError& error, const Ax
   const Pose down = (ForwardChain(machine, minus, tool_length).*pose)(q);
   SixVector d;
   d << (up.point(point) - down.point(point)) / (2.0 * h),
-      small_turn(up.rotation * down.rotation.transpose()) / (2.0 * h);
+      rotation_vector(up.rotation * down.rotation.transpose()) / (2.0 * h);
   return d;
 }
 
@@ -61,7 +62,7 @@ void expect_gains_are_differences(const Machine& machine, const AxisPositions& q
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     const auto numeric = [&](auto pose, const Vec3& point) {
-      return difference(machine, errors[i], q, pose, kToolLength, point);
+      return error_difference(machine, errors[i], q, pose, kToolLength, point);
     };
     const std::string what = machine.structure() + " " + errors[i].name;
     expect_close(both.col(column), numeric(&ForwardChain::table_from_tool, Vec3::Zero()), what);

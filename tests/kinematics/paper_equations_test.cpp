@@ -71,7 +71,7 @@ class Draws {
   std::uint64_t index_ = 0;
 };
 
-AxisPositions random_position(Draws& draws) {
+AxisPositions drawn_position(Draws& draws) {
   AxisPositions q;
   for (const AxisLetter letter : kAxisLetters) {
     q[letter] = draws.within(is_rotary(letter) ? 3.0 : 300.0);
@@ -82,7 +82,7 @@ AxisPositions random_position(Draws& draws) {
 // The symbols of a machine file with their values, mm and rad.
 using Symbols = std::map<std::string, double>;
 
-GeometricErrors errors_of(const Machine& machine, const Symbols& symbols) {
+GeometricErrors errors_of_symbols(const Machine& machine, const Symbols& symbols) {
   std::vector<ErrorEntry> entries;
   for (const auto& [name, value] : symbols) {
     const bool angle = is_rotation(machine.aliases().at(name).error.direction);
@@ -116,8 +116,8 @@ struct Ibaraki {
   explicit Ibaraki(std::uint32_t k)
       : draws(k),
         e(random_symbols(machine, draws, 0.05, 5e-4)),
-        errors(errors_of(machine, e)),
-        q(random_position(draws)) {}
+        errors(errors_of_symbols(machine, e)),
+        q(drawn_position(draws)) {}
 
   // (2)
   [[nodiscard]] Mat4 rTx() const { return shift(q[X], 0, 0); }
@@ -176,7 +176,7 @@ struct Jang {
   AxisPositions q;
 
   explicit Jang(std::uint32_t k, double mm = 0.05, double rad = 5e-4)
-      : draws(k), e(random_symbols(machine, draws, mm, rad)), q(random_position(draws)) {}
+      : draws(k), e(random_symbols(machine, draws, mm, rad)), q(drawn_position(draws)) {}
 
   [[nodiscard]] double of(const std::string& name, char joint) const { return e.at(name + joint); }
   [[nodiscard]] Mat4 rotation(char joint) const {  // (3-11)
@@ -216,16 +216,16 @@ struct Jang {
     }
   }
   [[nodiscard]] Pose bed_from_tool() const {
-    const GeometricErrors errors = errors_of(machine, e);
+    const GeometricErrors errors = errors_of_symbols(machine, e);
     return ForwardChain(machine, errors, 150.0).bed_from_tool(q);
   }
   [[nodiscard]] Pose bed_from_table() const {
-    const GeometricErrors errors = errors_of(machine, e);
+    const GeometricErrors errors = errors_of_symbols(machine, e);
     return ForwardChain(machine, errors, 150.0).bed_from_table(q);
   }
 };
 
-constexpr double kTool = 150.0;
+constexpr double kToolLength = 150.0;
 
 TEST(PaperEquationsReference, JangEquation4_2_XJoint) {
   for (std::uint32_t k = 0; k < 20; ++k) {
@@ -285,9 +285,9 @@ TEST(PaperEquationsReference, JangEquation4_11_WorkpieceChain) {
     const Jang j(k);
     expect_same(matrix(j.bed_from_table()), j.RTB() * j.BTC() * Jang::CTW());
     // (3-4): the tool as the workpiece sees it.
-    const GeometricErrors errors = errors_of(j.machine, j.e);
+    const GeometricErrors errors = errors_of_symbols(j.machine, j.e);
     expect_same(
-        matrix(actual_pose(j.machine, errors, j.q, kTool)),
+        matrix(actual_pose(j.machine, errors, j.q, kToolLength)),
         (j.RTB() * j.BTC()).inverse() * j.RTX() * j.XTY() * j.YTZ() * Jang::ZTS() * Jang::STt());
   }
 }

@@ -35,7 +35,7 @@ AxisPositions somewhere(const Machine& machine, std::mt19937& random) {
   return q;
 }
 
-double difference(const Pose& a, const Pose& b) {
+double pose_difference(const Pose& a, const Pose& b) {
   return std::max((a.translation - b.translation).norm(), 1e3 * (a.rotation - b.rotation).norm());
 }
 
@@ -62,8 +62,8 @@ TEST(ReferenceAxesLaws, RestatingMovesTheToolByAConstantOnly) {
     double moved = 0.0;
     for (int k = 0; k < 40; ++k) {
       const AxisPositions q = somewhere(machine, random);
-      EXPECT_LT(difference(constant(q), expected), kSecondOrder) << name;
-      moved = std::max(moved, difference(constant(q), Pose{}));
+      EXPECT_LT(pose_difference(constant(q), expected), kSecondOrder) << name;
+      moved = std::max(moved, pose_difference(constant(q), Pose{}));
     }
     EXPECT_GT(moved, 20 * kSecondOrder) << name;  // the constant itself is of first order
   }

@@ -15,18 +15,19 @@
 namespace frustum::kinematics {
 namespace {
 
-constexpr double kDeg = kRadPerDeg;
+constexpr double kPlanDeg = kRadPerDeg;
 
 // The inclined cone: half apex angle a, inclination b, radius r, phi from `from` to `to`, in
 // degrees.
 std::vector<ToolPose> cone(double a, double b, double from, double to, int steps = 720) {
-  const Mat3 inclined = rotation_y(b * kDeg);
+  const Mat3 inclined = rotation_y(b * kPlanDeg);
   std::vector<ToolPose> path;
   for (int i = 0; i <= steps; ++i) {
-    const double phi = (from + (to - from) * i / steps) * kDeg, r = 40.0;
-    path.push_back({inclined * Vec3(r * std::cos(phi), r * std::sin(phi), 0.0) + Vec3(-65, 0, 150),
-                    inclined * Vec3(-std::sin(a * kDeg) * std::cos(phi),
-                                    -std::sin(a * kDeg) * std::sin(phi), std::cos(a * kDeg))});
+    const double phi = (from + (to - from) * i / steps) * kPlanDeg, r = 40.0;
+    path.push_back(
+        {inclined * Vec3(r * std::cos(phi), r * std::sin(phi), 0.0) + Vec3(-65, 0, 150),
+         inclined * Vec3(-std::sin(a * kPlanDeg) * std::cos(phi),
+                         -std::sin(a * kPlanDeg) * std::sin(phi), std::cos(a * kPlanDeg))});
   }
   return path;
 }
@@ -37,7 +38,7 @@ std::vector<ToolPose> winding(double tilt, double turns, int steps) {
   for (int i = 0; i <= steps; ++i) {
     const double phi = 2.0 * std::numbers::pi * turns * i / steps;
     path.push_back({Vec3(20.0 * std::cos(phi), 20.0 * std::sin(phi), 0.05 * i),
-                    rotation_z(phi) * rotation_y(tilt * kDeg) * Vec3::UnitZ()});
+                    rotation_z(phi) * rotation_y(tilt * kPlanDeg) * Vec3::UnitZ()});
   }
   return path;
 }
@@ -46,7 +47,7 @@ double range_of(const std::vector<PlannedPose>& plan, AxisLetter axis) {
   const auto [lo, hi] = std::minmax_element(
       plan.begin(), plan.end(),
       [axis](const PlannedPose& p, const PlannedPose& q) { return p.axes[axis] < q.axes[axis]; });
-  return (hi->axes[axis] - lo->axes[axis]) / kDeg;
+  return (hi->axes[axis] - lo->axes[axis]) / kPlanDeg;
 }
 
 struct Seen {
@@ -55,8 +56,8 @@ struct Seen {
   int unwindings = 0;
 };
 
-Seen follow(const Machine& machine, const std::vector<ToolPose>& path,
-            const std::vector<PlannedPose>& plan, double length) {
+Seen follow_poses(const Machine& machine, const std::vector<ToolPose>& path,
+                  const std::vector<PlannedPose>& plan, double length) {
   Seen seen;
   const auto compare = [&](const AxisPositions& q, const ToolPose& wanted) {
     const ToolPose is = tool_pose(nominal_pose(machine, q, length));
@@ -74,7 +75,7 @@ Seen follow(const Machine& machine, const std::vector<ToolPose>& path,
     const AxisPositions& before = plan[i].unwind ? plan[i].resume : plan[i - 1].axes;
     for (const AxisLetter letter : {AxisLetter::A, AxisLetter::B, AxisLetter::C}) {
       seen.largest_step =
-          std::max(seen.largest_step, std::abs(plan[i].axes[letter] - before[letter]) / kDeg);
+          std::max(seen.largest_step, std::abs(plan[i].axes[letter] - before[letter]) / kPlanDeg);
     }
   }
   return seen;
@@ -90,12 +91,12 @@ TEST(RotaryPlanReference, TurnsBAndCOnTheConeAsTheThesisTables31And33Say) {
   // alpha < beta: C swings by 2 atan(tan a / (sin b sqrt(1 - (tan a / tan b)^2))), B by 2 alpha.
   const auto narrow = plan_axes(machine, cone(30, 45, 0, 360, 36000), 150.0, {});
   ASSERT_TRUE(narrow) << to_string(narrow.error().front());
-  const double slope = std::tan(30 * kDeg) / std::tan(45 * kDeg);
-  EXPECT_NEAR(
-      range_of(*narrow, AxisLetter::C),
-      2.0 / kDeg *
-          std::atan(std::tan(30 * kDeg) / (std::sin(45 * kDeg) * std::sqrt(1 - slope * slope))),
-      1e-4);
+  const double slope = std::tan(30 * kPlanDeg) / std::tan(45 * kPlanDeg);
+  EXPECT_NEAR(range_of(*narrow, AxisLetter::C),
+              2.0 / kPlanDeg *
+                  std::atan(std::tan(30 * kPlanDeg) /
+                            (std::sin(45 * kPlanDeg) * std::sqrt(1 - slope * slope))),
+              1e-4);
   EXPECT_NEAR(range_of(*narrow, AxisLetter::B), 60.0, 1e-9);
 }
 
@@ -109,7 +110,7 @@ TEST(RotaryPlanReference, PassesThePoleOfTheConeWithAlphaEqualBetaByTheSignOfB) 
   EXPECT_NEAR(range_of(*plan, AxisLetter::B), 4.0 * 30.0, 1e-9);
   EXPECT_NEAR(std::abs((*plan)[0].axes[AxisLetter::B] + (*plan)[720].axes[AxisLetter::B]), 0.0,
               1e-9);
-  const Seen seen = follow(machine, path, *plan, 150.0);
+  const Seen seen = follow_poses(machine, path, *plan, 150.0);
   EXPECT_LT(seen.largest_step, 1.0);
   EXPECT_LT(seen.worst_tip, 1e-9);
   EXPECT_LT(seen.worst_axis, 1e-7);
@@ -118,7 +119,7 @@ TEST(RotaryPlanReference, PassesThePoleOfTheConeWithAlphaEqualBetaByTheSignOfB) 
   ASSERT_TRUE(begun);
   EXPECT_NEAR(range_of(*begun, AxisLetter::C), 180.0, 0.6);  // the free ends are held
   EXPECT_NEAR(range_of(*begun, AxisLetter::B), 2.0 * 30.0, 1e-9);
-  EXPECT_LT(follow(machine, cone(30, 30, 0, 360), *begun, 150.0).largest_step, 1.0);
+  EXPECT_LT(follow_poses(machine, cone(30, 30, 0, 360), *begun, 150.0).largest_step, 1.0);
 }
 
 TEST(RotaryPlanLaws, PassesAThousandthOfADegreeBesideThePoleWithoutAJump) {
@@ -127,10 +128,10 @@ TEST(RotaryPlanLaws, PassesAThousandthOfADegreeBesideThePoleWithoutAJump) {
     auto path = cone(30.0, 30.001, 175, 545, 740);
     for (ToolPose& pose : path) pose.tip = 0.2 * pose.tip + Vec3(0, 0, 50);
     PlanOptions tolerant;
-    tolerant.pole_tolerance = 0.005 * kDeg;
+    tolerant.pole_tolerance = 0.005 * kPlanDeg;
     const auto plan = plan_axes(machine, path, 100.0, tolerant);
     ASSERT_TRUE(plan) << name << ' ' << to_string(plan.error().front());
-    const Seen seen = follow(machine, path, *plan, 100.0);
+    const Seen seen = follow_poses(machine, path, *plan, 100.0);
     EXPECT_LT(seen.largest_step, 1.1) << name;
     EXPECT_LT(seen.worst_tip, 1e-9) << name;
     EXPECT_LT(seen.worst_axis, tolerant.pole_tolerance) << name;
@@ -138,7 +139,7 @@ TEST(RotaryPlanLaws, PassesAThousandthOfADegreeBesideThePoleWithoutAJump) {
     // there.
     const auto exact = plan_axes(machine, path, 100.0, {});
     ASSERT_TRUE(exact);
-    const Seen held = follow(machine, path, *exact, 100.0);
+    const Seen held = follow_poses(machine, path, *exact, 100.0);
     EXPECT_LT(held.largest_step, 91.0) << name;
     EXPECT_LT(held.worst_axis, 1e-12 + 3e-8) << name;
   }
@@ -165,11 +166,11 @@ endless = true
   std::vector<ToolPose> path;
   for (int i = -20; i <= 20; ++i) {
     const double tilt = std::abs(i) <= 9 ? 0.0 : (std::abs(i) - 9) * (i < 0 ? -1.0 : 1.0);
-    path.push_back({Vec3(i, 0, 0), rotation_x(tilt * kDeg) * Vec3::UnitZ()});
+    path.push_back({Vec3(i, 0, 0), rotation_x(tilt * kPlanDeg) * Vec3::UnitZ()});
   }
   const auto plan = plan_axes(*machine, path, 50.0, {});
   ASSERT_TRUE(plan) << to_string(plan.error().front());
-  const Seen seen = follow(*machine, path, *plan, 50.0);
+  const Seen seen = follow_poses(*machine, path, *plan, 50.0);
   EXPECT_NEAR(seen.largest_step, 9.0, 1e-6);  // 180 deg in twenty steps
   EXPECT_LT(seen.worst_tip, 1e-9);
   // Through the air it turns at once.
@@ -177,7 +178,7 @@ endless = true
   lifted.through_air = {20};
   const auto free = plan_axes(*machine, path, 50.0, lifted);
   ASSERT_TRUE(free);
-  EXPECT_NEAR(follow(*machine, path, *free, 50.0).largest_step, 180.0, 1e-6);
+  EXPECT_NEAR(follow_poses(*machine, path, *free, 50.0).largest_step, 180.0, 1e-6);
   EXPECT_DOUBLE_EQ((*free)[19].axes[AxisLetter::C], (*free)[0].axes[AxisLetter::C]);
   EXPECT_DOUBLE_EQ((*free)[20].axes[AxisLetter::C], (*free)[40].axes[AxisLetter::C]);
 }
@@ -188,7 +189,7 @@ TEST(RotaryPlan, UnwindsAsSeldomAsTravelAllows) {
     const auto path = winding(30.0, turns, static_cast<int>(turns * 180));
     const auto plan = plan_axes(machine, path, 100.0, {});
     EXPECT_TRUE(plan);
-    const Seen seen = follow(machine, path, *plan, 100.0);
+    const Seen seen = follow_poses(machine, path, *plan, 100.0);
     EXPECT_LT(seen.largest_step, 2.01);
     EXPECT_LT(seen.worst_tip, 1e-9);
     return seen.unwindings;
@@ -200,7 +201,7 @@ TEST(RotaryPlan, UnwindsAsSeldomAsTravelAllows) {
   const auto path = winding(30.0, 6.0, 1000);
   const auto plan = plan_axes(endless, path, 100.0, {});
   ASSERT_TRUE(plan);
-  EXPECT_EQ(follow(endless, path, *plan, 100.0).unwindings, 0);
+  EXPECT_EQ(follow_poses(endless, path, *plan, 100.0).unwindings, 0);
   EXPECT_NEAR(range_of(*plan, AxisLetter::C), 6.0 * 360.0, 1e-6);
 }
 
@@ -210,8 +211,8 @@ TEST(RotaryPlan, BeginsNearThePreferredSolution) {
   for (const double tilt : {-25.0, 25.0}) {
     PlanOptions options;
     options.preferred = AxisPositions{};
-    (*options.preferred)[AxisLetter::B] = tilt * kDeg;
-    (*options.preferred)[AxisLetter::C] = 90.0 * kDeg;
+    (*options.preferred)[AxisLetter::B] = tilt * kPlanDeg;
+    (*options.preferred)[AxisLetter::C] = 90.0 * kPlanDeg;
     const auto plan = plan_axes(machine, path, 150.0, options);
     ASSERT_TRUE(plan);
     EXPECT_GT((*plan)[0].axes[AxisLetter::B] * tilt, 0.0);
@@ -267,14 +268,15 @@ TEST(RotaryPlanOracle, FindsTheLeastTravelOfAllWaysThroughTheSolutions) {
     for (std::uint64_t i = 0; i < 6; ++i) {
       azimuth += 240.0 * (uniform(key, 2 * i) - 0.3);
       const double tilt = 5.0 + 80.0 * uniform(key, 2 * i + 1);
-      path.push_back({Vec3(10.0 * static_cast<double>(i), 0, 0),
-                      rotation_z(azimuth * kDeg) * rotation_y(tilt * kDeg) * Vec3::UnitZ()});
+      path.push_back(
+          {Vec3(10.0 * static_cast<double>(i), 0, 0),
+           rotation_z(azimuth * kPlanDeg) * rotation_y(tilt * kPlanDeg) * Vec3::UnitZ()});
       layers.push_back(all_solutions(machine, path.back(), 100.0).value());
     }
     const auto plan = plan_axes(machine, path, 100.0, options);
     ASSERT_TRUE(plan) << to_string(plan.error().front());
     const double least = least_travel(machine, layers, options.largest_step);
-    if (follow(machine, path, *plan, 100.0).unwindings > 0) {
+    if (follow_poses(machine, path, *plan, 100.0).unwindings > 0) {
       EXPECT_TRUE(std::isinf(least)) << draw;
       continue;
     }
@@ -294,7 +296,7 @@ TEST(RotaryPlanOracle, FindsTheLeastTravelOfAllWaysThroughTheSolutions) {
 TEST(RotaryPlan, NamesThePoseAndTheAxisThatIsInTheWay) {
   const Machine machine = shipped("iwf-bc");
   auto path = winding(30.0, 0.2, 20);
-  path[7].axis = rotation_y(115.0 * kDeg) * Vec3::UnitZ();
+  path[7].axis = rotation_y(115.0 * kPlanDeg) * Vec3::UnitZ();
   const auto tilted = plan_axes(machine, path, 100.0, {});
   ASSERT_FALSE(tilted);
   EXPECT_NE(tilted.error().front().message.find("pose 7: beyond travel: B = -115"),
@@ -314,7 +316,7 @@ TEST(RotaryPlan, TakesMachinesWithOneRotaryAxisOrNone) {
                                        {Vec3(9, 0, 0), Vec3::UnitZ()}};
   const auto plan = plan_axes(plain, straight, 0.0, {});
   ASSERT_TRUE(plan) << to_string(plan.error().front());
-  EXPECT_EQ(follow(plain, straight, *plan, 0.0).worst_tip, 0.0);
+  EXPECT_EQ(follow_poses(plain, straight, *plan, 0.0).worst_tip, 0.0);
   EXPECT_TRUE(plan_axes(plain, {}, 0.0, {}).value().empty());
 }
 

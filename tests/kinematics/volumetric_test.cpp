@@ -12,7 +12,7 @@ namespace {
 
 using enum parser::AxisLetter;
 
-GeometricErrors errors_of(const Machine& machine, const std::vector<std::string>& texts) {
+GeometricErrors errors_from_texts(const Machine& machine, const std::vector<std::string>& texts) {
   std::vector<ErrorEntry> entries;
   for (const std::string& text : texts) entries.push_back(*parse_error(text));
   return *resolve(machine, entries);
@@ -30,7 +30,8 @@ TEST(Volumetric, IsZeroWithoutErrors) {
 TEST(Volumetric, SquarenessOfAThreeAxisMachineIsItsLever) {
   // EB0Z tilts the line of Z: the tip leaves by 20 urad times Z, in X, on the tool side alone.
   const Machine machine = shipped("three-axis");
-  const auto volume = volumetric_errors(machine, errors_of(machine, {"EB0Z=20urad"}), {.grid = 8});
+  const auto volume =
+      volumetric_errors(machine, errors_from_texts(machine, {"EB0Z=20urad"}), {.grid = 8});
   ASSERT_TRUE(volume);
   EXPECT_NEAR(volume->tool.max, 600.0 * 20e-6, 1e-9);  // Z goes to 600 mm
   EXPECT_EQ(volume->workpiece.max, 0.0);
@@ -41,8 +42,9 @@ TEST(Volumetric, SquarenessOfAThreeAxisMachineIsItsLever) {
 
 TEST(Volumetric, RelativeIsAsLongAsWhatTheWorkpieceSees) {
   const Machine machine = shipped("iwf-bc");
-  const auto errors = errors_of(machine, {"EB0C=30urad", "EX0C=5um", "EXX=linear 10um",
-                                          "EAZ=12urad", "ECC=harmonic 1 20urad", "EYB=4um"});
+  const auto errors =
+      errors_from_texts(machine, {"EB0C=30urad", "EX0C=5um", "EXX=linear 10um", "EAZ=12urad",
+                                  "ECC=harmonic 1 20urad", "EYB=4um"});
   const VolumetricOptions options{
       .grid = 3, .tool_length = 120.0, .positions = {{}, {{B, 0.5}, {C, -2.0}}, {{C, 7.0}}}};
   const auto volume = volumetric_errors(machine, errors, options);

@@ -9,8 +9,8 @@
 namespace frustum::lint {
 namespace {
 
-constexpr const char* kHead = "T1 M6\nS1000 M3\nG43 H1\nG0 X0 Y0 Z50\n";
-constexpr const char* kEnd = "G0 Z50\nM5\nM30\n";
+constexpr const char* kTravelHead = "T1 M6\nS1000 M3\nG43 H1\nG0 X0 Y0 Z50\n";
+constexpr const char* kTravelEnd = "G0 Z50\nM5\nM30\n";
 
 class TravelCheckTest : public testing::Test {
  protected:
@@ -19,7 +19,7 @@ class TravelCheckTest : public testing::Test {
     CheckOptions options;
     options.machine = &*machine_;
     options.setup.tools[1].length = 100.0;
-    return checked(kHead + body + kEnd, options);
+    return checked(kTravelHead + body + kTravelEnd, options);
   }
   std::optional<kinematics::Machine> machine_{};
 };

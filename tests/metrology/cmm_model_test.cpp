@@ -24,7 +24,7 @@ CmmModel field_of(double e0, double length_per_error, std::uint64_t seed) {
   return cmm;
 }
 
-double value_of(const Result<Measurement>& m, std::string_view name) {
+double measured_value(const Result<Measurement>& m, std::string_view name) {
   EXPECT_TRUE(m) << (m ? "" : to_string(m.error().front()));
   if (!m) return NAN;
   for (const CharacteristicResult& c : m->characteristics) {
@@ -146,9 +146,9 @@ TEST(ProbeForm, PreTravelOfOneSizeIsQualifiedAway) {
   CmmModel cmm;
   cmm.probe = ProbeErrors{.pre_travel = 0.008};
   const auto m = measure(plan(), part(), cmm);
-  EXPECT_NEAR(value_of(m, "cylinder.diameter"), 50.0, 1e-9);
-  EXPECT_NEAR(value_of(m, "cylinder.cylindricity"), 0.0, 1e-6);
-  EXPECT_NEAR(value_of(m, "cone.form"), 0.0, 1e-6);
+  EXPECT_NEAR(measured_value(m, "cylinder.diameter"), 50.0, 1e-9);
+  EXPECT_NEAR(measured_value(m, "cylinder.cylindricity"), 0.0, 1e-6);
+  EXPECT_NEAR(measured_value(m, "cone.form"), 0.0, 1e-6);
 }
 
 TEST(ProbeForm, LobesShowOnARoundPart) {
@@ -156,11 +156,11 @@ TEST(ProbeForm, LobesShowOnARoundPart) {
   cmm.probe = ProbeErrors{.lobe = 0.002};
   const auto m = measure(plan(), part(), cmm);
   // The touches lie across the stylus: three lobes of the whole amplitude, and none in the size.
-  EXPECT_NEAR(value_of(m, "cylinder.roundness"), 4.0, 0.05);
-  EXPECT_NEAR(value_of(m, "cylinder.diameter"), 50.0, 1e-4);
+  EXPECT_NEAR(measured_value(m, "cylinder.roundness"), 4.0, 0.05);
+  EXPECT_NEAR(measured_value(m, "cylinder.diameter"), 50.0, 1e-4);
   // On the cone the touch leans by the half angle, 30 deg.
-  EXPECT_NEAR(value_of(m, "cone.equivalent_form"), 4.0 * std::pow(std::cos(kRadPerDeg * 30.0), 3),
-              0.05);
+  EXPECT_NEAR(measured_value(m, "cone.equivalent_form"),
+              4.0 * std::pow(std::cos(kRadPerDeg * 30.0), 3), 0.05);
   cmm.probe->lobe_phase = kRadPerDeg * 60.0;
   const ProbeForm turned(*cmm.probe, {}, 0);
   const auto [u, v] = tangents(UnitVec3::z());
@@ -202,18 +202,18 @@ TEST(ThermalState, LengthsGrowByPartLessScales) {
   cmm.temperature = state;
   const double growth = 11.5e-6 * 3.0 - 8e-6 * 1.0;
   // The touched surface grows; the ball, which the machine takes for part of it, adds r * growth.
-  EXPECT_NEAR(value_of(measure(plan(), part(), cmm), "cylinder.diameter"), 50.0 + 53.0 * growth,
-              1e-9);
+  EXPECT_NEAR(measured_value(measure(plan(), part(), cmm), "cylinder.diameter"),
+              50.0 + 53.0 * growth, 1e-9);
   state.compensated = true;
   cmm.temperature = state;
-  EXPECT_NEAR(value_of(measure(plan(), part(), cmm), "cylinder.diameter"), 50.0, 1e-9);
+  EXPECT_NEAR(measured_value(measure(plan(), part(), cmm), "cylinder.diameter"), 50.0, 1e-9);
   state.sensor_error = 0.2;
   cmm.temperature = state;
-  const double sensed = value_of(measure(plan(), part(), cmm), "cylinder.diameter") - 50.0;
+  const double sensed = measured_value(measure(plan(), part(), cmm), "cylinder.diameter") - 50.0;
   EXPECT_NE(sensed, 0.0);
   EXPECT_LE(std::abs(sensed), 53.0 * 0.2 * (11.5e-6 + 8e-6));
   cmm.draw = 1;  // the sensors are read again
-  EXPECT_NE(value_of(measure(plan(), part(), cmm), "cylinder.diameter") - 50.0, sensed);
+  EXPECT_NE(measured_value(measure(plan(), part(), cmm), "cylinder.diameter") - 50.0, sensed);
 }
 
 TEST(Compensation, ByApproachLeavesTheCosineError) {
@@ -228,7 +228,7 @@ TEST(Compensation, ByApproachLeavesTheCosineError) {
   EXPECT_NEAR(approached->features[3].compensation_difference, cosine, 1e-9);
   EXPECT_NEAR(approached->features[1].compensation_difference, 0.0, 1e-12);
   const double along_normal =
-      (value_of(fitted, "cone.radius") - value_of(approached, "cone.radius")) *
+      (measured_value(fitted, "cone.radius") - measured_value(approached, "cone.radius")) *
       std::cos(test_part::kHalfAngle + 0.02);
   // The section shifts by r sin(0.02) along the surface besides: second order times the cone's slope.
   EXPECT_NEAR(std::abs(along_normal), cosine, 1e-6);
@@ -250,7 +250,8 @@ TEST(StylusCollision, NamesFeatureAndPoint) {
   EXPECT_NE(first.find("the stylus shank meets the part when the ball touches"), std::string::npos)
       << first;
   // What is reported does not change what is measured.
-  EXPECT_EQ(value_of(lying, "cylinder.diameter"), value_of(upright, "cylinder.diameter"));
+  EXPECT_EQ(measured_value(lying, "cylinder.diameter"),
+            measured_value(upright, "cylinder.diameter"));
   cmm.stylus = Stylus{.diameter = 3.0};
   const auto thick = measure(plan(), part(), cmm);
   ASSERT_FALSE(thick);
@@ -288,10 +289,10 @@ TEST(VirtualCmm, ErrorFreePartHasNoFormByAnyStrategy) {
   std::erase_if(p.characteristics,
                 [](const PlannedCharacteristic& c) { return !c.sections.empty(); });
   const auto m = measure(p, part());
-  EXPECT_LT(value_of(m, "cylinder.cylindricity"), 0.02);
-  EXPECT_LT(value_of(m, "cone.form"), 0.02);
-  EXPECT_LT(value_of(m, "A.flatness"), 0.02);
-  EXPECT_NEAR(value_of(m, "cylinder.diameter"), 50.0, 1e-9);
+  EXPECT_LT(measured_value(m, "cylinder.cylindricity"), 0.02);
+  EXPECT_LT(measured_value(m, "cone.form"), 0.02);
+  EXPECT_LT(measured_value(m, "A.flatness"), 0.02);
+  EXPECT_NEAR(measured_value(m, "cylinder.diameter"), 50.0, 1e-9);
 }
 
 TEST(VirtualCmm, ErrorFreeStepsAndSpheresHaveNoForm) {
@@ -329,7 +330,7 @@ TEST(VirtualCmm, RefusesPointsBeyondItsTravel) {
       "(hint: enlarge the cmm's travel, or move its position)");
 }
 
-std::string complaint(const std::string& text) {
+std::string cmm_complaint(const std::string& text) {
   const auto document = TomlDocument::parse(text, "job.toml");
   if (!document) return "no TOML";
   static_cast<void>(read_cmm_model(document->root()));
@@ -367,39 +368,40 @@ TEST(CmmModel, ReadsEveryKey) {
 }
 
 TEST(CmmModel, NamesWhatIsImpossible) {
-  EXPECT_EQ(complaint("e0 = \"1 um\"\np_form = \"1 um\"\n"),
+  EXPECT_EQ(cmm_complaint("e0 = \"1 um\"\np_form = \"1 um\"\n"),
             "job.toml:2:1: error: p_form: belongs to a machine with a field (hint: write model = "
             "\"field\")");
   EXPECT_EQ(
-      complaint("[probe]\nforce = 0.1\n"),
+      cmm_complaint("[probe]\nforce = 0.1\n"),
       "job.toml:2:1: error: probe.force: bends a stylus, and none is stated (hint: write stylus "
       "= { length = 50, diameter = 2 })");
   EXPECT_EQ(
-      complaint("[temperature]\npart = 295\n"),
+      cmm_complaint("[temperature]\npart = 295\n"),
       "job.toml:2:1: error: temperature.part: must lie between -40 and 60 degC, is 295 (hint: "
       "temperatures are in degC)");
   EXPECT_EQ(
-      complaint("[temperature]\npart_expansion = 11.5e-6\n"),
+      cmm_complaint("[temperature]\npart_expansion = 11.5e-6\n"),
       "job.toml:2:1: error: temperature.part_expansion: is 1.15e-05 um/(m K) (hint: write 11.5 "
       "for 11.5e-6 1/K)");
-  EXPECT_EQ(complaint("model = \"field\"\ntravel = [500, 0, 400]\n"),
+  EXPECT_EQ(cmm_complaint("model = \"field\"\ntravel = [500, 0, 400]\n"),
             "job.toml:2:1: error: travel: must be three lengths greater than 0");
   EXPECT_EQ(
-      complaint("model = \"field\"\ne0 = \"4 um\"\np_form = \"1 um\"\n[probe]\nlobe = \"1 um\"\n"
-                "ball_form = 0\nrepeatability = 0\n"),
+      cmm_complaint(
+          "model = \"field\"\ne0 = \"4 um\"\np_form = \"1 um\"\n[probe]\nlobe = \"1 um\"\n"
+          "ball_form = 0\nrepeatability = 0\n"),
       "job.toml:4:2: error: probe: the probe alone makes a form of 1.76 um of the 25-point "
       "sphere, p_form is 1 um (hint: state smaller probe errors, a shorter stylus, or a larger "
       "p_form)");
   // Without p_form, e0 is its limit; a machine of no error has no probe of its own.
-  EXPECT_NE(complaint("model = \"field\"\ne0 = \"1 um\"\n[probe]\nlobe = \"0.9 um\"\n")
+  EXPECT_NE(cmm_complaint("model = \"field\"\ne0 = \"1 um\"\n[probe]\nlobe = \"0.9 um\"\n")
                 .find("25-point sphere, e0 is 1 um"),
             std::string::npos);
-  EXPECT_EQ(complaint("model = \"field\"\n"), "");
-  EXPECT_NE(complaint("model = \"field\"\nl_per_um = 300\n[probe]\nrepeatability = \"1 um\"\n")
+  EXPECT_EQ(cmm_complaint("model = \"field\"\n"), "");
+  EXPECT_NE(cmm_complaint("model = \"field\"\nl_per_um = 300\n[probe]\nrepeatability = \"1 um\"\n")
                 .find("e0 is 0 um"),
             std::string::npos);
   EXPECT_EQ(
-      complaint("model = \"field\"\ne0 = \"1 um\"\n[probe]\nrepeatability = \"0.5 um\"\n"),
+      cmm_complaint("model = \"field\"\ne0 = \"1 um\"\n[probe]\nrepeatability = \"0.5 um\"\n"),
       "job.toml:3:2: error: probe: the probe alone may cost a length 3.28 um, e0 is 1 um (hint: "
       "state smaller probe errors, a shorter stylus, or a larger e0)");
 }

@@ -13,7 +13,7 @@ using K = CharacteristicKind;
 using measured::feature;
 using measured::turned;
 
-constexpr double kExact = 1e-9;  // mm
+constexpr double kExactCentre = 1e-9;  // mm
 
 PlannedCharacteristic concentricity(std::vector<std::string> features,
                                     std::vector<std::size_t> sections = {}) {
@@ -25,7 +25,7 @@ PlannedCharacteristic concentricity(std::vector<std::string> features,
   c.tolerance = 1.0;
   return c;
 }
-double value_of(const PlannedCharacteristic& c, const std::vector<FittedFeature>& features) {
+double centre_value(const PlannedCharacteristic& c, const std::vector<FittedFeature>& features) {
   const auto result = evaluate(c, features, {});
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
   return result ? 1e-3 * result->value : -1.0;
@@ -40,16 +40,16 @@ TEST(Concentricity, ToADatumIsMeasuredAcrossTheAxisOfTheDatum) {
   const Pose lies = Pose::translated({0.03, 0, 0}) * turned(Vec3::UnitY(), tilt, {0, 0, 40});
   const std::vector<FittedFeature> features{feature(collar, lies), feature(shaft)};
   const double top = 2.0 * (0.03 + 10.0 * std::sin(tilt));
-  EXPECT_NEAR(value_of(concentricity({"C", "S"}), features), top, kExact);
-  EXPECT_NEAR(value_of(concentricity({"C", "S"}, {0, 1, 2}), features), top, kExact);
-  EXPECT_NEAR(value_of(concentricity({"C", "S"}, {1}), features),
-              2.0 * (0.03 + 4.0 * std::sin(tilt)), kExact);
-  EXPECT_NEAR(value_of(concentricity({"C", "S"}, {0}), features),
-              2.0 * (10.0 * std::sin(tilt) - 0.03), kExact);
+  EXPECT_NEAR(centre_value(concentricity({"C", "S"}), features), top, kExactCentre);
+  EXPECT_NEAR(centre_value(concentricity({"C", "S"}, {0, 1, 2}), features), top, kExactCentre);
+  EXPECT_NEAR(centre_value(concentricity({"C", "S"}, {1}), features),
+              2.0 * (0.03 + 4.0 * std::sin(tilt)), kExactCentre);
+  EXPECT_NEAR(centre_value(concentricity({"C", "S"}, {0}), features),
+              2.0 * (10.0 * std::sin(tilt) - 0.03), kExactCentre);
   // It is the datum's axis wherever both of them lie, and no frame's.
   const Pose askew = Pose::translated({1, 2, 3}) * turned(Vec3(0.6, 0, 0.8), 0.1);
   const std::vector<FittedFeature> moved{feature(collar, askew * lies), feature(shaft, askew)};
-  EXPECT_NEAR(value_of(concentricity({"C", "S"}), moved), top, kExact);
+  EXPECT_NEAR(centre_value(concentricity({"C", "S"}), moved), top, kExactCentre);
 }
 
 TEST(Concentricity, OfTwoSectionsIsMeasuredAcrossThePlannedAxis) {
@@ -63,7 +63,7 @@ TEST(Concentricity, OfTwoSectionsIsMeasuredAcrossThePlannedAxis) {
   }
   const auto apart = fit_feature(pin, points, sections, 0.0);
   ASSERT_TRUE(apart);
-  EXPECT_NEAR(value_of(concentricity({"P"}), {*apart}), 2.0, kExact);
+  EXPECT_NEAR(centre_value(concentricity({"P"}), {*apart}), 2.0, kExactCentre);
 }
 
 TEST(MedianPlane, OfAVGoesByItsDatumNotByItsOpening) {
@@ -77,7 +77,7 @@ TEST(MedianPlane, OfAVGoesByItsDatumNotByItsOpening) {
     const Plane upright = median_plane({Vec3(-5, 0, 0), *UnitVec3::of(left)},
                                        {Vec3(5, 0, 0), *UnitVec3::of(right)}, -1.0);
     EXPECT_NEAR(std::abs(upright.axis.vec().x()), 1.0, 1e-15);
-    EXPECT_NEAR(upright.point.x(), 0.0, kExact);
+    EXPECT_NEAR(upright.point.x(), 0.0, kExactCentre);
   }
   // Parallel faces have one, whatever is asked.
   EXPECT_EQ(sense_towards(Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitZ(), false), -1.0);
@@ -89,16 +89,17 @@ TEST(Concentricity, ToALeaningDatumGrowsWithTheDistanceFromIt) {
   const double tilt = 1e-3;
   const std::vector<FittedFeature> features{feature(collar),
                                             feature(shaft, turned(Vec3::UnitX(), tilt))};
-  EXPECT_NEAR(value_of(concentricity({"C", "S"}), features), 2.0 * 50.0 * std::sin(tilt), 1e-7);
+  EXPECT_NEAR(centre_value(concentricity({"C", "S"}), features), 2.0 * 50.0 * std::sin(tilt), 1e-7);
 }
 
 TEST(Concentricity, OfTwoSectionsOfAFeatureLooksAlongItsPlannedAxis) {
   const auto shaft = measured::cylinder("S", {0, 0, 0}, Vec3::UnitZ(), 10.0, {-10.0, 0.0, 15.0});
   const double tilt = 1e-3;
   const std::vector<FittedFeature> features{feature(shaft, turned(Vec3::UnitX(), tilt))};
-  EXPECT_NEAR(value_of(concentricity({"S"}), features), 2.0 * 25.0 * std::sin(tilt), kExact);
-  EXPECT_NEAR(value_of(concentricity({"S"}, {0, 1}), features), 2.0 * 10.0 * std::sin(tilt),
-              kExact);
+  EXPECT_NEAR(centre_value(concentricity({"S"}), features), 2.0 * 25.0 * std::sin(tilt),
+              kExactCentre);
+  EXPECT_NEAR(centre_value(concentricity({"S"}, {0, 1}), features), 2.0 * 10.0 * std::sin(tilt),
+              kExactCentre);
 }
 
 TEST(Concentricity, StatesTheUncertaintyOfTheSectionAndTheDatum) {

@@ -19,7 +19,7 @@ using synthetic::Draws;
 using synthetic::line_angle;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMm = 1e-9;
+constexpr double kAssociationMm = 1e-9;
 
 struct SurfacePoint {
   Vec3 place = Vec3::Zero();
@@ -212,7 +212,7 @@ std::string text(const Diagnostics& diagnostics) { return to_string(diagnostics.
 
 void expect_proven(const Association& found) {
   ASSERT_TRUE(found.certificate);
-  EXPECT_LT(found.certificate->gap, kMm);
+  EXPECT_LT(found.certificate->gap, kAssociationMm);
   EXPECT_LT(found.certificate->imbalance, 1e-9);
   ASSERT_FALSE(found.certificate->contacts.empty());
   for (const Contact& c : found.certificate->contacts) EXPECT_GT(c.multiplier, 0.0);
@@ -233,13 +233,14 @@ TEST_P(CertifiedZoneReference, IsFoundToANanometreOfAThousandth) {
     place(set, name, i);
     const auto found = associate(name, set.points, {.criterion = Criterion::minimum_zone});
     ASSERT_TRUE(found) << i << ": " << text(found.error());
-    EXPECT_NEAR(found->fit.form, set.width, kMm) << i;
+    EXPECT_NEAR(found->fit.form, set.width, kAssociationMm) << i;
     expect_proven(*found);
     worst = std::max(worst, std::abs(found->fit.form - set.width));
     // The middle of the zone is the element itself.
     const Element known = transformed(set.pose, wanted.element);
     for (const Vec3& p : set.points) {
-      EXPECT_NEAR(std::abs(residual(found->fit.element, p)), std::abs(residual(known, p)), kMm)
+      EXPECT_NEAR(std::abs(residual(found->fit.element, p)), std::abs(residual(known, p)),
+                  kAssociationMm)
           << i;
     }
   }
@@ -269,8 +270,8 @@ TEST_P(CertifiedSizeReference, InscribedAndCircumscribedRadiiAreFound) {
       const Element known = transformed(set.pose, wanted.element);
       for (const Vec3& p : set.points) {
         const double d = residual(found->fit.element, p);
-        EXPECT_NEAR(d, residual(known, p), kMm) << i;
-        EXPECT_GT(inscribed ? d : -d, -kMm) << i;
+        EXPECT_NEAR(d, residual(known, p), kAssociationMm) << i;
+        EXPECT_GT(inscribed ? d : -d, -kAssociationMm) << i;
       }
       const auto again = associate(
           name, set.points, {.criterion = Criterion::outside_material, .is_hole = inscribed});

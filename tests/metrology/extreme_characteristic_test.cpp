@@ -18,9 +18,9 @@ using measured::feature;
 
 constexpr double kZone = 0.006;  // mm, width
 
-double value_of(K kind, std::vector<std::string> names, Criterion criterion,
-                const std::vector<FittedFeature>& features,
-                Criterion datum_criterion = Criterion::least_squares) {
+double criterion_value(K kind, std::vector<std::string> names, Criterion criterion,
+                       const std::vector<FittedFeature>& features,
+                       Criterion datum_criterion = Criterion::least_squares) {
   PlannedCharacteristic c;
   c.name = "c";
   c.kind = kind;
@@ -50,12 +50,12 @@ TEST(ExtremeCharacteristic, RoundnessIsTheWidthOfTheZone) {
       feature(shaft, {}, [](const Vec3& p) { return six_contacts(p - Vec3(3, -2, 0)); })};
   for (const Criterion criterion :
        {Criterion::minimum_zone, Criterion::maximum_inscribed, Criterion::minimum_circumscribed}) {
-    EXPECT_NEAR(value_of(K::roundness, {"C"}, criterion, features), kZone, 1e-9);
+    EXPECT_NEAR(criterion_value(K::roundness, {"C"}, criterion, features), kZone, 1e-9);
   }
   for (const Criterion criterion : {Criterion::minimum_zone, Criterion::maximum_inscribed}) {
-    EXPECT_NEAR(value_of(K::cylindricity, {"C"}, criterion, features), kZone, 1e-9);
+    EXPECT_NEAR(criterion_value(K::cylindricity, {"C"}, criterion, features), kZone, 1e-9);
   }
-  EXPECT_GT(value_of(K::roundness, {"C"}, Criterion::least_squares, features), 1.1 * kZone);
+  EXPECT_GT(criterion_value(K::roundness, {"C"}, Criterion::least_squares, features), 1.1 * kZone);
 }
 
 TEST(ExtremeCharacteristic, ParametersAreToldAboutTheCircleOfTheCriterion) {
@@ -86,8 +86,8 @@ TEST(ExtremeCharacteristic, FlatnessAndStraightnessAreTheWidthOfTheZone) {
     return p.x() > 0.0 ? -0.45 * kZone : 0.45 * kZone;
   };
   const std::vector<FittedFeature> features{feature(face, {}, saddle)};
-  EXPECT_NEAR(value_of(K::flatness, {"F"}, Criterion::minimum_zone, features), kZone, 1e-9);
-  EXPECT_GT(value_of(K::flatness, {"F"}, Criterion::least_squares, features), 1.05 * kZone);
+  EXPECT_NEAR(criterion_value(K::flatness, {"F"}, Criterion::minimum_zone, features), kZone, 1e-9);
+  EXPECT_GT(criterion_value(K::flatness, {"F"}, Criterion::least_squares, features), 1.05 * kZone);
 
   const auto edge = measured::line("L", {0, -20, 5}, Vec3::UnitX(), -Vec3::UnitY());
   // Low, high, low; the least-squares line leans.
@@ -96,14 +96,15 @@ TEST(ExtremeCharacteristic, FlatnessAndStraightnessAreTheWidthOfTheZone) {
     return std::abs(p.x()) < 1.0 ? kZone : p.x() > 0.0 ? 0.9 * kZone : 0.1 * kZone;
   };
   const std::vector<FittedFeature> line{feature(edge, {}, bow)};
-  EXPECT_NEAR(value_of(K::straightness, {"L"}, Criterion::minimum_zone, line), kZone, 1e-9);
+  EXPECT_NEAR(criterion_value(K::straightness, {"L"}, Criterion::minimum_zone, line), kZone, 1e-9);
 
   const auto shaft = measured::cylinder("C", {0, 0, 0}, Vec3::UnitZ(), 10.0);
   FittedFeature bent = feature(shaft);
   for (MeasuredPoint& p : bent.points) {
     if (p.section == 1) p.point.x() += kZone;
   }
-  EXPECT_NEAR(value_of(K::axis_straightness, {"C"}, Criterion::minimum_zone, {bent}), kZone, 1e-9);
+  EXPECT_NEAR(criterion_value(K::axis_straightness, {"C"}, Criterion::minimum_zone, {bent}), kZone,
+              1e-9);
 }
 
 TEST(ExtremeCharacteristic, PerpendicularityTurnsAboutTheDatumForTheLeastZone) {
@@ -112,8 +113,8 @@ TEST(ExtremeCharacteristic, PerpendicularityTurnsAboutTheDatumForTheLeastZone) {
   // Leaning by 1e-4 over 16 mm, and turned about the floor's normal, which is free.
   const auto lean = [](const Vec3& p) { return 1e-4 * (p.z() - 10.0) + 5e-4 * p.y(); };
   const std::vector<FittedFeature> features{feature(wall, {}, lean), feature(floor)};
-  EXPECT_NEAR(value_of(K::perpendicularity, {"W", "A"}, Criterion::minimum_zone, features), 1.6e-3,
-              1e-9);
+  EXPECT_NEAR(criterion_value(K::perpendicularity, {"W", "A"}, Criterion::minimum_zone, features),
+              1.6e-3, 1e-9);
 }
 
 TEST(ExtremeCharacteristic, LocationOfTheMatingSize) {
@@ -122,8 +123,10 @@ TEST(ExtremeCharacteristic, LocationOfTheMatingSize) {
   const auto contacts = [](const Vec3& p) { return six_contacts(p - Vec3(5, 5, 0)); };
   const std::vector<FittedFeature> features{
       feature(hole, Pose::translated({0.03, 0.04, 0.0}), contacts)};
-  EXPECT_NEAR(value_of(K::position, {"H"}, Criterion::maximum_inscribed, features), 0.1, 1e-8);
-  EXPECT_GT(std::abs(value_of(K::position, {"H"}, Criterion::least_squares, features) - 0.1), 1e-4);
+  EXPECT_NEAR(criterion_value(K::position, {"H"}, Criterion::maximum_inscribed, features), 0.1,
+              1e-8);
+  EXPECT_GT(std::abs(criterion_value(K::position, {"H"}, Criterion::least_squares, features) - 0.1),
+            1e-4);
 }
 
 // Highest at three corners and at one spot within them; the fourth corner is low.
@@ -137,10 +140,10 @@ TEST(ExtremeCharacteristic, DatumsTouchFromOutside) {
   const auto table = measured::plane("D", {0, 0, 0}, Vec3::UnitZ(), {60, 0, 0}, {0, 60, 0});
   const auto face = measured::plane("F", {0, 0, 20}, Vec3::UnitZ(), {40, 0, 0}, {0, 20, 0});
   const std::vector<FittedFeature> features{feature(face), feature(table, {}, rocking)};
-  EXPECT_NEAR(value_of(K::parallelism, {"F", "D"}, Criterion::least_squares, features,
-                       Criterion::outside_material),
+  EXPECT_NEAR(criterion_value(K::parallelism, {"F", "D"}, Criterion::least_squares, features,
+                              Criterion::outside_material),
               0.0, 1e-9);
-  EXPECT_GT(value_of(K::parallelism, {"F", "D"}, Criterion::least_squares, features), 1e-4);
+  EXPECT_GT(criterion_value(K::parallelism, {"F", "D"}, Criterion::least_squares, features), 1e-4);
   DatumSystem system{"D", "", "", Criterion::outside_material};
   const auto found = found_datum(system, features);
   ASSERT_TRUE(found);

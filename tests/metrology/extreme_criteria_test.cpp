@@ -17,7 +17,7 @@ namespace {
 
 using synthetic::Draws;
 
-constexpr double kMm = 1e-9;
+constexpr double kCriteriaMm = 1e-9;
 
 std::vector<Vec3> rough_cylinder(std::uint64_t seed, double roughness,
                                  double arc = 2.0 * std::numbers::pi) {
@@ -46,7 +46,7 @@ Association found_in(std::string_view name, const std::vector<Vec3>& points,
     ADD_FAILURE() << name << ": " << found.error().front().message;
     return {};
   }
-  EXPECT_TRUE(found->certificate && found->certificate->gap < kMm);
+  EXPECT_TRUE(found->certificate && found->certificate->gap < kCriteriaMm);
   return *std::move(found);
 }
 
@@ -69,8 +69,8 @@ TEST(ExtremeConstraint, APlaneOfKeptNormalHasTheExtentOfItsPoints) {
   const UnitVec3 normal = unit({0.01, -0.02, 1.0});
   const auto [low, high] = extent(points, [&](const Vec3& p) { return p.dot(normal.vec()); });
   const Association found = found_in("plane", points, zone_keeping({.parallel_to = normal}));
-  EXPECT_NEAR(found.fit.form, high - low, kMm);
-  EXPECT_NEAR(point_of(found.fit.element).dot(normal.vec()), 0.5 * (low + high), kMm);
+  EXPECT_NEAR(found.fit.form, high - low, kCriteriaMm);
+  EXPECT_NEAR(point_of(found.fit.element).dot(normal.vec()), 0.5 * (low + high), kCriteriaMm);
 }
 
 TEST(ExtremeConstraint, ACylinderOfKeptAxisHasTheExtentOfTheDistances) {
@@ -78,14 +78,14 @@ TEST(ExtremeConstraint, ACylinderOfKeptAxisHasTheExtentOfTheDistances) {
   const Line axis{Vec3(3.01, -2.0, 1.0), unit({0.101, 0.2, 1.0})};
   const auto [low, high] = extent(points, [&](const Vec3& p) { return residual(axis, p); });
   const Constraints keep{.axis = axis};
-  EXPECT_NEAR(found_in("cylinder", points, zone_keeping(keep)).fit.form, high - low, kMm);
+  EXPECT_NEAR(found_in("cylinder", points, zone_keeping(keep)).fit.form, high - low, kCriteriaMm);
   const auto radius = [&](Criterion criterion) {
     const Association found =
         found_in("cylinder", points, {.criterion = criterion, .constraints = keep});
     return std::get<Cylinder>(found.fit.element).radius;
   };
-  EXPECT_NEAR(radius(Criterion::minimum_circumscribed), high, kMm);
-  EXPECT_NEAR(radius(Criterion::maximum_inscribed), low, kMm);
+  EXPECT_NEAR(radius(Criterion::minimum_circumscribed), high, kCriteriaMm);
+  EXPECT_NEAR(radius(Criterion::maximum_inscribed), low, kCriteriaMm);
 }
 
 TEST(ExtremeConstraint, ACylinderOfKeptDirectionIsACircleOfTheProjection) {
@@ -99,9 +99,9 @@ TEST(ExtremeConstraint, ACylinderOfKeptDirectionIsACircleOfTheProjection) {
     const Association kept = found_in(
         "cylinder", points, {.criterion = criterion, .constraints = {.parallel_to = axis}});
     const Association circle = found_in("circle2d", flat, {.criterion = criterion});
-    EXPECT_NEAR(kept.fit.form, circle.fit.form, kMm);
+    EXPECT_NEAR(kept.fit.form, circle.fit.form, kCriteriaMm);
     const auto& cylinder = std::get<Cylinder>(kept.fit.element);
-    EXPECT_NEAR(cylinder.radius, std::get<Circle>(circle.fit.element).radius, kMm);
+    EXPECT_NEAR(cylinder.radius, std::get<Circle>(circle.fit.element).radius, kCriteriaMm);
     EXPECT_LT(cylinder.axis.vec().cross(axis.vec()).norm(), 1e-15);
   }
 }
@@ -113,17 +113,17 @@ TEST(ExtremeConstraint, KeepsWhatItIsToldAndCostsWidth) {
   const Association turned =
       found_in("cylinder", cylinder, zone_keeping({.perpendicular_to = across}));
   EXPECT_LT(std::abs(axis_of(turned.fit.element)->vec().dot(across.vec())), 1e-15);
-  EXPECT_GE(turned.fit.form, free - kMm);
+  EXPECT_GE(turned.fit.form, free - kCriteriaMm);
   // Of the kept direction and the best turn about `across` the second is the better one.
   const UnitVec3 axis = *axis_of(turned.fit.element);
   EXPECT_NEAR(found_in("cylinder", cylinder, zone_keeping({.parallel_to = axis})).fit.form,
-              turned.fit.form, kMm);
+              turned.fit.form, kCriteriaMm);
 
   const Association sized = found_in("cylinder", cylinder, zone_keeping({.radius = 8.05}));
   EXPECT_DOUBLE_EQ(std::get<Cylinder>(sized.fit.element).radius, 8.05);
   const auto [low, high] =
       extent(cylinder, [&](const Vec3& p) { return residual(sized.fit.element, p); });
-  EXPECT_NEAR(sized.fit.form, 2.0 * std::max(high, -low), kMm);
+  EXPECT_NEAR(sized.fit.form, 2.0 * std::max(high, -low), kCriteriaMm);
 
   const std::vector<Vec3> cone = synthetic::revolution(
       Vec3::Zero(), UnitVec3::z(), 0.0, 20.0, 5, 12, 6.0, 0.0,
@@ -142,9 +142,9 @@ TEST(OutsideMaterial, APlaneTouchesFromTheSideItIsTold) {
                  {.criterion = Criterion::outside_material, .outward = Vec3(0.1, 0.0, side)});
     const auto [low, high] =
         std::minmax_element(found.fit.residuals.begin(), found.fit.residuals.end());
-    EXPECT_NEAR(*high, 0.0, kMm);
-    EXPECT_NEAR(*low, -width, kMm);
-    EXPECT_NEAR(found.fit.form, width, kMm);
+    EXPECT_NEAR(*high, 0.0, kCriteriaMm);
+    EXPECT_NEAR(*low, -width, kCriteriaMm);
+    EXPECT_NEAR(found.fit.form, width, kCriteriaMm);
     EXPECT_GT(side * axis_of(found.fit.element)->vec().z(), 0.0);
   }
 }
@@ -165,10 +165,10 @@ TEST(OutsideMaterial, ALineInAPlaneTouchesFromTheSideItIsTold) {
     // Residuals are positive on the left of the line, seen against y.
     const double left = UnitVec3::y().vec().cross(line.axis.vec()).dot(up) > 0.0 ? 1.0 : -1.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      EXPECT_NEAR(left * found.fit.residuals[i], (points[i] - line.point).dot(up), kMm);
+      EXPECT_NEAR(left * found.fit.residuals[i], (points[i] - line.point).dot(up), kCriteriaMm);
     }
-    EXPECT_NEAR(high, 0.0, kMm);
-    EXPECT_NEAR(low, -width, kMm);
+    EXPECT_NEAR(high, 0.0, kCriteriaMm);
+    EXPECT_NEAR(low, -width, kCriteriaMm);
   }
 }
 
@@ -224,7 +224,7 @@ TEST_P(ExtremeLaws, MotionsOrdersScalesAndDoublesOfPointsDoNotMatter) {
       }
       const auto again = associate(name, other, {.criterion = GetParam()});
       ASSERT_TRUE(again) << name << i;
-      EXPECT_NEAR(2.0 * found->fit.form, again->fit.form, kMm) << name << i;
+      EXPECT_NEAR(2.0 * found->fit.form, again->fit.form, kCriteriaMm) << name << i;
       EXPECT_NEAR(2.0 * found->fit.residuals.front(), again->fit.residuals.back(), 1e-8)
           << name << i;
     }

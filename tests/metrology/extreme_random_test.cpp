@@ -16,7 +16,7 @@ namespace {
 using synthetic::Draws;
 
 // 100,000 on request; fewer where every test run pays for them.
-int random_sets() {
+int extreme_sets() {
   const char* wanted = std::getenv("FRUSTUM_RANDOM_SETS");  // NOLINT(concurrency-mt-unsafe)
   return wanted != nullptr ? std::atoi(wanted) : 1000;
 }
@@ -68,7 +68,7 @@ TEST_P(RandomZoneLaws, AnyPointsGiveAProvenZoneOrAReason) {
   const std::string name = GetParam();
   int proven = 0;
   // A torus costs as much as five others.
-  const int sets = random_sets() / (name == "torus" ? 5 : 1);
+  const int sets = extreme_sets() / (name == "torus" ? 5 : 1);
   for (int i = 0; i < sets; ++i) {
     Draws draws(static_cast<std::uint64_t>(100000 + i));
     std::vector<Vec3> points = any_points(draws);

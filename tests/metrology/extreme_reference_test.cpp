@@ -14,7 +14,7 @@
 namespace frustum::metrology {
 namespace {
 
-std::filesystem::path folder() {
+std::filesystem::path extreme_folder() {
   const char* named = std::getenv("FRUSTUM_REFERENCE_FITS");  // NOLINT(concurrency-mt-unsafe)
   return named != nullptr
              ? std::filesystem::path(named)
@@ -39,8 +39,8 @@ void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 class ZoneReference : public testing::TestWithParam<Kind> {
  protected:
   void SetUp() override {
-    if (!std::filesystem::is_directory(folder())) {
-      GTEST_SKIP() << "no reference pairs at " << folder()
+    if (!std::filesystem::is_directory(extreme_folder())) {
+      GTEST_SKIP() << "no reference pairs at " << extreme_folder()
                    << "; set FRUSTUM_REFERENCE_FITS to their folder";
     }
   }
@@ -49,7 +49,8 @@ class ZoneReference : public testing::TestWithParam<Kind> {
 TEST_P(ZoneReference, EveryZoneIsProven) {
   int sets = 0;
   double worst = 0.0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder() / GetParam().folder)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(extreme_folder() / GetParam().folder)) {
     if (entry.path().extension() != ".ds" || entry.path().stem() == "con7") continue;
     ++sets;
     const std::vector<Vec3> points = points_in(entry.path());

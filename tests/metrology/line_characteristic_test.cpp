@@ -15,7 +15,7 @@ using step_part::Part;
 using step_part::plan;
 
 // Planes are met exactly; coordinates of 100 mm leave 1e-14 mm, slopes over 50 mm 1e-15 rad.
-constexpr double kExact = 1e-7;  // um or urad
+constexpr double kExactLine = 1e-7;  // um or urad
 
 using Values = std::map<std::string, double>;
 
@@ -35,7 +35,7 @@ void expect_values(const Values& found, const Values& wanted, double tolerance) 
   EXPECT_EQ(found.size(), plan().characteristics.size());
 }
 
-Values measured(const Part& body) { return values_of(measure(plan(), body)); }
+Values measured_values(const Part& body) { return values_of(measure(plan(), body)); }
 
 Part with(const std::string& name, const step_part::Face& face) {
   Part changed = part();
@@ -45,7 +45,7 @@ Part with(const std::string& name, const step_part::Face& face) {
 
 TEST(LineCharacteristic, AreZeroOnAPerfectPart) {
   const auto m = measure(plan(), part());
-  expect_values(values_of(m), {}, kExact);
+  expect_values(values_of(m), {}, kExactLine);
   const CharacteristicResult& c = m->characteristics[0];
   EXPECT_EQ(c.kind, "line_distance");
   EXPECT_EQ(c.unit, "um");
@@ -73,17 +73,22 @@ TEST(LineCharacteristicLaws, ARigidMotionOfThePartChangesNothing) {
   // r = 1.5 mm and e = 1e-4 rad.
   for (int i = 0; i < 20; ++i) {
     const Pose lie{rotation_about(draws.direction(), 1e-4), draws.place(0.3)};
-    expect_values(measured(flawed.moved(lie)), wanted, 4e-5);
+    expect_values(measured_values(flawed.moved(lie)), wanted, 4e-5);
   }
 }
 
 TEST(LineCharacteristic, SeeAShiftedSurfaceWithItsSign) {
   const Part p = part();
-  expect_values(measured(with("S_d", p.faces.at("S_d").shifted(0.01))), {{"dL", 10.0}}, kExact);
-  expect_values(measured(with("S_c", p.faces.at("S_c").shifted(0.01))), {{"dL", 10.0}}, kExact);
-  expect_values(measured(with("S_b", p.faces.at("S_b").shifted(-0.01))), {{"dL0", -10.0}}, kExact);
-  expect_values(measured(with("B_d", p.faces.at("B_d").shifted(0.01))), {{"dH", 10.0}}, kExact);
-  expect_values(measured(with("B_c", p.faces.at("B_c").shifted(0.01))), {{"dH", -10.0}}, kExact);
+  expect_values(measured_values(with("S_d", p.faces.at("S_d").shifted(0.01))), {{"dL", 10.0}},
+                kExactLine);
+  expect_values(measured_values(with("S_c", p.faces.at("S_c").shifted(0.01))), {{"dL", 10.0}},
+                kExactLine);
+  expect_values(measured_values(with("S_b", p.faces.at("S_b").shifted(-0.01))), {{"dL0", -10.0}},
+                kExactLine);
+  expect_values(measured_values(with("B_d", p.faces.at("B_d").shifted(0.01))), {{"dH", 10.0}},
+                kExactLine);
+  expect_values(measured_values(with("B_c", p.faces.at("B_c").shifted(0.01))), {{"dH", -10.0}},
+                kExactLine);
   const auto m = measure(plan(), with("S_d", p.faces.at("S_d").shifted(0.021)));
   ASSERT_TRUE(m);
   EXPECT_FALSE(m->characteristics[0].pass);
@@ -99,7 +104,7 @@ TEST(LineCharacteristic, SeeATurnedSurfaceRightHanded) {
   // that is turned keeps its place at the pivot. tan and sin agree to 1e-13.
   const Vec3 middle(0, 30, 7.5);
   const auto turned = [&](const char* name, const Mat3& by, const Vec3& pivot) {
-    return measured(with(name, p.faces.at(name).turned(by, pivot)));
+    return measured_values(with(name, p.faces.at(name).turned(by, pivot)));
   };
   expect_values(turned("S_d", rotation_z(angle), middle), {{"theta", 50.0}}, 1e-5);
   expect_values(turned("S_c", rotation_z(angle), {0, -30, 7.5}), {{"theta", -50.0}}, 1e-5);
@@ -133,11 +138,11 @@ TEST(LineCharacteristic, ChamfersAreReadAtTheirHeightOverTheMeasuredFloors) {
     lowered.faces.at(name) = part().faces.at(name).shifted(-delta);
   }
   // The frame sinks with the floors: a chamfer of 45 deg is wider by delta on both sides there.
-  expect_values(measured(lowered), {{"dE", 2e3 * delta}}, kExact);
+  expect_values(measured_values(lowered), {{"dE", 2e3 * delta}}, kExactLine);
   // Without frame nothing changes at all.
   InspectionPlan as_probed = plan();
   for (PlannedCharacteristic& c : as_probed.characteristics) c.frame.clear();
-  expect_values(values_of(measure(as_probed, lowered)), {}, kExact);
+  expect_values(values_of(measure(as_probed, lowered)), {}, kExactLine);
 }
 
 TEST(LineCharacteristic, TiltedFloorsTurnTheFrameAsTheRegressionOfTheirPointsSays) {

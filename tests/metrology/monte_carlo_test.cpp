@@ -16,7 +16,7 @@ namespace {
 
 const CmmModel kCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
 
-Measurement measured(InspectionPlan plan, const CmmModel& cmm, std::size_t draws) {
+Measurement measured_with_draws(InspectionPlan plan, const CmmModel& cmm, std::size_t draws) {
   plan.monte_carlo = MonteCarloSettings{.draws = draws};
   auto m = measure(plan, test_part::part({.lobe = 0.004}), cmm);
   EXPECT_TRUE(m) << (m ? "" : to_string(m.error().front()));
@@ -50,7 +50,7 @@ TEST(Refit, AgreesWithTheSearchFromScratch) {
 }
 
 TEST(MonteCarlo, AgreesWithLinearPropagationWhereThatHolds) {
-  const Measurement m = measured(test_part::plan(), kCmm, 10000);
+  const Measurement m = measured_with_draws(test_part::plan(), kCmm, 10000);
   for (const char* name : {"cone.half_angle", "cylinder.diameter"}) {
     const CharacteristicResult& c = m.characteristics[*m.find(name)];
     ASSERT_TRUE(c.simulated);
@@ -100,7 +100,7 @@ TEST(MonteCarlo, RepeatsItselfAndMovesNothingElse) {
 }
 
 TEST(MonteCarlo, IsNotAskedOfAnIdealMachine) {
-  const Measurement m = measured(test_part::plan(), {}, 10000);
+  const Measurement m = measured_with_draws(test_part::plan(), {}, 10000);
   for (const CharacteristicResult& c : m.characteristics) EXPECT_FALSE(c.simulated);
 }
 

@@ -14,7 +14,7 @@
 namespace frustum::metrology {
 namespace {
 
-std::string complaint(std::string_view text) {
+std::string point_file_complaint(std::string_view text) {
   const auto points = parse_feature_points(text, "p.csv");
   return points ? "" : to_string(points.error().front());
 }
@@ -42,25 +42,25 @@ TEST(PointFile, SortsPointsByFeature) {
 }
 
 TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
-  EXPECT_EQ(complaint("1,2\n"),
+  EXPECT_EQ(point_file_complaint("1,2\n"),
             "p.csv:1:3: error: 2 columns, expected 3 (hint: a line holds x, y, z)");
-  EXPECT_EQ(complaint("1 2 3\n4 nan 6\n"),
+  EXPECT_EQ(point_file_complaint("1 2 3\n4 nan 6\n"),
             "p.csv:2:3: error: 'nan' is not a finite number (hint: y expected here)");
-  EXPECT_EQ(complaint("1 2 3\n4 5 6x\n"),
+  EXPECT_EQ(point_file_complaint("1 2 3\n4 5 6x\n"),
             "p.csv:2:5: error: '6x' is not a finite number (hint: z expected here)");
-  EXPECT_EQ(complaint("1 2 1e999\n"),
+  EXPECT_EQ(point_file_complaint("1 2 1e999\n"),
             "p.csv:1:5: error: '1e999' is not a finite number (hint: z expected here)");
-  EXPECT_EQ(complaint("feature,sektion,x,y,z\n"),
+  EXPECT_EQ(point_file_complaint("feature,sektion,x,y,z\n"),
             "p.csv:1:9: error: unknown column 'sektion' (hint: did you mean section?)");
-  EXPECT_EQ(complaint("feature,x,y\nA,1,2\n"),
+  EXPECT_EQ(point_file_complaint("feature,x,y\nA,1,2\n"),
             "p.csv:1:1: error: the header has no column 'z' (hint: a point needs x, y and z)");
-  EXPECT_EQ(complaint("3\n1 2 3\n"),
+  EXPECT_EQ(point_file_complaint("3\n1 2 3\n"),
             "p.csv: error: the first line announces 3 points, the file holds 1 (hint: correct the "
             "count or leave the line out)");
-  EXPECT_EQ(complaint("# nothing\n"),
+  EXPECT_EQ(point_file_complaint("# nothing\n"),
             "p.csv: error: the file holds no points (hint: write one point x y z (mm) a line)");
   EXPECT_EQ(
-      complaint("feature,section,x,y,z\nA,1.5,1,2,3\n"),
+      point_file_complaint("feature,section,x,y,z\nA,1.5,1,2,3\n"),
       "p.csv:2:3: error: '1.5' is not a section (hint: sections are whole numbers, the first is "
       "0)");
 }
@@ -87,15 +87,15 @@ TEST(PointFile, HonoursTheUnitThatAFileStates) {
 }
 
 TEST(PointFile, RefusesUnitsThatItCannotHonour) {
-  EXPECT_EQ(complaint("# unit: furlong\n1 2 3\n"),
+  EXPECT_EQ(point_file_complaint("# unit: furlong\n1 2 3\n"),
             "p.csv:1:1: error: 'furlong' is not a unit of length (hint: write unit: mm, um, nm, "
             "cm, m or inch)");
-  EXPECT_EQ(complaint("x [deg],y,z\n1,2,3\n"),
+  EXPECT_EQ(point_file_complaint("x [deg],y,z\n1,2,3\n"),
             "p.csv:1:1: error: 'deg' is not a unit for column 'x' (hint: mm, um, nm, cm, m or "
             "inch)");
-  EXPECT_EQ(complaint("x [mm],y [inch],z\n1,2,3\n"),
+  EXPECT_EQ(point_file_complaint("x [mm],y [inch],z\n1,2,3\n"),
             "p.csv:1:8: error: the unit is inch here, mm before (hint: a file has one unit)");
-  EXPECT_EQ(complaint("x_um,y,z\n1,2,3\n"),
+  EXPECT_EQ(point_file_complaint("x_um,y,z\n1,2,3\n"),
             "p.csv:1:8: error: 'x_um' states a unit, 'z' does not (hint: state the unit at each of "
             "x, y and z, or once above: # unit: um)");
   const auto said = parse_feature_points("# mm\n10 0 0\n", "p.csv", length_unit("inch"));
@@ -103,7 +103,7 @@ TEST(PointFile, RefusesUnitsThatItCannotHonour) {
   EXPECT_EQ(to_string(said.error().front()),
             "p.csv:1:1: error: the file states the unit mm, --unit says inch (hint: leave --unit "
             "out, or correct the file)");
-  EXPECT_EQ(complaint("1 2 3\n# unit: um\n4 5 6\n"),
+  EXPECT_EQ(point_file_complaint("1 2 3\n# unit: um\n4 5 6\n"),
             "p.csv:2:1: error: the unit um stands behind points (hint: state it before the first "
             "point)");
 }
@@ -156,7 +156,7 @@ TEST(PointFile, KeepsWeightsForFitsAndRefusesThemForPlans) {
   EXPECT_EQ(cloud->weights, (std::vector<double>{0.5, 2.0}));
   EXPECT_EQ(cloud->points[1], Vec3(4, 5, 6));
   EXPECT_FALSE(read_feature_points(file));
-  EXPECT_EQ(complaint("x,y,z,weight\n1,2,3,-1\n"),
+  EXPECT_EQ(point_file_complaint("x,y,z,weight\n1,2,3,-1\n"),
             "p.csv:2:7: error: '-1' is not a weight (hint: weights are 0 or more)");
 }
 

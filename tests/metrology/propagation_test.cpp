@@ -14,7 +14,7 @@ namespace {
 
 using K = CharacteristicKind;
 
-const CmmModel kCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
+const CmmModel kPropagationCmm{.e0_mm = 0.002, .length_per_error = 300.0, .seed = 7};
 
 // The step part with everything that may correlate: shared lines and floors, a leaning wall as
 // reference, no frame at all, the flatness of a floor.
@@ -176,13 +176,13 @@ TEST(Propagation, CovarianceIsThatOfSimulatedMeasurements) {
   const step_part::Part body = step_part::part();
   const auto once = measure(p, body);
   ASSERT_TRUE(once) << to_string(once.error().front());
-  const auto stated = covariance(p, *once, kCmm);
+  const auto stated = covariance(p, *once, kPropagationCmm);
   ASSERT_TRUE(stated);
   constexpr int kDraws = 2000;
   const auto count = static_cast<Eigen::Index>(p.characteristics.size());
   Eigen::MatrixXd values(kDraws, count);
   for (int draw = 0; draw < kDraws; ++draw) {
-    CmmModel cmm = kCmm;
+    CmmModel cmm = kPropagationCmm;
     cmm.draw = static_cast<std::uint32_t>(draw);
     const auto m = measure(p, body, cmm);
     ASSERT_TRUE(m);
@@ -218,9 +218,9 @@ TEST(Propagation, CovarianceIsThatOfSimulatedMeasurements) {
 
 TEST(Propagation, IsTheUncertaintyThatEachResultStates) {
   const InspectionPlan p = mixed_plan();
-  const auto m = measure(p, step_part::part(), kCmm);
+  const auto m = measure(p, step_part::part(), kPropagationCmm);
   ASSERT_TRUE(m);
-  const auto joint = covariance(p, *m, kCmm);
+  const auto joint = covariance(p, *m, kPropagationCmm);
   ASSERT_TRUE(joint);
   for (std::size_t i = 0; i < m->characteristics.size(); ++i) {
     const CharacteristicResult& c = m->characteristics[i];
@@ -274,7 +274,7 @@ TEST(Propagation, RefusesTheMeasurementOfAnotherPlan) {
   const auto m = measure(p, step_part::part());
   ASSERT_TRUE(m);
   const auto message = [&](const Measurement& measurement) {
-    const auto joint = covariance(p, measurement, kCmm);
+    const auto joint = covariance(p, measurement, kPropagationCmm);
     return joint ? std::string() : joint.error().front().message;
   };
   Measurement other = *m;
@@ -287,7 +287,7 @@ TEST(Propagation, RefusesTheMeasurementOfAnotherPlan) {
   other.features.erase(other.features.begin());
   EXPECT_EQ(message(other), "frame 'R': feature 'F_a' has no points");
   p.features[0].axis = Vec3::Zero();
-  EXPECT_FALSE(covariance(p, *m, kCmm));
+  EXPECT_FALSE(covariance(p, *m, kPropagationCmm));
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ using synthetic::line_angle;
 using synthetic::off_axis;
 
 // Ours: a sloppy solver (finite differences, no centring) misses by 1e-7 to 1e-5 mm.
-constexpr double kMm = 1e-9;
-constexpr double kRad = 1e-11;
+constexpr double kReferenceMm = 1e-9;
+constexpr double kReferenceRad = 1e-11;
 
 std::filesystem::path folder() {
   const char* named = std::getenv("FRUSTUM_REFERENCE_FITS");  // NOLINT(concurrency-mt-unsafe)
@@ -81,11 +81,11 @@ class FitReference : public testing::Test {
     RecordProperty("worst_in_frad", std::to_string(worst_rad_ * 1e15));
   }
   void mm(double deviation, const Pair& pair) {
-    EXPECT_LT(std::abs(deviation), kMm) << pair.name;
+    EXPECT_LT(std::abs(deviation), kReferenceMm) << pair.name;
     worst_mm_ = std::max(worst_mm_, std::abs(deviation));
   }
   void rad(double deviation, const Pair& pair) {
-    EXPECT_LT(std::abs(deviation), kRad) << pair.name;
+    EXPECT_LT(std::abs(deviation), kReferenceRad) << pair.name;
     worst_rad_ = std::max(worst_rad_, std::abs(deviation));
   }
 

@@ -117,7 +117,8 @@ TEST(ErrorDraws, OfAFieldKeepItsStatement) {
 }
 
 // One feature of the part, with what is asked of it.
-InspectionPlan plan_of(std::size_t feature, const std::vector<std::string>& characteristics) {
+InspectionPlan plan_of_feature(std::size_t feature,
+                               const std::vector<std::string>& characteristics) {
   InspectionPlan plan = test_part::plan();
   plan.alignment = Alignment::plan;
   plan.datum.reset();
@@ -128,7 +129,9 @@ InspectionPlan plan_of(std::size_t feature, const std::vector<std::string>& char
   });
   return plan;
 }
-InspectionPlan cylinder_plan() { return plan_of(1, {"cylinder.diameter", "cylinder.roundness"}); }
+InspectionPlan cylinder_plan() {
+  return plan_of_feature(1, {"cylinder.diameter", "cylinder.roundness"});
+}
 
 TEST(MonteCarlo, ErrorsThatAlwaysPointOneWayAreTakenOffTheValue) {
   const InspectionPlan plan = cylinder_plan();
@@ -161,7 +164,7 @@ TEST(MonteCarlo, ErrorsThatAlwaysPointOneWayAreTakenOffTheValue) {
   }
 }
 
-const CharacteristicResult& named(const Measurement& m, std::string_view name) {
+const CharacteristicResult& named_result(const Measurement& m, std::string_view name) {
   return m.characteristics.at(m.find(name).value());
 }
 
@@ -172,7 +175,7 @@ TEST(MonteCarlo, ALobedProbeIsNotTakenForTheFormOfThePart) {
   cmm.probe = ProbeErrors{.lobe = 0.002};
   const auto round = measure(plan, test_part::part(), cmm);
   ASSERT_TRUE(round) << to_string(round.error().front());
-  const CharacteristicResult& form = named(*round, "cylinder.roundness");
+  const CharacteristicResult& form = named_result(*round, "cylinder.roundness");
   EXPECT_GT(form.value, 3.8);  // um: two lobes and little noise, on a part that is round
   ASSERT_TRUE(form.simulated);
   EXPECT_LT(form.simulated->low, 0.2);
@@ -181,11 +184,11 @@ TEST(MonteCarlo, ALobedProbeIsNotTakenForTheFormOfThePart) {
 
 // Lobes of the probe in the valleys of the part's: it looks round, and is known not to be.
 TEST(MonteCarlo, AFormThatTheProbeHidesIsFoundAgain) {
-  InspectionPlan plan = plan_of(3, {"cone.form"});
+  InspectionPlan plan = plan_of_feature(3, {"cone.form"});
   const auto part = test_part::part({.lobe = 0.0013});
   const auto truth = measure(plan, part);
   ASSERT_TRUE(truth) << to_string(truth.error().front());
-  const double real = named(*truth, "cone.form").value;
+  const double real = named_result(*truth, "cone.form").value;
   EXPECT_NEAR(real, 2.6, 0.01);
   plan.monte_carlo = MonteCarloSettings{.draws = 2000};
   CmmModel cmm{.e0_mm = 0.0002, .seed = 3};
@@ -193,7 +196,7 @@ TEST(MonteCarlo, AFormThatTheProbeHidesIsFoundAgain) {
   cmm.probe = ProbeErrors{.lobe = 0.002, .lobe_phase = 30.0 * kRadPerDeg};
   const auto seen = measure(plan, part, cmm);
   ASSERT_TRUE(seen) << to_string(seen.error().front());
-  const CharacteristicResult& form = named(*seen, "cone.form");
+  const CharacteristicResult& form = named_result(*seen, "cone.form");
   EXPECT_LT(form.value, 1.0);
   ASSERT_TRUE(form.simulated);
   EXPECT_LT(form.simulated->low, real);
@@ -209,7 +212,7 @@ TEST(MonteCarlo, AWarmPartIsTakenForWhatItIsAt20Degrees) {
   cmm.temperature = ThermalState{.part = 30.0};
   const auto warm = measure(plan, test_part::part(), cmm);
   ASSERT_TRUE(warm) << to_string(warm.error().front());
-  const CharacteristicResult& diameter = named(*warm, "cylinder.diameter");
+  const CharacteristicResult& diameter = named_result(*warm, "cylinder.diameter");
   EXPECT_NEAR(diameter.value, 50.0 + 53.0 * 115e-6, 1e-4);
   ASSERT_TRUE(diameter.simulated);
   EXPECT_LT(diameter.simulated->low, 50.0);

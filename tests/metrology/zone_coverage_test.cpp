@@ -13,8 +13,8 @@ namespace {
 
 using K = CharacteristicKind;
 
-constexpr std::uint32_t kDraws = 1000;
-const CmmModel kNoise{.e0_mm = 0.002};  // 1 um
+constexpr std::uint32_t kZoneDraws = 1000;
+const CmmModel kZoneNoise{.e0_mm = 0.002};  // 1 um
 
 std::uint32_t measurements() { return std::getenv("FRUSTUM_COVERAGE") != nullptr ? 4000 : 400; }
 
@@ -109,11 +109,12 @@ std::vector<Share> shares(const char* title, const InspectionPlan& plan,
                           const std::vector<FittedFeature>& part) {
   const auto exact = evaluated_values(plan, part, {});
   EXPECT_TRUE(exact) << to_string(exact.error().front());
-  const ErrorDraws draws = error_draws(kNoise, 4711);
+  const ErrorDraws draws = error_draws(kZoneNoise, 4711);
   const std::uint32_t count = measurements();
   const auto first = remeasured(plan, part, draws(count));
   EXPECT_TRUE(first);
-  const coverage::Noise noise = coverage::noise_about(plan, *first, error_draws(kNoise, 1), kDraws);
+  const coverage::Noise noise =
+      coverage::noise_about(plan, *first, error_draws(kZoneNoise, 1), kZoneDraws);
   std::vector<Share> found(plan.characteristics.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto m = remeasured(plan, part, draws(i));

@@ -19,7 +19,7 @@ namespace {
 
 using kinematics::AxisLetter;
 
-kinematics::Machine machine(const std::string& name) {
+kinematics::Machine pattern_machine(const std::string& name) {
   auto loaded =
       kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" + name + ".toml");
   EXPECT_TRUE(loaded);
@@ -69,7 +69,7 @@ std::vector<Setting> settings() {
 TEST(StepPatternSystem, EveryMeasuredPointIsCutByItsOwnStepAndNothingCollides) {
   for (const Setting& s : settings()) {
     SCOPED_TRACE(std::string(s.machine) + " workpiece " + std::to_string(s.workpiece));
-    const auto on = machine(s.machine);
+    const auto on = pattern_machine(s.machine);
     const StepPiece step = made(test_of(s.workpiece, s.patterns), on);
     trials::TrialOptions options;
     options.measure = false;
@@ -105,7 +105,7 @@ TEST(StepPatternSystem, EveryMeasuredPointIsCutByItsOwnStepAndNothingCollides) {
 TEST(StepPatternSystem, MeasuresZeroOnAnErrorFreeMachine) {
   for (const Setting& s : settings()) {
     SCOPED_TRACE(std::string(s.machine) + " workpiece " + std::to_string(s.workpiece));
-    const auto on = machine(s.machine);
+    const auto on = pattern_machine(s.machine);
     const StepPiece step = made(test_of(s.workpiece, s.patterns), on);
     const auto trial = trials::run_trial(on, kinematics::GeometricErrors{}, step.piece, {});
     ASSERT_TRUE(trial) << to_string(trial.error().front());
@@ -124,7 +124,7 @@ TEST(StepPatternSystem, MeasuresZeroOnAnErrorFreeMachine) {
 // The ball meets nothing but the surface it is sent to: all that it sweeps on the way is free.
 TEST(StepPatternSystem, TheProbeReachesEveryPoint) {
   for (const int number : {1, 2}) {
-    const auto on = machine("zx-yac");
+    const auto on = pattern_machine("zx-yac");
     const StepPiece step = made(test_of(number), on);
     trials::TrialOptions options;
     options.measure = false;
@@ -151,7 +151,7 @@ TEST(StepPatternSystem, TheProbeReachesEveryPoint) {
 }
 
 TEST(StepPattern, NoBlockTurnsTheTableWhileItCuts) {
-  const auto on = machine("zx-yac");
+  const auto on = pattern_machine("zx-yac");
   for (const int number : {1, 2}) {
     const StepPiece step = made(test_of(number), on);
     const auto program = parser::parse_program(step.piece.program, "step.nc");
@@ -181,7 +181,7 @@ TEST(StepPattern, NoBlockTurnsTheTableWhileItCuts) {
 }
 
 TEST(StepPattern, RefusesWhatCannotBeAndSaysWhatToDo) {
-  const auto on = machine("zx-yac");
+  const auto on = pattern_machine("zx-yac");
   const auto expect = [](const std::string& text, std::vector<std::string> words) {
     for (const std::string& word : words) {
       EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' in: " << text;
@@ -193,7 +193,7 @@ TEST(StepPattern, RefusesWhatCannotBeAndSaysWhatToDo) {
   StepTest thick = test_of(2);
   thick.tool_diameter = {30.0};
   expect(refusals(thick, on), {"tool-diameter", "30 mm", "21"});
-  expect(refusals(test_of(1), machine("three-axis")), {"three-axis", "rotary axes"});
+  expect(refusals(test_of(1), pattern_machine("three-axis")), {"three-axis", "rotary axes"});
 }
 
 TEST(StepPattern, NamesEveryPatternOutOfReachAndHowMuchIsShort) {
@@ -221,11 +221,11 @@ TEST(StepPattern, NamesEveryPatternOutOfReachAndHowMuchIsShort) {
   // Out of linear travel: the axis, and by how much.
   StepTest far = test_of(1, {"1-a"});
   far.workpiece.centre_x = 500.0;
-  EXPECT_NE(refusals(far, machine("zx-yac")).find("pattern 1-a: X = "), std::string::npos);
+  EXPECT_NE(refusals(far, pattern_machine("zx-yac")).find("pattern 1-a: X = "), std::string::npos);
 }
 
 TEST(StepPattern, ReferencesComeFirstAndAreSharedOnWorkpiece2) {
-  const auto on = machine("zx-yac");
+  const auto on = pattern_machine("zx-yac");
   std::vector<std::string> names;
   for (const StepCut& cut : made(test_of(2), on).cuts) names.push_back(cut.name);
   EXPECT_EQ(names,

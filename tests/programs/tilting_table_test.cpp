@@ -18,7 +18,7 @@ using kinematics::Machine;
 
 const std::filesystem::path kMachines = std::filesystem::path(FRUSTUM_SOURCE_DIR) / "machines";
 
-Machine machine(const std::filesystem::path& file) {
+Machine tilting_machine(const std::filesystem::path& file) {
   auto loaded = Machine::load(file);
   EXPECT_TRUE(loaded) << (loaded ? "" : to_string(loaded.error().front()));
   return *loaded;
@@ -36,7 +36,7 @@ Machine changed(const std::map<std::string, std::string>& words) {
   }
   const auto file = std::filesystem::path(testing::TempDir()) / "changed.toml";
   std::ofstream(file) << text;
-  return machine(file);
+  return tilting_machine(file);
 }
 
 std::string refusal(const Machine& of) {
@@ -70,7 +70,7 @@ TEST(TiltingTable, IsFoundOnEveryShippedMachineThatHasOneAndRefusedOnTheOthers) 
     ++shipped;
     ASSERT_TRUE(expected.contains(name)) << "a new machine: say here what its table is";
     const Expected& wanted = expected.at(name);
-    const Machine m = machine(entry.path());
+    const Machine m = tilting_machine(entry.path());
     if (wanted.refusal != nullptr) {
       const std::string text = refusal(m);
       EXPECT_NE(text.find(name), std::string::npos) << text;
@@ -131,7 +131,8 @@ TEST(TiltingTable, TurnsByWholeTurnsIntoItsTravelIfItCan) {
   EXPECT_NEAR(c_of(limited, -3.0 * quarter), quarter, 1e-12);  // not -270 deg
   EXPECT_NEAR(c_of(limited, 3.0 * quarter), -quarter, 1e-12);
   EXPECT_NEAR(c_of(limited, 2.0 * quarter), 2.0 * quarter, 1e-12);  // within: stays
-  EXPECT_NEAR(c_of(machine(kMachines / "zx-yac.toml"), -3.0 * quarter), -3.0 * quarter, 1e-12);
+  EXPECT_NEAR(c_of(tilting_machine(kMachines / "zx-yac.toml"), -3.0 * quarter), -3.0 * quarter,
+              1e-12);
   // Nowhere within travel: stays, and is what shortfalls() tells.
   const Machine narrow = changed({{"endless = true", "travel = [-10, 10]"}});
   const AxisPositions q = table->positions(narrow, 0.0, -quarter);
@@ -144,7 +145,7 @@ TEST(TiltingTable, TurnsByWholeTurnsIntoItsTravelIfItCan) {
 }
 
 TEST(TiltingTable, EveryAxisOutOfTravelIsToldButNoLimitReachedWithRounding) {
-  const Machine m = machine(kMachines / "zx-yac.toml");
+  const Machine m = tilting_machine(kMachines / "zx-yac.toml");
   AxisPositions q;
   q[AxisLetter::X] = 400.0 + 4e-10;
   q[AxisLetter::C] = 1000.0;  // endless

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 // Three characteristics of two patterns; the third error moves nothing, the fourth only ever removes.
 SensitivityTable small_table() {
@@ -40,7 +40,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-std::size_t count_of(const std::string& text, const std::string& part) {
+std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
     ++count;
@@ -82,7 +82,7 @@ TEST(SensitivityCsv, HeadsItsColumnsWithUnitsAndQuotesNamesThatNeedIt) {
 TEST(SensitivityText, NamesTheErrorsThatNothingAnswersBelow) {
   const std::string text = sensitivity_text(small_table(), 100);
   EXPECT_THAT(text, HasSubstr("\nNo characteristic answers: gamma_AY\n"));
-  EXPECT_EQ(count_of(text, "gamma_AY"), 1U);
+  EXPECT_EQ(occurrences(text, "gamma_AY"), 1U);
   EXPECT_THAT(text, HasSubstr("-0.3558"));
   EXPECT_THAT(text, HasSubstr("beta_ZX"));  // answers by its even part
   for (const std::string& line : lines_of(sensitivity_text(small_table(), 40))) {
@@ -93,9 +93,9 @@ TEST(SensitivityText, NamesTheErrorsThatNothingAnswersBelow) {
 TEST(SensitivityPage, LeavesOutColumnsWithoutAnAnswerAndNamesThemBelow) {
   const std::string page = sensitivity_html(small_table());
   EXPECT_THAT(page, HasSubstr("No characteristic answers: gamma_AY."));
-  EXPECT_EQ(count_of(page, "gamma"), 1U);
+  EXPECT_EQ(occurrences(page, "gamma"), 1U);
   // One column by derivative twice, one by the even part.
-  EXPECT_EQ(count_of(page, "<th scope=\"col\""), 3U);
+  EXPECT_EQ(occurrences(page, "<th scope=\"col\""), 3U);
   EXPECT_THAT(page, HasSubstr("alpha<br>_AY"));
   EXPECT_THAT(page, HasSubstr("beta<br>_ZX"));
   SensitivityTable full = small_table();
@@ -112,7 +112,7 @@ TEST(SensitivityPage, ShowsThreeDigitsNothingForZeroAndARuleBetweenPatterns) {
   EXPECT_THAT(page, HasSubstr("<td class=\"n\"></td>"));
   EXPECT_THAT(page, HasSubstr("<tr class=\"begins\"><th scope=\"row\">2-a.dL"));
   EXPECT_THAT(page, HasSubstr("<tr><th scope=\"row\">1-a.phi"));
-  EXPECT_EQ(count_of(page, "class=\"begins\""), 2U);  // in both tables
+  EXPECT_EQ(occurrences(page, "class=\"begins\""), 2U);  // in both tables
 }
 
 TEST(SensitivityPage, EscapesNamesAndLoadsNothing) {
@@ -129,7 +129,7 @@ TEST(SensitivityPage, EscapesNamesAndLoadsNothing) {
 
 TEST(SensitivityTable, WhatIsNoNumberIsNullOrADashAndNeverSilent) {
   SensitivityTable table = small_table();
-  table.odd(0, 0) = kNan;
+  table.odd(0, 0) = kNotANumber;
   table.odd.col(2).setConstant(std::numeric_limits<double>::infinity());
   const auto json = nlohmann::json::parse(sensitivity_json(table));
   EXPECT_TRUE(json["matrix"][0][0].is_null());
@@ -141,7 +141,7 @@ TEST(SensitivityTable, WhatIsNoNumberIsNullOrADashAndNeverSilent) {
   EXPECT_THAT(text, Not(HasSubstr("No characteristic answers")));
   const std::string page = sensitivity_html(table);
   const std::string body = page.substr(page.find("<body"));
-  EXPECT_EQ(count_of(body, ">-</td>"), 4U);
+  EXPECT_EQ(occurrences(body, ">-</td>"), 4U);
   EXPECT_THAT(body, Not(HasSubstr("nan")));
   EXPECT_THAT(body, Not(HasSubstr("inf")));
 }

@@ -38,9 +38,9 @@ FacetSolid cube() {
            {3, 7, 5}}};
 }
 
-class Draw {
+class FacetDraw {
  public:
-  explicit Draw(std::uint64_t seed) : key_{seed, 0, RandomPurpose::test_data} {}
+  explicit FacetDraw(std::uint64_t seed) : key_{seed, 0, RandomPurpose::test_data} {}
   double between(double lo, double hi) { return lo + (hi - lo) * uniform(key_, index_++); }
   Vec3 point(double lo, double hi) {
     const double x = between(lo, hi);
@@ -94,7 +94,7 @@ TEST(FacetSolidLaws, EveryRayLeavesAsOftenAsItEntersAndMeetsTheBall) {
   const SurfaceMesh mesh = extract_surface(ball, box_around(Vec3::Zero(), 5.5), Mm{0.5}).value();
   const FacetSolid solid(mesh.vertices, mesh.triangles);
   EXPECT_NEAR(solid.volume(), measure(mesh).volume, 1e-9);
-  Draw draw(71);
+  FacetDraw draw(71);
   for (int k = 0; k < 20'000; ++k) {
     // Every other ray goes through a vertex exactly.
     const Vec3 at = k % 2 == 0 ? draw.point(-4.0, 4.0)
@@ -116,7 +116,7 @@ TEST(FacetSolid, FindsTheNearestPointThatTryingAllFacetsFinds) {
     const Vec3 q = (p - Vec3::Constant(0.5)).cwiseAbs() - Vec3::Constant(0.5);
     return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
   };
-  Draw draw(72);
+  FacetDraw draw(72);
   for (int k = 0; k < 10'000; ++k) {
     const Vec3 p = draw.point(-1.0, 2.0);
     EXPECT_NEAR(solid.signed_distance(p), distance(p), 1e-14);

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-SurfaceMesh tetrahedron() {
+SurfaceMesh one_tetrahedron() {
   SurfaceMesh mesh;
   mesh.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 0.25)};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
@@ -44,11 +44,11 @@ void expect_tetrahedron(std::string_view bytes, MeshFormat format) {
 TEST(MeshReader, ReadsBackWhatIsWritten) {
   for (const MeshFormat format : {MeshFormat::stl, MeshFormat::ply, MeshFormat::obj}) {
     SCOPED_TRACE(static_cast<int>(format));
-    expect_tetrahedron(mesh_bytes(tetrahedron(), format), format);
+    expect_tetrahedron(mesh_bytes(one_tetrahedron(), format), format);
   }
-  const auto again = parse_mesh(mesh_bytes(tetrahedron(), MeshFormat::ply), MeshFormat::ply);
-  EXPECT_EQ(again->vertices, tetrahedron().vertices);
-  EXPECT_EQ(again->triangles, tetrahedron().triangles);
+  const auto again = parse_mesh(mesh_bytes(one_tetrahedron(), MeshFormat::ply), MeshFormat::ply);
+  EXPECT_EQ(again->vertices, one_tetrahedron().vertices);
+  EXPECT_EQ(again->triangles, one_tetrahedron().triangles);
 }
 
 constexpr const char* kTextPly =
@@ -58,10 +58,10 @@ constexpr const char* kTextPly =
 
 TEST(MeshReader, ReadsTextFilesOfOtherPrograms) {
   std::string stl = "solid by hand\n";
-  for (const auto& triangle : tetrahedron().triangles) {
+  for (const auto& triangle : one_tetrahedron().triangles) {
     stl += "facet normal 0 0 0\n outer loop\n";
     for (const auto v : triangle) {
-      const Vec3 p = tetrahedron().vertices[v];
+      const Vec3 p = one_tetrahedron().vertices[v];
       stl += "  vertex " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " +
              std::to_string(p.z()) + "\r\n";
     }
@@ -111,7 +111,7 @@ TEST(MeshReader, ReadsPlyOfBigEndianMachinesAndSplitsPolygons) {
 }
 
 TEST(MeshReader, SaysWhatIsWrongAndWhere) {
-  std::string stl = mesh_bytes(tetrahedron(), MeshFormat::stl);
+  std::string stl = mesh_bytes(one_tetrahedron(), MeshFormat::stl);
   stl.pop_back();
   EXPECT_THAT(fault(stl, MeshFormat::stl),
               HasSubstr("4 triangles has 284 bytes, this file has 283"));
@@ -137,7 +137,7 @@ TEST(MeshReader, SaysWhatIsWrongAndWhere) {
 
 TEST(MeshReader, AnyCutOrChangedFileIsRefusedOrReadButNeverWorse) {
   for (const MeshFormat format : {MeshFormat::stl, MeshFormat::ply, MeshFormat::obj}) {
-    const std::string whole = mesh_bytes(tetrahedron(), format);
+    const std::string whole = mesh_bytes(one_tetrahedron(), format);
     for (std::size_t k = 0; k < whole.size(); ++k) {
       (void)parse_mesh(std::string_view(whole).substr(0, k), format);
       std::string changed = whole;
@@ -176,7 +176,7 @@ std::string unzipped(const std::string& archive, const std::string& name) {
 }
 
 TEST(ThreeMf, IsAnArchiveOfAModelAndWhatPointsToIt) {
-  const std::string bytes = mesh_bytes(tetrahedron(), MeshFormat::three_mf);
+  const std::string bytes = mesh_bytes(one_tetrahedron(), MeshFormat::three_mf);
   EXPECT_EQ(bytes.substr(0, 4), "PK\3\4");
   EXPECT_EQ(bytes.substr(bytes.size() - 22, 4), "PK\5\6");
   EXPECT_THAT(unzipped(bytes, "[Content_Types].xml"), HasSubstr("Extension=\"model\""));
@@ -185,7 +185,7 @@ TEST(ThreeMf, IsAnArchiveOfAModelAndWhatPointsToIt) {
   EXPECT_THAT(model, HasSubstr("unit=\"millimeter\""));
   EXPECT_THAT(model, HasSubstr("<vertex x=\"0.0000000\" y=\"0.0000000\" z=\"0.2500000\"/>"));
   EXPECT_THAT(model, HasSubstr("<triangle v1=\"2\" v2=\"0\" v3=\"3\"/>\n</triangles>"));
-  EXPECT_EQ(bytes, mesh_bytes(tetrahedron(), MeshFormat::three_mf));
+  EXPECT_EQ(bytes, mesh_bytes(one_tetrahedron(), MeshFormat::three_mf));
 }
 
 // What base64 says.
@@ -205,7 +205,7 @@ std::string bytes_of(const std::string& text) {
 }
 
 TEST(Vtp, HoldsItsArraysAsText) {
-  const std::string file = mesh_bytes(tetrahedron(), MeshFormat::vtp);
+  const std::string file = mesh_bytes(one_tetrahedron(), MeshFormat::vtp);
   const auto array = [&](const std::string& name) {
     const std::size_t begin = file.find('\n', file.find("Name=\"" + name + "\"")) + 1;
     const std::string bytes = bytes_of(file.substr(begin, file.find('\n', begin) - begin));

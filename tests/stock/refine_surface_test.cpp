@@ -26,7 +26,7 @@ using testing::CylinderBody;
 using ::testing::HasSubstr;
 using testing::Solid;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 // mm outside the surface, negative inside.
 using Distance = std::function<double(const Vec3&)>;
 
@@ -108,8 +108,9 @@ double torus_distance(const Vec3& p) {
 }
 // A cone of 30 degrees between z = -3 and 3, with two circles for edges.
 double cone_distance(const Vec3& p) {
-  const double tangent = std::tan(kPi / 6.0);
-  const double mantle = (std::hypot(p.x(), p.y()) - (4.0 - tangent * p.z())) * std::cos(kPi / 6.0);
+  const double tangent = std::tan(kHalfTurn / 6.0);
+  const double mantle =
+      (std::hypot(p.x(), p.y()) - (4.0 - tangent * p.z())) * std::cos(kHalfTurn / 6.0);
   return std::max(mantle, std::abs(p.z()) - 3.0);
 }
 
@@ -127,10 +128,11 @@ struct BlankSolid {
   }
 };
 const BlankSolid& cone() {
-  static const BlankSolid kCone{Blank::make(FrustumShape{4.0 + 3.0 * std::tan(kPi / 6.0),
-                                                         4.0 - 3.0 * std::tan(kPi / 6.0), 6.0},
-                                            Vec3(0.0, 0.0, -3.0))
-                                    .value()};
+  static const BlankSolid kCone{
+      Blank::make(FrustumShape{4.0 + 3.0 * std::tan(kHalfTurn / 6.0),
+                               4.0 - 3.0 * std::tan(kHalfTurn / 6.0), 6.0},
+                  Vec3(0.0, 0.0, -3.0))
+          .value()};
   return kCone;
 }
 const Solid& ball() {
@@ -151,11 +153,12 @@ struct Shape {
 };
 
 std::vector<Shape> shapes() {
-  const double low = 4.0 + 3.0 * std::tan(kPi / 6.0);
-  const double high = 4.0 - 3.0 * std::tan(kPi / 6.0);
-  return {{"ball", ball_distance, ball(), 5.5, 4.0 / 3.0 * kPi * 125.0},
-          {"torus", torus_distance, torus(), 7.5, 2.0 * kPi * kPi * 5.0 * 4.0},
-          {"cone", cone_distance, cone(), 6.5, 2.0 * kPi * (low * low + low * high + high * high)}};
+  const double low = 4.0 + 3.0 * std::tan(kHalfTurn / 6.0);
+  const double high = 4.0 - 3.0 * std::tan(kHalfTurn / 6.0);
+  return {{"ball", ball_distance, ball(), 5.5, 4.0 / 3.0 * kHalfTurn * 125.0},
+          {"torus", torus_distance, torus(), 7.5, 2.0 * kHalfTurn * kHalfTurn * 5.0 * 4.0},
+          {"cone", cone_distance, cone(), 6.5,
+           2.0 * kHalfTurn * (low * low + low * high + high * high)}};
 }
 
 TEST(RefineSurface, KeepsTheTrianglesWithinTheChordTolerance) {
@@ -201,7 +204,7 @@ TEST(RefineSurface, KeepsCurvedEdgesSharp) {
     if (refined->mesh.kinds[v] != VertexKind::feature) continue;
     ++on_edges;
     const Vec3& p = refined->mesh.vertices[v];
-    const double radius = 4.0 - std::tan(kPi / 6.0) * p.z();
+    const double radius = 4.0 - std::tan(kHalfTurn / 6.0) * p.z();
     EXPECT_NEAR(std::abs(p.z()), 3.0, 1e-6);
     EXPECT_NEAR(std::hypot(p.x(), p.y()), radius, 1e-6);
   }

@@ -16,8 +16,10 @@ using enum AxisLetter;
 
 constexpr const char* kStart = "LOADTL/1\nFEDRAT/100,MMPM\nRAPID\nGOTO/0,0,50\n";
 
-std::vector<Motion> run(const std::string& text) { return motions(text, {}, Dialect::cldata); }
-std::vector<Motion> run_behind_start(const std::string& text) { return run(kStart + text); }
+std::vector<Motion> run_cldata(const std::string& text) {
+  return motions(text, {}, Dialect::cldata);
+}
+std::vector<Motion> run_behind_start(const std::string& text) { return run_cldata(kStart + text); }
 
 // "rapid 1 2 3", "feed 1 2 3 F100", "dwell 2": mm, mm/min or mm/rev.
 std::vector<std::string> path_of(const std::vector<Motion>& motions) {
@@ -56,7 +58,7 @@ std::vector<std::string> path_behind_start(const std::string& text) {
 }
 using Path = std::vector<std::string>;
 
-std::string complaint(const std::string& text) {
+std::string tape_complaint(const std::string& text) {
   const auto lines = complaints(text, {}, Dialect::cldata);
   return lines.empty() ? std::string() : lines.front();
 }
@@ -80,12 +82,12 @@ TEST(CldataWords, GoOverAnyNumberOfLines) {
 }
 
 TEST(CldataWords, TellWhatTheyDoNotSimulate) {
-  const auto events = all_of<Event>(
-      run("PARTNO/FLANGE 7\nCUTTER/10.0,5.0,0,5.0,0,0,50\nTOOLNO/1,MILL\nREWIND/0\nSEQNO/10\n"
-          "LEADER/200\nMACHIN/SINUMERIK,3\nCUTCOM/OFF\nTLAXIS/0,0,1\nA)REMARK by hand\nMODE/ABSOL\n"
-          "INSERT M110\nTOOL PATH/OP1,TOOL,D10\nTLDATA/MILL,10.0,0.0\nEND-OF-PATH\n"
-          "LOADTL/3,OSETNO,4,LENGTH,80.5,ADJUST,3\nSPINDL/RPM,500,CLW,RANGE,2\nCOOLNT/MIST\n"
-          "COOLNT/ON,HIGH\nFROM/0,0,100\nPPRINT DONE\n"));
+  const auto events = all_of<Event>(run_cldata(
+      "PARTNO/FLANGE 7\nCUTTER/10.0,5.0,0,5.0,0,0,50\nTOOLNO/1,MILL\nREWIND/0\nSEQNO/10\n"
+      "LEADER/200\nMACHIN/SINUMERIK,3\nCUTCOM/OFF\nTLAXIS/0,0,1\nA)REMARK by hand\nMODE/ABSOL\n"
+      "INSERT M110\nTOOL PATH/OP1,TOOL,D10\nTLDATA/MILL,10.0,0.0\nEND-OF-PATH\n"
+      "LOADTL/3,OSETNO,4,LENGTH,80.5,ADJUST,3\nSPINDL/RPM,500,CLW,RANGE,2\nCOOLNT/MIST\n"
+      "COOLNT/ON,HIGH\nFROM/0,0,100\nPPRINT DONE\n"));
   std::vector<std::string> seen;
   for (const Event& event : events) seen.push_back(event.name + "|" + event.text);
   EXPECT_EQ(seen, (std::vector<std::string>{"PARTNO|FLANGE 7",
@@ -115,7 +117,7 @@ TEST(CldataWords, TellWhatTheyDoNotSimulate) {
 // $ continues any record but those that are text to their end.
 TEST(CldataWords, GoOnOnTheNextLineButForTexts) {
   const auto events =
-      all_of<Event>(run("CUTTER/ 10.0,  2.0,$\n 0.0, 50.0 $$ mill\nPPRINT COSTS 5 $\n"));
+      all_of<Event>(run_cldata("CUTTER/ 10.0,  2.0,$\n 0.0, 50.0 $$ mill\nPPRINT COSTS 5 $\n"));
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0].name + "|" + events[0].text, "CUTTER|10.0,  2.0,0.0, 50.0");
   EXPECT_EQ(events[2].name + "|" + events[2].text, "message|COSTS 5 $");
@@ -123,9 +125,9 @@ TEST(CldataWords, GoOnOnTheNextLineButForTexts) {
 
 TEST(CldataWords, GiveFeedsInEveryOrderAndUnit) {
   const auto feed = [](const std::string& record, const char* unit = "MM") {
-    const Feed found = last_of<LinearFeed>(run(std::string("UNITS/") + unit +
-                                               "\nLOADTL/1\nFEDRAT/1,MMPM\nGOTO/0,0,1\n" + record +
-                                               "\nGOTO/0,0,2\n"))
+    const Feed found = last_of<LinearFeed>(run_cldata(std::string("UNITS/") + unit +
+                                                      "\nLOADTL/1\nFEDRAT/1,MMPM\nGOTO/0,0,1\n" +
+                                                      record + "\nGOTO/0,0,2\n"))
                            .feed;
     return std::pair(std::round(found.value * 1e9) / 1e9, found.mode);
   };
@@ -146,15 +148,15 @@ TEST(CldataWords, GiveFeedsInEveryOrderAndUnit) {
 }
 
 TEST(CldataWords, TurnTheSpindleOnAgainAsItTurned) {
-  EXPECT_EQ(path_of(run("SPINDL/CCLW,RPM,800\nSPINDL/OFF\nSPINDL/ON\nSPINDL/900,RPM\n"
-                        "SPINDL/ON,CLW\n")),
+  EXPECT_EQ(path_of(run_cldata("SPINDL/CCLW,RPM,800\nSPINDL/OFF\nSPINDL/ON\nSPINDL/900,RPM\n"
+                               "SPINDL/ON,CLW\n")),
             (Path{"ccw", "off", "ccw", "ccw", "cw"}));
 }
 
 TEST(CldataWords, KeepTheToolAxisOfTlaxis) {
-  const auto moves = all_of<Traverse>(
-      run("MULTAX\nLOAD/TOOL,1\nTLAXIS/0,0.6,0.8\nRAPID\nGOTO/1,2,3\nRAPID\nGOTO/4,5,6,1,0,0\n"
-          "RAPID\nGOTO/7,8,9\n"));
+  const auto moves = all_of<Traverse>(run_cldata(
+      "MULTAX\nLOAD/TOOL,1\nTLAXIS/0,0.6,0.8\nRAPID\nGOTO/1,2,3\nRAPID\nGOTO/4,5,6,1,0,0\n"
+      "RAPID\nGOTO/7,8,9\n"));
   ASSERT_EQ(moves.size(), 3U);
   EXPECT_LT((moves[0].tool_axis->vec() - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
   EXPECT_EQ(moves[1].tool_axis->vec(), Vec3(1, 0, 0));
@@ -315,16 +317,16 @@ TEST(CldataCycles, PeckTapBoreAndDwell) {
 
 TEST(CldataCycles, DrillAlongTheToolVector) {
   const auto path =
-      path_of(run("MULTAX/ON\nLOADTL/1\nRAPID\nGOTO/0,0,50,0,0,1\nCYCLE/DRILL,10,80,MMPM,5\n"
-                  "GOTO/1,2,3,1,0,0\nGOTO/1,4,3\nGOTO/1,4,3,0,.6,.8\n"));
+      path_of(run_cldata("MULTAX/ON\nLOADTL/1\nRAPID\nGOTO/0,0,50,0,0,1\nCYCLE/DRILL,10,80,MMPM,5\n"
+                         "GOTO/1,2,3,1,0,0\nGOTO/1,4,3\nGOTO/1,4,3,0,.6,.8\n"));
   EXPECT_EQ(path,
             (Path{"rapid 0 0 50", "rapid 6 2 3", "feed -9 2 3", "rapid 6 2 3", "rapid 6 4 3",
                   "feed -9 4 3", "rapid 6 4 3", "rapid 1 7 7", "feed 1 -2 -5", "rapid 1 7 7"}));
 }
 
 TEST(CldataCycles, ScaleInches) {
-  EXPECT_EQ(path_of(run("UNITS/INCHES\nLOADTL/1\nRAPID\nGOTO/0,0,2\n"
-                        "CYCLE/DRILL,DEPTH,1,IPM,10,CLEAR,.1\nGOTO/1,0,0\n")),
+  EXPECT_EQ(path_of(run_cldata("UNITS/INCHES\nLOADTL/1\nRAPID\nGOTO/0,0,2\n"
+                               "CYCLE/DRILL,DEPTH,1,IPM,10,CLEAR,.1\nGOTO/1,0,0\n")),
             (Path{"rapid 0 0 50.8", "rapid 25.4 0 50.8", "rapid 25.4 0 2.54", "feed 25.4 0 -25.4",
                   "rapid 25.4 0 2.54"}));
 }
@@ -339,13 +341,13 @@ TEST(CldataLaws, ACycleIsItsMovesWrittenOut) {
 
 // --- what is wrong -------------------------------------------------------------------------------
 
-struct Wrong {
+struct WrongTape {
   const char* text;
   const char* complaint;
 };
 
 TEST(CldataErrors, SayWhereWhatAndTheRemedy) {
-  const std::vector<Wrong> mistakes{
+  const std::vector<WrongTape> mistakes{
       {"GOTTO/1,2,3\n", "1:1: error: unknown record GOTTO (hint: did you mean GOTO?)"},
       {"FEDRATE/100\n", "1:1: error: unknown record FEDRATE (hint: did you mean FEDRAT?)"},
       {"P1 = POINT/1,2,3\n", "1:1: error: P1 is defined in the APT language"},
@@ -407,8 +409,8 @@ TEST(CldataErrors, SayWhereWhatAndTheRemedy) {
        "6:1: error: an arc while a cycle is on"},
       {"TLAXIS/0,.6,.8\nRAPID\nGOTO/1,2,3\n", "3:1: error: i 0 has no meaning in this block"},
   };
-  for (const Wrong& wrong : mistakes) {
-    const std::string line = complaint(wrong.text);
+  for (const WrongTape& wrong : mistakes) {
+    const std::string line = tape_complaint(wrong.text);
     EXPECT_TRUE(line.starts_with(wrong.complaint)) << line << "\n" << wrong.text;
     EXPECT_NE(line.find(" (hint: "), std::string::npos) << line;
   }

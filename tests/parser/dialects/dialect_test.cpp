@@ -18,10 +18,11 @@ namespace {
 using enum AxisLetter;
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(FRUSTUM_SOURCE_DIR) / "tests" / "parser" / "data" / "dialects";
+const fs::path kDialectFolder =
+    fs::path(FRUSTUM_SOURCE_DIR) / "tests" / "parser" / "data" / "dialects";
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(kFolder / file, std::ios::binary);
+std::string text_of_file(const fs::path& file) {
+  std::ifstream in(kDialectFolder / file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -44,7 +45,7 @@ std::string json_of(const std::string& text, Dialect dialect) {
   return json;
 }
 
-std::vector<Motion> run(Dialect dialect, std::string_view text) {
+std::vector<Motion> run_dialect(Dialect dialect, std::string_view text) {
   return motions(text, {}, dialect);
 }
 
@@ -52,15 +53,15 @@ std::vector<Motion> run(Dialect dialect, std::string_view text) {
 // frustum parse FILE --canon --quiet > FILE.jsonl.
 TEST(DialectGolden, SamplesGiveTheirCanonicalMotions) {
   for (const Sample& sample : kSamples) {
-    EXPECT_EQ(json_of(text_of(sample.file), sample.dialect),
-              text_of(std::string(sample.file) + ".jsonl"))
+    EXPECT_EQ(json_of(text_of_file(sample.file), sample.dialect),
+              text_of_file(std::string(sample.file) + ".jsonl"))
         << sample.file;
   }
 }
 
 TEST(Dialect, IsRecognisedByContentWithTheReason) {
   for (const Sample& sample : kSamples) {
-    const auto found = recognise_dialect(text_of(sample.file), "program.txt");
+    const auto found = recognise_dialect(text_of_file(sample.file), "program.txt");
     EXPECT_EQ(found.dialect, sample.dialect) << sample.file;
     EXPECT_EQ(found.reason, sample.reason);
   }
@@ -129,7 +130,7 @@ TEST(DialectLaws, OnePathIsTheSameInAllOfThem) {
   };
   const auto path_of = [](const Spelling& spelling) {
     std::string path;
-    for (const Motion& motion : run(spelling.dialect, spelling.text)) {
+    for (const Motion& motion : run_dialect(spelling.dialect, spelling.text)) {
       if (std::holds_alternative<Event>(motion.command)) continue;
       // How the tip's control was switched on may differ.
       if (std::holds_alternative<CompensationChange>(motion.command)) continue;
@@ -143,7 +144,7 @@ TEST(DialectLaws, OnePathIsTheSameInAllOfThem) {
   EXPECT_NE(expected.find("\"arc\""), std::string::npos);
   for (const Spelling& spelling : spellings) {
     EXPECT_EQ(path_of(spelling), expected) << name_of(spelling.dialect);
-    const auto change = last_of<CompensationChange>(run(spelling.dialect, spelling.text));
+    const auto change = last_of<CompensationChange>(run_dialect(spelling.dialect, spelling.text));
     EXPECT_EQ(change.mode, LengthCompensation::tool_centre_point) << name_of(spelling.dialect);
     EXPECT_EQ(change.offset_number, 2) << name_of(spelling.dialect);
   }
@@ -152,14 +153,14 @@ TEST(DialectLaws, OnePathIsTheSameInAllOfThem) {
 // --- LinuxCNC ------------------------------------------------------------------------------------
 
 TEST(Linuxcnc, DwellsInSecondsWithOrWithoutAPoint) {
-  const auto dwells = all_of<Dwell>(run(Dialect::linuxcnc, "G4 P2\nG4 P2.\n"));
+  const auto dwells = all_of<Dwell>(run_dialect(Dialect::linuxcnc, "G4 P2\nG4 P2.\n"));
   EXPECT_EQ(dwells.at(0).seconds, 2.0);
   EXPECT_EQ(dwells.at(1).seconds, 2.0);
 }
 
 TEST(Linuxcnc, KeepsTheTipSwitchOverLengthWords) {
-  const auto changes =
-      all_of<CompensationChange>(run(Dialect::linuxcnc, "M428\nT4 M6\nG43\nG43 H5\nG49\nM429\n"));
+  const auto changes = all_of<CompensationChange>(
+      run_dialect(Dialect::linuxcnc, "M428\nT4 M6\nG43\nG43 H5\nG49\nM429\n"));
   ASSERT_EQ(changes.size(), 3U);
   EXPECT_EQ(changes[0].mode, LengthCompensation::tool_centre_point);
   EXPECT_EQ(changes[0].offset_number, 4);
@@ -170,7 +171,8 @@ TEST(Linuxcnc, KeepsTheTipSwitchOverLengthWords) {
 // --- Sinumerik -----------------------------------------------------------------------------------
 
 TEST(Sinumerik, ReadsWordsWithoutBlanksInAnyCase) {
-  const auto moves = all_of<LinearFeed>(run(Dialect::sinumerik, "n10g1x1.y-.5f100\nX=-(2+3)Z5\n"));
+  const auto moves =
+      all_of<LinearFeed>(run_dialect(Dialect::sinumerik, "n10g1x1.y-.5f100\nX=-(2+3)Z5\n"));
   ASSERT_EQ(moves.size(), 2U);
   EXPECT_EQ(moves[0].end[Y], -0.5);
   EXPECT_EQ(moves[1].end[X], -5.0);
@@ -178,9 +180,9 @@ TEST(Sinumerik, ReadsWordsWithoutBlanksInAnyCase) {
 }
 
 TEST(Sinumerik, ComputesWithItsParametersAndFunctions) {
-  const auto move = last_of<Traverse>(
-      run(Dialect::sinumerik,
-          "R1=2 R22=3\nG0 X=R1*(R22+1)-4/2 Y=SQRT(16)+7 MOD 4 Z=ATAN2(1,1)+ABS(-R1) A=SIN(90)\n"));
+  const auto move = last_of<Traverse>(run_dialect(
+      Dialect::sinumerik,
+      "R1=2 R22=3\nG0 X=R1*(R22+1)-4/2 Y=SQRT(16)+7 MOD 4 Z=ATAN2(1,1)+ABS(-R1) A=SIN(90)\n"));
   EXPECT_EQ(move.end[X], 6.0);
   EXPECT_EQ(move.end[Y], 7.0);
   EXPECT_NEAR(*move.end[Z], 47.0, 1e-12);
@@ -188,7 +190,7 @@ TEST(Sinumerik, ComputesWithItsParametersAndFunctions) {
 }
 
 TEST(Sinumerik, LeavesAxesThatWentTheShorterWayWhereTheyAre) {
-  const auto all = run(Dialect::sinumerik, "G0 A0 C=DC(350)\nX1\nA5\nC=IC(10)\nC0\n");
+  const auto all = run_dialect(Dialect::sinumerik, "G0 A0 C=DC(350)\nX1\nA5\nC=IC(10)\nC0\n");
   const auto moves = all_of<Traverse>(all);
   ASSERT_EQ(moves.size(), 5U);
   EXPECT_TRUE(moves[0].end[C].has_value());
@@ -207,7 +209,7 @@ TEST(Sinumerik, LeavesAxesThatWentTheShorterWayWhereTheyAre) {
 
 TEST(Sinumerik, SwivelsAboutTheAxesInTheOrderOfTheMode) {
   const auto plane = [](const char* call) {
-    return *last_of<TiltedPlaneChange>(run(Dialect::sinumerik, call)).program_from_plane;
+    return *last_of<TiltedPlaneChange>(run_dialect(Dialect::sinumerik, call)).program_from_plane;
   };
   // X Y Z: Rx Ry Rz; then Z Y X.
   const Pose forward = plane("CYCLE800(0,\"\",0,57,0,0,0,10,20,30,0,0,0,0)\n");
@@ -224,15 +226,15 @@ TEST(Sinumerik, SwivelsAboutTheAxesInTheOrderOfTheMode) {
 
 TEST(Sinumerik, AlignsTheToolOnlyWithADirection) {
   EXPECT_TRUE(all_of<AlignToPlane>(
-                  run(Dialect::sinumerik, "CYCLE800(0,\"\",0,57,0,0,0,10,20,30,0,0,0,0)\n"))
+                  run_dialect(Dialect::sinumerik, "CYCLE800(0,\"\",0,57,0,0,0,10,20,30,0,0,0,0)\n"))
                   .empty());
   EXPECT_EQ(all_of<AlignToPlane>(
-                run(Dialect::sinumerik, "CYCLE800(0,\"\",0,57,0,0,0,10,20,30,0,0,0,-1)\n"))
+                run_dialect(Dialect::sinumerik, "CYCLE800(0,\"\",0,57,0,0,0,10,20,30,0,0,0,-1)\n"))
                 .size(),
             1U);
   // "0" deselects the data record.
   const auto off = last_of<TiltedPlaneChange>(
-      run(Dialect::sinumerik, "CYCLE800(0,\"0\",0,57,0,0,0,0,0,0,0,0,0,1)\n"));
+      run_dialect(Dialect::sinumerik, "CYCLE800(0,\"0\",0,57,0,0,0,0,0,0,0,0,0,1)\n"));
   EXPECT_FALSE(off.program_from_plane.has_value());
 }
 
@@ -240,21 +242,21 @@ TEST(Sinumerik, AlignsTheToolOnlyWithADirection) {
 
 TEST(Heidenhain, TurnsSpatialAnglesAboutTheUntiltedAxes) {
   const auto plane = last_of<TiltedPlaneChange>(
-      run(Dialect::heidenhain, "1 PLANE SPATIAL SPA+45 SPB+0 SPC+90 STAY\n"));
+      run_dialect(Dialect::heidenhain, "1 PLANE SPATIAL SPA+45 SPB+0 SPC+90 STAY\n"));
   const Mat3 expected = rotation_z(90 * kRadPerDeg) * rotation_x(45 * kRadPerDeg);
   EXPECT_LT((plane.program_from_plane->rotation - expected).norm(), 1e-15);
 }
 
 TEST(Heidenhain, KnowsNoModalRapidOrDirection) {
-  const auto all =
-      run(Dialect::heidenhain, "1 L X+1 Y+1 Z+1 FMAX\n2 L X+2 F100\n3 L X+3 FMAX\n4 L X+4\n");
+  const auto all = run_dialect(Dialect::heidenhain,
+                               "1 L X+1 Y+1 Z+1 FMAX\n2 L X+2 F100\n3 L X+3 FMAX\n4 L X+4\n");
   EXPECT_EQ(all_of<Traverse>(all).size(), 2U);
   EXPECT_EQ(all_of<LinearFeed>(all).at(1).feed.value, 100.0);
 }
 
 TEST(Heidenhain, ScalesInchPrograms) {
-  const auto move =
-      last_of<LinearFeed>(run(Dialect::heidenhain, "0 BEGIN PGM A INCH\n1 L X+1 C+90 F10\n"));
+  const auto move = last_of<LinearFeed>(
+      run_dialect(Dialect::heidenhain, "0 BEGIN PGM A INCH\n1 L X+1 C+90 F10\n"));
   EXPECT_EQ(move.end[X], 25.4);
   EXPECT_EQ(move.end[C], 90 * kRadPerDeg);
   EXPECT_EQ(move.feed.value, 25.4);
@@ -274,13 +276,14 @@ TEST(Heidenhain, CountsLinesOverContinuations) {
 // --- CLDATA --------------------------------------------------------------------------------------
 
 TEST(Cldata, RapidIsForOneMoveOnly) {
-  const auto all = run(Dialect::cldata, "LOADTL/1\nFEDRAT/5\nRAPID\nGOTO/1,2,3\nGOTO/4,5,6\n");
+  const auto all =
+      run_dialect(Dialect::cldata, "LOADTL/1\nFEDRAT/5\nRAPID\nGOTO/1,2,3\nGOTO/4,5,6\n");
   EXPECT_EQ(all_of<Traverse>(all).size(), 1U);
   EXPECT_EQ(all_of<LinearFeed>(all).size(), 1U);
 }
 
 TEST(Cldata, ReadsExponentsContinuationsAndComments) {
-  const auto move = last_of<Traverse>(run(
+  const auto move = last_of<Traverse>(run_dialect(
       Dialect::cldata, "MULTAX\nLOADTL/1\nRAPID\nGOTO/1.5E+01,-2.E-1,$ more\n3,0,$\n0,1 $$ end\n"));
   EXPECT_EQ(move.end[X], 15.0);
   EXPECT_EQ(move.end[Y], -0.2);
@@ -289,7 +292,7 @@ TEST(Cldata, ReadsExponentsContinuationsAndComments) {
 
 TEST(Cldata, ScalesInches) {
   const auto move = last_of<LinearFeed>(
-      run(Dialect::cldata, "UNITS/INCHES\nLOADTL/1\nFEDRAT/10,IPM\nGOTO/1,2,3\n"));
+      run_dialect(Dialect::cldata, "UNITS/INCHES\nLOADTL/1\nFEDRAT/10,IPM\nGOTO/1,2,3\n"));
   EXPECT_NEAR(*move.end[Z], 76.2, 1e-12);
   EXPECT_EQ(move.feed.value, 254.0);
 }
@@ -315,7 +318,7 @@ void survive(const std::string& text, Dialect dialect) {
 
 TEST(DialectLaws, MutatedSamplesDoNoHarm) {
   for (const Sample& sample : kSamples) {
-    const std::string good = text_of(sample.file);
+    const std::string good = text_of_file(sample.file);
     for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
       Dice dice(seed);
       std::string text = good;
@@ -347,7 +350,7 @@ TEST(DialectLaws, MutatedSamplesDoNoHarm) {
 TEST(DialectLaws, LongRunsOfOneCharacterDoNoHarm) {
   for (const Dialect dialect : kDialects) {
     for (int c = 1; c < 256; ++c) {
-      const std::string run(3000, static_cast<char>(c));
+      const std::string run_dialect(3000, static_cast<char>(c));
       for (const char* before : {"", "G1 X=", "CYCLE800(", "1 L X", "GOTO/", "MSG("}) {
         survive(before + run, dialect);
       }

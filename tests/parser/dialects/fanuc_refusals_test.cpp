@@ -6,12 +6,12 @@
 namespace frustum::parser {
 namespace {
 
-struct Mistake {
+struct FanucMistake {
   const char* text;
   const char* complaint;  // "line:column: error: message", without the hint
 };
 
-constexpr Mistake kFrames[] = {
+constexpr FanucMistake kFrames[] = {
     {"G68.2 P5 X0\n", "1:7: error: P5 is out of range"},
     {"G68.2 P1 Q112 I10\n", "1:10: error: Q112 is no order of turns"},
     {"G68.2 I10 R5\n", "1:11: error: R5 has no meaning in G68.2 P0"},
@@ -60,8 +60,8 @@ constexpr Mistake kFrames[] = {
 };
 
 template <std::size_t Count>
-void expect_complaints(const Mistake (&mistakes)[Count]) {
-  for (const Mistake& mistake : mistakes) {
+void expect_complaints(const FanucMistake (&mistakes)[Count]) {
+  for (const FanucMistake& mistake : mistakes) {
     const auto lines = complaints(mistake.text);
     EXPECT_EQ(lines.size(), 1U) << mistake.text;
     if (lines.empty()) continue;
@@ -71,7 +71,7 @@ void expect_complaints(const Mistake (&mistakes)[Count]) {
   }
 }
 
-constexpr Mistake kMacros[] = {
+constexpr FanucMistake kMacros[] = {
     {"G65 P1 N5 A1\n", "1:8: error: N is not the first word"},
     {"G65 P1.5\n", "1:5: error: P1.5 is not a whole number"},
     {"G65 P0\n", "1:5: error: P0 is out of range"},
@@ -109,7 +109,7 @@ constexpr Mistake kMacros[] = {
     {"G0 XBIN[10]\n", "1:5: error: BIN of 10"},
 };
 
-constexpr Mistake kCycles[] = {
+constexpr FanucMistake kCycles[] = {
     {"G0 X0 Y0 Z9\nG76 R2 Z-9 F50\n", "2:1: error: the cycle has no Q"},
     {"G0 X0 Y0 Z9\nG87 R-9 Z-5 F50\n", "2:1: error: the cycle has no Q"},
     {"G0 X0 Y0 Z9\nG87 R-5 Z-9 Q1 F50\n",

@@ -13,14 +13,16 @@ namespace {
 
 using enum AxisLetter;
 
-constexpr double kTiny = 1e-12;
+constexpr double kTinyFrame = 1e-12;
 
-std::vector<Motion> run(const std::string& text) { return motions(text, {}, Dialect::heidenhain); }
+std::vector<Motion> run_frames(const std::string& text) {
+  return motions(text, {}, Dialect::heidenhain);
+}
 Mat3 rotation_of(const std::string& text) {
-  return last_of<TiltedPlaneChange>(run(text)).program_from_plane.value_or(Pose{}).rotation;
+  return last_of<TiltedPlaneChange>(run_frames(text)).program_from_plane.value_or(Pose{}).rotation;
 }
 Vec3 last_place(const std::string& text) {
-  const AxisTarget end = last_of<Traverse>(run(text)).end;
+  const AxisTarget end = last_of<Traverse>(run_frames(text)).end;
   return {end[X].value_or(-999.0), end[Y].value_or(-999.0), end[Z].value_or(-999.0)};
 }
 
@@ -28,24 +30,24 @@ TEST(KlartextFrames, AProjectedPlaneHoldsItsLinesAboveXAndY) {
   EXPECT_LT((rotation_of("PLANE PROJECTED PROPR+0 PROMIN+45 ROT+0 STAY\n") -
              rotation_of("PLANE SPATIAL SPA+45 SPB+0 SPC+0 STAY\n"))
                 .norm(),
-            kTiny);
+            kTinyFrame);
   EXPECT_LT((rotation_of("PLANE PROJECTED PROPR+30 PROMIN+0 ROT+0 STAY\n") -
              rotation_of("PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\n"))
                 .norm(),
-            kTiny);
+            kTinyFrame);
   // X leans by 24 degrees within Z/X, the line above Y by 35 within Y/Z; then X is turned in the plane.
   const double p = 24 * kRadPerDeg;
   const double m = 35 * kRadPerDeg;
   const Mat3 leaning = rotation_of("PLANE PROJECTED PROPR+24 PROMIN+35 ROT+0 STAY\n");
   const Vec3 above_y(0, std::cos(m), std::sin(m));
-  EXPECT_LT((leaning.col(0) - Vec3(std::cos(p), 0, -std::sin(p))).norm(), kTiny);
-  EXPECT_NEAR(leaning.col(2).dot(above_y), 0.0, kTiny);
+  EXPECT_LT((leaning.col(0) - Vec3(std::cos(p), 0, -std::sin(p))).norm(), kTinyFrame);
+  EXPECT_NEAR(leaning.col(2).dot(above_y), 0.0, kTinyFrame);
   EXPECT_GT(leaning.col(2)[2], 0.0);
   const Mat3 turned = rotation_of("PLANE PROJECTED PROPR+24 PROMIN+35 ROT+30 STAY\n");
   const double t = 30 * kRadPerDeg;
   EXPECT_LT((turned.col(0) - (std::cos(t) * leaning.col(0) + std::sin(t) * leaning.col(1))).norm(),
-            kTiny);
-  EXPECT_LT((turned.col(2) - leaning.col(2)).norm(), kTiny);
+            kTinyFrame);
+  EXPECT_LT((turned.col(2) - leaning.col(2)).norm(), kTinyFrame);
 }
 
 // The tip is held: tool-tip control is on for the turn alone.
@@ -67,55 +69,59 @@ TEST(KlartextFrames, MoveTurnsTheAxesWithTheTipHeld) {
     return found;
   };
   const std::string plane = "PLANE SPATIAL SPA+0 SPB+30 SPC+0 ";
-  EXPECT_EQ(names(run(tool + plane + "MOVE DIST0 FMAX\n")), "length rapid plane tip align length ");
-  EXPECT_EQ(names(run(tool + plane + "MOVE\nPLANE RESET MOVE\n")),
+  EXPECT_EQ(names(run_frames(tool + plane + "MOVE DIST0 FMAX\n")),
+            "length rapid plane tip align length ");
+  EXPECT_EQ(names(run_frames(tool + plane + "MOVE\nPLANE RESET MOVE\n")),
             "length rapid plane tip align length plane tip align length no-plane ");
-  EXPECT_EQ(names(run(tool + plane + "TURN MB MAX FMAX\n")), "length rapid plane align ");
-  EXPECT_EQ(names(run(tool + plane + "STAY\nPLANE RESET STAY\n")), "length rapid plane no-plane ");
+  EXPECT_EQ(names(run_frames(tool + plane + "TURN MB MAX FMAX\n")), "length rapid plane align ");
+  EXPECT_EQ(names(run_frames(tool + plane + "STAY\nPLANE RESET STAY\n")),
+            "length rapid plane no-plane ");
   // Under M128 the tip is held already, and goes on to be.
-  EXPECT_EQ(names(run(tool + "M128\n" + plane + "MOVE\n")), "length rapid tip plane align ");
+  EXPECT_EQ(names(run_frames(tool + "M128\n" + plane + "MOVE\n")), "length rapid tip plane align ");
 }
 
 TEST(KlartextFrames, Cycle19GivesSpatialAngles) {
   const std::string cycle = "CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+10 B+45 C-30";
   EXPECT_LT(
       (rotation_of(cycle + "\n") - rotation_of("PLANE SPATIAL SPA+10 SPB+45 SPC-30 STAY\n")).norm(),
-      kTiny);
-  EXPECT_TRUE(all_of<AlignToPlane>(run(cycle + "\n")).empty());
+      kTinyFrame);
+  EXPECT_TRUE(all_of<AlignToPlane>(run_frames(cycle + "\n")).empty());
   // A feed turns the axes.
-  EXPECT_EQ(all_of<AlignToPlane>(run(cycle + " F2000 SETUP50\n")).size(), 1U);
-  const auto ended = all_of<TiltedPlaneChange>(
-      run(cycle + "\nCYCL DEF 19.1 A+0 B+0 C+0\nCYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1\n"));
+  EXPECT_EQ(all_of<AlignToPlane>(run_frames(cycle + " F2000 SETUP50\n")).size(), 1U);
+  const auto ended = all_of<TiltedPlaneChange>(run_frames(
+      cycle + "\nCYCL DEF 19.1 A+0 B+0 C+0\nCYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1\n"));
   ASSERT_EQ(ended.size(), 3U);
   EXPECT_FALSE(ended.back().program_from_plane);
 }
 
 TEST(KlartextFrames, Cycle26ScalesByOneFactorAboutItsCentre) {
   const std::string scaled = "CYCL DEF 26.0 SCALING FACTOR AXIS-SPEC\nCYCL DEF 26.1 ";
-  EXPECT_LT((last_place(scaled + "X2 Y2 Z2\nL X+1 Y+2 Z+3 FMAX\n") - Vec3(2, 4, 6)).norm(), kTiny);
+  EXPECT_LT((last_place(scaled + "X2 Y2 Z2\nL X+1 Y+2 Z+3 FMAX\n") - Vec3(2, 4, 6)).norm(),
+            kTinyFrame);
   EXPECT_LT(
       (last_place(scaled + "X2 Y2 Z2 CCX+10 CCY+20\nL X+11 Y+22 Z+3 FMAX\n") - Vec3(12, 24, 6))
           .norm(),
-      kTiny);
+      kTinyFrame);
   EXPECT_LT(
       (last_place("Q1 = 0.5\n" + scaled + "X+Q1 Y+Q1 Z+Q1\nL X+1 Y+2 Z+4 FMAX\n") - Vec3(0.5, 1, 2))
           .norm(),
-      kTiny);
+      kTinyFrame);
   EXPECT_LT((last_place(scaled + "X2 Y2 Z2\n" + scaled + "X1 Y1 Z1\nL X+1 Y+2 Z+3 FMAX\n") -
              Vec3(1, 2, 3))
                 .norm(),
-            kTiny);
+            kTinyFrame);
   // An axis that is not named keeps its factor, which is 1 at first.
-  EXPECT_LT((last_place(scaled + "X1 Y1\nL X+1 Y+2 Z+3 FMAX\n") - Vec3(1, 2, 3)).norm(), kTiny);
+  EXPECT_LT((last_place(scaled + "X1 Y1\nL X+1 Y+2 Z+3 FMAX\n") - Vec3(1, 2, 3)).norm(),
+            kTinyFrame);
 }
 
-struct Wrong {
+struct WrongFrame {
   const char* text;
   const char* complaint;
 };
 
 TEST(KlartextFrameErrors, SayWhereWhatAndTheRemedy) {
-  const Wrong mistakes[] = {
+  const WrongFrame mistakes[] = {
       {"PLANE PROJECTED PROPR+0 PROMIN+10 STAY\n",
        "1:1: error: PLANE PROJECTED needs three angles"},
       {"PLANE PROJECTED PROPR+90 PROMIN+10 ROT+0 STAY\n", "1:17: error: PROPR90 is out of range"},
@@ -139,7 +145,7 @@ TEST(KlartextFrameErrors, SayWhereWhatAndTheRemedy) {
       {"CYCL DEF 10.1 ROT+10\nCYCL DEF 26.1 X2 Y2 Z2\n",
        "2:1: error: CYCL DEF 26 within a turned frame"},
   };
-  for (const Wrong& wrong : mistakes) {
+  for (const WrongFrame& wrong : mistakes) {
     const auto lines = complaints(wrong.text, {}, Dialect::heidenhain);
     ASSERT_EQ(lines.size(), 1U) << wrong.text;
     EXPECT_EQ(lines[0].substr(0, lines[0].find(" (hint: ")), wrong.complaint);

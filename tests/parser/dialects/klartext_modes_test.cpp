@@ -14,24 +14,25 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<Motion> run(const std::string& text, Dialect dialect = Dialect::heidenhain) {
+std::vector<Motion> run_modes(const std::string& text, Dialect dialect = Dialect::heidenhain) {
   return motions(text, {}, dialect);
 }
-std::string complaint(const std::string& text) {
+std::string mode_complaint(const std::string& text) {
   const auto lines = complaints(text, {}, Dialect::heidenhain);
   return lines.empty() ? std::string() : lines.front();
 }
 
 std::vector<double> feeds(const std::string& text) {
   std::vector<double> found;
-  for (const LinearFeed& feed : all_of<LinearFeed>(run(text))) found.push_back(feed.feed.value);
+  for (const LinearFeed& feed : all_of<LinearFeed>(run_modes(text)))
+    found.push_back(feed.feed.value);
   return found;
 }
 
 // One letter a command: what is moved, and what is switched before and behind it.
 std::string order(const std::string& text, Dialect dialect = Dialect::heidenhain) {
   std::string letters;
-  for (const Motion& motion : run(text, dialect)) {
+  for (const Motion& motion : run_modes(text, dialect)) {
     const Command& command = motion.command;
     if (std::holds_alternative<Traverse>(command)) letters += 'r';
     if (std::holds_alternative<HomeReturn>(command)) letters += 'h';
@@ -86,7 +87,7 @@ TEST(KlartextFeeds, OfToolCallsAreInForce) {
   EXPECT_EQ(feeds("TOOL CALL 1 Z S100 F50\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\nL X+2 F70\nL X+3\n"
                   "L X+4 F AUTO\nTOOL CALL 2 Z S100\nL X+5 M3\nTOOL CALL 2 Z F90\nL X+6\n"),
             (std::vector<double>{50, 70, 70, 50, 50, 90}));
-  EXPECT_EQ(complaint("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\n"),
+  EXPECT_EQ(mode_complaint("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\n"),
             "3:1: error: a cutting move without a feed rate (hint: give F on this block or before, "
             "above zero)");
 }
@@ -111,16 +112,16 @@ TEST(KlartextOrder, TipControlAndTheShorterWayBeginBeforeTheMoveAndEndBehindIt) 
 
 TEST(KlartextOrder, FeedsByTheRevolutionEndBehindTheMove) {
   const auto all = all_of<LinearFeed>(
-      run("TOOL CALL 1 Z S100\nM136\nL X+1 F0.2\nL X+2 M137\nL X+3 F100\nL X+4 F0.1 M136\n"));
+      run_modes("TOOL CALL 1 Z S100\nM136\nL X+1 F0.2\nL X+2 M137\nL X+3 F100\nL X+4 F0.1 M136\n"));
   ASSERT_EQ(all.size(), 4U);
   EXPECT_EQ(all[1].feed.mode, FeedMode::per_revolution);
   EXPECT_EQ(all[1].feed.value, 0.2);
   EXPECT_EQ(all[2].feed.mode, FeedMode::per_minute);
   EXPECT_EQ(all[3].feed.mode, FeedMode::per_revolution);
-  EXPECT_EQ(complaint("M136\nL X+1 F100 M137\n"),
+  EXPECT_EQ(mode_complaint("M136\nL X+1 F100 M137\n"),
             "2:7: error: F100 beside M137, which counts when the move is done (hint: write M137 "
             "before, in a block of its own)");
-  EXPECT_EQ(complaint("M136\nL X+1 F0.1\nL X+2 M137\nL X+3\n"),
+  EXPECT_EQ(mode_complaint("M136\nL X+1 F0.1\nL X+2 M137\nL X+3\n"),
             "4:1: error: a cutting move without a feed rate (hint: give F on this block or before, "
             "above zero)");
 }
@@ -147,20 +148,21 @@ TEST(KlartextForms, RepeatsMayFollowWithoutABlank) {
 TEST(KlartextForms, LettersMayBeSmall) {
   EXPECT_EQ(feeds("begin pgm a mm\nl x+1 f10\nend pgm A mm\n"), std::vector<double>{10});
   EXPECT_DOUBLE_EQ(feeds("begin pgm a inch\nl x+1 f10\n").front(), 25.4);
-  EXPECT_EQ(complaint("begin pgm a cm\n").substr(0, 37), "1:11: error: BEGIN PGM has no unit (h");
+  EXPECT_EQ(mode_complaint("begin pgm a cm\n").substr(0, 37),
+            "1:11: error: BEGIN PGM has no unit (h");
 }
 
 TEST(KlartextForms, NumbersMayHaveCommas) {
-  const auto move = last_of<Traverse>(run("Q1 = 0,25 * 4\nL X+1,5 Y-0,125 Z+Q1 FMAX\n"));
+  const auto move = last_of<Traverse>(run_modes("Q1 = 0,25 * 4\nL X+1,5 Y-0,125 Z+Q1 FMAX\n"));
   EXPECT_EQ(move.end[X], 1.5);
   EXPECT_EQ(move.end[Y], -0.125);
   EXPECT_EQ(move.end[Z], 1.0);
-  EXPECT_EQ(complaint("L X+1, Y+2 FMAX\n").substr(0, 26), "1:6: error: unexpected ','");
+  EXPECT_EQ(mode_complaint("L X+1, Y+2 FMAX\n").substr(0, 26), "1:6: error: unexpected ','");
 }
 
 TEST(KlartextForms, FormulasHaveSquaresNegationsAndPi) {
   const auto value = [](const std::string& formula) {
-    return *last_of<Traverse>(run("Q2 = 3\nQ1 = " + formula + "\nL X+Q1 FMAX\n")).end[X];
+    return *last_of<Traverse>(run_modes("Q2 = 3\nQ1 = " + formula + "\nL X+Q1 FMAX\n")).end[X];
   };
   EXPECT_DOUBLE_EQ(value("SQ 10 - 3^3"), 73.0);
   EXPECT_DOUBLE_EQ(value("SQ (Q2 + 1) * 2"), 32.0);
@@ -168,44 +170,44 @@ TEST(KlartextForms, FormulasHaveSquaresNegationsAndPi) {
   EXPECT_DOUBLE_EQ(value("2 * PI * SQ NEG Q2"), 18.0 * std::acos(-1.0));
   EXPECT_DOUBLE_EQ(value("INT -2.5"), -2.0);
   EXPECT_DOUBLE_EQ(value("INT 2.5"), 2.0);
-  EXPECT_EQ(complaint("Q1 = FOO Q2\n").substr(0, 50),
+  EXPECT_EQ(mode_complaint("Q1 = FOO Q2\n").substr(0, 50),
             "1:6: error: FOO is no parameter and no function (h");
 }
 
 TEST(KlartextLabels, MayNotBeThereTwice) {
-  EXPECT_EQ(complaint("LBL 1\nLBL 0\nL X+1 FMAX\nLBL 1\nLBL 0\n"),
+  EXPECT_EQ(mode_complaint("LBL 1\nLBL 0\nL X+1 FMAX\nLBL 1\nLBL 0\n"),
             "4:1: error: 1 is already on line 1 (hint: give each its own name)");
   EXPECT_EQ(order("LBL 1\nLBL 0\nLBL 2\nL X+1 FMAX\nLBL 0\n"), "r");
 }
 
 TEST(KlartextHints, SpeakKlartext) {
   EXPECT_EQ(
-      complaint("CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+30\nCYCL DEF 8.0 MIRROR IMAGE\n"
-                "CYCL DEF 8.1 X\n"),
+      mode_complaint("CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+30\nCYCL DEF 8.0 MIRROR IMAGE\n"
+                     "CYCL DEF 8.1 X\n"),
       "4:1: error: CYCL DEF 8 within a turned or scaled frame (hint: end them before (CYCL DEF "
       "10.1 ROT+0, 11.1 SCL 1), mirror, and begin them again)");
-  EXPECT_EQ(complaint("L IX+5 FMAX\n"),
+  EXPECT_EQ(mode_complaint("L IX+5 FMAX\n"),
             "1:3: error: IX5 is incremental, but X has not been programmed yet (hint: program X "
             "once without I first)");
 }
 
 TEST(KlartextArcs, WithoutAnEndGoOnceRound) {
   const std::string head = "L X+10 Y+0 Z+2 FMAX\nCC X+0 Y+0\n";
-  const auto circle = last_of<ArcFeed>(run(head + "C DR+ F100\n"));
+  const auto circle = last_of<ArcFeed>(run_modes(head + "C DR+ F100\n"));
   EXPECT_EQ(circle.turns, 1);
   EXPECT_EQ(circle.end[X], 10.0);
   EXPECT_EQ(circle.end[Y], 0.0);
   EXPECT_EQ(circle.center[0], 0.0);
   EXPECT_EQ(circle.feed.value, 100.0);
-  EXPECT_EQ(last_of<ArcFeed>(run(head + "C DR- F100\n")).turns, -1);
-  EXPECT_EQ(complaint(head + "CP DR- F100\n"),
+  EXPECT_EQ(last_of<ArcFeed>(run_modes(head + "C DR- F100\n")).turns, -1);
+  EXPECT_EQ(mode_complaint(head + "CP DR- F100\n"),
             "3:1: error: CP has no angle (hint: give PA or IPA; a full turn is IPA+360 DR+)");
-  EXPECT_EQ(complaint(head + "CT F100\n"),
+  EXPECT_EQ(mode_complaint(head + "CT F100\n"),
             "3:1: error: the arc leads on from no move (hint: move along a contour in the plane "
             "before it)");
-  EXPECT_EQ(complaint("CC X+0 Y+0\nC DR+ F100\n").substr(0, 44),
+  EXPECT_EQ(mode_complaint("CC X+0 Y+0\nC DR+ F100\n").substr(0, 44),
             "2:1: error: the start of the arc is not know");
-  EXPECT_EQ(last_of<ArcFeed>(run(head + "CP IPA-360 DR- F100\n")).turns, -1);
+  EXPECT_EQ(last_of<ArcFeed>(run_modes(head + "CP IPA-360 DR- F100\n")).turns, -1);
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ using enum AxisLetter;
 
 constexpr double kTiny = 1e-9;
 
-std::vector<Motion> run(const std::string& text) { return motions(text, {}, Dialect::heidenhain); }
+std::vector<Motion> run_klartext(const std::string& text) {
+  return motions(text, {}, Dialect::heidenhain);
+}
 
 Vec3 end_of(const AxisTarget& end) {
   return {end[X].value_or(-999.0), end[Y].value_or(-999.0), end[Z].value_or(-999.0)};
@@ -53,17 +55,17 @@ std::string complaint(const std::string& text) {
 // --- paths ---------------------------------------------------------------------------------------
 
 TEST(KlartextPaths, ArePolarAboutThePole) {
-  const auto found =
-      places(run("CC X+10 Y+20\nLP PR+5 PA+0 FMAX\nL Z+0 FMAX\nLP PA+90 F100\nLP IPA+90\nLP IPR+5\n"
-                 "LP PR+2 PA-90\n"));
+  const auto found = places(run_klartext(
+      "CC X+10 Y+20\nLP PR+5 PA+0 FMAX\nL Z+0 FMAX\nLP PA+90 F100\nLP IPA+90\nLP IPR+5\n"
+      "LP PR+2 PA-90\n"));
   expect_same(found,
               {{15, 20, -999}, {15, 20, 0}, {10, 25, 0}, {5, 20, 0}, {0, 20, 0}, {10, 18, 0}});
 }
 
 TEST(KlartextPaths, TurnAboutThePoleByAnAngle) {
-  const auto all =
-      run("L X+15 Y+20 Z+5 FMAX\nCC X+10 Y+20\nCP PA+90 DR+ F100\nCP PA+0 DR+\n"
-          "CP IPA-1080 IZ-6 DR-\nCP IPA-405 DR-\n");
+  const auto all = run_klartext(
+      "L X+15 Y+20 Z+5 FMAX\nCC X+10 Y+20\nCP PA+90 DR+ F100\nCP PA+0 DR+\n"
+      "CP IPA-1080 IZ-6 DR-\nCP IPA-405 DR-\n");
   const auto arcs = all_of<ArcFeed>(all);
   ASSERT_EQ(arcs.size(), 4U);
   expect_same(places(all), {{15, 20, 5},
@@ -81,9 +83,9 @@ TEST(KlartextPaths, TurnAboutThePoleByAnAngle) {
 
 TEST(KlartextPaths, LeadOnTangentially) {
   // Along X, then a quarter to the left and a half to the right; straight, and on about the corner.
-  const auto arcs = all_of<ArcFeed>(
-      run("L X+0 Y+0 Z+0 FMAX\nL X+10 F100\nCT X+15 Y+5\nCT IX+6 IY+0\nL IY-4\nCC IX+0 IY+0\n"
-          "CTP PR+2 PA+0\n"));
+  const auto arcs = all_of<ArcFeed>(run_klartext(
+      "L X+0 Y+0 Z+0 FMAX\nL X+10 F100\nCT X+15 Y+5\nCT IX+6 IY+0\nL IY-4\nCC IX+0 IY+0\n"
+      "CTP PR+2 PA+0\n"));
   ASSERT_EQ(arcs.size(), 3U);
   EXPECT_LT((arcs[0].center - Vec3(10, 5, 0)).norm(), kTiny);
   EXPECT_EQ(arcs[0].turns, 1);
@@ -93,15 +95,15 @@ TEST(KlartextPaths, LeadOnTangentially) {
   EXPECT_LT((arcs[2].center - Vec3(22, 1, 0)).norm(), kTiny);
   EXPECT_EQ(arcs[2].turns, 1);
   // On from a circle: its last tangent. (10 0) about the origin to (0 10) ends along -X.
-  const auto behind =
-      last_of<ArcFeed>(run("L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nC X+0 Y+10 DR+ F9\nCT X-5 Y+15\n"));
+  const auto behind = last_of<ArcFeed>(
+      run_klartext("L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nC X+0 Y+10 DR+ F9\nCT X-5 Y+15\n"));
   EXPECT_LT((behind.center - Vec3(0, 15, 0)).norm(), kTiny);
   EXPECT_EQ(behind.turns, -1);
 }
 
 TEST(KlartextPaths, CloseFullCirclesAndCountFromTheTool) {
   const auto circle =
-      last_of<ArcFeed>(run("L X+5 Y+0 Z+0 FMAX\nCC IX-5 IY+0\nC X+5 Y+0 DR- F50\n"));
+      last_of<ArcFeed>(run_klartext("L X+5 Y+0 Z+0 FMAX\nCC IX-5 IY+0\nC X+5 Y+0 DR- F50\n"));
   EXPECT_LT(circle.center.norm(), kTiny);
   EXPECT_EQ(circle.turns, -1);
   EXPECT_EQ(circle.end[X], 5.0);
@@ -116,8 +118,8 @@ TEST(KlartextLaws, PolarWordsAreTheirCartesianPlaces) {
     const double a = angle(dice);
     const double r = radius(dice);
     const std::string start = "L X+0 Y+0 Z+0 FMAX\nCC X+3 Y-4\n";
-    const auto polar = places(run(start + "LP PR+" + std::to_string(r) + " PA" +
-                                  (a < 0 ? "" : "+") + std::to_string(a) + " FMAX\n"));
+    const auto polar = places(run_klartext(start + "LP PR+" + std::to_string(r) + " PA" +
+                                           (a < 0 ? "" : "+") + std::to_string(a) + " FMAX\n"));
     const double rounded_r = std::stod(std::to_string(r));
     const double rounded_a = std::stod(std::to_string(a)) * kRadPerDeg;
     expect_same(polar,
@@ -129,20 +131,22 @@ TEST(KlartextLaws, PolarWordsAreTheirCartesianPlaces) {
 // --- datums --------------------------------------------------------------------------------------
 
 TEST(KlartextDatums, AreShiftedByCycle7) {
-  expect_same(places(run("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+60\n"
-                         "CYCL DEF 7.2 Y+40\nL X+1 Y+1 FMAX\nCYCL DEF 7.0 DATUM SHIFT\n"
-                         "CYCL DEF 7.1 IX-10 Z+5\nL X+1 Y+1 Z+0 FMAX\nCYCL DEF 7.1 X+0 Y+0 Z+0\n"
-                         "L X+1 FMAX\n")),
-              {{0, 0, 0}, {61, 41, 0}, {51, 41, 5}, {1, 41, 5}});
+  expect_same(
+      places(run_klartext("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+60\n"
+                          "CYCL DEF 7.2 Y+40\nL X+1 Y+1 FMAX\nCYCL DEF 7.0 DATUM SHIFT\n"
+                          "CYCL DEF 7.1 IX-10 Z+5\nL X+1 Y+1 Z+0 FMAX\nCYCL DEF 7.1 X+0 Y+0 Z+0\n"
+                          "L X+1 FMAX\n")),
+      {{0, 0, 0}, {61, 41, 0}, {51, 41, 5}, {1, 41, 5}});
   // By parameters.
-  expect_same(places(run("Q1 = 5\nCYCL DEF 7.1 X+Q1 Y-Q1 Z+0\nL X+1 Y+1 Z+1 FMAX\n")),
+  expect_same(places(run_klartext("Q1 = 5\nCYCL DEF 7.1 X+Q1 Y-Q1 Z+0\nL X+1 Y+1 Z+1 FMAX\n")),
               {{6, -4, 1}});
 }
 
 TEST(KlartextDatums, AreTurnedByCycle10AboutTheShiftedDatum) {
-  expect_same(places(run("CYCL DEF 7.1 X+10 Y+0 Z+0\nCYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+90\n"
-                         "L X+5 Y+1 Z+2 FMAX\nCYCL DEF 10.1 IROT+90\nL X+5 Y+1 FMAX\n"
-                         "CYCL DEF 10.1 ROT+0\nL X+5 Y+1 FMAX\n")),
+  expect_same(places(run_klartext(
+                  "CYCL DEF 7.1 X+10 Y+0 Z+0\nCYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+90\n"
+                  "L X+5 Y+1 Z+2 FMAX\nCYCL DEF 10.1 IROT+90\nL X+5 Y+1 FMAX\n"
+                  "CYCL DEF 10.1 ROT+0\nL X+5 Y+1 FMAX\n")),
               {{9, 5, 2}, {5, -1, 2}, {15, 1, 2}});
 }
 
@@ -167,7 +171,7 @@ TEST(KlartextLaws, ARotationIsItsWordsTurnedByHand) {
                 "\n";
       expected.emplace_back(c * w[0] - s * w[1], s * w[0] + c * w[1], w[2]);
     }
-    expect_same(places(run(turned)), expected);
+    expect_same(places(run_klartext(turned)), expected);
   }
 }
 
@@ -176,15 +180,15 @@ TEST(KlartextLaws, RepeatsAreTheirBlocksWrittenOut) {
   std::string written = "L X+0 Y+0 Z+0 FMAX\n";
   const std::string repeated = written + "LBL 1\n" + body + "CALL LBL 1 REP 3\n";
   for (int i = 0; i < 4; ++i) written += body;
-  expect_same(places(run(repeated)), places(run(written)));
+  expect_same(places(run_klartext(repeated)), places(run_klartext(written)));
 }
 
 TEST(KlartextDatums, AreMirroredAndScaledAboutTheShiftedDatum) {
-  const auto all =
-      run("CYCL DEF 7.1 X+10 Y+0 Z+0\nCYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X\n"
-          "L X+5 Y+1 Z+2 FMAX\nCC X+5 Y+3\nC X+5 Y+5 DR+ F9\nCYCL DEF 8.1 Y\n"
-          "L X+5 Y+1 FMAX\nCYCL DEF 8.1\nCYCL DEF 11.1 SCL 0.5\nL X+4 Y+2 Z+2 FMAX\n"
-          "CYCL DEF 11.1 SCL 1\nL X+4 FMAX\n");
+  const auto all = run_klartext(
+      "CYCL DEF 7.1 X+10 Y+0 Z+0\nCYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X\n"
+      "L X+5 Y+1 Z+2 FMAX\nCC X+5 Y+3\nC X+5 Y+5 DR+ F9\nCYCL DEF 8.1 Y\n"
+      "L X+5 Y+1 FMAX\nCYCL DEF 8.1\nCYCL DEF 11.1 SCL 0.5\nL X+4 Y+2 Z+2 FMAX\n"
+      "CYCL DEF 11.1 SCL 1\nL X+4 FMAX\n");
   expect_same(places(all), {{5, 1, 2}, {5, 5, 2}, {15, -1, 2}, {12, 1, 1}, {14, 1, 1}});
   // Mirrored in one axis, an arc turns the other way.
   EXPECT_EQ(last_of<ArcFeed>(all).turns, -1);
@@ -194,7 +198,7 @@ TEST(KlartextDatums, AreMirroredAndScaledAboutTheShiftedDatum) {
 // --- tilted planes -------------------------------------------------------------------------------
 
 Pose plane_of(const std::string& text) {
-  return last_of<TiltedPlaneChange>(run(text)).program_from_plane.value_or(Pose{});
+  return last_of<TiltedPlaneChange>(run_klartext(text)).program_from_plane.value_or(Pose{});
 }
 void expect_same(const Pose& a, const Pose& b) {
   EXPECT_LT((a.rotation - b.rotation).norm(), 1e-9) << a.rotation << "\n\n" << b.rotation;
@@ -262,10 +266,10 @@ TEST(KlartextLaws, FormsOfPlaneThatMeanOneFrameAgree) {
 }
 
 TEST(KlartextPlanes, LieAtTheShiftedDatumAndGiveItBack) {
-  const auto all =
-      run("CYCL DEF 7.1 X+10 Y+20 Z+5\nPLANE SPATIAL SPA+0 SPB+90 SPC+0 STAY\n"
-          "L X+1 Y+2 Z+3 FMAX\nCYCL DEF 7.1 X+100 Y+0 Z+0\nL X+1 Y+2 Z+3 FMAX\n"
-          "CYCL DEF 7.1 X+0\nPLANE RESET STAY\nL X+1 Y+2 Z+3 FMAX\n");
+  const auto all = run_klartext(
+      "CYCL DEF 7.1 X+10 Y+20 Z+5\nPLANE SPATIAL SPA+0 SPB+90 SPC+0 STAY\n"
+      "L X+1 Y+2 Z+3 FMAX\nCYCL DEF 7.1 X+100 Y+0 Z+0\nL X+1 Y+2 Z+3 FMAX\n"
+      "CYCL DEF 7.1 X+0\nPLANE RESET STAY\nL X+1 Y+2 Z+3 FMAX\n");
   const auto planes = all_of<TiltedPlaneChange>(all);
   ASSERT_EQ(planes.size(), 2U);
   EXPECT_LT((planes[0].program_from_plane->translation - Vec3(10, 20, 5)).norm(), kTiny);
@@ -276,9 +280,11 @@ TEST(KlartextPlanes, LieAtTheShiftedDatumAndGiveItBack) {
 
 TEST(KlartextPlanes, TurnTheAxesWhenTold) {
   EXPECT_EQ(
-      all_of<AlignToPlane>(run("PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY-1 NZ+1 TURN FMAX\n")).size(),
+      all_of<AlignToPlane>(run_klartext("PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY-1 NZ+1 TURN FMAX\n"))
+          .size(),
       1U);
-  EXPECT_TRUE(all_of<AlignToPlane>(run("PLANE EULER EULPR0 EULNU9 EULROT0 STAY\n")).empty());
+  EXPECT_TRUE(
+      all_of<AlignToPlane>(run_klartext("PLANE EULER EULPR0 EULNU9 EULROT0 STAY\n")).empty());
 }
 
 // --- cycles --------------------------------------------------------------------------------------
@@ -290,7 +296,7 @@ constexpr const char* kDrill200 =
     "  Q203=+20 ;SURFACE ~\n  Q204=+30 ;2ND CLEARANCE ~\n  Q211=+0.5 ;DWELL\n";
 
 TEST(KlartextCycles, PeckFromTheSurfaceAndGoToTheSecondClearance) {
-  const auto all = run(std::string(kDrill200) + "L X+10 Y+5 FMAX M99\n");
+  const auto all = run_klartext(std::string(kDrill200) + "L X+10 Y+5 FMAX M99\n");
   // Over the hole, to 2 above the surface at 20; to 14, out, 2 above that; to 10, dwell, up.
   expect_same(places(all), {{0, 0, 50},
                             {10, 5, 50},
@@ -305,28 +311,29 @@ TEST(KlartextCycles, PeckFromTheSurfaceAndGoToTheSecondClearance) {
 }
 
 TEST(KlartextLaws, ACallIsM99AndACycleIsItsMoves) {
-  const auto by_m99 = places(run(std::string(kDrill200) + "L X+10 Y+5 FMAX M99\n"));
-  const auto by_call = places(run(std::string(kDrill200) + "L X+10 Y+5 FMAX\nCYCL CALL\n"));
-  const auto by_hand =
-      places(run("TOOL CALL 1 Z S1000\nM3\nL X+0 Y+0 Z+50 FMAX\nL X+10 Y+5 FMAX\nL Z+22 FMAX\n"
-                 "L Z+14 F150\nL Z+22 FMAX\nL Z+16 FMAX\nL Z+10 F150\nL Z+50 FMAX\n"));
+  const auto by_m99 = places(run_klartext(std::string(kDrill200) + "L X+10 Y+5 FMAX M99\n"));
+  const auto by_call =
+      places(run_klartext(std::string(kDrill200) + "L X+10 Y+5 FMAX\nCYCL CALL\n"));
+  const auto by_hand = places(
+      run_klartext("TOOL CALL 1 Z S1000\nM3\nL X+0 Y+0 Z+50 FMAX\nL X+10 Y+5 FMAX\nL Z+22 FMAX\n"
+                   "L Z+14 F150\nL Z+22 FMAX\nL Z+16 FMAX\nL Z+10 F150\nL Z+50 FMAX\n"));
   expect_same(by_call, by_m99);
   expect_same(by_hand, by_m99);
 }
 
 TEST(KlartextCycles, ReamAndTap) {
-  const auto ream =
-      run("TOOL CALL 1 Z S500\nL X+1 Y+2 Z+9 FMAX\nCYCL DEF 201 REAMING Q200=2 Q201=-15 Q206=100 "
-          "Q211=0.25 Q208=250 Q203=+0 Q204=0\nCYCL CALL M3\n");
+  const auto ream = run_klartext(
+      "TOOL CALL 1 Z S500\nL X+1 Y+2 Z+9 FMAX\nCYCL DEF 201 REAMING Q200=2 Q201=-15 Q206=100 "
+      "Q211=0.25 Q208=250 Q203=+0 Q204=0\nCYCL CALL M3\n");
   expect_same(places(ream), {{1, 2, 9}, {1, 2, 2}, {1, 2, -15}, {1, 2, 2}});
   const auto feeds = all_of<LinearFeed>(ream);
   ASSERT_EQ(feeds.size(), 2U);
   EXPECT_EQ(feeds[0].feed.value, 100.0);
   EXPECT_EQ(feeds[1].feed.value, 250.0);
   EXPECT_EQ(last_of<Dwell>(ream).seconds, 0.25);
-  const auto tap =
-      run("TOOL CALL 1 Z S500\nM3\nL X+1 Y+2 Z+9 FMAX\nFN 0: Q5 = -8\nCYCL DEF 207 RIGID TAPPING "
-          "Q200=+3 Q201=+Q5 Q239=+1.25 Q203=+4 Q204=+20\nCYCL CALL\n");
+  const auto tap = run_klartext(
+      "TOOL CALL 1 Z S500\nM3\nL X+1 Y+2 Z+9 FMAX\nFN 0: Q5 = -8\nCYCL DEF 207 RIGID TAPPING "
+      "Q200=+3 Q201=+Q5 Q239=+1.25 Q203=+4 Q204=+20\nCYCL CALL\n");
   expect_same(places(tap), {{1, 2, 9}, {1, 2, 7}, {1, 2, -4}, {1, 2, 7}, {1, 2, 24}});
   EXPECT_EQ(last_of<LinearFeed>(tap).feed.mode, FeedMode::per_revolution);
   EXPECT_EQ(last_of<SpindleChange>(tap).direction, SpindleDirection::clockwise);
@@ -335,15 +342,16 @@ TEST(KlartextCycles, ReamAndTap) {
 // --- parameters, tools, the program --------------------------------------------------------------
 
 TEST(KlartextParameters, MeasureLengthsAndAngles) {
-  expect_same(places(run("FN 8: Q1 = +3 LEN +4\nFN 13: Q2 = +5 ANG -5\nFN 13: Q3 = -1 ANG +0\n"
-                         "L X+Q1 Y+Q2 Z+Q3 FMAX\n")),
-              {{5, 135, 270}});
+  expect_same(
+      places(run_klartext("FN 8: Q1 = +3 LEN +4\nFN 13: Q2 = +5 ANG -5\nFN 13: Q3 = -1 ANG +0\n"
+                          "L X+Q1 Y+Q2 Z+Q3 FMAX\n")),
+      {{5, 135, 270}});
 }
 
 TEST(KlartextParameters, StandForToolsSpeedsAndFeeds) {
-  const auto all =
-      run("Q1 = 7\nQ2 = 900\nQ3 = 250\nTOOL CALL Q1 Z SQ2 FQ3\nM3\nL X+1 F AUTO\n"
-          "L X+2 FQ2\n");
+  const auto all = run_klartext(
+      "Q1 = 7\nQ2 = 900\nQ3 = 250\nTOOL CALL Q1 Z SQ2 FQ3\nM3\nL X+1 F AUTO\n"
+      "L X+2 FQ2\n");
   EXPECT_EQ(last_of<ToolChange>(all).tool, 7);
   EXPECT_EQ(last_of<SpindleChange>(all).speed, 900.0);
   const auto feeds = all_of<LinearFeed>(all);
@@ -353,9 +361,9 @@ TEST(KlartextParameters, StandForToolsSpeedsAndFeeds) {
 }
 
 TEST(KlartextProgram, TellsWhatItPrints) {
-  const auto events = all_of<Event>(
-      run("0 BEGIN PGM PART MM\n1 FN 15: PRINT Q20\n2 FN 16: F-PRINT TNC:\\MASK.A / SCREEN:\n"
-          "3 CYCL DEF 32.0 TOLERANCE\n4 CYCL DEF 32.1 T0.05\n5 END PGM PART MM\n"));
+  const auto events = all_of<Event>(run_klartext(
+      "0 BEGIN PGM PART MM\n1 FN 15: PRINT Q20\n2 FN 16: F-PRINT TNC:\\MASK.A / SCREEN:\n"
+      "3 CYCL DEF 32.0 TOLERANCE\n4 CYCL DEF 32.1 T0.05\n5 END PGM PART MM\n"));
   std::vector<std::string> names;
   for (const Event& event : events) names.push_back(event.name + "|" + event.text);
   EXPECT_EQ(names, (std::vector<std::string>{"BEGIN PGM|PART MM", "FN 15|PRINT Q20",
@@ -366,7 +374,7 @@ TEST(KlartextProgram, TellsWhatItPrints) {
 TEST(KlartextProgram, RaisesErrorsOnlyWhereItRunsIntoThem) {
   const std::string text =
       "FN 9: IF +Q1 EQU +1 GOTO LBL 5\nFN 14: ERROR = 1000\nLBL 5\nL X+3 FMAX\n";
-  EXPECT_EQ(places(run("Q1 = 1\n" + text)).size(), 1U);
+  EXPECT_EQ(places(run_klartext("Q1 = 1\n" + text)).size(), 1U);
   EXPECT_TRUE(complaint("Q1 = 0\n" + text)
                   .starts_with("3:1: error: the program stops with ERROR=1000 (hint: "));
 }

@@ -15,7 +15,9 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<Motion> run(std::string_view text) { return motions(text, {}, Dialect::sinumerik); }
+std::vector<Motion> run_cycle(std::string_view text) {
+  return motions(text, {}, Dialect::sinumerik);
+}
 
 struct Teller {
   AxisLetter depth = Z;
@@ -45,10 +47,11 @@ struct Teller {
 
 // What the hole's block does, from a tool at Z 50 over X 3 Y 4 with the spindle at 1000 and F 200: R and F to a height
 // with the feed, D seconds, spindle and stops.
-std::string steps(const std::string& call, const std::string& before = "", AxisLetter depth = Z) {
+std::string cycle_steps(const std::string& call, const std::string& before = "",
+                        AxisLetter depth = Z) {
   std::string told;
   for (const Motion& motion :
-       run("G0 X3 Y4 Z50 S1000 M3 F200\n" + before + "\nN9 " + call + "\n")) {
+       run_cycle("G0 X3 Y4 Z50 S1000 M3 F200\n" + before + "\nN9 " + call + "\n")) {
     if (motion.place.line < 3) continue;
     told += (told.empty() ? "" : " ") + std::visit(Teller{depth}, motion.command);
   }
@@ -56,41 +59,41 @@ std::string steps(const std::string& call, const std::string& before = "", AxisL
 }
 
 TEST(SinumerikCycles, DrillAndGoBack) {
-  EXPECT_EQ(steps("CYCLE81(40, 10, 2, -15)"), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,10,2,,25)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40, 10, 2, -15)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,,25)"), "R12 F-15@200 R40");
   // Relative goes before absolute; zero is none.
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-99,25)"), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-15,0)"), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,10,,-15)"), "R10 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,R1+10,1+1,-3*5)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-99,25)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-15,0)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,,-15)"), "R10 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,R1+10,1+1,-3*5)"), "R12 F-15@200 R40");
   // As the control's own editor writes it: dwell, plane, measure.
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-15,,0,0,1,12)"), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-99,25,0,0,1,11)"), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-15,25.5,0,0,1,12)"), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(4,1,0.1,-1)", "G700"), "R27.94 F-25.4@200 R101.6");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-15,,0,0,1,12)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-99,25,0,0,1,11)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-15,25.5,0,0,1,12)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(4,1,0.1,-1)", "G700"), "R27.94 F-25.4@200 R101.6");
 }
 
 TEST(SinumerikCycles, Dwell) {
-  EXPECT_EQ(steps("CYCLE82(40,10,2,-15,,1.5)"), "R12 F-15@200 D1.5 R40");
+  EXPECT_EQ(cycle_steps("CYCLE82(40,10,2,-15,,1.5)"), "R12 F-15@200 D1.5 R40");
   // Below zero in turns of the spindle, or where the mode says so.
-  EXPECT_EQ(steps("CYCLE82(40,10,2,-15,,-5)"), "R12 F-15@200 D0.3 R40");
-  EXPECT_EQ(steps("CYCLE82(40,10,2,-15,,5,0,1,22)"), "R12 F-15@200 D0.3 R40");
-  EXPECT_EQ(steps("CYCLE82(40,10,2,-15)"), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE82(40,10,2,-15,,-5)"), "R12 F-15@200 D0.3 R40");
+  EXPECT_EQ(cycle_steps("CYCLE82(40,10,2,-15,,5,0,1,22)"), "R12 F-15@200 D0.3 R40");
+  EXPECT_EQ(cycle_steps("CYCLE82(40,10,2,-15)"), "R12 F-15@200 R40");
 }
 
 TEST(SinumerikCycles, Peck) {
   // RFP 0, down to -20: 10, then 6 (10 - 4), then 4 left. Back to 0.6 above the last depth.
-  EXPECT_EQ(steps("CYCLE83(40,0,2,-20,,-10,,4,0,0,1,1)"),
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,-20,,-10,,4,0,0,1,1)"),
             "R2 F-10@200 R2 R-9.4 F-16@200 R2 R-15.4 F-20@200 R40");
   // The retract that breaks the chip; dwells at every depth, half the feed for the first.
-  EXPECT_EQ(steps("CYCLE83(40,0,2,,20,,10,4,0.5,9,0.5,0)"),
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,20,,10,4,0.5,9,0.5,0)"),
             "R2 F-10@100 D0.5 F-9@200 F-16@200 D0.5 F-15@200 F-20@200 D0.5 R40");
-  EXPECT_EQ(steps("CYCLE83(40,0,2,,20,,10,4,0.5,0.2,1,1,3,0,0,2,1.5)"),
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,20,,10,4,0.5,0.2,1,1,3,0,0,2,1.5)"),
             "R2 F-10@200 D0.5 R2 D0.2 R-8.5 F-16@200 D0.5 R2 D0.2 R-14.5 F-20@200 D2 R40");
-  EXPECT_EQ(steps("CYCLE83(40,0,2,,20,,10,4,0,0,1,0,3,0,2.5)"),
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,20,,10,4,0,0,1,0,3,0,2.5)"),
             "R2 F-10@200 F-7.5@200 F-16@200 F-13.5@200 F-20@200 R40");
   // A fiftieth of a hole deeper than 30 mm.
-  EXPECT_EQ(steps("CYCLE83(40,0,2,,50,,30,0,0,0,1,1)"), "R2 F-30@200 R2 R-29 F-50@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,50,,30,0,0,0,1,1)"), "R2 F-30@200 R2 R-29 F-50@200 R40");
 }
 
 std::vector<double> strokes(double total, double first, double degression, double least = 0.0) {
@@ -137,23 +140,23 @@ RC_GTEST_PROP(SinumerikCycleLaws, PecksEndAtTheBottom, ()) {
 }
 
 TEST(SinumerikCycles, Tap) {
-  EXPECT_EQ(steps("CYCLE84(40,10,2,-15,,0.5,3,6,,0,300,600)"),
+  EXPECT_EQ(cycle_steps("CYCLE84(40,10,2,-15,,0.5,3,6,,0,300,600)"),
             "R12 M3/300 F-15@1s D0.5 M4/600 F12@1s R40 M3/1000");
   // Left-handed by the sign of the lead; off afterwards without SDAC.
-  EXPECT_EQ(steps("CYCLE84(40,10,2,-15,,,,,-1.25,,300)"),
+  EXPECT_EQ(cycle_steps("CYCLE84(40,10,2,-15,,,,,-1.25,,300)"),
             "R12 M4/300 F-15@1.25s M3/300 F12@1.25s R40 M5/1000");
 }
 
 TEST(SinumerikCycles, Bore) {
-  EXPECT_EQ(steps("CYCLE85(40,10,2,-15,,1,100,150)"), "R12 F-15@100 D1 F12@150 R40");
-  EXPECT_EQ(steps("CYCLE85(40,10,2,-15)"), "R12 F-15@200 F12@200 R40");
-  EXPECT_EQ(steps("CYCLE87(40,10,2,-15,,3)"), "R12 F-15@200 M5/1000 M0 R40");
-  EXPECT_EQ(steps("CYCLE87(40,10,2,-15,,4)"), "R12 M4/1000 F-15@200 M5/1000 M0 R40");
-  EXPECT_EQ(steps("CYCLE88(40,10,2,-15,,2,3)"), "R12 F-15@200 D2 M5/1000 M0 R40");
-  EXPECT_EQ(steps("CYCLE89(40,10,2,-15,,2)"), "R12 F-15@200 D2 F12@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE85(40,10,2,-15,,1,100,150)"), "R12 F-15@100 D1 F12@150 R40");
+  EXPECT_EQ(cycle_steps("CYCLE85(40,10,2,-15)"), "R12 F-15@200 F12@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE87(40,10,2,-15,,3)"), "R12 F-15@200 M5/1000 M0 R40");
+  EXPECT_EQ(cycle_steps("CYCLE87(40,10,2,-15,,4)"), "R12 M4/1000 F-15@200 M5/1000 M0 R40");
+  EXPECT_EQ(cycle_steps("CYCLE88(40,10,2,-15,,2,3)"), "R12 F-15@200 D2 M5/1000 M0 R40");
+  EXPECT_EQ(cycle_steps("CYCLE89(40,10,2,-15,,2)"), "R12 F-15@200 D2 F12@200 R40");
   const std::string oriented = "CYCLE86(40,10,2,-15,,1,3,-0.5,0.25,1,45)";
-  EXPECT_EQ(steps(oriented), "R12 F-15@200 D1 M5/1000 orient_spindle R-14 R12 R40");
-  const auto moves = all_of<Traverse>(run("G0 X3 Y4 Z50 S1000 M3 F200\n" + oriented + "\n"));
+  EXPECT_EQ(cycle_steps(oriented), "R12 F-15@200 D1 M5/1000 orient_spindle R-14 R12 R40");
+  const auto moves = all_of<Traverse>(run_cycle("G0 X3 Y4 Z50 S1000 M3 F200\n" + oriented + "\n"));
   ASSERT_EQ(moves.size(), 5U);
   EXPECT_DOUBLE_EQ(*moves[2].end[X], 2.5);
   EXPECT_DOUBLE_EQ(*moves[2].end[Y], 4.25);
@@ -163,10 +166,10 @@ TEST(SinumerikCycles, Bore) {
 }
 
 TEST(SinumerikCycles, GoAlongTheNormalOfThePlane) {
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-15)", "G18", Y), "R12 F-15@200 R40");
-  EXPECT_EQ(steps("CYCLE81(40,10,2,-15,,0,0,3,12)", "G19", X), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-15)", "G18", Y), "R12 F-15@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE81(40,10,2,-15,,0,0,3,12)", "G19", X), "R12 F-15@200 R40");
   const auto all =
-      run("G0 X3 Y4 Z50 S1000 M3 F200\nG18 CYCLE86(40,10,2,-15,,1,3,-0.5,0.25,1,45)\n");
+      run_cycle("G0 X3 Y4 Z50 S1000 M3 F200\nG18 CYCLE86(40,10,2,-15,,1,3,-0.5,0.25,1,45)\n");
   // The first axis of the plane is Z.
   EXPECT_DOUBLE_EQ(*all_of<Traverse>(all).at(2).end[Z], 49.5);
   EXPECT_DOUBLE_EQ(*all_of<Traverse>(all).at(2).end[X], 3.25);
@@ -174,7 +177,7 @@ TEST(SinumerikCycles, GoAlongTheNormalOfThePlane) {
 
 std::vector<std::string> holes(const std::string& text) {
   std::vector<std::string> places;
-  for (const LinearFeed& move : all_of<LinearFeed>(run(text))) {
+  for (const LinearFeed& move : all_of<LinearFeed>(run_cycle(text))) {
     places.push_back(fmt::format("{:g},{:g}", *move.end[X], *move.end[Y]));
   }
   return places;
@@ -193,11 +196,12 @@ TEST(SinumerikCycles, AreCalledBehindEachMove) {
                    "%_N_L1_SPF\nX1\nX2\nM17\n"),
       (Holes{"1,0", "2,0", "1,0", "1,0", "2,0", "2,0"}));
   // The feed is that in force at the hole.
-  const auto feeds = all_of<LinearFeed>(run(head + "MCALL CYCLE81(40,10,2,-15)\nX1 F50\nX2 F70\n"));
+  const auto feeds =
+      all_of<LinearFeed>(run_cycle(head + "MCALL CYCLE81(40,10,2,-15)\nX1 F50\nX2 F70\n"));
   EXPECT_DOUBLE_EQ(feeds.at(0).feed.value, 50.0);
   EXPECT_DOUBLE_EQ(feeds.at(1).feed.value, 70.0);
   // In a swivelled and turned frame the depth is along its normal.
-  const auto all = run(
+  const auto all = run_cycle(
       "CYCLE800(0,\"T\",0,57,0,0,0,30,0,0)\nROT Z90\nG0 X1 Y2 Z50 F100\nCYCLE81(40,10,2,-15)\n");
   EXPECT_NEAR(*last_of<LinearFeed>(all).end[X], -2.0, 1e-9);
   EXPECT_NEAR(*last_of<LinearFeed>(all).end[Z], -15.0, 1e-9);

@@ -8,7 +8,7 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<double> x_of(std::string_view text) {
+std::vector<double> x_of_sinumerik(std::string_view text) {
   std::vector<double> places;
   for (const Traverse& move : all_of<Traverse>(motions(text, {}, Dialect::sinumerik))) {
     places.push_back(*move.end[X]);
@@ -18,35 +18,41 @@ std::vector<double> x_of(std::string_view text) {
 
 TEST(SinumerikFlow, Branches) {
   const char* text = "IF (R1>1) AND NOT (R1==3)\nG0 X1\nELSE\nG0 X2\nENDIF\nG0 X9\n";
-  EXPECT_EQ(x_of(std::string("R1=2\n") + text), (std::vector<double>{1, 9}));
-  EXPECT_EQ(x_of(std::string("R1=3\n") + text), (std::vector<double>{2, 9}));
-  EXPECT_EQ(x_of(std::string("R1=1\n") + text), (std::vector<double>{2, 9}));
+  EXPECT_EQ(x_of_sinumerik(std::string("R1=2\n") + text), (std::vector<double>{1, 9}));
+  EXPECT_EQ(x_of_sinumerik(std::string("R1=3\n") + text), (std::vector<double>{2, 9}));
+  EXPECT_EQ(x_of_sinumerik(std::string("R1=1\n") + text), (std::vector<double>{2, 9}));
 }
 
 TEST(SinumerikFlow, BranchesWithinEachOther) {
-  EXPECT_EQ(x_of("R1=1\nIF R1<>1\nIF R1==2\nG0 X1\nENDIF\nELSE\nIF R1<=1\nG0 X2\nELSE\nG0 "
-                 "X3\nENDIF\nENDIF\n"),
-            (std::vector<double>{2}));
+  EXPECT_EQ(
+      x_of_sinumerik("R1=1\nIF R1<>1\nIF R1==2\nG0 X1\nENDIF\nELSE\nIF R1<=1\nG0 X2\nELSE\nG0 "
+                     "X3\nENDIF\nENDIF\n"),
+      (std::vector<double>{2}));
 }
 
 TEST(SinumerikFlow, Loops) {
-  EXPECT_EQ(x_of("R1=0\nWHILE R1<3\nG0 X=R1\nR1=R1+1\nENDWHILE\n"), (std::vector<double>{0, 1, 2}));
-  EXPECT_EQ(x_of("FOR R5=2 TO 4\nG0 X=R5\nENDFOR\nG0 X=R5\n"), (std::vector<double>{2, 3, 4, 5}));
-  EXPECT_EQ(x_of("FOR R5=2 TO 1\nG0 X=R5\nENDFOR\nG0 X9\n"), (std::vector<double>{9}));
-  EXPECT_EQ(x_of("R1=0\nREPEAT\nR1=R1+1\nG0 X=R1\nUNTIL R1>=2\n"), (std::vector<double>{1, 2}));
-  EXPECT_EQ(x_of("R1=0\nLOOP\nR1=R1+1\nG0 X=R1\nIF R1==3 GOTOF OUT\nENDLOOP\nOUT: G0 X9\n"),
-            (std::vector<double>{1, 2, 3, 9}));
+  EXPECT_EQ(x_of_sinumerik("R1=0\nWHILE R1<3\nG0 X=R1\nR1=R1+1\nENDWHILE\n"),
+            (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(x_of_sinumerik("FOR R5=2 TO 4\nG0 X=R5\nENDFOR\nG0 X=R5\n"),
+            (std::vector<double>{2, 3, 4, 5}));
+  EXPECT_EQ(x_of_sinumerik("FOR R5=2 TO 1\nG0 X=R5\nENDFOR\nG0 X9\n"), (std::vector<double>{9}));
+  EXPECT_EQ(x_of_sinumerik("R1=0\nREPEAT\nR1=R1+1\nG0 X=R1\nUNTIL R1>=2\n"),
+            (std::vector<double>{1, 2}));
+  EXPECT_EQ(
+      x_of_sinumerik("R1=0\nLOOP\nR1=R1+1\nG0 X=R1\nIF R1==3 GOTOF OUT\nENDLOOP\nOUT: G0 X9\n"),
+      (std::vector<double>{1, 2, 3, 9}));
 }
 
 TEST(SinumerikFlow, LoopsWithinEachOther) {
-  EXPECT_EQ(x_of("FOR R1=1 TO 2\nFOR R2=1 TO 2\nG0 X=10*R1+R2\nENDFOR\nENDFOR\n"),
+  EXPECT_EQ(x_of_sinumerik("FOR R1=1 TO 2\nFOR R2=1 TO 2\nG0 X=10*R1+R2\nENDFOR\nENDFOR\n"),
             (std::vector<double>{11, 12, 21, 22}));
 }
 
 TEST(SinumerikFlow, JumpsToLabelsAndBlockNumbers) {
-  EXPECT_EQ(x_of("GOTOF PART2\nG0 X1\nPART2: G0 X2\n"), (std::vector<double>{2}));
+  EXPECT_EQ(x_of_sinumerik("GOTOF PART2\nG0 X1\nPART2: G0 X2\n"), (std::vector<double>{2}));
   EXPECT_EQ(
-      x_of("R1=0\nAGAIN:\nR1=R1+1\nG0 X=R1\nIF R1<2 GOTOB AGAIN\nGOTO N90\nG0 X7\nN90 G0 X8\n"),
+      x_of_sinumerik(
+          "R1=0\nAGAIN:\nR1=R1+1\nG0 X=R1\nIF R1<2 GOTOB AGAIN\nGOTO N90\nG0 X7\nN90 G0 X8\n"),
       (std::vector<double>{1, 2, 8}));
 }
 

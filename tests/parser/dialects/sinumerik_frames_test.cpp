@@ -16,88 +16,90 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<Motion> run(std::string_view text) { return motions(text, {}, Dialect::sinumerik); }
+std::vector<Motion> run_in_frame(std::string_view text) {
+  return motions(text, {}, Dialect::sinumerik);
+}
 
 Eigen::Vector3d end_of(const std::string& text) {
-  const AxisTarget end = last_of<Traverse>(run(text)).end;
+  const AxisTarget end = last_of<Traverse>(run_in_frame(text)).end;
   return {end[X].value_or(1e9), end[Y].value_or(1e9), end[Z].value_or(1e9)};
 }
 
-void expect_end(const std::string& text, double x, double y, double z) {
+void expect_frame_end(const std::string& text, double x, double y, double z) {
   EXPECT_LT((end_of(text) - Eigen::Vector3d(x, y, z)).norm(), 1e-9)
       << text << end_of(text).transpose();
 }
 
-std::string complaint_of(std::string_view text) {
+std::string frame_complaint(std::string_view text) {
   const auto lines = complaints(text, {}, Dialect::sinumerik);
   if (lines.empty()) return "none";
   return lines[0].substr(0, lines[0].find(" (hint: "));
 }
 
 TEST(SinumerikFrames, TransReplacesAndAtransGoesOn) {
-  expect_end("TRANS X10 Y20\nG0 X1 Y2 Z3\n", 11, 22, 3);
-  expect_end("TRANS X10 Y20\nTRANS Z5\nG0 X1 Y2 Z3\n", 1, 2, 8);
-  expect_end("TRANS X10 Y20\nATRANS X-1 Z5\nG0 X1 Y2 Z3\n", 10, 22, 8);
-  expect_end("TRANS X10\nROT\nG0 X1 Y2 Z3\n", 1, 2, 3);
-  expect_end("G700 TRANS X1\nG0 X1 Y0 Z0\n", 50.8, 0, 0);
-  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run("TRANS C10\nG0 C5\n")).end[C],
+  expect_frame_end("TRANS X10 Y20\nG0 X1 Y2 Z3\n", 11, 22, 3);
+  expect_frame_end("TRANS X10 Y20\nTRANS Z5\nG0 X1 Y2 Z3\n", 1, 2, 8);
+  expect_frame_end("TRANS X10 Y20\nATRANS X-1 Z5\nG0 X1 Y2 Z3\n", 10, 22, 8);
+  expect_frame_end("TRANS X10\nROT\nG0 X1 Y2 Z3\n", 1, 2, 3);
+  expect_frame_end("G700 TRANS X1\nG0 X1 Y0 Z0\n", 50.8, 0, 0);
+  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_in_frame("TRANS C10\nG0 C5\n")).end[C],
                    15 * std::numbers::pi / 180);
   // An axis that is not named stays where it is, and the others need not be known.
-  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run("G0 X4\nTRANS X10\nG0 Y1\n")).end[X], 4.0);
+  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_in_frame("G0 X4\nTRANS X10\nG0 Y1\n")).end[X], 4.0);
 }
 
 TEST(SinumerikFrames, RotTurnsAboutZThenYThenX) {
-  expect_end("ROT Z90\nG0 X1 Y0 Z0\n", 0, 1, 0);
-  expect_end("ROT RPL=90\nG0 X1 Y0 Z0\n", 0, 1, 0);
-  expect_end("G18 ROT RPL=90\nG0 X0 Y0 Z1\n", 1, 0, 0);
+  expect_frame_end("ROT Z90\nG0 X1 Y0 Z0\n", 0, 1, 0);
+  expect_frame_end("ROT RPL=90\nG0 X1 Y0 Z0\n", 0, 1, 0);
+  expect_frame_end("G18 ROT RPL=90\nG0 X0 Y0 Z1\n", 1, 0, 0);
   // Z first, then the new Y: a point on Z goes to where the turned X points.
-  expect_end("ROT Y90 Z90\nG0 X0 Y0 Z1\n", 0, 1, 0);
-  expect_end("ROT X90 Z90\nG0 X0 Y1 Z0\n", 0, 0, 1);
+  expect_frame_end("ROT Y90 Z90\nG0 X0 Y0 Z1\n", 0, 1, 0);
+  expect_frame_end("ROT X90 Z90\nG0 X0 Y1 Z0\n", 0, 0, 1);
 }
 
 TEST(SinumerikFrames, OrderMatters) {
-  expect_end("TRANS X10\nAROT Z90\nG0 X1 Y0 Z0\n", 10, 1, 0);
-  expect_end("ROT Z90\nATRANS X10\nG0 X1 Y0 Z0\n", 0, 11, 0);
-  expect_end("SCALE X2 Y2 Z2\nATRANS X10\nG0 X1 Y2 Z3\n", 22, 4, 6);
-  expect_end("TRANS X10\nASCALE X2 Y2 Z2\nG0 X1 Y2 Z3\n", 12, 4, 6);
+  expect_frame_end("TRANS X10\nAROT Z90\nG0 X1 Y0 Z0\n", 10, 1, 0);
+  expect_frame_end("ROT Z90\nATRANS X10\nG0 X1 Y0 Z0\n", 0, 11, 0);
+  expect_frame_end("SCALE X2 Y2 Z2\nATRANS X10\nG0 X1 Y2 Z3\n", 22, 4, 6);
+  expect_frame_end("TRANS X10\nASCALE X2 Y2 Z2\nG0 X1 Y2 Z3\n", 12, 4, 6);
 }
 
 TEST(SinumerikFrames, MirrorsTurnArcsRound) {
-  expect_end("MIRROR X0\nG0 X1 Y2 Z3\n", -1, 2, 3);
-  expect_end("TRANS X10\nAMIRROR X0\nG0 X1 Y2 Z3\n", 9, 2, 3);
-  expect_end("MIRROR Z0\nG0 X1 Y2 Z3\n", 1, 2, -3);
+  expect_frame_end("MIRROR X0\nG0 X1 Y2 Z3\n", -1, 2, 3);
+  expect_frame_end("TRANS X10\nAMIRROR X0\nG0 X1 Y2 Z3\n", 9, 2, 3);
+  expect_frame_end("MIRROR Z0\nG0 X1 Y2 Z3\n", 1, 2, -3);
   const std::string arc = "G0 X0 Y0 Z0\nG2 X10 Y0 I5 J0 F100\n";
-  EXPECT_EQ(last_of<ArcFeed>(run(arc)).turns, -1);
-  const ArcFeed mirrored = last_of<ArcFeed>(run("MIRROR X0\n" + arc));
+  EXPECT_EQ(last_of<ArcFeed>(run_in_frame(arc)).turns, -1);
+  const ArcFeed mirrored = last_of<ArcFeed>(run_in_frame("MIRROR X0\n" + arc));
   EXPECT_EQ(mirrored.turns, 1);
   EXPECT_NEAR(mirrored.center[0], -5.0, 1e-12);
-  EXPECT_EQ(last_of<ArcFeed>(run("MIRROR X0 Y0\n" + arc)).turns, -1);
+  EXPECT_EQ(last_of<ArcFeed>(run_in_frame("MIRROR X0 Y0\n" + arc)).turns, -1);
   // A mirror of the height leaves the arc as it is.
-  EXPECT_EQ(last_of<ArcFeed>(run("MIRROR Z0\n" + arc)).turns, -1);
+  EXPECT_EQ(last_of<ArcFeed>(run_in_frame("MIRROR Z0\n" + arc)).turns, -1);
   // Mirrored and turned in its plane.
-  const ArcFeed turned = last_of<ArcFeed>(run("ROT Z90\nAMIRROR X0\n" + arc));
+  const ArcFeed turned = last_of<ArcFeed>(run_in_frame("ROT Z90\nAMIRROR X0\n" + arc));
   EXPECT_EQ(turned.turns, 1);
   EXPECT_NEAR(turned.center[1], -5.0, 1e-9);
 }
 
 TEST(SinumerikFrames, MachineCoordinatesKnowNone) {
   for (const char* word : {"SUPA", "G53", "G153"}) {
-    expect_end(fmt::format("TRANS X10 Y10 Z10\nG0 {} D0 X1 Y2 Z3\n", word), 1, 2, 3);
-    EXPECT_EQ(last_of<Traverse>(run(fmt::format("G0 {} D0 X1\n", word))).coordinates,
+    expect_frame_end(fmt::format("TRANS X10 Y10 Z10\nG0 {} D0 X1 Y2 Z3\n", word), 1, 2, 3);
+    EXPECT_EQ(last_of<Traverse>(run_in_frame(fmt::format("G0 {} D0 X1\n", word))).coordinates,
               Coordinates::machine);
   }
 }
 
 TEST(SinumerikFrames, LieInTheSwivelledPlaneAndEndWithANewOne) {
   const std::string swivel = "CYCLE800(0,\"T\",0,57,0,0,0,30,0,0)\n";
-  expect_end(swivel + "TRANS X10\nG0 X1 Y2 Z3\n", 11, 2, 3);
-  expect_end("TRANS X10\n" + swivel + "G0 X1 Y2 Z3\n", 1, 2, 3);
-  expect_end("ROT Z30\nCYCLE800()\nG0 X1 Y2 Z3\n", 1, 2, 3);
+  expect_frame_end(swivel + "TRANS X10\nG0 X1 Y2 Z3\n", 11, 2, 3);
+  expect_frame_end("TRANS X10\n" + swivel + "G0 X1 Y2 Z3\n", 1, 2, 3);
+  expect_frame_end("ROT Z30\nCYCLE800()\nG0 X1 Y2 Z3\n", 1, 2, 3);
 }
 
 TEST(SinumerikFrames, SwivelsGoOnWithinTheLast) {
   const auto plane_of = [](const std::string& text) {
-    return *last_of<TiltedPlaneChange>(run(text)).program_from_plane;
+    return *last_of<TiltedPlaneChange>(run_in_frame(text)).program_from_plane;
   };
   const Pose both = plane_of(
       "CYCLE800(0,\"T\",0,57,1,2,3,30,0,0)\nTRANS X10\nAROT Z90\n"
@@ -111,7 +113,8 @@ TEST(SinumerikFrames, SwivelsGoOnWithinTheLast) {
 }
 
 TEST(SinumerikFrames, SwivelsBySolidAngles) {
-  const auto plane = last_of<TiltedPlaneChange>(run("CYCLE800(0,\"T\",0,64,0,0,0,90,30,0)\n"));
+  const auto plane =
+      last_of<TiltedPlaneChange>(run_in_frame("CYCLE800(0,\"T\",0,64,0,0,0,90,30,0)\n"));
   // Z turned towards X about Y, then X towards Y about Z.
   const double angle = 30 * std::numbers::pi / 180;
   const Vec3 normal(0, std::sin(angle), std::cos(angle));
@@ -180,7 +183,7 @@ TEST(SinumerikFrames, TellsMistakes) {
       {"MIRROR\nAMIRROR\n", "2:1: error: AMIRROR names no axis"},
   };
   for (const Mistake& mistake : mistakes) {
-    EXPECT_EQ(complaint_of(mistake.text), mistake.complaint) << mistake.text;
+    EXPECT_EQ(frame_complaint(mistake.text), mistake.complaint) << mistake.text;
   }
 }
 

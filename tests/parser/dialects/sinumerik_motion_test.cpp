@@ -18,10 +18,12 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<Motion> run(std::string_view text) { return motions(text, {}, Dialect::sinumerik); }
+std::vector<Motion> run_sinumerik(std::string_view text) {
+  return motions(text, {}, Dialect::sinumerik);
+}
 
 std::vector<RotaryPathChange> paths_of(std::string_view text) {
-  return all_of<RotaryPathChange>(run(text));
+  return all_of<RotaryPathChange>(run_sinumerik(text));
 }
 
 TEST(SinumerikRotary, TurnsInTheDirectionThatAWordAsksFor) {
@@ -29,7 +31,7 @@ TEST(SinumerikRotary, TurnsInTheDirectionThatAWordAsksFor) {
   ASSERT_EQ(up.size(), 1U);
   EXPECT_EQ(up[0].path, RotaryPath::positive);
   EXPECT_EQ(up[0].axes, (std::array{false, false, true}));
-  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run("G0 C=ACP(10)\n")).end[C], 10 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_sinumerik("G0 C=ACP(10)\n")).end[C], 10 * kRadPerDeg);
   EXPECT_EQ(paths_of("G0 B=ACN(10)\n").at(0).path, RotaryPath::negative);
   // Each axis has its own way; equal ones are told together.
   const auto both = paths_of("G0 A=DC(1) B=ACP(2) C=DC(3)\n");
@@ -41,7 +43,7 @@ TEST(SinumerikRotary, TurnsInTheDirectionThatAWordAsksFor) {
   EXPECT_EQ(paths_of("G0 C=ACP(10)\nC=AC(20)\n").at(1).path, RotaryPath::as_programmed);
   EXPECT_EQ(paths_of("G0 C=ACP(10)\nC=ACP(20)\n").size(), 1U);
   // The full turns are not known any more.
-  EXPECT_FALSE(last_of<Traverse>(run("G0 C=ACN(10)\nX1\n")).end[C].has_value());
+  EXPECT_FALSE(last_of<Traverse>(run_sinumerik("G0 C=ACN(10)\nX1\n")).end[C].has_value());
 }
 
 TEST(SinumerikRotary, StepsGoOnFromWhereTheAxisIs) {
@@ -52,28 +54,30 @@ TEST(SinumerikRotary, StepsGoOnFromWhereTheAxisIs) {
   EXPECT_EQ(last_path("C=IC(270)\n"), RotaryPath::positive);
   EXPECT_EQ(last_path("G91 C-270\n"), RotaryPath::negative);
   EXPECT_EQ(last_path("G91 C20\n"), RotaryPath::shortest);
-  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run("G0 C=DC(350)\nG91 C270\n")).end[C], 620 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_sinumerik("G0 C=DC(350)\nG91 C270\n")).end[C],
+                   620 * kRadPerDeg);
 }
 
 TEST(SinumerikOrientation, OfTheMachineIsThatOfTheWordsWhileNoFrameTurnsThem) {
   const std::string head = "T1 D1 M6\nTRAORI\nG0 X0 Y0 Z0\n";
   const std::string vector = "G1 X5 A3=0.6 B3=0 C3=0.8 F100\n";
-  const auto without = run(head + vector);
+  const auto without = run_sinumerik(head + vector);
   for (const char* frame : {"", "TRANS X10\n", "ATRANS Z5\n", "G55\n"}) {
-    const auto all = run(head + "ORIMKS\n" + frame + vector);
+    const auto all = run_sinumerik(head + "ORIMKS\n" + frame + vector);
     EXPECT_EQ(last_of<LinearFeed>(all).tool_axis->vec(),
               last_of<LinearFeed>(without).tool_axis->vec());
     EXPECT_TRUE(all_of<OrientationPathChange>(all).empty());
   }
   // Told, not silent; the workpiece's frame comes back.
-  const auto told = all_of<Event>(run("ORIMKS\nORIWKS\n"));
+  const auto told = all_of<Event>(run_sinumerik("ORIMKS\nORIWKS\n"));
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[0].name, "ORIMKS");
   EXPECT_EQ(told[1].name, "ORIWKS");
-  EXPECT_TRUE(run(head + "ORIMKS\nORIWKS\nROT Z30\nG0 X0 Y0 Z0\nA3=0 C3=1\n").size() > 5);
+  EXPECT_TRUE(run_sinumerik(head + "ORIMKS\nORIWKS\nROT Z30\nG0 X0 Y0 Z0\nA3=0 C3=1\n").size() > 5);
   // Rotary words are of the machine in any frame.
-  EXPECT_DOUBLE_EQ(*last_of<Traverse>(run(head + "ORIMKS\nROT Z30\nG0 X0 Y0 Z0 B5\n")).end[B],
-                   5 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(
+      *last_of<Traverse>(run_sinumerik(head + "ORIMKS\nROT Z30\nG0 X0 Y0 Z0 B5\n")).end[B],
+      5 * kRadPerDeg);
 }
 
 // --- Polar positions -----------------------------------------------------------------------------
@@ -83,7 +87,7 @@ Vec3 place(const AxisTarget& end) {
 }
 
 void expect_end(const std::string& text, double x, double y, double z) {
-  const Vec3 end = place(last_of<Traverse>(run(text)).end);
+  const Vec3 end = place(last_of<Traverse>(run_sinumerik(text)).end);
   EXPECT_LT((end - Vec3(x, y, z)).norm(), 1e-9) << text << end.transpose();
 }
 
@@ -126,17 +130,19 @@ TEST(SinumerikPolar, KeepsWhatIsLeftOut) {
 }
 
 TEST(SinumerikPolar, TurnsAboutThePole) {
-  const ArcFeed arc =
-      last_of<ArcFeed>(run("N5 G17 G90 G0 X30 Y40 F100\nN10 G111 X40 Y33\nG2 RP=12.207 AP=21\n"));
+  const ArcFeed arc = last_of<ArcFeed>(
+      run_sinumerik("N5 G17 G90 G0 X30 Y40 F100\nN10 G111 X40 Y33\nG2 RP=12.207 AP=21\n"));
   EXPECT_LT((arc.center - Vec3(40, 33, 0)).norm(), 1e-12);
   EXPECT_EQ(arc.turns, -1);
   EXPECT_NEAR(*arc.end[X], 40 + 12.207 * std::cos(21 * kRadPerDeg), 1e-9);
   const ArcFeed helix = last_of<ArcFeed>(
-      run("G0 X15 Y10 Z0 F100\nG111 X10 Y10\nG0 AP=0 RP=5\nG3 AP=90 Z-4 TURN=2\n"));
+      run_sinumerik("G0 X15 Y10 Z0 F100\nG111 X10 Y10\nG0 AP=0 RP=5\nG3 AP=90 Z-4 TURN=2\n"));
   EXPECT_EQ(helix.turns, 3);
   EXPECT_LT((place(helix.end) - Vec3(10, 15, -4)).norm(), 1e-9);
-  EXPECT_EQ(last_of<ArcFeed>(run("G0 X15 Y10 Z0 F100\nG111 X10 Y10\nG3 AP=AC(-90) RP=5\n")).turns,
-            1);
+  EXPECT_EQ(
+      last_of<ArcFeed>(run_sinumerik("G0 X15 Y10 Z0 F100\nG111 X10 Y10\nG3 AP=AC(-90) RP=5\n"))
+          .turns,
+      1);
 }
 
 RC_GTEST_PROP(SinumerikPolarLaws, PositionsAreComplexNumbers, ()) {
@@ -181,31 +187,35 @@ RC_GTEST_PROP(SinumerikPolarLaws, PositionsAreComplexNumbers, ()) {
     }
     if (kind >= 3) here = pole + polar(radius, angle);
   }
-  const AxisTarget end = last_of<Traverse>(run(text)).end;
+  const AxisTarget end = last_of<Traverse>(run_sinumerik(text)).end;
   RC_ASSERT(std::abs(Complex(*end[X], *end[Y]) - here) < 1e-9);
 }
 
 // --- Arcs through a point, tangential arcs -------------------------------------------------------
 
 TEST(SinumerikArcs, GoThroughTheirPoint) {
-  const ArcFeed arc = last_of<ArcFeed>(run("G0 X30 Y40 F100\nCIP X50 Y40 I1=40 J1=45\n"));
+  const ArcFeed arc = last_of<ArcFeed>(run_sinumerik("G0 X30 Y40 F100\nCIP X50 Y40 I1=40 J1=45\n"));
   EXPECT_LT((arc.center - Vec3(40, 32.5, 0)).norm(), 1e-9);
   EXPECT_EQ(arc.turns, -1);
   EXPECT_EQ(arc.plane, Plane::xy);
-  const ArcFeed back = last_of<ArcFeed>(run("G0 X30 Y40 F100\nCIP X50 Y40 I1=40 J1=20\n"));
+  const ArcFeed back =
+      last_of<ArcFeed>(run_sinumerik("G0 X30 Y40 F100\nCIP X50 Y40 I1=40 J1=20\n"));
   EXPECT_EQ(back.turns, 1);
   // Steps count from the start, both of the end and of the point.
-  const ArcFeed steps = last_of<ArcFeed>(run("G0 X30 Y40 F100\nG91 CIP X20 Y0 I1=10 J1=5\n"));
+  const ArcFeed steps =
+      last_of<ArcFeed>(run_sinumerik("G0 X30 Y40 F100\nG91 CIP X20 Y0 I1=10 J1=5\n"));
   EXPECT_LT((steps.center - Vec3(40, 32.5, 0)).norm(), 1e-9);
   const ArcFeed mixed =
-      last_of<ArcFeed>(run("G0 X30 Y40 F100\nCIP X=IC(20) Y40 I1=IC(10) J1=AC(45)\n"));
+      last_of<ArcFeed>(run_sinumerik("G0 X30 Y40 F100\nCIP X=IC(20) Y40 I1=IC(10) J1=AC(45)\n"));
   EXPECT_LT((mixed.center - Vec3(40, 32.5, 0)).norm(), 1e-9);
   // It stays in force.
-  EXPECT_EQ(all_of<ArcFeed>(run("G0 X0 Y0 F100\nCIP X10 Y0 I1=5 J1=5\nX0 Y0 I1=5 J1=-5\n")).size(),
-            2U);
+  EXPECT_EQ(
+      all_of<ArcFeed>(run_sinumerik("G0 X0 Y0 F100\nCIP X10 Y0 I1=5 J1=5\nX0 Y0 I1=5 J1=-5\n"))
+          .size(),
+      2U);
   // In another plane of two axes than that in force.
   const ArcFeed side =
-      last_of<ArcFeed>(run("G0 X30 Y2 Z40 F100\nCIP X50 Y2 Z40 I1=40 J1=2 K1=45\n"));
+      last_of<ArcFeed>(run_sinumerik("G0 X30 Y2 Z40 F100\nCIP X50 Y2 Z40 I1=40 J1=2 K1=45\n"));
   EXPECT_EQ(side.plane, Plane::zx);
   EXPECT_LT((side.center - Vec3(40, 2, 32.5)).norm(), 1e-9);
   EXPECT_EQ(side.turns, 1);  // from -X over +Z to +X, seen from +Y: counterclockwise
@@ -231,7 +241,7 @@ RC_GTEST_PROP(SinumerikArcLaws, ArcsThroughAPointStayOnTheirCircle, ()) {
   const Vec3 start = at(first);
   const Vec3 between = at(first + to_between);
   const Vec3 end = at(first + to_end);
-  const auto all = run(fmt::format(
+  const auto all = run_sinumerik(fmt::format(
       "G0 X={:.12f} Y={:.12f} Z={:.12f} F100\nCIP X={:.12f} Y={:.12f} Z={:.12f} I1={:.12f} "
       "J1={:.12f} K1={:.12f}\n",
       start.x(), start.y(), start.z(), end.x(), end.y(), end.z(), between.x(), between.y(),
@@ -261,47 +271,51 @@ RC_GTEST_PROP(SinumerikArcLaws, ArcsThroughAPointStayOnTheirCircle, ()) {
 }
 
 TEST(SinumerikArcs, InSpaceShareTheTimeOfTheirBlock) {
-  const auto all = run("G0 X0 Y0 Z0\nG93\nCIP X10 Y0 Z5 I1=5 J1=5 K1=2 F4\n");
+  const auto all = run_sinumerik("G0 X0 Y0 Z0\nG93\nCIP X10 Y0 Z5 I1=5 J1=5 K1=2 F4\n");
   double minutes = 0.0;
   for (const LinearFeed& line : all_of<LinearFeed>(all)) minutes += 1.0 / line.feed.value;
   EXPECT_NEAR(minutes, 0.25, 1e-12);
 }
 
 TEST(SinumerikArcs, LeadOnFromTheMoveBefore) {
-  const ArcFeed arc = last_of<ArcFeed>(run("G0 X0 Y0 F100\nG1 X10\nCT X20 Y10\n"));
+  const ArcFeed arc = last_of<ArcFeed>(run_sinumerik("G0 X0 Y0 F100\nG1 X10\nCT X20 Y10\n"));
   EXPECT_LT((arc.center - Vec3(10, 10, 0)).norm(), 1e-9);
   EXPECT_EQ(arc.turns, 1);
   // From one arc into the next: the heading at (20, 10) is +Y.
-  const auto arcs = all_of<ArcFeed>(run("G0 X0 Y0 F100\nG1 X10\nCT X20 Y10\nX0 Y10\n"));
+  const auto arcs = all_of<ArcFeed>(run_sinumerik("G0 X0 Y0 F100\nG1 X10\nCT X20 Y10\nX0 Y10\n"));
   EXPECT_LT((arcs.at(1).center - Vec3(10, 10, 0)).norm(), 1e-9);
   EXPECT_EQ(arcs.at(1).turns, 1);
-  const ArcFeed behind = last_of<ArcFeed>(run("G0 X0 Y0 F100\nG2 X10 Y10 I10\nCT X20 Y0\n"));
+  const ArcFeed behind =
+      last_of<ArcFeed>(run_sinumerik("G0 X0 Y0 F100\nG2 X10 Y10 I10\nCT X20 Y0\n"));
   EXPECT_LT((behind.center - Vec3(10, 0, 0)).norm(), 1e-9);
   EXPECT_EQ(behind.turns, -1);
   const ArcFeed through = last_of<ArcFeed>(
-      run("G0 X0 Y0 F100\nCIP X10 Y10 I1=2.92893218813 J1=7.07106781187\nCT X20 Y0\n"));
+      run_sinumerik("G0 X0 Y0 F100\nCIP X10 Y10 I1=2.92893218813 J1=7.07106781187\nCT X20 Y0\n"));
   EXPECT_LT((through.center - Vec3(10, 0, 0)).norm(), 1e-6);
-  const ArcFeed side = last_of<ArcFeed>(run("G18 G0 X0 Y3 Z0 F100\nG1 Z10\nCT Z20 X10\n"));
+  const ArcFeed side =
+      last_of<ArcFeed>(run_sinumerik("G18 G0 X0 Y3 Z0 F100\nG1 Z10\nCT Z20 X10\n"));
   EXPECT_LT((side.center - Vec3(10, 3, 10)).norm(), 1e-9);
   EXPECT_EQ(side.plane, Plane::zx);
   EXPECT_EQ(side.turns, 1);
   // To a polar end; with a move along the normal between, which has no direction in the plane.
-  const ArcFeed polar =
-      last_of<ArcFeed>(run("G0 X0 Y0 Z0 F100\nG1 X10\nZ-1\nG111 X10 Y10\nCT AP=0 RP=10\n"));
+  const ArcFeed polar = last_of<ArcFeed>(
+      run_sinumerik("G0 X0 Y0 Z0 F100\nG1 X10\nZ-1\nG111 X10 Y10\nCT AP=0 RP=10\n"));
   EXPECT_LT((polar.center - Vec3(10, 10, -1)).norm(), 1e-9);
 }
 
 // --- Threads -------------------------------------------------------------------------------------
 
 TEST(SinumerikThreads, FollowTheSpindleByTheLeadOfTheLongerWay) {
-  const Feed feed = last_of<LinearFeed>(run("G0 X0 Y0 Z0 S500 M3\nG33 Z-20 K2\n")).feed;
+  const Feed feed = last_of<LinearFeed>(run_sinumerik("G0 X0 Y0 Z0 S500 M3\nG33 Z-20 K2\n")).feed;
   EXPECT_TRUE(feed.synchronised);
   EXPECT_EQ(feed.mode, FeedMode::per_revolution);
   EXPECT_DOUBLE_EQ(feed.value, 2.0);
-  EXPECT_DOUBLE_EQ(last_of<LinearFeed>(run("G0 X0 S500 M3\nG33 X5 I0.5\n")).feed.value, 0.5);
+  EXPECT_DOUBLE_EQ(last_of<LinearFeed>(run_sinumerik("G0 X0 S500 M3\nG33 X5 I0.5\n")).feed.value,
+                   0.5);
   // Along Z 2 mm a turn, on a way of 5 and 20 mm.
-  EXPECT_NEAR(last_of<LinearFeed>(run("G0 X0 Y0 Z0 S500 M3\nG33 X5 Z-20 K2\n")).feed.value,
-              2 * std::hypot(5, 20) / 20, 1e-12);
+  EXPECT_NEAR(
+      last_of<LinearFeed>(run_sinumerik("G0 X0 Y0 Z0 S500 M3\nG33 X5 Z-20 K2\n")).feed.value,
+      2 * std::hypot(5, 20) / 20, 1e-12);
 }
 
 }  // namespace

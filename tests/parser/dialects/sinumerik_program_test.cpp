@@ -14,7 +14,7 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<double> x_of(std::string_view text, const InterpreterOptions& options = {}) {
+std::vector<double> x_of_program(std::string_view text, const InterpreterOptions& options = {}) {
   std::vector<double> places;
   for (const Traverse& move : all_of<Traverse>(motions(text, options, Dialect::sinumerik))) {
     places.push_back(*move.end[X]);
@@ -30,41 +30,42 @@ std::string complaint_of(std::string_view text) {
 }
 
 TEST(SinumerikProgram, CallsTheProgramsBehindIt) {
-  EXPECT_EQ(x_of("%_N_MAIN_MPF\nL10\nG0 X1\nSLOT P2\nM30\n%_N_L10_SPF\nG0 X10\nM17\n"
-                 "%_N_SLOT_SPF\nPROC SLOT\nG0 X20\nRET\n"),
+  EXPECT_EQ(x_of_program("%_N_MAIN_MPF\nL10\nG0 X1\nSLOT P2\nM30\n%_N_L10_SPF\nG0 X10\nM17\n"
+                         "%_N_SLOT_SPF\nPROC SLOT\nG0 X20\nRET\n"),
             (Places{10, 1, 20, 20}));
   // Without a head before it, PROC is one.
-  EXPECT_EQ(x_of("slot\nM30\nPROC SLOT\nG0 X2\nRET\n"), (Places{2}));
+  EXPECT_EQ(x_of_program("slot\nM30\nPROC SLOT\nG0 X2\nRET\n"), (Places{2}));
 }
 
 TEST(SinumerikProgram, GivesArgumentsAndKeepsVariablesApart) {
-  EXPECT_EQ(x_of("DEF REAL WIDTH=7\nSLOT(3,2)\nSLOT(,4)\nSLOT\nG0 X=WIDTH\nM30\n"
-                 "PROC SLOT(REAL WIDTH, INT COUNT=5)\nG0 X=WIDTH*COUNT\nWIDTH=99\nRET\n"),
+  EXPECT_EQ(x_of_program("DEF REAL WIDTH=7\nSLOT(3,2)\nSLOT(,4)\nSLOT\nG0 X=WIDTH\nM30\n"
+                         "PROC SLOT(REAL WIDTH, INT COUNT=5)\nG0 X=WIDTH*COUNT\nWIDTH=99\nRET\n"),
             (Places{6, 0, 0, 7}));
 }
 
 TEST(SinumerikProgram, SharesRParameters) {
-  EXPECT_EQ(x_of("R1=2\nL1\nG0 X=R1\nM30\n%_N_L1_SPF\nR1=R1+5\nM17\n"), (Places{7}));
+  EXPECT_EQ(x_of_program("R1=2\nL1\nG0 X=R1\nM30\n%_N_L1_SPF\nR1=R1+5\nM17\n"), (Places{7}));
 }
 
 TEST(SinumerikProgram, LabelsBelongToTheirProgram) {
   EXPECT_EQ(
-      x_of("GOTOF DONE\nG0 X1\nDONE:\nL1\nM30\n%_N_L1_SPF\nGOTOF DONE\nG0 X2\nDONE: G0 X3\nRET\n"),
+      x_of_program(
+          "GOTOF DONE\nG0 X1\nDONE:\nL1\nM30\n%_N_L1_SPF\nGOTOF DONE\nG0 X2\nDONE: G0 X3\nRET\n"),
       (Places{3}));
 }
 
 TEST(SinumerikProgram, LabelsStandBeforeStatements) {
   const std::string l1 = "M30\n%_N_L1_SPF\nG0 X9\nM17\n";
-  EXPECT_EQ(x_of("GOTOF DONE\nG0 X1\nDONE: L1\nG0 X2\n" + l1), (Places{9, 2}));
-  EXPECT_EQ(x_of("DONE: L1 P2\n" + l1), (Places{9, 9}));
-  EXPECT_EQ(x_of("R1=3\nGOTOF HERE\nG0 X1\nHERE: IF R1==3\nG0 X2\nELSE\nG0 X3\nENDIF\n"),
+  EXPECT_EQ(x_of_program("GOTOF DONE\nG0 X1\nDONE: L1\nG0 X2\n" + l1), (Places{9, 2}));
+  EXPECT_EQ(x_of_program("DONE: L1 P2\n" + l1), (Places{9, 9}));
+  EXPECT_EQ(x_of_program("R1=3\nGOTOF HERE\nG0 X1\nHERE: IF R1==3\nG0 X2\nELSE\nG0 X3\nENDIF\n"),
             (Places{2}));
-  EXPECT_EQ(x_of("AGAIN: R1=R1+1\nG0 X=R1\nBACK: IF R1<3 GOTOB AGAIN\nG0 X9\n"),
+  EXPECT_EQ(x_of_program("AGAIN: R1=R1+1\nG0 X=R1\nBACK: IF R1<3 GOTOB AGAIN\nG0 X9\n"),
             (Places{1, 2, 3, 9}));
-  EXPECT_EQ(x_of("AA: FOR R1=1 TO 2\nG0 X=R1\nENDFOR\nR2=R2+1\nIF R2<2 GOTOB AA\n"),
+  EXPECT_EQ(x_of_program("AA: FOR R1=1 TO 2\nG0 X=R1\nENDFOR\nR2=R2+1\nIF R2<2 GOTOB AA\n"),
             (Places{1, 2, 1, 2}));
-  EXPECT_EQ(x_of("AA: G0 X1\nBB: REPEAT AA P=1\nX5\n"), (Places{1, 1, 5}));
-  EXPECT_EQ(x_of("%_N_MAIN_MPF\nOUT2: SUB2(4)\nM30\nPROC SUB2(REAL XX)\nG0 X=XX\nRET\n"),
+  EXPECT_EQ(x_of_program("AA: G0 X1\nBB: REPEAT AA P=1\nX5\n"), (Places{1, 1, 5}));
+  EXPECT_EQ(x_of_program("%_N_MAIN_MPF\nOUT2: SUB2(4)\nM30\nPROC SUB2(REAL XX)\nG0 X=XX\nRET\n"),
             (Places{4}));
 }
 
@@ -75,7 +76,7 @@ TEST(SinumerikProgram, FindsSubprogramsInFiles) {
   std::ofstream(folder / "L7.SPF") << "G0 X7\nM17\n";
   InterpreterOptions options;
   options.search_path = {folder};
-  EXPECT_EQ(x_of("DRILL(5)\nL7\n", options), (Places{5, 7}));
+  EXPECT_EQ(x_of_program("DRILL(5)\nL7\n", options), (Places{5, 7}));
   std::filesystem::remove_all(folder);
 }
 
@@ -95,41 +96,44 @@ TEST(SinumerikProgram, RetEndsTheMainProgram) {
 
 TEST(SinumerikProgram, RepeatsParts) {
   // From the label to the statement, between two labels with the second block, one block.
-  EXPECT_EQ(x_of("AA: G0 X1\nX2\n\nREPEAT AA P=2\nX9\n"), (Places{1, 2, 1, 2, 1, 2, 9}));
-  EXPECT_EQ(x_of("G0\nAA: X1\nBB: X2\nX3\nREPEAT AA BB\nX9\n"), (Places{1, 2, 3, 1, 2, 9}));
-  EXPECT_EQ(x_of("G0\nAA: X1\nX2\nREPEATB AA P=2\nX9\n"), (Places{1, 2, 1, 1, 9}));
+  EXPECT_EQ(x_of_program("AA: G0 X1\nX2\n\nREPEAT AA P=2\nX9\n"), (Places{1, 2, 1, 2, 1, 2, 9}));
+  EXPECT_EQ(x_of_program("G0\nAA: X1\nBB: X2\nX3\nREPEAT AA BB\nX9\n"), (Places{1, 2, 3, 1, 2, 9}));
+  EXPECT_EQ(x_of_program("G0\nAA: X1\nX2\nREPEATB AA P=2\nX9\n"), (Places{1, 2, 1, 1, 9}));
   // Up to the ENDLABEL, also of a part that is still to come.
-  EXPECT_EQ(x_of("G0\nAA: X1\nENDLABEL:\nX2\nREPEAT AA\nX9\n"), (Places{1, 2, 1, 9}));
-  EXPECT_EQ(x_of("G0\nREPEAT AA\nX9\nAA: X1\nENDLABEL:\nX2\n"), (Places{1, 9, 1, 2}));
+  EXPECT_EQ(x_of_program("G0\nAA: X1\nENDLABEL:\nX2\nREPEAT AA\nX9\n"), (Places{1, 2, 1, 9}));
+  EXPECT_EQ(x_of_program("G0\nREPEAT AA\nX9\nAA: X1\nENDLABEL:\nX2\n"), (Places{1, 9, 1, 2}));
 }
 
 TEST(SinumerikProgram, ChoosesByCase) {
   const std::string text =
       "CASE R1 OF 1 GOTOF ONE 2 GOTOF TWO DEFAULT GOTOF OTHER\nONE: G0 X1\nM30\nTWO: G0 X2\nM30\n"
       "OTHER: G0 X3\n";
-  EXPECT_EQ(x_of("R1=1\n" + text), (Places{1}));
-  EXPECT_EQ(x_of("R1=2\n" + text), (Places{2}));
-  EXPECT_EQ(x_of("R1=7\n" + text), (Places{3}));
-  EXPECT_EQ(x_of("CASE R1 OF 5 GOTOF NONE\nG0 X1\n"), (Places{1}));
+  EXPECT_EQ(x_of_program("R1=1\n" + text), (Places{1}));
+  EXPECT_EQ(x_of_program("R1=2\n" + text), (Places{2}));
+  EXPECT_EQ(x_of_program("R1=7\n" + text), (Places{3}));
+  EXPECT_EQ(x_of_program("CASE R1 OF 5 GOTOF NONE\nG0 X1\n"), (Places{1}));
 }
 
 TEST(SinumerikProgram, GotocGoesOnWithoutItsLabel) {
-  EXPECT_EQ(x_of("GOTOC NOWHERE\nG0 X1\nGOTOC THERE\nG0 X2\nTHERE: G0 X3\n"), (Places{1, 3}));
+  EXPECT_EQ(x_of_program("GOTOC NOWHERE\nG0 X1\nGOTOC THERE\nG0 X2\nTHERE: G0 X3\n"),
+            (Places{1, 3}));
 }
 
 TEST(SinumerikProgram, ReadsParameters) {
-  EXPECT_EQ(x_of("R[2+1]=4\nG0 X=R3\nR0=3\nX=R[R0]+R999\n"), (Places{4, 4}));
-  EXPECT_EQ(x_of("DEF INT WHOLE=2.6\nDEF BOOL YES=TRUE\nG0 X=WHOLE\nWHOLE=1/3\nX=WHOLE+YES\n"),
-            (Places{3, 1}));
-  EXPECT_EQ(x_of("DEF INT II\nG0\nFOR II=1 TO 3\nX=II\nENDFOR\n"), (Places{1, 2, 3}));
-  EXPECT_EQ(x_of("G0 X=7 DIV 2\nX=TRUNC(-1.5)\nX=MINVAL(3,2)+MAXVAL(1,5)\nX=ROUNDUP(1.2)\n"),
-            (Places{3, -1, 7, 2}));
+  EXPECT_EQ(x_of_program("R[2+1]=4\nG0 X=R3\nR0=3\nX=R[R0]+R999\n"), (Places{4, 4}));
+  EXPECT_EQ(
+      x_of_program("DEF INT WHOLE=2.6\nDEF BOOL YES=TRUE\nG0 X=WHOLE\nWHOLE=1/3\nX=WHOLE+YES\n"),
+      (Places{3, 1}));
+  EXPECT_EQ(x_of_program("DEF INT II\nG0\nFOR II=1 TO 3\nX=II\nENDFOR\n"), (Places{1, 2, 3}));
+  EXPECT_EQ(
+      x_of_program("G0 X=7 DIV 2\nX=TRUNC(-1.5)\nX=MINVAL(3,2)+MAXVAL(1,5)\nX=ROUNDUP(1.2)\n"),
+      (Places{3, -1, 7, 2}));
 }
 
 TEST(SinumerikProgram, ReadsWhatTheControlKnows) {
-  EXPECT_EQ(
-      x_of("G0 X5 Y3\nX=$P_EP[X]+$AA_IW[Y]\nT4 D1 M6\nX=$P_TOOLNO\nS500 M4\nX=$P_S+$P_SDIR\n"),
-      (Places{5, 8, 4, 504}));
+  EXPECT_EQ(x_of_program(
+                "G0 X5 Y3\nX=$P_EP[X]+$AA_IW[Y]\nT4 D1 M6\nX=$P_TOOLNO\nS500 M4\nX=$P_S+$P_SDIR\n"),
+            (Places{5, 8, 4, 504}));
 }
 
 RC_GTEST_PROP(SinumerikProgramLaws, RepeatEqualsWritingOut, ()) {
@@ -142,7 +146,7 @@ RC_GTEST_PROP(SinumerikProgramLaws, RepeatEqualsWritingOut, ()) {
   for (int i = 0; i < count; ++i) whole += body;
   const std::string text =
       "G90 G0 X0\nPART:\n" + body + "REPEAT PART P=" + std::to_string(count) + "\n";
-  RC_ASSERT(x_of(text) == x_of(whole));
+  RC_ASSERT(x_of_program(text) == x_of_program(whole));
 }
 
 TEST(SinumerikProgram, TellsMistakes) {

@@ -118,14 +118,14 @@ TEST(Corners, KeepTheMotionsBeforeAMistake) {
   EXPECT_EQ(count, 2);
 }
 
-struct Wrong {
+struct WrongCorner {
   const char* text;
   const char* complaint;
 };
 
 TEST(CornerErrors, SayWhereWhatAndTheRemedy) {
   const std::string start = "L X+0 Y+0 Z+0 FMAX\nL X+10 F100\n";
-  const Wrong mistakes[] = {
+  const WrongCorner mistakes[] = {
       {"RND R2\n", "3:1: error: RND with no move behind it"},
       {"RND R2\nEND PGM A MM\n", "4:1: error: END PGM between RND and the move behind it"},
       {"RND R2\nL Y+10 FMAX\n", "3:1: error: RND before no cutting move in the plane"},
@@ -151,7 +151,7 @@ TEST(CornerErrors, SayWhereWhatAndTheRemedy) {
       {"RND R2 X+5\n", "3:8: error: unexpected 'X'"},
       {"CHF 2\nL Y+10 FT5\n", "3:1: error: CHF beside a move with FT"},
   };
-  for (const Wrong& wrong : mistakes) {
+  for (const WrongCorner& wrong : mistakes) {
     const auto lines = complaints(start + wrong.text, {}, Dialect::heidenhain);
     ASSERT_EQ(lines.size(), 1U) << wrong.text;
     EXPECT_TRUE(lines[0].starts_with(wrong.complaint)) << lines[0] << "\n" << wrong.text;

@@ -97,13 +97,13 @@ TEST(DeepHoleLaws, FeedsAddUpToTheDepthAndReachEachPlaceOnce) {
   }
 }
 
-struct Wrong {
+struct WrongHole {
   const char* words;
   const char* complaint;
 };
 
 TEST(DeepHoleErrors, SayWhereWhatAndTheRemedy) {
-  const Wrong mistakes[] = {
+  const WrongHole mistakes[] = {
       {"203 Q200=2 Q201=-9 Q206=9 Q203=0", "1:1: error: CYCL DEF 203 has no Q202"},
       {"203 Q200=2 Q201=-9 Q206=9 Q203=0 Q202=1 Q258=1",
        "1:50: error: Q258 has no meaning in CYCL DEF 203"},
@@ -124,7 +124,7 @@ TEST(DeepHoleErrors, SayWhereWhatAndTheRemedy) {
       {"202 Q200=2", "1:1: error: CYCL DEF 202 is not simulated"},
       {"220 Q216=2", "1:1: error: CYCL DEF 220 is not simulated"},
   };
-  for (const Wrong& wrong : mistakes) {
+  for (const WrongHole& wrong : mistakes) {
     const auto lines =
         complaints(fmt::format("CYCL DEF {}\n", wrong.words), {}, Dialect::heidenhain);
     ASSERT_EQ(lines.size(), 1U) << wrong.words;

@@ -13,11 +13,11 @@ namespace {
 
 using enum AxisLetter;
 
-struct Place {
+struct MirroredPlace {
   double x, y, z;
 };
-std::vector<Place> places(std::string_view text) {
-  std::vector<Place> found;
+std::vector<MirroredPlace> places(std::string_view text) {
+  std::vector<MirroredPlace> found;
   for (const Motion& motion : motions(text)) {
     const AxisTarget* end = nullptr;
     if (const auto* move = std::get_if<Traverse>(&motion.command)) end = &move->end;
@@ -28,7 +28,7 @@ std::vector<Place> places(std::string_view text) {
   }
   return found;
 }
-void expect_places(std::string_view text, const std::vector<Place>& wanted) {
+void expect_places(std::string_view text, const std::vector<MirroredPlace>& wanted) {
   const auto found = places(text);
   ASSERT_EQ(found.size(), wanted.size()) << text;
   for (std::size_t i = 0; i < wanted.size(); ++i) {

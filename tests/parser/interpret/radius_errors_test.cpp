@@ -8,13 +8,13 @@
 namespace frustum::parser {
 namespace {
 
-struct Mistake {
+struct RadiusMistake {
   Dialect dialect;
   std::string_view text;
   std::string_view complaint;
 };
 
-InterpreterOptions with_tools() {
+InterpreterOptions with_radius_tools() {
   InterpreterOptions options;
   options.tools[1].diameter = 12.0;
   options.tools[2].diameter = 8.0;
@@ -23,9 +23,9 @@ InterpreterOptions with_tools() {
   return options;
 }
 
-void expect(std::span<const Mistake> mistakes) {
-  for (const Mistake& mistake : mistakes) {
-    const auto lines = complaints(mistake.text, with_tools(), mistake.dialect);
+void expect(std::span<const RadiusMistake> mistakes) {
+  for (const RadiusMistake& mistake : mistakes) {
+    const auto lines = complaints(mistake.text, with_radius_tools(), mistake.dialect);
     ASSERT_EQ(lines.size(), 1U) << mistake.text;
     const std::size_t hint = lines[0].find(" (hint: ");
     EXPECT_NE(hint, std::string::npos) << lines[0];
@@ -36,7 +36,7 @@ void expect(std::span<const Mistake> mistakes) {
 using enum Dialect;
 
 TEST(RadiusErrors, OfTheContour) {
-  constexpr Mistake kMistakes[] = {
+  constexpr RadiusMistake kMistakes[] = {
       {linuxcnc, "G41 D1 F100\nG1 X20\nX20 Y3\nX0\nM2\n",
        "3:1: error: the tool, of radius 6 mm, does not fit into the corner: the move behind it is "
        "3 mm too short"},
@@ -77,7 +77,7 @@ TEST(RadiusErrors, OfTheContour) {
 }
 
 TEST(RadiusErrors, OfTheToolAndItsWord) {
-  constexpr Mistake kMistakes[] = {
+  constexpr RadiusMistake kMistakes[] = {
       {linuxcnc, "G41 D9\n", "1:5: error: the tool table has no tool 9"},
       {linuxcnc, "G42 D5\n", "1:5: error: G42 with a tool of no diameter"},
       {linuxcnc, "G41\n", "1:1: error: G41 without a tool in the spindle"},
@@ -111,7 +111,7 @@ TEST(RadiusErrors, OfTheToolAndItsWord) {
 }
 
 TEST(RadiusErrors, OfWhatMayNotHappenWhileItIsOn) {
-  constexpr Mistake kMistakes[] = {
+  constexpr RadiusMistake kMistakes[] = {
       {linuxcnc, "G41 D1\nG18\n", "2:1: error: G18 with radius compensation on"},
       {linuxcnc, "G41 D1\nG28\n", "2:1: error: G28 with radius compensation on"},
       {linuxcnc, "G41 D1\nG53 G0 X0\n", "2:1: error: G53 with radius compensation on"},
@@ -149,14 +149,14 @@ TEST(RadiusErrors, OfWhatMayNotHappenWhileItIsOn) {
 TEST(RadiusErrors, TooMuchBetweenTwoMovesOfTheContour) {
   std::string text = "G41 D1 F100\nG1 X20\n";
   for (int i = 0; i < 10'001; ++i) text += i % 2 == 0 ? "Z1\n" : "Z2\n";
-  const auto lines = complaints(text, with_tools(), linuxcnc);
+  const auto lines = complaints(text, with_radius_tools(), linuxcnc);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_TRUE(lines[0].starts_with("10002:1: error: 10000 motions and events without a move"))
       << lines[0];
 }
 
 TEST(SplineErrors, OfTheirWords) {
-  constexpr Mistake kMistakes[] = {
+  constexpr RadiusMistake kMistakes[] = {
       {linuxcnc, "F100\nG18 G5 X10 I1 J1 P1 Q1\n", "2:5: error: a spline outside G17"},
       {linuxcnc, "F100\nG5 X10 Z5 I1 J1 P1 Q1\n", "2:8: error: Z5 in a spline"},
       {linuxcnc, "F100\nG5.1 X10 C5 I1 J1\n", "2:10: error: C5 in a spline"},

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTolerance = 1e-5;  // mm
 
-double distance_to(const PathPiece& piece, const Vec2& point) {
+double distance_to_spline(const PathPiece& piece, const Vec2& point) {
   const double ends = std::min((point - piece.start).norm(), (point - piece.end).norm());
   if (!piece.is_arc()) {
     const Vec2 along = direction_at_start(piece);
@@ -53,7 +53,8 @@ RC_GTEST_PROP(SplineLaws, TheArcsAreNearTheCurveAndJoinWithoutACorner, ()) {
   for (int i = 0; i <= 500; ++i) {
     const Vec2 point = point_of_spline(points, order, parameters * i / 500.0);
     double nearest = 1e9;
-    for (const PathPiece& piece : pieces) nearest = std::min(nearest, distance_to(piece, point));
+    for (const PathPiece& piece : pieces)
+      nearest = std::min(nearest, distance_to_spline(piece, point));
     RC_ASSERT(nearest < 1.5 * kTolerance);
   }
 }

@@ -8,13 +8,13 @@
 namespace frustum::parser {
 namespace {
 
-std::vector<Motion> linuxcnc(const std::string& text) {
+std::vector<Motion> run_linuxcnc(const std::string& text) {
   return motions(text, {}, Dialect::linuxcnc);
 }
 
 TEST(Threads, FollowTheSpindleByTheLeadOfTheBlock) {
   const auto feeds =
-      all_of<LinearFeed>(linuxcnc("S100 M3\nG0 X0 Z0\nG33 Z-5 K1.5\nG20 Z-1 K0.1\nM2\n"));
+      all_of<LinearFeed>(run_linuxcnc("S100 M3\nG0 X0 Z0\nG33 Z-5 K1.5\nG20 Z-1 K0.1\nM2\n"));
   ASSERT_EQ(feeds.size(), 2U);
   EXPECT_TRUE(feeds[0].feed.synchronised);
   EXPECT_EQ(feeds[0].feed.mode, FeedMode::per_revolution);
@@ -23,7 +23,7 @@ TEST(Threads, FollowTheSpindleByTheLeadOfTheBlock) {
 }
 
 TEST(Threads, ARigidTapComesBackWithTheSpindleReversed) {
-  const auto all = linuxcnc("S100 M4\nG0 X1 Y2 Z3\nG33.1 Z-5 K1\nM2\n");
+  const auto all = run_linuxcnc("S100 M4\nG0 X1 Y2 Z3\nG33.1 Z-5 K1\nM2\n");
   const auto feeds = all_of<LinearFeed>(all);
   ASSERT_EQ(feeds.size(), 2U);
   EXPECT_EQ(feeds[0].end[AxisLetter::Z], -5.0);
@@ -62,7 +62,7 @@ TEST(ThreadingCycleLaws, EachPassIsDeeperAndTheLastOnesAreAtFullDepth) {
 }
 
 TEST(Probing, IsAMotionOfItsOwnAndLeavesItsPlaceInParameters) {
-  const auto all = linuxcnc(
+  const auto all = run_linuxcnc(
       "#5070=1\nG0 X1 Y2 Z3 A30\nG38.4 Z-5 F50\nG0 X[#5061+10] Y[#5063] Z[#5064+#5070]\nM2\n");
   const auto probe = last_of<Probe>(all);
   EXPECT_TRUE(probe.away);
@@ -76,7 +76,7 @@ TEST(Probing, IsAMotionOfItsOwnAndLeavesItsPlaceInParameters) {
 }
 
 TEST(Probing, IsPublishedAsJson) {
-  const auto all = linuxcnc("S9 M3 F50\nG0 X1 Z3\nG38.3 Z-5\nG33 X2 K1\nM2\n");
+  const auto all = run_linuxcnc("S9 M3 F50\nG0 X1 Z3\nG38.3 Z-5\nG33 X2 K1\nM2\n");
   std::vector<std::string> lines;
   for (const Motion& motion : all) lines.push_back(to_json_line(motion));
   ASSERT_GE(lines.size(), 4U);
@@ -88,7 +88,7 @@ TEST(Probing, IsPublishedAsJson) {
 }
 
 TEST(Diameters, AreHalvedInXAloneWhileG7IsOn) {
-  const auto rapids = all_of<Traverse>(linuxcnc("G7\nG0 X10 Z4\nG91 X2\nG90 G8 X3\nM2\n"));
+  const auto rapids = all_of<Traverse>(run_linuxcnc("G7\nG0 X10 Z4\nG91 X2\nG90 G8 X3\nM2\n"));
   ASSERT_EQ(rapids.size(), 3U);
   EXPECT_EQ(rapids[0].end[AxisLetter::X], 5.0);
   EXPECT_EQ(rapids[0].end[AxisLetter::Z], 4.0);
@@ -96,49 +96,54 @@ TEST(Diameters, AreHalvedInXAloneWhileG7IsOn) {
   EXPECT_EQ(rapids[2].end[AxisLetter::X], 3.0);
 }
 
-struct Mistake {
+struct ThreadMistake {
   const char* text;
   const char* complaint;
 };
 
 TEST(ThreadErrors, TellPlaceAndReason) {
   const std::string start = "F100 S100 M3\nG0 X10 Y0 Z5\n";
-  for (const Mistake& mistake : {
-           Mistake{"G33 Z-5\n", "3:1: error: G33 without K"},
-           Mistake{"G33 Z-5 K0\n", "3:9: error: K0 is not above zero"},
-           Mistake{"G33 K1\n", "3:1: error: a thread without an end"},
-           Mistake{"M5\nG33 Z-5 K1\n", "4:1: error: G33 while the spindle stands"},
-           Mistake{"G33 Z-5 K1\nZ-6\n", "4:1: error: a thread without K"},
-           Mistake{"G33.1 Z-5 K1 A5\n", "3:14: error: A5 has no meaning in this block"},
-           Mistake{"G33.1 K1\n", "3:1: error: a thread without an end"},
-           Mistake{"G55\nG33.1 Z-5 K1\n",
-                   "4:1: error: the tap goes back to a start that is not known: Z is not known"},
-           Mistake{"G76 Z-5 I-1 J0.1 K1\n", "3:1: error: the threading cycle has no P"},
-           Mistake{"G76 P1 Z-5 I0 J0.1 K1\n", "3:12: error: the crest is on the drive line"},
-           Mistake{"G76 P1 Z-5 I-1 J-0.1 K1\n", "3:16: error: J-0.1 is not above zero"},
-           Mistake{"G76 P1 Z-5 I-1 J2 K1\n", "3:16: error: the first depth is more than the full"},
-           Mistake{"G76 P1 Z-5 I-1 J0.1 K1 Q90\n", "3:24: error: Q90 is out of range"},
-           Mistake{"G76 P1 Z-5 I-1 J0.1 K1 H-1\n", "3:24: error: H-1 is out of range"},
-           Mistake{"G76 P1 Z-5 I-1 J0.1 K1 L4\n", "3:24: error: L4 is out of range"},
-           Mistake{"G76 P1 Z-5 I-1 J0.1 K1 E-1\n", "3:24: error: E-1 is negative"},
-           Mistake{"G76 P1 Z-5 I-1 J0.1 K1 E6 L3\n",
-                   "3:24: error: the tapers are longer than the thread"},
-           Mistake{"G76 P1 Z-5 I-1 J0.0001 K10 R9\n",
-                   "3:16: error: the thread would take more than 10000 passes"},
-           Mistake{"G76 P1 Z-5 I-1 J0.1 K1 A3\n", "3:24: error: A3 has no meaning in this block"},
-           Mistake{"G55\nG76 P1 Z-5 I-1 J0.1 K1\n",
-                   "4:1: error: the threading cycle starts at an unknown X: X is not known"},
-           Mistake{"M5\nG76 P1 Z-5 I-1 J0.1 K1\n", "4:1: error: G76 while the spindle stands"},
-           Mistake{"G38.2 X10\n", "3:1: error: the probing move ends where it starts"},
-           Mistake{"G93 G38.2 Z-5\n", "3:5: error: a probing move without F in G93"},
-           Mistake{"F0\nG38.2 Z-5\n", "4:1: error: a probing move without a feed rate"},
-           Mistake{"G38.1 Z-5\n", "3:1: error: unknown word G38.1"},
-           Mistake{"M61\n", "3:1: error: M61 without a tool"},
-           Mistake{"M61 Q-1\n", "3:5: error: Q-1 is out of range"},
-           Mistake{"G17.1\n", "3:1: error: G17.1 is not simulated"},
-           Mistake{"G71 P1\n", "3:1: error: G71 is not simulated"},
-           Mistake{"G7 G8\n", "3:4: error: G7 and G8 contradict each other in a block"},
-           Mistake{"G18 G1 @5 ^3\n", "3:8: error: a polar position outside the plane of X and Y"},
+  for (const ThreadMistake& mistake : {
+           ThreadMistake{"G33 Z-5\n", "3:1: error: G33 without K"},
+           ThreadMistake{"G33 Z-5 K0\n", "3:9: error: K0 is not above zero"},
+           ThreadMistake{"G33 K1\n", "3:1: error: a thread without an end"},
+           ThreadMistake{"M5\nG33 Z-5 K1\n", "4:1: error: G33 while the spindle stands"},
+           ThreadMistake{"G33 Z-5 K1\nZ-6\n", "4:1: error: a thread without K"},
+           ThreadMistake{"G33.1 Z-5 K1 A5\n", "3:14: error: A5 has no meaning in this block"},
+           ThreadMistake{"G33.1 K1\n", "3:1: error: a thread without an end"},
+           ThreadMistake{
+               "G55\nG33.1 Z-5 K1\n",
+               "4:1: error: the tap goes back to a start that is not known: Z is not known"},
+           ThreadMistake{"G76 Z-5 I-1 J0.1 K1\n", "3:1: error: the threading cycle has no P"},
+           ThreadMistake{"G76 P1 Z-5 I0 J0.1 K1\n", "3:12: error: the crest is on the drive line"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J-0.1 K1\n", "3:16: error: J-0.1 is not above zero"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J2 K1\n",
+                         "3:16: error: the first depth is more than the full"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.1 K1 Q90\n", "3:24: error: Q90 is out of range"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.1 K1 H-1\n", "3:24: error: H-1 is out of range"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.1 K1 L4\n", "3:24: error: L4 is out of range"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.1 K1 E-1\n", "3:24: error: E-1 is negative"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.1 K1 E6 L3\n",
+                         "3:24: error: the tapers are longer than the thread"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.0001 K10 R9\n",
+                         "3:16: error: the thread would take more than 10000 passes"},
+           ThreadMistake{"G76 P1 Z-5 I-1 J0.1 K1 A3\n",
+                         "3:24: error: A3 has no meaning in this block"},
+           ThreadMistake{"G55\nG76 P1 Z-5 I-1 J0.1 K1\n",
+                         "4:1: error: the threading cycle starts at an unknown X: X is not known"},
+           ThreadMistake{"M5\nG76 P1 Z-5 I-1 J0.1 K1\n",
+                         "4:1: error: G76 while the spindle stands"},
+           ThreadMistake{"G38.2 X10\n", "3:1: error: the probing move ends where it starts"},
+           ThreadMistake{"G93 G38.2 Z-5\n", "3:5: error: a probing move without F in G93"},
+           ThreadMistake{"F0\nG38.2 Z-5\n", "4:1: error: a probing move without a feed rate"},
+           ThreadMistake{"G38.1 Z-5\n", "3:1: error: unknown word G38.1"},
+           ThreadMistake{"M61\n", "3:1: error: M61 without a tool"},
+           ThreadMistake{"M61 Q-1\n", "3:5: error: Q-1 is out of range"},
+           ThreadMistake{"G17.1\n", "3:1: error: G17.1 is not simulated"},
+           ThreadMistake{"G71 P1\n", "3:1: error: G71 is not simulated"},
+           ThreadMistake{"G7 G8\n", "3:4: error: G7 and G8 contradict each other in a block"},
+           ThreadMistake{"G18 G1 @5 ^3\n",
+                         "3:8: error: a polar position outside the plane of X and Y"},
        }) {
     const auto lines = complaints(start + mistake.text, {}, Dialect::linuxcnc);
     ASSERT_FALSE(lines.empty()) << mistake.text;
@@ -148,7 +153,7 @@ TEST(ThreadErrors, TellPlaceAndReason) {
 }
 
 TEST(BlanksOfLinuxcnc, DoNotCountButErrorsTellTheLineAsWritten) {
-  const auto moves = all_of<Traverse>(linuxcnc("g 0 x 1 . 5 y [ a b s [ - 2 ] ]\nM 2\n"));
+  const auto moves = all_of<Traverse>(run_linuxcnc("g 0 x 1 . 5 y [ a b s [ - 2 ] ]\nM 2\n"));
   ASSERT_EQ(moves.size(), 1U);
   EXPECT_EQ(moves[0].end[AxisLetter::X], 1.5);
   EXPECT_EQ(moves[0].end[AxisLetter::Y], 2.0);

@@ -8,63 +8,63 @@ namespace {
 
 using enum AxisLetter;
 
-double value_of(const std::string& expression) {
+double macro_value(const std::string& expression) {
   return *last_of<Traverse>(motions("#1=7\nG0 X" + expression + "\n")).end[X];
 }
-struct Case {
+struct ArithmeticCase {
   const char* text;
   double value;
 };
 
 TEST(MacroArithmetic, CombinesBits) {
-  for (const Case& c : {
-           Case{"[12 AND 10]", 8},
-           Case{"[12 OR 10]", 14},
-           Case{"[12 XOR 10]", 6},
-           Case{"[-1 AND 255]", 255},
+  for (const ArithmeticCase& c : {
+           ArithmeticCase{"[12 AND 10]", 8},
+           ArithmeticCase{"[12 OR 10]", 14},
+           ArithmeticCase{"[12 XOR 10]", 6},
+           ArithmeticCase{"[-1 AND 255]", 255},
            // AND is a product, OR and XOR are sums.
-           Case{"[1+6 AND 3]", 3},
-           Case{"[8 OR 1+1]", 10},
-           Case{"[2*3 AND 2]", 2},
-           Case{"[[1 EQ 1] AND [2 EQ 2]]", 1},
-           Case{"[[1 EQ 1] AND [2 EQ 3]]", 0},
-           Case{"[[1 EQ 2] OR [#1 GT 5]]", 1},
-           Case{"[1 EQ 3 AND 1]", 1},
+           ArithmeticCase{"[1+6 AND 3]", 3},
+           ArithmeticCase{"[8 OR 1+1]", 10},
+           ArithmeticCase{"[2*3 AND 2]", 2},
+           ArithmeticCase{"[[1 EQ 1] AND [2 EQ 2]]", 1},
+           ArithmeticCase{"[[1 EQ 1] AND [2 EQ 3]]", 0},
+           ArithmeticCase{"[[1 EQ 2] OR [#1 GT 5]]", 1},
+           ArithmeticCase{"[1 EQ 3 AND 1]", 1},
        }) {
-    EXPECT_EQ(value_of(c.text), c.value) << c.text;
+    EXPECT_EQ(macro_value(c.text), c.value) << c.text;
   }
 }
 
 TEST(MacroArithmetic, RoundsTowardsZeroAndAway) {
-  for (const Case& c : {
-           Case{"FIX[1.2]", 1},
-           Case{"FIX[-1.2]", -1},
-           Case{"FUP[1.2]", 2},
-           Case{"FUP[-1.2]", -2},
-           Case{"[7 MOD 4]", 3},
-           Case{"[-7 MOD 4]", -3},
-           Case{"[7 MOD -4]", 3},
-           Case{"[7.4 MOD 4.4]", 3},
+  for (const ArithmeticCase& c : {
+           ArithmeticCase{"FIX[1.2]", 1},
+           ArithmeticCase{"FIX[-1.2]", -1},
+           ArithmeticCase{"FUP[1.2]", 2},
+           ArithmeticCase{"FUP[-1.2]", -2},
+           ArithmeticCase{"[7 MOD 4]", 3},
+           ArithmeticCase{"[-7 MOD 4]", -3},
+           ArithmeticCase{"[7 MOD -4]", 3},
+           ArithmeticCase{"[7.4 MOD 4.4]", 3},
        }) {
-    EXPECT_EQ(value_of(c.text), c.value) << c.text;
+    EXPECT_EQ(macro_value(c.text), c.value) << c.text;
   }
 }
 
 TEST(MacroArithmetic, HasFunctionsOfItsOwn) {
-  for (const Case& c : {
-           Case{"POW[2,10]", 1024},
-           Case{"POW[[1+1],#1-4]", 8},
-           Case{"BCD[1234]", 4660},
-           Case{"BIN[4660]", 1234},
-           Case{"BIN[BCD[99999999]]", 99999999},
-           Case{"ADP[10]", 10},
-           Case{"ATAN[1]", 45},
-           Case{"ATAN[-1]", -45},
-           Case{"[ATAN[1]+1]", 46},
-           Case{"ATAN[1]/[-1]", 135},
-           Case{"ATAN[1,-1]", 135},
+  for (const ArithmeticCase& c : {
+           ArithmeticCase{"POW[2,10]", 1024},
+           ArithmeticCase{"POW[[1+1],#1-4]", 8},
+           ArithmeticCase{"BCD[1234]", 4660},
+           ArithmeticCase{"BIN[4660]", 1234},
+           ArithmeticCase{"BIN[BCD[99999999]]", 99999999},
+           ArithmeticCase{"ADP[10]", 10},
+           ArithmeticCase{"ATAN[1]", 45},
+           ArithmeticCase{"ATAN[-1]", -45},
+           ArithmeticCase{"[ATAN[1]+1]", 46},
+           ArithmeticCase{"ATAN[1]/[-1]", 135},
+           ArithmeticCase{"ATAN[1,-1]", 135},
        }) {
-    EXPECT_NEAR(value_of(c.text), c.value, 1e-9) << c.text;
+    EXPECT_NEAR(macro_value(c.text), c.value, 1e-9) << c.text;
   }
 }
 
@@ -74,24 +74,24 @@ TEST(MacroArithmetic, LeavesRs274Alone) {
 }
 
 TEST(SystemVariable, TellsTheModes) {
-  for (const Case& c : {
-           Case{"#4001", 0},
-           Case{"#4002", 17},
-           Case{"#4003", 90},
-           Case{"#4005", 94},
-           Case{"#4006", 21},
-           Case{"#4008", 49},
-           Case{"#4009", 80},
-           Case{"#4010", 98},
-           Case{"#4011", 50},
-           Case{"#4013", 97},
-           Case{"#4014", 54},
-           Case{"#4016", 69},
-           Case{"#4017", 15},
-           Case{"#4022", 50.1},
-           Case{"#4109", 0},
-           Case{"#4119", 0},
-           Case{"#4120", 0},
+  for (const ArithmeticCase& c : {
+           ArithmeticCase{"#4001", 0},
+           ArithmeticCase{"#4002", 17},
+           ArithmeticCase{"#4003", 90},
+           ArithmeticCase{"#4005", 94},
+           ArithmeticCase{"#4006", 21},
+           ArithmeticCase{"#4008", 49},
+           ArithmeticCase{"#4009", 80},
+           ArithmeticCase{"#4010", 98},
+           ArithmeticCase{"#4011", 50},
+           ArithmeticCase{"#4013", 97},
+           ArithmeticCase{"#4014", 54},
+           ArithmeticCase{"#4016", 69},
+           ArithmeticCase{"#4017", 15},
+           ArithmeticCase{"#4022", 50.1},
+           ArithmeticCase{"#4109", 0},
+           ArithmeticCase{"#4119", 0},
+           ArithmeticCase{"#4120", 0},
        }) {
     EXPECT_EQ(*last_of<Traverse>(motions("G0 Y0\nX" + std::string(c.text) + "\n")).end[X], c.value)
         << c.text;
