@@ -6,14 +6,15 @@ ORACLE ?= 0
 BUILD = cmake --build --parallel $(JOBS)
 DEMO_OUT = out/cone
 
-.PHONY: help demo build test setup asan fuzz bench format check-format tidy clean
+.PHONY: help demo build test laws setup asan fuzz bench format check-format tidy clean
 .DEFAULT_GOAL := help
 
 help:
 	@echo 'make demo          set up, build, and run the main job: ends with a pass/fail table'
 	@echo '                   and $(DEMO_OUT)/report.html'
-	@echo 'make test          set up, build, and run every test; with ORACLE=1 also those that compare NC'
-	@echo '                   programs with LinuxCNC, a package of 80 MB'
+	@echo 'make test          set up, build, and run every test, the laws with fewer random cases; with ORACLE=1'
+	@echo '                   also those that compare NC programs with LinuxCNC, a package of 80 MB'
+	@echo 'make laws          set up, build, and run every test, the laws at full length'
 	@echo 'make build         set up and build; the program is build/frustum'
 	@echo 'make asan          the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make fuzz          libFuzzer on every NC dialect, FUZZ_SECONDS=600 each, JOBS at a time'
@@ -38,6 +39,9 @@ build: build/release/build.ninja
 test: build
 	ctest --preset release
 
+laws: build
+	ctest --preset laws
+
 asan: build/asan/build.ninja
 	$(BUILD) --preset asan
 	ctest --preset asan
@@ -57,7 +61,7 @@ format:
 check-format:
 	scripts/format --check
 
-tidy: build/release/build.ninja
+tidy: build/files/build.ninja
 	JOBS=$(JOBS) scripts/tidy $(FILES)
 
 clean:

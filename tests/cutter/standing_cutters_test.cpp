@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "tests/cutter/sweep_judge.hpp"
+#include "tests/law_count.hpp"
 
 namespace frustum::proof {
 namespace {
@@ -34,10 +35,10 @@ std::vector<Case> all_cases() {
   return all;
 }
 
-// All cases together: 100,000, or as many as asked for.
+// All cases together: 100,000, or as many as asked for; 6,000 in `make test`.
 int rays_of_a_case() {
   const char* wanted = std::getenv("FRUSTUM_ORACLE_RAYS");
-  const int total = wanted ? std::atoi(wanted) : 100000;
+  const int total = wanted ? std::atoi(wanted) : law_count(100000, 6000);
   const auto all = all_cases();
   const auto convex =
       std::count_if(all.begin(), all.end(), [](const Case& c) { return c.kind->is_convex; });
@@ -136,7 +137,7 @@ class DegenerateSweepsOracle : public ::testing::TestWithParam<AnyPath> {
   [[nodiscard]] std::uint32_t paths_with_sliding_rays(std::uint32_t all) const {
     const bool few = !kind().cutter.body().concave().empty() &&
                      std::getenv("FRUSTUM_ORACLE_HOLLOWED") == nullptr;
-    return few ? 2 : all;
+    return few ? std::min(all, 2U) : all;
   }
   void TearDown() override { court_.close(); }
 
@@ -145,7 +146,7 @@ class DegenerateSweepsOracle : public ::testing::TestWithParam<AnyPath> {
 
 TEST_P(DegenerateSweepsOracle, RaysTangentToTheEnvelope) {
   for (const MotionFamily family : kMotionFamilies) {
-    for (std::uint32_t p = 0; p < paths_with_sliding_rays(6); ++p) {
+    for (std::uint32_t p = 0; p < paths_with_sliding_rays(law_count(6U, 1U)); ++p) {
       Draw draw(21, p);
       const kinematics::ToolPath path = random_path(family, draw);
       const SweepJudge judge(kind(), path);
@@ -169,7 +170,7 @@ TEST_P(DegenerateSweepsOracle, RaysThroughTheToolAxis) {
     Draw draw(22, static_cast<std::uint32_t>(family));
     const kinematics::ToolPath path = random_path(family, draw);
     Rays rays;
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < law_count(20, 4); ++k) {
       const kinematics::ToolPose at =
           kinematics::between(path.poses[0], path.poses[1], draw.between(0.0, 1.0));
       const Vec3 on_axis = at.tip + draw.between(-1.0, height() + 1.0) * at.axis;
@@ -184,7 +185,7 @@ TEST_P(DegenerateSweepsOracle, RaysThroughTheToolAxis) {
 }
 
 TEST_P(DegenerateSweepsOracle, RaysAlongTheMotion) {
-  for (std::uint32_t p = 0; p < paths_with_sliding_rays(12); ++p) {
+  for (std::uint32_t p = 0; p < paths_with_sliding_rays(law_count(12U, 3U)); ++p) {
     Draw draw(23, p);
     const bool level = p % 3 == 0;
     const kinematics::ToolPath path =
@@ -208,7 +209,7 @@ TEST_P(DegenerateSweepsOracle, RaysAlongTheMotion) {
 
 TEST_P(DegenerateSweepsOracle, RaysInTheEndFace) {
   for (const MotionFamily family : kMotionFamilies) {
-    for (std::uint32_t p = 0; p < 3; ++p) {
+    for (std::uint32_t p = 0; p < law_count(3U, 1U); ++p) {
       Draw draw(24, p + 16 * static_cast<std::uint32_t>(family));
       const kinematics::ToolPath path = random_path(family, draw);
       Rays rays;
@@ -229,7 +230,7 @@ TEST_P(DegenerateSweepsOracle, RaysInTheEndFace) {
 }
 
 TEST_P(DegenerateSweepsOracle, PureRotationAboutTheTip) {
-  for (std::uint32_t p = 0; p < 15; ++p) {
+  for (std::uint32_t p = 0; p < law_count(15U, 3U); ++p) {
     Draw draw(25, p);
     const Vec3 from = draw.axis(1.0);
     const Vec3 about = from.cross(draw.direction()).normalized();
@@ -244,7 +245,7 @@ TEST_P(DegenerateSweepsOracle, PureRotationAboutTheTip) {
 }
 
 TEST_P(DegenerateSweepsOracle, RotationAboutAPointOfTheAxisOrBesideIt) {
-  for (std::uint32_t p = 0; p < 15; ++p) {
+  for (std::uint32_t p = 0; p < law_count(15U, 3U); ++p) {
     Draw draw(26, p);
     const Vec3 from = draw.axis(1.0);
     const Vec3 about = from.cross(draw.direction()).normalized();
@@ -257,7 +258,7 @@ TEST_P(DegenerateSweepsOracle, RotationAboutAPointOfTheAxisOrBesideIt) {
 }
 
 TEST_P(DegenerateSweepsOracle, Plunges) {
-  for (std::uint32_t p = 0; p < 8; ++p) {
+  for (std::uint32_t p = 0; p < law_count(8U, 2U); ++p) {
     Draw draw(27, p);
     const kinematics::ToolPath path = random_path(MotionFamily::plunge, draw);
     const Vec3 axis = path.poses[0].axis;
@@ -273,7 +274,7 @@ TEST_P(DegenerateSweepsOracle, Plunges) {
 }
 
 TEST_P(DegenerateSweepsOracle, DwellsAndBlocksOfNoLengthAmongOthers) {
-  for (std::uint32_t p = 0; p < 8; ++p) {
+  for (std::uint32_t p = 0; p < law_count(8U, 2U); ++p) {
     Draw draw(28, p);
     const kinematics::ToolPose a{draw.point(Vec3(-5, -5, 0), Vec3(5, 5, 3)), draw.axis(0.3)};
     const kinematics::ToolPose b{draw.point(Vec3(-5, -5, 0), Vec3(5, 5, 3)), draw.axis(0.3)};
@@ -285,14 +286,14 @@ TEST_P(DegenerateSweepsOracle, DwellsAndBlocksOfNoLengthAmongOthers) {
 }
 
 TEST_P(DegenerateSweepsOracle, SweepsThatCrossThemselves) {
-  for (std::uint32_t p = 0; p < 20; ++p) {
+  for (std::uint32_t p = 0; p < law_count(20U, 3U); ++p) {
     Draw draw(29, p);
     judge_at_random(random_path(MotionFamily::crossing, draw), draw, 40, fmt::format("path {}", p));
   }
 }
 
 TEST_P(DegenerateSweepsOracle, CuttersThatTurnByTensOfDegreesInOneBlock) {
-  for (std::uint32_t p = 0; p < 20; ++p) {
+  for (std::uint32_t p = 0; p < law_count(20U, 3U); ++p) {
     Draw draw(30, p);
     const Vec3 from = draw.axis(1.0);
     const Vec3 about = from.cross(draw.direction()).normalized();
@@ -317,7 +318,7 @@ TEST(StandingCutters, FindNothingHigherThanTimesInDenseOrder) {
     Draw draw(31, static_cast<std::uint32_t>(each.family));
     const kinematics::ToolPath path = random_path(each.family, draw);
     const StandingCutters standing(each.kind->meridian, each.kind->is_convex, path);
-    for (int k = 0; k < 10; ++k) {
+    for (int k = 0; k < law_count(10, 1); ++k) {
       const Vec3L point = draw.point(Vec3(-12, -12, -8), Vec3(12, 12, 35)).cast<Real>();
       Real dense = 1e9L;
       for (std::size_t s = 0; s < path.segments.size(); ++s) {

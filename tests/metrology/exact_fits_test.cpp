@@ -11,6 +11,7 @@
 #include "metrology/fit/element_model.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "synthetic.hpp"
+#include "tests/law_count.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -274,7 +275,7 @@ double slope(const Fit<Element>& fit, const std::vector<Vec3>& points, const Con
 
 int random_sets() {
   const char* wanted = std::getenv("FRUSTUM_RANDOM_SETS");  // NOLINT(concurrency-mt-unsafe)
-  return wanted != nullptr ? std::atoi(wanted) : 500;
+  return wanted != nullptr ? std::atoi(wanted) : proof::law_count(500, 60);
 }
 
 class RandomPointsLaws : public testing::TestWithParam<std::string_view> {};

@@ -9,6 +9,7 @@
 #include "metrology/fit/association.hpp"
 #include "metrology/fit/minimax/extreme_association.hpp"
 #include "synthetic.hpp"
+#include "tests/law_count.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -18,7 +19,7 @@ using synthetic::Draws;
 // 100,000 on request; fewer where every test run pays for them.
 int extreme_sets() {
   const char* wanted = std::getenv("FRUSTUM_RANDOM_SETS");  // NOLINT(concurrency-mt-unsafe)
-  return wanted != nullptr ? std::atoi(wanted) : 1000;
+  return wanted != nullptr ? std::atoi(wanted) : proof::law_count(1000, 60);
 }
 
 // Blobs, rough and good elements, duplicates, collinear, coplanar, spherical, tiny and huge ones.

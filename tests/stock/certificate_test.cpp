@@ -10,6 +10,7 @@
 
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
+#include "tests/law_count.hpp"
 #include "tests/stock/random_cuts.hpp"
 
 namespace frustum::proof {
@@ -74,7 +75,7 @@ TEST_P(CertificateLaws, ProveWhatTheEngineFindsAndRefuteWhatIsThreeBoundsBeside)
   const Kind& kind = kind_named(GetParam());
   Count found, beside;
   for (const MotionFamily family : kMotionFamilies) {
-    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (std::uint64_t seed = 0; seed < law_count(12U, 2U); ++seed) {
       Draw draw(seed, 31);
       const Workpiece part = cut(kind, random_path(family, draw));
       const Certifier certifier(part);

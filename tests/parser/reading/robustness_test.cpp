@@ -6,6 +6,7 @@
 
 #include "parser/interpreter.hpp"
 #include "parser/writing/canonical_json.hpp"
+#include "tests/law_count.hpp"
 #include "tests/parser/random_program.hpp"
 
 namespace frustum::parser {
@@ -39,7 +40,7 @@ void survive(const std::string& text) {
 }
 
 TEST(RobustnessLaws, RandomBytesDoNoHarm) {
-  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= proof::law_count(3000U, 500U); ++seed) {
     Dice dice(seed);
     std::string text;
     for (std::size_t i = dice.below(200); i > 0; --i) text += static_cast<char>(dice.below(256));
@@ -58,7 +59,7 @@ TEST(RobustnessLaws, RandomTokensDoNoHarm) {
       "L3",    "#1=2",    "#<a>=[",  "X#1",   "X[",  "]",   "[",    "SIN[", "ATAN[", "]/[",
       ",",     "**",      " MOD ",   "-",     "(",   ")",   ";",    "%",    "/",     "O1",
       "N5",    "\n",      "\n",      "\n"};
-  for (std::uint64_t seed = 1; seed <= 6000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= proof::law_count(6000U, 800U); ++seed) {
     Dice dice(seed);
     std::string text;
     for (std::size_t i = dice.below(60); i > 0; --i) text += kTokens.at(dice.below(kTokens.size()));
@@ -74,7 +75,7 @@ TEST(RobustnessLaws, MutationsDoNoHarm) {
       "G43.4 H1 M8\nG0 X0 Y0 Z50. A-30 C90\nG1 Z5 F500\nX10 I0 J.1 K1\nG3 X20 Y0 I5\nG91 X1 Y.5 "
       "R1\n"
       "M98 P2000 L2\nG49 G90\nG53 G0 Z0\nM30\nO2000\nG91 G1 X1\nG90\nM99\n%\n";
-  for (std::uint64_t seed = 1; seed <= 6000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= proof::law_count(6000U, 800U); ++seed) {
     Dice dice(seed);
     std::string text = good;
     for (std::size_t i = dice.below(4) + 1; i > 0; --i) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "parser/program.hpp"
+#include "tests/law_count.hpp"
 #include "tests/parser/random_languages.hpp"
 #include "tests/parser/random_program.hpp"
 #include "tests/parser/random_text.hpp"
@@ -37,7 +38,7 @@ void expect_identity(const std::vector<Block>& blocks, Dialect dialect) {
 class PrintLaws : public testing::TestWithParam<Dialect> {};
 
 TEST_P(PrintLaws, PrintThenParseIsTheIdentityOnRandomPrograms) {
-  for (std::uint64_t seed = 1; seed <= 5000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= proof::law_count(5000U, 500U); ++seed) {
     const std::string text = random_text(seed, GetParam());
     const auto program = parse_program(text, "random", GetParam());
     ASSERT_TRUE(program) << "seed " << seed << "\n" << text << to_string(program.error().front());
@@ -52,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Dialects, PrintLaws, testing::ValuesIn(kDialects),
 // Blocks that were made, not read: expressions of any shape, words in any order.
 TEST(PrintLawsOfBlocks, HoldForWhatTheGrammarMayProduce) {
   for (const Dialect dialect : {Dialect::fanuc, Dialect::linuxcnc}) {
-    for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    for (std::uint64_t seed = 1; seed <= proof::law_count(3000U, 400U); ++seed) {
       expect_identity(random_blocks(seed, dialect), dialect);
       if (testing::Test::HasFatalFailure()) FAIL() << name_of(dialect) << ", seed " << seed;
     }
