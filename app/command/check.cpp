@@ -1,11 +1,12 @@
 // frustum check: holds an NC program against what goes wrong at the machine.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
@@ -120,39 +121,37 @@ int check_file(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& program, int& exit_code) {
+void add_check(Command& program) {
   auto o = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "check", "Find what will go wrong with an NC program, without cutting anything");
-  command->add_option("file", o->file, "NC program");
-  add_setup_options(*command, o->setup_words);
+  command.option("file", o->file, "NC program");
+  add_setup_options(command, o->setup_words);
   command
-      ->add_option(
-          "--dialect", o->dialect,
-          "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised)")
-      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
-  command->add_option(
+      .option("--dialect", o->dialect,
+              "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised)")
+      .one_of({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
+  command.option(
       "--tools", o->tools,
       "LinuxCNC tool table: lengths and diameters; G43, M6 and M61 take its tools alone");
-  command->add_flag("--inch-machine", o->inch_machine,
-                    "The tool table and parameters such as #5221 count in inches (default: mm)");
+  command.flag("--inch-machine", o->inch_machine,
+               "The tool table and parameters such as #5221 count in inches (default: mm)");
   command
-      ->add_option("--search,--search-path", o->search,
-                   "Folder with subprograms, repeated (that of the program comes first)")
-      ->check(CLI::ExistingDirectory);
-  command->add_flag("--block-delete", o->block_delete, "Leave out blocks that begin with /");
-  command->add_option("--disable", o->disabled, "Leave out a check, by its id; repeated");
-  command
-      ->add_option("--fail-on", o->fail_on, "What makes the exit code 1: error (default), warning")
-      ->check(CLI::IsMember({"error", "warning"}));
-  command->add_flag("--json", o->json, "Print the findings as one JSON document");
-  command->add_option("--sarif", o->sarif, "Write the findings as SARIF 2.1.0 too");
-  command->add_flag("--list", o->list, "List the checks with their ids and end");
-  command->add_flag("--quiet", o->quiet, "No notes on stderr");
-  command->footer(
+      .option("--search,--search-path", o->search,
+              "Folder with subprograms, repeated (that of the program comes first)")
+      .existing_folder();
+  command.flag("--block-delete", o->block_delete, "Leave out blocks that begin with /");
+  command.option("--disable", o->disabled, "Leave out a check, by its id; repeated");
+  command.option("--fail-on", o->fail_on, "What makes the exit code 1: error (default), warning")
+      .one_of({"error", "warning"});
+  command.flag("--json", o->json, "Print the findings as one JSON document");
+  command.option("--sarif", o->sarif, "Write the findings as SARIF 2.1.0 too");
+  command.flag("--list", o->list, "List the checks with their ids and end");
+  command.flag("--quiet", o->quiet, "No notes on stderr");
+  command.footer(
       "Example: frustum check cone.nc --machine iwf-bc --fail-on warning\n"
       "Exit code 1 when a finding is as grave as --fail-on; docs/check.md has all checks.");
-  command->callback([o, &exit_code] { exit_code = check_file(*o); });
+  command.runs([o] { return check_file(*o); });
 }
 
 }  // namespace frustum::app

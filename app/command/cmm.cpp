@@ -1,12 +1,13 @@
 // frustum cmm: the acceptance test of a job's virtual CMM, on one machine or on many of its kind.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/job.hpp"
 #include "app/view/console.hpp"
 #include "metrology/probing/acceptance_test.hpp"
@@ -63,17 +64,16 @@ int test(const CmmOptions& options) {
 
 }  // namespace
 
-void add_cmm(CLI::App& program, int& exit_code) {
+void add_cmm(Command& program) {
   auto options = std::make_shared<CmmOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "cmm", "Run the acceptance test of ISO 10360-2 and -5 on a job's virtual CMM");
-  command->add_option("job", options->job, "Job file with inspection.cmm")->required();
+  command.option("job", options->job, "Job file with inspection.cmm").required();
   command
-      ->add_option("--seeds", options->seeds,
-                   "So many machines of the kind, from the job's seed on (1)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000}));
-  command->footer("Example: frustum cmm job.toml --seeds 200");
-  command->callback([options, &exit_code] { exit_code = test(*options); });
+      .option("--seeds", options->seeds, "So many machines of the kind, from the job's seed on (1)")
+      .within(std::uint64_t{1}, std::uint64_t{100000});
+  command.footer("Example: frustum cmm job.toml --seeds 200");
+  command.runs([options] { return test(*options); });
 }
 
 }  // namespace frustum::app

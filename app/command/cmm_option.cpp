@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "app/command/command_line.hpp"
 #include "app/job/job.hpp"
-#include "app/job/number_check.hpp"
 #include "core/toml_document.hpp"
 #include "core/units.hpp"
 
@@ -39,13 +38,13 @@ Result<CmmModel> cmm_of_file(const std::string& file) {
 
 }  // namespace
 
-void add_cmm_options(CLI::App& command, CmmWords& words) {
-  command.add_option("--e0", words.e0,
-                     "Of the machine that measures: E = e0 + L/k as a length (\"1.8 um\")");
-  command.add_option("--l-per-um", words.l_per_um, "k, mm of length per um of error")
-      ->check(positive_number());
-  command.add_option("--cmm", words.file,
-                     "TOML file with the keys of a job's inspection.cmm, or a job that has them");
+void add_cmm_options(Command& command, CmmWords& words) {
+  command.option("--e0", words.e0,
+                 "Of the machine that measures: E = e0 + L/k as a length (\"1.8 um\")");
+  command.option("--l-per-um", words.l_per_um, "k, mm of length per um of error")
+      .holds(positive_number());
+  command.option("--cmm", words.file,
+                 "TOML file with the keys of a job's inspection.cmm, or a job that has them");
 }
 
 Result<CmmModel> cmm_of(const CmmWords& words) {

@@ -10,11 +10,9 @@
 #include "core/result.hpp"
 #include "metrology/probing/cmm_model.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace frustum::app {
+
+class Command;
 
 struct CmmWords {
   std::string e0{};
@@ -24,7 +22,7 @@ struct CmmWords {
   [[nodiscard]] bool any() const { return !e0.empty() || l_per_um || !file.empty(); }
 };
 
-void add_cmm_options(CLI::App& command, CmmWords& words);
+void add_cmm_options(Command& command, CmmWords& words);
 
 // An ideal machine when nothing is said.
 [[nodiscard]] Result<metrology::CmmModel> cmm_of(const CmmWords& words);

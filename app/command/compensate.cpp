@@ -1,15 +1,15 @@
 // frustum compensate: a job's program rewritten so that the actual tool follows the nominal path.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/job.hpp"
-#include "app/job/number_check.hpp"
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "programs/test_piece_files.hpp"
@@ -85,27 +85,27 @@ int compensate(const CompensateOptions& options) {
 
 }  // namespace
 
-void add_compensate(CLI::App& program, int& exit_code) {
+void add_compensate(Command& program) {
   auto o = std::make_shared<CompensateOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "compensate", "Rewrite a job's program for the machine's errors, and prove it by running it");
-  command->add_option("job", o->job, "Job file with the machine's errors")->required();
-  command->add_option("--out", o->out, "Folder for the compensated piece: job, program and plan")
-      ->required();
-  command->add_option("--dialect", o->dialect, "Of the program written (default: its own)")
-      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain"}));
-  add_error_options(*command, o->overrides.errors);
+  command.option("job", o->job, "Job file with the machine's errors").required();
+  command.option("--out", o->out, "Folder for the compensated piece: job, program and plan")
+      .required();
+  command.option("--dialect", o->dialect, "Of the program written (default: its own)")
+      .one_of({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain"});
+  add_error_options(command, o->overrides.errors);
   command
-      ->add_option("--bound", o->bound,
-                   "Actual against nominal path within a block, um (0.02); blocks are divided")
-      ->check(positive_number(1e3));
-  command->add_flag("--json", o->json, "One JSON document on stdout and nothing else");
-  command->footer(
+      .option("--bound", o->bound,
+              "Actual against nominal path within a block, um (0.02); blocks are divided")
+      .holds(positive_number(1e3));
+  command.flag("--json", o->json, "One JSON document on stdout and nothing else");
+  command.footer(
       "Exit code 1 when more than 1 % of the tip's error and more than 0.05 um is left.\n"
       "The job written has no [errors]: the machine's own are given again with --errors or "
       "--error.\n"
       "Example: frustum compensate piece/job.toml --errors machine.errors.toml --out compensated");
-  command->callback([o, &exit_code] { exit_code = compensate(*o); });
+  command.runs([o] { return compensate(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,11 +1,13 @@
 // frustum program cone: writes a cone test piece.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
+#include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
 #include "programs/cone/cone_frustum.hpp"
 #include "programs/test_piece_files.hpp"
@@ -81,44 +83,41 @@ int write_cone(const ConeOptions& options) {
 
 }  // namespace
 
-void add_cone(CLI::App& kinds, int& exit_code) {
+void add_cone(Command& kinds) {
   auto o = std::make_shared<ConeOptions>();
-  CLI::App* cone = kinds.add_subcommand(
+  Command cone = kinds.command(
       "cone", "The cone frustum test: NAS 979, or an inclined cone with cylinder and groove");
-  cone->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
-      ->required();
-  cone->add_option("--out", o->out,
-                   "Folder for job.toml, cone.nc (.ngc, .mpf, .h) and cone.plan.toml")
-      ->required();
-  cone->add_option("--preset", o->preset,
-                   "inclined (default) or nas979: what the options start from")
-      ->check(CLI::IsMember({"inclined", "nas979"}));
-  cone->add_option("--cone-angle", o->cone_angle, "Half apex angle, deg (45)");
-  cone->add_option("--inclination", o->inclination, "Tilt of the cone's axis, deg (30)");
-  cone->add_option("--orientation", o->orientation, "Turn about the table's Z, deg (0)");
-  cone->add_option("--radius", o->radius, "Tool-tip circle, mm (40)");
-  cone->add_option("--center", o->center,
-                   "x,y,z of that circle's centre in the table frame, mm (-65,0,150)");
-  cone->add_option("--height", o->height, "Height of the cone, mm (5)");
-  cone->add_option("--cylinder-height", o->cylinder_height, "Height of the cylinder below, mm (6)");
-  cone->add_option("--tool-diameter", o->tool_diameter, "mm (12)");
-  cone->add_option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
-  cone->add_option("--start-angle", o->start_angle, "Where the cut begins and ends, deg (0)");
-  cone->add_option("--allowance", o->allowance, "Stock left by roughing, mm (0.2)");
-  cone->add_option("--chord-tolerance", o->chord_tolerance, "Of finished circles, um (0.005)");
-  cone->add_option("--feed", o->feed, "mm/min (500)");
-  cone->add_option("--speed", o->speed, "Spindle, 1/min (8333)");
-  cone->add_option("--form", o->form,
-                   "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
-                   "positions)")
-      ->check(CLI::IsMember({"vector", "angles", "axes"}));
-  cone->add_option("--dialect", o->dialect,
-                   "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
-      ->check(CLI::IsMember({"fanuc", "linuxcnc", "sinumerik", "heidenhain"}));
-  cone->add_option("--limits", o->limits, "nas979, or tenth: a tenth of its limits")
-      ->check(CLI::IsMember({"nas979", "tenth"}));
-  cone->footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");
-  cone->callback([o, &exit_code] { exit_code = write_cone(*o); });
+  cone.option("--machine", o->machine, "Machine file, or the name of a shipped machine").required();
+  cone.option("--out", o->out, "Folder for job.toml, cone.nc (.ngc, .mpf, .h) and cone.plan.toml")
+      .required();
+  cone.option("--preset", o->preset, "inclined (default) or nas979: what the options start from")
+      .one_of({"inclined", "nas979"});
+  cone.option("--cone-angle", o->cone_angle, "Half apex angle, deg (45)");
+  cone.option("--inclination", o->inclination, "Tilt of the cone's axis, deg (30)");
+  cone.option("--orientation", o->orientation, "Turn about the table's Z, deg (0)");
+  cone.option("--radius", o->radius, "Tool-tip circle, mm (40)");
+  cone.option("--center", o->center,
+              "x,y,z of that circle's centre in the table frame, mm (-65,0,150)");
+  cone.option("--height", o->height, "Height of the cone, mm (5)");
+  cone.option("--cylinder-height", o->cylinder_height, "Height of the cylinder below, mm (6)");
+  cone.option("--tool-diameter", o->tool_diameter, "mm (12)");
+  cone.option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
+  cone.option("--start-angle", o->start_angle, "Where the cut begins and ends, deg (0)");
+  cone.option("--allowance", o->allowance, "Stock left by roughing, mm (0.2)");
+  cone.option("--chord-tolerance", o->chord_tolerance, "Of finished circles, um (0.005)");
+  cone.option("--feed", o->feed, "mm/min (500)");
+  cone.option("--speed", o->speed, "Spindle, 1/min (8333)");
+  cone.option("--form", o->form,
+              "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
+              "positions)")
+      .one_of({"vector", "angles", "axes"});
+  cone.option("--dialect", o->dialect,
+              "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
+      .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
+  cone.option("--limits", o->limits, "nas979, or tenth: a tenth of its limits")
+      .one_of({"nas979", "tenth"});
+  cone.footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");
+  cone.runs([o] { return write_cone(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,17 +1,18 @@
 // frustum cut: the workpiece at any program_state as a mesh and a picture, and what the program did to it.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/cut_result.hpp"
 #include "app/job/job.hpp"
 #include "app/job/job_report.hpp"
-#include "app/job/number_check.hpp"
+#include "app/job/number_list.hpp"
 #include "app/job/polyhedral_engine.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
@@ -339,65 +340,59 @@ int cut(CutOptions options) {
   return result->passes() ? kDone : kOutOfTolerance;
 }
 
-void add_options(CLI::App& command, CutOptions& o) {
-  command.add_option("job", o.job, "Job file")->required();
-  command.add_option("--mesh", o.mesh,
-                     "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
-  command.add_option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
-  command.add_option("--view", o.view,
-                     "AZIMUTH,ELEVATION the picture is seen from, deg (default: -60,32)");
-  command.add_option("--size", o.size, "WIDTH,HEIGHT of the picture, px (default: 1600,1100)");
-  command.add_option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
-      ->check(positive_number());
+void add_options(Command& command, CutOptions& o) {
+  command.option("job", o.job, "Job file").required();
+  command.option("--mesh", o.mesh,
+                 "Mesh to write: .stl, .obj, .3mf, or with deviations .ply, .vtp");
+  command.option("--picture", o.picture, "Picture to write: .png, coloured by deviation");
+  command.option("--view", o.view,
+                 "AZIMUTH,ELEVATION the picture is seen from, deg (default: -60,32)");
+  command.option("--size", o.size, "WIDTH,HEIGHT of the picture, px (default: 1600,1100)");
+  command.option("--pitch", o.pitch, "Of the sampling grid, mm (default: longest side / 120)")
+      .holds(positive_number());
+  command.option("--chord", o.chord, "Refine until the triangles leave the surface by less, mm")
+      .holds(positive_number());
+  command.option("--decimate", o.decimate, "Take away what is not needed for this tolerance, mm")
+      .holds(positive_number());
+  command.option("--until-line", o.until_line, "Stop after the last motion of this NC line")
+      .within(1U, 4'000'000'000U);
   command
-      .add_option("--chord", o.chord, "Refine until the triangles leave the surface by less, mm")
-      ->check(positive_number());
-  command
-      .add_option("--decimate", o.decimate, "Take away what is not needed for this tolerance, mm")
-      ->check(positive_number());
-  command.add_option("--until-line", o.until_line, "Stop after the last motion of this NC line")
-      ->check(CLI::Range(1U, 4'000'000'000U));
-  command
-      .add_option("--snapshots", o.snapshots,
-                  "So many meshes at equal steps of time, named after --mesh, with an index .json")
-      ->check(CLI::Range(1, 9999));
-  command.add_option("--removal", o.removal,
-                     "Table to write, .csv: volume, rate and engagement of each block");
-  command.add_option("--point", o.point, "X,Y,Z: say which NC line made the surface there");
-  command
-      .add_option("--engine", o.engine, "ray: exact; polyhedral: Boolean operations, to compare")
-      ->check(CLI::IsMember({"ray", "polyhedral"}))
-      ->capture_default_str();
-  command.add_option("--facets", o.facets.facets, "Of the polyhedral engine, around the axis")
-      ->check(CLI::Range(3, 4096))
-      ->capture_default_str();
-  command
-      .add_option("--facet-tolerance", o.facet_tolerance_mm,
-                  "Of the polyhedral engine's sweeps, mm")
-      ->check(positive_number())
-      ->capture_default_str();
-  command.add_option("--gouge-limit", o.gouge_limit_um, "um: exit code 1 where more is missing")
-      ->check(positive_number());
-  command.add_option("--excess-limit", o.excess_limit_um, "um: exit code 1 where more is left")
-      ->check(positive_number());
+      .option("--snapshots", o.snapshots,
+              "So many meshes at equal steps of time, named after --mesh, with an index .json")
+      .within(1, 9999);
+  command.option("--removal", o.removal,
+                 "Table to write, .csv: volume, rate and engagement of each block");
+  command.option("--point", o.point, "X,Y,Z: say which NC line made the surface there");
+  command.option("--engine", o.engine, "ray: exact; polyhedral: Boolean operations, to compare")
+      .one_of({"ray", "polyhedral"})
+      .default_shown();
+  command.option("--facets", o.facets.facets, "Of the polyhedral engine, around the axis")
+      .within(3, 4096)
+      .default_shown();
+  command.option("--facet-tolerance", o.facet_tolerance_mm, "Of the polyhedral engine's sweeps, mm")
+      .holds(positive_number())
+      .default_shown();
+  command.option("--gouge-limit", o.gouge_limit_um, "um: exit code 1 where more is missing")
+      .holds(positive_number());
+  command.option("--excess-limit", o.excess_limit_um, "um: exit code 1 where more is left")
+      .holds(positive_number());
   add_error_options(command, o.overrides.errors);
-  command.add_option("--tool-radius-error", o.overrides.tool_radius_error, "With unit");
-  command.add_flag("--json", o.json, "One JSON document on stdout and nothing else");
-  command.add_flag("--quiet", o.quiet, "No progress, no summary");
+  command.option("--tool-radius-error", o.overrides.tool_radius_error, "With unit");
+  command.flag("--json", o.json, "One JSON document on stdout and nothing else");
+  command.flag("--quiet", o.quiet, "No progress, no summary");
 }
 
 }  // namespace
 
-void add_cut(CLI::App& program, int& exit_code) {
+void add_cut(Command& program) {
   auto options = std::make_shared<CutOptions>();
-  CLI::App* command =
-      program.add_subcommand("cut", "Cut a job and write the workpiece at any moment");
-  add_options(*command, *options);
-  command->parse_complete_callback([command, options] {
-    options->facets_given = command->count("--facets") + command->count("--facet-tolerance") > 0;
+  Command command = program.command("cut", "Cut a job and write the workpiece at any moment");
+  add_options(command, *options);
+  command.footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
+  command.runs([command, options] {
+    options->facets_given = command.was_given("--facets") || command.was_given("--facet-tolerance");
+    return cut(*options);
   });
-  command->footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
-  command->callback([options, &exit_code] { exit_code = cut(*options); });
 }
 
 }  // namespace frustum::app

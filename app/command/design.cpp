@@ -1,15 +1,16 @@
 // frustum design: which step patterns to cut so that a machine's errors can be identified.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/identification.hpp"
 #include "app/job/machine_files.hpp"
-#include "app/job/number_check.hpp"
+#include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
 #include "app/view/design_view.hpp"
 
@@ -229,45 +230,43 @@ int show_design(const DesignOptions& o) {
 
 }  // namespace
 
-void add_design(CLI::App& program, int& exit_code) {
+void add_design(Command& program) {
   auto o = std::make_shared<DesignOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "design", "Which step patterns to cut so that a machine's errors can be separated");
-  command->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
-      ->required();
+  command.option("--machine", o->machine, "Machine file, or the name of a shipped machine")
+      .required();
+  command.option("--patterns", o->patterns, "Choose from these only (default: all within travel)")
+      .separated_by(',');
+  command.option("--require", o->required, "In every set: these are cut anyway").separated_by(',');
   command
-      ->add_option("--patterns", o->patterns, "Choose from these only (default: all within travel)")
-      ->delimiter(',');
-  command->add_option("--require", o->required, "In every set: these are cut anyway")
-      ->delimiter(',');
+      .option("--unknown", o->unknowns,
+              "Machine errors to be found (default: location errors of the rotary axes); "
+              "the tool radius error always is one")
+      .separated_by(',');
+  command.option("--known", o->known,
+                 "NAME=standard uncertainty of an error known from elsewhere, for example "
+                 "gamma_YX=5urad; 0 is exact");
+  command.option("--limit", o->limits,
+                 "NAME=largest standard deviation wanted, for example dy_CA=1um");
   command
-      ->add_option("--unknown", o->unknowns,
-                   "Machine errors to be found (default: location errors of the rotary axes); "
-                   "the tool radius error always is one")
-      ->delimiter(',');
-  command->add_option("--known", o->known,
-                      "NAME=standard uncertainty of an error known from elsewhere, for example "
-                      "gamma_YX=5urad; 0 is exact");
-  command->add_option("--limit", o->limits,
-                      "NAME=largest standard deviation wanted, for example dy_CA=1um");
-  command
-      ->add_option("--criterion", o->criterion,
-                   "d: smallest joint volume (default), a: smallest sum of variances, worst: "
-                   "smallest largest deviation")
-      ->check(CLI::IsMember({"d", "a", "worst"}));
-  command->add_option("--e0", o->e0, "CMM: E = e0 + L/k as a length (\"0.5 um\")");
-  command->add_option("--l-per-um", o->l_per_um, "CMM: k, mm of length per um of error (600)")
-      ->check(positive_number());
-  command->add_option("--center", o->center, "x,y of both workpieces' centres, mm");
-  command->add_option("--raise", o->raise, "Added to all heights above the tilt axis, mm (0)");
-  command->add_option("--tool-diameter", o->tool_diameter, "mm (20)");
-  command->add_option("--tool-length", o->tool_length, "mm (150)");
-  command->add_flag("--json", o->json, "One JSON document on stdout");
-  command->footer(
+      .option("--criterion", o->criterion,
+              "d: smallest joint volume (default), a: smallest sum of variances, worst: "
+              "smallest largest deviation")
+      .one_of({"d", "a", "worst"});
+  command.option("--e0", o->e0, "CMM: E = e0 + L/k as a length (\"0.5 um\")");
+  command.option("--l-per-um", o->l_per_um, "CMM: k, mm of length per um of error (600)")
+      .holds(positive_number());
+  command.option("--center", o->center, "x,y of both workpieces' centres, mm");
+  command.option("--raise", o->raise, "Added to all heights above the tilt axis, mm (0)");
+  command.option("--tool-diameter", o->tool_diameter, "mm (20)");
+  command.option("--tool-length", o->tool_length, "mm (150)");
+  command.flag("--json", o->json, "One JSON document on stdout");
+  command.footer(
       "Exit code 1: no set of these patterns identifies all errors within the limits.\n"
       "Example: frustum design --machine zx-yac --known gamma_YX=5urad --known alpha_ZY=5urad "
       "--known beta_ZX=5urad");
-  command->callback([o, &exit_code] { exit_code = show_design(*o); });
+  command.runs([o] { return show_design(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,16 +1,16 @@
 // frustum diff: whether two NC programs move the tool the same way on one machine.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
-#include "app/job/number_check.hpp"
 #include "app/view/console.hpp"
 #include "post/comparing/program_difference.hpp"
 
@@ -114,28 +114,29 @@ int diff(const DiffOptions& options) {
 
 }  // namespace
 
-void add_diff(CLI::App& program, int& exit_code) {
+void add_diff(Command& program) {
   auto o = std::make_shared<DiffOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "diff", "Whether two NC programs, of any dialects, move the tool the same way");
-  const CLI::IsMember dialects({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
-  command->add_option("first", o->first, "Program that is right")->required();
-  command->add_option("second", o->second, "Program to compare with it")->required();
-  command->add_option("--dialect", o->first_dialect, "Of the first (default: recognised)")
-      ->check(dialects);
-  command->add_option("--second-dialect", o->second_dialect, "Of the second (default: recognised)")
-      ->check(dialects);
-  add_setup_options(*command, o->setup_words);
-  command->add_option("--tip", o->tip, "Tolerance of the tip, um (2)")->check(positive_number(1e6));
-  command->add_option("--axis", o->axis, "Tolerance of the tool axis, urad (50)")
-      ->check(positive_number(1e6));
-  command->add_option("--feed", o->feed, "Tolerance of the time that a stretch takes, percent (2)")
-      ->check(positive_number(1e3));
-  command->add_flag("--json", o->json, "One JSON document on stdout and nothing else");
-  command->footer(
+  const std::vector<std::string> dialects(
+      {"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
+  command.option("first", o->first, "Program that is right").required();
+  command.option("second", o->second, "Program to compare with it").required();
+  command.option("--dialect", o->first_dialect, "Of the first (default: recognised)")
+      .one_of(dialects);
+  command.option("--second-dialect", o->second_dialect, "Of the second (default: recognised)")
+      .one_of(dialects);
+  add_setup_options(command, o->setup_words);
+  command.option("--tip", o->tip, "Tolerance of the tip, um (2)").holds(positive_number(1e6));
+  command.option("--axis", o->axis, "Tolerance of the tool axis, urad (50)")
+      .holds(positive_number(1e6));
+  command.option("--feed", o->feed, "Tolerance of the time that a stretch takes, percent (2)")
+      .holds(positive_number(1e3));
+  command.flag("--json", o->json, "One JSON document on stdout and nothing else");
+  command.footer(
       "Only feed moves count. Exit code 1 when the programs differ.\n"
       "Example: frustum diff cone.nc cone.mpf --machine iwf-bc --offset G54=-65,0,150");
-  command->callback([o, &exit_code] { exit_code = diff(*o); });
+  command.runs([o] { return diff(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,15 +1,16 @@
 // frustum fit: one associated element from points, by any criterion and under constraints.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/command/unit_option.hpp"
-#include "app/job/number_check.hpp"
+#include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
 #include "core/units.hpp"
 #include "metrology/fit/association.hpp"
@@ -203,46 +204,44 @@ std::vector<std::string> names_of(const Rows& rows, Name name) {
   return names;
 }
 
-void add_constraints(CLI::App& command, FitOptions& o) {
-  command.add_option("--axis", o.parallel, "i,j,k: the axis, or the normal, is parallel to this");
-  command.add_option("--perpendicular-to", o.perpendicular,
-                     "i,j,k: the axis, or the normal, is perpendicular to this");
-  command.add_option("--radius", o.radius, "Fixed radius, mm")->check(positive_number());
-  command.add_option("--tube-radius", o.tube_radius, "Fixed radius of a torus' tube, mm")
-      ->check(positive_number());
-  command.add_option("--half-angle", o.half_angle, "Fixed half angle of a cone, degrees")
-      ->check(positive_number());
-  command.add_option("--outward", o.outward,
-                     "i,j,k: out of the material, for a plane or line2d by om");
-  command.add_flag("--hole", o.hole, "By om: the points are those of a hole, not of a boss");
+void add_constraints(Command& command, FitOptions& o) {
+  command.option("--axis", o.parallel, "i,j,k: the axis, or the normal, is parallel to this");
+  command.option("--perpendicular-to", o.perpendicular,
+                 "i,j,k: the axis, or the normal, is perpendicular to this");
+  command.option("--radius", o.radius, "Fixed radius, mm").holds(positive_number());
+  command.option("--tube-radius", o.tube_radius, "Fixed radius of a torus' tube, mm")
+      .holds(positive_number());
+  command.option("--half-angle", o.half_angle, "Fixed half angle of a cone, degrees")
+      .holds(positive_number());
+  command.option("--outward", o.outward, "i,j,k: out of the material, for a plane or line2d by om");
+  command.flag("--hole", o.hole, "By om: the points are those of a hole, not of a boss");
 }
 
 }  // namespace
 
-void add_fit(CLI::App& program, int& exit_code) {
+void add_fit(Command& program) {
   auto o = std::make_shared<FitOptions>();
-  CLI::App* command = program.add_subcommand("fit", "One element fitted to points");
+  Command command = program.command("fit", "One element fitted to points");
   const auto elements = names_of(kElements, [](const char* name) { return name; });
   const auto criteria = names_of(kCriteria, [](const CriterionRow& row) { return row.name; });
-  command->add_option("element", o->element, fmt::format("{}", fmt::join(elements, ", ")))
-      ->required()
-      ->check(CLI::IsMember(elements));
+  command.option("element", o->element, fmt::format("{}", fmt::join(elements, ", ")))
+      .required()
+      .one_of(elements);
   command
-      ->add_option("points", o->points,
-                   "CSV or columns x y z, or a PLY; mm unless the file states a unit")
-      ->required();
+      .option("points", o->points,
+              "CSV or columns x y z, or a PLY; mm unless the file states a unit")
+      .required();
   std::string meanings;
   for (const CriterionRow& row : kCriteria) {
     meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : ", ", row.name, row.meaning);
   }
-  command->add_option("--criterion", o->criterion, meanings + " (ls)")
-      ->check(CLI::IsMember(criteria));
-  add_constraints(*command, *o);
-  command->add_flag("--unweighted", o->unweighted, "Leave the column weight of the file aside");
-  add_unit_option(*command, o->unit);
-  command->add_flag("--json", o->json, "One JSON document on stdout (mm, rad)");
-  command->footer("Example: frustum fit cylinder points.csv --criterion mz --axis 0,0,1 --json");
-  command->callback([o, &exit_code] { exit_code = fit(*o); });
+  command.option("--criterion", o->criterion, meanings + " (ls)").one_of(criteria);
+  add_constraints(command, *o);
+  command.flag("--unweighted", o->unweighted, "Leave the column weight of the file aside");
+  add_unit_option(command, o->unit);
+  command.flag("--json", o->json, "One JSON document on stdout (mm, rad)");
+  command.footer("Example: frustum fit cylinder points.csv --criterion mz --axis 0,0,1 --json");
+  command.runs([o] { return fit(*o); });
 }
 
 }  // namespace frustum::app

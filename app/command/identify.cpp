@@ -1,8 +1,9 @@
 // frustum identify: the machine errors that explain measured test pieces.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/view/console.hpp"
 #include "app/view/identification_view.hpp"
 
@@ -34,18 +35,17 @@ int show_identification(const IdentifyOptions& options) {
 
 }  // namespace
 
-void add_identify(CLI::App& program, int& exit_code) {
+void add_identify(Command& program) {
   auto o = std::make_shared<IdentifyOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "identify", "Machine errors that explain measured test pieces, with uncertainties");
-  command->add_option("STUDY", o->study, "Study file: parts, measured values, what is known")
-      ->required();
-  command->add_flag("--json", o->json, "One JSON document on stdout");
-  command->footer(
+  command.option("STUDY", o->study, "Study file: parts, measured values, what is known").required();
+  command.flag("--json", o->json, "One JSON document on stdout");
+  command.footer(
       "Exit code 1: errors that the measurements do not identify, or measurements that the machine "
       "model does not explain.\n"
       "Example: frustum identify examples/ibaraki-2010/study.toml");
-  command->callback([o, &exit_code] { exit_code = show_identification(*o); });
+  command.runs([o] { return show_identification(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,11 +1,12 @@
 // frustum machines, frustum errors: what ships, and what a machine accepts.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "kinematics/model/machine.hpp"
@@ -141,23 +142,23 @@ int list_errors(const MachinesOptions& options) {
 
 }  // namespace
 
-void add_machines(CLI::App& program, int& exit_code) {
+void add_machines(Command& program) {
   auto options = std::make_shared<MachinesOptions>();
-  CLI::App* command = program.add_subcommand("machines", "List the machines that ship");
-  command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->callback([options, &exit_code] { exit_code = list_machines(*options); });
+  Command command = program.command("machines", "List the machines that ship");
+  command.flag("--json", options->json, "One JSON document on stdout");
+  command.runs([options] { return list_machines(*options); });
 }
 
-void add_errors(CLI::App& program, int& exit_code) {
+void add_errors(Command& program) {
   auto options = std::make_shared<MachinesOptions>();
-  CLI::App* command = program.add_subcommand("errors",
-                                             "A machine's axes, travels and every error name it "
-                                             "accepts: meaning, place, and what is zero");
-  command->add_option("machine", options->machine, "Machine file, or the name of a shipped machine")
-      ->required();
-  command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->footer("Example: frustum errors iwf-bc");
-  command->callback([options, &exit_code] { exit_code = list_errors(*options); });
+  Command command = program.command("errors",
+                                    "A machine's axes, travels and every error name it "
+                                    "accepts: meaning, place, and what is zero");
+  command.option("machine", options->machine, "Machine file, or the name of a shipped machine")
+      .required();
+  command.flag("--json", options->json, "One JSON document on stdout");
+  command.footer("Example: frustum errors iwf-bc");
+  command.runs([options] { return list_errors(*options); });
 }
 
 }  // namespace frustum::app

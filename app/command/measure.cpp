@@ -1,9 +1,10 @@
 // frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM points.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "app/command/cmm_option.hpp"
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/command/unit_option.hpp"
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
@@ -155,31 +156,31 @@ int measure(const MeasureOptions& options) {
 
 }  // namespace
 
-void add_measure(CLI::App& program, int& exit_code) {
+void add_measure(Command& program) {
   auto options = std::make_shared<MeasureOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "measure",
       "Measure a job's part or a mesh on the virtual CMM, or evaluate points of a real CMM");
-  command->add_option("job", options->job, "Job file");
-  command->add_option("--plan", options->plan, "Inspection plan for --points or --mesh");
-  command->add_option("--points", options->points,
-                      "CSV with feature,section,x,y,z, or columns x y z or a PLY for a plan of one "
-                      "feature; mm unless the file states a unit");
-  command->add_option("--mesh", options->mesh,
-                      "STL, PLY or OBJ that is probed like a part, in the plan's frame");
-  add_unit_option(*command, options->unit);
-  add_cmm_options(*command, options->cmm);
-  command->add_flag("--ball-centres", options->ball_centres,
-                    "The points are centres of the probe ball, not surface points");
-  add_error_options(*command, options->overrides.errors);
-  command->add_option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
-  add_export_option(*command, options->exports);
-  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
-  command->add_flag("--quiet", options->quiet, "No progress, no summary");
-  command->footer(
+  command.option("job", options->job, "Job file");
+  command.option("--plan", options->plan, "Inspection plan for --points or --mesh");
+  command.option("--points", options->points,
+                 "CSV with feature,section,x,y,z, or columns x y z or a PLY for a plan of one "
+                 "feature; mm unless the file states a unit");
+  command.option("--mesh", options->mesh,
+                 "STL, PLY or OBJ that is probed like a part, in the plan's frame");
+  add_unit_option(command, options->unit);
+  add_cmm_options(command, options->cmm);
+  command.flag("--ball-centres", options->ball_centres,
+               "The points are centres of the probe ball, not surface points");
+  add_error_options(command, options->overrides.errors);
+  command.option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
+  add_export_option(command, options->exports);
+  command.flag("--json", options->json, "One JSON document on stdout and nothing else");
+  command.flag("--quiet", options->quiet, "No progress, no summary");
+  command.footer(
       "Example: frustum measure --plan cone.plan.toml --points out/points.csv --export part.qif "
       "--export part.junit.xml");
-  command->callback([options, &exit_code] { exit_code = measure(*options); });
+  command.runs([options] { return measure(*options); });
 }
 
 }  // namespace frustum::app

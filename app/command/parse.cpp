@@ -1,8 +1,9 @@
 // frustum parse: NC text to canonical motions.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
 #include "parser/tool_table.hpp"
@@ -51,32 +52,30 @@ int parse_file(const ParseOptions& options) {
 
 }  // namespace
 
-void add_parse(CLI::App& program, int& exit_code) {
+void add_parse(Command& program) {
   auto options = std::make_shared<ParseOptions>();
-  CLI::App* command =
-      program.add_subcommand("parse", "Check an NC program and print its canonical motions");
-  command->add_option("file", options->file, "NC program")->required();
+  Command command = program.command("parse", "Check an NC program and print its canonical motions");
+  command.option("file", options->file, "NC program").required();
   command
-      ->add_option("--dialect", options->dialect,
-                   "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised "
-                   "from the file, with the reason on stderr)")
-      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
-  command->add_flag("--quiet", options->quiet, "Do not say which dialect was recognised");
-  command->add_flag(
-      "--canon", options->canon,
-      "Print one JSON line a motion (mm, degrees, mm/min); where the program cannot be "
-      "run on, the last line has the type error");
-  command->add_flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");
-  command->add_option("--tools", options->tools,
-                      "LinuxCNC tool table: G43, M6 and M61 take its tools alone");
-  command->add_flag("--inch-machine", options->inch_machine,
-                    "The tool table and parameters such as #5221 count in inches (default: mm)");
+      .option("--dialect", options->dialect,
+              "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised "
+              "from the file, with the reason on stderr)")
+      .one_of({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
+  command.flag("--quiet", options->quiet, "Do not say which dialect was recognised");
+  command.flag("--canon", options->canon,
+               "Print one JSON line a motion (mm, degrees, mm/min); where the program cannot be "
+               "run on, the last line has the type error");
+  command.flag("--block-delete", options->block_delete, "Leave out blocks that begin with /");
+  command.option("--tools", options->tools,
+                 "LinuxCNC tool table: G43, M6 and M61 take its tools alone");
+  command.flag("--inch-machine", options->inch_machine,
+               "The tool table and parameters such as #5221 count in inches (default: mm)");
   command
-      ->add_option("--search,--search-path", options->search_path,
-                   "Folder with subprograms, after the program's own; may be repeated")
-      ->check(CLI::ExistingDirectory);
-  command->footer("Example: frustum parse cone.nc --canon");
-  command->callback([options, &exit_code] { exit_code = parse_file(*options); });
+      .option("--search,--search-path", options->search_path,
+              "Folder with subprograms, after the program's own; may be repeated")
+      .existing_folder();
+  command.footer("Example: frustum parse cone.nc --canon");
+  command.runs([options] { return parse_file(*options); });
 }
 
 }  // namespace frustum::app

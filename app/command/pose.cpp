@@ -1,15 +1,17 @@
 // frustum pose: forward and inverse kinematics of one machine, nominal and with errors.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/axis_words.hpp"
 #include "app/job/error_sources.hpp"
 #include "app/job/machine_files.hpp"
+#include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/chain.hpp"
@@ -34,7 +36,7 @@ struct PoseOptions {
   bool json = false;
 };
 
-ordered_json numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json numbers_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 ordered_json axes_json(const Machine& machine, const AxisPositions& q) {
   ordered_json axes = ordered_json::object();
@@ -111,10 +113,10 @@ int forward(const PoseOptions& options, const Machine& machine,
   const Eigen::AngleAxisd turn(actual.rotation * nominal.rotation.transpose());
   const Vec3 turned = turn.angle() * turn.axis() * kUradPerRad;
   ordered_json doc{{"axes", axes_json(machine, *q)},
-                   {"nominal", {{"tip", numbers(n.tip)}, {"axis", numbers(n.axis)}}},
-                   {"actual", {{"tip", numbers(a.tip)}, {"axis", numbers(a.axis)}}},
-                   {"error_um", numbers((a.tip - n.tip) * kUmPerMm)},
-                   {"error_urad", numbers(turned)},
+                   {"nominal", {{"tip", numbers_json(n.tip)}, {"axis", numbers_json(n.axis)}}},
+                   {"actual", {{"tip", numbers_json(a.tip)}, {"axis", numbers_json(a.axis)}}},
+                   {"error_um", numbers_json((a.tip - n.tip) * kUmPerMm)},
+                   {"error_urad", numbers_json(turned)},
                    {"within_travel", kinematics::travel_violations(machine, *q).empty()}};
   if (options.json) {
     std::cout << doc.dump(2) << '\n';
@@ -180,30 +182,28 @@ int run_pose(const PoseOptions& options) {
 
 }  // namespace
 
-void add_pose(CLI::App& program, int& exit_code) {
+void add_pose(Command& program) {
   auto options = std::make_shared<PoseOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "pose",
       "Tool tip and axis in the table frame from axis positions, or axis positions from a pose");
-  command
-      ->add_option("--machine", options->machine, "Machine file, or the name of a shipped machine")
-      ->required();
-  command->add_option("--axes", options->axes,
-                      "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
-  command->add_option(
+  command.option("--machine", options->machine, "Machine file, or the name of a shipped machine")
+      .required();
+  command.option("--axes", options->axes, "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
+  command.option(
       "--inverse", options->inverse,
       "\"x,y,z,i,j,k\": tip (mm) and tool axis; all axis solutions, those within travel and "
       "nearest to zero first");
-  command->add_option("--heading", options->heading,
-                      "\"X=1,B=-1\": from which side axes came (default 0: not moved yet)");
-  add_error_options(*command, options->errors);
-  command->add_option("--tool-length", options->tool_length,
-                      "mm, default 0: the tip is the gauge point");
-  command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->footer(
+  command.option("--heading", options->heading,
+                 "\"X=1,B=-1\": from which side axes came (default 0: not moved yet)");
+  add_error_options(command, options->errors);
+  command.option("--tool-length", options->tool_length,
+                 "mm, default 0: the tip is the gauge point");
+  command.flag("--json", options->json, "One JSON document on stdout");
+  command.footer(
       "Shapes without a span lie over the axis's travel.\n"
       "Example: frustum pose --machine zx-yac --axes \"X=10,A=-30,C=45\" --error beta_CA=20urad");
-  command->callback([options, &exit_code] { exit_code = run_pose(*options); });
+  command.runs([options] { return run_pose(*options); });
 }
 
 }  // namespace frustum::app

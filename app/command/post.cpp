@@ -1,15 +1,15 @@
 // frustum post: any NC program or CLDATA for one machine, in the language of its controller.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
-#include "app/job/number_check.hpp"
 #include "app/view/console.hpp"
 #include "core/whole_file.hpp"
 #include "parser/writing/motion_spelling.hpp"
@@ -92,41 +92,40 @@ int post_process(const PostOptions& options) {
 
 }  // namespace
 
-void add_post(CLI::App& program, int& exit_code) {
+void add_post(Command& program) {
   auto o = std::make_shared<PostOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "post", "Rewrite an NC program or APT CLDATA for a machine and its controller");
-  command->add_option("file", o->file, "Program: tool vectors, rotary words or axis positions")
-      ->required();
-  command->add_option("--to", o->to, "fanuc (or iso), linuxcnc, sinumerik, heidenhain")
-      ->required()
-      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain"}));
-  command->add_option("-o,--out", o->out, "File to write")->required();
-  command->add_option("--dialect", o->dialect, "Of the program (default: recognised)")
-      ->check(CLI::IsMember({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"}));
+  command.option("file", o->file, "Program: tool vectors, rotary words or axis positions")
+      .required();
+  command.option("--to", o->to, "fanuc (or iso), linuxcnc, sinumerik, heidenhain")
+      .required()
+      .one_of({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain"});
+  command.option("-o,--out", o->out, "File to write").required();
+  command.option("--dialect", o->dialect, "Of the program (default: recognised)")
+      .one_of({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
   command
-      ->add_option("--output", o->form,
-                   "tcp: tip and rotary axes (default); vectors: tip and tool vector; axes: axis "
-                   "positions, tool-centre-point control off")
-      ->check(CLI::IsMember({"tcp", "vectors", "axes"}));
-  command->add_option("--arcs", o->arcs, "keep (default, where the machine can) or none")
-      ->check(CLI::IsMember({"keep", "none"}));
+      .option("--output", o->form,
+              "tcp: tip and rotary axes (default); vectors: tip and tool vector; axes: axis "
+              "positions, tool-centre-point control off")
+      .one_of({"tcp", "vectors", "axes"});
+  command.option("--arcs", o->arcs, "keep (default, where the machine can) or none")
+      .one_of({"keep", "none"});
+  command.option("--tolerance", o->tolerance, "Of the tip where points are inserted, mm (0.001)")
+      .holds(positive_number(1.0));
   command
-      ->add_option("--tolerance", o->tolerance, "Of the tip where points are inserted, mm (0.001)")
-      ->check(positive_number(1.0));
-  command
-      ->add_option("--angle-tolerance", o->angle_tolerance,
-                   "Of the tool axis where points are inserted, mrad (0.001)")
-      ->check(positive_number(100.0));
-  add_setup_options(*command, o->setup_words);
-  command->add_flag("--no-comments", o->no_comments, "Leave comments out");
-  command->add_flag("--source-lines", o->source_lines,
-                    "Behind each block, the line of the program that it came from");
-  command->add_flag("--json", o->json, "Say what was written as JSON");
-  command->footer(
+      .option("--angle-tolerance", o->angle_tolerance,
+              "Of the tool axis where points are inserted, mrad (0.001)")
+      .holds(positive_number(100.0));
+  add_setup_options(command, o->setup_words);
+  command.flag("--no-comments", o->no_comments, "Leave comments out");
+  command.flag("--source-lines", o->source_lines,
+               "Behind each block, the line of the program that it came from");
+  command.flag("--json", o->json, "Say what was written as JSON");
+  command.footer(
       "Example: frustum post cone.nc --machine iwf-bc --to heidenhain --output axes "
       "--tool-length 1=150 --offset G54=-65,0,150 -o cone.h");
-  command->callback([o, &exit_code] { exit_code = post_process(*o); });
+  command.runs([o] { return post_process(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,15 +1,16 @@
 // frustum program: writes test pieces.
-#include <CLI/CLI.hpp>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/view/console.hpp"
 
 namespace frustum::app {
 
-void add_program(CLI::App& program, int& exit_code) {
-  CLI::App* kinds = program.add_subcommand("program", "Write a test piece: NC program, plan, job");
-  kinds->require_subcommand(1);
-  add_cone(*kinds, exit_code);
-  add_step(*kinds, exit_code);
+void add_program(Command& program) {
+  Command kinds = program.command("program", "Write a test piece: NC program, plan, job");
+  kinds.needs_a_command();
+  add_cone(kinds);
+  add_step(kinds);
 }
 
 }  // namespace frustum::app

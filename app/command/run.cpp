@@ -1,13 +1,15 @@
 // frustum run: the whole loop, from a job file to a report.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
 #include "app/job/job_report.hpp"
+#include "app/job/output_folder.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "core/whole_file.hpp"
@@ -91,22 +93,22 @@ int run_job(const RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& program, int& exit_code) {
+void add_run(Command& program) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = program.add_subcommand(
-      "run", "The whole loop: parse, execute with errors, cut, measure, report");
-  command->add_option("job", options->job, "Job file")->required();
-  command->add_option("--out", options->out,
-                      "Folder for report.html, result.json and points.csv "
-                      "(default: out/ beside the job)");
-  add_error_options(*command, options->overrides.errors);
-  command->add_option("--tool-radius-error", options->overrides.tool_radius_error,
-                      "Of every tool, with unit, for example 2um");
-  add_export_option(*command, options->exports);
-  command->add_flag("--json", options->json, "One JSON document on stdout and nothing else");
-  command->add_flag("--quiet", options->quiet, "No progress, no summary");
-  command->footer("Example: frustum run job.toml --out out --error EX0C=10um");
-  command->callback([options, &exit_code] { exit_code = run_job(*options); });
+  Command command =
+      program.command("run", "The whole loop: parse, execute with errors, cut, measure, report");
+  command.option("job", options->job, "Job file").required();
+  command.option("--out", options->out,
+                 "Folder for report.html, result.json and points.csv "
+                 "(default: out/ beside the job)");
+  add_error_options(command, options->overrides.errors);
+  command.option("--tool-radius-error", options->overrides.tool_radius_error,
+                 "Of every tool, with unit, for example 2um");
+  add_export_option(command, options->exports);
+  command.flag("--json", options->json, "One JSON document on stdout and nothing else");
+  command.flag("--quiet", options->quiet, "No progress, no summary");
+  command.footer("Example: frustum run job.toml --out out --error EX0C=10um");
+  command.runs([options] { return run_job(*options); });
 }
 
 }  // namespace frustum::app

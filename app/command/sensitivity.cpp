@@ -1,12 +1,13 @@
 // frustum sensitivity: derivatives of every characteristic of a job to machine errors.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/job.hpp"
-#include "app/job/number_check.hpp"
+#include "app/job/output_folder.hpp"
 #include "app/view/console.hpp"
 #include "app/view/sensitivity_view.hpp"
 #include "core/whole_file.hpp"
@@ -83,27 +84,26 @@ int show_sensitivity(const SensitivityOptions& options) {
 
 }  // namespace
 
-void add_sensitivity(CLI::App& program, int& exit_code) {
+void add_sensitivity(Command& program) {
   auto o = std::make_shared<SensitivityOptions>();
-  CLI::App* command = program.add_subcommand(
-      "sensitivity", "Derivative of every characteristic to every machine error");
-  command->add_option("JOB", o->job, "Job file")->required();
-  command->add_option("--parameter", o->parameters,
-                      "Machine error or tool_radius_error; repeat it (default: all constant ones)");
+  Command command =
+      program.command("sensitivity", "Derivative of every characteristic to every machine error");
+  command.option("JOB", o->job, "Job file").required();
+  command.option("--parameter", o->parameters,
+                 "Machine error or tool_radius_error; repeat it (default: all constant ones)");
   command
-      ->add_option("--method", o->method,
-                   "analytic (one trial) or differences (two trials a parameter)")
-      ->check(CLI::IsMember({"analytic", "differences"}));
-  command->add_option("--step-um", o->step_um, "differences: step of lengths, um (1)")
-      ->check(positive_number(1000.0));
-  command->add_option("--step-urad", o->step_urad, "differences: step of angles, urad (1)")
-      ->check(positive_number(10000.0));
-  add_error_options(*command, o->overrides.errors);
-  command->add_option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");
-  command->add_option("--out", o->out, "Folder for sensitivity.html, .csv and .json");
-  command->add_flag("--json", o->json, "One JSON document on stdout");
-  command->footer("Example: frustum sensitivity job.toml --parameter beta_CA --parameter EX0C");
-  command->callback([o, &exit_code] { exit_code = show_sensitivity(*o); });
+      .option("--method", o->method, "analytic (one trial) or differences (two trials a parameter)")
+      .one_of({"analytic", "differences"});
+  command.option("--step-um", o->step_um, "differences: step of lengths, um (1)")
+      .holds(positive_number(1000.0));
+  command.option("--step-urad", o->step_urad, "differences: step of angles, urad (1)")
+      .holds(positive_number(10000.0));
+  add_error_options(command, o->overrides.errors);
+  command.option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");
+  command.option("--out", o->out, "Folder for sensitivity.html, .csv and .json");
+  command.flag("--json", o->json, "One JSON document on stdout");
+  command.footer("Example: frustum sensitivity job.toml --parameter beta_CA --parameter EX0C");
+  command.runs([o] { return show_sensitivity(*o); });
 }
 
 }  // namespace frustum::app

@@ -1,11 +1,13 @@
 // frustum program step: writes a step pattern test piece and its setup sheet.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
+#include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
 #include "app/view/step_sheet.hpp"
 #include "programs/step/step_pattern.hpp"
@@ -73,38 +75,36 @@ int write_step(const StepOptions& options) {
 
 }  // namespace
 
-void add_step(CLI::App& kinds, int& exit_code) {
+void add_step(Command& kinds) {
   auto o = std::make_shared<StepOptions>();
-  CLI::App* step = kinds.add_subcommand(
-      "step", "Step machining patterns of Ibaraki et al. for a tilting rotary table");
-  step->add_option("--machine", o->machine, "Machine file, or the name of a shipped machine")
-      ->required();
-  step->add_option("--out", o->out,
-                   "Folder for job.toml, step.nc (.ngc, .mpf, .h), step.plan.toml and setup.html")
-      ->required();
-  step->add_option("--dialect", o->dialect,
-                   "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
-      ->check(CLI::IsMember({"fanuc", "linuxcnc", "sinumerik", "heidenhain"}));
-  step->add_option("--workpiece", o->workpiece,
-                   "1: patterns 1-a 1-b 2-a 2-b (default); 2: 3 or 4, 5-a 5-b 6-a 6-b 7");
-  step->add_option("--patterns", o->patterns,
-                   "Separated by commas (default: all that the workpiece carries together)")
-      ->delimiter(',');
-  step->add_option(
-      "--center", o->center,
-      "x,y of the workpiece's centre from the crossing of the rotary axes, X along the "
-      "tilt axis, mm (1: 3.941,-96.376; 2: 3.677,-97.15)");
-  step->add_option("--raise", o->raise, "Added to all heights H above the tilt axis, mm (0)");
-  step->add_option("--tool-diameter", o->tool_diameter, "mm (20)");
-  step->add_option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
-  step->add_option("--allowance", o->allowance, "Left on every face of the blank, mm (0.5)");
-  step->add_option("--feed", o->feed, "mm/min (1000)");
-  step->add_option("--speed", o->speed, "Spindle, 1/min (5000)");
-  step->add_option("--tolerance", o->tolerance, "Of dL, dH and dL0, um (20)");
-  step->add_option("--angle-tolerance", o->angle_tolerance, "Of theta and phi, urad (100)");
-  step->footer(
+  Command step =
+      kinds.command("step", "Step machining patterns of Ibaraki et al. for a tilting rotary table");
+  step.option("--machine", o->machine, "Machine file, or the name of a shipped machine").required();
+  step.option("--out", o->out,
+              "Folder for job.toml, step.nc (.ngc, .mpf, .h), step.plan.toml and setup.html")
+      .required();
+  step.option("--dialect", o->dialect,
+              "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
+      .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
+  step.option("--workpiece", o->workpiece,
+              "1: patterns 1-a 1-b 2-a 2-b (default); 2: 3 or 4, 5-a 5-b 6-a 6-b 7");
+  step.option("--patterns", o->patterns,
+              "Separated by commas (default: all that the workpiece carries together)")
+      .separated_by(',');
+  step.option("--center", o->center,
+              "x,y of the workpiece's centre from the crossing of the rotary axes, X along the "
+              "tilt axis, mm (1: 3.941,-96.376; 2: 3.677,-97.15)");
+  step.option("--raise", o->raise, "Added to all heights H above the tilt axis, mm (0)");
+  step.option("--tool-diameter", o->tool_diameter, "mm (20)");
+  step.option("--tool-length", o->tool_length, "Gauge point to tip, mm (150)");
+  step.option("--allowance", o->allowance, "Left on every face of the blank, mm (0.5)");
+  step.option("--feed", o->feed, "mm/min (1000)");
+  step.option("--speed", o->speed, "Spindle, 1/min (5000)");
+  step.option("--tolerance", o->tolerance, "Of dL, dH and dL0, um (20)");
+  step.option("--angle-tolerance", o->angle_tolerance, "Of theta and phi, urad (100)");
+  step.footer(
       "Example: frustum program step --machine zx-yac --patterns 1-a,2-a --workpiece 1 --out step");
-  step->callback([o, &exit_code] { exit_code = write_step(*o); });
+  step.runs([o] { return write_step(*o); });
 }
 
 }  // namespace frustum::app

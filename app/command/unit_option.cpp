@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include "app/command/command_line.hpp"
 
 namespace frustum::app {
 
-void add_unit_option(CLI::App& command, std::string& text) {
-  command.add_option("--unit", text,
-                     "Of a file that states no other: mm, um, nm, cm, m or inch (mm)");
+void add_unit_option(Command& command, std::string& text) {
+  command.option("--unit", text, "Of a file that states no other: mm, um, nm, cm, m or inch (mm)");
 }
 
 Result<std::optional<metrology::LengthUnit>> unit_of(const std::string& text) {

@@ -9,13 +9,11 @@
 #include "core/result.hpp"
 #include "metrology/points/length_unit.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace frustum::app {
 
-void add_unit_option(CLI::App& command, std::string& text);
+class Command;
+
+void add_unit_option(Command& command, std::string& text);
 
 // Nothing when the option was not given.
 [[nodiscard]] Result<std::optional<metrology::LengthUnit>> unit_of(const std::string& text);

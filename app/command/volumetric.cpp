@@ -1,15 +1,17 @@
 // frustum volumetric: error vectors over the working volume of a machine, and which errors weigh most.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
 #include "app/job/axis_words.hpp"
 #include "app/job/machine_files.hpp"
+#include "app/job/output_folder.hpp"
 #include "app/view/console.hpp"
 #include "core/whole_file.hpp"
 #include "kinematics/errors/error_assignment.hpp"
@@ -367,29 +369,29 @@ int run_volumetric(const VolumetricOptions& options) {
 
 }  // namespace
 
-void add_volumetric(CLI::App& program, int& exit_code) {
+void add_volumetric(Command& program) {
   auto options = std::make_shared<VolumetricOptions>();
-  CLI::App* command = program.add_subcommand(
+  Command command = program.command(
       "volumetric", "Error vectors over the working volume, and which errors weigh most");
-  command->add_option("machine", options->machine, "Machine file, or the name of a shipped machine")
-      ->required();
-  command->add_option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
-  command->add_option("--tolerance", options->tolerances,
-                      "NAME=VALUE, repeated: ranks these errors; NAME may be displacements, "
-                      "rotations, positions or orientations");
-  command->add_option("--grid", options->grid, "Points along each linear axis's travel, default 5");
-  command->add_option("--axes", options->axes,
-                      "\"B=30,C=0;B=-30\": axes held there (mm, degrees), one position after the "
-                      "other; default: rotary axes at home");
-  command->add_option("--tool-length", options->tool_length,
-                      "mm, default 0: the tip is the gauge point");
-  command->add_option("--out", options->out, "Folder for volumetric.html and volumetric.json");
-  command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->footer(
+  command.option("machine", options->machine, "Machine file, or the name of a shipped machine")
+      .required();
+  command.option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
+  command.option("--tolerance", options->tolerances,
+                 "NAME=VALUE, repeated: ranks these errors; NAME may be displacements, "
+                 "rotations, positions or orientations");
+  command.option("--grid", options->grid, "Points along each linear axis's travel, default 5");
+  command.option("--axes", options->axes,
+                 "\"B=30,C=0;B=-30\": axes held there (mm, degrees), one position after the "
+                 "other; default: rotary axes at home");
+  command.option("--tool-length", options->tool_length,
+                 "mm, default 0: the tip is the gauge point");
+  command.option("--out", options->out, "Folder for volumetric.html and volumetric.json");
+  command.flag("--json", options->json, "One JSON document on stdout");
+  command.footer(
       "Shapes without a span lie over the axis's travel.\n"
       "Example: frustum volumetric iwf-bc --error EB0Z=20urad --error \"EXX=linear 10um\" --out "
       "vol");
-  command->callback([options, &exit_code] { exit_code = run_volumetric(*options); });
+  command.runs([options] { return run_volumetric(*options); });
 }
 
 }  // namespace frustum::app

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "app/view/console.hpp"
+#include "app/job/number_list.hpp"
 
 namespace frustum::app {
 

@@ -1,9 +1,8 @@
 #include "app/job/export_request.hpp"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "app/view/console.hpp"
+#include "app/job/output_folder.hpp"
 #include "core/whole_file.hpp"
 #include "report/exchange/export_file.hpp"
 
@@ -23,12 +22,6 @@ Result<fs::path> write_file(const fs::path& file, const std::string& bytes) {
 }
 
 }  // namespace
-
-void add_export_option(CLI::App& command, std::vector<std::string>& files) {
-  command.add_option("--export", files,
-                     "Results in another format, by the extension: .qif (QIF 3.0), .csv, .xml "
-                     "(JUnit), .dfq (Q-DAS), .json; may be repeated");
-}
 
 std::vector<fs::path> read_exports(const TomlTable& output) {
   std::vector<fs::path> files;

@@ -1,7 +1,7 @@
 // The files that a user asks results to be written to, beside the report: --export and [output] export.
 //
-// Units: none. Errors: an extension that names no format, a place that cannot be written to: told before the
-// work begins.
+// Units: none. Errors: an extension that names no format, a place that cannot be written to: reported
+// before the work begins.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,7 @@
 #include "metrology/plan/inspection_plan.hpp"
 #include "report/run_report.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace frustum::app {
-
-// --export FILE, which may be repeated.
-void add_export_option(CLI::App& command, std::vector<std::string>& files);
 
 // The files of `export` in the [output] table, relative to the job; mistakes are noted at the key.
 [[nodiscard]] std::vector<std::filesystem::path> read_exports(const TomlTable& output);
@@ -34,7 +27,7 @@ void add_export_option(CLI::App& command, std::vector<std::string>& files);
                                         report::RunReport& report,
                                         const metrology::InspectionPlan& plan);
 
-// A measurement that could not be made is still told to continuous integration: in each JUnit file every
+// A measurement that could not be made is still reported to continuous integration: in each JUnit file every
 // characteristic becomes an error with the reason. The other formats have nothing to say.
 void write_failed_exports(const std::vector<std::filesystem::path>& files,
                           const Diagnostics& reason, const metrology::InspectionPlan& plan);

@@ -7,7 +7,7 @@
 
 #include "app/job/job.hpp"
 #include "app/job/machine_files.hpp"
-#include "app/view/console.hpp"
+#include "app/job/number_list.hpp"
 #include "core/spelling.hpp"
 #include "trials/trial.hpp"
 

@@ -1,0 +1,35 @@
+#include "app/job/number_list.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace frustum::app {
+
+Result<std::vector<double>> numbers_of(const std::string& text, std::size_t count,
+                                       const std::string& what) {
+  std::vector<double> numbers;
+  std::size_t start = 0;
+  while (start <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', start), text.size());
+    const std::size_t first = std::min(text.find_first_not_of(' ', start), comma);
+    double value = 0.0;
+    const auto [end, status] = std::from_chars(text.data() + first, text.data() + comma, value);
+    const bool whole =
+        std::string_view(end, text.data() + comma).find_first_not_of(' ') == std::string_view::npos;
+    if (status != std::errc{} || !whole || !std::isfinite(value)) {
+      return error(
+          fmt::format("'{}' in {} is not a number", text.substr(start, comma - start), what),
+          fmt::format("expected {} numbers separated by commas", count));
+    }
+    numbers.push_back(value);
+    start = comma + 1;
+  }
+  if (numbers.size() != count) {
+    return error(fmt::format("{} has {} numbers, expected {}", what, numbers.size(), count));
+  }
+  return numbers;
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,17 @@
+// Numbers in one word, as in --center x,y,z.
+//
+// Units: those of the caller. Errors: a part that is no number, another count.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+
+namespace frustum::app {
+
+// "x,y,z" (n numbers), or a diagnostic that says what was expected.
+[[nodiscard]] Result<std::vector<double>> numbers_of(const std::string& text, std::size_t count,
+                                                     const std::string& what);
+
+}  // namespace frustum::app
