@@ -56,8 +56,8 @@ Result<std::set<lint::Check>> disabled_checks(const std::vector<std::string>& na
       disabled.insert(*check);
       continue;
     }
-    unknown.push_back(
-        error("--disable " + name + ": there is no such check", suggestion(name, known)));
+    unknown.push_back(error("unknown-check"_id, "--disable " + name + ": there is no such check",
+                            suggestion(name, known)));
   }
   if (!unknown.empty()) return unknown;
   return disabled;
@@ -71,7 +71,8 @@ bool passes(const lint::CheckReport& report, const std::string& fail_on) {
 
 int check_file(const CheckOptions& options) {
   if (options.list) return list_checks();
-  if (options.file.empty()) return refuse("no program", "name the file to check");
+  if (options.file.empty())
+    return refuse("missing-option"_id, "no program", "name the file to check");
   auto disabled = disabled_checks(options.disabled);
   if (!disabled) return refuse(disabled.error());
   const auto nc = open_nc(options.file, options.dialect);
@@ -83,11 +84,11 @@ int check_file(const CheckOptions& options) {
   check.run.search_path.insert(check.run.search_path.end(), options.search.begin(),
                                options.search.end());
   check.run.block_delete = options.block_delete;
-  const auto bench = known_setup_of(options.setup_words);
-  if (!bench) return refuse(bench.error());
-  if (bench->machine) check.machine = &*bench->machine;
-  check.setup = bench->setup;
-  check.run.tools = bench->tools;
+  const auto known = known_setup_of(options.setup_words);
+  if (!known) return refuse(known.error());
+  if (known->machine) check.machine = &*known->machine;
+  check.setup = known->setup;
+  check.run.tools = known->tools;
   if (options.inch_machine) check.run.machine_unit = parser::LengthUnit::inch;
   if (!options.tools.empty()) {
     auto tools = parser::read_tool_table(options.tools, check.run.machine_unit);
@@ -98,7 +99,7 @@ int check_file(const CheckOptions& options) {
     if (!nc->reason.empty()) {
       std::cerr << "note: read as " << name_of(nc->program.dialect) << " (" << nc->reason << ")\n";
     }
-    if (!bench->machine) std::cerr << "note: no --machine: travels and axes are not checked\n";
+    if (!known->machine) std::cerr << "note: no --machine: travels and axes are not checked\n";
   }
 
   const lint::CheckReport report = lint::check_program(nc->program, check);
@@ -112,7 +113,7 @@ int check_file(const CheckOptions& options) {
   if (options.json) {
     std::cout << lint::json_of(report,
                                {options.file, name_of(nc->program.dialect),
-                                bench->machine ? bench->machine->name() : std::string(), passed});
+                                known->machine ? known->machine->name() : std::string(), passed});
   } else {
     std::cout << lint::text_of(report, lines);
   }
@@ -150,7 +151,8 @@ void add_check(Command& program) {
   command.flag("--quiet", o->quiet, "No notes on stderr");
   command.footer(
       "Example: frustum check cone.nc --machine iwf-bc --fail-on warning\n"
-      "Exit code 1 when a finding is as grave as --fail-on; docs/check.md has all checks.");
+      "Exit code 1 when a finding is at or above the severity of --fail-on; docs/check.md has all "
+      "checks.");
   command.runs([o] { return check_file(*o); });
 }
 

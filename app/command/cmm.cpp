@@ -70,7 +70,7 @@ void add_cmm(Command& program) {
       "cmm", "Run the acceptance test of ISO 10360-2 and -5 on a job's virtual CMM");
   command.option("job", options->job, "Job file with inspection.cmm").required();
   command
-      .option("--seeds", options->seeds, "So many machines of the kind, from the job's seed on (1)")
+      .option("--seeds", options->seeds, "Number of CMMs to simulate, from the job's seed on (1)")
       .within(std::uint64_t{1}, std::uint64_t{100000});
   command.footer("Example: frustum cmm job.toml --seeds 200");
   command.runs([options] { return test(*options); });

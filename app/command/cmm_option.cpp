@@ -16,7 +16,8 @@ using metrology::CmmModel;
 
 Result<CmmModel> cmm_of_job(const std::string& file, const TomlTable& inspection) {
   if (!inspection.has("cmm")) {
-    Diagnostic d = error("the job states no CMM", "add [inspection.cmm] with e0 and l_per_um");
+    Diagnostic d =
+        error("no-cmm"_id, "the job states no CMM", "add [inspection.cmm] with e0 and l_per_um");
     d.file = file;
     d.key = "inspection.cmm";
     return d;
@@ -51,13 +52,15 @@ Result<CmmModel> cmm_of(const CmmWords& words) {
   CmmModel cmm;
   if (!words.file.empty()) {
     if (words.e0.empty() && !words.l_per_um) return cmm_of_file(words.file);
-    return error("--cmm together with --e0 or --l-per-um", "state the accuracy once");
+    return error("conflicting-options"_id, "--cmm together with --e0 or --l-per-um",
+                 "state the accuracy once");
   }
   if (!words.e0.empty()) {
     const auto e0 = parse_length(words.e0);
     if (!e0) return e0.error();
     if (!(e0->value >= 0.0) || !std::isfinite(e0->value)) {
-      return error(fmt::format("--e0 {}: must be 0 or more", words.e0), "for example \"1.8 um\"");
+      return error("value-out-of-range"_id, fmt::format("--e0 {}: must be 0 or more", words.e0),
+                   "for example \"1.8 um\"");
     }
     cmm.e0_mm = e0->value;
   }

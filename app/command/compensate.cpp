@@ -67,7 +67,8 @@ int compensate(const CompensateOptions& options) {
   std::error_code ignored;
   if (fs::equivalent(job->file.parent_path().empty() ? "." : job->file.parent_path(), options.out,
                      ignored)) {
-    return refuse("the output would overwrite the job", "choose another folder for --out");
+    return refuse("output-overwrites-input"_id, "the output would overwrite the job",
+                  "choose another folder for --out");
   }
   const auto errors = trials::errors_for(job->machine, job->errors, job->piece);
   if (!errors) return refuse(errors.error());

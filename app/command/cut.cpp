@@ -9,6 +9,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/command/picture_option.hpp"
 #include "app/job/cut_result.hpp"
 #include "app/job/job.hpp"
 #include "app/job/job_report.hpp"
@@ -57,71 +58,50 @@ struct CutOptions {
 
 std::optional<Diagnostic> fault_of(const CutOptions& o) {
   if (!o.wants_surface() && o.removal.empty() && o.point.empty()) {
-    return error("nothing to write",
+    return error("nothing-to-write"_id, "nothing to write",
                  "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp, --picture OUT.png, "
                  "--removal OUT.csv, --point X,Y,Z or a limit");
   }
   if (o.polyhedral() && (o.chord > 0.0 || o.decimate > 0.0)) {
-    return error("--chord and --decimate are for the surface that rays find",
+    return error("conflicting-options"_id,
+                 "--chord and --decimate are for the surface that rays find",
                  "the polyhedral engine's facets follow --facets and --facet-tolerance");
   }
   if (!o.polyhedral() && o.facets_given) {
-    return error("--facets and --facet-tolerance are of the polyhedral engine",
+    return error("conflicting-options"_id,
+                 "--facets and --facet-tolerance are of the polyhedral engine",
                  "add --engine polyhedral, or choose --pitch and --chord");
   }
   constexpr double kFinest = 1e-6;  // mm: as exact as the surface is
   if (o.chord > 0.0 && o.chord < kFinest) {
-    return error(fmt::format("--chord {:g} mm is finer than the surface is exact", o.chord),
+    return error("value-out-of-range"_id,
+                 fmt::format("--chord {:g} mm is finer than the surface is exact", o.chord),
                  "give 1e-6 mm or more");
   }
   if (o.snapshots > 0 && o.mesh.empty()) {
-    return error("snapshots need a name", "give --mesh part.ply for part_0001.ply and so on");
+    return error("missing-option"_id, "snapshots need a name",
+                 "give --mesh part.ply for part_0001.ply and so on");
   }
   if (!o.mesh.empty()) {
     if (const auto format = stock::mesh_format_of(o.mesh); !format) return format.error().front();
   }
   if (!o.picture.empty() && fs::path(o.picture).extension() != ".png") {
-    return error("pictures are written as .png, not " + o.picture);
+    return error("unknown-format"_id, "pictures are written as .png, not " + o.picture);
   }
   if (!o.view.empty() && o.picture.empty()) {
-    return error("a view without a picture", "give --picture OUT.png");
+    return error("missing-option"_id, "a view without a picture", "give --picture OUT.png");
   }
   if (!o.size.empty() && o.picture.empty()) {
-    return error("a size without a picture", "give --picture OUT.png");
+    return error("missing-option"_id, "a size without a picture", "give --picture OUT.png");
   }
   if (!o.removal.empty() && fs::path(o.removal).extension() != ".csv") {
-    return error("the removal of each block is written as .csv, not " + o.removal);
+    return error("unknown-format"_id,
+                 "the removal of each block is written as .csv, not " + o.removal);
   }
   return std::nullopt;
 }
 
 using Failure = std::optional<Diagnostics>;
-
-// --view AZIMUTH,ELEVATION in degrees.
-Failure look_from(const std::string& view, report::PictureOptions& options) {
-  const auto angles = numbers_of(view, 2, "--view");
-  if (!angles) return angles.error();
-  options.azimuth = (*angles)[0];
-  options.elevation = (*angles)[1];
-  if (std::abs(options.azimuth) <= 360.0 && std::abs(options.elevation) <= 90.0) return {};
-  return Diagnostics{error("--view " + view + " is no direction to look from",
-                           "azimuth about Z from +X within 360 deg, elevation from -90 to 90 deg")};
-}
-
-// --size WIDTH,HEIGHT in pixels; which sizes can be drawn is the picture's to say.
-Failure draw_at(const std::string& size, report::PictureOptions& options) {
-  const auto sides = numbers_of(size, 2, "--size");
-  if (!sides) return sides.error();
-  for (const double side : *sides) {
-    if (side != std::floor(side) || std::abs(side) > 1e6) {
-      return Diagnostics{
-          error("--size " + size + " is no size in pixels", "two whole numbers: 1600,1100")};
-    }
-  }
-  options.width = static_cast<int>((*sides)[0]);
-  options.height = static_cast<int>((*sides)[1]);
-  return {};
-}
 
 Result<report::PictureOptions> picture_options(const CutOptions& o) {
   report::PictureOptions options;
@@ -143,7 +123,7 @@ class Cut {
 
   [[nodiscard]] Result<CutResult> result() {
     if (options_.limited() && job_.piece.plan.features.empty() && !job_.nominal) {
-      return error("a limit, but nothing that the part is judged by",
+      return error("nothing-to-judge-by"_id, "a limit, but nothing that the part is judged by",
                    "give the job an inspection plan or a [nominal] mesh");
     }
     if (auto failure = find_state()) return *failure;
@@ -174,6 +154,7 @@ class Cut {
     const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
     if (options_.until_line > lines) {
       return Diagnostics{error(
+          "value-out-of-range"_id,
           fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
           "its lines are counted from 1")};
     }
@@ -309,10 +290,10 @@ class Cut {
 
 void tell_collisions(const Job& job, const CutResult& result) {
   for (const stock::Collision& c : result.collisions) {
-    Diagnostic told = error(collision_text(c));
-    told.file = job.piece.program_file;
-    told.line = static_cast<int>(c.source_line);
-    print(std::cerr, {told});
+    Diagnostic found = error("collision"_id, collision_text(c));
+    found.file = job.piece.program_file;
+    found.line = static_cast<int>(c.source_line);
+    print(std::cerr, {found});
   }
 }
 
@@ -358,7 +339,7 @@ void add_options(Command& command, CutOptions& o) {
       .within(1U, 4'000'000'000U);
   command
       .option("--snapshots", o.snapshots,
-              "So many meshes at equal steps of time, named after --mesh, with an index .json")
+              "Number of meshes at equal steps of time, named after --mesh, with an index .json")
       .within(1, 9999);
   command.option("--removal", o.removal,
                  "Table to write, .csv: volume, rate and engagement of each block");

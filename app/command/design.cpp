@@ -41,7 +41,7 @@ Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::
                                  const char* option) {
   const auto equals = text.find('=');
   if (equals == std::string::npos) {
-    return error(fmt::format("{} {}: expected NAME=VALUE", option, text),
+    return error("malformed-option"_id, fmt::format("{} {}: expected NAME=VALUE", option, text),
                  "for example gamma_YX=5urad");
   }
   const auto parameter = trials::Parameter::named(machine, text.substr(0, equals));
@@ -59,7 +59,7 @@ Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::
     value = length->value;
   }
   if (!(value >= 0.0) || !std::isfinite(value)) {
-    return error(fmt::format("{} {}: must be 0 or more", option, text),
+    return error("value-out-of-range"_id, fmt::format("{} {}: must be 0 or more", option, text),
                  "a standard deviation has no sign");
   }
   return NamedAmount{parameter->name, value};
@@ -98,8 +98,8 @@ class Request {
         return other.name == k->name;
       });
       if (again) {
-        problems_.push_back(
-            error(fmt::format("--known {}: given twice", k->name), "one value for each error"));
+        problems_.push_back(error("given-twice"_id, fmt::format("--known {}: given twice", k->name),
+                                  "one value for each error"));
       }
       known.push_back({k->name, 0.0, k->amount});
       if (std::find(names.begin(), names.end(), k->name) == names.end()) names.push_back(k->name);
@@ -116,7 +116,8 @@ class Request {
     metrology::CmmModel cmm;
     if (const auto e0 = keep(parse_length(options_.e0))) cmm.e0_mm = e0->value;
     if (!(cmm.e0_mm > 0.0)) {
-      problems_.push_back(error(fmt::format("--e0 {}: must be a length above 0", options_.e0),
+      problems_.push_back(error("value-out-of-range"_id,
+                                fmt::format("--e0 {}: must be a length above 0", options_.e0),
                                 "for example --e0 \"0.5 um\""));
     }
     cmm.length_per_error = options_.l_per_um;
@@ -177,8 +178,9 @@ Diagnostics unused_limits(const calibration::StepDesignOptions& choice,
         std::any_of(unknowns.unknowns.begin(), unknowns.unknowns.end(),
                     [&, wanted = name](const auto& u) { return u.name == wanted; });
     if (is_unknown) continue;
-    problems.push_back(
-        error(fmt::format("--limit {}: not one of the unknowns", name), "add it with --unknown"));
+    problems.push_back(error("unknown-error"_id,
+                             fmt::format("--limit {}: not one of the unknowns", name),
+                             "add it with --unknown"));
   }
   return problems;
 }

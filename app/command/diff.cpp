@@ -130,7 +130,7 @@ void add_diff(Command& program) {
   command.option("--tip", o->tip, "Tolerance of the tip, um (2)").holds(positive_number(1e6));
   command.option("--axis", o->axis, "Tolerance of the tool axis, urad (50)")
       .holds(positive_number(1e6));
-  command.option("--feed", o->feed, "Tolerance of the time that a stretch takes, percent (2)")
+  command.option("--feed", o->feed, "Tolerance of the time that a path segment takes, percent (2)")
       .holds(positive_number(1e3));
   command.flag("--json", o->json, "One JSON document on stdout and nothing else");
   command.footer(

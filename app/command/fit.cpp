@@ -53,7 +53,8 @@ Result<std::optional<UnitVec3>> direction_of(const std::string& text, const char
   if (!numbers) return numbers.error();
   const Vec3 v((*numbers)[0], (*numbers)[1], (*numbers)[2]);
   if (!v.allFinite() || !(v.norm() > 0.0)) {
-    return error(fmt::format("{} {}: not a direction", option, text), "for example 0,0,1");
+    return error("no-direction"_id, fmt::format("{} {}: not a direction", option, text),
+                 "for example 0,0,1");
   }
   return std::optional<UnitVec3>(metrology::unit(v));
 }

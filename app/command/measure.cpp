@@ -84,7 +84,8 @@ Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
   auto measurement = metrology::evaluate(plan, *points, meaning, cmm);
   if (measurement && metrology::point_uncertainty(cmm).is_zero()) {
     Diagnostic unknown =
-        warning("nothing is known of the machine that measured these points: uncertainties are 0",
+        warning("unknown-accuracy"_id,
+                "nothing is known of the machine that measured these points: uncertainties are 0",
                 "state its accuracy with --e0 \"1.8 um\" --l-per-um 350, or --cmm FILE");
     unknown.severity = Severity::note;
     measurement->diagnostics.push_back(std::move(unknown));
@@ -134,22 +135,25 @@ int measure(const MeasureOptions& options) {
   const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
   const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
   if (by_plan && options.overrides.any()) {
-    return refuse("--error, --errors, --tool-radius-error and --draw go with a job",
+    return refuse("conflicting-options"_id,
+                  "--error, --errors, --tool-radius-error and --draw go with a job",
                   "measured points and meshes have the errors that they have");
   }
   if (options.ball_centres && options.points.empty()) {
-    return refuse("--ball-centres goes with --points", "leave it out");
+    return refuse("conflicting-options"_id, "--ball-centres goes with --points", "leave it out");
   }
   if (by_job && !options.unit.empty()) {
-    return refuse("--unit goes with --points or --mesh", "a job's part is in mm; leave it out");
+    return refuse("conflicting-options"_id, "--unit goes with --points or --mesh",
+                  "a job's part is in mm; leave it out");
   }
   if (by_plan) return measure_by_plan(options);
   if (by_job && options.cmm.any()) {
-    return refuse("--e0, --l-per-um and --cmm go with --points or --mesh",
+    return refuse("conflicting-options"_id, "--e0, --l-per-um and --cmm go with --points or --mesh",
                   "a job states its machine in [inspection.cmm]");
   }
   if (by_job) return measure_job(options);
-  return refuse("give either a job file, or --plan and --points, or --plan and --mesh",
+  return refuse("conflicting-options"_id,
+                "give either a job file, or --plan and --points, or --plan and --mesh",
                 "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv | "
                 "frustum measure --plan PLAN.toml --mesh SCAN.stl");
 }

@@ -60,12 +60,13 @@ Result<AxisPositions> read_axis_values(const Machine& machine, const std::string
     std::string name = part.substr(0, equals);
     std::erase(name, ' ');
     if (equals == std::string::npos || std::find(known.begin(), known.end(), name) == known.end()) {
-      return error(fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
+      return error("unknown-axis"_id,
+                   fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
                                machine.structure()),
                    fmt::format("write {}", fmt::join(known, "=..,")) + "=..");
     }
     if (std::find(given.begin(), given.end(), name) != given.end()) {
-      return error(fmt::format("axis {} is given twice", name));
+      return error("given-twice"_id, fmt::format("axis {} is given twice", name));
     }
     given.push_back(name);
     const auto value = numbers_of(part.substr(equals + 1), 1, "axis " + name);
@@ -94,7 +95,8 @@ Result<AxisPositions> read_headings(const Machine& machine, const std::string& t
   for (const Joint& joint : machine.joints()) {
     const double h = (*heading)[joint.letter];
     if (std::abs(h) <= 1.0) continue;
-    return error(fmt::format("--heading {}={}: expected -1 .. +1", to_char(joint.letter), h),
+    return error("value-out-of-range"_id,
+                 fmt::format("--heading {}={}: expected -1 .. +1", to_char(joint.letter), h),
                  "+1 after motion in +, -1 after motion in -");
   }
   return heading;
@@ -140,7 +142,8 @@ int inverse(const PoseOptions& options, const Machine& machine) {
   if (!values) return refuse(values.error());
   const auto& v = *values;
   const auto axis = UnitVec3::of(Vec3(v[3], v[4], v[5]));
-  if (!axis) return refuse("the tool direction i,j,k has no length", "give x,y,z,i,j,k");
+  if (!axis)
+    return refuse("no-direction"_id, "the tool direction i,j,k has no length", "give x,y,z,i,j,k");
   const auto solutions =
       kinematics::all_solutions(machine, {Vec3(v[0], v[1], v[2]), *axis}, options.tool_length);
   if (!solutions) return refuse(solutions.error());
@@ -166,6 +169,7 @@ int inverse(const PoseOptions& options, const Machine& machine) {
 int run_pose(const PoseOptions& options) {
   if (!std::isfinite(options.tool_length) || options.tool_length < 0.0) {
     return refuse(
+        "value-out-of-range"_id,
         fmt::format("--tool-length {}: expected a length in mm, 0 or more", options.tool_length));
   }
   const auto machine = load_machine(options.machine, ".");
@@ -175,7 +179,8 @@ int run_pose(const PoseOptions& options) {
   const auto errors = kinematics::resolve(*machine, *entries);
   if (!errors) return refuse(errors.error());
   if (options.axes.empty() == options.inverse.empty()) {
-    return refuse("give either --axes or --inverse", "for example --axes \"X=10,A=-30\"");
+    return refuse("conflicting-options"_id, "give either --axes or --inverse",
+                  "for example --axes \"X=10,A=-30\"");
   }
   return options.inverse.empty() ? forward(options, *machine, *errors) : inverse(options, *machine);
 }
@@ -201,7 +206,7 @@ void add_pose(Command& program) {
                  "mm, default 0: the tip is the gauge point");
   command.flag("--json", options->json, "One JSON document on stdout");
   command.footer(
-      "Shapes without a span lie over the axis's travel.\n"
+      "Shapes without a span extend over the axis's travel.\n"
       "Example: frustum pose --machine zx-yac --axes \"X=10,A=-30,C=45\" --error beta_CA=20urad");
   command.runs([options] { return run_pose(*options); });
 }

@@ -53,7 +53,8 @@ post::PlanOptions plan_options(const PostOptions& options, const parser::NcSpell
 int post_process(const PostOptions& options) {
   std::error_code ignored;
   if (fs::equivalent(options.file, options.out, ignored)) {
-    return refuse("the output would overwrite the program it is made from", "choose another -o");
+    return refuse("output-overwrites-input"_id,
+                  "the output would overwrite the program it is made from", "choose another -o");
   }
   const auto setup_words = machine_setup_of(options.setup_words);
   if (!setup_words) return refuse(setup_words.error());
@@ -73,15 +74,16 @@ int post_process(const PostOptions& options) {
 
   const Diagnostics warnings = in_file(plan->warnings, options.file);
   if (options.json) {
-    nlohmann::ordered_json told{{"output", written->string()},
-                                {"dialect", parser::name_of(dialect)},
-                                {"machine", setup_words->machine.name()},
-                                {"lines", program->source_lines.size()},
-                                {"inserted_points", plan->inserted},
-                                {"rewinds", plan->rewinds},
-                                {"diagnostics", nlohmann::ordered_json::array()}};
-    for (const Diagnostic& warning : warnings) told["diagnostics"].push_back(to_string(warning));
-    std::cout << told.dump(2) << '\n';
+    nlohmann::ordered_json written_doc{{"output", written->string()},
+                                       {"dialect", parser::name_of(dialect)},
+                                       {"machine", setup_words->machine.name()},
+                                       {"lines", program->source_lines.size()},
+                                       {"inserted_points", plan->inserted},
+                                       {"rewinds", plan->rewinds},
+                                       {"diagnostics", nlohmann::ordered_json::array()}};
+    for (const Diagnostic& warning : warnings)
+      written_doc["diagnostics"].push_back(to_string(warning));
+    std::cout << written_doc.dump(2) << '\n';
     return kDone;
   }
   print(std::cerr, warnings);
@@ -120,7 +122,7 @@ void add_post(Command& program) {
   add_setup_options(command, o->setup_words);
   command.flag("--no-comments", o->no_comments, "Leave comments out");
   command.flag("--source-lines", o->source_lines,
-               "Behind each block, the line of the program that it came from");
+               "After each block, the line of the program that it came from");
   command.flag("--json", o->json, "Say what was written as JSON");
   command.footer(
       "Example: frustum post cone.nc --machine iwf-bc --to heidenhain --output axes "

@@ -38,7 +38,7 @@ Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const
   if (!errors) return errors.error();
   if (options.method == "analytic") {
     if (options.step_um || options.step_urad) {
-      return error("--step-um and --step-urad are steps of differences",
+      return error("conflicting-options"_id, "--step-um and --step-urad are steps of differences",
                    "add --method differences, or leave them out");
     }
     return trials::sensitivity(job.machine, *errors, job.piece, *commanded, *parameters,

@@ -13,7 +13,8 @@ void add_unit_option(Command& command, std::string& text) {
 Result<std::optional<metrology::LengthUnit>> unit_of(const std::string& text) {
   if (text.empty()) return std::optional<metrology::LengthUnit>();
   if (auto unit = metrology::length_unit(text)) return unit;
-  return error(fmt::format("--unit {}: not a unit of length", text), "mm, um, nm, cm, m or inch");
+  return error("unknown-unit"_id, fmt::format("--unit {}: not a unit of length", text),
+               "mm, um, nm, cm, m or inch");
 }
 
 }  // namespace frustum::app

@@ -26,11 +26,13 @@ Result<AxisWords> read_axis_words(const kinematics::Machine& machine, const std:
     if (equals == std::string::npos || joint == joints.end()) {
       std::vector<std::string> known;
       for (const Joint& j : joints) known.emplace_back(1, to_char(j.letter));
-      return error(fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
+      return error("unknown-axis"_id,
+                   fmt::format("'{}' is not an axis of machine {} ({})", part, machine.name(),
                                machine.structure()),
                    fmt::format("write {}", fmt::join(known, "=..,")) + "=..");
     }
-    if (words.contains(joint->letter)) return error(fmt::format("axis {} is given twice", name));
+    if (words.contains(joint->letter))
+      return error("given-twice"_id, fmt::format("axis {} is given twice", name));
     const auto value = numbers_of(part.substr(equals + 1), 1, "axis " + name);
     if (!value) return value.error();
     words[joint->letter] = value->front() * (joint->rotary() ? kRadPerDeg : 1.0);

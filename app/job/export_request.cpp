@@ -28,7 +28,7 @@ std::vector<fs::path> read_exports(const TomlTable& output) {
   for (const std::string& name : output.texts_or("export", {})) {
     files.push_back(output.folder() / name);
     const Diagnostics faults = report::export_faults(files.back());
-    if (!faults.empty()) output.fail("export", faults.front().message, faults.front().hint);
+    if (!faults.empty()) output.fail("export", faults.front());
   }
   return files;
 }

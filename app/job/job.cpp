@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 Result<std::string> read_text(const fs::path& file, const TomlTable& table, std::string_view key) {
   auto text = read_whole_file(file);
   if (text) return text;
-  table.fail(key, fmt::format("the file {} cannot be read", file.string()),
+  table.fail(key, "unreadable-file"_id, fmt::format("the file {} cannot be read", file.string()),
              "paths are relative to the job file");
-  return error("unreadable");
+  return error("unreadable-file"_id, "unreadable");
 }
 
 void read_program(const TomlTable& root, programs::TestPiece& piece) {
@@ -42,7 +42,7 @@ void read_program(const TomlTable& root, programs::TestPiece& piece) {
   }
 }
 
-// sections = [[z, size_x, size_y], ...]; what makes no body is told by stock::Blank::make.
+// sections = [[z, size_x, size_y], ...]; what makes no body is reported by stock::Blank::make.
 stock::LoftShape read_loft(const TomlTable& blank) {
   stock::LoftShape loft;
   const auto rows = blank.rows("sections", 3);
@@ -61,7 +61,7 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
   if (shape == 0) {
     const Vec3 size = blank.vector("size");
     if (!(size.array() > 0.0).all()) {
-      blank.fail("size", "the blank is empty: every size must be above 0",
+      blank.fail("size", "empty-blank"_id, "the blank is empty: every size must be above 0",
                  "size = [x, y, z] in mm");
     }
     piece.blank = stock::BoxShape{size.x(), size.y(), size.z()};
@@ -133,7 +133,7 @@ void read_operations(const TomlTable& root, programs::TestPiece& piece) {
       op.first_line = static_cast<std::uint32_t>(lines[0]);
       op.last_line = static_cast<std::uint32_t>(lines[1]);
     } else if (!lines.empty()) {
-      table.fail("lines", "expected [first, last] line of the NC program");
+      table.fail("lines", "wrong-lines"_id, "expected [first, last] line of the NC program");
     }
     piece.operations.push_back(std::move(op));
   }
@@ -173,7 +173,7 @@ void check_made_features(const TomlTable& root, const programs::TestPiece& piece
   for (const TomlTable& table : root.tables("operation")) {
     for (const std::string& name : table.texts_or("makes", {})) {
       if (metrology::find_feature(piece.plan, name) != nullptr) continue;
-      table.fail("makes", fmt::format("the plan has no feature '{}'", name),
+      table.fail("makes", "unknown-feature"_id, fmt::format("the plan has no feature '{}'", name),
                  suggestion(name, names));
     }
   }
@@ -202,14 +202,14 @@ void override_tool_radius(programs::TestPiece& piece, const JobOverrides& overri
 // The file of the machine that is named.
 std::optional<fs::path> machine_of(const TomlTable& root) {
   const std::string name = root.text("machine");
-  if (!root.has("machine")) return std::nullopt;  // which text() has told
+  if (!root.has("machine")) return std::nullopt;  // which text() has reported
   const auto file = find_machine(name, root.folder());
   if (file) return *file;
   root.fail("machine", file.error().front());
   return std::nullopt;
 }
 
-// Those that stand in the job itself are told with their place.
+// Those in the job itself are reported with their place.
 void check_error_names(const TomlTable& root, const kinematics::Machine& machine,
                        const std::vector<kinematics::ErrorEntry>& entries) {
   const auto table = root.table_if("errors");

@@ -167,7 +167,8 @@ void add_proof(report::RunReport& report, const trials::PointProof& proof) {
   report.budget.push_back({"measured point, together", proof.worst_bound * kUmPerMm, {}, "um"});
   if (proof.refuted > 0) {
     report.diagnostics.push_back(
-        error(fmt::format("{} of {} sampled points are not where the engine says: {}",
+        error("point-refuted"_id,
+              fmt::format("{} of {} sampled points are not where the engine says: {}",
                           proof.refuted, proof.sampled, proof.first_refuted),
               "this is a fault of the program: please report it with the job"));
   }
@@ -187,7 +188,8 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   // A grid that the part falls through would be answered with nothing at all.
   const double coarsest = (box.max - box.min).minCoeff() / 4.0;
   if (pitch > coarsest) {
-    return error(fmt::format("a pitch of {:g} mm is too coarse for this blank", pitch),
+    return error("value-out-of-range"_id,
+                 fmt::format("a pitch of {:g} mm is too coarse for this blank", pitch),
                  fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
   }
   auto mesh = stock::extract_surface(part, box, Mm{pitch});

@@ -33,7 +33,8 @@ Result<fs::path> find_machine(const std::string& name, const fs::path& folder) {
   }
   std::vector<std::string> names;
   for (const fs::path& each : shipped_machines()) names.push_back(each.stem().string());
-  return error(fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
+  return error("unknown-machine"_id,
+               fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
                suggestion(written.stem().string(), names));
 }
 

@@ -21,7 +21,7 @@ Result<std::pair<std::string, std::string>> halves_of(const std::string& text, c
   if (equals != std::string::npos && equals > 0) {
     return std::pair{text.substr(0, equals), text.substr(equals + 1)};
   }
-  return error(fmt::format("{} {}: expected {}", what, text, example));
+  return error("malformed-option"_id, fmt::format("{} {}: expected {}", what, text, example));
 }
 
 struct ToolWord {
@@ -38,7 +38,8 @@ Result<ToolWord> tool_word(const std::string& text, const char* option, const ch
   if (!value) return value.error();
   const double n = number->front();
   if (!(n >= 1.0 && n <= 99999.0 && n == std::floor(n))) {
-    return error(fmt::format("{} {}: a tool is named by its number", option, text), "1 to 99999");
+    return error("malformed-option"_id,
+                 fmt::format("{} {}: a tool is named by its number", option, text), "1 to 99999");
   }
   return ToolWord{static_cast<int>(n), value->front()};
 }
@@ -47,7 +48,8 @@ std::optional<Diagnostic> add_tool_length(const std::string& text, kinematics::S
   const auto word = tool_word(text, "--tool-length", "NUMBER=LENGTH, for example 1=150");
   if (!word) return word.error().front();
   if (!(word->value >= 0.0)) {
-    return error(fmt::format("--tool-length {}: a length is not negative", text),
+    return error("value-out-of-range"_id,
+                 fmt::format("--tool-length {}: a length is not negative", text),
                  "mm from the spindle's gauge point to the tip");
   }
   setup.tools[word->number].length = word->value;
@@ -58,7 +60,8 @@ std::optional<Diagnostic> add_tool_diameter(const std::string& text, parser::Too
   const auto word = tool_word(text, "--tool-diameter", "NUMBER=DIAMETER, for example 1=10");
   if (!word) return word.error().front();
   if (!(word->value > 0.0)) {
-    return error(fmt::format("--tool-diameter {}: a diameter is above zero", text), "in mm");
+    return error("value-out-of-range"_id,
+                 fmt::format("--tool-diameter {}: a diameter is above zero", text), "in mm");
   }
   parser::Tool& tool = tools[word->number];
   tool.diameter = word->value;
@@ -88,7 +91,8 @@ std::optional<Diagnostic> add_offset(const std::string& text, kinematics::Setup&
   if (!halves) return halves.error().front();
   const auto number = offset_number(halves->first);
   if (!number) {
-    return error(fmt::format("--offset {}: no such work offset", halves->first),
+    return error("unknown-work-offset"_id,
+                 fmt::format("--offset {}: no such work offset", halves->first),
                  "G54 to G59, G59.1 to G59.3, G54.1P1 to G54.1P999");
   }
   const auto origin = numbers_of(halves->second, 3, "--offset");
@@ -100,39 +104,40 @@ std::optional<Diagnostic> add_offset(const std::string& text, kinematics::Setup&
 }  // namespace
 
 Result<KnownSetup> known_setup_of(const SetupWords& words) {
-  KnownSetup bench;
+  KnownSetup known;
   if (!words.job.empty()) {
     auto job = load_job(words.job, {}, false);
     if (!job) return job.error();
-    bench.setup = trials::setup_of(job->piece);
-    bench.tools = trials::diameters_of(job->piece);
-    bench.machine = job->machine;
+    known.setup = trials::setup_of(job->piece);
+    known.tools = trials::diameters_of(job->piece);
+    known.machine = job->machine;
   } else {
     // The table's own origin is what a program without a setup sheet means.
-    bench.setup.work_offsets[1] = Vec3::Zero();
+    known.setup.work_offsets[1] = Vec3::Zero();
   }
   for (const std::string& text : words.tool_lengths) {
-    if (auto problem = add_tool_length(text, bench.setup)) return *problem;
+    if (auto problem = add_tool_length(text, known.setup)) return *problem;
   }
   for (const std::string& text : words.tool_diameters) {
-    if (auto problem = add_tool_diameter(text, bench.tools)) return *problem;
+    if (auto problem = add_tool_diameter(text, known.tools)) return *problem;
   }
   for (const std::string& text : words.offsets) {
-    if (auto problem = add_offset(text, bench.setup)) return *problem;
+    if (auto problem = add_offset(text, known.setup)) return *problem;
   }
   if (!words.machine.empty()) {
     auto loaded = load_machine(words.machine, ".");
     if (!loaded) return loaded.error();
-    bench.machine = *std::move(loaded);
+    known.machine = *std::move(loaded);
   }
-  return bench;
+  return known;
 }
 
 Result<MachineSetup> machine_setup_of(const SetupWords& words) {
-  auto bench = known_setup_of(words);
-  if (!bench) return bench.error();
-  if (!bench->machine) return error("no machine", "name one with --machine, or a job with --job");
-  return MachineSetup{*std::move(bench->machine), std::move(bench->setup), std::move(bench->tools)};
+  auto known = known_setup_of(words);
+  if (!known) return known.error();
+  if (!known->machine)
+    return error("no-machine"_id, "no machine", "name one with --machine, or a job with --job");
+  return MachineSetup{*std::move(known->machine), std::move(known->setup), std::move(known->tools)};
 }
 
 }  // namespace frustum::app

@@ -36,7 +36,8 @@ double quantity(const TomlTable& table, const std::string& key, bool angular) {
   const ParsedQuantity q = table.quantity(key);
   const UnitKind wanted = angular ? UnitKind::angle : UnitKind::length;
   if (q.kind != wanted) {
-    table.fail(key, angular ? "expected an angle with its unit" : "expected a length with its unit",
+    table.fail(key, "wrong-unit"_id,
+               angular ? "expected an angle with its unit" : "expected a length with its unit",
                angular ? "for example \"-3.5 urad\"" : "for example \"-24.6 um\"");
   }
   return q.value;
@@ -53,7 +54,8 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
   for (const std::string& name : measured.keys()) {
     const PlannedCharacteristic* planned = find(plan, name);
     if (planned == nullptr) {
-      measured.fail(name, fmt::format("the plan has no characteristic '{}'", name),
+      measured.fail(name, "unknown-characteristic"_id,
+                    fmt::format("the plan has no characteristic '{}'", name),
                     suggestion(name, names_of(plan)));
       continue;
     }
@@ -64,14 +66,16 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
       value.value = quantity(entry, "value", angular);
       if (entry.has("uncertainty")) {
         value.uncertainty = quantity(entry, "uncertainty", angular);
-        if (!(*value.uncertainty > 0.0)) entry.fail("uncertainty", "must be above 0");
+        if (!(*value.uncertainty > 0.0))
+          entry.fail("uncertainty", "value-out-of-range"_id, "must be above 0");
       }
     } else {
       value.value = quantity(measured, name, angular);
     }
     part.emplace(name, value);
   }
-  if (part.empty()) measured.fail("", "nothing was measured", "\"1-a.dL\" = \"-24.6 um\"");
+  if (part.empty())
+    measured.fail("", "nothing-measured"_id, "nothing was measured", "\"1-a.dL\" = \"-24.6 um\"");
   if (Diagnostics found = document->finish(); has_error(found)) return found;
   return part;
 }
@@ -79,7 +83,7 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
 Diagnostic not_a_result(
     const fs::path& file, const std::string& why,
     const std::string& hint = "give the result.json of `frustum run`, or its --json output") {
-  Diagnostic d = error(why, hint);
+  Diagnostic d = error("unreadable-values"_id, why, hint);
   d.file = file.string();
   return d;
 }
@@ -141,7 +145,8 @@ Result<MeasuredPart> read_measured_part(const fs::path& file, const InspectionPl
   if (extension == ".toml") return from_toml(file, plan);
   if (extension == ".json") return from_json(file, plan);
   if (extension == ".csv") return from_points(file, plan);
-  Diagnostic d = error(fmt::format("no measured values are read from '{}' files", extension),
+  Diagnostic d = error("unknown-format"_id,
+                       fmt::format("no measured values are read from '{}' files", extension),
                        "give .toml (values), .json (result of a run) or .csv (CMM points)");
   d.file = file.string();
   return d;

@@ -15,7 +15,8 @@ Diagnostics faults_of(const stock::SurfaceMesh& mesh) {
   return stock::mesh_faults(mesh);
 #else
   (void)mesh;
-  return {error("this Frustum was built without CGAL, which checks that a mesh bounds one body",
+  return {error("not-built-in"_id,
+                "this Frustum was built without CGAL, which checks that a mesh bounds one body",
                 "build with -DFRUSTUM_WITH_CGAL=ON")};
 #endif
 }
@@ -31,12 +32,13 @@ std::shared_ptr<const stock::FacetSolid> read_closed_mesh(const TomlTable& table
   if (!mesh) {
     const Diagnostic& fault = mesh.error().front();
     const std::string line = fault.line > 0 ? fmt::format(", line {}", fault.line) : std::string();
-    table.fail(key, fmt::format("{}{}: {}", file.string(), line, fault.message), fault.hint);
+    table.fail(key, fault.id, fmt::format("{}{}: {}", file.string(), line, fault.message),
+               fault.hint);
     return nullptr;
   }
   const Diagnostics faults = faults_of(*mesh);
   for (const Diagnostic& fault : faults) {
-    table.fail(key, fmt::format("{}: {}", file.string(), fault.message), fault.hint);
+    table.fail(key, fault.id, fmt::format("{}: {}", file.string(), fault.message), fault.hint);
   }
   if (!faults.empty()) return nullptr;
   for (Vec3& v : mesh->vertices) v += origin;

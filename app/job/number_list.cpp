@@ -20,6 +20,7 @@ Result<std::vector<double>> numbers_of(const std::string& text, std::size_t coun
         std::string_view(end, text.data() + comma).find_first_not_of(' ') == std::string_view::npos;
     if (status != std::errc{} || !whole || !std::isfinite(value)) {
       return error(
+          "not-a-number"_id,
           fmt::format("'{}' in {} is not a number", text.substr(start, comma - start), what),
           fmt::format("expected {} numbers separated by commas", count));
     }
@@ -27,7 +28,8 @@ Result<std::vector<double>> numbers_of(const std::string& text, std::size_t coun
     start = comma + 1;
   }
   if (numbers.size() != count) {
-    return error(fmt::format("{} has {} numbers, expected {}", what, numbers.size(), count));
+    return error("number-count"_id,
+                 fmt::format("{} has {} numbers, expected {}", what, numbers.size(), count));
   }
   return numbers;
 }

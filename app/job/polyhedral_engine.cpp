@@ -14,7 +14,7 @@ namespace frustum::app {
 #ifndef FRUSTUM_WITH_CGAL
 
 Result<FacetedSurface> faceted_surface(const stock::WorkpieceAt&, const PolyhedralFacets&) {
-  return error("this program was built without the polyhedral engine",
+  return error("not-built-in"_id, "this program was built without the polyhedral engine",
                "build with -DFRUSTUM_WITH_CGAL=ON, or use --engine ray");
 }
 

@@ -1,4 +1,4 @@
-// The polyhedral reference engine behind --engine polyhedral.
+// The polyhedral reference engine of --engine polyhedral.
 // Units: mm; frame: workpiece.
 // Errors: a program built without CGAL; those of PolyhedralWorkpiece::cut().
 #pragma once

@@ -25,7 +25,7 @@ std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folde
   const fs::path job_file = table.file_path("job");
   const std::vector<std::string> files = table.texts_or("measured", {});
   if (files.empty()) {
-    table.fail("measured", "no measured values",
+    table.fail("measured", "nothing-measured"_id, "no measured values",
                "measured = [\"part-1.toml\"]: .toml values, .json results or .csv points; several "
                "files are several parts of one kind");
   }
@@ -73,7 +73,8 @@ std::vector<KnownError> read_known(const TomlTable& table, const kinematics::Mac
       const TomlTable entry = table.table(name);
       error.value = amount(entry, "value", *parameter);
       error.uncertainty = amount(entry, "uncertainty", *parameter);
-      if (error.uncertainty < 0.0) entry.fail("uncertainty", "must not be negative");
+      if (error.uncertainty < 0.0)
+        entry.fail("uncertainty", "value-out-of-range"_id, "must not be negative");
     } else {
       error.value = amount(table, name, *parameter);
     }
@@ -112,7 +113,7 @@ void check_machines(const std::vector<StudyPart>& parts, const TomlTable& root) 
   std::set<std::string> machines;
   for (const StudyPart& part : parts) machines.insert(part.job.machine.name());
   if (machines.size() > 1) {
-    root.fail("part",
+    root.fail("part", "different-machines"_id,
               fmt::format("the parts were cut on different machines: {} and {}", *machines.begin(),
                           *machines.rbegin()),
               "one study identifies one machine");
@@ -128,7 +129,7 @@ Parts read_parts(const TomlDocument& document) {
   Parts found;
   const std::vector<TomlTable> tables = document.root().tables("part");
   if (tables.empty()) {
-    document.root().fail("part", "no part to learn from",
+    document.root().fail("part", "nothing-measured"_id, "no part to learn from",
                          "add [[part]] with name, job and measured");
   }
   for (const TomlTable& table : tables) {
@@ -164,7 +165,7 @@ void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, St
   const bool radius_listed = std::find(study.unknowns.begin(), study.unknowns.end(),
                                        trials::kToolRadius) != study.unknowns.end();
   if (radius_listed && study.tool_radius != ToolRadius::common) {
-    root.fail("unknown",
+    root.fail("unknown", "given-twice"_id,
               "tool_radius_error is listed by name, which means one radius error for all parts",
               "tool_radius = \"common\", or take it out of unknown.errors and [known]");
   }

@@ -11,8 +11,8 @@ int refuse(const Diagnostics& diagnostics) {
   return kBadInput;
 }
 
-int refuse(const std::string& message, const std::string& hint) {
-  return refuse(Diagnostics{error(message, hint)});
+int refuse(DiagnosticId id, const std::string& message, const std::string& hint) {
+  return refuse(Diagnostics{error(id, message, hint)});
 }
 
 report::ProgressStyle progress_style(bool quiet) {

@@ -20,7 +20,7 @@ constexpr int kTableWidth = 140;
 
 // Prints the diagnostics on stderr; returns kBadInput.
 int refuse(const Diagnostics& diagnostics);
-int refuse(const std::string& message, const std::string& hint = {});
+int refuse(DiagnosticId id, const std::string& message, const std::string& hint = {});
 
 // A bar on a terminal, lines in a log, nothing when quiet.
 [[nodiscard]] report::ProgressStyle progress_style(bool quiet);

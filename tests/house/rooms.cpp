@@ -28,7 +28,6 @@ const std::map<std::string, Room>& rooms() {
 
 const std::vector<UpwardArrow>& upward_arrows() {
   static const std::vector<UpwardArrow> kArrows{
-      {"app/job", "app/view/console.hpp", "names the nearest known word"},
   };
   return kArrows;
 }

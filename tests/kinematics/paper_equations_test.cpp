@@ -225,7 +225,7 @@ struct Jang {
   }
 };
 
-constexpr double kToolLength = 150.0;
+constexpr double kPaperTool = 150.0;
 
 TEST(PaperEquationsReference, JangEquation4_2_XJoint) {
   for (std::uint32_t k = 0; k < 20; ++k) {
@@ -287,7 +287,7 @@ TEST(PaperEquationsReference, JangEquation4_11_WorkpieceChain) {
     // (3-4): the tool as the workpiece sees it.
     const GeometricErrors errors = errors_of_symbols(j.machine, j.e);
     expect_same(
-        matrix(actual_pose(j.machine, errors, j.q, kToolLength)),
+        matrix(actual_pose(j.machine, errors, j.q, kPaperTool)),
         (j.RTB() * j.BTC()).inverse() * j.RTX() * j.XTY() * j.YTZ() * Jang::ZTS() * Jang::STt());
   }
 }

@@ -8,17 +8,13 @@
 namespace frustum::parser {
 namespace {
 
+using enum AxisLetter;
+
 AxisTarget target(std::initializer_list<std::pair<AxisLetter, double>> axes) {
   AxisTarget target;
   for (const auto& [axis, value] : axes) target[axis] = value;
   return target;
 }
-constexpr auto X = AxisLetter::X;
-constexpr auto Y = AxisLetter::Y;
-constexpr auto Z = AxisLetter::Z;
-constexpr auto A = AxisLetter::A;
-constexpr auto B = AxisLetter::B;
-constexpr auto C = AxisLetter::C;
 
 ModalState state_after(std::string_view text) {
   const auto program = parse_program(text, "part.nc");

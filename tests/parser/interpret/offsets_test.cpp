@@ -9,13 +9,13 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<Motion> linuxcnc(std::string_view text) { return motions(text, {}, Dialect::linuxcnc); }
+std::vector<Motion> run_linuxcnc(std::string_view text) { return motions(text, {}, Dialect::linuxcnc); }
 
 AxisTarget end_of_last(const std::vector<Motion>& all) { return last_of<Traverse>(all).end; }
 
 TEST(WorkOffsets, PlacedByTheProgramAreCommands) {
   const auto settings =
-      all_of<WorkOffsetSetting>(linuxcnc("G10 L2 P2 X1 Z-3\nG10 L2 P1 X5 Y6 Z7\n"));
+      all_of<WorkOffsetSetting>(run_linuxcnc("G10 L2 P2 X1 Z-3\nG10 L2 P1 X5 Y6 Z7\n"));
   ASSERT_EQ(settings.size(), 2U);
   EXPECT_EQ(settings[0].number, 2);
   EXPECT_EQ(settings[0].origin, (std::array<std::optional<double>, 3>{1.0, std::nullopt, -3.0}));
@@ -24,11 +24,11 @@ TEST(WorkOffsets, PlacedByTheProgramAreCommands) {
 }
 
 TEST(WorkOffsets, AreOfMillimetresInAnInchProgramToo) {
-  EXPECT_NEAR(*last_of<WorkOffsetSetting>(linuxcnc("G20\nG10 L2 P1 X1\n")).origin[0], 25.4, 1e-12);
+  EXPECT_NEAR(*last_of<WorkOffsetSetting>(run_linuxcnc("G20\nG10 L2 P1 X1\n")).origin[0], 25.4, 1e-12);
 }
 
 TEST(WorkOffsets, ThatAreKnownKeepThePositionKnown) {
-  const auto all = linuxcnc(
+  const auto all = run_linuxcnc(
       "G10 L2 P1 X10 Y20 Z30\nG10 L2 P2 X1 Y2 Z3\nG0 X5 Y6 Z7\nG55\nG91\nG0 X1\nG0 Y1 Z1\n");
   const AxisTarget end = end_of_last(all);
   EXPECT_NEAR(*end[X], 15.0, 1e-12);
@@ -44,7 +44,7 @@ TEST(WorkOffsets, ThatOnlyTheSetupKnowsDoNot) {
 }
 
 TEST(WorkOffsets, TurnTheMotionsAndNotTheSetup) {
-  const auto all = linuxcnc("G10 L2 P1 X10 R90\nG0 X5 Y0 Z1\n");
+  const auto all = run_linuxcnc("G10 L2 P1 X10 R90\nG0 X5 Y0 Z1\n");
   EXPECT_EQ(last_of<WorkOffsetSetting>(all).origin[0], 10.0);
   const AxisTarget end = end_of_last(all);
   EXPECT_NEAR(*end[X], 0.0, 1e-12);
@@ -52,7 +52,7 @@ TEST(WorkOffsets, TurnTheMotionsAndNotTheSetup) {
 }
 
 TEST(WorkOffsets, OfRotaryAxesAreInTheMotions) {
-  const auto all = linuxcnc("G10 L2 P1 X10 A30\nG0 A5\n");
+  const auto all = run_linuxcnc("G10 L2 P1 X10 A30\nG0 A5\n");
   EXPECT_NEAR(*end_of_last(all)[A], 35.0 * kRadPerDeg, 1e-12);
 }
 
@@ -66,7 +66,7 @@ TEST(WorkOffsets, OfTheStartAreToldByTheOptions) {
 }
 
 TEST(WorkOffsets, WrittenAsParametersCountWhenTheyAreSelected) {
-  const auto all = linuxcnc("#5241=7\nG0 X1\nG55\nG0 X2\n");
+  const auto all = run_linuxcnc("#5241=7\nG0 X1\nG55\nG0 X2\n");
   ASSERT_EQ(all_of<WorkOffsetSetting>(all).size(), 1U);
   EXPECT_EQ(all[1].place.line, 3U);
   EXPECT_TRUE(std::holds_alternative<WorkOffsetSetting>(all[1].command));
@@ -117,13 +117,13 @@ TEST(ToolLengths, OfTheSetupStayItsOwnBesideARadius) {
 }
 
 TEST(ToolLengths, ThatAreKnownKeepZKnown) {
-  const auto all = linuxcnc("G0 Z10\nG43.1 Z4\nG91 G0 Z1\nG43.2 Z2\nG0 Z1\nG49\nG0 Z1\n");
+  const auto all = run_linuxcnc("G0 Z10\nG43.1 Z4\nG91 G0 Z1\nG43.2 Z2\nG0 Z1\nG49\nG0 Z1\n");
   EXPECT_EQ(all_of<CompensationChange>(all)[1].length, 6.0);
   EXPECT_NEAR(*end_of_last(all)[Z], 13.0, 1e-12);
 }
 
 TEST(ToolLengths, GuideTheTipWithTheLengthOfG431) {
-  const auto change = last_of<CompensationChange>(linuxcnc("G43.1 Z40\nM428\n"));
+  const auto change = last_of<CompensationChange>(run_linuxcnc("G43.1 Z40\nM428\n"));
   EXPECT_EQ(change.mode, LengthCompensation::tool_centre_point);
   EXPECT_EQ(change.length, 40.0);
 }
@@ -138,7 +138,7 @@ TEST(ReferencePoints, OfTheMachineAreHomeReturns) {
 }
 
 TEST(ReferencePoints, ThatTheProgramStoresAreMoves) {
-  const auto all = linuxcnc("G10 L2 P1 X1 Y2 Z3\nG0 X10 Y20 Z30\nG28.1\nG0 X0 Y0 Z50\nG28 Z60\n");
+  const auto all = run_linuxcnc("G10 L2 P1 X1 Y2 Z3\nG0 X10 Y20 Z30\nG28.1\nG0 X0 Y0 Z50\nG28 Z60\n");
   EXPECT_TRUE(all_of<HomeReturn>(all).empty());
   const auto moves = all_of<Traverse>(all);
   ASSERT_EQ(moves.size(), 4U);
@@ -148,7 +148,7 @@ TEST(ReferencePoints, ThatTheProgramStoresAreMoves) {
 }
 
 TEST(ReferencePoints, KeepTheMachinesForAxesThatNeverMoved) {
-  const auto all = linuxcnc("G53 G0 X1 Z3\nG28.1\nG28 X0 B0 Z0\n");
+  const auto all = run_linuxcnc("G53 G0 X1 Z3\nG28.1\nG28 X0 B0 Z0\n");
   const auto home = last_of<HomeReturn>(all);
   EXPECT_TRUE(home.axes[4]);
   EXPECT_FALSE(home.axes[0]);
@@ -159,13 +159,13 @@ TEST(ReferencePoints, KeepTheMachinesForAxesThatNeverMoved) {
 }
 
 TEST(MachineCoordinates, AreKnownWordsWhereTheOffsetIs) {
-  const auto all = linuxcnc("G10 L2 P1 X10 Y20 Z30\nG53 G0 X1 Z2\nG91 G0 X1\nG0 Z1\n");
+  const auto all = run_linuxcnc("G10 L2 P1 X10 Y20 Z30\nG53 G0 X1 Z2\nG91 G0 X1\nG0 Z1\n");
   EXPECT_NEAR(*end_of_last(all)[X], -8.0, 1e-12);
   EXPECT_NEAR(*end_of_last(all)[Z], -27.0, 1e-12);
 }
 
 TEST(UserWords, AreEventsWithTheirArguments) {
-  const auto events = all_of<Event>(linuxcnc("M101\nM100 P1.5 Q-2\nM199 Q3\n"));
+  const auto events = all_of<Event>(run_linuxcnc("M101\nM100 P1.5 Q-2\nM199 Q3\n"));
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0].name, "M101");
   EXPECT_EQ(events[1].name + "|" + events[1].text, "M100|P1.5 Q-2");
@@ -173,7 +173,7 @@ TEST(UserWords, AreEventsWithTheirArguments) {
 }
 
 TEST(SpokenComments, HaveTheirParametersFilledIn) {
-  const auto events = all_of<Event>(linuxcnc(
+  const auto events = all_of<Event>(run_linuxcnc(
       "#1=2.5\n#<width>=-3\n(PRINT,%d #1 %.3f #< Width > %f #1)\n(DEBUG, at #5221x)\n(LOG,#9)\n"
       "(LOGOPEN,file.txt)\n(LOGCLOSE)\n(print, #<nothing> # 100%)\n"));
   std::vector<std::string> seen;

@@ -8,13 +8,13 @@
 namespace frustum::parser {
 namespace {
 
-std::vector<Motion> run_linuxcnc(const std::string& text) {
+std::vector<Motion> run_threading(const std::string& text) {
   return motions(text, {}, Dialect::linuxcnc);
 }
 
 TEST(Threads, FollowTheSpindleByTheLeadOfTheBlock) {
   const auto feeds =
-      all_of<LinearFeed>(run_linuxcnc("S100 M3\nG0 X0 Z0\nG33 Z-5 K1.5\nG20 Z-1 K0.1\nM2\n"));
+      all_of<LinearFeed>(run_threading("S100 M3\nG0 X0 Z0\nG33 Z-5 K1.5\nG20 Z-1 K0.1\nM2\n"));
   ASSERT_EQ(feeds.size(), 2U);
   EXPECT_TRUE(feeds[0].feed.synchronised);
   EXPECT_EQ(feeds[0].feed.mode, FeedMode::per_revolution);
@@ -23,7 +23,7 @@ TEST(Threads, FollowTheSpindleByTheLeadOfTheBlock) {
 }
 
 TEST(Threads, ARigidTapComesBackWithTheSpindleReversed) {
-  const auto all = run_linuxcnc("S100 M4\nG0 X1 Y2 Z3\nG33.1 Z-5 K1\nM2\n");
+  const auto all = run_threading("S100 M4\nG0 X1 Y2 Z3\nG33.1 Z-5 K1\nM2\n");
   const auto feeds = all_of<LinearFeed>(all);
   ASSERT_EQ(feeds.size(), 2U);
   EXPECT_EQ(feeds[0].end[AxisLetter::Z], -5.0);
@@ -62,7 +62,7 @@ TEST(ThreadingCycleLaws, EachPassIsDeeperAndTheLastOnesAreAtFullDepth) {
 }
 
 TEST(Probing, IsAMotionOfItsOwnAndLeavesItsPlaceInParameters) {
-  const auto all = run_linuxcnc(
+  const auto all = run_threading(
       "#5070=1\nG0 X1 Y2 Z3 A30\nG38.4 Z-5 F50\nG0 X[#5061+10] Y[#5063] Z[#5064+#5070]\nM2\n");
   const auto probe = last_of<Probe>(all);
   EXPECT_TRUE(probe.away);
@@ -76,7 +76,7 @@ TEST(Probing, IsAMotionOfItsOwnAndLeavesItsPlaceInParameters) {
 }
 
 TEST(Probing, IsPublishedAsJson) {
-  const auto all = run_linuxcnc("S9 M3 F50\nG0 X1 Z3\nG38.3 Z-5\nG33 X2 K1\nM2\n");
+  const auto all = run_threading("S9 M3 F50\nG0 X1 Z3\nG38.3 Z-5\nG33 X2 K1\nM2\n");
   std::vector<std::string> lines;
   for (const Motion& motion : all) lines.push_back(to_json_line(motion));
   ASSERT_GE(lines.size(), 4U);
@@ -88,7 +88,7 @@ TEST(Probing, IsPublishedAsJson) {
 }
 
 TEST(Diameters, AreHalvedInXAloneWhileG7IsOn) {
-  const auto rapids = all_of<Traverse>(run_linuxcnc("G7\nG0 X10 Z4\nG91 X2\nG90 G8 X3\nM2\n"));
+  const auto rapids = all_of<Traverse>(run_threading("G7\nG0 X10 Z4\nG91 X2\nG90 G8 X3\nM2\n"));
   ASSERT_EQ(rapids.size(), 3U);
   EXPECT_EQ(rapids[0].end[AxisLetter::X], 5.0);
   EXPECT_EQ(rapids[0].end[AxisLetter::Z], 4.0);
@@ -153,7 +153,7 @@ TEST(ThreadErrors, TellPlaceAndReason) {
 }
 
 TEST(BlanksOfLinuxcnc, DoNotCountButErrorsTellTheLineAsWritten) {
-  const auto moves = all_of<Traverse>(run_linuxcnc("g 0 x 1 . 5 y [ a b s [ - 2 ] ]\nM 2\n"));
+  const auto moves = all_of<Traverse>(run_threading("g 0 x 1 . 5 y [ a b s [ - 2 ] ]\nM 2\n"));
   ASSERT_EQ(moves.size(), 1U);
   EXPECT_EQ(moves[0].end[AxisLetter::X], 1.5);
   EXPECT_EQ(moves[0].end[AxisLetter::Y], 2.0);
