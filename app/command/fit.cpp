@@ -83,13 +83,13 @@ Result<metrology::AssociationOptions> association_options(const FitOptions& o) {
   return made;
 }
 
-ordered_json numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json coordinates_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 ordered_json parameters_of(const metrology::Element& element) {
   return std::visit(
       [](const auto& e) {
-        ordered_json p{{"point", numbers(e.point)}};
-        if constexpr (requires { e.axis; }) p["axis"] = numbers(e.axis);
+        ordered_json p{{"point", coordinates_of(e.point)}};
+        if constexpr (requires { e.axis; }) p["axis"] = coordinates_of(e.axis);
         if constexpr (requires { e.radius; }) p["radius"] = e.radius;
         if constexpr (requires { e.tube_radius; }) p["tube_radius"] = e.tube_radius;
         if constexpr (requires { e.half_angle; }) p["half_angle"] = e.half_angle;

@@ -217,8 +217,8 @@ ordered_json axes_json(const Machine& machine, const kinematics::AxisPositions& 
   return axes;
 }
 
-ordered_json numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-ordered_json um(const Vec3& v) { return numbers(v * kUmPerMm); }
+ordered_json place_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json um(const Vec3& v) { return place_json(v * kUmPerMm); }
 ordered_json um(const VolumetricStatistics& s) {
   return {{"max", s.max * kUmPerMm}, {"mean", s.mean * kUmPerMm}, {"p95", s.p95 * kUmPerMm}};
 }
@@ -256,7 +256,7 @@ ordered_json document(const Study& study, const VolumetricOptions& options,
     ordered_json rows = ordered_json::array();
     for (const VolumetricPoint& p : points) {
       rows.push_back({{"linear", axes_json(study.machine, p.axes, false)},
-                      {"place_mm", numbers(p.place)},
+                      {"place_mm", place_json(p.place)},
                       {"tool_um", um(p.tool)},
                       {"workpiece_um", um(p.workpiece)},
                       {"relative_um", um(p.relative)}});
