@@ -27,8 +27,7 @@ const std::map<std::string, Room>& rooms() {
 }
 
 const std::vector<UpwardArrow>& upward_arrows() {
-  static const std::vector<UpwardArrow> kArrows{
-  };
+  static const std::vector<UpwardArrow> kArrows{};
   return kArrows;
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "core/ray.hpp"
 #include "kinematics/controller/controller.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "parser/interpreter.hpp"
@@ -86,7 +87,7 @@ TEST(StepPatternSystem, EveryMeasuredPointIsCutByItsOwnStepAndNothingCollides) {
       for (const auto& planned : metrology::planned_points(feature)) {
         // From where the ball's surface starts its approach to as far as it searches.
         const double start = step.piece.plan.probe.clearance;
-        const stock::Ray ray{planned.point + start * planned.normal, -planned.normal};
+        const Ray ray{planned.point + start * planned.normal, -planned.normal};
         const auto met =
             trial->workpiece->first_surface(ray, {0.0, start + step.piece.plan.probe.reach});
         ASSERT_TRUE(met) << feature.name << " at " << planned.point.transpose();
@@ -141,7 +142,7 @@ TEST(StepPatternSystem, TheProbeReachesEveryPoint) {
         for (int i = 0; i < 12; ++i) {
           const double angle = 30.0 * kRadPerDeg * i;
           const Vec3 beside = r * (std::cos(angle) * u + std::sin(angle) * v);
-          const stock::Ray ray{planned.point + beside + (2.0 * r + probe.clearance) * n, -n};
+          const Ray ray{planned.point + beside + (2.0 * r + probe.clearance) * n, -n};
           const auto met = trial->workpiece->material_along(ray, {0.0, r + probe.clearance});
           EXPECT_TRUE(met.empty()) << feature.name << " at " << planned.point.transpose();
         }

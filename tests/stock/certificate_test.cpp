@@ -1,5 +1,6 @@
 // Proofs of surface points: every kind of cutter on every kind of motion; wrong points and wrong paths.
 #include "stock/proof/certificate.hpp"
+#include "core/ray.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,6 @@ using cutter::SweptCutter;
 using kinematics::ToolPath;
 using stock::Certificate;
 using stock::Certifier;
-using stock::Ray;
 using stock::SurfacePoint;
 using stock::Verdict;
 using stock::Workpiece;

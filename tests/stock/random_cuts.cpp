@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/ray.hpp"
 #include "stock/solid/workpiece.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
@@ -58,7 +59,7 @@ ToolPose next_pose(const std::vector<ToolPose>& poses, Draw& draw) {
   }
 }
 
-double length_left(const stock::Workpiece& left, const stock::Ray& ray, std::uint32_t segments) {
+double length_left(const stock::Workpiece& left, const Ray& ray, std::uint32_t segments) {
   return left.material_along(ray, {-200.0, 200.0}, segments).length();
 }
 
@@ -69,7 +70,7 @@ std::string grows(const stock::Workpiece& left, const Vec3& middle, std::size_t 
   // shorter.
   constexpr double kGrazing = 1e-2;  // mm
   for (int k = 0; k < 4; ++k) {
-    const stock::Ray ray{middle + draw.point(Vec3(-6, -6, -6), Vec3(6, 6, 6)), draw.direction()};
+    const Ray ray{middle + draw.point(Vec3(-6, -6, -6), Vec3(6, 6, 6)), draw.direction()};
     double before = length_left(left, ray, 0);
     if (!(before >= 0.0) || !std::isfinite(before)) return "a length that is no length";
     for (std::uint32_t n = 1; n <= segments; ++n) {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <optional>
 
+#include "core/ray.hpp"
 #include "stock/solid/workpiece.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
@@ -54,7 +55,7 @@ Workpiece cut(const cutter::CutterSpec& spec, const Disturbance& by, double amou
 
 // Along the ray, what the surface moves to first order.
 double gain(const Workpiece& part, const SurfacePoint& p, const cutter::CutterSpec& spec,
-            const Disturbance& by, const stock::Ray& ray) {
+            const Disturbance& by, const Ray& ray) {
   const ToolPath& path = part.removed().path();
   const auto& segment = path.segments[*p.segment];
   const ToolPose pose = kinematics::between(path.from(segment), path.to(segment), p.t);
@@ -87,7 +88,7 @@ Slopes compare(const cutter::CutterSpec& spec, const Disturbance& by) {
   Draw draw(17);
   for (int tries = 0; tries < 60; ++tries) {
     const Vec3 tip = draw.point(Vec3(-10, -2, 4), Vec3(9, 3, 4));
-    const stock::Ray ray{tip, (draw.direction() - 1.5 * Vec3::UnitZ()).normalized()};
+    const Ray ray{tip, (draw.direction() - 1.5 * Vec3::UnitZ()).normalized()};
     const auto here = part.first_surface(ray, {0.0, 30.0});
     if (!here || !here->segment || here->t < 0.05 || here->t > 0.95) continue;
     const double cosine = -here->normal.dot(ray.direction);
