@@ -1,8 +1,10 @@
-// How often a law is repeated: in full by `make laws`, less often by `make test`, whose preset says so in the
-// environment (FRUSTUM_LAWS=reduced). A test program that is started by hand repeats in full.
+// How often a law is repeated: in full by `make laws`, less often by `make test`, whose preset says
+// so in the environment (FRUSTUM_LAWS=reduced). A test program that is started by hand repeats in
+// full.
 //
-// Both counts are written where the law is; docs/verification.md lists them. Only repetitions are fewer: limits are
-// the same, or widen as the scatter of the smaller sample does, where the law is about a rate.
+// Both counts are written where the law is; docs/verification.md lists them. Only repetitions are
+// fewer: limits are the same, or widen as the scatter of the smaller sample does, where the law is
+// about a rate.
 //
 // Units  : none
 // Errors : none

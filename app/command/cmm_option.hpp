@@ -1,7 +1,9 @@
-// --e0, --l-per-um, --cmm: the accuracy of the machine that has measured points, or is to measure a mesh.
+// --e0, --l-per-um, --cmm: the accuracy of the machine that has measured points, or is to measure a
+// mesh.
 //
-// Units : mm; e0 as a length with its unit. Errors: a length below 0 or none, --cmm together with the others, a
-//         file that is neither one of a CMM nor a job that states one, with file and key
+// Units : mm; e0 as a length with its unit. Errors: a length below 0 or none, --cmm together with
+//         the others, a file that is neither one of a CMM nor a job that states one, with file and
+//         key
 #pragma once
 
 #include <optional>

@@ -1,13 +1,16 @@
-// The command line: commands, and tables of their options. Only command_line.cpp knows the library that reads them.
+// The command line: commands, and tables of their options. Only command_line.cpp knows the library
+// that reads them.
 //
-// A command declares each option with its name, where its value goes, one line of help, and what holds of it:
+// A command declares each option with its name, where its value goes, one line of help, and what
+// holds of it:
 //
 //     command.option("--criterion", o->criterion, "ls (default), mz").one_of({"ls", "mz"});
 //     command.flag("--json", o->json, "One JSON document on stdout");
 //     command.runs([o] { return fit(*o); });
 //
 // Units  : as each option says
-// Errors : what a user may write wrongly is reported on stderr, with kBadInput as exit code, before a command runs
+// Errors : what a user may write wrongly is reported on stderr, with kBadInput as exit code, before
+//          a command runs
 #pragma once
 
 #include <functional>
@@ -56,9 +59,9 @@ class Command {
   // One of the commands within must be given.
   void needs_a_command();
 
-  // A name with dashes, or several ("-o,--out"), or none for a value that stands alone. For std::string, double,
-  // int, unsigned, std::uint64_t, each of them optional, and std::vector<std::string>, which may be repeated. The
-  // target outlives the command line.
+  // A name with dashes, or several ("-o,--out"), or none for a value that stands alone. For
+  // std::string, double, int, unsigned, std::uint64_t, each of them optional, and
+  // std::vector<std::string>, which may be repeated. The target outlives the command line.
   template <typename Target>
   Option option(const std::string& names, Target& target, const std::string& help);
   Option flag(const std::string& names, bool& target, const std::string& help);

@@ -1,4 +1,5 @@
-// The commands of the program, each of which adds itself to the command line, and the options that several share.
+// The commands of the program, each of which adds itself to the command line, and the options that
+// several share.
 //
 // Units  : as each option says
 // Errors : those of the command line (command_line.hpp); each command reports its own on stderr
@@ -38,7 +39,8 @@ void add_step(Command& kinds);
 
 // The options by which a command takes errors: --error, --errors, --draw.
 void add_error_options(Command& command, ErrorWords& words);
-// The options by which a command takes a machine and its set-up: --machine, --job, --tool-length, --offset.
+// The options by which a command takes a machine and its set-up: --machine, --job, --tool-length,
+// --offset.
 void add_setup_options(Command& command, SetupWords& words);
 // --export FILE, which may be repeated.
 void add_export_option(Command& command, std::vector<std::string>& files);

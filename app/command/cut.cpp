@@ -1,4 +1,5 @@
-// frustum cut: the workpiece at any program_state as a mesh and a picture, and what the program did to it.
+// frustum cut: the workpiece at any program_state as a mesh and a picture, and what the program did
+// to it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -177,7 +178,8 @@ class Cut {
   struct Meshed {
     stock::SurfaceMesh mesh{};
     std::optional<Mm> bound{};
-    // What is judged where it is not the mesh itself: decimation takes away the vertices of flat faces.
+    // What is judged where it is not the mesh itself: decimation takes away the vertices of flat
+    // faces.
     std::optional<stock::SurfaceMesh> whole{};
   };
   [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {

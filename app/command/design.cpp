@@ -185,8 +185,8 @@ Diagnostics unused_limits(const calibration::StepDesignOptions& choice,
   return problems;
 }
 
-// Constant errors of the machine that the design takes for known exactly: under the machine's own symbols
-// when it has any.
+// Constant errors of the machine that the design takes for known exactly: under the machine's own
+// symbols when it has any.
 std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
                                        const calibration::StepDesign& design) {
   std::vector<std::string> names;

@@ -1,4 +1,5 @@
-// frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM points.
+// frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM
+// points.
 #include <iostream>
 #include <memory>
 

@@ -111,7 +111,8 @@ int forward(const PoseOptions& options, const Machine& machine,
   const Pose nominal = nominal_pose(machine, *q, options.tool_length);
   const Pose actual = actual_pose(machine, errors, {*q, *heading}, options.tool_length);
   const ToolPose n = kinematics::tool_pose(nominal), a = kinematics::tool_pose(actual);
-  // The rotation that carries the nominal tool frame to the actual one, as a vector in the table frame.
+  // The rotation that carries the nominal tool frame to the actual one, as a vector in the table
+  // frame.
   const Eigen::AngleAxisd turn(actual.rotation * nominal.rotation.transpose());
   const Vec3 turned = turn.angle() * turn.axis() * kUradPerRad;
   ordered_json doc{{"axes", axes_json(machine, *q)},

@@ -1,4 +1,5 @@
-// frustum volumetric: error vectors over the working volume of a machine, and which errors weigh most.
+// frustum volumetric: error vectors over the working volume of a machine, and which errors weigh
+// most.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -58,7 +59,7 @@ struct Study {
   VolumetricErrors volume{};
 };
 
-// --- reading ---------------------------------------------------------------------------------------
+// --- reading -------------------------------------------------------------------------------------
 
 Result<std::vector<ErrorEntry>> read_entries(const std::vector<std::string>& texts) {
   std::vector<ErrorEntry> entries;
@@ -83,7 +84,7 @@ Result<std::vector<HeldAxes>> read_positions(const Machine& machine, const std::
   return positions;
 }
 
-// Errors that a group's name stands for.
+// Errors that a group's name represents.
 struct Group {
   const char* name;
   bool location;
@@ -178,7 +179,7 @@ Result<Study> study_of(const VolumetricOptions& options) {
                *std::move(volume)};
 }
 
-// --- telling ---------------------------------------------------------------------------------------
+// --- telling -------------------------------------------------------------------------------------
 
 struct RankRow {
   MachineError error{};

@@ -1,7 +1,8 @@
-// The files that a user asks results to be written to, beside the report: --export and [output] export.
+// The files that a user asks results to be written to, beside the report: --export and [output]
+// export.
 //
-// Units: none. Errors: an extension that names no format, a place that cannot be written to: reported
-// before the work begins.
+// Units: none. Errors: an extension that names no format, a place that cannot be written to:
+// reported before the work begins.
 #pragma once
 
 #include <filesystem>
@@ -27,8 +28,9 @@ namespace frustum::app {
                                         report::RunReport& report,
                                         const metrology::InspectionPlan& plan);
 
-// A measurement that could not be made is still reported to continuous integration: in each JUnit file every
-// characteristic becomes an error with the reason. The other formats have nothing to say.
+// A measurement that could not be made is still reported to continuous integration: in each JUnit
+// file every characteristic becomes an error with the reason. The other formats have nothing to
+// say.
 void write_failed_exports(const std::vector<std::filesystem::path>& files,
                           const Diagnostics& reason, const metrology::InspectionPlan& plan);
 

@@ -86,7 +86,8 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
   piece.blank_origin = blank.vector_or("origin", Vec3(0.0, 0.0, -height));
 }
 
-// tools = "library.toml" or a LinuxCNC table; [tool.N] are tools of the job's own or change one of those.
+// tools = "library.toml" or a LinuxCNC table; [tool.N] are tools of the job's own or change one of
+// those.
 void read_tools(const TomlTable& root, programs::TestPiece& piece, Diagnostics& problems) {
   cutter::ToolList library;
   if (root.has("tools") && !root.text("tools").empty()) {

@@ -59,8 +59,8 @@ report::AxisTrace trace_of(const Job& job, const trials::OperationTrace& operati
   return trace;
 }
 
-// A vertex on an edge has no normal of its own; it is judged by the face of the first triangle there
-// that a planned feature owns.
+// A vertex on an edge has no normal of its own; it is judged by the face of the first triangle
+// there that a planned feature owns.
 void judge_edges(stock::SurfaceMesh& mesh, const metrology::InspectionPlan& plan) {
   for (const auto& triangle : mesh.triangles) {
     const Vec3& a = mesh.vertices[triangle[0]];

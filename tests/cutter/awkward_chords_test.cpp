@@ -21,7 +21,8 @@ double distance(const std::string& kind, const kinematics::ToolPose& pose, const
 }
 
 TEST(AwkwardChords, LeaveThroughTheTopAboveAnArc) {
-  // Upwards through the barrel's top face, which moves in its own plane: it is that face that is touched.
+  // Upwards through the barrel's top face, which moves in its own plane: it is that face that is
+  // touched.
   const Ray up{Vec3(3.0, 0.5, 15.0), Vec3(-0.1, 0.05, 1.0).normalized()};
   const auto chord = kind_named("barrel").cutter.body().parts()[0].chord({}, up);
   ASSERT_TRUE(chord);
@@ -48,8 +49,8 @@ TEST(AwkwardChords, EndOnAHollowedArcToTheLastBit) {
 }
 
 TEST(AwkwardChords, PartWhileTheCutterTurns) {
-  // The ray runs along the top of a cutter that turns: its chord slides from one side to the other and is gone
-  // in between.
+  // The ray runs along the top of a cutter that turns: its chord slides from one side to the other
+  // and is gone in between.
   for (const char* kind : {"barrel", "taper"}) {
     Draw draw(2, 31);
     const auto path = random_path(MotionFamily::crossing, draw);
@@ -83,7 +84,8 @@ TEST(AwkwardChords, GoOnWhereThePartsOfACutterMeet) {
 }
 
 TEST(AwkwardChords, KnowTheNormalThatARimLeaves) {
-  // A flat end leans by 5 degrees against its feed: the rim at the heel cuts the floor, whose normal is up.
+  // A flat end leans by 5 degrees against its feed: the rim at the heel cuts the floor, whose
+  // normal is up.
   const double lean = 5.0 * kRadPerDeg;
   const Vec3 axis(std::sin(lean), 0.0, std::cos(lean));
   const auto swept =

@@ -1,4 +1,4 @@
-// Concave cutters: narrow rings that run-out leaves, rims, lands that lie in the ray.
+// Concave cutters: narrow rings that run-out leaves, rims, lands that are in the ray.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,8 @@ Cutter coved() {
                         .rows = {{0, 1, 0}, {3, 0, -6}, {4, 0, 0}, {4.5, 3, -2}, {7, 8, -5}}});
 }
 
-// The least signed distance over the segment: moments a quarter of a micrometre apart near the least.
+// The least signed distance over the segment: moments a quarter of a micrometre apart near the
+// least.
 double least_distance(const Body& body, const SegmentMotion& motion, const Vec3& point) {
   double least = 1e9;
   const auto look = [&](double t) {
@@ -152,7 +153,8 @@ TEST(HollowCutterLaws, NormalsAreSquareToTheMotion) {
   EXPECT_GT(contacts, 200);
 }
 
-// A land of the end that lies in the ray: on the surface, so not covered, and not in a thousand pieces.
+// A land of the end that is in the ray: on the surface, so not covered, and not in a thousand
+// pieces.
 TEST(HollowCutterLaws, LevelLandsAreNotCoveredByRounding) {
   const Cutter tool = *Cutter::make({.type = CutterType::bull,
                                      .diameter = {12.0},

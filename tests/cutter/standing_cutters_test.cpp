@@ -1,4 +1,5 @@
-// Ends of swept intervals against standing cutters: random rays over every kind of cutter and motion.
+// Ends of swept intervals against standing cutters: random rays over every kind of cutter and
+// motion.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -90,7 +91,8 @@ class StandingCuttersOracle : public ::testing::TestWithParam<Case> {};
 TEST_P(StandingCuttersOracle, FindEveryEndWithinANanometre) {
   const auto [kind, family] = GetParam();
   constexpr int kRaysOfAPath = 20;
-  // Of a body that is not convex, times are taken one by one at half a micrometre where a wall slides along.
+  // Of a body that is not convex, times are taken one by one at half a micrometre where a wall
+  // slides along.
   const int paths = 1 + rays_of_a_case() / kRaysOfAPath / (kind->is_convex ? 1 : 5);
   Court court;
   for (int p = 0; p < paths; ++p) {

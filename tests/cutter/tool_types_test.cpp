@@ -61,7 +61,7 @@ TEST(ToolTypesLaws, DistanceAgreesWithADenselySampledOutline) {
       double nearest = 1e9;
       for (const auto& p : points) nearest = std::min(nearest, std::hypot(p.r - r, p.z - z));
       const double d = generatrix.distance(r, z);
-      // A chord of a 2000th of a segment below 100 mm lies within 0.05 mm of its neighbours.
+      // A chord of a 2000th of a segment below 100 mm is within 0.05 mm of its neighbours.
       EXPECT_LE(std::abs(d), nearest + 1e-12) << to_string(spec.type);
       EXPECT_NEAR(std::abs(d), nearest, 1.25e-3 / std::max(0.05, nearest) + 1e-6)
           << to_string(spec.type) << " at " << r << ", " << z;

@@ -57,12 +57,6 @@ void expect_within(std::size_t value, std::size_t limit, const std::string& plac
   }
 }
 
-// Rooms whose comments are not wrapped yet.
-const std::set<std::string>& wide_rooms() {
-  static const std::set<std::string> kRooms{"app", "tests"};
-  return kRooms;
-}
-
 // Characters of a line in UTF-8: bytes that do not continue one.
 std::size_t columns_of(const std::string& line) {
   return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
@@ -129,7 +123,6 @@ TEST(Limits, NoSourceIsLongerThan500Lines) {
 // clang-format wraps code, not comments.
 TEST(Limits, NoCommentIsWiderThan100Columns) {
   for (const std::string& file : all_sources()) {
-    if (wide_rooms().contains(room_of(file))) continue;
     int number = 0;
     for (const std::string& line : lines_of(file)) {
       ++number;

@@ -82,9 +82,9 @@ TEST(ErrorShape, PolynomialsAreOfTheCoordinateFromMinusToPlusOneOverTheSpan) {
   }
 }
 
-// The part lags behind its own motion: a tool-side axis by -h/2 times the heading of q; a
-// workpiece-side one moves by -q, so that its lag shows as +h/2; dvf5000 turns B by +q although the
-// work hangs on it.
+// The part lags behind its own motion: a tool-side axis by -h/2 times the direction of approach of
+// q; a workpiece-side one moves by -q, so that its lag shows as +h/2; dvf5000 turns B by +q
+// although the work hangs on it.
 TEST(ErrorShape, AReversalLagsBehindTheMotionOfThePart) {
   EXPECT_DOUBLE_EQ(shape_value_at("EYY=reversal 10um", at(AxisLetter::Y, 3.0, +1.0)), -5 * kUm);
   EXPECT_DOUBLE_EQ(shape_value_at("EYY=reversal 10um", at(AxisLetter::Y, 3.0, -1.0)), +5 * kUm);

@@ -78,7 +78,7 @@ TEST(ReferenceAxes, ErrorsOfAJobMayBeWrittenForOtherAxes) {
   const Machine machine = shipped("iwf-bc");
   const auto errors = resolve(machine, list.entries);
   ASSERT_TRUE(errors) << errors.error().front().message;
-  // X is the primary axis of the machine: that X is out of square to Y by 40 urad now is Y's to
+  // X is the primary axis of the machine: that X is not perpendicular to Y by 40 urad now is Y's to
   // bear.
   EXPECT_NEAR((*errors)[AxisLetter::X].location[5], 0.0, 1e-18);
   EXPECT_NEAR((*errors)[AxisLetter::Y].location[5], -40e-6, 1e-18);

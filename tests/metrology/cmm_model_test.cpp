@@ -155,7 +155,7 @@ TEST(ProbeForm, LobesShowOnARoundPart) {
   CmmModel cmm;
   cmm.probe = ProbeErrors{.lobe = 0.002};
   const auto m = measure(plan(), part(), cmm);
-  // The touches lie across the stylus: three lobes of the whole amplitude, and none in the size.
+  // The touches are across the stylus: three lobes of the whole amplitude, and none in the size.
   EXPECT_NEAR(measured_value(m, "cylinder.roundness"), 4.0, 0.05);
   EXPECT_NEAR(measured_value(m, "cylinder.diameter"), 50.0, 1e-4);
   // On the cone the touch leans by the half angle, 30 deg.
@@ -230,7 +230,8 @@ TEST(Compensation, ByApproachLeavesTheCosineError) {
   const double along_normal =
       (measured_value(fitted, "cone.radius") - measured_value(approached, "cone.radius")) *
       std::cos(test_part::kHalfAngle + 0.02);
-  // The section shifts by r sin(0.02) along the surface besides: second order times the cone's slope.
+  // The section shifts by r sin(0.02) along the surface besides: second order times the cone's
+  // slope.
   EXPECT_NEAR(std::abs(along_normal), cosine, 1e-6);
 }
 
@@ -244,7 +245,7 @@ TEST(StylusCollision, NamesFeatureAndPoint) {
   const auto lying = measure(plan(), part(), cmm);
   ASSERT_TRUE(lying);
   ASSERT_FALSE(lying->diagnostics.empty());
-  // The shank of 2 mm clears the face by 0.5 mm where it lies along +X; from -X it meets cylinder C.
+  // The shank of 2 mm clears the face by 0.5 mm where it is along +X; from -X it meets cylinder C.
   const std::string first = to_string(lying->diagnostics.front());
   EXPECT_TRUE(first.starts_with("warning: feature 'A', point ")) << first;
   EXPECT_NE(first.find("the stylus shank meets the part when the ball touches"), std::string::npos)

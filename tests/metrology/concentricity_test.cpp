@@ -34,8 +34,8 @@ double centre_value(const PlannedCharacteristic& c, const std::vector<FittedFeat
 TEST(Concentricity, ToADatumIsMeasuredAcrossTheAxisOfTheDatum) {
   const auto shaft = measured::cylinder("S", {0, 0, 0}, Vec3::UnitZ(), 10.0);
   const auto collar = measured::cylinder("C", {0, 0, 40}, Vec3::UnitZ(), 20.0, {-10.0, 4.0, 10.0});
-  // The collar leans by 10 mrad about its middle, which is 0.03 mm off: across its own axis the datum's
-  // middle, 40 mm below, would seem 0.4 mm farther off.
+  // The collar leans by 10 mrad about its middle, which is 0.03 mm off: across its own axis the
+  // datum's middle, 40 mm below, would seem 0.4 mm farther off.
   const double tilt = 0.01;
   const Pose lies = Pose::translated({0.03, 0, 0}) * turned(Vec3::UnitY(), tilt, {0, 0, 40});
   const std::vector<FittedFeature> features{feature(collar, lies), feature(shaft)};
@@ -108,7 +108,8 @@ TEST(Concentricity, StatesTheUncertaintyOfTheSectionAndTheDatum) {
   const std::vector<FittedFeature> features{feature(collar), feature(shaft)};
   const auto result = evaluate(concentricity({"C", "S"}, {0}), features, {.e0_mm = 0.002});
   ASSERT_TRUE(result);
-  // 36 points tell a centre by 2/36 of their variance, 72 the axis by 2/72 and its tilt by 2/72 over 10^2.
+  // 36 points tell a centre by 2/36 of their variance, 72 the axis by 2/72 and its tilt by 2/72
+  // over 10^2.
   const double variance = 2.0 / 36 + 2.0 / 72 * (1.0 + 40.0 * 40.0 / 100.0);
   EXPECT_NEAR(result->expanded_uncertainty, 2.0 * 2.0 * 1.0 * std::sqrt(variance), 1e-3);
 }

@@ -1,6 +1,6 @@
-// Fits of generated points whose least-squares element is known exactly: residuals that are orthogonal
-// to every column of the Jacobian leave the element they were added to stationary. Then random points,
-// which may be anything: an answer is stationary, or there is a reason for none.
+// Fits of generated points whose least-squares element is known exactly: residuals that are
+// orthogonal to every column of the Jacobian leave the element they were added to stationary. Then
+// random points, which may be anything: an answer is stationary, or there is a reason for none.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -212,7 +212,8 @@ TEST(ExactFitReference, GeneratedSetsGiveTheElementThatTheyWereMadeFor) {
   }
 }
 
-// Anything: blobs, flat and slender ones, repeated points, rows, minimal sets, all sizes, no numbers.
+// Anything: blobs, flat and slender ones, repeated points, rows, minimal sets, all sizes, no
+//           numbers.
 std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   const auto n = least + static_cast<std::size_t>(draws.between(0.0, draws.between(0.0, 26.0)));
   const double scale = std::pow(10.0, draws.between(-6.0, 6.0));
@@ -237,9 +238,9 @@ std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   return points;
 }
 
-// Largest cosine between the residuals and a column of the Jacobian, of steps that the constraints allow,
-// beyond the 1e-10 of the part that the fits promise: a millionth of `spared`. Of parameters that change
-// residuals by less than `weakest` of what they move, only the second derivatives tell.
+// Largest cosine between the residuals and a column of the Jacobian, of steps that the constraints
+// allow, beyond the 1e-10 of the part that the fits promise: a millionth of `spared`. Of parameters
+// that change residuals by less than `weakest` of what they move, only the second derivatives tell.
 double slope(const Fit<Element>& fit, const std::vector<Vec3>& points, const Constraints& keep = {},
              double weakest = 0.0) {
   Vec3 centre = Vec3::Zero();
@@ -298,7 +299,7 @@ TEST_P(RandomPointsLaws, GetAStationaryElementOrAReason) {
     ASSERT_TRUE(fit->covariance.allFinite() && fit->cofactor.allFinite()) << set;
     ASSERT_TRUE(point_of(fit->element).allFinite()) << set;
     ASSERT_TRUE(std::isfinite(fit->condition)) << set;
-    if (GetParam() == "line2d") continue;  // its residuals lie in its plane
+    if (GetParam() == "line2d") continue;  // its residuals are in its plane
     const double steep = slope(*fit, points);
     steepest = std::max(steepest, steep);
     EXPECT_LT(steep, 1e-6) << set << " condition " << fit->condition << " of " << points.size();

@@ -1,6 +1,6 @@
-// Zones whose solution is known because the contacts were put there first: any k + 1 points of a surface have
-// one dependence among their gradients; pushed off the surface to the side of its signs they hold the element,
-// and points strewn strictly within the zone cannot change it.
+// Zones whose solution is known because the contacts were put there first: any k + 1 points of a
+// surface have one dependence among their gradients; pushed off the surface to the side of its
+// signs they hold the element, and points strewn strictly within the zone cannot change it.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,8 @@ Eigen::Matrix<double, 8, 1> gradient(const SurfacePoint& at, double size, bool s
   return g;
 }
 
-// The one dependence of k + 1 gradients; nothing when there are more, or when a contact hardly counts.
+// The one dependence of k + 1 gradients; nothing when there are more, or when a contact hardly
+// counts.
 std::optional<Eigen::VectorXd> dependence(const std::vector<SurfacePoint>& contacts, double size,
                                           bool sized) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
@@ -88,8 +89,8 @@ Certified zone(const Subject& subject, Draws& draws, int strewn) {
   }
 }
 
-// Contacts of an inscribed (side +1: the other points lie outside) or circumscribed element: opposite ones
-// change the sign of a gradient.
+// Contacts of an inscribed (side +1: the other points are outside) or circumscribed element:
+// opposite ones change the sign of a gradient.
 Certified touched(const Subject& subject, Draws& draws, int strewn, double side) {
   for (;;) {
     std::vector<SurfacePoint> contacts;
@@ -120,7 +121,8 @@ SurfacePoint on_cone(const Cone& cone, double along, double turn) {
   return {place, c * e - s * Vec3::UnitZ(), (along * c + cone.section_radius(along) * s)};
 }
 
-// Complete, and, as `hard`, arcs of 30 to 60 degrees, short cylinders, nearly flat and nearly cylindrical cones.
+// Complete, and, as `hard`, arcs of 30 to 60 degrees, short cylinders, nearly flat and nearly
+// cylindrical cones.
 Subject subject(const std::string& name, Draws& draws, bool hard) {
   const double size = draws.between(2.0, 200.0);
   const double r = size * draws.between(0.2, 1.0);

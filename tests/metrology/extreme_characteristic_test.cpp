@@ -1,6 +1,6 @@
-// Characteristics by minimum zone, inscribed, circumscribed and one-sided elements. Each part is made so
-// that its contacts prove the value: they lie on both sides of a zone in turn, everything else is
-// strewn between them on one side more than on the other.
+// Characteristics by minimum zone, inscribed, circumscribed and one-sided elements. Each part is
+// made so that its contacts prove the value: they are on both sides of a zone in turn, everything
+// else is strewn between them on one side more than on the other.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ double criterion_value(K kind, std::vector<std::string> names, Criterion criteri
   return result ? 1e-3 * result->value : -1.0;
 }
 
-// Six contacts in turn, high at 0, 120, 240 deg, low at 60, 180, 300; the rest near the high side on
-// one half, near the low side on the other, so that a least-squares circle moves.
+// Six contacts in turn, high at 0, 120, 240 deg, low at 60, 180, 300; the rest near the high side
+// on one half, near the low side on the other, so that a least-squares circle moves.
 double six_contacts(const Vec3& p) {
   const double degrees = std::atan2(p.y(), p.x()) * kDegPerRad + 360.0;
   const double sixth = degrees / 60.0;
@@ -78,7 +78,7 @@ TEST(ExtremeCharacteristic, ParametersAreToldAboutTheCircleOfTheCriterion) {
 
 TEST(ExtremeCharacteristic, FlatnessAndStraightnessAreTheWidthOfTheZone) {
   const auto face = measured::plane("F", {0, 0, 5}, Vec3::UnitZ(), {40, 0, 0}, {0, 20, 0});
-  // Opposite corners high, the others low; what lies between is nearer to the low side at one end.
+  // Opposite corners high, the others low; what is between is nearer to the low side at one end.
   const auto saddle = [](const Vec3& p) {
     if (std::abs(p.x()) > 19.0 && std::abs(p.y()) > 9.0) {
       return p.x() * p.y() > 0.0 ? 0.5 * kZone : -0.5 * kZone;

@@ -1,5 +1,5 @@
-// What the extreme criteria mean: constraints, sides of the material, refusals, and that frames and orders of
-// points do not matter.
+// What the extreme criteria mean: constraints, sides of the material, refusals, and that frames and
+// orders of points do not matter.
 
 #include <gtest/gtest.h>
 
@@ -279,9 +279,9 @@ TEST(ExtremeAssociation, ExactPointsHaveAZoneOfRounding) {
   }
 }
 
-// A lobed cylinder without noise touches its mating cylinder at the same angles in every section: more contacts
-// than the element has freedoms, of which some three already balance. Coordinates end after nine decimals, as
-// in files.
+// A lobed cylinder without noise touches its mating cylinder at the same angles in every section:
+// more contacts than the element has freedoms, of which some three already balance. Coordinates end
+// after nine decimals, as in files.
 TEST(ExtremeAssociation, ContactsThatTieProveTheElementTogether) {
   constexpr double kRadius = 10.0;
   constexpr double kLobe = 0.002;

@@ -1,4 +1,5 @@
-// Any points at all: a proven element or a reason why there is none; and on few points every candidate tried.
+// Any points at all: a proven element or a reason why there is none; and on few points every
+// candidate tried.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ std::vector<Vec3> any_points(Draws& draws) {
   return points;
 }
 
-// How far its points lie apart: what "a part of 100 mm" means.
+// How far its points are apart: what "a part of 100 mm" means.
 double size_of(const std::vector<Vec3>& points) {
   double farthest = 0.0;
   for (const Vec3& p : points) {

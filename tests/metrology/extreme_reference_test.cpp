@@ -1,5 +1,6 @@
-// Minimum zones of the published reference points, which stay outside the repository (reference_fits_test.cpp
-// says where): every one is proven by its contacts and narrower than the least-squares zone.
+// Minimum zones of the published reference points, which stay outside the repository
+// (reference_fits_test.cpp says where): every one is proven by its contacts and narrower than the
+// least-squares zone.
 
 #include <gtest/gtest.h>
 

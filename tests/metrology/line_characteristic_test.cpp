@@ -168,8 +168,8 @@ TEST(LineCharacteristic, TiltedFloorsTurnTheFrameAsTheRegressionOfTheirPointsSay
   const Eigen::Vector2d plane = normal.ldlt().solve(right);
   const double slope = plane[1];
   EXPECT_GT(std::abs(slope), 100e-6);
-  // dH: the floors c, d are 70 mm apart. dE: the chamfers sit at y = -20 and 20, where the frame has
-  // risen by c - 20 s and c + 20 s: each loses that, of the difference nothing is left of s.
+  // dH: the floors c, d are 70 mm apart. dE: the chamfers sit at y = -20 and 20, where the frame
+  // has risen by c - 20 s and c + 20 s: each loses that, of the difference nothing is left of s.
   expect_values(values_of(measure(p, tilted)),
                 {{"dH", -1e3 * 70.0 * slope}, {"dE", -2e3 * plane[0]}}, 2e-3);
 }

@@ -138,8 +138,8 @@ TEST(MagnitudeInterval, SplitsTheTailsByTheLikelihoodRatio) {
   EXPECT_NEAR(tails_near_zero(0.0, 0.95).low, 0.0, 1e-12);
   EXPECT_NEAR(tails_near_zero(0.0, 0.95).high, 0.05, 1e-9);
   EXPECT_NEAR(tails_near_zero(8.0, 0.95).low, 0.025, 1e-9);
-  // Feldman, Cousins 1998, table X: a measured mean of 1.0 has the upper limit 2.96, so a true mean of 2.96
-  // accepts from 1.0 on.
+  // Feldman, Cousins 1998, table X: a measured mean of 1.0 has the upper limit 2.96, so a true mean
+  // of 2.96 accepts from 1.0 on.
   EXPECT_NEAR(tails_near_zero(2.96, 0.95).low, 0.5 * std::erfc(1.96 / std::sqrt(2.0)), 0.001);
   // Where the lower end is negative its best mean is 0: equal likelihood ratios at both ends.
   const Tails tails = tails_near_zero(0.5, 0.95);

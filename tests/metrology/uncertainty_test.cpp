@@ -1,4 +1,5 @@
-// Probes, temperatures and machines that are stated: what they add to uncertainties, linear and simulated.
+// Probes, temperatures and machines that are stated: what they add to uncertainties, linear and
+// simulated.
 #include "metrology/characteristic/standard_uncertainty.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// How often intervals of zones hold the truth, beside the plain quantiles of draws: a few hundred measurements of
-// features that are known exactly. FRUSTUM_COVERAGE=1 takes ten times as many.
+// How often intervals of zones hold the truth, beside the plain quantiles of draws: a few hundred
+// measurements of features that are known exactly. FRUSTUM_COVERAGE=1 takes ten times as many.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -153,7 +153,7 @@ TEST(ZoneMagnitude, IsAsLargeAsTheValue) {
   const auto m = evaluated_values(plan, part, {});
   ASSERT_TRUE(m) << to_string(m.error().front());
   for (const CharacteristicResult& c : m->characteristics) {
-    // A disc is told by 72 points of its rim.
+    // A disc is given by 72 points of its rim.
     const double lost = 1e-9 + (c.name.find("disc") != std::string::npos ? 1e-3 * c.value : 0.0);
     EXPECT_NEAR(1e3 * size_of(c.measurand), c.value, lost) << c.name;
   }

@@ -29,7 +29,8 @@ PlannedCharacteristic characteristic_of(K kind, std::vector<std::string> feature
   return c;
 }
 
-// The extent is planned: a tilt of 5e-4 rad foreshortens 50 mm by 6e-6 mm, of which the tilt is seen.
+// The extent is planned: a tilt of 5e-4 rad foreshortens 50 mm by 6e-6 mm, of which the tilt is
+// seen.
 constexpr double kSecondOrder = 4e-9;
 constexpr double kExactZone = 1e-11;  // mm: rounding of coordinates of 100 mm, some hundred times
 
@@ -100,7 +101,7 @@ TEST(Coaxiality, RefersToTheCommonAxisOfTwoBearings) {
   const auto left = measured::cylinder("A", {0, 0, -50}, Vec3::UnitZ(), 10.0);
   const auto right = measured::cylinder("B", {0, 0, 50}, Vec3::UnitZ(), 12.0);
   const auto middle = measured::cylinder("C", {0, 0, 0}, Vec3::UnitZ(), 20.0, {-10.0, 0.0, 10.0});
-  // Both bearings lie on a tilted line through the origin, the middle one does not tilt.
+  // Both bearings are on a tilted line through the origin, the middle one does not tilt.
   const Pose lies = turned(Vec3::UnitX(), 1e-3);
   const std::vector<FittedFeature> features{feature(middle), feature(left, lies),
                                             feature(right, lies)};
@@ -125,7 +126,7 @@ TEST(Orientation, OfAPlaneIsItsTiltOverItsExtent) {
     EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"F"}, criterion), about_x),
                 20.0 * std::sin(tilt), kSecondOrder);
   }
-  // Form counts where the points themselves have to lie between the planes.
+  // Form counts where the points themselves have to be between the planes.
   const std::vector<FittedFeature> wavy{
       feature(face, {}, [](const Vec3& p) { return 0.002 * std::cos(0.1 * (p.x() - 5.0)); }),
       feature(datum)};

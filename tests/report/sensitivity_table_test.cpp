@@ -15,7 +15,8 @@ using testing::Not;
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-// Three characteristics of two patterns; the third error moves nothing, the fourth only ever removes.
+// Three characteristics of two patterns; the third error moves nothing, the fourth only ever
+// removes.
 SensitivityTable small_table() {
   SensitivityTable table;
   table.title = "Step patterns 1-a 2-a";

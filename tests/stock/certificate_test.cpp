@@ -1,4 +1,5 @@
-// Proofs of surface points: every kind of cutter on every kind of motion; wrong points and wrong paths.
+// Proofs of surface points: every kind of cutter on every kind of motion; wrong points and wrong
+// paths.
 #include "stock/proof/certificate.hpp"
 #include "core/ray.hpp"
 

@@ -1,4 +1,5 @@
-// Random cuts in a program whose every line is compiled with the sanitizers: sanitized_cuts [FIRST COUNT].
+// Random cuts in a program whose every line is compiled with the sanitizers: sanitized_cuts [FIRST
+// COUNT].
 #include <cstdio>
 #include <cstdlib>
 

@@ -200,7 +200,7 @@ TEST(CldataArcs, EndWithOtherRecordsAndBeyondAFullTurn) {
   // Full circles, at once and by halves.
   EXPECT_EQ(arcs("GOTO/10,0,0\n"), 1U);
   EXPECT_EQ(arcs("GOTO/-10,0,0\nGOTO/10,0,0\n"), 2U);
-  // NX, with the cutter behind the radius: one GOTO.
+  // NX, with the cutter after the radius: one GOTO.
   EXPECT_EQ(all_of<ArcFeed>(run_behind_start("GOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10,.01,.5,10,0\n"
                                              "GOTO/-10,0,0\nGOTO/10,0,0\n"))
                 .size(),

@@ -35,7 +35,8 @@ TEST(KlartextFrames, AProjectedPlaneHoldsItsLinesAboveXAndY) {
              rotation_of("PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\n"))
                 .norm(),
             kTinyFrame);
-  // X leans by 24 degrees within Z/X, the line above Y by 35 within Y/Z; then X is turned in the plane.
+  // X leans by 24 degrees within Z/X, the line above Y by 35 within Y/Z; then X is turned in the
+  // plane.
   const double p = 24 * kRadPerDeg;
   const double m = 35 * kRadPerDeg;
   const Mat3 leaning = rotation_of("PLANE PROJECTED PROPR+24 PROMIN+35 ROT+0 STAY\n");

@@ -1,5 +1,5 @@
-// Klartext: feeds of inch programs and of tool calls, M words that count when the move of their block is done (and
-// those of Fanuc and Sinumerik), arcs without an end.
+// Klartext: feeds of inch programs and of tool calls, M words that count when the move of their
+// block is done (and those of Fanuc and Sinumerik), arcs without an end.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::vector<double> feeds(const std::string& text) {
   return found;
 }
 
-// One letter a command: what is moved, and what is switched before and behind it.
+// One letter a command: what is moved, and what is switched before and after it.
 std::string order(const std::string& text, Dialect dialect = Dialect::heidenhain) {
   std::string letters;
   for (const Motion& motion : run_modes(text, dialect)) {

@@ -1,4 +1,5 @@
-// Klartext: paths, datums, cycles and parameters, with motions derived by hand, and what is wrong with statements.
+// Klartext: paths, datums, cycles and parameters, with motions derived by hand, and what is wrong
+//           with statements.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -220,7 +221,7 @@ TEST(KlartextPlanes, AreTheirFormsDerivedByHand) {
   quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   expect_same(plane_of("PLANE POINTS P1X+1 P1Y+1 P1Z+0 P2X+1 P2Y+9 P2Z+0 P3X-4 P3Y+2 P3Z+0 STAY\n"),
               Pose::rotated(quarter));
-  // The base vector counts by what is square to the normal.
+  // The base vector counts by what is perpendicular to the normal.
   expect_same(plane_of("PLANE VECTOR BX+0 BY+1 BZ+7 NX+0 NY+0 NZ+2 STAY\n"),
               Pose::rotated(quarter));
 }
@@ -274,7 +275,7 @@ TEST(KlartextPlanes, LieAtTheShiftedDatumAndGiveItBack) {
   ASSERT_EQ(planes.size(), 2U);
   EXPECT_LT((planes[0].program_from_plane->translation - Vec3(10, 20, 5)).norm(), kTiny);
   EXPECT_FALSE(planes[1].program_from_plane.has_value());
-  // In the plane its own shift counts, behind it the one before.
+  // In the plane its own shift counts, after it the one before.
   expect_same(places(all), {{1, 2, 3}, {101, 2, 3}, {11, 22, 8}});
 }
 

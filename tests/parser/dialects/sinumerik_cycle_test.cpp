@@ -45,8 +45,8 @@ struct Teller {
   }
 };
 
-// What the hole's block does, from a tool at Z 50 over X 3 Y 4 with the spindle at 1000 and F 200: R and F to a height
-// with the feed, D seconds, spindle and stops.
+// What the hole's block does, from a tool at Z 50 over X 3 Y 4 with the spindle at 1000 and F 200:
+// R and F to a height with the feed, D seconds, spindle and stops.
 std::string cycle_steps(const std::string& call, const std::string& before = "",
                         AxisLetter depth = Z) {
   std::string told;

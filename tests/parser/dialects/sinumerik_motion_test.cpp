@@ -1,4 +1,5 @@
-// Rotary words and directions of Sinumerik, places about a pole, arcs through a point and tangential ones, threads.
+// Rotary words and directions of Sinumerik, places about a pole, arcs through a point and
+// tangential ones, threads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -33,7 +34,7 @@ TEST(SinumerikRotary, TurnsInTheDirectionThatAWordAsksFor) {
   EXPECT_EQ(up[0].axes, (std::array{false, false, true}));
   EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_sinumerik("G0 C=ACP(10)\n")).end[C], 10 * kRadPerDeg);
   EXPECT_EQ(paths_of("G0 B=ACN(10)\n").at(0).path, RotaryPath::negative);
-  // Each axis has its own way; equal ones are told together.
+  // Each axis has its own way; equal ones are reported together.
   const auto both = paths_of("G0 A=DC(1) B=ACP(2) C=DC(3)\n");
   ASSERT_EQ(both.size(), 2U);
   EXPECT_EQ(both[0].path, RotaryPath::shortest);
@@ -247,7 +248,7 @@ RC_GTEST_PROP(SinumerikArcLaws, ArcsThroughAPointStayOnTheirCircle, ()) {
       start.x(), start.y(), start.z(), end.x(), end.y(), end.z(), between.x(), between.y(),
       between.z()));
   const auto lines = all_of<LinearFeed>(all);
-  RC_PRE(!lines.empty());  // else the circle lies in a plane of two axes
+  RC_PRE(!lines.empty());  // else the circle is in a plane of two axes
   double nearest = 1e9;
   Vec3 last = start;
   double turned = 0.0;

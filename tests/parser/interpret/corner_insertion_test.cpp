@@ -1,4 +1,5 @@
-// RND and CHF of Klartext: corners between lines and arcs, derived by hand, and where they do not fit.
+// RND and CHF of Klartext: corners between lines and arcs, derived by hand, and where they do not
+// fit.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ TEST(Corners, AreRoundedBetweenLines) {
   EXPECT_EQ(moves(run("L X+0 Y+0 FMAX\nL X+10 F100\nRND R2 F50\nL Y+10 M3\nL X+0\n")),
             (Moves{"rapid 0 0", "line 8 0 F100", "arc 10 2 about 8 2 F50 +1", "line 10 10 F100",
                    "line 0 10 F100"}));
-  // To the right, in one rounding behind another; the second move is short of the first rounding.
+  // To the right, in one rounding after another; the second move is short of the first rounding.
   EXPECT_EQ(moves(run("L X+0 Y+0 FMAX\nL X+10 F100\nRND R3\nL Y-10\nRND R6\nL X+0\n")),
             (Moves{"rapid 0 0", "line 7 0 F100", "arc 10 -3 about 7 -3 F100 -1", "line 10 -4 F100",
                    "arc 4 -10 about 4 -4 F100 -1", "line 0 -10 F100"}));
@@ -55,7 +56,8 @@ TEST(Corners, AreBrokenBetweenLines) {
 }
 
 TEST(Corners, AreRoundedBesideArcs) {
-  // From the line along X into the circle of 10 about (20 0), clockwise up from its left-hand point.
+  // From the line along X into the circle of 10 about (20 0), clockwise up from its left-hand
+  // point.
   const auto all =
       run("L X+0 Y+0 FMAX\nL X+10 F100\nRND R2\nCC X+20 Y+0\nC X+30 Y+0 DR-\nL X+40\n");
   const auto arcs = all_of<ArcFeed>(all);

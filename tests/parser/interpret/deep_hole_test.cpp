@@ -1,4 +1,5 @@
-// CYCL DEF 203 and 205 of Klartext: pecks that shrink, broken chips, cleared holes, with heights derived by hand.
+// CYCL DEF 203 and 205 of Klartext: pecks that shrink, broken chips, cleared holes, with heights
+// derived by hand.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +16,8 @@ namespace {
 
 using enum AxisLetter;
 
-// "f-4 r2 d0.5": feeds, rapid moves and dwells with their heights and seconds, behind the move over the hole.
+// "f-4 r2 d0.5": feeds, rapid moves and dwells with their heights and seconds, after the move over
+// the hole.
 std::string heights(const std::string& cycle) {
   std::string found;
   const auto all = motions(
