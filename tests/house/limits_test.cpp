@@ -36,9 +36,7 @@ const Exceptions& long_sources() {
 }
 
 const Exceptions& crowded_folders() {
-  static const Exceptions kFolders{
-      {"tests/metrology", "until its tests have folders"},
-  };
+  static const Exceptions kFolders{};
   return kFolders;
 }
 

@@ -10,8 +10,8 @@
 #include "metrology/fit/constraint_steps.hpp"
 #include "metrology/fit/element_model.hpp"
 #include "metrology/fit/least_squares.hpp"
-#include "synthetic.hpp"
 #include "tests/law_count.hpp"
+#include "tests/metrology/synthetic.hpp"
 
 namespace frustum::metrology {
 namespace {

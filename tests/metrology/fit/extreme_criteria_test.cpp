@@ -10,7 +10,7 @@
 
 #include "metrology/fit/association.hpp"
 #include "metrology/fit/minimax/extreme_association.hpp"
-#include "synthetic.hpp"
+#include "tests/metrology/synthetic.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "metrology/fit/constraint_steps.hpp"
-#include "synthetic.hpp"
+#include "tests/metrology/synthetic.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "metrology/fit/association.hpp"
 #include "metrology/fit/minimax/extreme_association.hpp"
-#include "synthetic.hpp"
 #include "tests/law_count.hpp"
+#include "tests/metrology/synthetic.hpp"
 
 namespace frustum::metrology {
 namespace {
