@@ -1,15 +1,19 @@
 # frustum_module(NAME SOURCES a.cpp ... [HOT b.cpp ...] [ALONE c.cpp ...] [USES frustum::core ...]
-#                [PRIVATE_USES ...])
+#                [PRIVATE_USES ...] [BATCH size])
 #
 # One room: a static library frustum_NAME with alias frustum::NAME. USES are the arrows of the house;
 # PRIVATE_USES are libraries that only the room's .cpp files see. HOT sources run in innermost loops and are
 # compiled for speed; ALONE sources read headers so large, or are read with definitions of their own, that
-# they are compiled one at a time.
+# they are compiled one at a time. At most BATCH sources (10) are compiled together: fewer where each takes
+# long, so that a touch of one is built soon.
 function(frustum_module name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HOT;ALONE;USES;PRIVATE_USES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "BATCH" "SOURCES;HOT;ALONE;USES;PRIVATE_USES" ${ARGN})
   set(room frustum_${name})
   add_library(${room} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
-  frustum_unity(${room} 10 ${ROOM_SOURCES})
+  if(NOT ROOM_BATCH)
+    set(ROOM_BATCH 10)
+  endif()
+  frustum_unity(${room} ${ROOM_BATCH} ${ROOM_SOURCES})
   if(ROOM_HOT)
     # Inlined as far as it goes, which what comes out of precompiled headers, made for -O2, is not.
     add_library(${room}_hot OBJECT ${ROOM_HOT})
