@@ -3,7 +3,7 @@
 #include <map>
 
 // The assembler copies the files into the object: a megabyte of script is no work for the compiler.
-// The build states the dependence on the files (report/PageBundle.cmake).
+// The build states the dependence on the files (report/CMakeLists.txt).
 #define FRUSTUM_EMBED(name, file)   \
   asm(".pushsection .rodata\n"      \
       ".hidden " name               \
