@@ -16,6 +16,10 @@
 
 namespace frustum::programs {
 
+// What an operation is for the report: one round of a cone, whose axes are drawn over the angle
+// about its axis, or anything else, drawn over blocks.
+enum class OperationKind { other, cone };
+
 // A named range of NC lines (both included): what the report plots, and where error shapes find the
 // travelled range of each axis.
 struct Operation {
@@ -25,6 +29,7 @@ struct Operation {
   // Features of the plan that these lines cut; a measured point of theirs that anything else made,
   // or nothing, is worth a warning.
   std::vector<std::string> makes{};
+  OperationKind kind = OperationKind::other;
 };
 
 // How the workpiece is on the table, as people write it.

@@ -89,6 +89,7 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
   for (const Operation& op : piece.operations) {
     line("[[operation]]");
     line(fmt::format("name  = \"{}\"", op.name));
+    if (op.kind == OperationKind::cone) line("kind  = \"cone\"");
     line(fmt::format("lines = [{}, {}]", op.first_line, op.last_line));
     if (!op.makes.empty()) line(fmt::format("makes = [\"{}\"]", fmt::join(op.makes, "\", \"")));
   }

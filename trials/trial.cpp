@@ -50,7 +50,7 @@ std::vector<OperationTrace> traces_of(const Machine& machine, const TestPiece& p
     const auto first = std::find_if(axes.begin(), axes.end(), inside);
     if (first == axes.end() || first == axes.begin()) continue;
     const auto last = std::find_if_not(first, axes.end(), inside);
-    OperationTrace trace{op.name, std::vector<AxisSample>(std::prev(first), last), {}};
+    OperationTrace trace{op.name, op.kind, std::vector<AxisSample>(std::prev(first), last), {}};
     trace.ranges = ranges_of(machine, trace.samples);
     traces.push_back(std::move(trace));
   }

@@ -33,6 +33,7 @@ namespace frustum::trials {
 // Axis positions of one operation: where it starts, then the end of every block.
 struct OperationTrace {
   std::string name{};
+  programs::OperationKind kind = programs::OperationKind::other;
   std::vector<kinematics::AxisSample> samples{};
   kinematics::AxisSpans ranges{};  // travelled range of each axis of the machine
 };

@@ -126,6 +126,9 @@ void read_operations(const TomlTable& root, programs::TestPiece& piece) {
   for (const TomlTable& table : root.tables("operation")) {
     programs::Operation op;
     op.name = table.text("name");
+    constexpr std::size_t kOther = 0;
+    const bool other = table.choice_or("kind", {"other", "cone"}, kOther) == kOther;
+    op.kind = other ? programs::OperationKind::other : programs::OperationKind::cone;
     op.makes = table.texts_or("makes", {});
     const auto lines = table.numbers("lines");
     const bool valid =

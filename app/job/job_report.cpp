@@ -28,13 +28,13 @@ std::string meaning_of(const kinematics::Machine& machine, const std::string& na
   return error ? error->meaning() : "";
 }
 
-// Over the cone angle when the operation is the cone's, over its blocks otherwise.
+// Over the cone angle when the operation is one round of a cone, over its blocks otherwise.
 report::AxisTrace trace_of(const Job& job, const trials::OperationTrace& operation) {
   // A page does not show more; every k-th block and the last are kept.
   constexpr std::size_t kMostSamples = 720;
   report::AxisTrace trace;
   trace.operation = operation.name;
-  const bool cone = operation.name.starts_with("cone");
+  const bool cone = operation.kind == programs::OperationKind::cone;
   trace.abscissa_kind = cone ? report::Abscissa::cone_angle : report::Abscissa::block;
   const std::size_t last = operation.samples.size() - 1;
   const std::size_t step = std::max<std::size_t>(1, last / kMostSamples);

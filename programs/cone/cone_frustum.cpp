@@ -110,7 +110,12 @@ class ConeProgram {
         for (const PathMove& move : *moves) {
           if (auto problem = add_move(move)) return *problem;
         }
-        if (moves == &op.cut) piece.operations.push_back({op.name, first, nc_.next_block() - 1});
+        if (moves == &op.cut) {
+          piece.operations.push_back({.name = op.name,
+                                      .first_line = first,
+                                      .last_line = nc_.next_block() - 1,
+                                      .kind = op.kind});
+        }
       }
     }
     footer();

@@ -110,7 +110,7 @@ class ConePath {
   // The tool leans on the generatrix; `allowance` keeps it off along the surface normal.
   [[nodiscard]] PathOperation cone_pass(const char* name, double allowance,
                                         double tolerance) const {
-    PathOperation op{.name = name};
+    PathOperation op{.name = name, .kind = OperationKind::cone};
     const double a = cone_.cone_angle.value;
     const double radius = cone_.radius.value + allowance * std::cos(a);
     const double z = allowance * std::sin(a);

@@ -17,6 +17,7 @@ struct PathMove {
 // Moves of one operation, from clear of the part to clear of the part.
 struct PathOperation {
   std::string name{};
+  OperationKind kind = OperationKind::other;
   std::vector<PathMove> lead_in{};   // approach
   std::vector<PathMove> cut{};       // what the operation is named after
   std::vector<PathMove> lead_out{};  // departure

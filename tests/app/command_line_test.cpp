@@ -54,6 +54,28 @@ TEST_F(CommandLineSystem, FailsWithExitCodeOneWhenAToleranceIsMissed) {
   EXPECT_TRUE(fs::exists(folder_ / "result/result.json"));
 }
 
+TEST_F(CommandLineSystem, DrawsAxesOverTheConeAngleWhereTheJobSaysSo) {
+  write_piece();
+  const auto drawn_over_angle = [this] {
+    EXPECT_EQ(run("run piece/job.toml --out result --quiet").exit_code, 0);
+    const std::string page = read(folder_ / "result/report.html");
+    const std::string_view sought = "\"abscissa_kind\":\"cone_angle\"";
+    int count = 0;
+    for (auto at = page.find(sought); at != std::string::npos; at = page.find(sought, at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(drawn_over_angle(), 2);  // roughing and finishing
+  // The name of an operation says nothing.
+  replace_in("piece/job.toml", "\"cone roughing\"", "\"flank roughing\"");
+  EXPECT_EQ(drawn_over_angle(), 2);
+  replace_in("piece/job.toml", "kind  = \"cone\"", "");
+  EXPECT_EQ(drawn_over_angle(), 1);
+  replace_in("piece/job.toml", "kind  = \"cone\"", "kind = \"cones\"");
+  fs::remove_all(folder_ / "result");
+  expect_refusal({"job.toml:", "kind", "cones"});
+}
+
 TEST_F(CommandLineSystem, CutsAClosedMesh) {
   write_piece();
   const Outcome outcome = run("cut piece/job.toml --mesh part.ply --pitch 2 --json");
