@@ -14,22 +14,6 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::array kFunctions{
-    FunctionName{"SIN", Operation::sine},         FunctionName{"COS", Operation::cosine},
-    FunctionName{"TAN", Operation::tangent},      FunctionName{"ASIN", Operation::arc_sine},
-    FunctionName{"ACOS", Operation::arc_cosine},  FunctionName{"ATAN", Operation::arc_tangent},
-    FunctionName{"SQRT", Operation::square_root}, FunctionName{"ABS", Operation::absolute},
-    FunctionName{"ROUND", Operation::round},      FunctionName{"FIX", Operation::fix},
-    FunctionName{"FUP", Operation::fup},          FunctionName{"LN", Operation::logarithm},
-    FunctionName{"EXP", Operation::exponential},
-};
-
-constexpr std::array kMacroFunctions{
-    FunctionName{"FIX", Operation::truncate}, FunctionName{"FUP", Operation::round_away},
-    FunctionName{"BIN", Operation::from_bcd}, FunctionName{"BCD", Operation::to_bcd},
-    FunctionName{"ADP", Operation::as_it_is},
-};
-
 constexpr double kMostBits = 2147483648.0;  // 32 of them, one the sign
 constexpr double kMostDigits = 99'999'999.0;
 bool has_bits(double value) {
@@ -228,9 +212,6 @@ Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
 }
 
 }  // namespace
-
-std::span<const FunctionName> function_names() { return kFunctions; }
-std::span<const FunctionName> macro_function_names() { return kMacroFunctions; }
 
 Result<double> evaluate(const ExpressionContext& context, ExpressionRange range) {
   // Each open bracket holds at most six pending operands: of ATAN, a logical term, a comparison, a

@@ -101,13 +101,4 @@ struct ExpressionContext {
 // The shortest decimal text (no exponent) that reads back as exactly `value`.
 [[nodiscard]] std::string decimal_text(double value);
 
-// The operation that a function's name means, for the grammar: "SIN", "ATAN", ...
-struct FunctionName {
-  std::string_view name;
-  Operation operation;
-};
-[[nodiscard]] std::span<const FunctionName> function_names();
-// Those that Custom Macro has in their place, and besides.
-[[nodiscard]] std::span<const FunctionName> macro_function_names();
-
 }  // namespace frustum::parser

@@ -25,15 +25,15 @@ void add_number(Block& block, char letter, double number, std::uint32_t column,
                 const char* spelled = nullptr);
 
 struct BlockDraft {
-  BlockDraft(std::string_view text, std::uint32_t line, const ExpressionSpelling& spelled)
-      : in(text, line), spelling(spelled) {
+  BlockDraft(std::string_view text, std::uint32_t line, const ExpressionRules& expressions)
+      : in(text, line), rules(expressions) {
     block.line = line;
   }
   BlockDraft(const BlockDraft&) = delete;
   BlockDraft& operator=(const BlockDraft&) = delete;
 
   [[nodiscard]] ExpressionRange read_expression(ExpressionLevel level) {
-    return ExpressionReader(in, block, spelling).read(level);
+    return ExpressionReader(in, block, rules).read(level);
   }
   // An expression becomes the word's value; a plain number needs no expression.
   void read_value(Word& word, ExpressionLevel level);
@@ -53,7 +53,7 @@ struct BlockDraft {
 
   LineScanner in;
   Block block{};
-  const ExpressionSpelling& spelling;
+  const ExpressionRules& rules;
 };
 
 }  // namespace frustum::parser

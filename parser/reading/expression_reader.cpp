@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace frustum::parser {
 namespace {
 
+using enum ExpressionLevel;
+
 constexpr ExpressionLevel tighter(ExpressionLevel level) {
   return static_cast<ExpressionLevel>(static_cast<std::uint8_t>(level) + 1);
+}
+constexpr ExpressionLevel looser(ExpressionLevel level) {
+  return static_cast<ExpressionLevel>(static_cast<std::uint8_t>(level) - 1);
 }
 
 bool is_name(std::string_view spelling) {
@@ -17,119 +23,171 @@ bool is_name(std::string_view spelling) {
 
 }  // namespace
 
+void report(LineScanner& in, const ExpressionMistake& mistake, std::uint32_t start,
+            std::string_view name) {
+  if (in.failed()) return;
+  const auto worded = [&](std::string_view pattern) {
+    return fmt::format(fmt::runtime(pattern), fmt::arg("name", name),
+                       fmt::arg("found", in.next_shown()));
+  };
+  in.fail(mistake.id, mistake.at_start ? start : in.column(), worded(mistake.message),
+          worded(mistake.hint));
+}
+
 ExpressionRange ExpressionReader::read(ExpressionLevel level) {
   ExpressionRange range{static_cast<std::uint32_t>(block_.steps.size()), 0};
-  append(level);
+  append_level(level);
   range.count = static_cast<std::uint32_t>(block_.steps.size()) - range.first;
   return range;
 }
 
-void ExpressionReader::append(ExpressionLevel level) {
-  if (depth_ > kMaxExpressionDepth) {
-    in_.fail("brackets-too-deep"_id, in_.column(), "too many brackets within each other",
-             std::string(spelling_.too_deep_hint));
-    return;
+bool ExpressionReader::enter(std::uint32_t opening) {
+  if (depth_ >= kMaxExpressionDepth) {
+    report(in_, rules_.too_deep, opening, {});
+    return false;
   }
   ++depth_;
-  append_level(level);
-  --depth_;
+  return true;
 }
 
+void ExpressionReader::append(ExpressionLevel level, std::uint32_t opening) {
+  if (!enter(opening)) return;
+  const std::uint32_t outer = std::exchange(opening_, opening);
+  append_level(level);
+  opening_ = outer;
+  leave();
+}
+
+// After an operator only those follow that bind no tighter: the others belong to its right operand.
 void ExpressionReader::append_level(ExpressionLevel level) {
-  if (level == ExpressionLevel::operand) return append_operand();
-  if (level == ExpressionLevel::comparison && !spelling_.negation.empty()) {
-    const std::uint32_t column = in_.column();
-    if (in_.take_name(spelling_.negation)) {
-      append(level);
-      push_number(0.0, column);
-      return push(Operation::equal, column);
-    }
+  if (level == operand) return append_operand();
+  ExpressionLevel most = power;
+  const std::uint32_t start = in_.column();
+  if (level <= comparison && !spelling_.negation.empty() && in_.take_name(spelling_.negation)) {
+    append(comparison);
+    push_number(0.0, start);
+    push(Operation::equal, start);
+    most = looser(comparison);
+  } else {
+    append_operand();
   }
-  append_level(tighter(level));
   while (!in_.failed()) {
     const std::uint32_t column = in_.column();
-    const BinaryOperator* found = take_operator(level);
+    const BinaryOperator* found = take_operator(level, most);
     if (found == nullptr) return;
-    append_level(tighter(level));
+    append_level(tighter(found->level));
     push(found->operation, column);
-    if (level == ExpressionLevel::comparison) return;
+    const bool once = found->level == comparison && !spelling_.comparisons_chain;
+    most = once ? looser(comparison) : found->level;
   }
 }
 
-const BinaryOperator* ExpressionReader::take_operator(ExpressionLevel level) {
+const BinaryOperator* ExpressionReader::take_operator(ExpressionLevel least, ExpressionLevel most) {
   const char next = in_.peek();
   for (const BinaryOperator& known : spelling_.operators) {
-    if (known.level != level || known.spelling.front() != next) continue;
-    if (is_name(known.spelling) ? in_.take_name(known.spelling) : in_.take_sign(known.spelling)) {
-      return &known;
-    }
+    if (known.spelling.front() != next || known.level < least || known.level > most) continue;
+    if (take(known)) return &known;
   }
-  const bool compares = level == ExpressionLevel::comparison;
-  if (compares && !spelling_.single_equals_hint.empty() && in_.take('=')) {
-    in_.fail_unexpected(std::string(spelling_.single_equals_hint));
+  const bool compares = least <= comparison && comparison <= most;
+  if (compares && !rules_.single_equals_hint.empty() && in_.take('=')) {
+    in_.fail_unexpected(std::string(rules_.single_equals_hint));
   }
   return nullptr;
 }
 
+bool ExpressionReader::take(const BinaryOperator& known) {
+  if (spelling_.words_run_together) return in_.take_bytes(known.spelling);
+  return is_name(known.spelling) ? in_.take_name(known.spelling) : in_.take_sign(known.spelling);
+}
+
 void ExpressionReader::append_operand() {
   const std::uint32_t column = in_.column();
-  if (in_.take('-')) {
-    append(ExpressionLevel::operand);
-    if (in_.failed()) return;
-    // A negative number is a number.
-    ExpressionStep& last = block_.steps.back();
-    if (last.operation != Operation::number) return push(Operation::negate, column);
-    last.number = -last.number + 0.0;
-    return;
+  const bool negative = in_.take('-');
+  if (!negative && !in_.take('+')) return append_unsigned();
+  const bool apart = !spelling_.signs_chain && in_.peek() == spelling_.open.front();
+  if (spelling_.signs_chain) {
+    append(operand);
+  } else {
+    append_unsigned();
   }
-  if (in_.take('+')) return append(ExpressionLevel::operand);
-  if (in_.take('(')) {
-    append(spelling_.in_brackets);
-    return close(column, "the expression");
+  if (!negative || in_.failed()) return;
+  // A negative number is a number.
+  ExpressionStep& last = block_.steps.back();
+  if (last.operation != Operation::number || apart) return push(Operation::negate, column);
+  last.number = -last.number + 0.0;
+}
+
+void ExpressionReader::append_unsigned() {
+  const std::uint32_t column = in_.column();
+  if (in_.take(spelling_.open.front())) {
+    append(spelling_.in_brackets, column);
+    return close_bracket(column, "the expression");
   }
   if (const auto number = in_.number()) return push_number(number->value, column);
-  const std::string name = in_.name();
-  const auto function =
-      std::find_if(spelling_.functions.begin(), spelling_.functions.end(),
-                   [&](const ExpressionFunction& known) { return known.name == name; });
-  if (function != spelling_.functions.end()) {
-    append_function(*function);
-    return push(function->operation, column);
-  }
-  if (in_.failed() || spelling_.read_variable(*this, name, column)) return;
-  if (name.empty()) {
-    in_.fail("value-missing"_id, column, std::string(spelling_.no_operand),
-             std::string(spelling_.no_operand_hint));
-  } else {
-    in_.fail("unknown-word"_id, column, fmt::format(fmt::runtime(spelling_.unknown_operand), name),
-             std::string(spelling_.unknown_operand_hint));
-  }
+  const std::string name = spelling_.words_run_together ? std::string() : in_.name();
+  if (append_function(name, column)) return;
+  if (in_.failed() || rules_.read_variable(*this, name, column)) return;
+  if (in_.failed()) return;
+  if (!name.empty()) return report(in_, rules_.unknown_operand, column, name);
+  found_nothing_ = depth_ == 0;
+  const bool ends = depth_ > 0 && in_.at_end();
+  report(in_, ends ? rules_.no_operand_at_end : rules_.no_operand, opening_, name);
 }
 
-void ExpressionReader::append_function(const ExpressionFunction& function) {
-  if (!spelling_.functions_have_brackets) return append(ExpressionLevel::operand);
-  if (!in_.take('(')) {
-    in_.fail("bracket-missing"_id, in_.column(),
-             fmt::format("{} needs its argument in ( )", function.name),
-             "write for example SIN(30)");
-    return;
-  }
-  append(ExpressionLevel::sum);
-  for (int i = 1; i < function.arguments; ++i) {
-    if (!in_.take(',')) {
-      in_.fail("argument-count"_id, in_.column(), fmt::format("{} needs two values", function.name),
-               fmt::format("write {}(y,x)", function.name));
+bool ExpressionReader::append_function(const std::string& name, std::uint32_t column) {
+  const auto function = std::ranges::find_if(spelling_.functions, [&](const auto& known) {
+    return spelling_.words_run_together ? in_.take_bytes(known.name) : known.name == name;
+  });
+  if (function == spelling_.functions.end()) return false;
+  append_arguments(*function);
+  push(function->operation, column);
+  return true;
+}
+
+void ExpressionReader::append_arguments(const ExpressionFunction& function) {
+  if (spelling_.call_open.empty()) return append(spelling_.argument);
+  const std::uint32_t opening = open_bracket(function.name);
+  append(spelling_.argument, opening);
+  if (function.arguments != Arguments::one) {
+    if (in_.take(',')) {
+      append(spelling_.argument, opening);
+    } else if (function.arguments == Arguments::two) {
+      report(in_, rules_.no_second_argument, opening, function.name);
+    } else {
+      close_bracket(opening, function.name);
+      return append_divisor(function);
     }
-    append(ExpressionLevel::sum);
   }
-  close_bracket(in_, function.name);
+  close_bracket(opening, function.name);
 }
 
-void ExpressionReader::close(std::uint32_t opening, std::string_view whose) {
-  if (!spelling_.open_bracket_is_told) return close_bracket(in_, whose);
-  if (!in_.failed() && !in_.take(')')) {
-    in_.fail("bracket-not-closed"_id, opening, "the bracket is not closed", "close it with )");
+// Of ATAN[y]/[x].
+void ExpressionReader::append_divisor(const ExpressionFunction& function) {
+  const std::uint32_t column = in_.column();
+  if (in_.peek() != '/' && function.arguments == Arguments::one_or_divided) {
+    return push_number(1.0, column);
   }
+  if (!in_.take('/')) return report(in_, rules_.no_divisor, column, function.name);
+  append_bracketed(function.name);
+}
+
+void ExpressionReader::append_bracketed(std::string_view whose) {
+  const std::uint32_t opening = open_bracket(whose);
+  append(spelling_.argument, opening);
+  close_bracket(opening, whose);
+}
+
+std::uint32_t ExpressionReader::open_bracket(std::string_view whose) {
+  const std::uint32_t opening = in_.column();
+  if (!in_.take(spelling_.call_open.front())) {
+    report(in_, rules_.no_call_bracket, opening, whose);
+  }
+  return opening;
+}
+
+void ExpressionReader::close_bracket(std::uint32_t opening, std::string_view whose) {
+  if (in_.take(spelling_.close.front())) return;
+  report(in_, in_.at_end() ? rules_.not_closed_at_end : rules_.not_closed, opening, whose);
 }
 
 void ExpressionReader::push(Operation operation, std::uint32_t column) {
@@ -138,20 +196,10 @@ void ExpressionReader::push(Operation operation, std::uint32_t column) {
 void ExpressionReader::push_number(double number, std::uint32_t column) {
   if (!in_.failed()) block_.steps.push_back({Operation::number, column, number});
 }
-void ExpressionReader::push_name(const std::string& name, std::uint32_t column) {
+void ExpressionReader::push_name(const std::string& name, std::uint32_t column,
+                                 Operation operation) {
   block_.names.push_back(name);
-  block_.steps.push_back(
-      {Operation::named_parameter, column, static_cast<double>(block_.names.size() - 1)});
-}
-
-void close_bracket(LineScanner& in, std::string_view whose) {
-  if (in.take(')')) return;
-  if (in.at_end()) {
-    in.fail("bracket-not-closed"_id, in.column(),
-            fmt::format("the bracket of {} is not closed", whose), "close it with )");
-  } else {
-    in.fail_unexpected("close the bracket with )");
-  }
+  block_.steps.push_back({operation, column, static_cast<double>(block_.names.size() - 1)});
 }
 
 }  // namespace frustum::parser

@@ -1,98 +1,100 @@
 // Reads infix expressions, in the spelling of one dialect, as the postfix steps of a block.
 //
-// A dialect gives its operators with their levels, its functions, and a rule that reads its
-// variables. What is common: operators of one level bind from the left, a sign belongs to the
-// operand after it, ( ) hold an expression.
+// All dialects are read here, by the tables of parser/dialects/expressions.hpp; a dialect adds a
+// function that reads its variables and how it words what is wrong.
 // Units: none; values are as written.
 // Errors: an operand or bracket that is missing, brackets too deep; at the scanner, with their
 //         columns
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/diagnostic.hpp"
 #include "parser/language/block.hpp"
-#include "parser/language/expression.hpp"
+#include "parser/language/expression_spelling.hpp"
 #include "parser/reading/line_scanner.hpp"
 
 namespace frustum::parser {
 
-// From the one that binds least.
-enum class ExpressionLevel : std::uint8_t {
-  disjunction,
-  conjunction,
-  comparison,  // of which an expression has one at most
-  sum,
-  product,
-  power,
-  operand
-};
-
-struct BinaryOperator {
-  ExpressionLevel level;
-  std::string_view spelling;  // a name or signs; longer signs before those that they begin with
-  Operation operation;
-};
-
-struct ExpressionFunction {
-  std::string_view name;
-  Operation operation;
-  int arguments = 1;
-};
-
 class ExpressionReader;
 
-struct ExpressionSpelling {
-  std::span<const BinaryOperator> operators{};
-  std::span<const ExpressionFunction> functions{};
-  // Functions have their arguments in ( ), of this level; else they are followed by an operand.
-  bool functions_have_brackets = true;
-  ExpressionLevel in_brackets = ExpressionLevel::disjunction;
-  std::string_view negation{};  // NOT
-  // Puts the variable of that name after the steps; false when it is none.
-  bool (*read_variable)(ExpressionReader& reader, const std::string& name,
-                        std::uint32_t column) = nullptr;
-  // What is reported of mistakes. {} is the name that was found.
-  std::string_view no_operand{};
-  std::string_view no_operand_hint{};
-  std::string_view unknown_operand{};
-  std::string_view unknown_operand_hint{};
-  std::string_view too_deep_hint{};
+// What is reported of a mistake. {name} is what was read, {found} the character that follows.
+struct ExpressionMistake {
+  DiagnosticId id{};
+  std::string_view message{};
+  std::string_view hint{};
+  bool at_start = false;  // where the bracket or the name begins; else where reading stopped
+};
+
+struct ExpressionRules {
+  const ExpressionSpelling& spelling;
+  // Puts the variable of that name after the steps; false when it is none. Where words run together
+  // no name is read before.
+  bool (*read_variable)(ExpressionReader& reader, const std::string& name, std::uint32_t column);
+  ExpressionMistake no_operand{};
+  ExpressionMistake no_operand_at_end{};  // in brackets
+  ExpressionMistake unknown_operand{};
+  ExpressionMistake no_call_bracket{};
+  ExpressionMistake no_second_argument{};
+  ExpressionMistake no_divisor{};  // of ATAN[y]/[x]
+  ExpressionMistake not_closed{};
+  ExpressionMistake not_closed_at_end{};
+  ExpressionMistake too_deep{};
   std::string_view single_equals_hint{};  // where = does not compare
-  bool open_bracket_is_told = false;      // an unclosed bracket is reported where it opens
 };
 
 class ExpressionReader {
  public:
-  ExpressionReader(LineScanner& in, Block& block, const ExpressionSpelling& spelling)
-      : in_(in), block_(block), spelling_(spelling) {}
+  ExpressionReader(LineScanner& in, Block& block, const ExpressionRules& rules)
+      : in_(in), block_(block), rules_(rules), spelling_(rules.spelling) {}
 
   // An expression whose operators bind at least as `level` does.
   [[nodiscard]] ExpressionRange read(ExpressionLevel level);
+  // Whether there was nothing to read, outside of brackets: the reader's caller may know better
+  // what is missing.
+  [[nodiscard]] bool found_nothing() const { return found_nothing_; }
 
   // For variables: what they are made of.
   [[nodiscard]] LineScanner& in() { return in_; }
-  void append(ExpressionLevel level);
+  // An expression within something that opened at that column, or here.
+  void append(ExpressionLevel level, std::uint32_t opening = 0);
+  // An argument in its brackets.
+  void append_bracketed(std::string_view whose);
+  // The column of the bracket.
+  std::uint32_t open_bracket(std::string_view whose);
+  void close_bracket(std::uint32_t opening, std::string_view whose);
+  // One more thing that is open; false, and reported, when there are too many.
+  bool enter(std::uint32_t opening);
+  void leave() { --depth_; }
   void push(Operation operation, std::uint32_t column);
   void push_number(double number, std::uint32_t column);
-  void push_name(const std::string& name, std::uint32_t column);
+  void push_name(const std::string& name, std::uint32_t column,
+                 Operation operation = Operation::named_parameter);
 
  private:
   void append_level(ExpressionLevel level);
   void append_operand();
-  void append_function(const ExpressionFunction& function);
-  [[nodiscard]] const BinaryOperator* take_operator(ExpressionLevel level);
-  void close(std::uint32_t opening, std::string_view whose);
+  void append_unsigned();
+  bool append_function(const std::string& name, std::uint32_t column);
+  void append_arguments(const ExpressionFunction& function);
+  void append_divisor(const ExpressionFunction& function);
+  // One whose level is within these, both included.
+  [[nodiscard]] const BinaryOperator* take_operator(ExpressionLevel least, ExpressionLevel most);
+  bool take(const BinaryOperator& known);
 
   LineScanner& in_;
   Block& block_;
+  const ExpressionRules& rules_;
   const ExpressionSpelling& spelling_;
   int depth_ = 0;
+  std::uint32_t opening_ = 0;  // of the innermost bracket
+  bool found_nothing_ = false;
 };
 
-// The ) of `whose`; tells when it is missing.
-void close_bracket(LineScanner& in, std::string_view whose);
+// Reports it at the scanner.
+void report(LineScanner& in, const ExpressionMistake& mistake, std::uint32_t start,
+            std::string_view name);
 
 }  // namespace frustum::parser

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
+#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
 
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/syntax_error.hpp"
@@ -13,34 +11,17 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
 
 }  // namespace
 
 LineScanner::LineScanner(std::string_view text, std::uint32_t line) : text_(text), line_(line) {}
 
-void LineScanner::skip_blanks() {
-  place_ = std::min(text_.find_first_not_of(kBlanks, place_), text_.size());
-}
-
 bool LineScanner::at_end() { return peek() == 0 && (failed() || place_ >= text_.size()); }
 
-char LineScanner::peek() {
-  if (failed()) return 0;
-  skip_blanks();
-  return peek_byte();
-}
-
-char LineScanner::peek_byte() const {
-  return failed() || place_ >= text_.size() ? '\0' : upper(text_[place_]);
-}
-
 bool LineScanner::take(char expected) {
-  if (at_end() || peek() != expected) return false;
+  if (peek() != expected || expected == 0) return false;
   ++place_;
   return true;
 }
@@ -53,6 +34,15 @@ bool LineScanner::take_sign(std::string_view expected) {
     go_to(start);
     return false;
   }
+  return true;
+}
+
+bool LineScanner::take_bytes(std::string_view expected) {
+  if (peek() != expected.front()) return false;
+  const std::string_view found = text_.substr(place_, expected.size());
+  const auto same = [](char wanted, char c) { return wanted == upper(c); };
+  if (!std::equal(expected.begin(), expected.end(), found.begin(), found.end(), same)) return false;
+  place_ += expected.size();
   return true;
 }
 
@@ -116,17 +106,30 @@ std::optional<ScannedNumber> LineScanner::number() {
     place_ = start;
     return std::nullopt;
   }
-  std::string digits(text_.substr(start, place_ - start));
-  if (comma) digits[digits.find(',')] = '.';
-  ScannedNumber found{0.0, point};
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), found.value);
+  const std::string_view digits = text_.substr(start, place_ - start);
+  if (!comma) return ScannedNumber{value_of(digits), point};
+  std::string pointed(digits);
+  pointed[pointed.find(',')] = '.';
+  return ScannedNumber{value_of(pointed), point};
+}
+
+std::optional<double> LineScanner::whole_number() {
+  const std::string_view found = digits();
+  if (found.empty()) return std::nullopt;
+  return value_of(found);
+}
+
+// Of the digits before the place.
+double LineScanner::value_of(std::string_view digits) {
+  double value = 0.0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   // Out of range is also what is too small, which is 0.
   if (read.ec == std::errc::result_out_of_range &&
-      std::isinf(std::strtod(digits.c_str(), nullptr))) {
-    fail("number-too-large"_id, static_cast<std::uint32_t>(start + 1), "the number is too large",
-         "numbers go up to 1.8e308");
+      digits.find_first_of("123456789") < std::min(digits.find('.'), digits.size())) {
+    fail("number-too-large"_id, static_cast<std::uint32_t>(place_ - digits.size() + 1),
+         "the number is too large", "numbers go up to 1.8e308");
   }
-  return found;
+  return value;
 }
 
 double LineScanner::signed_number(std::string_view whose, std::uint32_t whose_column) {
@@ -173,8 +176,11 @@ void LineScanner::fail(Diagnostic failure) {
 }
 
 void LineScanner::fail_unexpected(std::string hint) {
-  const std::string found = at_end() ? "the end of the block" : printable(text_[place_]);
-  fail("unexpected-character"_id, column(), "unexpected " + found, std::move(hint));
+  fail("unexpected-character"_id, column(), "unexpected " + next_shown(), std::move(hint));
+}
+
+std::string LineScanner::next_shown() {
+  return at_end() ? "the end of the block" : printable(text_[place_]);
 }
 
 Result<Block> LineScanner::finish(Block&& block) const {

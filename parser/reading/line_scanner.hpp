@@ -31,12 +31,20 @@ class LineScanner {
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] bool at_end();
   // The next character that is not blank, in upper case; 0 at the end.
-  [[nodiscard]] char peek();
+  [[nodiscard]] char peek() {
+    if (failed()) return 0;
+    skip_blanks();
+    return peek_byte();
+  }
   // Like peek(), but of the very next byte.
-  [[nodiscard]] char peek_byte() const;
+  [[nodiscard]] char peek_byte() const {
+    return failed() || place_ >= text_.size() ? '\0' : upper(text_[place_]);
+  }
   bool take(char expected);
   // All characters of the sign, or none.
   bool take_sign(std::string_view expected);
+  // The same without blanks between them, letters of either case.
+  bool take_bytes(std::string_view expected);
   // The whole name when it is `expected`.
   bool take_name(std::string_view expected);
   // A run of letters, in upper case; empty when there is none.
@@ -48,6 +56,8 @@ class LineScanner {
   [[nodiscard]] std::string_view digits();
   // A decimal number without a sign; nothing is taken when there is none.
   [[nodiscard]] std::optional<ScannedNumber> number();
+  // The same of digits alone.
+  [[nodiscard]] std::optional<double> whole_number();
   // [ + | - ] number; `whose` has no number when there is none.
   [[nodiscard]] double signed_number(std::string_view whose, std::uint32_t whose_column);
   // To the end of the line, or up to one of `stops`; blanks at both ends are left out.
@@ -64,11 +74,19 @@ class LineScanner {
   // One that knows its column.
   void fail(Diagnostic failure);
   void fail_unexpected(std::string hint);
+  [[nodiscard]] const Diagnostic& failure() const { return *failure_; }
+  // What comes next, as messages name it: "'x'", "byte 0x1A", "the end of the block".
+  [[nodiscard]] std::string next_shown();
   // The block, or the failure.
   [[nodiscard]] Result<Block> finish(Block&& block) const;
 
  private:
-  void skip_blanks();
+  static char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+  void skip_blanks() {
+    while (place_ < text_.size() && is_blank(text_[place_])) ++place_;
+  }
+  [[nodiscard]] double value_of(std::string_view digits);
 
   std::string_view text_;
   std::uint32_t line_ = 0;

@@ -14,9 +14,9 @@ std::span<const ExpressionStep> steps_of(const Block& block, ExpressionRange ran
   return std::span(block.steps).subspan(range.first, range.count);
 }
 
-std::string range_text(const ExpressionStyle& style, const Block& block, ExpressionRange range,
-                       ExpressionLevel level) {
-  return expression_text(style, steps_of(block, range), block.names, level);
+std::string range_text(const ExpressionSpelling& spelling, const Block& block,
+                       ExpressionRange range, ExpressionLevel level) {
+  return expression_text(spelling, steps_of(block, range), block.names, level);
 }
 
 std::string_view named_word(const Word& word) {

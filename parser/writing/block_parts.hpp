@@ -25,7 +25,7 @@ class SpacedText {
 
 [[nodiscard]] std::span<const ExpressionStep> steps_of(const Block& block, ExpressionRange range);
 
-[[nodiscard]] std::string range_text(const ExpressionStyle& style, const Block& block,
+[[nodiscard]] std::string range_text(const ExpressionSpelling& spelling, const Block& block,
                                      ExpressionRange range, ExpressionLevel level);
 
 // Of a word without a number; empty for others.

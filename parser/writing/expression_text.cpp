@@ -20,8 +20,8 @@ struct Piece {
 
 class ExpressionWriter {
  public:
-  ExpressionWriter(const ExpressionStyle& style, std::span<const std::string> names)
-      : style_(style), names_(names) {}
+  ExpressionWriter(const ExpressionSpelling& spelling, std::span<const std::string> names)
+      : spelling_(spelling), names_(names) {}
 
   void add(const ExpressionStep& step) {
     switch (step.operation) {
@@ -30,12 +30,13 @@ class ExpressionWriter {
       case Operation::named_parameter:
         return push(named(step), kPrimary);
       case Operation::exists:
-        return push(fmt::format("EXISTS{}{}{}", style_.call_open, named(step), style_.call_close),
-                    kPrimary);
+        return push(
+            fmt::format("EXISTS{}{}{}", spelling_.call_open, named(step), spelling_.call_close),
+            kPrimary);
       case Operation::parameter:
         return push(numbered(pop()), kPrimary);
       case Operation::negate:
-        return push("-" + at(pop(), style_.signs_chain ? kOperand : kPrimary), kOperand);
+        return push("-" + at(pop(), spelling_.signs_chain ? kOperand : kPrimary), kOperand);
       default:
         return apply(step.operation);
     }
@@ -46,12 +47,14 @@ class ExpressionWriter {
  private:
   void apply(Operation operation) {
     const auto does_it = [operation](const auto& row) { return row.operation == operation; };
-    const auto function = std::ranges::find_if(style_.functions, does_it);
-    if (function != style_.functions.end()) return call(*function);
-    const auto found = std::ranges::find_if(style_.operators, does_it);
-    if (found == style_.operators.end()) return;
+    const auto found = std::ranges::find_if(spelling_.operators, does_it);
+    if (found == spelling_.operators.end()) {
+      const auto function = std::ranges::find_if(spelling_.functions, does_it);
+      if (function != spelling_.functions.end()) call(*function);
+      return;
+    }
     const int level = static_cast<int>(found->level);
-    const bool chains = found->level != ExpressionLevel::comparison || style_.comparisons_chain;
+    const bool chains = found->level != ExpressionLevel::comparison || spelling_.comparisons_chain;
     const bool name = std::isalpha(static_cast<unsigned char>(found->spelling.front())) != 0;
     const std::string right = at(pop(), level + 1);
     const std::string left = at(pop(), chains ? level : level + 1);
@@ -60,30 +63,34 @@ class ExpressionWriter {
   }
 
   void call(const ExpressionFunction& function) {
-    std::string arguments;
-    for (int i = 0; i < function.arguments; ++i) {
-      const std::string argument = at(pop(), static_cast<int>(style_.argument));
-      arguments = i == 0 ? argument : argument + std::string(style_.argument_separator) + arguments;
+    const auto argument = [this] { return at(pop(), static_cast<int>(spelling_.argument)); };
+    std::string arguments = argument();
+    if (function.arguments != Arguments::one) {
+      const bool divided = function.arguments != Arguments::two;
+      const std::string first = argument();
+      arguments = divided ? fmt::format("{}{}/{}{}", first, spelling_.call_close,
+                                        spelling_.call_open, arguments)
+                          : fmt::format("{},{}", first, arguments);
     }
-    push(fmt::format("{}{}{}{}", function.name, style_.call_open, arguments, style_.call_close),
-         kPrimary);
+    const std::string_view open = spelling_.call_open.empty() ? " " : spelling_.call_open;
+    push(fmt::format("{}{}{}{}", function.name, open, arguments, spelling_.call_close), kPrimary);
   }
 
   [[nodiscard]] std::string at(const Piece& piece, int level) const {
     if (piece.level >= level) return piece.text;
-    return fmt::format("{}{}{}", style_.open, piece.text, style_.close);
+    return fmt::format("{}{}{}", spelling_.open, piece.text, spelling_.close);
   }
   [[nodiscard]] std::string named(const ExpressionStep& step) const {
-    return fmt::format("{}{}{}", style_.name_open, names_[static_cast<std::size_t>(step.number)],
-                       style_.name_close);
+    return fmt::format("{}{}{}", spelling_.name_open, names_[static_cast<std::size_t>(step.number)],
+                       spelling_.name_close);
   }
   // #1, ##1, #[#1+1], R[R1+1].
   [[nodiscard]] std::string numbered(const Piece& index) const {
-    const std::string_view sign = style_.plain_index;
+    const std::string_view sign = spelling_.plain_index;
     const bool digits = index.text.find_first_not_of("0123456789") == std::string::npos;
     const bool chain = index.level == kPrimary && index.text.starts_with(sign);
     if (!sign.empty() && (digits || chain)) return std::string(sign) + index.text;
-    return fmt::format("{}{}{}", style_.index_open, index.text, style_.index_close);
+    return fmt::format("{}{}{}", spelling_.index_open, index.text, spelling_.index_close);
   }
 
   void push(std::string text, int level) { stack_.push_back({std::move(text), level}); }
@@ -93,16 +100,17 @@ class ExpressionWriter {
     return top;
   }
 
-  const ExpressionStyle& style_;
+  const ExpressionSpelling& spelling_;
   std::span<const std::string> names_;
   std::vector<Piece> stack_;
 };
 
 }  // namespace
 
-std::string expression_text(const ExpressionStyle& style, std::span<const ExpressionStep> steps,
+std::string expression_text(const ExpressionSpelling& spelling,
+                            std::span<const ExpressionStep> steps,
                             std::span<const std::string> names, ExpressionLevel level) {
-  ExpressionWriter writer(style, names);
+  ExpressionWriter writer(spelling, names);
   for (const ExpressionStep& step : steps) writer.add(step);
   return writer.finish(static_cast<int>(level));
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "parser/reading/heidenhain/heidenhain_statements.hpp"
+#include "parser/dialects/expressions.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 
@@ -67,31 +67,19 @@ constexpr std::array kEvents{
     EventForm{"PLANE DIST", "DIST "},
 };
 
-ExpressionStyle style_with(std::span<const BinaryOperator> operators) {
-  return {.operators = operators,
-          .functions = heidenhain_expressions().functions,
-          .open = "(",
-          .close = ")",
-          .call_open = " ",
-          .argument = operand};
-}
-const ExpressionStyle& style() {
-  static const ExpressionStyle kStyle = style_with(heidenhain_expressions().operators);
-  return kStyle;
-}
-// The sides of a comparison are operands, as those of a power.
-const ExpressionStyle& comparing_style() {
-  static const std::vector<BinaryOperator> kOperators = [] {
-    const auto usual = heidenhain_expressions().operators;
-    std::vector<BinaryOperator> operators(usual.begin(), usual.end());
-    operators.insert(operators.end(), {{power, "EQU", Operation::equal},
-                                       {power, "NE", Operation::not_equal},
-                                       {power, "GT", Operation::greater},
-                                       {power, "LT", Operation::less}});
-    return operators;
-  }();
-  static const ExpressionStyle kStyle = style_with(kOperators);
-  return kStyle;
+const ExpressionSpelling& spelling() { return expressions_of(Dialect::heidenhain); }
+// The operators of FN: their sides are operands, as those of a power.
+constexpr std::array kFnOperators{BinaryOperator{power, "EQU", Operation::equal},
+                                  BinaryOperator{power, "NE", Operation::not_equal},
+                                  BinaryOperator{power, "GT", Operation::greater},
+                                  BinaryOperator{power, "LT", Operation::less},
+                                  BinaryOperator{power, "ANG", Operation::arc_tangent}};
+std::string fn_text(const Block& block, ExpressionRange range) {
+  ExpressionSpelling of_fn = spelling();
+  std::vector<BinaryOperator> operators(of_fn.operators.begin(), of_fn.operators.end());
+  operators.insert(operators.end(), kFnOperators.begin(), kFnOperators.end());
+  of_fn.operators = operators;
+  return range_text(of_fn, block, range, power);
 }
 
 std::string with_sign(std::string value) {
@@ -203,7 +191,7 @@ class KlartextBlock {
     const std::string name = word.spelled != nullptr ? word.spelled : std::string(1, word.letter);
     const std::string value = word.expression.empty()
                                   ? decimal_text(word.number)
-                                  : range_text(style(), block_, word.expression, operand);
+                                  : range_text(spelling(), block_, word.expression, operand);
     if (word.letter == 'T') return value;
     const bool bare = word.expression.empty() &&
                       std::string_view("FSMt").find(word.letter) != std::string_view::npos;
@@ -215,18 +203,13 @@ class KlartextBlock {
     const auto steps = steps_of(block_, setting.value);
     // The one computation that formulas do not have: the angle from 0 to 360 degrees.
     if (steps.back().operation == Operation::modulo) return angle_text(name, setting.value);
-    return fmt::format("{} = {}", name, range_text(style(), block_, setting.value, sum));
+    return fmt::format("{} = {}", name, range_text(spelling(), block_, setting.value, sum));
   }
 
   // FN 13: Q1 = +Q2 ANG +Q3, which ends with the operations of ANG and MOD 360.
   [[nodiscard]] std::string angle_text(const std::string& name, ExpressionRange range) const {
-    ExpressionStyle angle = style_with(comparing_style().operators);
-    constexpr std::array kAngle{BinaryOperator{power, "ANG", Operation::arc_tangent}};
-    std::vector<BinaryOperator> operators(angle.operators.begin(), angle.operators.end());
-    operators.insert(operators.end(), kAngle.begin(), kAngle.end());
-    angle.operators = operators;
     range.count -= 2;
-    return fmt::format("FN 13: {} = {}", name, range_text(angle, block_, range, power));
+    return fmt::format("FN 13: {} = {}", name, fn_text(block_, range));
   }
 
   [[nodiscard]] std::string flow_text(const FlowStatement& flow) const {
@@ -239,7 +222,7 @@ class KlartextBlock {
         return fmt::format("{} PGM \"{}.H\"", flow.by_cycle ? "CYCL DEF 12.1" : "CALL", flow.label);
       case FlowKind::repeat_part:
         return fmt::format("CALL LBL {} REP {}", label_text(flow.label),
-                           range_text(style(), block_, flow.condition, operand));
+                           range_text(spelling(), block_, flow.condition, operand));
       default:
         return jump_text(flow);
     }
@@ -251,8 +234,7 @@ class KlartextBlock {
                                       Operation::less};
     const Operation comparison = steps_of(block_, flow.condition).back().operation;
     const auto fn = 9 + (std::ranges::find(kComparisons, comparison) - kComparisons.begin());
-    return fmt::format("FN {}: IF {} GOTO LBL {}", fn,
-                       range_text(comparing_style(), block_, flow.condition, power),
+    return fmt::format("FN {}: IF {} GOTO LBL {}", fn, fn_text(block_, flow.condition),
                        label_text(flow.label));
   }
 

@@ -1,11 +1,9 @@
 // Fanuc and LinuxCNC: words, settings, comments, and the statements of each.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <string_view>
-#include <vector>
 
+#include "parser/dialects/expressions.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 
@@ -14,86 +12,12 @@ namespace {
 
 using enum ExpressionLevel;
 
-constexpr std::array kRs274Operators{
-    BinaryOperator{disjunction, "AND", Operation::logical_and},
-    BinaryOperator{disjunction, "OR", Operation::logical_or},
-    BinaryOperator{disjunction, "XOR", Operation::logical_xor},
-    BinaryOperator{comparison, "EQ", Operation::equal},
-    BinaryOperator{comparison, "NE", Operation::not_equal},
-    BinaryOperator{comparison, "GT", Operation::greater},
-    BinaryOperator{comparison, "GE", Operation::greater_or_equal},
-    BinaryOperator{comparison, "LT", Operation::less},
-    BinaryOperator{comparison, "LE", Operation::less_or_equal},
-    BinaryOperator{sum, "+", Operation::add},
-    BinaryOperator{sum, "-", Operation::subtract},
-    BinaryOperator{product, "*", Operation::multiply},
-    BinaryOperator{product, "/", Operation::divide},
-    BinaryOperator{product, "MOD", Operation::modulo},
-    BinaryOperator{power, "**", Operation::power},
-};
-// Those that differ in Custom Macro.
-constexpr std::array kMacroOperators{
-    BinaryOperator{sum, "OR", Operation::bit_or},
-    BinaryOperator{sum, "XOR", Operation::bit_xor},
-    BinaryOperator{product, "AND", Operation::bit_and},
-    BinaryOperator{product, "MOD", Operation::remainder},
-};
-
-std::vector<BinaryOperator> operators_of(Dialect dialect) {
-  if (dialect == Dialect::linuxcnc) return {kRs274Operators.begin(), kRs274Operators.end()};
-  std::vector<BinaryOperator> operators(kMacroOperators.begin(), kMacroOperators.end());
-  const auto is_name_of_macro = [](const BinaryOperator& known) {
-    return std::ranges::find(kMacroOperators, known.spelling, &BinaryOperator::spelling) !=
-           kMacroOperators.end();
-  };
-  std::ranges::remove_copy_if(kRs274Operators, std::back_inserter(operators), is_name_of_macro);
-  return operators;
-}
-
-std::vector<ExpressionFunction> functions_of(Dialect dialect) {
-  std::vector<ExpressionFunction> functions;
-  const auto add = [&](std::span<const FunctionName> names) {
-    for (const FunctionName& function : names) {
-      const int arguments = function.operation == Operation::arc_tangent ? 2 : 1;
-      functions.push_back({function.name, function.operation, arguments});
-    }
-  };
-  if (dialect == Dialect::fanuc) add(macro_function_names());
-  add(function_names());
-  return functions;
-}
-
-// With the rows that it points to.
-struct Style {
-  explicit Style(Dialect dialect)
-      : operators(operators_of(dialect)), functions(functions_of(dialect)) {
-    spelled = {.operators = operators,
-               .functions = functions,
-               .comparisons_chain = dialect == Dialect::linuxcnc,
-               .signs_chain = false,
-               .open = "[",
-               .close = "]",
-               .call_open = "[",
-               .call_close = "]",
-               .name_open = "#<",
-               .name_close = ">",
-               .index_open = "#[",
-               .index_close = "]",
-               .plain_index = "#",
-               .argument_separator = "]/["};
-  }
-  Style(const Style&) = delete;
-  Style& operator=(const Style&) = delete;
-
-  std::vector<BinaryOperator> operators;
-  std::vector<ExpressionFunction> functions;
-  ExpressionStyle spelled{};
-};
-
 class Rs274Block {
  public:
   Rs274Block(const Block& block, Dialect dialect)
-      : block_(block), style_(style_of(dialect)), linuxcnc_(dialect == Dialect::linuxcnc) {}
+      : block_(block),
+        spelling_(expressions_of(dialect)),
+        linuxcnc_(dialect == Dialect::linuxcnc) {}
 
   std::string operator()() {
     SpacedText text;
@@ -118,14 +42,8 @@ class Rs274Block {
   }
 
  private:
-  static const ExpressionStyle& style_of(Dialect dialect) {
-    static const Style kLinuxcnc(Dialect::linuxcnc);
-    static const Style kFanuc(Dialect::fanuc);
-    return (dialect == Dialect::linuxcnc ? kLinuxcnc : kFanuc).spelled;
-  }
-
   [[nodiscard]] std::string value_text(ExpressionRange range, ExpressionLevel level) const {
-    return range_text(style_, block_, range, level);
+    return range_text(spelling_, block_, range, level);
   }
   [[nodiscard]] std::string bracketed(ExpressionRange range) const {
     return "[" + value_text(range, disjunction) + "]";
@@ -232,7 +150,7 @@ class Rs274Block {
   }
 
   const Block& block_;
-  const ExpressionStyle& style_;
+  const ExpressionSpelling& spelling_;
   bool linuxcnc_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/reading/sinumerik/sinumerik_values.hpp"
+#include "parser/dialects/expressions.hpp"
 #include "parser/writing/block_parts.hpp"
 
 namespace frustum::parser {
@@ -46,7 +46,7 @@ class StatementWriter {
 
  private:
   [[nodiscard]] std::string text(ExpressionRange range, ExpressionLevel level) const {
-    return range_text(sinumerik_style(), block_, range, level);
+    return range_text(expressions_of(Dialect::sinumerik), block_, range, level);
   }
   [[nodiscard]] std::string condition() const { return text(flow_.condition, disjunction); }
 
@@ -114,20 +114,6 @@ class StatementWriter {
 };
 
 }  // namespace
-
-const ExpressionStyle& sinumerik_style() {
-  static const ExpressionStyle kStyle{.operators = sinumerik_expressions().operators,
-                                      .functions = sinumerik_expressions().functions,
-                                      .open = "(",
-                                      .close = ")",
-                                      .call_open = "(",
-                                      .call_close = ")",
-                                      .index_open = "R[",
-                                      .index_close = "]",
-                                      .argument = sum,
-                                      .argument_separator = ","};
-  return kStyle;
-}
 
 std::string_view sinumerik_measure(Measure measure) {
   switch (measure) {

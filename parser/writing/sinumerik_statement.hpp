@@ -1,4 +1,4 @@
-// How Sinumerik writes expressions, and which block comes next: IF, FOR, GOTOF, CASE, calls, PROC.
+// How Sinumerik writes which block comes next: IF, FOR, GOTOF, CASE, calls, PROC.
 //
 // Units : as written
 // Errors: none
@@ -8,11 +8,9 @@
 #include <string_view>
 
 #include "parser/language/block.hpp"
-#include "parser/writing/expression_text.hpp"
 
 namespace frustum::parser {
 
-[[nodiscard]] const ExpressionStyle& sinumerik_style();
 // AC, IC, DC; empty for a plain value.
 [[nodiscard]] std::string_view sinumerik_measure(Measure measure);
 // REAL, INT, BOOL

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "parser/dialects/expressions.hpp"
 #include "parser/reading/sinumerik/sinumerik_cycle.hpp"
-#include "parser/reading/sinumerik/sinumerik_values.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 #include "parser/writing/sinumerik_statement.hpp"
@@ -62,7 +62,8 @@ std::string comment_text(const Comment& comment) {
 
 class SinumerikBlock {
  public:
-  explicit SinumerikBlock(const Block& block) : block_(block), style_(sinumerik_style()) {}
+  explicit SinumerikBlock(const Block& block)
+      : block_(block), spelling_(expressions_of(Dialect::sinumerik)) {}
 
   std::string operator()() const {
     if (block_.tape_mark) return head_text();
@@ -96,7 +97,7 @@ class SinumerikBlock {
   [[nodiscard]] std::string value_text(const Word& word) const {
     const std::string value = word.expression.empty()
                                   ? decimal_text(word.number)
-                                  : range_text(style_, block_, word.expression, sum);
+                                  : range_text(spelling_, block_, word.expression, sum);
     const std::string_view measure = sinumerik_measure(word.measure);
     return measure.empty() ? value : fmt::format("{}({})", measure, value);
   }
@@ -169,15 +170,16 @@ class SinumerikBlock {
       } else if (!text.empty()) {
         text += ' ';
       }
-      text += setting.name ? block_.names[*setting.name]
-                           : fmt::format("R[{}]", range_text(style_, block_, setting.index, sum));
-      text += "=" + range_text(style_, block_, setting.value, disjunction);
+      text += setting.name
+                  ? block_.names[*setting.name]
+                  : fmt::format("R[{}]", range_text(spelling_, block_, setting.index, sum));
+      text += "=" + range_text(spelling_, block_, setting.value, disjunction);
     }
     return text;
   }
 
   const Block& block_;
-  const ExpressionStyle& style_;
+  const ExpressionSpelling& spelling_;
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ void read_heidenhain_cycle(BlockDraft& draft, std::uint32_t column);
 // control are left out.
 void read_heidenhain_program_call(BlockDraft& draft, bool by_cycle);
 
-[[nodiscard]] const ExpressionSpelling& heidenhain_expressions();
+[[nodiscard]] const ExpressionRules& heidenhain_expressions();
 // Q1, QL1, QR1
 [[nodiscard]] bool is_q_parameter(std::string_view name);
 // A word with [ + | - ] and a number or a parameter.

@@ -1,36 +1,16 @@
 // What the statements of Klartext share: values, Q parameters, the end of a statement.
 #include <fmt/format.h>
 
-#include <array>
 #include <numbers>
 
 #include "parser/dialects/code_table.hpp"
+#include "parser/dialects/expressions.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
 namespace frustum::parser {
 namespace {
 
 using enum ExpressionLevel;
-
-constexpr std::array kOperators{
-    BinaryOperator{sum, "+", Operation::add},
-    BinaryOperator{sum, "-", Operation::subtract},
-    BinaryOperator{product, "*", Operation::multiply},
-    BinaryOperator{product, "/", Operation::divide},
-    BinaryOperator{power, "^", Operation::power},
-};
-constexpr std::array kFunctions{
-    ExpressionFunction{"SIN", Operation::sine},
-    ExpressionFunction{"COS", Operation::cosine},
-    ExpressionFunction{"TAN", Operation::tangent},
-    ExpressionFunction{"ASIN", Operation::arc_sine},
-    ExpressionFunction{"ACOS", Operation::arc_cosine},
-    ExpressionFunction{"SQRT", Operation::square_root},
-    ExpressionFunction{"ABS", Operation::absolute},
-    ExpressionFunction{"INT", Operation::truncate},
-    ExpressionFunction{"LN", Operation::logarithm},
-    ExpressionFunction{"EXP", Operation::exponential},
-};
 
 bool read_variable(ExpressionReader& reader, const std::string& name, std::uint32_t column) {
   if (name == "PI") {
@@ -54,25 +34,29 @@ bool read_variable(ExpressionReader& reader, const std::string& name, std::uint3
   return true;
 }
 
-constexpr ExpressionSpelling kSpelling{
-    .operators = kOperators,
-    .functions = kFunctions,
-    .functions_have_brackets = false,
-    .in_brackets = sum,
-    .read_variable = read_variable,
-    .no_operand = "this is no parameter",
-    .no_operand_hint = "parameters are Q1, QL1 and QR1",
-    .unknown_operand = "{} is no parameter and no function",
-    .unknown_operand_hint =
-        "parameters are Q1, QL1 and QR1; functions SIN COS TAN ASIN ACOS SQ SQRT LN EXP NEG ABS "
-        "INT; and PI",
-    .too_deep_hint = "compute a part before",
-    .open_bracket_is_told = true,
-};
-
 }  // namespace
 
-const ExpressionSpelling& heidenhain_expressions() { return kSpelling; }
+const ExpressionRules& heidenhain_expressions() {
+  static const ExpressionMistake kNoParameter{"value-missing"_id, "this is no parameter",
+                                              "parameters are Q1, QL1 and QR1"};
+  static const ExpressionMistake kNotClosed{"bracket-not-closed"_id, "the bracket is not closed",
+                                            "close it with )", true};
+  static const ExpressionRules kRules{
+      .spelling = expressions_of(Dialect::heidenhain),
+      .read_variable = read_variable,
+      .no_operand = kNoParameter,
+      .no_operand_at_end = kNoParameter,
+      .unknown_operand = {"unknown-word"_id, "{name} is no parameter and no function",
+                          "parameters are Q1, QL1 and QR1; functions SIN COS TAN ASIN ACOS SQ SQRT "
+                          "LN EXP NEG ABS INT; and PI",
+                          true},
+      .not_closed = kNotClosed,
+      .not_closed_at_end = kNotClosed,
+      .too_deep = {"brackets-too-deep"_id, "too many brackets within each other",
+                   "compute a part before"},
+  };
+  return kRules;
+}
 
 bool is_q_parameter(std::string_view name) {
   const std::size_t digits = name.find_first_of("0123456789");

@@ -11,6 +11,7 @@
 #include "parser/reading/line_scanner.hpp"
 #include "parser/reading/rs274/grammar.hpp"
 #include "parser/reading/rs274/plain_block.hpp"
+#include "parser/reading/rs274/rs274_values.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -143,7 +144,7 @@ class MacroReader {
     std::string text(text_);
     std::fill(text.begin() + static_cast<std::ptrdiff_t>(start_),
               text.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
-    auto read = parse_block(text, block_.line, Arithmetic::custom_macro);
+    auto read = parse_block(text, block_.line, Dialect::fanuc);
     if (!read || !read->tape_mark) return read;
     in_.fail_unexpected("% stands alone on its line");
     return in_.finish(std::move(block_));
@@ -200,7 +201,8 @@ class MacroReader {
     return "0";
   }
   void read_expression(ExpressionRange& range) {
-    append_rs274_expression(in_, block_, range, Arithmetic::custom_macro);
+    ExpressionReader reader(in_, block_, rs274_expressions(Dialect::fanuc));
+    range = reader.read(ExpressionLevel::operand);
   }
 
   std::string_view text_;
@@ -269,7 +271,7 @@ Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
     return twice;
   }
   const std::size_t start = statement_start(text);
-  if (start == std::string_view::npos) return parse_block(text, line, Arithmetic::custom_macro);
+  if (start == std::string_view::npos) return parse_block(text, line, Dialect::fanuc);
   return MacroReader(text, line, start)();
 }
 

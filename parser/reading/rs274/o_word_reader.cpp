@@ -13,6 +13,7 @@
 #include "parser/reading/rs274/blank_free_text.hpp"
 #include "parser/reading/rs274/grammar.hpp"
 #include "parser/reading/rs274/plain_block.hpp"
+#include "parser/reading/rs274/rs274_values.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -139,7 +140,8 @@ class OWordReader {
   }
 
   bool read_expression(ExpressionRange& range) {
-    append_rs274_expression(in_, block_, range);
+    ExpressionReader reader(in_, block_, rs274_expressions(Dialect::linuxcnc));
+    range = reader.read(ExpressionLevel::operand);
     return !in_.failed();
   }
 

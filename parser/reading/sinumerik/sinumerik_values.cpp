@@ -6,45 +6,13 @@
 #include <array>
 #include <numbers>
 
+#include "parser/dialects/expressions.hpp"
+
 namespace frustum::parser {
 namespace {
 
 using enum ExpressionLevel;
 
-constexpr std::array kOperators{
-    BinaryOperator{disjunction, "OR", Operation::logical_or},
-    BinaryOperator{disjunction, "XOR", Operation::logical_xor},
-    BinaryOperator{conjunction, "AND", Operation::logical_and},
-    BinaryOperator{comparison, "==", Operation::equal},
-    BinaryOperator{comparison, "<>", Operation::not_equal},
-    BinaryOperator{comparison, "<=", Operation::less_or_equal},
-    BinaryOperator{comparison, "<", Operation::less},
-    BinaryOperator{comparison, ">=", Operation::greater_or_equal},
-    BinaryOperator{comparison, ">", Operation::greater},
-    BinaryOperator{sum, "+", Operation::add},
-    BinaryOperator{sum, "-", Operation::subtract},
-    BinaryOperator{product, "*", Operation::multiply},
-    BinaryOperator{product, "/", Operation::divide},
-    BinaryOperator{product, "MOD", Operation::modulo},
-    BinaryOperator{product, "DIV", Operation::whole_quotient},
-};
-constexpr std::array kFunctions{
-    ExpressionFunction{"SIN", Operation::sine},
-    ExpressionFunction{"COS", Operation::cosine},
-    ExpressionFunction{"TAN", Operation::tangent},
-    ExpressionFunction{"ASIN", Operation::arc_sine},
-    ExpressionFunction{"ACOS", Operation::arc_cosine},
-    ExpressionFunction{"ATAN2", Operation::arc_tangent, 2},
-    ExpressionFunction{"SQRT", Operation::square_root},
-    ExpressionFunction{"ABS", Operation::absolute},
-    ExpressionFunction{"ROUND", Operation::round},
-    ExpressionFunction{"LN", Operation::logarithm},
-    ExpressionFunction{"EXP", Operation::exponential},
-    ExpressionFunction{"TRUNC", Operation::truncate},
-    ExpressionFunction{"ROUNDUP", Operation::fup},
-    ExpressionFunction{"MINVAL", Operation::least, 2},
-    ExpressionFunction{"MAXVAL", Operation::greatest, 2},
-};
 struct Constant {
   std::string_view name;
   double value;
@@ -123,20 +91,6 @@ bool read_variable(ExpressionReader& reader, const std::string& name, std::uint3
   return true;
 }
 
-constexpr ExpressionSpelling kSpelling{
-    .operators = kOperators,
-    .functions = kFunctions,
-    .negation = "NOT",
-    .read_variable = read_variable,
-    .no_operand = "a number is missing",
-    .no_operand_hint = "write a number, an R parameter, a function or an expression in ( )",
-    .unknown_operand = "unknown operand {}",
-    .unknown_operand_hint =
-        "known are R parameters, variables of DEF and functions such as SIN(30)",
-    .too_deep_hint = "compute a part into an R parameter",
-    .single_equals_hint = "compare by ==",
-};
-
 struct MeasureName {
   std::string_view name;
   Measure measure;
@@ -148,7 +102,36 @@ constexpr std::array kMeasures{
 
 }  // namespace
 
-const ExpressionSpelling& sinumerik_expressions() { return kSpelling; }
+const ExpressionRules& sinumerik_expressions() {
+  static const ExpressionMistake kNoNumber{
+      "value-missing"_id, "a number is missing",
+      "write a number, an R parameter, a function or an expression in ( )"};
+  static const ExpressionRules kRules{
+      .spelling = expressions_of(Dialect::sinumerik),
+      .read_variable = read_variable,
+      .no_operand = kNoNumber,
+      .no_operand_at_end = kNoNumber,
+      .unknown_operand = {"unknown-word"_id, "unknown operand {name}",
+                          "known are R parameters, variables of DEF and functions such as SIN(30)",
+                          true},
+      .no_call_bracket = {"bracket-missing"_id, "{name} needs its argument in ( )",
+                          "write for example SIN(30)"},
+      .no_second_argument = {"argument-count"_id, "{name} needs two values", "write {name}(y,x)"},
+      .not_closed = {"unexpected-character"_id, "unexpected {found}", "close the bracket with )"},
+      .not_closed_at_end = {"bracket-not-closed"_id, "the bracket of {name} is not closed",
+                            "close it with )"},
+      .too_deep = {"brackets-too-deep"_id, "too many brackets within each other",
+                   "compute a part into an R parameter"},
+      .single_equals_hint = "compare by ==",
+  };
+  return kRules;
+}
+
+void close_bracket(LineScanner& in, std::string_view whose) {
+  if (in.take(')')) return;
+  const ExpressionRules& rules = sinumerik_expressions();
+  report(in, in.at_end() ? rules.not_closed_at_end : rules.not_closed, in.column(), whose);
+}
 
 bool is_r_parameter(std::string_view name) {
   return name.size() > 1 && name.front() == 'R' &&

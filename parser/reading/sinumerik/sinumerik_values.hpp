@@ -11,7 +11,9 @@
 
 namespace frustum::parser {
 
-[[nodiscard]] const ExpressionSpelling& sinumerik_expressions();
+[[nodiscard]] const ExpressionRules& sinumerik_expressions();
+// The ) of `whose`; tells when it is missing.
+void close_bracket(LineScanner& in, std::string_view whose);
 
 // R and digits.
 [[nodiscard]] bool is_r_parameter(std::string_view name);
