@@ -1,9 +1,10 @@
-// Where the axes stand during an operation: linear axes on the left scale, rotary axes on the right.
+// Where the axes are during an operation: linear axes on the left scale, rotary axes on the right.
 import Plotly from './plotly.js';
 import {onTheme, theme} from './theme.js';
 
 export function drawAxes(element, trace) {
   const isCone = trace.abscissa_kind === 'cone_angle';
+  const blocks = trace.abscissa.at(-1);
   const hasRotary = trace.axes.some((series) => series.rotary);
   const colourIndex = (k) => k % theme().series.length;
   const key = document.createElement('span');
@@ -38,7 +39,7 @@ export function drawAxes(element, trace) {
       hoverlabel: {bgcolor: t.paper, font: {color: t.ink}},
       showlegend: false,
       xaxis: {...axis, title: title(isCone ? 'Cone angle φ, degrees' : 'Block'),
-              ...(isCone ? {dtick: 45} : {})},
+              ...(isCone ? {dtick: 45} : blocks <= 10 ? {dtick: 1} : {})},
       yaxis: {...axis, title: title('Linear axes, mm'), nticks: 7},
       yaxis2: {...axis, title: title('Rotary axes, degrees'), overlaying: 'y', side: 'right',
                showgrid: false, nticks: 7},

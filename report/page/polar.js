@@ -75,6 +75,9 @@ export function drawPolar(element, chart) {
     text.push('');
   }
   const ticks = Array.from({length: 2 * rings + 1}, (_, k) => (k - rings) * division);
+  // Beside three rings there is room for the number of every other one.
+  const tickLabel = (v, k) => rings > 2 && (k - rings) % 2 !== 0 ? '' :
+      (v > 0 ? '+' : v < 0 ? '−' : '') + tickText(Math.abs(v), division);
   const scale = element.closest('figure').querySelector('.scale');
 
   onTheme(() => {
@@ -97,7 +100,7 @@ export function drawPolar(element, chart) {
         bgcolor: 'rgba(0,0,0,0)',
         radialaxis: {...axis, range: [0, outer], angle: 15, tickangle: 15, showline: false,
                      ticks: '', tickvals: ticks.map((v) => reference + v),
-                     ticktext: ticks.map((v) => (v > 0 ? '+' : v < 0 ? '−' : '') + tickText(Math.abs(v), division)),
+                     ticktext: ticks.map(tickLabel),
                      tickfont: {size: 10, color: t.faint}},
         angularaxis: {...axis, rotation: 0, direction: 'counterclockwise', dtick: 30,
                       ticksuffix: '°', tickfont: {size: 11, color: t.faint}},

@@ -95,7 +95,25 @@ function addLights(scene, camera) {
   scene.add(camera);
 }
 
-// Says in `reading` what lies under a click: nearest corner of the triangle that was hit.
+// From how far the camera sees all corners of the box, with a margin; `back` points from its centre
+// to the camera.
+function distanceOf(box, back, camera) {
+  const margin = 1.06;
+  const right = new three.Vector3().crossVectors(camera.up, back).normalize();
+  const up = new three.Vector3().crossVectors(back, right);
+  const half = box.getSize(new three.Vector3()).multiplyScalar(margin / 2);
+  const slope = Math.tan(camera.fov / 2 * Math.PI / 180);
+  let distance = 0;
+  for (let k = 0; k < 8; ++k) {
+    const signs = new three.Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    const corner = signs.multiply(half);
+    const aside = Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / camera.aspect);
+    distance = Math.max(distance, corner.dot(back) + aside / slope);
+  }
+  return distance;
+}
+
+// Says in `reading` what is under a click: nearest corner of the triangle that was hit.
 function readDeviations(element, camera, mesh, model, reading) {
   let pressed = null;
   element.addEventListener('pointerdown', (event) => pressed = [event.clientX, event.clientY]);
@@ -145,12 +163,12 @@ export async function drawSurface(element, surface) {
   const controls = new OrbitControls(camera, renderer.domElement);
   const box = model.geometry.boundingBox;
   const center = box.getCenter(new three.Vector3());
-  const radius = box.getSize(new three.Vector3()).length() / 2;
   const render = () => renderer.render(scene, camera);
 
   const look = (name) => {
-    const distance = radius * 0.76 / Math.sin(camera.fov / 2 * Math.PI / 180);
-    camera.position.set(...VIEWS[name]).normalize().multiplyScalar(distance).add(center);
+    const back = new three.Vector3(...VIEWS[name]).normalize();
+    const distance = distanceOf(box, back, camera);
+    camera.position.copy(back).multiplyScalar(distance).add(center);
     camera.near = distance / 100;
     camera.far = distance * 10;
     camera.updateProjectionMatrix();
