@@ -31,7 +31,7 @@ constexpr std::array kRules{
             "the program ends without M30 or M2", "end it with M30"},
     EndRule{Check::end_tip_control,
             [](const MotionState& state, const ModalState&) { return state.modes.tip_control(); },
-            "the program ends with the tool-centre-point control on",
+            "the program ends with the tool centre point control on",
             "switch it off before the end: G49, M429, TRAFOOF, M129"},
     EndRule{Check::end_incremental,
             [](const MotionState&, const ModalState& modes) {

@@ -1,4 +1,4 @@
-// The modes that a program leaves behind for the next one.
+// The modes that a program leaves for the next one.
 //
 // Units : mm
 // Errors: none

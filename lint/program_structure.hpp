@@ -14,7 +14,7 @@
 
 namespace frustum::lint {
 
-// Lines with a syntax error: the run need not tell them again.
+// Lines with a syntax error: the run need not report them again.
 using WrongLines = std::set<std::uint32_t>;
 WrongLines check_structure(const parser::Program& program, FindingList& findings);
 

@@ -48,7 +48,7 @@ void check_tip_control(const CuttingMove& move, const MotionState& state, Dialec
   findings.raise(
       Check::tip_control_off, state.compensation_changes, move.place,
       [&] {
-        return Words{fmt::format("{} and {} cut together with the tool-centre-point control off",
+        return Words{fmt::format("{} and {} cut together with the tool centre point control off",
                                  to_char(*linear), to_char(*rotary)),
                      fmt::format("switch it on by {}, unless the words are positions of the axes "
                                  "for this very machine and tool",
@@ -67,7 +67,7 @@ void check_rotary_with_length(const parser::Motion& motion, const MotionState& s
   const auto rotary = moving_axis(state.position, *target, true);
   if (!rotary || linear_axis_moves(state.position, *target)) return;
   findings.raise(Check::rotary_with_length, state.compensation_changes, motion.place, [&] {
-    return Words{fmt::format("{} turns with a tool length in force and the tool-centre-point "
+    return Words{fmt::format("{} turns with a tool length in force and the tool centre point "
                              "control off: the tip does not stay where it is on the part",
                              to_char(*rotary)),
                  fmt::format("switch it on by {}, or give the work offset of the new position",

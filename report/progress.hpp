@@ -17,7 +17,7 @@ enum class ProgressStyle { silent, log, bar };
 
 class Progress {
  public:
-  // Seconds from any fixed program_state; never runs backwards.
+  // Seconds from any fixed instant; never runs backwards.
   using Clock = std::function<double()>;
 
   // Writes to `out`, which must outlive the progress.

@@ -43,7 +43,7 @@ struct AxisSeries {
 
 enum class Abscissa { cone_angle, block };
 
-// Where the axes stand during one operation ("cone", "cylinder").
+// Where the axes are during one operation ("cone", "cylinder").
 struct AxisTrace {
   std::string operation{};
   Abscissa abscissa_kind = Abscissa::cone_angle;

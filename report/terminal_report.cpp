@@ -52,7 +52,7 @@ class Page {
     line(bold(content));
   }
 
-  // `label`, then `content` wrapped at words and indented behind the label.
+  // `label`, then `content` wrapped at words and indented after the label.
   void labelled(const std::string& label, const std::string& content) {
     std::string current = label;
     std::size_t used = columns_of(label);
@@ -181,7 +181,7 @@ void write_cycle(Page& page, const RunReport& report) {
   if (report.slowed.empty()) return;
   page.line(fmt::format("  {} block{} slowed by axis limits", report.slowed.size(),
                         report.slowed.size() == 1 ? "" : "s"));
-  // The worst tell the story.
+  // The worst are enough; the JSON document has them all.
   const std::size_t shown = std::min<std::size_t>(report.slowed.size(), 5);
   for (std::size_t k = 0; k < shown; ++k) {
     const SlowedBlock& block = report.slowed[k];

@@ -12,7 +12,7 @@
 namespace frustum::report {
 
 struct TerminalOptions {
-  bool colour = false;          // ANSI colours for PASS and FAIL, bold approach_directions
+  bool colour = false;          // ANSI colours for PASS and FAIL, bold headings
   int width = 80;               // columns; longer texts wrap, at least 60
   std::size_t list_limit = 10;  // collisions and diagnostics of one kind before "and N more"
 };

@@ -9,7 +9,7 @@
 
 namespace frustum::report {
 
-// uncertain: the limit is within the uncertainty, where a decision rule tells that apart.
+// uncertain: the limit is within the uncertainty, where a decision rule makes that difference.
 enum class Outcome { pass, fail, uncertain, not_measured };
 
 [[nodiscard]] Outcome outcome_of(const metrology::CharacteristicResult& characteristic);

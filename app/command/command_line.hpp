@@ -59,7 +59,7 @@ class Command {
   // One of the commands within must be given.
   void needs_a_command();
 
-  // A name with dashes, or several ("-o,--out"), or none for a value that stands alone. For
+  // A name with dashes, or several ("-o,--out"), or none for a value without a name. For
   // std::string, double, int, unsigned, std::uint64_t, each of them optional, and
   // std::vector<std::string>, which may be repeated. The target outlives the command line.
   template <typename Target>

@@ -5,8 +5,16 @@
 // Errors : those of the command line (command_line.hpp); each command reports its own on stderr
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "core/result.hpp"
+
+namespace frustum::kinematics {
+class Machine;
+}  // namespace frustum::kinematics
 
 namespace frustum::app {
 
@@ -36,6 +44,21 @@ void add_volumetric(Command& program);
 // Kinds of test pieces: commands of `program`.
 void add_cone(Command& kinds);
 void add_step(Command& kinds);
+
+// Writes the files of a test piece for a machine that is in a file; returns their names.
+using WritesPiece = std::function<Result<std::vector<std::filesystem::path>>(
+    const kinematics::Machine& machine, const std::filesystem::path& machine_file)>;
+// Finds the machine by its name, writes the piece and prints the names of its files; returns the
+// exit code.
+int write_piece(const std::string& machine, const WritesPiece& write);
+// The options that all kinds have: --machine, --out, --dialect.
+struct PieceOptions {
+  std::string machine{};
+  std::string out{};
+  std::string dialect = "fanuc";
+};
+// `files` says what is written to --out.
+void add_piece_options(Command& kind, PieceOptions& options, const std::string& files);
 
 // The options by which a command takes errors: --error, --errors, --draw.
 void add_error_options(Command& command, ErrorWords& words);

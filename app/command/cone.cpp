@@ -1,28 +1,24 @@
 // frustum program cone: writes a cone test piece.
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
-#include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
-#include "app/view/console.hpp"
 #include "programs/cone/cone_frustum.hpp"
 #include "programs/test_piece_files.hpp"
 
 namespace frustum::app {
 namespace {
 
+using kinematics::Machine;
 using programs::ConeFrustum;
+namespace fs = std::filesystem;
 
 // What was given on the command line; the rest comes from the preset.
-struct ConeOptions {
-  std::string machine{};
-  std::string out{};
+struct ConeOptions : PieceOptions {
   std::string preset = "inclined";
-  std::string dialect = "fanuc";
   std::string form{};  // vector, where the dialect has vectors
   std::string limits = "nas979";
   std::string center{};
@@ -65,20 +61,14 @@ Result<ConeFrustum> cone_of(const ConeOptions& o) {
   return cone;
 }
 
-int write_cone(const ConeOptions& options) {
-  const auto machine_file = find_machine(options.machine, ".");
-  if (!machine_file) return refuse(machine_file.error());
-  const auto machine = kinematics::Machine::load(*machine_file);
-  if (!machine) return refuse(machine.error());
+Result<std::vector<fs::path>> write_cone(const ConeOptions& options, const Machine& machine,
+                                         const fs::path& machine_file) {
   const auto cone = cone_of(options);
-  if (!cone) return refuse(cone.error());
+  if (!cone) return cone.error();
   const auto piece =
-      programs::cone_frustum(*cone, *machine, *parser::dialect_named(options.dialect));
-  if (!piece) return refuse(piece.error());
-  const auto files = programs::write_test_piece(*piece, *machine_file, options.out);
-  if (!files) return refuse(files.error());
-  for (const auto& file : *files) std::cout << file.string() << '\n';
-  return kDone;
+      programs::cone_frustum(*cone, machine, *parser::dialect_named(options.dialect));
+  if (!piece) return piece.error();
+  return programs::write_test_piece(*piece, machine_file, options.out);
 }
 
 }  // namespace
@@ -87,9 +77,7 @@ void add_cone(Command& kinds) {
   auto o = std::make_shared<ConeOptions>();
   Command cone = kinds.command(
       "cone", "The cone frustum test: NAS 979, or an inclined cone with cylinder and groove");
-  cone.option("--machine", o->machine, "Machine file, or the name of a shipped machine").required();
-  cone.option("--out", o->out, "Folder for job.toml, cone.nc (.ngc, .mpf, .h) and cone.plan.toml")
-      .required();
+  add_piece_options(cone, *o, "job.toml, cone.nc (.ngc, .mpf, .h) and cone.plan.toml");
   cone.option("--preset", o->preset, "inclined (default) or nas979: what the options start from")
       .one_of({"inclined", "nas979"});
   cone.option("--cone-angle", o->cone_angle, "Half apex angle, deg (45)");
@@ -111,13 +99,14 @@ void add_cone(Command& kinds) {
               "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
               "positions)")
       .one_of({"vector", "angles", "axes"});
-  cone.option("--dialect", o->dialect,
-              "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
-      .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
   cone.option("--limits", o->limits, "nas979, or tenth: a tenth of its limits")
       .one_of({"nas979", "tenth"});
   cone.footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");
-  cone.runs([o] { return write_cone(*o); });
+  cone.runs([o] {
+    return write_piece(o->machine, [&o](const Machine& machine, const fs::path& file) {
+      return write_cone(*o, machine, file);
+    });
+  });
 }
 
 }  // namespace frustum::app

@@ -1,5 +1,5 @@
-// frustum cut: the workpiece at any program_state as a mesh and a picture, and what the program did
-// to it.
+// frustum cut: the workpiece at any state of the program as a mesh and a picture, and what the
+// program did to it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -219,7 +219,7 @@ class Cut {
     return std::nullopt;
   }
 
-  // What tells the deviations of a sharp edge's faces apart: a nominal mesh does not.
+  // What separates the deviations of a sharp edge's faces: a nominal mesh does not.
   [[nodiscard]] metrology::InspectionPlan edge_plan() const {
     return job_.nominal ? metrology::InspectionPlan{} : job_.piece.plan;
   }
@@ -227,7 +227,7 @@ class Cut {
   void describe(const Meshed& meshed) {
     const stock::SurfaceMesh& mesh = meshed.mesh;
     const stock::SurfaceMesh& judged = meshed.whole ? *meshed.whole : mesh;
-    // A faceted vertex is looked up where it stands, as far off the exact surface as it may be.
+    // A faceted vertex is looked up where it is, as far off the exact surface as it may be.
     const Mm near{std::max(1e-3, meshed.bound.value_or(Mm{}).value)};
     CutSurface surface{.vertices = mesh.vertices.size(),
                        .triangles = mesh.triangles.size(),
@@ -369,7 +369,7 @@ void add_options(Command& command, CutOptions& o) {
 
 void add_cut(Command& program) {
   auto options = std::make_shared<CutOptions>();
-  Command command = program.command("cut", "Cut a job and write the workpiece at any moment");
+  Command command = program.command("cut", "Cut a job and write the workpiece after any block");
   add_options(command, *options);
   command.footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
   command.runs([command, options] {

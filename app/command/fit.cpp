@@ -119,7 +119,7 @@ ordered_json certificate_json(const metrology::Certificate& certificate) {
           {"gap", certificate.gap}};
 }
 
-// Of fits that tell how well their points determine the parameters.
+// Of fits that report how well their points determine the parameters.
 template <typename Fit>
 void add_condition(ordered_json& json, const Fit& fit) {
   if constexpr (requires { fit.condition; }) json["condition"] = fit.condition;

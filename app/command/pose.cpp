@@ -111,7 +111,7 @@ int forward(const PoseOptions& options, const Machine& machine,
   const Pose nominal = nominal_pose(machine, *q, options.tool_length);
   const Pose actual = actual_pose(machine, errors, {*q, *heading}, options.tool_length);
   const ToolPose n = kinematics::tool_pose(nominal), a = kinematics::tool_pose(actual);
-  // The rotation that carries the nominal tool frame to the actual one, as a vector in the table
+  // The rotation from the nominal tool frame to the actual one, as a vector in the table
   // frame.
   const Eigen::AngleAxisd turn(actual.rotation * nominal.rotation.transpose());
   const Vec3 turned = turn.angle() * turn.axis() * kUradPerRad;
@@ -126,15 +126,15 @@ int forward(const PoseOptions& options, const Machine& machine,
     return kDone;
   }
   const auto row = [](const char* name, const Vec3& v, const char* unit) {
-    std::cout << fmt::format("{:<14} {:>16.9f} {:>16.9f} {:>16.9f} {}\n", name, v.x(), v.y(), v.z(),
+    std::cout << fmt::format("{:<22} {:>16.9f} {:>16.9f} {:>16.9f} {}\n", name, v.x(), v.y(), v.z(),
                              unit);
   };
   row("nominal tip", n.tip, "mm");
   row("nominal axis", n.axis, "");
   row("actual tip", a.tip, "mm");
   row("actual axis", a.axis, "");
-  row("error of tip", (a.tip - n.tip) * kUmPerMm, "um");
-  row("error turned", turned, "urad");
+  row("tip position error", (a.tip - n.tip) * kUmPerMm, "um");
+  row("tool orientation error", turned, "urad");
   return kDone;
 }
 

@@ -109,7 +109,7 @@ void add_post(Command& program) {
   command
       .option("--output", o->form,
               "tcp: tip and rotary axes (default); vectors: tip and tool vector; axes: axis "
-              "positions, tool-centre-point control off")
+              "positions, tool centre point control off")
       .one_of({"tcp", "vectors", "axes"});
   command.option("--arcs", o->arcs, "keep (default, where the machine can) or none")
       .one_of({"keep", "none"});

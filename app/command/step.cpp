@@ -1,14 +1,11 @@
 // frustum program step: writes a step pattern test piece and its setup sheet.
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
-#include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
-#include "app/view/console.hpp"
 #include "app/view/step_sheet.hpp"
 #include "programs/step/step_pattern.hpp"
 #include "programs/test_piece_files.hpp"
@@ -16,13 +13,12 @@
 namespace frustum::app {
 namespace {
 
+using kinematics::Machine;
 using programs::StepTest;
+namespace fs = std::filesystem;
 
 // What was given on the command line; the rest comes from the workpiece.
-struct StepOptions {
-  std::string machine{};
-  std::string out{};
-  std::string dialect = "fanuc";
+struct StepOptions : PieceOptions {
   int workpiece = 1;
   std::vector<std::string> patterns{};
   std::string center{};
@@ -55,24 +51,19 @@ Result<StepTest> test_of(const StepOptions& o) {
   return test;
 }
 
-int write_step(const StepOptions& options) {
-  const auto machine_file = find_machine(options.machine, ".");
-  if (!machine_file) return refuse(machine_file.error());
-  const auto machine = kinematics::Machine::load(*machine_file);
-  if (!machine) return refuse(machine.error());
+Result<std::vector<fs::path>> write_step(const StepOptions& options, const Machine& machine,
+                                         const fs::path& machine_file) {
   const auto test = test_of(options);
-  if (!test) return refuse(test.error());
-  const auto made =
-      programs::step_pattern(*test, *machine, *parser::dialect_named(options.dialect));
-  if (!made) return refuse(made.error());
-  auto files = programs::write_test_piece(made->piece, *machine_file, options.out);
-  if (!files) return refuse(files.error());
-  const auto sheet = report::write_setup_sheet(std::filesystem::path(options.out) / "setup.html",
-                                               sheet_of(*test, *made, *machine));
-  if (!sheet) return refuse(sheet.error());
+  if (!test) return test.error();
+  const auto made = programs::step_pattern(*test, machine, *parser::dialect_named(options.dialect));
+  if (!made) return made.error();
+  auto files = programs::write_test_piece(made->piece, machine_file, options.out);
+  if (!files) return files;
+  const auto sheet = report::write_setup_sheet(fs::path(options.out) / "setup.html",
+                                               sheet_of(*test, *made, machine));
+  if (!sheet) return sheet.error();
   files->push_back(*sheet);
-  for (const auto& file : *files) std::cout << file.string() << '\n';
-  return kDone;
+  return files;
 }
 
 }  // namespace
@@ -81,13 +72,7 @@ void add_step(Command& kinds) {
   auto o = std::make_shared<StepOptions>();
   Command step =
       kinds.command("step", "Step machining patterns of Ibaraki et al. for a tilting rotary table");
-  step.option("--machine", o->machine, "Machine file, or the name of a shipped machine").required();
-  step.option("--out", o->out,
-              "Folder for job.toml, step.nc (.ngc, .mpf, .h), step.plan.toml and setup.html")
-      .required();
-  step.option("--dialect", o->dialect,
-              "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
-      .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
+  add_piece_options(step, *o, "job.toml, step.nc (.ngc, .mpf, .h), step.plan.toml and setup.html");
   step.option("--workpiece", o->workpiece,
               "1: patterns 1-a 1-b 2-a 2-b (default); 2: 3 or 4, 5-a 5-b 6-a 6-b 7");
   step.option("--patterns", o->patterns,
@@ -106,7 +91,11 @@ void add_step(Command& kinds) {
   step.option("--angle-tolerance", o->angle_tolerance, "Of theta and phi, urad (100)");
   step.footer(
       "Example: frustum program step --machine zx-yac --patterns 1-a,2-a --workpiece 1 --out step");
-  step.runs([o] { return write_step(*o); });
+  step.runs([o] {
+    return write_piece(o->machine, [&o](const Machine& machine, const fs::path& file) {
+      return write_step(*o, machine, file);
+    });
+  });
 }
 
 }  // namespace frustum::app

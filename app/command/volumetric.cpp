@@ -18,6 +18,7 @@
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_ranking.hpp"
 #include "kinematics/errors/volumetric.hpp"
+#include "report/number_text.hpp"
 #include "report/page/volumetric_page.hpp"
 
 namespace frustum::app {
@@ -283,9 +284,10 @@ std::string worst_text(const Study& study) {
   const VolumetricPoint& p = study.volume.worst();
   const std::string rotary = axes_text(study.machine, p.axes, true);
   const Vec3 e = p.relative * kUmPerMm;
-  return fmt::format("largest relative error at {}{}{}: ({:.3f}, {:.3f}, {:.3f}) µm",
+  return fmt::format("largest error of tool to workpiece at {}{}{}: ({}, {}, {}) µm",
                      axes_text(study.machine, p.axes, false), rotary.empty() ? "" : ", ", rotary,
-                     e.x(), e.y(), e.z());
+                     report::fixed_text(e.x(), 3), report::fixed_text(e.y(), 3),
+                     report::fixed_text(e.z(), 3));
 }
 
 std::vector<std::array<std::string, 4>> statistics_rows(const VolumetricErrors& volume) {
@@ -294,7 +296,7 @@ std::vector<std::array<std::string, 4>> statistics_rows(const VolumetricErrors& 
     return std::array<std::string, 4>{side, text(s.max), text(s.mean), text(s.p95)};
   };
   return {row("tool", volume.tool), row("workpiece", volume.workpiece),
-          row("relative", volume.relative)};
+          row("tool to workpiece", volume.relative)};
 }
 
 report::VolumetricPage page_of(const Study& study, const VolumetricOptions& options,
@@ -335,9 +337,9 @@ report::VolumetricPage page_of(const Study& study, const VolumetricOptions& opti
 }
 
 void print_summary(const Study& study, const std::vector<RankRow>& ranking) {
-  std::cout << fmt::format("{:<10} {:>12} {:>12} {:>12}   um\n", "", "maximum", "mean", "95 %");
+  std::cout << fmt::format("{:<18} {:>12} {:>12} {:>12}   um\n", "", "maximum", "mean", "95 %");
   for (const auto& row : statistics_rows(study.volume)) {
-    std::cout << fmt::format("{:<10} {:>12} {:>12} {:>12}\n", row[0], row[1], row[2], row[3]);
+    std::cout << fmt::format("{:<18} {:>12} {:>12} {:>12}\n", row[0], row[1], row[2], row[3]);
   }
   std::cout << worst_text(study) << '\n';
   if (!ranking.empty()) std::cout << "\nerrors by their share of the mean square\n";

@@ -132,7 +132,7 @@ std::string surface_text(const CutResult& result) {
 
 std::string originating_block_text(const CutResult& result) {
   if (!result.originating_block) return "no surface within 1 um of the point\n";
-  if (!result.originating_block->block) return "the point lies on the blank's own surface\n";
+  if (!result.originating_block->block) return "the point is on the blank's own surface\n";
   return fmt::format("the point was made by line {}, block {}\n",
                      result.originating_block->source_line, *result.originating_block->block);
 }

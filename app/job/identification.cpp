@@ -44,11 +44,19 @@ void add_tool_radius(const Study& study, UnknownCauses& all) {
 Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
   std::vector<MeasuredPiece> pieces;
   for (const StudyPart& part : study.parts) {
-    const auto base = trials::errors_for(part.job.machine, part.job.errors, part.job.piece);
+    const Job& job = part.job;
+    auto commanded = trials::command_piece(job.machine, job.piece);
+    if (!commanded) return commanded.error();
+    const auto base = trials::errors_for(job.machine, job.errors, job.piece, *commanded);
     if (!base) return base.error();
-    MeasuredPiece piece{part.name,     part.job.piece, *base,
-                        part.measured, study.cmm,      part.job.path_bound};
-    if (!piece.cmm && part.job.cmm.e0_mm > 0.0) piece.cmm = part.job.cmm;
+    MeasuredPiece piece{part.name,
+                        job.piece,
+                        *base,
+                        part.measured,
+                        study.cmm,
+                        job.path_bound,
+                        std::make_shared<const trials::CommandedPiece>(*std::move(commanded))};
+    if (!piece.cmm && job.cmm.e0_mm > 0.0) piece.cmm = job.cmm;
     pieces.push_back(std::move(piece));
   }
   return pieces;

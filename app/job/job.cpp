@@ -82,7 +82,7 @@ void read_blank(const TomlTable& root, programs::TestPiece& piece) {
         shape == 1 ? bottom_radius : 0.5 * blank.length("top_diameter", Bound::positive).value;
     piece.blank = stock::FrustumShape{bottom_radius, top_radius, height};
   }
-  // Without a word the top face carries the workpiece origin, as a machinist would zero it.
+  // Without the key the workpiece origin is on the top face, as a machinist would zero it.
   piece.blank_origin = blank.vector_or("origin", Vec3(0.0, 0.0, -height));
 }
 

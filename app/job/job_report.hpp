@@ -24,7 +24,7 @@ struct SurfaceRequest {
   double pitch = 0.0;  // mm; 0: what the job says, or the blank's longest side / 120
   double chord = 0.0;  // mm; 0: not refined
 };
-// The surface at the part's program_state with the deviation of each vertex.
+// The surface at the part's program state with the deviation of each vertex.
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::WorkpieceAt& part,
                                                           const SurfaceRequest& request);

@@ -38,7 +38,7 @@ std::map<int, cutter::Cutter> cutters_of(const cutter::SweptCutter& swept) {
   return cutters;
 }
 
-// The largest body around which facets stand.
+// The largest body around which facets are.
 double largest_radius(const stock::Blank& blank, const std::map<int, cutter::Cutter>& cutters) {
   double radius = 0.0;
   if (const auto* round = std::get_if<stock::FrustumShape>(&blank.shape())) {

@@ -21,7 +21,7 @@ struct FacetedSurface {
   Mm bound{};
 };
 
-// What Boolean operations on faceted sweeps leave of the workpiece at its program_state. Every
+// What Boolean operations on faceted sweeps leave of the workpiece at its program state. Every
 // vertex counts as lying on an edge, because neighbouring facets share them.
 [[nodiscard]] Result<FacetedSurface> faceted_surface(const stock::WorkpieceAt& part,
                                                      const PolyhedralFacets& facets);

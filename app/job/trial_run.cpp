@@ -24,7 +24,7 @@ Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
   auto result = run_trial(job.machine, job.errors, job.piece, job.cmm, options);
   end();
   if (result) return result;
-  // What no room could place belongs to the job that asked for it.
+  // What no module could give a place belongs to the job that asked for it.
   Diagnostics problems = result.error();
   for (Diagnostic& d : problems) {
     if (d.file.empty()) d.file = job.file.string();

@@ -35,18 +35,18 @@ std::string sets_table(const StepDesign& design) {
 
 // Of the sets that identify everything; of the largest one when none does.
 std::string deviations_table(const StepDesign& design) {
-  std::vector<std::string> approach_directions{"error", "unit"};
+  std::vector<std::string> headings{"error", "unit"};
   std::vector<const StepChoice*> choices;
   for (const StepChoice& c : design.best_of_size) {
     if (!c.choice.identifies_all) continue;
     choices.push_back(&c);
-    approach_directions.push_back(fmt::format("{} patterns", c.patterns.size()));
+    headings.push_back(fmt::format("{} patterns", c.patterns.size()));
   }
   if (choices.empty() && !design.best_of_size.empty()) {
     choices.push_back(&design.best_of_size.back());
-    approach_directions.push_back(fmt::format("{} patterns", choices.back()->patterns.size()));
+    headings.push_back(fmt::format("{} patterns", choices.back()->patterns.size()));
   }
-  TextTable table(approach_directions);
+  TextTable table(headings);
   for (std::size_t k = 0; k < design.unknowns.size(); ++k) {
     const auto& unknown = design.unknowns[k];
     std::vector<std::string> cells{unknown.name, shown_unit(unknown.angular).name};

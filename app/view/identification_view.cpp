@@ -56,14 +56,13 @@ std::string known_text(const Study& study, const Estimate& estimate) {
 }
 
 std::string estimates_table(const Study& study, const StudyResult& result) {
-  std::vector<std::string> approach_directions{"error", "unit", "estimate", "± 95 %",
-                                               "known before"};
+  std::vector<std::string> headings{"error", "unit", "estimate", "± 95 %", "known before"};
   if (result.recipe) {
-    approach_directions.emplace_back("recipe");
-    approach_directions.emplace_back("recipe corrected");
+    headings.emplace_back("recipe");
+    headings.emplace_back("recipe corrected");
   }
-  for (const OtherEstimate& other : study.others) approach_directions.push_back(other.name);
-  TextTable table(approach_directions);
+  for (const OtherEstimate& other : study.others) headings.push_back(other.name);
+  TextTable table(headings);
   for (const Estimate& e : result.identification.estimates) {
     const std::string half =
         e.upper && e.lower ? number(0.5 * (*e.upper - *e.lower), e.angular) : "";

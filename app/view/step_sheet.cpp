@@ -78,7 +78,7 @@ report::SetupSheet sheet_of(const programs::StepTest& test, const programs::Step
   add("Tool", fmt::format("T1 H1: end mill D{:g}, gauge length {:g} mm, cutting {:g} mm",
                           test.tool_diameter.value, test.tool_length.value, sheet.tool_length));
   add("Cutting",
-      fmt::format("S{:g} 1/min, F{:g} mm/min, coolant on, down cut; roughing leaves {:g} mm, "
+      fmt::format("S{:g} 1/min, F{:g} mm/min, coolant on, climb milling; roughing leaves {:g} mm, "
                   "semi-finishing and finishing on one path",
                   test.spindle_speed, test.feed, test.semi_finishing.value));
   add("Program", piece.program_file);

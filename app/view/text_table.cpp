@@ -15,8 +15,7 @@ std::size_t columns_of(const std::string& text) {
 
 }  // namespace
 
-TextTable::TextTable(std::vector<std::string> approach_directions)
-    : rows_{std::move(approach_directions)} {}
+TextTable::TextTable(std::vector<std::string> headings) : rows_{std::move(headings)} {}
 
 void TextTable::row(std::vector<std::string> cells) {
   cells.resize(rows_.front().size());

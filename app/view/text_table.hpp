@@ -9,7 +9,7 @@ namespace frustum::app {
 
 class TextTable {
  public:
-  explicit TextTable(std::vector<std::string> approach_directions);
+  explicit TextTable(std::vector<std::string> headings);
   void row(std::vector<std::string> cells);
   // Columns as wide as their widest cell, two spaces apart.
   [[nodiscard]] std::string text() const;

@@ -37,6 +37,8 @@ struct MeasuredPiece {
   std::vector<MeasuredPart> parts{};   // of the same piece, at least one
   std::optional<metrology::CmmModel> cmm{};
   double path_bound = 1e-5;  // mm
+  // Its program as commanded; null: whoever needs it commands it.
+  std::shared_ptr<const trials::CommandedPiece> commanded{};
 };
 
 struct PieceObservations {

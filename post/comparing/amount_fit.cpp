@@ -126,7 +126,7 @@ std::vector<Amounts> adjustable(const Machine& machine) {
                      const Vec3 off = p;
                      const Vec3 across = off - joint->direction * joint->direction.dot(off);
                      return fmt::format(
-                         "posted for a rotary axis {} that lies elsewhere (pivot), by "
+                         "posted for a rotary axis {} that is located elsewhere (pivot), by "
                          "({:.4f}, {:.4f}, {:.4f}) mm",
                          to_char(joint->letter), across.x(), across.y(), across.z());
                    }});

@@ -28,7 +28,7 @@ struct Amounts {
 
 class AmountFit {
  public:
-  // All must outlive it; `commanded` is the program as it stands.
+  // All must outlive it; `commanded` is the program as it is.
   AmountFit(const kinematics::Machine& machine, const kinematics::ToolPath& first,
             const ComparedProgram& program, const kinematics::CommandedProgram& commanded,
             const DifferenceLimits& limits)

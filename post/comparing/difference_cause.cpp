@@ -119,7 +119,7 @@ std::string undone_fault(const Machine& machine, const ToolPath& first,
   return {};
 }
 
-// Rotary axes that lie a constant apart: the difference where the programs begin to feed.
+// Rotary axes that differ by a constant: the difference where the programs begin to feed.
 std::vector<Fault> rotary_shifts(const Machine& machine, const ToolPath& first,
                                  const ToolPath& second) {
   std::vector<Fault> shifts;

@@ -22,7 +22,7 @@ struct Fault {
 // Faults of signs, units, modes and swapped words that make sense on this machine.
 [[nodiscard]] std::vector<Fault> known_faults(const kinematics::Machine& machine);
 
-// A rotary axis whose zero lies elsewhere by `offset` rad.
+// A rotary axis whose zero is elsewhere by `offset` rad.
 [[nodiscard]] Fault shifted_rotary_axis(parser::AxisLetter axis, double offset);
 
 }  // namespace frustum::post

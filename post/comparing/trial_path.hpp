@@ -13,7 +13,7 @@
 
 namespace frustum::post {
 
-// How close the samples of a path lie. Coarse ones are exact where they are, with longer straight
+// How close the samples of a path are. Coarse ones are exact where they are, with longer straight
 // lines between: enough to see that a path goes elsewhere.
 enum class PathSampling : std::uint8_t { coarse, fine };
 

@@ -24,7 +24,7 @@ Result<double> minutes_of(const Feed& feed, double counted, double spindle_speed
 }
 
 Feed feed_for(const Feed& written, const PartOfBlock& part) {
-  // rad and mm: below any written word; an axis that turns and a tip that moves by less stand.
+  // rad and mm: below any written word; an axis and a tip that move by less are at rest.
   constexpr double kAxesStand = 1e-12;
   constexpr double kTipStands = 1e-9;
   if (!(part.minutes > 0.0) || written.synchronised) return written;
@@ -33,7 +33,7 @@ Feed feed_for(const Feed& written, const PartOfBlock& part) {
     return {1.0 / part.minutes, FeedMode::inverse_time};
   }
   if (part.arc || written.mode == FeedMode::per_revolution) return written;
-  // Where X Y Z stand the feed is that of the rotary axes, in deg/min.
+  // Where X Y Z are at rest the feed is that of the rotary axes, in deg/min.
   const double counted = part.length > kTipStands ? part.length : part.turn * kDegPerRad;
   const double feed = counted / part.minutes;
   // A chord is shorter than its arc; a feed that changes by less than a millionth is the same feed.

@@ -41,7 +41,7 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
   if (!(a > 0.0 && a < 0.5 * std::numbers::pi)) {
     return refuse("out-of-range"_id, "cone-angle",
                   fmt::format("a half apex angle of {:g} deg", a * kDegPerRad),
-                  "it must lie between 0 and 90 deg");
+                  "it must be between 0 and 90 deg");
   }
   const struct {
     const char* key;
@@ -52,7 +52,7 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
   for (const auto& [key, rad] : angles) {
     if (!(std::abs(rad) <= 2.0 * std::numbers::pi)) {
       return refuse("out-of-range"_id, key, fmt::format("an angle of {:g} deg", rad * kDegPerRad),
-                    "it must lie within -360 .. 360 deg");
+                    "it must be within -360 .. 360 deg");
     }
   }
   const struct {
@@ -67,7 +67,7 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
   for (const auto& [key, mm, lowest] : lengths) {
     if (!(mm >= lowest && mm <= kLongest)) {
       return refuse("out-of-range"_id, key, fmt::format("{:g} mm", mm),
-                    fmt::format("it must lie between {:g} and {:g} mm", lowest, kLongest));
+                    fmt::format("it must be between {:g} and {:g} mm", lowest, kLongest));
     }
   }
   if (!(cone.allowance.value < 0.5 * cone.tool_diameter.value)) {
@@ -82,7 +82,7 @@ std::optional<Diagnostic> check(const ConeFrustum& cone) {
   if (!(cone.chord_tolerance.value >= 1e-7 && cone.chord_tolerance.value <= 1.0)) {
     return refuse("out-of-range"_id, "chord-tolerance",
                   fmt::format("{:g} um", cone.chord_tolerance.value * kUmPerMm),
-                  "it must lie between 0.0001 and 1000 um");
+                  "it must be between 0.0001 and 1000 um");
   }
   if (!(cone.feed > 0.0 && cone.feed <= 1e5)) {
     return refuse("out-of-range"_id, "feed", fmt::format("{:g} mm/min", cone.feed),

@@ -12,7 +12,7 @@ stock::LoftShape near_net_blank(const stock::LoftShape& body, double allowance) 
     const stock::LoftSection& top = slabs[i].top;
     const auto offset = [&](const stock::LoftSection& at, bool shifted) {
       const double rise = shifted ? allowance : 0.0;
-      // Square to a face that leans inwards by m per mm of height, and on at that slope.
+      // Perpendicular to a face that leans inwards by m per mm of height, and on at that slope.
       const auto wider = [&](double from, double to, double size) {
         const double m = 0.5 * (to - from) / (top.z - bottom.z);
         return size + 2.0 * (allowance * std::sqrt(1.0 + m * m) + m * rise);

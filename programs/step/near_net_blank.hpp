@@ -3,7 +3,7 @@
 // Model    : every face of the body moved outward by the allowance, perpendicular to it; the bottom
 //            stays
 // Units    : mm; frame: of the loft
-// Shape    : two sections a slab of the body, in its order
+// Shape    : two sections for each tier of the body, in its order
 // Errors   : none; a body that Blank::make takes gives a blank that it takes, as long as ledges of
 //            the body are wider and levels higher than the allowance
 // Accuracy : rounded to a nanometre

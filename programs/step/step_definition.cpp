@@ -86,7 +86,7 @@ StepWorkpiece workpiece_2() {
                  {"5-a", 179.2, 37.5, 29.4, 138.9, 96.5}, {"5-b", 179.2, 33.0, 33.9, 138.9, 96.5},
                  {"6-a", 169.2, 57.5, 49.4, 138.9, 96.5}, {"6-b", 169.2, 53.0, 53.9, 138.9, 96.5},
                  {"7", 160.9, 76.5, 81.0, 138.9, 96.5}};
-  // The foot of the pyramid lies just below what the tool of pattern 6 reaches (162.13), so that no
+  // The foot of the pyramid is just below what the tool of pattern 6 reaches (162.13), so that no
   // ridge is left, and above the line of pattern 7.
   constexpr double kFoot = 162.0;
   constexpr double kTop = 184.0;

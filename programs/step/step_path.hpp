@@ -1,4 +1,4 @@
-// How far a straight pass must run beyond its middle, and how high, to stand clear of the blank.
+// How far a straight pass must run beyond its middle, and how high, to be clear of the blank.
 //
 // Model    : the tool is a cylinder without end above its tip. At both ends of the pass no material
 //            is within `clearance` of it or above it, so that it may go down and up at rapid there.

@@ -49,7 +49,7 @@ Diagnostics faults_of(const StepTest& test) {
   for (const auto& n : numbers) {
     if (n.value >= n.lowest && n.value <= n.highest) continue;
     faults.push_back(refuse("out-of-range"_id, n.key, fmt::format("{:g} {}", n.value, n.unit),
-                            fmt::format("it must lie between {:g} and {:g}", n.lowest, n.highest)));
+                            fmt::format("it must be between {:g} and {:g}", n.lowest, n.highest)));
   }
   return faults;
 }

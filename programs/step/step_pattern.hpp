@@ -1,4 +1,4 @@
-// The step machining patterns: straight side cuts in indexed positions whose steps tell a machine's
+// The step machining patterns: straight side cuts in indexed positions whose steps show a machine's
 // kinematic errors apart.
 //
 // Model    : eleven patterns 1-a .. 7 on a tilting rotary table. Each has two reference steps a, b
@@ -113,7 +113,7 @@ struct StepWorkpiece {
 };
 
 // Workpiece #1 (patterns 1-a, 1-b, 2-a, 2-b), #2 (3 or 4, 5-a, 5-b, 6-a, 6-b, 7) of the paper, with
-// nominal sizes that can be machined together (docs/step-patterns.md tells where they differ from
+// nominal sizes that can be machined together (docs/step-patterns.md says where they differ from
 // its Table 4). Nothing for other numbers.
 [[nodiscard]] std::optional<StepWorkpiece> step_workpiece(int number);
 // The same workpiece, standing higher by `mm`.

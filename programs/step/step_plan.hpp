@@ -7,7 +7,7 @@
 // Shape    : features "1-a.S_c", "ref.B_a"; one frame for each different pair of reference steps;
 //            three to five characteristics a pattern: "1-a.dL", dH, theta, phi, dL0
 // Errors   : none; the workpiece carries the patterns
-// Accuracy : points stand every 5 mm, to the last bit where they are planned
+// Accuracy : points are every 5 mm, to the last bit where they are planned
 // Source   : Ibaraki et al. 2010, section 3
 #pragma once
 

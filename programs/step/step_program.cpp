@@ -158,7 +158,7 @@ class Places {
   // Keeps what is short the most, for each owner and axis.
   void note(const StepPlace& place, const AxisPositions& q) {
     std::vector<Shortfall> found = shortfalls(machine_, q);
-    // With the table out of reach, where the linear axes would stand means nothing.
+    // With the table out of reach, where the linear axes would be means nothing.
     const bool rotary = std::any_of(found.begin(), found.end(), [](const Shortfall& s) {
       return kinematics::is_rotary(s.axis);
     });

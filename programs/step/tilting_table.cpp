@@ -62,8 +62,9 @@ Result<TiltingTable> TiltingTable::of(const Machine& machine) {
   const Joint& turn = *rotary[1];
   const bool about_x = lies_along(tilt.direction, Vec3::UnitX());
   if (!about_x && !lies_along(tilt.direction, Vec3::UnitY())) {
-    return unsuitable(machine, fmt::format("{}, the outer rotary axis, lies neither along X nor Y",
-                                           to_char(tilt.letter)));
+    return unsuitable(machine,
+                      fmt::format("{}, the outer rotary axis, is parallel to neither X nor Y",
+                                  to_char(tilt.letter)));
   }
   if (!lies_along(turn.direction, Vec3::UnitZ())) {
     return unsuitable(
@@ -76,7 +77,7 @@ Result<TiltingTable> TiltingTable::of(const Machine& machine) {
   const std::vector<Joint> joints = machine.joints();
   if (carried_linear || std::any_of(joints.begin(), joints.end(), askew)) {
     return unsuitable(machine, carried_linear ? "the table carries a linear axis"
-                                              : "its linear axes do not lie along X, Y and Z");
+                                              : "its linear axes are not parallel to X, Y and Z");
   }
   TiltingTable table;
   table.tilt = tilt.letter;

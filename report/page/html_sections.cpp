@@ -21,10 +21,10 @@ using Characteristic = metrology::CharacteristicResult;
 // A table row by row; cells are HTML already.
 class Table {
  public:
-  // A heading that starts with '>' stands over a column of numbers.
-  explicit Table(const std::vector<std::string>& approach_directions) {
+  // A heading that starts with '>' is over a column of numbers.
+  explicit Table(const std::vector<std::string>& headings) {
     html_ = "<div class=\"scroll\"><table><thead><tr>";
-    for (const std::string& heading : approach_directions) {
+    for (const std::string& heading : headings) {
       const bool is_number = heading.front() == '>';
       numbers_.push_back(is_number);
       html_ += fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"n\"" : "",
@@ -123,16 +123,16 @@ std::string characteristics_html(const RunReport& report) {
   const auto& all = report.measurement.characteristics;
   const bool nominals = std::any_of(
       all.begin(), all.end(), [](const Characteristic& c) { return !nominal_text(c).empty(); });
-  std::vector<std::string> approach_directions{"Characteristic", ">Value"};
-  if (nominals) approach_directions.emplace_back(">Nominal");
+  std::vector<std::string> headings{"Characteristic", ">Value"};
+  if (nominals) headings.emplace_back(">Nominal");
   const bool intervals = std::any_of(
       all.begin(), all.end(), [](const Characteristic& c) { return c.simulated.has_value(); });
-  approach_directions.emplace_back(">Tolerance");
-  approach_directions.emplace_back(">U (k = 2)");
-  if (intervals) approach_directions.emplace_back(">95\u202f% interval");
-  approach_directions.emplace_back(">Used");
-  approach_directions.emplace_back("Verdict");
-  Table table(approach_directions);
+  headings.emplace_back(">Tolerance");
+  headings.emplace_back(">U (k = 2)");
+  if (intervals) headings.emplace_back(">95\u202f% interval");
+  headings.emplace_back(">Used");
+  headings.emplace_back("Verdict");
+  Table table(headings);
   for (const Characteristic& c : all) {
     const std::string kind =
         c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(c.kind));
@@ -192,7 +192,7 @@ std::string profiles_html(const RunReport& report) {
   return section(
       "profiles", "Profiles",
       "<div class=\"profiles\">" + figures +
-          "</div><p class=\"note\">Where two lines are compared: how far their points lie from the "
+          "</div><p class=\"note\">Where two lines are compared: how far their points are from the "
           "planned lines, in the direction measured, over the place along the lines from the "
           "planned point of the first. Dashed: least-squares straight lines. A distance is that of "
           "the dashed lines at position 0, second less first.</p>\n");
@@ -272,7 +272,7 @@ std::string features_html(const RunReport& report) {
 std::string cycle_html(const RunReport& report) {
   if (!report.cycle_time || report.slowed.empty()) return "";
   Table table({">Line", "Axis", ">Programmed feed, mm/min", ">Reached feed, mm/min"});
-  // The worst tell the story; the JSON document has them all.
+  // The worst are shown; the JSON document has them all.
   const std::size_t shown = std::min<std::size_t>(report.slowed.size(), 20);
   for (std::size_t k = 0; k < shown; ++k) {
     const SlowedBlock& block = report.slowed[k];

@@ -2,7 +2,7 @@
 import Plotly from './plotly.js';
 import {onTheme, theme} from './theme.js';
 
-const SYMBOLS = ['circle', 'square-open'];  // told apart without colours, too
+const SYMBOLS = ['circle', 'square-open'];  // distinct without colours, too
 
 // The straight line over the positions that were measured, and 4 % beyond.
 function fitted(line) {

@@ -28,7 +28,7 @@ struct SensitivityTable {
 // {"characteristics":[..],"errors":[..],"units":[..],"matrix":[[..]],...}: interfaces of the
 // command.
 [[nodiscard]] std::string sensitivity_json(const SensitivityTable& table);
-// One row a characteristic, one column a parameter, units in the approach_directions.
+// One row a characteristic, one column a parameter, units in the headings.
 [[nodiscard]] std::string sensitivity_csv(const SensitivityTable& table);
 // For a terminal; parameters that no characteristic answers are named below instead of taking
 // columns.

@@ -60,8 +60,10 @@ std::string figure(const VolumetricPage& page) {
   std::string html =
       "<figure class=\"surface\"><div class=\"view\" data-volume tabindex=\"0\" role=\"img\" "
       "aria-label=\"Grid of the working volume with error vectors\"></div><div class=\"tools\">";
-  for (const char* side : {"relative", "tool", "workpiece"}) {
-    html += fmt::format("<button type=\"button\" data-side=\"{0}\">{0}</button>", side);
+  constexpr std::pair<const char*, const char*> kSides[] = {
+      {"relative", "tool to workpiece"}, {"tool", "tool"}, {"workpiece", "workpiece"}};
+  for (const auto& [side, text] : kSides) {
+    html += fmt::format("<button type=\"button\" data-side=\"{}\">{}</button>", side, text);
   }
   if (page.views.size() > 1) {
     html += "<select aria-label=\"rotary position\">";

@@ -244,7 +244,7 @@ TEST_F(CommandLineSystem, TakesErrorsFromFilesAndDrawsThem) {
   // work.
   const Outcome lag =
       run("pose --machine iwf-bc --axes X=1 --error \"EXX=reversal 10um\" --heading X=1");
-  EXPECT_NE(lag.out.find("error of tip       -5.0"), std::string::npos) << lag.out;
+  EXPECT_NE(lag.out.find("tip position error         -5.0"), std::string::npos) << lag.out;
 }
 
 TEST_F(CommandLineSystem, ReadsTheErrorFileOfAJob) {

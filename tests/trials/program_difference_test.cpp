@@ -205,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
         SeededFault{"pivot_length", "double-pivot-head", ProgramForm::axes, posted_for_longer_tool,
                     "another pivot or tool length, different by 3.000"},
         SeededFault{"axis_place", "iwf-bc", ProgramForm::axes, posted_for_lower_axis,
-                    "rotary axis B that lies elsewhere"},
+                    "rotary axis B that is located elsewhere"},
         SeededFault{"work_offset", "iwf-bc", ProgramForm::vector,
                     [](ComparedProgram& p) {
                       for (auto& [number, offset] : p.setup.work_offsets)
