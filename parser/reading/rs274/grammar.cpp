@@ -72,38 +72,31 @@ class BlockBuilder {
     }
     in_word_ = true;
   }
+  // The parts that the scanner reads begin here; where they end, or null when there is nothing.
   // A plain number, by far the most common value, needs no expression.
-  void set_word(std::string_view digits, bool negative) {
-    double value = 0.0;
-    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (read.ec == std::errc::result_out_of_range) {
-      in_.go_to(column_of(digits.data()));
-      value = in_.number()->value;  // too small is 0
-      if (in_.failed()) throw SyntaxStop{in_.failure()};
+  Iterator read_word_value(Iterator begin) {
+    Word& word = block_.words.back();
+    in_.go_to(column_of(begin));
+    const bool negative = in_.take('-');
+    if (!negative) in_.take('+');
+    if (const auto number = in_.number()) {
+      // The sum turns -0 into 0, which is what X-0 means.
+      word.number = (negative ? -number->value : number->value) + 0.0;
+      word.decimal_point = number->decimal_point;
+      return end_of_reading();
     }
-    // The sum turns -0 into 0, which is what X-0 means.
-    block_.words.back().number = (negative ? -value : value) + 0.0;
-    block_.words.back().decimal_point = digits.find('.') != std::string_view::npos;
+    return read_expression(begin, ExpressionLevel::operand, word.expression);
   }
   void end_word() { in_word_ = false; }
 
-  // The expression that begins here: the value of the word or setting. Where it ends, or null when
-  // there is none.
-  Iterator read_value(Iterator begin) {
-    ExpressionReader reader = reader_at(begin);
-    if (in_word_) {
-      block_.words.back().expression = reader.read(ExpressionLevel::operand);
-    } else {
-      block_.assignments.back().value = reader.read(ExpressionLevel::disjunction);
-    }
-    return reader.found_nothing() ? nullptr : end_of_reading();
+  Iterator read_setting_value(Iterator begin) {
+    return read_expression(begin, ExpressionLevel::disjunction, block_.assignments.back().value);
   }
-
   void begin_setting(Iterator after) {
     block_.assignments.push_back({column_of(after - 1), std::nullopt, {}, {}});
   }
   // What is after the #.
-  Iterator read_target(Iterator begin) {
+  Iterator read_setting_target(Iterator begin) {
     Assignment& setting = block_.assignments.back();
     ExpressionReader reader = reader_at(begin);
     setting.index.first = static_cast<std::uint32_t>(block_.steps.size());
@@ -159,6 +152,12 @@ class BlockBuilder {
   [[nodiscard]] ExpressionReader reader_at(Iterator begin) {
     in_.go_to(column_of(begin));
     return {in_, block_, rs274_expressions(dialect_)};
+  }
+  [[nodiscard]] Iterator read_expression(Iterator begin, ExpressionLevel level,
+                                         ExpressionRange& range) {
+    ExpressionReader reader = reader_at(begin);
+    range = reader.read(level);
+    return reader.found_nothing() ? nullptr : end_of_reading();
   }
   [[nodiscard]] Iterator end_of_reading() {
     if (in_.failed()) throw SyntaxStop{in_.failure()};
@@ -233,7 +232,6 @@ struct PartReader : x3::parser<PartReader> {
 
 const auto kDigit = x3::char_('0', '9');
 const auto kDigits = x3::raw[x3::lexeme[+kDigit]];
-const auto kNumber = x3::raw[x3::lexeme[(+kDigit >> -('.' >> *kDigit)) | ('.' >> +kDigit)]];
 const auto kBlank = x3::char_(" \t\r");
 
 // The names are what syntax_error.cpp words the failures by.
@@ -245,14 +243,9 @@ const x3::rule<struct BlockNumberRule> block_number = "block number";
 const x3::rule<struct ProgramNumberRule> program_number = "program number";
 const x3::rule<struct BlockEndRule> block_end = "end of block";
 
-constexpr auto set_word(bool negative) {
-  return token(
-      [negative](BlockBuilder& b, std::string_view digits) { b.set_word(digits, negative); });
-}
-const PartReader kExpression(&BlockBuilder::read_value);
-const auto word_value_def = kNumber[set_word(false)] | ('-' >> kNumber[set_word(true)]) |
-                            ('+' >> kNumber[set_word(false)]) | kExpression;
-const auto setting_value_def = kExpression;
+const auto word_value_def = PartReader(&BlockBuilder::read_word_value);
+const auto setting_value_def = PartReader(&BlockBuilder::read_setting_value);
+
 const auto kWord =
     (x3::char_("a-mp-zA-MP-Z@^")[after([](BlockBuilder& b, Iterator end) { b.begin_word(end); })] >
      word_value)[then([](BlockBuilder& b) { b.end_word(); })];
@@ -260,7 +253,7 @@ const auto kWord =
 const auto equals_def = x3::lit('=');
 const auto kSetting =
     x3::lit('#')[after([](BlockBuilder& b, Iterator end) { b.begin_setting(end); })] >
-    PartReader(&BlockBuilder::read_target) > equals > setting_value;
+    PartReader(&BlockBuilder::read_setting_target) > equals > setting_value;
 
 const auto kCommentText = token([](BlockBuilder& b, std::string_view t) { b.end_comment_text(t); });
 const auto comment_end_def = x3::lit(')')[then([](BlockBuilder& b) { b.end_comment(); })];
