@@ -19,6 +19,16 @@ std::string range_text(const ExpressionSpelling& spelling, const Block& block,
   return expression_text(spelling, steps_of(block, range), block.names, level);
 }
 
+std::string value_text(const ExpressionSpelling& spelling, const Block& block, const Word& word,
+                       ExpressionLevel level) {
+  return word.expression.empty() ? decimal_text(word.number)
+                                 : range_text(spelling, block, word.expression, level);
+}
+
+std::string address_of(const Word& word) {
+  return word.spelled != nullptr ? word.spelled : std::string(1, word.letter);
+}
+
 std::string_view named_word(const Word& word) {
   return word.letter == kNamedWord ? code_at(word.number).word : std::string_view{};
 }

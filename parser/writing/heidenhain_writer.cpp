@@ -8,6 +8,7 @@
 #include "parser/dialects/expressions.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
+#include "parser/writing/number_text.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -80,10 +81,6 @@ std::string fn_text(const Block& block, ExpressionRange range) {
   operators.insert(operators.end(), kFnOperators.begin(), kFnOperators.end());
   of_fn.operators = operators;
   return range_text(of_fn, block, range, power);
-}
-
-std::string with_sign(std::string value) {
-  return value.starts_with('-') ? value : "+" + std::move(value);
 }
 
 // 5, "SLOT"
@@ -188,14 +185,11 @@ class KlartextBlock {
     if (word.letter == 'm') return "MOVE";
     // The axes that are mirrored have no numbers.
     if (name_ == "CYCL DEF 8.1") return std::string(1, word.letter);
-    const std::string name = word.spelled != nullptr ? word.spelled : std::string(1, word.letter);
-    const std::string value = word.expression.empty()
-                                  ? decimal_text(word.number)
-                                  : range_text(spelling(), block_, word.expression, operand);
+    const std::string value = value_text(spelling(), block_, word, operand);
     if (word.letter == 'T') return value;
     const bool bare = word.expression.empty() &&
                       std::string_view("FSMt").find(word.letter) != std::string_view::npos;
-    return name + (bare ? value : with_sign(value));
+    return address_of(word) + (bare ? value : with_sign(value));
   }
 
   [[nodiscard]] std::string setting_text(const Assignment& setting) const {

@@ -29,7 +29,7 @@ constexpr NcSpelling kFanucWords{
     .tool_vector = {"I", "J", "K"},
     .vectors_on_arcs = false,
     .home_return = "G91 G28",
-    .before_machine_coordinates = "G53 ",
+    .before_machine_coordinates = "G53",
     .after_machine_coordinates = "",
     .machine_coordinates_compensated = false,
     .circle_centre_block = false,
@@ -47,7 +47,7 @@ constexpr NcSpelling kFanucWords{
     .rotary_paths = {},
     .tool_change = "T# M6",
     .tool_change_with_speed = "",
-    .speed = "S# ",
+    .speed = "S#",
     .spindle = {"M5", "M3", "M4"},
     .coolant = {"M9", "M8"},
     .work_offsets = {"G54", "G55", "G56", "G57", "G58", "G59", "", "", ""},
@@ -91,7 +91,7 @@ constexpr NcSpelling sinumerik_words() {
   s.tool_vector = {"A3=", "B3=", "C3="};
   s.vectors_on_arcs = true;
   s.home_return = "";
-  s.before_machine_coordinates = "SUPA ";
+  s.before_machine_coordinates = "SUPA";
   s.machine_coordinates_compensated = true;
   s.full_turns = "TURN=#";
   s.turns_beyond = 1;
@@ -127,7 +127,7 @@ constexpr NcSpelling kHeidenhainWords{
     .clockwise = "C",
     .counterclockwise = "C",
     .with_vector = "LN",
-    .traverse_feed = " R0 FMAX",
+    .traverse_feed = "R0 FMAX",
     .thread = "",
     .lead = "",
     .modal = false,
@@ -136,7 +136,7 @@ constexpr NcSpelling kHeidenhainWords{
     .vectors_on_arcs = false,
     .home_return = "",
     .before_machine_coordinates = "",
-    .after_machine_coordinates = " M91",
+    .after_machine_coordinates = "M91",
     .machine_coordinates_compensated = false,
     .circle_centre_block = true,
     .full_turns = "",

@@ -6,23 +6,22 @@
 #include <optional>
 #include <utility>
 
-#include "core/constants.hpp"
-#include "core/units.hpp"
 #include "parser/arc.hpp"
+#include "parser/writing/block_parts.hpp"
 #include "parser/writing/motion_spelling.hpp"
+#include "parser/writing/motion_words.hpp"
 
 namespace frustum::parser {
 namespace {
 
-template <typename Enum>
-constexpr std::size_t index_of(Enum value) {
-  return static_cast<std::size_t>(value);
-}
-
 class MotionWriter {
  public:
   MotionWriter(const NcSpelling& spelling, const WriterOptions& options)
-      : spelling_(spelling), options_(options), out_(spelling, options) {}
+      : spelling_(spelling),
+        options_(options),
+        refusals_(spelling.title),
+        words_(spelling, options, refusals_),
+        out_(spelling, options) {}
 
   Result<NcProgram> write(std::span<const Motion> motions) {
     const std::size_t first = write_head(motions);
@@ -42,7 +41,7 @@ class MotionWriter {
     }
     begin({});
     out_.lines(filled(spelling_.footer, '$', out_.as_comment(options_.name)));
-    if (!problems_.empty()) return problems_;
+    if (!refusals_.all().empty()) return refusals_.all();
     return out_.take();
   }
 
@@ -53,7 +52,8 @@ class MotionWriter {
     return event != nullptr && event->name == "comment";
   }
   void begin(const SourcePlace& place) {
-    block_line_ = std::exchange(place_, place).line;
+    block_line_ = std::exchange(line_, place.line);
+    refusals_.begin(place);
     out_.begin(place.line);
   }
   void write(const Motion& motion) {
@@ -84,24 +84,24 @@ class MotionWriter {
   }
 
   void write(const Probe& /*probe*/) {
-    refuse("a probing move", "leave the blocks that probe out");
+    refusals_.add("a probing move", "leave the blocks that probe out");
   }
 
   void write(const HomeReturn& home) {
     if (spelling_.home_return.empty()) {
-      refuse("the return to home (G28)", "give the position in machine coordinates");
+      refusals_.add("the return to home (G28)", "give the position in machine coordinates");
       return;
     }
     if (home.point != 1) {
-      refuse("the return to another reference point than home (G30)",
-             "give the position in machine coordinates");
+      refusals_.add("the return to another reference point than home (G30)",
+                    "give the position in machine coordinates");
       return;
     }
-    std::string block(spelling_.home_return);
+    SpacedText block(spelling_.home_return);
     for (const AxisLetter letter : kAxisLetters) {
-      if (home.axes.at(index_of(letter))) block += fmt::format(" {}0", to_char(letter));
+      if (home.axes.at(index_of(letter))) block.add(fmt::format("{}0", to_char(letter)));
     }
-    out_.line(block);
+    out_.line(block.take());
     out_.line("G90");  // home is written incrementally: straight there
     forget_positions();
   }
@@ -109,17 +109,19 @@ class MotionWriter {
   void write(const ArcFeed& arc) {
     const PlaneAxes axes = axes_of(arc.plane);
     const auto u = static_cast<AxisLetter>(axes.u), v = static_cast<AxisLetter>(axes.v);
-    if (!known_[index_of(u)] || !known_[index_of(v)]) {
-      refuse("an arc whose start is not known", "move to its start with a straight line first");
+    if (!words_.knows(u) || !words_.knows(v)) {
+      refusals_.add("an arc whose start is not known",
+                    "move to its start with a straight line first");
       return;
     }
     const int turns = std::abs(arc.turns);
     if (turns > 1 && spelling_.full_turns.empty()) {
-      refuse("an arc of more than one turn", "linearise arcs, or write the turns one by one");
+      refusals_.add("an arc of more than one turn",
+                    "linearise arcs, or write the turns one by one");
       return;
     }
-    if (spelling_.circle_centre_block && !flat_in_xy(arc)) {
-      refuse("an arc that is not flat in X and Y", "linearise arcs");
+    if (spelling_.circle_centre_block && !words_.flat_in_xy(arc)) {
+      refusals_.add("an arc that is not flat in X and Y", "linearise arcs");
       return;
     }
     if (!plane_ || *plane_ != arc.plane) {
@@ -128,42 +130,30 @@ class MotionWriter {
       }
       plane_ = arc.plane;
     }
-    std::string block(arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise);
-    const std::string centre = centre_words(arc, axes);
-    if (spelling_.circle_centre_block) out_.line("CC" + centre);
+    motion_word_ = arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise;
+    SpacedText block(motion_word_);
+    const std::string centre = words_.centre(arc, axes);
+    if (spelling_.circle_centre_block) out_.line("CC " + centre);
     const bool vectors = arc.tool_axis.has_value();
     for (const AxisLetter letter : kAxisLetters) {
       if (!arc.end[letter] || (vectors && is_rotary(letter))) continue;
-      const bool in_plane = letter == u || letter == v;
-      block += axis_word(letter, *arc.end[letter], in_plane);
+      block.add(words_.axis(letter, *arc.end[letter], letter == u || letter == v));
     }
-    const std::string vector_before = vector_text_;
-    const std::string vector = vector_words(arc.tool_axis);
+    const std::string vector_before = words_.vector_in_force();
+    const std::string vector = words_.vector(arc.tool_axis);
     if (spelling_.vectors_on_arcs) {
-      block += vector;
+      block.add(vector);
     } else if (vector != vector_before) {
-      refuse("a tool vector on an arc", "turn the tool before the arc");
+      refusals_.add("a tool vector on an arc", "turn the tool before the arc");
     }
-    if (!spelling_.circle_centre_block) block += centre;
+    if (!spelling_.circle_centre_block) block.add(centre);
     if (turns > 1) {
-      block += " " +
-               filled(spelling_.full_turns, '#', fmt::format("{}", turns - spelling_.turns_beyond));
+      block.add(
+          filled(spelling_.full_turns, '#', fmt::format("{}", turns - spelling_.turns_beyond)));
     }
-    if (spelling_.circle_centre_block) block += arc.turns > 0 ? " DR+" : " DR-";
-    block += feed_words(arc.feed);
-    motion_word_ = arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise;
-    out_.line(block);
-  }
-
-  [[nodiscard]] bool flat_in_xy(const ArcFeed& arc) const {
-    if (arc.plane != Plane::xy) return false;
-    for (const AxisLetter letter : kAxisLetters) {
-      if (letter == AxisLetter::X || letter == AxisLetter::Y || !arc.end[letter]) continue;
-      if (arc.tool_axis && is_rotary(letter)) continue;
-      const auto& known = known_.at(index_of(letter));
-      if (!known || known->text != text_of(letter, *arc.end[letter])) return false;
-    }
-    return true;
+    if (spelling_.circle_centre_block) block.add(arc.turns > 0 ? "DR+" : "DR-");
+    block.add(words_.feed(arc.feed));
+    out_.line(block.take());
   }
 
   void straight(const AxisTarget& end, const std::optional<UnitVec3>& tool_axis,
@@ -175,40 +165,41 @@ class MotionWriter {
     if (!machine && length_cannot_be_off()) return;
     if (machine || (tool_axis.has_value() != vectors_)) forget_positions();
     vectors_ = tool_axis.has_value();
-    std::string words;
+    SpacedText positions;
     for (const AxisLetter letter : kAxisLetters) {
       if (!end[letter] || (vectors_ && is_rotary(letter))) continue;
-      words += axis_word(letter, *end[letter], false);
+      positions.add(words_.axis(letter, *end[letter], false));
     }
-    words += vector_words(tool_axis);
-    if (words.empty()) {  // a block that moves nothing still has its line and its time
-      for (const AxisLetter letter : kAxisLetters) {
-        if (words.empty() && end[letter]) words += axis_word(letter, *end[letter], true);
-      }
+    positions.add(words_.vector(tool_axis));
+    if (positions.empty()) {  // a block that moves nothing still has its line and its time
+      const auto given = std::ranges::find_if(
+          kAxisLetters, [&](AxisLetter letter) { return end[letter].has_value(); });
+      if (given == kAxisLetters.end()) return;
+      positions.add(words_.axis(*given, *end[*given], true));
     }
-    if (words.empty()) return;
 
     std::string_view motion = feed == nullptr ? spelling_.traverse : spelling_.linear;
     if (feed != nullptr && feed->synchronised) {
       motion = spelling_.thread;
       if (motion.empty()) {
-        refuse("a move synchronised with the spindle", "write threads with the control's cycles");
+        refusals_.add("a move synchronised with the spindle",
+                      "write threads with the control's cycles");
         return;
       }
     }
     if (tool_axis && !spelling_.with_vector.empty()) motion = spelling_.with_vector;
-    std::string block;
-    if (machine) block += spelling_.before_machine_coordinates;
-    if (!spelling_.modal || machine || motion != motion_word_) block += motion;
-    if (options_.restate_feed && feed != nullptr && motion != motion_word_) feed_text_.clear();
+    SpacedText block;
+    if (machine) block.add(spelling_.before_machine_coordinates);
+    if (!spelling_.modal || machine || motion != motion_word_) block.add(motion);
+    if (options_.restate_feed && feed != nullptr && motion != motion_word_) words_.restate_feed();
     motion_word_ = motion;
-    block += words;
-    block += feed != nullptr ? feed_words(*feed) : std::string(spelling_.traverse_feed);
+    block.add(positions.take());
+    block.add(feed != nullptr ? words_.feed(*feed) : std::string(spelling_.traverse_feed));
     if (machine) {
-      block += spelling_.after_machine_coordinates;
+      block.add(spelling_.after_machine_coordinates);
       forget_positions();
     }
-    out_.line(block.front() == ' ' ? block.substr(1) : block);
+    out_.line(block.take());
     if (switched) spell(compensation_);
   }
 
@@ -216,98 +207,27 @@ class MotionWriter {
   bool length_cannot_be_off() {
     const bool stuck = spelling_.compensation_by_tool && spelling_.no_compensation.empty();
     if (!stuck || tool_ == 0 || compensation_.mode != LengthCompensation::off) return false;
-    refuse("motions without the tool's length",
-           "switch the length on (G43 H), or use machine "
-           "coordinates");
+    refusals_.add("motions without the tool's length",
+                  "switch the length on (G43 H), or use machine "
+                  "coordinates");
     return true;
-  }
-
-  [[nodiscard]] std::string text_of(AxisLetter letter, double value) const {
-    return is_rotary(letter) ? out_.coordinate(value * kDegPerRad, options_.angle_decimals)
-                             : out_.coordinate(value, options_.length_decimals);
-  }
-
-  // " X12.5", or nothing when the axis is there already.
-  std::string axis_word(AxisLetter letter, double value, bool always) {
-    const std::string number = text_of(letter, value);
-    std::optional<Known>& known = known_.at(index_of(letter));
-    const bool there = known && known->text == number;
-    known = Known{number, value};
-    if (there && !always && !as_given()) return {};
-    return fmt::format(" {}{}", to_char(letter), number);
-  }
-
-  std::string vector_words(const std::optional<UnitVec3>& tool_axis) {
-    if (!tool_axis) return {};
-    if (spelling_.tool_vector[0].empty()) {
-      refuse("tool vectors", "write rotary axes: --output tcp or --output axes");
-      return {};
-    }
-    std::string words;
-    for (std::size_t i = 0; i < 3; ++i) {
-      words += fmt::format(" {}{}", spelling_.tool_vector.at(i),
-                           out_.coordinate(tool_axis->vec()[static_cast<Eigen::Index>(i)],
-                                           options_.vector_decimals));
-    }
-    vector_text_ = words;
-    return words;
-  }
-
-  std::string centre_words(const ArcFeed& arc, const PlaneAxes& axes) {
-    std::string words;
-    for (const int axis : {std::min(axes.u, axes.v), std::max(axes.u, axes.v)}) {
-      const auto i = static_cast<std::size_t>(axis);
-      const double from = spelling_.circle_centre_block ? 0.0 : known_.at(i)->value;
-      words += fmt::format(" {}{}", spelling_.circle_centre_block ? "XYZ"[i] : "IJK"[i],
-                           out_.coordinate(arc.center[axis] - from, options_.length_decimals));
-    }
-    return words;
-  }
-
-  // " F500", with the words that change the mode before it.
-  std::string feed_words(const Feed& feed) {
-    if (feed.synchronised) {  // of this block alone
-      feed_text_.clear();
-      return fmt::format(" {}{}", spelling_.lead, significant(feed.value, options_.feed_digits));
-    }
-    const std::string_view word = spelling_.feed_words.at(index_of(feed.mode));
-    if (word.empty()) {
-      refuse(feed.mode == FeedMode::inverse_time ? "inverse time feed" : "feed per revolution",
-             "give the feed in mm/min");
-      return {};
-    }
-    std::string words;
-    if (word == "FT") {  // of this block alone
-      feed_text_.clear();
-      return fmt::format(" FT{}",
-                         significant(kSecondsPerMinute / feed.value, options_.feed_digits));
-    }
-    if (feed.mode != feed_mode_) {
-      feed_text_.clear();
-      words += fmt::format(" {}", spelling_.feed_modes.at(index_of(feed.mode)));
-    }
-    feed_mode_ = feed.mode;
-    std::string text = significant(feed.value, options_.feed_digits);
-    const bool there = text == feed_text_ && feed.mode != FeedMode::inverse_time;
-    if (!there) words += fmt::format(" {}{}", word, text);
-    feed_text_ = std::move(text);
-    return words;
   }
 
   void write(const CompensationChange& change) {
     if (change.length) {
-      refuse("a tool length that the program sets itself", "take the lengths from the tool table");
+      refusals_.add("a tool length that the program sets itself",
+                    "take the lengths from the tool table");
       return;
     }
     if (change.mode != LengthCompensation::off && spelling_.compensation_by_tool &&
         change.offset_number != tool_) {
-      refuse(fmt::format("the length of tool {} with tool {} in the spindle", change.offset_number,
-                         tool_),
-             "take the length offset of the tool in the spindle");
+      refusals_.add(fmt::format("the length of tool {} with tool {} in the spindle",
+                                change.offset_number, tool_),
+                    "take the length offset of the tool in the spindle");
       return;
     }
     if (change.tool_vectors && spelling_.tool_vector[0].empty()) {
-      refuse("tool vectors", "write rotary axes: --output tcp or --output axes");
+      refusals_.add("tool vectors", "write rotary axes: --output tcp or --output axes");
       return;
     }
     spell(change);
@@ -335,7 +255,8 @@ class MotionWriter {
     orientation_ = change.path;
     const std::string_view word = spelling_.orientation_paths.at(index_of(change.path));
     if (word.empty() && change.path != OrientationPath::rotary_axes) {
-      refuse("tool axes that follow great circles", "write rotary axes: --output tcp or axes");
+      refusals_.add("tool axes that follow great circles",
+                    "write rotary axes: --output tcp or axes");
       return;
     }
     if (guides_tip(in_force_)) out_.lines(word);
@@ -344,18 +265,18 @@ class MotionWriter {
     const std::string_view word = spelling_.rotary_paths.at(index_of(change.path));
     const bool all = change.axes == RotaryPathChange{}.axes;
     if ((word.empty() || !all) && change.path != RotaryPath::as_programmed) {
-      refuse(change.path == RotaryPath::shortest ? "rotary axes that take the shortest way"
-                                                 : "rotary axes that turn in one direction",
-             "write the positions that they turn to");
+      refusals_.add(change.path == RotaryPath::shortest ? "rotary axes that take the shortest way"
+                                                        : "rotary axes that turn in one direction",
+                    "write the positions that they turn to");
       return;
     }
     out_.lines(word);
   }
   void write(const TiltedPlaneChange& /*change*/) {
-    refuse("a tilted plane", "let the post-processor resolve it");
+    refusals_.add("a tilted plane", "let the post-processor resolve it");
   }
   void write(const AlignToPlane& /*align*/) {
-    refuse("the alignment to a tilted plane", "let the post-processor resolve it");
+    refusals_.add("the alignment to a tilted plane", "let the post-processor resolve it");
   }
 
   void write(const ToolChange& change) {
@@ -387,13 +308,14 @@ class MotionWriter {
   }
 
   void write(const SpindleChange& change) {
-    std::string block;
+    SpacedText block;
     const bool turns = change.direction != SpindleDirection::off;
     if (turns && change.speed != speed_) {
-      block = filled(spelling_.speed, '#', significant(change.speed, options_.feed_digits));
+      block.add(filled(spelling_.speed, '#', significant(change.speed, options_.feed_digits)));
       speed_ = change.speed;
     }
-    out_.lines(block + std::string(spelling_.spindle.at(index_of(change.direction))));
+    block.add(spelling_.spindle.at(index_of(change.direction)));
+    out_.lines(block.take());
   }
   void write(const CoolantChange& change) { out_.line(spelling_.coolant.at(change.flood ? 1 : 0)); }
   void write(const WorkOffsetChange& change) {
@@ -402,7 +324,7 @@ class MotionWriter {
                                       ? spelling_.work_offsets.at(index)
                                       : std::string_view();
     if (word.empty() && spelling_.any_work_offset.empty()) {
-      refuse(fmt::format("work offset {}", change.number), "use one of the first six");
+      refusals_.add(fmt::format("work offset {}", change.number), "use one of the first six");
       return;
     }
     out_.lines(word.empty()
@@ -412,8 +334,8 @@ class MotionWriter {
     forget_positions();
   }
   void write(const WorkOffsetSetting& setting) {
-    refuse(fmt::format("a program that places {} itself", work_offset_name(setting.number)),
-           "give the origin in the setup");
+    refusals_.add(fmt::format("a program that places {} itself", work_offset_name(setting.number)),
+                  "give the origin in the setup");
   }
   void write(const Dwell& dwell) {
     out_.lines(filled(spelling_.dwell, '#', significant(dwell.seconds, options_.feed_digits)));
@@ -422,7 +344,7 @@ class MotionWriter {
 
   void write(const Event& event) {
     if (!options_.comments) return;
-    if (as_given() && place_.line != block_line_) motion_word_ = {};
+    if (as_given() && line_ != block_line_) motion_word_ = {};
     if (event.name == "message" && !spelling_.message.empty()) {
       out_.lines(filled(spelling_.message, '$', out_.as_comment(event.text)));
       return;
@@ -433,51 +355,28 @@ class MotionWriter {
   }
 
   void forget_positions() {
-    known_ = {};
-    vector_text_.clear();
+    words_.forget();
     if (as_given()) motion_word_ = {};
   }
-
-  void refuse(std::string_view what, std::string hint) {
-    Diagnostic problem =
-        error("not-in-dialect"_id, fmt::format("{} has no words for {}", spelling_.title, what),
-              std::move(hint));
-    if (place_.file) problem.file = *place_.file;
-    problem.line = static_cast<int>(place_.line);
-    problem.column = static_cast<int>(place_.column);
-    // One of a kind is enough: the same motion would fail a million times.
-    const bool reported = std::any_of(problems_.begin(), problems_.end(), [&](const Diagnostic& d) {
-      return d.message == problem.message;
-    });
-    if (!reported) problems_.push_back(std::move(problem));
-  }
-
-  struct Known {
-    std::string text;
-    double value = 0.0;
-  };
 
   const NcSpelling& spelling_;
   const WriterOptions& options_;
   std::span<const Motion> rest_{};  // after the motion at work
-  SourcePlace place_{};             // of the motion at work
-  std::uint32_t block_line_ = 0;    // source line of the motion before
+  std::uint32_t line_ = 0;          // of the source: of the motion at work, and of the one before
+  std::uint32_t block_line_ = 0;
 
   std::string_view motion_word_{};
-  std::array<std::optional<Known>, 6> known_{};
-  std::string vector_text_{};  // of the vector in force
   bool vectors_ = false;
   std::optional<Plane> plane_{};
-  FeedMode feed_mode_ = FeedMode::per_minute;
-  std::string feed_text_{};
   CompensationChange compensation_{};  // as the motions say
   CompensationChange in_force_{};
   OrientationPath orientation_ = OrientationPath::rotary_axes;
   int tool_ = 0;
   double speed_ = -1.0;
 
+  Refusals refusals_;
+  MotionWords words_;
   NcLines out_;
-  Diagnostics problems_{};
 };
 
 }  // namespace

@@ -87,12 +87,6 @@ void NcLines::line(std::string_view text, BlockPart part) {
   begun_ = false;
 }
 
-std::string NcLines::coordinate(double value, int decimals) const {
-  std::string text = fixed(value, decimals, spelling_.whole_numbers);
-  if (spelling_.plus_signs && text.front() != '-') text.insert(0, 1, '+');
-  return text;
-}
-
 LineRange lines_from(const NcProgram& program, LineRange source) {
   LineRange range;
   for (std::size_t i = 0; i < program.source_lines.size(); ++i) {

@@ -72,8 +72,6 @@ class NcLines {
   void comment(std::string_view text);
   // Only what every controller shows in a comment.
   [[nodiscard]] std::string as_comment(std::string_view text) const;
-  // The number of a coordinate.
-  [[nodiscard]] std::string coordinate(double value, int decimals) const;
   [[nodiscard]] NcProgram take() { return std::move(program_); }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace frustum::parser {
 
@@ -19,6 +20,14 @@ std::string significant(double value, int digits) {
   const int before =
       value == 0.0 ? 1 : 1 + static_cast<int>(std::floor(std::log10(std::abs(value))));
   return fixed(value, std::max(0, digits - before), WholeNumbers::without_point);
+}
+
+std::string with_sign(std::string number) {
+  return number.starts_with('-') ? number : "+" + std::move(number);
+}
+
+std::string with_point(std::string number) {
+  return number.find('.') != std::string::npos ? number : std::move(number) + '.';
 }
 
 }  // namespace frustum::parser

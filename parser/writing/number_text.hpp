@@ -20,4 +20,9 @@ enum class WholeNumbers : std::uint8_t { with_point, without_point };
 // As many decimals as that many significant digits need; for feeds.
 [[nodiscard]] std::string significant(double value, int digits);
 
+// With a + unless it is below zero.
+[[nodiscard]] std::string with_sign(std::string number);
+// With a point at its end when it has none.
+[[nodiscard]] std::string with_point(std::string number);
+
 }  // namespace frustum::parser

@@ -6,6 +6,7 @@
 #include "parser/dialects/expressions.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
+#include "parser/writing/number_text.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -60,11 +61,9 @@ class Rs274Block {
   }
 
   [[nodiscard]] std::string word_text(const Word& word) const {
-    const std::string letter = word.spelled != nullptr ? word.spelled : std::string(1, word.letter);
-    if (!word.expression.empty()) return letter + operand_text(word.expression);
-    std::string text = letter + decimal_text(word.number);
-    if (word.decimal_point && text.find('.') == std::string::npos) text += '.';
-    return text;
+    if (!word.expression.empty()) return address_of(word) + operand_text(word.expression);
+    const std::string number = decimal_text(word.number);
+    return address_of(word) + (word.decimal_point ? with_point(number) : number);
   }
 
   [[nodiscard]] std::string setting_text(const Assignment& setting) const {

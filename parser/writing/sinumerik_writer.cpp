@@ -11,6 +11,7 @@
 #include "parser/reading/sinumerik/sinumerik_cycle.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
+#include "parser/writing/number_text.hpp"
 #include "parser/writing/sinumerik_statement.hpp"
 
 namespace frustum::parser {
@@ -94,10 +95,8 @@ class SinumerikBlock {
     return "%" + (block_.comments.empty() ? std::string() : block_.comments.front().text);
   }
 
-  [[nodiscard]] std::string value_text(const Word& word) const {
-    const std::string value = word.expression.empty()
-                                  ? decimal_text(word.number)
-                                  : range_text(spelling_, block_, word.expression, sum);
+  [[nodiscard]] std::string measured(const Word& word) const {
+    const std::string value = value_text(spelling_, block_, word, sum);
     const std::string_view measure = sinumerik_measure(word.measure);
     return measure.empty() ? value : fmt::format("{}({})", measure, value);
   }
@@ -106,13 +105,13 @@ class SinumerikBlock {
   // would be a parameter and a call.
   [[nodiscard]] std::string word_text(const Word& word) const {
     if (word.letter == kNamedWord) return std::string(named_word(word));
-    const std::string value = value_text(word);
+    const std::string value = measured(word);
     if (word.spelled != nullptr) return word.spelled + value;
     const bool plain = word.expression.empty() && word.measure == Measure::modal;
     const bool has_point = value.find('.') != std::string::npos;
     const bool needs_sign = !plain || word.letter == 'R' || word.letter == 'L';
     if (needs_sign || has_point != word.decimal_point) {
-      if (plain && word.decimal_point) return fmt::format("{}{}.", word.letter, value);
+      if (plain && word.decimal_point) return word.letter + with_point(value);
       return fmt::format("{}={}", word.letter, value);
     }
     return word.letter + value;
@@ -142,7 +141,7 @@ class SinumerikBlock {
       const std::size_t slot = slot_in(parameters, word);
       if (slot == parameters.size()) continue;
       slots.resize(std::max(slots.size(), slot + 1));
-      slots.at(slot) = value_text(word);
+      slots.at(slot) = measured(word);
     }
     return fmt::format("{}({})", name, fmt::join(slots, ","));
   }
@@ -156,7 +155,7 @@ class SinumerikBlock {
     slots[1] = "\"\"";
     for (const Word& parameter : block_.words) {
       const std::size_t slot = swivel_slot(parameter);
-      if (slot < slots.size()) slots.at(slot) = value_text(parameter);
+      if (slot < slots.size()) slots.at(slot) = measured(parameter);
     }
     return fmt::format("CYCLE800({})", fmt::join(slots, ","));
   }
