@@ -16,6 +16,14 @@ namespace frustum::kinematics {
 class Machine;
 }  // namespace frustum::kinematics
 
+namespace frustum::metrology {
+struct InspectionPlan;
+}  // namespace frustum::metrology
+
+namespace frustum::report {
+struct RunReport;
+}  // namespace frustum::report
+
 namespace frustum::app {
 
 class Command;
@@ -65,7 +73,16 @@ void add_error_options(Command& command, ErrorWords& words);
 // The options by which a command takes a machine and its set-up: --machine, --job, --tool-length,
 // --offset.
 void add_setup_options(Command& command, SetupWords& words);
-// --export FILE, which may be repeated.
-void add_export_option(Command& command, std::vector<std::string>& files);
+// How a command shows its results: --export FILE, which may be repeated, --json, --quiet.
+struct ResultOptions {
+  std::vector<std::string> exports{};
+  bool json = false;
+  bool quiet = false;
+};
+void add_result_options(Command& command, ResultOptions& options);
+// Writes the files of --export, whose names go into the report, and prints it; returns the exit
+// code.
+int show_result(report::RunReport& report, const metrology::InspectionPlan& plan,
+                const std::vector<std::filesystem::path>& exports, const ResultOptions& options);
 
 }  // namespace frustum::app

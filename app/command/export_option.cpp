@@ -1,13 +1,34 @@
-// The option by which a command writes its results in other formats too.
+// How a command shows its results and writes them in other formats too.
+#include <iostream>
+
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/job/export_request.hpp"
+#include "app/view/console.hpp"
+#include "report/exchange/json_report.hpp"
+#include "report/terminal_report.hpp"
 
 namespace frustum::app {
 
-void add_export_option(Command& command, std::vector<std::string>& files) {
-  command.option("--export", files,
+void add_result_options(Command& command, ResultOptions& options) {
+  command.option("--export", options.exports,
                  "Results in another format, by the extension: .qif (QIF 3.0), .csv, .xml "
                  "(JUnit), .dfq (Q-DAS), .json; may be repeated");
+  command.flag("--json", options.json, "One JSON document on stdout and nothing else");
+  command.flag("--quiet", options.quiet, "No progress, no summary");
+}
+
+int show_result(report::RunReport& report, const metrology::InspectionPlan& plan,
+                const std::vector<std::filesystem::path>& exports, const ResultOptions& options) {
+  if (const Diagnostics faults = write_exports(exports, report, plan); !faults.empty()) {
+    return refuse(faults);
+  }
+  if (options.json) {
+    std::cout << report::json_report(report);
+  } else if (!options.quiet) {
+    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
+  }
+  return report.passes() ? kDone : kOutOfTolerance;
 }
 
 }  // namespace frustum::app

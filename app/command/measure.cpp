@@ -1,6 +1,5 @@
 // frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM
 // points.
-#include <iostream>
 #include <memory>
 
 #include "app/command/cmm_option.hpp"
@@ -15,8 +14,6 @@
 #include "metrology/characteristic/standard_uncertainty.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/points/point_file.hpp"
-#include "report/exchange/json_report.hpp"
-#include "report/terminal_report.hpp"
 #include "trials/mesh_probe.hpp"
 
 namespace frustum::app {
@@ -26,33 +23,16 @@ using metrology::CmmModel;
 using metrology::InspectionPlan;
 using metrology::LengthUnit;
 
-struct MeasureOptions {
+struct MeasureOptions : ResultOptions {
   std::string job{};
   std::string plan{};
   std::string points{};
   std::string mesh{};
   std::string unit{};
   CmmWords cmm{};
-  std::vector<std::string> exports{};
   JobOverrides overrides{};
   bool ball_centres = false;
-  bool json = false;
-  bool quiet = false;
 };
-using Files = std::vector<std::filesystem::path>;
-
-int print_report(report::RunReport& report, const InspectionPlan& plan, const Files& exports,
-                 const MeasureOptions& options) {
-  if (const Diagnostics faults = write_exports(exports, report, plan); !faults.empty()) {
-    return refuse(faults);
-  }
-  if (options.json) {
-    std::cout << report::json_report(report);
-  } else if (!options.quiet) {
-    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
-  }
-  return report.passes() ? kDone : kOutOfTolerance;
-}
 
 int measure_job(const MeasureOptions& options) {
   const auto job = load_job(options.job, options.overrides, true);
@@ -67,7 +47,7 @@ int measure_job(const MeasureOptions& options) {
   }
   report::RunReport report = report_of(*job, *trial);
   report.timings = run.timings();
-  return print_report(report, job->piece.plan, *exports, options);
+  return show_result(report, job->piece.plan, *exports, options);
 }
 
 Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
@@ -128,7 +108,7 @@ int measure_by_plan(const MeasureOptions& options) {
   report::RunReport report;
   report.title = plan->title;
   report.measurement = *std::move(measurement);
-  return print_report(report, *plan, *exports, options);
+  return show_result(report, *plan, *exports, options);
 }
 
 int measure(const MeasureOptions& options) {
@@ -179,9 +159,7 @@ void add_measure(Command& program) {
                "The points are centres of the probe ball, not surface points");
   add_error_options(command, options->overrides.errors);
   command.option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
-  add_export_option(command, options->exports);
-  command.flag("--json", options->json, "One JSON document on stdout and nothing else");
-  command.flag("--quiet", options->quiet, "No progress, no summary");
+  add_result_options(command, *options);
   command.footer(
       "Example: frustum measure --plan cone.plan.toml --points out/points.csv --export part.qif "
       "--export part.junit.xml");

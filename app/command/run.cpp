@@ -1,7 +1,6 @@
 // frustum run: the whole loop, from a job file to a report.
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 
 #include "app/command/command_line.hpp"
@@ -16,18 +15,14 @@
 #include "report/exchange/json_report.hpp"
 #include "report/exchange/points_csv.hpp"
 #include "report/page/html_report.hpp"
-#include "report/terminal_report.hpp"
 
 namespace frustum::app {
 namespace {
 
-struct RunOptions {
+struct RunOptions : ResultOptions {
   std::string job{};
   std::string out{};
-  std::vector<std::string> exports{};
   JobOverrides overrides{};
-  bool json = false;
-  bool quiet = false;
 };
 
 // Files go to --out, else beside the job into out/.
@@ -79,16 +74,7 @@ int run_job(const RunOptions& options) {
   run.end();
   report.timings = run.timings();
   if (const auto failure = write_files(report, *job, folder_of(options))) return refuse(*failure);
-  if (const Diagnostics faults = write_exports(*exports, report, job->piece.plan);
-      !faults.empty()) {
-    return refuse(faults);
-  }
-  if (options.json) {
-    std::cout << report::json_report(report);
-  } else if (!options.quiet) {
-    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
-  }
-  return report.passes() ? kDone : kOutOfTolerance;
+  return show_result(report, job->piece.plan, *exports, options);
 }
 
 }  // namespace
@@ -104,9 +90,7 @@ void add_run(Command& program) {
   add_error_options(command, options->overrides.errors);
   command.option("--tool-radius-error", options->overrides.tool_radius_error,
                  "Of every tool, with unit, for example 2um");
-  add_export_option(command, options->exports);
-  command.flag("--json", options->json, "One JSON document on stdout and nothing else");
-  command.flag("--quiet", options->quiet, "No progress, no summary");
+  add_result_options(command, *options);
   command.footer("Example: frustum run job.toml --out out --error EX0C=10um");
   command.runs([options] { return run_job(*options); });
 }

@@ -158,26 +158,4 @@ PoseTree::PoseTree(const ToolPath& path, std::span<const Box> boxes,
   groups_.shrink_to_fit();
 }
 
-std::vector<std::uint32_t> segments_near(const PoseTree& tree, const Ray& ray, RaySpan span) {
-  std::vector<std::uint32_t> found;
-  if (tree.groups().empty()) return found;
-  const BoxCrossing crossing(ray);
-  std::vector<std::uint32_t> open{0};
-  while (!open.empty()) {
-    const std::uint32_t index = open.back();
-    open.pop_back();
-    const PoseGroup& group = tree.groups()[index];
-    const RaySpan in_box = crossing.within(group.box, span);
-    if (!(in_box.lo <= in_box.hi)) continue;
-    if (group.count > 0) {
-      const auto leaf = tree.segments().subspan(group.first, group.count);
-      found.insert(found.end(), leaf.begin(), leaf.end());
-    } else {
-      open.push_back(group.children + 1);
-      open.push_back(group.children);
-    }
-  }
-  return found;
-}
-
 }  // namespace frustum::cutter

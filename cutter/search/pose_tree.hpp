@@ -20,7 +20,6 @@
 
 #include "core/box.hpp"
 #include "core/pose.hpp"
-#include "core/ray.hpp"
 #include "cutter/body/profile.hpp"
 #include "kinematics/path/tool_path.hpp"
 
@@ -64,9 +63,5 @@ class PoseTree {
   std::vector<PoseGroup> groups_{};
   std::vector<std::uint32_t> segments_;
 };
-
-// Segments of the leaves whose box the ray crosses within the span; some of them it may pass by.
-[[nodiscard]] std::vector<std::uint32_t> segments_near(const PoseTree& tree, const Ray& ray,
-                                                       RaySpan span);
 
 }  // namespace frustum::cutter

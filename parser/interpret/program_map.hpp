@@ -43,9 +43,8 @@ class ProgramMap {
   explicit ProgramMap(const Program& program);
 
   [[nodiscard]] const Diagnostics& faults() const { return faults_; }
-  [[nodiscard]] const Landmark& operator[](std::size_t index) const { return landmarks_[index]; }
   // In the order of the text.
-  [[nodiscard]] const std::vector<Landmark>& landmarks() const { return landmarks_; }
+  [[nodiscard]] const Landmark& operator[](std::size_t index) const { return landmarks_[index]; }
   // The one whose block is at `place`, which must be one.
   [[nodiscard]] const Landmark& at(TextPlace place) const;
   // The subprogram or label of that name; null when there is none.
