@@ -72,7 +72,7 @@ void cone_continued_probes(benchmark::State& state) {
   state.counters["followed"] =
       static_cast<double>(followed) / static_cast<double>(state.iterations());
 }
-BENCHMARK(cone_retraced_probes);
+BENCHMARK(cone_continued_probes);
 
 void cone_mesh_at_a_quarter_millimetre(benchmark::State& state) {
   const stock::Workpiece part = ConeScene::cut(kConeBlocks);

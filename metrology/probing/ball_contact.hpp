@@ -5,11 +5,12 @@
 //            centre touches in direction m; m is iterated to n(x). Every ray gives a bound, since
 //            the ball cannot pass the point it met: the farthest one counts
 // Units    : mm
-// Shape    : 3 to 8 rays on smooth surfaces, some 60 at an edge
+// Shape    : 3 to 8 rays on smooth surfaces and at convex edges and corners, some 70 where neither
+//            can be proven
 // Errors   : no_surface, starts_inside
-// Accuracy : 1e-12 mm on smooth surfaces (second order in the direction); across an edge the bound
-//            along the arc between its two normals. Of two separate contacts, as deep in a groove,
-//            one is found
+// Accuracy : 1e-12 mm on smooth surfaces (second order in the direction) and at convex edges of
+//            flat faces; 4e-10 mm at edges of faces that scatter as much. Else the bound along the
+//            arc between two normals. Of two separate contacts, as deep in a groove, one is found
 // Source   : ours
 #pragma once
 
