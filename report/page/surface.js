@@ -1,11 +1,10 @@
 // The finished workpiece, coloured by deviation, to be turned with the mouse.
 import * as three from 'three';
-import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {creaseNormals} from './crease_normals.js';
 import {unpack} from './packed_array.js';
+import {viewIn} from './view.js';
 
 const CREASE = 25 * Math.PI / 180;
-const VIEWS = {iso: [0.62, -1, 0.72], top: [0, -1e-4, 1], front: [0, -1, 0], side: [1, 0, 0]};
 
 const css = (colour) => `rgb(${colour.map((c) => Math.round(255 * c)).join(' ')})`;
 
@@ -95,24 +94,6 @@ function addLights(scene, camera) {
   scene.add(camera);
 }
 
-// From how far the camera sees all corners of the box, with a margin; `back` points from its centre
-// to the camera.
-function distanceOf(box, back, camera) {
-  const margin = 1.06;
-  const right = new three.Vector3().crossVectors(camera.up, back).normalize();
-  const up = new three.Vector3().crossVectors(back, right);
-  const half = box.getSize(new three.Vector3()).multiplyScalar(margin / 2);
-  const slope = Math.tan(camera.fov / 2 * Math.PI / 180);
-  let distance = 0;
-  for (let k = 0; k < 8; ++k) {
-    const signs = new three.Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    const corner = signs.multiply(half);
-    const aside = Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / camera.aspect);
-    distance = Math.max(distance, corner.dot(back) + aside / slope);
-  }
-  return distance;
-}
-
 // Says in `reading` what is under a click: nearest corner of the triangle that was hit.
 function readDeviations(element, camera, mesh, model, reading) {
   let pressed = null;
@@ -143,56 +124,14 @@ function readDeviations(element, camera, mesh, model, reading) {
 
 export async function drawSurface(element, surface) {
   const figure = element.closest('figure');
-  let renderer;
-  try {
-    renderer = new three.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
-  } catch {
-    element.textContent = 'This browser draws no 3D graphics (WebGL is off).';
-    element.classList.add('missing');
-    return;
-  }
+  const view = viewIn(element);
+  if (!view) return;
   const model = await geometryOf(surface);
-  const scene = new three.Scene();
-  const camera = new three.PerspectiveCamera(24, 1, 0.1, 1e5);
-  camera.up.set(0, 0, 1);
-  addLights(scene, camera);
+  addLights(view.scene, view.camera);
   const mesh = new three.Mesh(model.geometry, new three.MeshStandardMaterial(
       {vertexColors: true, roughness: 0.62, metalness: 0, side: three.DoubleSide}));
-  scene.add(mesh);
-  element.append(renderer.domElement);
-  const controls = new OrbitControls(camera, renderer.domElement);
-  const box = model.geometry.boundingBox;
-  const center = box.getCenter(new three.Vector3());
-  const render = () => renderer.render(scene, camera);
-
-  const look = (name) => {
-    const back = new three.Vector3(...VIEWS[name]).normalize();
-    const distance = distanceOf(box, back, camera);
-    camera.position.copy(back).multiplyScalar(distance).add(center);
-    camera.near = distance / 100;
-    camera.far = distance * 10;
-    camera.updateProjectionMatrix();
-    controls.target.copy(center);
-    controls.update();
-    render();
-  };
-  const resize = () => {
-    const width = element.clientWidth;
-    const height = element.clientHeight;
-    if (width === 0 || height === 0) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    renderer.setSize(width, height);
-    camera.aspect = width / height;
-    camera.updateProjectionMatrix();
-    render();
-  };
-  controls.addEventListener('change', render);
-  new ResizeObserver(resize).observe(element);
-  for (const button of figure.querySelectorAll('[data-view]')) {
-    button.addEventListener('click', () => look(button.dataset.view));
-  }
-  readDeviations(renderer.domElement, camera, mesh, model, figure.querySelector('.reading'));
+  view.scene.add(mesh);
+  readDeviations(view.canvas, view.camera, mesh, model, figure.querySelector('.reading'));
   if (surface.deviation) drawLegend(figure.querySelector('.legend'), surface);
-  resize();
-  look('iso');
+  view.show(model.geometry.boundingBox, 1.06);
 }

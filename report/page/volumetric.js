@@ -1,10 +1,8 @@
 // Error vectors over a working volume: the nominal grid, the grid as the errors deform it, and an arrow at
 // each point, magnified.
 import * as three from 'three';
-import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {onTheme, theme} from './theme.js';
-
-const VIEWS = {iso: [0.62, -1, 0.72], top: [0, -1e-4, 1], front: [0, -1, 0], side: [1, 0, 0]};
+import {viewIn} from './view.js';
 
 // Pairs of neighbours along the three directions of the grid.
 function neighbours([nx, ny, nz]) {
@@ -32,19 +30,9 @@ function segments(points, pairs) {
 
 export function drawVolume(element, volume) {
   const figure = element.closest('figure');
-  let renderer;
-  try {
-    renderer = new three.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
-  } catch {
-    element.textContent = 'This browser draws no 3D graphics (WebGL is off).';
-    element.classList.add('missing');
-    return;
-  }
-  const scene = new three.Scene();
-  const camera = new three.PerspectiveCamera(24, 1, 0.1, 1e5);
-  camera.up.set(0, 0, 1);
+  const view = viewIn(element);
+  if (!view) return;
   const box = new three.Box3().setFromPoints(volume.places.map((p) => new three.Vector3(...p)));
-  const center = box.getCenter(new three.Vector3());
   const radius = Math.max(box.getSize(new three.Vector3()).length() / 2, 1);
   const pairs = neighbours(volume.counts);
   const lines = (opacity) =>
@@ -54,10 +42,7 @@ export function drawVolume(element, volume) {
   nominal.geometry = segments(volume.places, pairs);
   const heads = new three.InstancedMesh(new three.ConeGeometry(1, 3, 12).translate(0, -1.5, 0),
                                         new three.MeshBasicMaterial(), volume.places.length);
-  scene.add(nominal, deformed, shafts, heads);
-  element.append(renderer.domElement);
-  const controls = new OrbitControls(camera, renderer.domElement);
-  const render = () => renderer.render(scene, camera);
+  view.scene.add(nominal, deformed, shafts, heads);
   const shown = {side: 'relative', position: 0, factor: volume.factor};
 
   const update = () => {
@@ -89,31 +74,8 @@ export function drawVolume(element, volume) {
     for (const button of figure.querySelectorAll('[data-side]')) {
       button.setAttribute('aria-pressed', String(button.dataset.side === shown.side));
     }
-    render();
+    view.render();
   };
-  const look = (name) => {
-    const distance = radius * 1.12 / Math.sin(camera.fov / 2 * Math.PI / 180);
-    camera.position.set(...VIEWS[name]).normalize().multiplyScalar(distance).add(center);
-    camera.near = distance / 100;
-    camera.far = distance * 10;
-    camera.updateProjectionMatrix();
-    controls.target.copy(center);
-    controls.update();
-    render();
-  };
-  const resize = () => {
-    if (element.clientWidth === 0 || element.clientHeight === 0) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    renderer.setSize(element.clientWidth, element.clientHeight);
-    camera.aspect = element.clientWidth / element.clientHeight;
-    camera.updateProjectionMatrix();
-    render();
-  };
-  controls.addEventListener('change', render);
-  new ResizeObserver(resize).observe(element);
-  for (const button of figure.querySelectorAll('[data-view]')) {
-    button.addEventListener('click', () => look(button.dataset.view));
-  }
   for (const button of figure.querySelectorAll('[data-side]')) {
     button.addEventListener('click', () => {
       shown.side = button.dataset.side;
@@ -136,9 +98,8 @@ export function drawVolume(element, volume) {
     deformed.material.color.set(colours.series[0]);
     shafts.material.color.set(colours.series[1]);
     heads.material.color.set(colours.series[1]);
-    render();
+    view.render();
   });
-  resize();
   update();
-  look('iso');
+  view.show(box, 1.2);
 }

@@ -1,0 +1,74 @@
+// A scene that is turned with the mouse, and the buttons of its figure that show it from one side.
+import * as three from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+
+const SIDES = {iso: [0.62, -1, 0.72], top: [0, -1e-4, 1], front: [0, -1, 0], side: [1, 0, 0]};
+
+// From how far the camera sees all corners of the box, `margin` times as large; `back` points from
+// its centre to the camera.
+function distanceOf(box, back, camera, margin) {
+  const right = new three.Vector3().crossVectors(camera.up, back).normalize();
+  const up = new three.Vector3().crossVectors(back, right);
+  const half = box.getSize(new three.Vector3()).multiplyScalar(margin / 2);
+  const slope = Math.tan(camera.fov / 2 * Math.PI / 180);
+  let distance = 1;  // mm, of a box that is a point
+  for (let k = 0; k < 8; ++k) {
+    const signs = new three.Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    const corner = signs.multiply(half);
+    const aside = Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / camera.aspect);
+    distance = Math.max(distance, corner.dot(back) + aside / slope);
+  }
+  return distance;
+}
+
+// Scene and camera in `element`; nothing where the browser draws no 3D graphics, which it then says.
+// show(box, margin) begins: the box is in view from all sides.
+export function viewIn(element) {
+  let renderer;
+  try {
+    renderer = new three.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+  } catch {
+    element.textContent = 'This browser draws no 3D graphics (WebGL is off).';
+    element.classList.add('missing');
+    return null;
+  }
+  const scene = new three.Scene();
+  const camera = new three.PerspectiveCamera(24, 1, 0.1, 1e5);
+  camera.up.set(0, 0, 1);
+  const canvas = renderer.domElement;
+  element.append(canvas);
+  const controls = new OrbitControls(camera, canvas);
+  const render = () => renderer.render(scene, camera);
+  const resize = () => {
+    const width = element.clientWidth;
+    const height = element.clientHeight;
+    if (width === 0 || height === 0) return;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    renderer.setSize(width, height);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    render();
+  };
+  const show = (box, margin) => {
+    const center = box.getCenter(new three.Vector3());
+    const look = (name) => {
+      const back = new three.Vector3(...SIDES[name]).normalize();
+      const distance = distanceOf(box, back, camera, margin);
+      camera.position.copy(back).multiplyScalar(distance).add(center);
+      camera.near = distance / 100;
+      camera.far = distance * 10;
+      camera.updateProjectionMatrix();
+      controls.target.copy(center);
+      controls.update();
+      render();
+    };
+    for (const button of element.closest('figure').querySelectorAll('[data-view]')) {
+      button.addEventListener('click', () => look(button.dataset.view));
+    }
+    controls.addEventListener('change', render);
+    new ResizeObserver(resize).observe(element);
+    resize();
+    look('iso');
+  };
+  return {scene, camera, canvas, render, show};
+}
