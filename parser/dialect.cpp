@@ -6,6 +6,8 @@
 #include <cctype>
 #include <optional>
 
+#include "parser/language/letter_case.hpp"
+
 namespace frustum::parser {
 namespace {
 
@@ -122,12 +124,6 @@ constexpr std::array kExtensions{
 // Lines looked at; programs say early what they are.
 constexpr int kLines = 400;
 
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return result;
-}
-
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -135,7 +131,7 @@ bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0;
 std::string code_of(std::string_view line) {
   std::string code;
   int depth = 0;
-  for (const char c : upper(line)) {
+  for (const char c : upper_case(line)) {
     if (c == ';' && !code.empty() && code.find_first_not_of(" \t") != std::string::npos) break;
     // MSG( is no comment.
     if (c == '(' && (depth > 0 || code.empty() || !is_letter(code.back()))) ++depth;
@@ -231,8 +227,7 @@ std::optional<Dialect> dialect_named(std::string_view name) {
 
 RecognisedDialect recognise_dialect(std::string_view text, std::string_view file) {
   if (auto found = by_content(text)) return *std::move(found);
-  std::string name(file);
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string name = lower_case(file);
   for (const Extension& extension : kExtensions) {
     if (name.ends_with(extension.ending)) {
       return {extension.dialect, fmt::format("the name ends in {}", extension.ending)};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -11,6 +10,7 @@
 
 #include "core/units.hpp"
 #include "core/whole_file.hpp"
+#include "parser/language/letter_case.hpp"
 #include "parser/language/letter_set.hpp"
 
 namespace frustum::parser {
@@ -44,7 +44,7 @@ class TableLine {
         break;
       }
       const std::size_t column = at_ + 1;
-      const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text_[at_])));
+      const char letter = upper(text_[at_]);
       if (letter < 'A' || letter > 'Z' || !kToolWords.has(letter)) {
         return Mistake{column, fmt::format("'{}' is no word of a tool table", word_at(column)),
                        "words are T P D X Y Z A B C U V W I J Q with a number: T1 P1 D12 Z100; a "

@@ -11,6 +11,7 @@
 
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -41,8 +42,7 @@ std::optional<std::string_view> behind(std::string_view comment, std::string_vie
   const std::size_t start = std::min(comment.find_first_not_of(" \t"), comment.size());
   if (comment.size() - start < prefix.size()) return std::nullopt;
   for (std::size_t i = 0; i < prefix.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(comment[start + i]);
-    if (std::toupper(byte) != prefix[i]) return std::nullopt;
+    if (upper(comment[start + i]) != prefix[i]) return std::nullopt;
   }
   return comment.substr(start + prefix.size());
 }
@@ -80,21 +80,11 @@ std::size_t parameter_at(std::string_view text) {
   return length > 1 && text.front() == '#' ? length : 0;
 }
 
-std::string lower(std::string_view name) {
-  std::string text;
-  for (const char c : name) {
-    if (c != ' ' && c != '\t') {
-      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-  }
-  return text;
-}
-
 std::string value_text(const Parameters& parameters, std::string_view name, int decimals) {
   constexpr std::size_t kMaxDigits = 9;
   Result<double> value = error("parameter-undefined"_id, "");
   if (name[1] == '<') {
-    value = parameters.read(lower(name.substr(2, name.size() - 3)));
+    value = parameters.read(bare_name(name.substr(2, name.size() - 3)));
   } else if (name.size() <= kMaxDigits) {
     value = parameters.read(std::stod(std::string(name.substr(1))));
   }

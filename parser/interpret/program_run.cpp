@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 #include <utility>
 
 #include "parser/interpret/macro_call.hpp"
 #include "parser/interpret/saved_modes.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -32,11 +32,6 @@ std::string known_programs(const ProgramMap& map) {
 bool is_file(const std::filesystem::path& path) {
   std::error_code unreadable;
   return std::filesystem::is_regular_file(path, unreadable);
-}
-
-std::string small(std::string name) {
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return name;
 }
 
 bool does_something(const Block& block) {
@@ -372,7 +367,7 @@ std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
     for (const std::string_view pattern : rules_.file_names) {
       auto file = folder / fmt::format(fmt::runtime(pattern), name);
       // Names that a control writes in capitals are often small in the names of files.
-      if (!is_file(file)) file = folder / fmt::format(fmt::runtime(pattern), small(name));
+      if (!is_file(file)) file = folder / fmt::format(fmt::runtime(pattern), lower_case(name));
       if (!is_file(file)) continue;
       auto program = open_program(file, rules_.dialect);
       if (!program) continue;

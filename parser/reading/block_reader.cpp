@@ -1,9 +1,9 @@
 #include "parser/reading/block_reader.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
+#include "parser/language/letter_case.hpp"
 #include "parser/reading/cldata/cldata_record.hpp"
 #include "parser/reading/rs274/grammar.hpp"
 #include "parser/reading/rs274/macro_reader.hpp"
@@ -16,9 +16,8 @@ namespace {
 bool is_text_record(std::string_view line) {
   std::string word;
   for (const char c : line.substr(std::min(line.find_first_not_of(" \t"), line.size()))) {
-    const auto letter = static_cast<unsigned char>(c);
-    if (std::isalpha(letter) == 0) break;
-    word += static_cast<char>(std::toupper(letter));
+    if (upper(c) < 'A' || upper(c) > 'Z') break;
+    word += upper(c);
   }
   return cldata_text_word(word) != nullptr;
 }

@@ -119,6 +119,19 @@ std::optional<double> LineScanner::whole_number() {
   return value_of(found);
 }
 
+std::optional<std::uint32_t> LineScanner::block_number() {
+  const std::uint32_t start = column();
+  const std::string_view found = digits();
+  if (found.empty()) return std::nullopt;
+  std::uint32_t value = 0;
+  const auto read = std::from_chars(found.data(), found.data() + found.size(), value);
+  if (read.ec != std::errc{}) {
+    fail("number-too-large"_id, start, "the number is too large",
+         "N and O numbers have up to 8 digits");
+  }
+  return value;
+}
+
 // Of the digits before the place.
 double LineScanner::value_of(std::string_view digits) {
   double value = 0.0;

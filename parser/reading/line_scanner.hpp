@@ -14,6 +14,7 @@
 
 #include "core/result.hpp"
 #include "parser/language/block.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::parser {
 
@@ -58,6 +59,8 @@ class LineScanner {
   [[nodiscard]] std::optional<ScannedNumber> number();
   // The same of digits alone.
   [[nodiscard]] std::optional<double> whole_number();
+  // The number of a block or program: up to 8 digits.
+  [[nodiscard]] std::optional<std::uint32_t> block_number();
   // [ + | - ] number; `whose` has no number when there is none.
   [[nodiscard]] double signed_number(std::string_view whose, std::uint32_t whose_column);
   // To the end of the line, or up to one of `stops`; blanks at both ends are left out.
@@ -81,7 +84,6 @@ class LineScanner {
   [[nodiscard]] Result<Block> finish(Block&& block) const;
 
  private:
-  static char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
   void skip_blanks() {
     while (place_ < text_.size() && is_blank(text_[place_])) ++place_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "parser/language/letter_case.hpp"
+
 namespace frustum::parser {
 
 std::string filled(std::string_view pattern, char hole, std::string_view with) {
@@ -47,7 +49,7 @@ std::string NcLines::as_comment(std::string_view text) const {
     } else if (c == '"') {
       shown += '\'';
     } else if (byte < 0x80 && std::isprint(byte) != 0) {
-      shown += capitals ? static_cast<char>(std::toupper(byte)) : c;
+      shown += capitals ? upper(c) : c;
     } else if ((byte & 0xC0U) != 0x80U) {  // one sign for a character of several bytes
       shown += byte == '\t' ? ' ' : '?';
     }

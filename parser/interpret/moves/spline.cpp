@@ -169,12 +169,6 @@ class ArcFit {
 
 }  // namespace
 
-Vec2 point_of_spline(std::span<const ControlPoint> points, int order, double parameter) {
-  const Spline spline(points, order);
-  const int span = std::clamp(static_cast<int>(parameter), 0, spline.spans() - 1);
-  return spline.at(span, parameter).place;
-}
-
 std::vector<PathPiece> arcs_of_spline(std::span<const ControlPoint> points, int order,
                                       double tolerance) {
   const Spline spline(points, order);

@@ -19,9 +19,6 @@
 
 namespace frustum::parser {
 
-[[nodiscard]] Vec2 point_of_spline(std::span<const ControlPoint> points, int order,
-                                   double parameter);  // parameter from 0 to points - order + 1
-
 [[nodiscard]] std::vector<PathPiece> arcs_of_spline(std::span<const ControlPoint> points, int order,
                                                     double tolerance);
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <vector>
 
 #include "core/spelling.hpp"
 #include "parser/dialects/code_table.hpp"
+#include "parser/language/letter_case.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -23,12 +23,6 @@ constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
 constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL", "BEGIN",
                                  "END", "BLK",  "STOP",  "FN",       "LBL",  "CALL",
                                  "M3",  "Q1",   "RND",   "CHF"};
-
-std::string in_capitals(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 class HeidenhainReader {
  public:
@@ -102,7 +96,7 @@ class HeidenhainReader {
     std::string text = in_.text_to(";");
     const std::string called = text.substr(0, text.find(' '));
     if (name == "END") {
-      if (!program_.empty() && in_capitals(called) != in_capitals(program_)) {
+      if (!program_.empty() && upper_case(called) != upper_case(program_)) {
         return in_.fail("program-name-mismatch"_id, place,
                         fmt::format("END PGM {} of the program {}", called, program_),
                         "BEGIN PGM and END PGM have the same name");
@@ -111,7 +105,7 @@ class HeidenhainReader {
       return end_statement(draft_);
     }
     program_ = called;
-    const std::string unit = in_capitals(text.substr(text.find_last_of(' ') + 1));
+    const std::string unit = upper_case(text.substr(text.find_last_of(' ') + 1));
     const bool metric = unit == "MM";
     if (!metric && unit != "INCH") {
       return in_.fail("keyword-missing"_id, place, "BEGIN PGM has no unit",

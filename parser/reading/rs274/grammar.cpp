@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <boost/spirit/home/x3.hpp>
-#include <cctype>
-#include <charconv>
 #include <functional>
 #include <utility>
 
+#include "parser/language/letter_case.hpp"
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/line_scanner.hpp"
 #include "parser/reading/rs274/rs274_values.hpp"
@@ -26,7 +25,7 @@ constexpr std::size_t kUsualWords = 8;
 char letter_of(char written) {
   if (written == '@') return kPolarRadius;
   if (written == '^') return kPolarAngle;
-  return static_cast<char>(std::toupper(static_cast<unsigned char>(written)));
+  return upper(written);
 }
 
 // Thrown by actions for what the shape of the text alone cannot tell; never leaves this file.
@@ -52,15 +51,6 @@ class BlockBuilder {
   void set_delete_switch(char digit) {
     block_.delete_switch = static_cast<std::uint8_t>(digit - '0');
   }
-  void set_number(std::string_view digits) { block_.number = whole(digits); }
-  void set_program(std::string_view digits) {
-    // The O stands one byte or some blanks before its digits; the column of the O was noted.
-    if (block_.program)
-      stop("word-twice"_id, opening_word_column_, "two O words in a block",
-           "start a line for each");
-    block_.program = whole(digits);
-    block_.program_column = opening_word_column_;
-  }
   void begin_program(Iterator after) { opening_word_column_ = column_of(after - 1); }
 
   void begin_word(Iterator after) {
@@ -73,6 +63,23 @@ class BlockBuilder {
     in_word_ = true;
   }
   // The parts that the scanner reads begin here; where they end, or null when there is nothing.
+  Iterator read_block_number(Iterator begin) {
+    in_.go_to(column_of(begin));
+    block_.number = in_.block_number();
+    return block_.number ? end_of_reading() : nullptr;
+  }
+  Iterator read_program_number(Iterator begin) {
+    in_.go_to(column_of(begin));
+    if (in_.peek() < '0' || in_.peek() > '9') return nullptr;
+    // The O is one byte or some blanks before its digits; its column was noted.
+    if (block_.program) {
+      in_.fail("word-twice"_id, opening_word_column_, "two O words in a block",
+               "start a line for each");
+    }
+    block_.program = in_.block_number();
+    block_.program_column = opening_word_column_;
+    return end_of_reading();
+  }
   // A plain number, by far the most common value, needs no expression.
   Iterator read_word_value(Iterator begin) {
     Word& word = block_.words.back();
@@ -137,12 +144,6 @@ class BlockBuilder {
   }
 
  private:
-  [[noreturn]] static void stop(DiagnosticId id, std::uint32_t column, std::string message,
-                                std::string hint) {
-    Diagnostic diagnostic = error(id, std::move(message), std::move(hint));
-    diagnostic.column = static_cast<int>(column);
-    throw SyntaxStop{std::move(diagnostic)};
-  }
   [[nodiscard]] std::size_t offset_of(Iterator where) const {
     return static_cast<std::size_t>(where - text_.data());
   }
@@ -163,18 +164,8 @@ class BlockBuilder {
     if (in_.failed()) throw SyntaxStop{in_.failure()};
     return text_.data() + (in_.column() - 1);
   }
-  [[nodiscard]] std::uint32_t whole(std::string_view digits) const {
-    std::uint32_t value = 0;
-    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (read.ec != std::errc{}) {
-      stop("number-too-large"_id, column_of(digits.data()), "the number is too large",
-           "N and O numbers have up to 8 digits");
-    }
-    return value;
-  }
-
   std::string_view text_;
-  LineScanner in_;  // of expressions
+  LineScanner in_;
   Dialect dialect_;
   Block block_{};
   std::uint32_t opening_word_column_ = 0;
@@ -230,8 +221,6 @@ struct PartReader : x3::parser<PartReader> {
   Read read_;
 };
 
-const auto kDigit = x3::char_('0', '9');
-const auto kDigits = x3::raw[x3::lexeme[+kDigit]];
 const auto kBlank = x3::char_(" \t\r");
 
 // The names are what syntax_error.cpp words the failures by.
@@ -263,10 +252,8 @@ const auto kComment =
     (x3::lit(';')[after([](BlockBuilder& b, Iterator end) { b.begin_comment(end, true); })] >
      x3::no_skip[x3::raw[*x3::char_][kCommentText]]);
 
-const auto block_number_def =
-    kDigits[token([](BlockBuilder& b, std::string_view digits) { b.set_number(digits); })];
-const auto program_number_def =
-    kDigits[token([](BlockBuilder& b, std::string_view digits) { b.set_program(digits); })];
+const auto block_number_def = PartReader(&BlockBuilder::read_block_number);
+const auto program_number_def = PartReader(&BlockBuilder::read_program_number);
 const auto kProgram =
     (x3::no_case['o'] |
      (kInMacro >>

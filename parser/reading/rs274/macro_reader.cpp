@@ -7,6 +7,7 @@
 #include <cctype>
 #include <string>
 
+#include "parser/language/letter_case.hpp"
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/line_scanner.hpp"
 #include "parser/reading/rs274/grammar.hpp"
@@ -226,9 +227,9 @@ std::size_t statement_start(std::string_view text) {
   }
   const auto begins_with = [&](std::string_view keyword) {
     if (text.size() - place < keyword.size()) return false;
-    return std::equal(
-        keyword.begin(), keyword.end(), text.begin() + static_cast<std::ptrdiff_t>(place),
-        [](char wanted, char c) { return std::toupper(static_cast<unsigned char>(c)) == wanted; });
+    return std::equal(keyword.begin(), keyword.end(),
+                      text.begin() + static_cast<std::ptrdiff_t>(place),
+                      [](char wanted, char c) { return upper(c) == wanted; });
   };
   // I and a function, IFUP[..], is a word.
   const bool letter_behind =

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <optional>
 
+#include "parser/language/letter_case.hpp"
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/line_scanner.hpp"
 #include "parser/reading/rs274/blank_free_text.hpp"
@@ -17,8 +16,6 @@
 
 namespace frustum::parser {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
 
 // What follows a keyword.
 enum class Needs : std::uint8_t { nothing, expression, perhaps_expression, arguments };
@@ -58,7 +55,7 @@ class OWordReader {
   // The statement, when the block begins with one.
   std::optional<Result<Block>> operator()() {
     if (in_.take('/')) block_.deletable = true;
-    if (in_.take('N')) block_.number = number();
+    if (in_.take('N')) block_.number = in_.block_number();
     if (in_.take('/')) block_.deletable = true;
     flow_.column = in_.column();
     if (!in_.take('O')) return std::nullopt;
@@ -87,15 +84,14 @@ class OWordReader {
   bool read_label() {
     const std::uint32_t start = in_.column();
     if (in_.take('<')) {
-      flow_.label = lower_case(in_.bytes_to(">"));
-      std::erase_if(flow_.label, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
+      flow_.label = bare_name(in_.bytes_to(">"));
       if (!in_.take('>'))
         in_.fail("text-not-closed"_id, start, "the name is not closed", "write o<name>");
       if (flow_.label.empty())
         in_.fail("name-missing"_id, start, "the O word has no name", "write o<name>");
       return !in_.failed();
     }
-    if (const auto digits = number()) {
+    if (const auto digits = in_.block_number()) {
       flow_.label = std::to_string(*digits);
       only_digits_ = true;
       return true;
@@ -143,25 +139,6 @@ class OWordReader {
     ExpressionReader reader(in_, block_, rs274_expressions(Dialect::linuxcnc));
     range = reader.read(ExpressionLevel::operand);
     return !in_.failed();
-  }
-
-  // Up to 8 digits.
-  std::optional<std::uint32_t> number() {
-    const std::uint32_t start = in_.column();
-    const std::string_view digits = in_.digits();
-    if (digits.empty()) return std::nullopt;
-    std::uint32_t value = 0;
-    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (read.ec != std::errc{}) {
-      in_.fail("number-too-large"_id, start, "the number is too large",
-               "N and O numbers have up to 8 digits");
-    }
-    return value;
-  }
-  static std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
   }
 
   LineScanner in_;

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "parser/language/letter_case.hpp"
+
 namespace frustum::parser {
 namespace {
 
@@ -64,7 +66,6 @@ class PlainReader {
     return true;
   }
 
-  static char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
   [[nodiscard]] char at_place() const { return place_ < text_.size() ? text_[place_] : '\0'; }
   // The next character that is not blank; 0 at the end.
   char peek() {

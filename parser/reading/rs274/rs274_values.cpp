@@ -1,8 +1,7 @@
 #include "parser/reading/rs274/rs274_values.hpp"
 
-#include <cctype>
-
 #include "parser/dialects/expressions.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -11,15 +10,10 @@ constexpr std::string_view kExists = "EXISTS";
 constexpr ExpressionMistake kNoParameter{"name-missing"_id, "# without a parameter",
                                          "write #1 or #<name>"};
 
-// Up to the >. Names ignore case and blanks.
+// Up to the >.
 std::string read_name(LineScanner& in) {
   const std::uint32_t column = in.column();
-  std::string name;
-  for (const char c : in.bytes_to(">")) {
-    if (c != ' ' && c != '\t') {
-      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-  }
+  std::string name = bare_name(in.bytes_to(">"));
   if (name.empty()) {
     in.fail("name-missing"_id, column, "the parameter has no name", "write #<name>");
   } else if (!in.take('>')) {

@@ -30,6 +30,31 @@ double distance_to_spline(const PathPiece& piece, const Vec2& point) {
              : std::min(ends, std::abs((point - piece.centre).norm() - radius_of(piece)));
 }
 
+// By de Boor's recursion over the points with their weights; the parameter is from 0 to
+// points - order + 1, the number of spans.
+Vec2 point_of_spline(const std::vector<ControlPoint>& points, int order, double parameter) {
+  const int degree = order - 1;
+  const int spans = static_cast<int>(points.size()) - degree;
+  const auto knot = [&](int i) {
+    return std::clamp(static_cast<double>(i - degree), 0.0, 1.0 * spans);
+  };
+  const int span = std::clamp(static_cast<int>(parameter), 0, spans - 1);
+  std::vector<Vec3> row;
+  for (int i = span; i <= span + degree; ++i) {
+    const ControlPoint& point = points.at(static_cast<std::size_t>(i));
+    row.emplace_back(point.weight * point.place.x(), point.weight * point.place.y(), point.weight);
+  }
+  for (int level = 1; level <= degree; ++level) {
+    for (int i = degree; i >= level; --i) {
+      const double from = knot(span + i);
+      const double part = (parameter - from) / (knot(span + i + degree + 1 - level) - from);
+      const auto at = static_cast<std::size_t>(i);
+      row[at] = (1.0 - part) * row[at - 1] + part * row[at];
+    }
+  }
+  return row.back().head<2>() / row.back().z();
+}
+
 RC_GTEST_PROP(SplineLaws, TheArcsAreNearTheCurveAndJoinWithoutACorner, ()) {
   const int order = *rc::gen::inRange(3, 6);
   const int count = order + *rc::gen::inRange(0, 5);
