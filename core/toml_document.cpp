@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "core/spelling.hpp"
@@ -80,10 +81,11 @@ std::filesystem::path TomlDocument::folder() const { return file().parent_path()
 const std::filesystem::path& TomlDocument::file() const { return root_.state_->file; }
 
 Diagnostics TomlDocument::finish() const {
-  const auto visit = [this](const auto& self, const Node& node, const std::string& path) -> void {
+  using Visit = std::function<void(const Node& node, const std::string& path)>;
+  const Visit visit = [this, &visit](const Node& node, const std::string& path) {
     if (const Node::Array* items = node.array()) {
       for (std::size_t i = 0; i < items->size(); ++i) {
-        self(self, (*items)[i], fmt::format("{}[{}]", path, i + 1));
+        visit((*items)[i], fmt::format("{}[{}]", path, i + 1));
       }
       return;
     }
@@ -97,14 +99,14 @@ Diagnostics TomlDocument::finish() const {
         TomlTable(root_.state_, &node, path)
             .fail(name, "unknown-key"_id, "unknown key", suggestion(name, known));
       } else {
-        self(self, child, joined(path, name));
+        visit(child, joined(path, name));
       }
     }
   };
   // The verdict is a copy, so that asking twice does not report a key twice.
   Diagnostics& noted = root_.state_->diagnostics;
   const std::size_t before = noted.size();
-  visit(visit, root_.state_->root, "");
+  visit(root_.state_->root, "");
   Diagnostics verdict = noted;
   noted.resize(before);
   return verdict;

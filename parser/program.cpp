@@ -21,6 +21,16 @@ Diagnostic second_program(const Program& program, const Block& block, std::uint3
   return twice;
 }
 
+Diagnostic too_many_errors(const Program& program) {
+  Diagnostic more =
+      error("syntax-errors"_id,
+            fmt::format("more than {} syntax errors; the rest of the file was not read",
+                        kMaxSyntaxErrors - 1),
+            "is this an NC program?");
+  more.file = program.file;
+  return more;
+}
+
 // Reads from where the cursor is to the end of the text; `take` gets each block. What is wrong, but
 // no more of it than kMaxSyntaxErrors.
 template <typename Take>
@@ -41,13 +51,7 @@ Diagnostics read_to_end(const Program& program, BlockCursor& cursor, const Take&
     take(cursor);
   }
   if (cursor.at_end()) return failures;
-  Diagnostic more =
-      error("syntax-errors"_id,
-            fmt::format("more than {} syntax errors; the rest of the file was not read",
-                        kMaxSyntaxErrors - 1),
-            "is this an NC program?");
-  more.file = program.file;
-  failures.push_back(std::move(more));
+  failures.push_back(too_many_errors(program));
   return failures;
 }
 

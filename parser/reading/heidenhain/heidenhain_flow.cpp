@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
@@ -63,65 +62,48 @@ class FlowReader {
       block_.steps.push_back({Operation::number, place, 2.0});
       push(Operation::power, place);
     };
-    const auto with = [&](std::string_view word, const auto& combine) {
-      const std::uint32_t sign = in_.column();
-      if (!in_.take_name(word)) {
-        return in_.fail("value-missing"_id, sign, fmt::format("FN {} has no {}", fn, word),
-                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2, "
-                        "FN 8: Q5 = +5 LEN +4, FN 13: Q6 = +5 ANG +4");
-      }
-      operand();
-      if constexpr (std::is_same_v<std::decay_t<decltype(combine)>, Operation>) {
-        push(combine, sign);
+    // A sign or word and the operand after it; the column of the sign.
+    const auto take = [&](std::string_view sign, const char* hint) {
+      const std::uint32_t at = in_.column();
+      const bool name = sign.size() > 1;
+      if (name ? in_.take_name(sign) : in_.take_sign(sign)) {
+        operand();
       } else {
-        combine();
+        in_.fail("value-missing"_id, at, fmt::format("FN {} has no {}", fn, sign), hint);
       }
+      return at;
     };
-    const auto sign_with = [&](char sign, Operation operation) {
-      const std::uint32_t at = in_.column();
-      if (!in_.take(sign)) {
-        return in_.fail("value-missing"_id, at, fmt::format("FN {} has no {}", fn, sign),
-                        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2");
-      }
-      operand();
-      push(operation, at);
-    };
-    const auto function = [&](std::string_view word, Operation operation) {
-      const std::uint32_t at = in_.column();
-      if (!in_.take_name(word)) {
-        return in_.fail("value-missing"_id, at, fmt::format("FN {} has no {}", fn, word),
-                        "write FN 6: Q20 = SIN -Q5");
-      }
-      operand();
-      push(operation, at);
-    };
+    constexpr const char* kFunction = "write FN 6: Q20 = SIN -Q5";
+    constexpr const char* kSign =
+        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2";
+    constexpr const char* kWord =
+        "write FN 1: Q1 = -Q2 + -5, FN 3: Q2 = +3 * +3, FN 4: Q4 = +4 DIV +Q2, "
+        "FN 8: Q5 = +5 LEN +4, FN 13: Q6 = +5 ANG +4";
     if (fn == 5) {
-      function("SQRT", Operation::square_root);
+      push(Operation::square_root, take("SQRT", kFunction));
     } else if (fn == 6) {
-      function("SIN", Operation::sine);
+      push(Operation::sine, take("SIN", kFunction));
     } else if (fn == 7) {
-      function("COS", Operation::cosine);
+      push(Operation::cosine, take("COS", kFunction));
     } else {
       operand();
-      if (fn == 1) sign_with('+', Operation::add);
-      if (fn == 2) sign_with('-', Operation::subtract);
-      if (fn == 3) sign_with('*', Operation::multiply);
-      if (fn == 4) with("DIV", Operation::divide);
+      if (fn == 1) push(Operation::add, take("+", kSign));
+      if (fn == 2) push(Operation::subtract, take("-", kSign));
+      if (fn == 3) push(Operation::multiply, take("*", kSign));
+      if (fn == 4) push(Operation::divide, take("DIV", kWord));
       if (fn == 8) {
         square();
-        with("LEN", [&] {
-          square();
-          push(Operation::add, place);
-          push(Operation::square_root, place);
-        });
+        take("LEN", kWord);
+        square();
+        push(Operation::add, place);
+        push(Operation::square_root, place);
       }
       if (fn == 13) {
         // From 0 to 360 degrees.
-        with("ANG", [&] {
-          push(Operation::arc_tangent, place);
-          block_.steps.push_back({Operation::number, place, 360.0});
-          push(Operation::modulo, place);
-        });
+        take("ANG", kWord);
+        push(Operation::arc_tangent, place);
+        block_.steps.push_back({Operation::number, place, 360.0});
+        push(Operation::modulo, place);
       }
     }
     draft_.end_setting();
