@@ -13,10 +13,11 @@
 // Shape    : all measured points (in the order of features and points) by all parameters
 // Errors   : measured points whose provenance nobody knows: those of another probe, or of a file
 // Accuracy : contacts are those of the trial with its errors, motions those of the nominal chain:
-//            off by the size of the errors, relatively (1e-4 for 100 urad). Normals are those of
-//            the cut surface, facets and all. Agrees with central differences of whole trials:
-//            characteristics in tests/trials/step_sensitivity_test.cpp, single points of the
-//            five-axis cone within 1e-5 of the gain in tests/trials/surface_gain_test.cpp
+//            off by the size of the errors, relatively (1e-4 for 100 urad). Normals are those in
+//            which the ball touches the cut surface, facets and all. Agrees with central
+//            differences of whole trials: characteristics in
+//            tests/trials/step_sensitivity_test.cpp and cone_sensitivity_test.cpp, single points of
+//            the five-axis cone within 1e-5 of the gain in tests/trials/surface_gain_test.cpp
 // Source   : first-order gains of the chain: kinematics/errors/error_gain.hpp; envelope theorem
 #pragma once
 

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/golden_section.hpp"
-#include "metrology/probing/ball_on_planes.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-// Travels that are apart by less are the same (mm).
+// Travels that are apart by less are the same (mm): to smooth surfaces, and where surfaces that
+// scatter meet, such as the ends of sweeps.
 constexpr double kSame = 1e-12;
-// What a part's surface may scatter by, such as the ends of a sweep (mm).
 constexpr double kScatter = 4e-10;
 
 class Descent {
@@ -29,9 +29,7 @@ class Descent {
     auto touch = part_.touch(from, -approach_.outward, approach_.clearance + approach_.reach);
     if (!touch) return std::nullopt;
     last_ = (from - touch->point).dot(approach_.outward.vec());
-    if (approach_.outward.vec().dot(touch->normal) > 0.0) {
-      planes_[met_++ % planes_.size()] = {touch->point, touch->normal};
-    }
+    before_ = std::exchange(latest_, {m, *touch});
     if (last_ < travel_) {
       travel_ = last_;
       resting_on_ = *touch;
@@ -46,17 +44,36 @@ class Descent {
     return found;
   }
 
-  // Whether the ball rests on an edge or a corner between planes that rays have met. Convex
-  // material is inside them all, so that a ray to where the ball would rest on them, and that gets
-  // as far, proves it. One that gets farther brings another plane; one that gets less far disproves
-  // that the material is convex.
-  bool search_planes() {
-    constexpr int kMost = 6;
-    for (int i = 0; i < kMost && met_ > 0; ++i) {
-      const auto rest = ball_on_planes({start_, approach_.outward, approach_.ball_radius},
-                                       std::span(planes_).first(std::min(met_, planes_.size())));
-      if (!ray(rest.toward_centre) || last_ < rest.travel - kScatter) return false;
-      if (last_ < rest.travel + kSame) return true;
+  // Whether the ball rests on an edge whose two sides the last two rays have met. Along the arc
+  // between both directions the travel falls to the edge and rises after it; the planes that rays
+  // touch say where that is. A ray on each side as long as its plane says proves it.
+  bool search_edge() {
+    const Arc arc(before_.m, latest_.m);
+    Cut falling = cut(arc, 0.0, before_.touch), rising = cut(arc, arc.length, latest_.touch);
+    if (!falling.falls || rising.falls) return false;
+    bool falling_holds = false, rising_holds = false;
+    constexpr double kBeside = 1e-3;  // of the way to the next ray on a side
+    double beside = kBeside;
+    constexpr int kMost = 24;
+    for (int i = 0; i < kMost; ++i) {
+      double angle = crossing(arc, falling, rising);
+      if (!(falling.angle <= angle && angle <= rising.angle))
+        angle = 0.5 * (falling.angle + rising.angle);
+      if (falling_holds) angle += beside * (rising.angle - angle);
+      if (rising_holds) angle -= beside * (angle - falling.angle);
+      const auto touch = ray(arc.at(angle));
+      if (!touch) return false;
+      const Cut next = cut(arc, angle, *touch);
+      Cut& side = next.falls ? falling : rising;
+      bool& side_holds = next.falls ? falling_holds : rising_holds;
+      const bool holds = std::abs(last_ - travel_to(side, arc.at(angle))) < kScatter;
+      beside = holds && side_holds ? 8.0 * beside : kBeside;  // the same side once more
+      if (!holds) falling_holds = rising_holds = false;
+      side_holds = holds;
+      side = next;
+      if (falling_holds && rising_holds) return true;
+      const double apart = (rising.slope - falling.slope).norm();
+      if (approach_.ball_radius * apart * (rising.angle - falling.angle) < kScatter) return true;
     }
     return false;
   }
@@ -73,11 +90,50 @@ class Descent {
   }
 
  private:
+  struct Shot {
+    Vec3 m = Vec3::Zero();
+    Touch touch{};
+  };
+  // Of directions, from a to b.
+  struct Arc {
+    Arc(const Vec3& a, const Vec3& b)
+        : from(a.normalized()),
+          across((b - from.dot(b) * from).normalized()),
+          length(std::atan2(across.dot(b), from.dot(b))) {}
+    [[nodiscard]] Vec3 at(double angle) const {
+      return std::cos(angle) * from + std::sin(angle) * across;
+    }
+    Vec3 from, across;
+    double length;
+  };
+  // The plane that a ray of an arc touched: the travel to it is offset - r m . slope.
+  struct Cut {
+    double angle, offset;
+    Vec3 slope;
+    bool falls;  // the travel, along the arc
+  };
+
+  [[nodiscard]] Cut cut(const Arc& arc, double angle, const Touch& touch) const {
+    const Vec3 slope = touch.normal / approach_.outward.vec().dot(touch.normal);
+    const Vec3 onward = std::cos(angle) * arc.across - std::sin(angle) * arc.from;
+    return {angle, (start_ - touch.point).dot(slope), slope, slope.dot(onward) > 0.0};
+  }
+  [[nodiscard]] double travel_to(const Cut& cut, const Vec3& m) const {
+    return cut.offset - approach_.ball_radius * m.dot(cut.slope);
+  }
+  // Where the travel to the rising plane overtakes; not a number where it never does.
+  [[nodiscard]] double crossing(const Arc& arc, const Cut& falling, const Cut& rising) const {
+    const Vec3 apart = rising.slope - falling.slope;
+    const double along = arc.from.dot(apart), beside = arc.across.dot(apart);
+    const double cosine =
+        (rising.offset - falling.offset) / (approach_.ball_radius * std::hypot(along, beside));
+    return std::atan2(beside, along) + std::acos(cosine);
+  }
+
   const SurfaceProbeRef& part_;
   const BallApproach& approach_;
   Vec3 start_;
-  std::array<MaterialPlane, 6> planes_{};  // the last that rays met
-  std::size_t met_ = 0;                    // planes so far
+  Shot before_{}, latest_{};  // the last two that met something
   double last_ = 0.0;
   double travel_ = HUGE_VAL;
   Touch resting_on_{};
@@ -95,8 +151,9 @@ ContactState why_missed(const SurfaceProbeRef& part, const BallApproach& approac
 
 BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& approach) {
   Descent descent(part, approach);
-  // A direction off by d changes the centre by r d^2: the bound keeps that below 1e-12 mm.
+  // A direction off by d changes the centre by r d^2: the bound keeps that below kSame.
   const double close = std::sqrt(kSame / approach.ball_radius);
+  const double blunt = std::sqrt(kScatter / approach.ball_radius);
   std::array<Vec3, 3> continuation{approach.outward, approach.outward, approach.outward};
   constexpr int kMost = 30;  // extrapolation every third step makes it two or three rounds
   for (int i = 0; i < kMost; ++i) {
@@ -106,9 +163,9 @@ BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& app
       break;  // a shifted ray left the part: the ball rests on its edge
     }
     const Vec3 next = touch->normal;
-    if ((next - continuation[2]).norm() < close) {
-      return descent.contact();
-    }
+    const double turn = (next - continuation[2]).norm();
+    // An edge that turns by so little is none.
+    if (turn < close || (i > 2 && turn < blunt)) return descent.contact();
     continuation = {continuation[1], continuation[2], next};
     if (i % 3 != 2) continue;
     // Linear convergence has a constant ratio; sum the rest of the series.
@@ -117,7 +174,7 @@ BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& app
     const double ratio = after.dot(before) / std::max(before.squaredNorm(), 1e-300);
     if (std::abs(ratio) < 0.98)
       continuation[2] = (continuation[2] + ratio / (1.0 - ratio) * after).normalized();
-    if ((i > 2 || ratio <= -0.98) && descent.search_planes()) return descent.contact();
+    if ((i > 2 || ratio <= -0.98) && descent.search_edge()) return descent.contact();
   }
   descent.search_arc(continuation[1], continuation[2]);
   return descent.contact();

@@ -5,12 +5,13 @@
 //            centre touches in direction m; m is iterated to n(x). Every ray gives a bound, since
 //            the ball cannot pass the point it met: the farthest one counts
 // Units    : mm
-// Shape    : 3 to 8 rays on smooth surfaces and at convex edges and corners, some 70 where neither
-//            can be proven
+// Shape    : 3 to 8 rays on smooth surfaces, 5 to 30 at a convex edge, some 70 where neither can be
+//            proven
 // Errors   : no_surface, starts_inside
-// Accuracy : 1e-12 mm on smooth surfaces (second order in the direction) and at convex edges of
-//            flat faces; 4e-10 mm at edges of faces that scatter as much. Else the bound along the
-//            arc between two normals. Of two separate contacts, as deep in a groove, one is found
+// Accuracy : 1e-12 mm on smooth surfaces (second order in the direction), 1e-9 mm at a convex edge
+//            of flat or hollow faces, whose sides are proven to meet there; else the bound along
+//            the arc between two normals. Of two separate contacts, as deep in a groove, one is
+//            found
 // Source   : ours
 #pragma once
 
@@ -31,7 +32,7 @@ enum class ContactState { contact, no_surface, starts_inside };
 struct BallContact {
   ContactState state = ContactState::no_surface;
   Vec3 centre = Vec3::Zero();  // of the ball; only with ContactState::contact
-  Touch touch{};               // what stopped the ball: the point of the surface that it rests on
+  Touch touch{};  // the point that it rests on; the normal is from there to the centre
 };
 
 [[nodiscard]] BallContact touch_with_ball(const SurfaceProbeRef& part,
