@@ -114,7 +114,7 @@ constexpr std::array kHeidenhainLetters{
     LetterUse{'q', "PA gives an angle in LP, CP and CTP"},
     LetterUse{'t', "FT gives the time of a cutting block"},
 };
-// M5, M9, M127, M129, M137, and the tool change that is only told.
+// M5, M9, M127, M129, M137, and the tool change that is only reported.
 constexpr std::array kBehindMove{50, 60, 90, 1270, 1290, 1370};
 constexpr std::array kHeidenhainDwell{DwellWord{'P', DwellUnit::seconds}};
 

@@ -1,4 +1,4 @@
-// Where the flow statements, labels and numbered programs of a program stand and which belong
+// Where the flow statements, labels and numbered programs of a program are and which belong
 // together, so that a jump need not read what it passes over. Made when the first one is looked
 // for: most programs have none.
 //

@@ -3,7 +3,7 @@
 // Units : as written
 // Shape : one cursor a reader; the program is shared. Blocks that the program has are given as they
 //         are, others are read from its text
-// Errors: the syntax error of a block, with file, line and column; the cursor then stands after it
+// Errors: the syntax error of a block, with file, line and column; the cursor is then after it
 #pragma once
 
 #include <cstdint>

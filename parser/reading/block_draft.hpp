@@ -3,7 +3,7 @@
 //
 // Readers share one draft among the functions that read parts of a block.
 // Units: none; values are as written.
-// Errors: those of the scanner, which keeps the first one; finish() tells it
+// Errors: those of the scanner, which keeps the first one; finish() returns it
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ namespace frustum::parser {
 using BlockReader = std::function<Result<Block>(std::string_view text, std::uint32_t line)>;
 [[nodiscard]] BlockReader reader_of(Dialect dialect);
 
-// Where the mark stands that continues the line on the next one; npos when it ends here.
+// Where the mark is that continues the line on the next one; npos when it ends here.
 [[nodiscard]] std::size_t continuation_mark(std::string_view line, Dialect dialect);
 
 [[nodiscard]] Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line);

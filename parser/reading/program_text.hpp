@@ -1,4 +1,5 @@
-// The text of a program: in memory, or in a file that need not fit there.
+// The text of a program: in memory, or in a file that need not fit there, which is why it is not
+// core/whole_file.hpp that reads it.
 //
 // Lines end with LF, CR LF or CR, in any mixture. A byte order mark at the start is left out.
 // Units  : offsets count bytes from the start of the text, lines from 1

@@ -1,9 +1,11 @@
 // Fanuc and LinuxCNC: words, settings, comments, and the statements of each.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "parser/dialects/expressions.hpp"
+#include "parser/dialects/o_words.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 #include "parser/writing/number_text.hpp"
@@ -84,34 +86,10 @@ class Rs274Block {
   }
 
   static std::string_view o_word(const FlowStatement& flow) {
-    switch (flow.kind) {
-      case FlowKind::subprogram:
-        return "sub";
-      case FlowKind::end_sub:
-        return "endsub";
-      case FlowKind::give_back:
-        return "return";
-      case FlowKind::call:
-        return "call";
-      case FlowKind::branch:
-        return "if";
-      case FlowKind::else_branch:
-        return "elseif";
-      case FlowKind::otherwise:
-        return "else";
-      case FlowKind::end_branch:
-        return "endif";
-      case FlowKind::loop:
-        return flow.turns == Turns::counted     ? "repeat"
-               : flow.turns == Turns::until_end ? "do"
-                                                : "while";
-      case FlowKind::end_loop:
-        return "endwhile";  // that of a repeat may be spelled so, too
-      case FlowKind::leave_loop:
-        return "break";
-      default:
-        return "continue";
-    }
+    const auto* word = std::ranges::find_if(kOWords, [&](const OWord& known) {
+      return known.kind == flow.kind && (flow.kind != FlowKind::loop || known.turns == flow.turns);
+    });
+    return word != kOWords.end() ? word->name : std::string_view{};
   }
 
   [[nodiscard]] std::string o_statement(const FlowStatement& flow) const {

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "parser/dialects/expressions.hpp"
+#include "parser/dialects/sinumerik_words.hpp"
 #include "parser/writing/block_parts.hpp"
 
 namespace frustum::parser {
@@ -116,32 +119,12 @@ class StatementWriter {
 }  // namespace
 
 std::string_view sinumerik_measure(Measure measure) {
-  switch (measure) {
-    case Measure::absolute:
-      return "AC";
-    case Measure::incremental:
-      return "IC";
-    case Measure::shortest:
-      return "DC";
-    case Measure::positive:
-      return "ACP";
-    case Measure::negative:
-      return "ACN";
-    case Measure::modal:
-      break;
-  }
-  return {};
+  const auto* found = std::ranges::find(kMeasureNames, measure, &MeasureName::measure);
+  return found != kMeasureNames.end() ? found->name : std::string_view{};
 }
 
 std::string_view sinumerik_type(VariableKind kind) {
-  switch (kind) {
-    case VariableKind::whole:
-      return "INT";
-    case VariableKind::truth:
-      return "BOOL";
-    default:
-      return "REAL";
-  }
+  return std::ranges::find(kTypeNames, kind, &TypeName::kind)->name;
 }
 
 std::string sinumerik_statement(const Block& block) {

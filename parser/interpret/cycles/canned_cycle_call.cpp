@@ -173,8 +173,8 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     emit(state, column,
          Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
   };
-  const double stands = state.rules.cycles.start_from_initial ? cycle.initial : *state.position[w];
-  if (holes > 0 && stands < depths.level) {
+  const double height = state.rules.cycles.start_from_initial ? cycle.initial : *state.position[w];
+  if (holes > 0 && height < depths.level) {
     state.position.set(w, depths.level);
     rapid(movement.column);
   }

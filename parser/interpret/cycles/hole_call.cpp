@@ -119,12 +119,12 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
     emit(state, column,
          Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
   };
-  const double stands = from && !turns ? (*from - top).dot(axis) : cycle.clear;
-  if (from && stands < cycle.clear) {
+  const double height = from && !turns ? (*from - top).dot(axis) : cycle.clear;
+  if (from && height < cycle.clear) {
     // Up first, so that the way to the hole is clear.
-    rapid_to(*from + (cycle.clear - stands) * axis);
+    rapid_to(*from + (cycle.clear - height) * axis);
   }
-  rapid_to(place(std::max(stands, cycle.clear), false));
+  rapid_to(place(std::max(height, cycle.clear), false));
   rapid_to(place(cycle.clear, false));
   rapid_to(place(cycle.level, false));
 

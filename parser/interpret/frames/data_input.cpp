@@ -78,7 +78,7 @@ Outcome set_work_offset_data(InterpreterState& state, const BlockWords& words,
   return tell_origin(state, number, column);
 }
 
-// L20: where the axes stand the words are to be what the block says; the other words stay what they
+// L20: where the axes are the words are to be what the block says; the other words stay what they
 //      are.
 Outcome set_offset_here(InterpreterState& state, const BlockWords& words) {
   const std::uint32_t column = words[CodeGroup::non_modal].column;
@@ -136,7 +136,7 @@ Outcome set_offset_here(InterpreterState& state, const BlockWords& words) {
 Outcome set_tool_offsets(InterpreterState& state, const BlockWords& words, DataInput input,
                          Tool& tool) {
   const AxisTarget axes = axis_positions(state);
-  // Where the words of the block lie without tool.
+  // Where the words of the block are without tool.
   AxisTarget place;
   WorkOffset datum = state.modes.datum;
   AxisTarget target = state.position.target();

@@ -41,7 +41,7 @@ std::optional<double> added(const ModalState& modes, AxisLetter axis) {
   return *origin + (axis == AxisLetter::Z ? tool->at(kZ) : 0.0);
 }
 
-// By how much the coordinate along an axis that stands still grows.
+// By how much the coordinate along an axis that does not move grows.
 std::optional<double> growth(const ModalState& before, const ModalState& after, AxisLetter axis) {
   double sum = 0.0;
   const auto& old_origin = before.datum.origin[axis];
@@ -121,9 +121,9 @@ Outcome tell_origin(InterpreterState& state, int number, std::uint32_t column) {
   for (std::size_t i = 0; i < setting.origin.size(); ++i) {
     setting.origin.at(i) = datum->origin[kAxisLetters.at(i)];
   }
-  auto& told = state.output.programmed_offsets[number];
-  if (told != setting.origin) emit(state, column, setting);
-  told = setting.origin;
+  auto& reported = state.output.programmed_offsets[number];
+  if (reported != setting.origin) emit(state, column, setting);
+  reported = setting.origin;
   return Done{};
 }
 

@@ -26,7 +26,7 @@ void place_datum(InterpreterState& state, const WorkOffset& datum);
 [[nodiscard]] AxisTarget axis_positions(const InterpreterState& state);
 [[nodiscard]] std::string why_axis_unknown(const InterpreterState& state, AxisLetter axis);
 [[nodiscard]] DiagnosticId axis_unknown_id(const InterpreterState& state, AxisLetter axis);
-// `axes`: where they stand.
+// `axes`: where they are.
 void follow_datum(InterpreterState& state, const ModalState& before, const AxisTarget& axes,
                   PositionLoss loss);
 // Axes whose program coordinate is not known are there.

@@ -9,7 +9,7 @@
 namespace frustum::parser {
 namespace {
 
-// A point that lies this little after the end of an arc is its end, not a turn away from it.
+// A point that is this little after the end of an arc is its end, not a turn away from it.
 constexpr double kSamePoint = 1e-9;  // mm
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }

@@ -95,7 +95,7 @@ Outcome set_pole(InterpreterState& state, const BlockWords& words) {
     pole[static_cast<Eigen::Index>(axis)] =
         words[letter].value * unit_scale(state) + (relative ? *state.position[axis] : 0.0);
   }
-  // CC alone is where the tool stands.
+  // CC alone is where the tool is.
   if ((words.given() & LetterSet("XY")).empty()) pole = here;
   state.modes.pole = Pole{.at = pole};
   return Done{};

@@ -1,6 +1,6 @@
 // One record of APT CLDATA as written: its word, /, and its arguments.
 //
-// Numbers may have an exponent (E or D), end or begin with the point, and stand apart from their
+// Numbers may have an exponent (E or D), end or begin with the point, and be apart from their
 // sign. Blanks mean nothing between the parts of a record.
 // Units : none; as written
 // Errors: an argument that is missing, a number too large; by LineScanner::fail

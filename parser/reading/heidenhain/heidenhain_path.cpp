@@ -54,7 +54,7 @@ class PathReader {
     const bool tangential = statement.starts_with("CT");
     const bool polar = statement.ends_with('P');
     const bool arc = statement.front() == 'C' && !tangential;
-    // The place of the statement's word; which word it is, the elements tell.
+    // The place of the statement's word; which word it is follows from the elements.
     block_.words.push_back({kNamedWord, false, column, 0.0, {}});
     Path path;
     path.axes = true;

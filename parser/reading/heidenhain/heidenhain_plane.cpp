@@ -164,7 +164,7 @@ class PlaneReader {
   BlockDraft& draft_;
   LineScanner& in_;
   Block& block_;
-  // Of MOVE: how far in front of the tip the point lies that is held.
+  // Of MOVE: how far in front of the tip the point is that is held.
   double distance_ = 0.0;
   std::uint32_t distance_column_ = 0;
 };

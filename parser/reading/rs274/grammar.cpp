@@ -28,7 +28,7 @@ char letter_of(char written) {
   return upper(written);
 }
 
-// Thrown by actions for what the shape of the text alone cannot tell; never leaves this file.
+// Thrown by actions for what the shape of the text alone does not show; never leaves this file.
 struct SyntaxStop {
   Diagnostic diagnostic;
 };
@@ -184,7 +184,7 @@ constexpr auto token(Act act) {
         std::string_view(range.begin(), static_cast<std::size_t>(range.end() - range.begin())));
   };
 }
-// An action that calls `act(builder, position behind the match)`.
+// An action that calls `act(builder, position after the match)`.
 template <typename Act>
 constexpr auto after(Act act) {
   return [act](const auto& context) {

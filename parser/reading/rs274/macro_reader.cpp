@@ -244,8 +244,8 @@ std::size_t statement_start(std::string_view text) {
   return std::string_view::npos;
 }
 
-// Where a second block begins after the ; that ends the first: G0X1.;G1X2. A remark stands apart:
-// G0X1. ; X2.
+// Where a second block begins after the ; that ends the first: G0X1.;G1X2. A remark follows a
+// blank: G0X1. ; X2.
 std::size_t second_block(std::string_view text) {
   const std::size_t remark = std::min(text.find('('), text.size());
   for (std::size_t at = text.find(';'); at < remark; at = text.find(';', at + 1)) {

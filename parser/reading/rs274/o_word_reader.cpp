@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
+#include "parser/dialects/o_words.hpp"
 #include "parser/language/letter_case.hpp"
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/line_scanner.hpp"
@@ -17,32 +17,6 @@
 namespace frustum::parser {
 namespace {
 
-// What follows a keyword.
-enum class Needs : std::uint8_t { nothing, expression, perhaps_expression, arguments };
-
-struct Keyword {
-  std::string_view name;
-  FlowKind kind;
-  Needs needs;
-  Turns turns = Turns::while_true;
-};
-constexpr std::array kKeywords{
-    Keyword{"sub", FlowKind::subprogram, Needs::nothing},
-    Keyword{"endsub", FlowKind::end_sub, Needs::perhaps_expression},
-    Keyword{"return", FlowKind::give_back, Needs::perhaps_expression},
-    Keyword{"call", FlowKind::call, Needs::arguments},
-    Keyword{"if", FlowKind::branch, Needs::expression},
-    Keyword{"elseif", FlowKind::else_branch, Needs::expression},
-    Keyword{"else", FlowKind::otherwise, Needs::nothing},
-    Keyword{"endif", FlowKind::end_branch, Needs::nothing},
-    Keyword{"while", FlowKind::loop, Needs::expression},
-    Keyword{"endwhile", FlowKind::end_loop, Needs::nothing},
-    Keyword{"do", FlowKind::loop, Needs::nothing, Turns::until_end},
-    Keyword{"repeat", FlowKind::loop, Needs::expression, Turns::counted},
-    Keyword{"endrepeat", FlowKind::end_loop, Needs::nothing},
-    Keyword{"break", FlowKind::leave_loop, Needs::nothing},
-    Keyword{"continue", FlowKind::next_turn, Needs::nothing},
-};
 constexpr std::string_view kKnown =
     "known are sub endsub call return if elseif else endif while endwhile do repeat endrepeat "
     "break "
@@ -64,9 +38,8 @@ class OWordReader {
     const std::string keyword = lower_case(in_.letters());
     // O100 alone begins a numbered program.
     if (keyword.empty() && only_digits_) return std::nullopt;
-    const auto* known = std::find_if(kKeywords.begin(), kKeywords.end(),
-                                     [&](const Keyword& k) { return k.name == keyword; });
-    if (known == kKeywords.end()) {
+    const auto* known = std::ranges::find(kOWords, keyword, &OWord::name);
+    if (known == kOWords.end()) {
       in_.fail("unknown-word"_id, keyword_column,
                keyword.empty() ? "the O word has no keyword" : "unknown O word " + keyword,
                std::string(kKnown));
@@ -101,15 +74,15 @@ class OWordReader {
     return false;
   }
 
-  void read_values(const Keyword& keyword) {
+  void read_values(const OWord& keyword) {
     const bool given = in_.peek() == '[';
-    if (keyword.needs == Needs::expression && !given) {
+    if (keyword.needs == OWordNeeds::expression && !given) {
       in_.fail("value-missing"_id, in_.column(), fmt::format("{} has no expression", keyword.name),
                fmt::format("write it in brackets: {} [#1 LT 5]", keyword.name));
-    } else if (keyword.needs == Needs::nothing && given) {
+    } else if (keyword.needs == OWordNeeds::nothing && given) {
       in_.fail("argument-count"_id, in_.column(),
                fmt::format("{} takes no expression", keyword.name), "leave it out");
-    } else if (keyword.needs == Needs::arguments) {
+    } else if (keyword.needs == OWordNeeds::arguments) {
       while (in_.peek() == '[') {
         flow_.arguments.emplace_back();
         read_expression(flow_.arguments.back());

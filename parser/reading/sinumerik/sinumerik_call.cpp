@@ -6,19 +6,13 @@
 #include <array>
 #include <optional>
 
+#include "parser/dialects/sinumerik_words.hpp"
 #include "parser/reading/sinumerik/sinumerik_values.hpp"
 
 namespace frustum::parser {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  VariableKind kind;
-};
-constexpr std::array kTypes{TypeName{"REAL", VariableKind::real},
-                            TypeName{"INT", VariableKind::whole},
-                            TypeName{"BOOL", VariableKind::truth}};
-// What may stand after PROC; but for SAVE it concerns the display alone.
+// What may follow PROC; but for SAVE it concerns the display alone.
 constexpr std::array<std::string_view, 8> kAttributes{"SAVE",  "DISPLOF", "DISPLON", "ACTBLOCNO",
                                                       "SBLOF", "SBLON",   "PREPRO",  "ICYCON"};
 
@@ -27,7 +21,7 @@ bool ends(LineScanner& in) { return in.at_end() || in.peek() == ';'; }
 std::optional<VariableKind> read_type(LineScanner& in) {
   const std::uint32_t column = in.column();
   const std::string name = in.name();
-  for (const TypeName& type : kTypes) {
+  for (const TypeName& type : kTypeNames) {
     if (name == type.name) return type.kind;
   }
   in.fail("not-supported"_id, column,

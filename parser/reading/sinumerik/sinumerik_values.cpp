@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "parser/dialects/expressions.hpp"
+#include "parser/dialects/sinumerik_words.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -91,15 +92,6 @@ bool read_variable(ExpressionReader& reader, const std::string& name, std::uint3
   return true;
 }
 
-struct MeasureName {
-  std::string_view name;
-  Measure measure;
-};
-constexpr std::array kMeasures{
-    MeasureName{"AC", Measure::absolute}, MeasureName{"IC", Measure::incremental},
-    MeasureName{"DC", Measure::shortest}, MeasureName{"ACP", Measure::positive},
-    MeasureName{"ACN", Measure::negative}};
-
 }  // namespace
 
 const ExpressionRules& sinumerik_expressions() {
@@ -153,9 +145,8 @@ void read_sinumerik_value(BlockDraft& draft, Word& word, const std::string& name
             "tools go by their numbers here: T1");
     return;
   }
-  const auto* measure = std::find_if(kMeasures.begin(), kMeasures.end(),
-                                     [&](const MeasureName& m) { return m.name == found; });
-  const bool measured = measure != kMeasures.end();
+  const auto* measure = std::ranges::find(kMeasureNames, found, &MeasureName::name);
+  const bool measured = measure != kMeasureNames.end();
   if (measured) {
     (void)in.name();
     word.measure = measure->measure;

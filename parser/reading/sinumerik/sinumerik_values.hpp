@@ -12,7 +12,7 @@
 namespace frustum::parser {
 
 [[nodiscard]] const ExpressionRules& sinumerik_expressions();
-// The ) of `whose`; tells when it is missing.
+// The ) of `whose`; reports when it is missing.
 void close_bracket(LineScanner& in, std::string_view whose);
 
 // R and digits.
