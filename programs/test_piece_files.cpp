@@ -111,7 +111,7 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs:
   fs::create_directories(folder, problem);
   if (problem) {
     Diagnostic failure =
-        error("folder-not-made"_id, "the folder cannot be made: " + problem.message());
+        error("file-unwritable"_id, "the folder cannot be made: " + problem.message());
     failure.file = folder.string();
     return failure;
   }

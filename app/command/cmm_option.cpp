@@ -59,7 +59,7 @@ Result<CmmModel> cmm_of(const CmmWords& words) {
     const auto e0 = parse_length(words.e0);
     if (!e0) return e0.error();
     if (!(e0->value >= 0.0) || !std::isfinite(e0->value)) {
-      return error("value-out-of-range"_id, fmt::format("--e0 {}: must be 0 or more", words.e0),
+      return error("out-of-range"_id, fmt::format("--e0 {}: must be 0 or more", words.e0),
                    "for example \"1.8 um\"");
     }
     cmm.e0_mm = e0->value;

@@ -75,7 +75,7 @@ std::optional<Diagnostic> fault_of(const CutOptions& o) {
   }
   constexpr double kFinest = 1e-6;  // mm: as exact as the surface is
   if (o.chord > 0.0 && o.chord < kFinest) {
-    return error("value-out-of-range"_id,
+    return error("out-of-range"_id,
                  fmt::format("--chord {:g} mm is finer than the surface is exact", o.chord),
                  "give 1e-6 mm or more");
   }
@@ -155,7 +155,7 @@ class Cut {
     const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
     if (options_.until_line > lines) {
       return Diagnostics{error(
-          "value-out-of-range"_id,
+          "out-of-range"_id,
           fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
           "its lines are counted from 1")};
     }

@@ -59,7 +59,7 @@ Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::
     value = length->value;
   }
   if (!(value >= 0.0) || !std::isfinite(value)) {
-    return error("value-out-of-range"_id, fmt::format("{} {}: must be 0 or more", option, text),
+    return error("out-of-range"_id, fmt::format("{} {}: must be 0 or more", option, text),
                  "a standard deviation has no sign");
   }
   return NamedAmount{parameter->name, value};
@@ -116,7 +116,7 @@ class Request {
     metrology::CmmModel cmm;
     if (const auto e0 = keep(parse_length(options_.e0))) cmm.e0_mm = e0->value;
     if (!(cmm.e0_mm > 0.0)) {
-      problems_.push_back(error("value-out-of-range"_id,
+      problems_.push_back(error("out-of-range"_id,
                                 fmt::format("--e0 {}: must be a length above 0", options_.e0),
                                 "for example --e0 \"0.5 um\""));
     }

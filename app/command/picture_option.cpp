@@ -12,8 +12,7 @@ std::optional<Diagnostics> look_from(const std::string& view, report::PictureOpt
   options.azimuth = (*angles)[0];
   options.elevation = (*angles)[1];
   if (std::abs(options.azimuth) <= 360.0 && std::abs(options.elevation) <= 90.0) return {};
-  return Diagnostics{error("value-out-of-range"_id,
-                           "--view " + view + " is no direction to look from",
+  return Diagnostics{error("out-of-range"_id, "--view " + view + " is no direction to look from",
                            "azimuth about Z from +X within 360 deg, elevation from -90 to 90 deg")};
 }
 
@@ -22,7 +21,7 @@ std::optional<Diagnostics> draw_at(const std::string& size, report::PictureOptio
   if (!sides) return sides.error();
   for (const double side : *sides) {
     if (side != std::floor(side) || std::abs(side) > 1e6) {
-      return Diagnostics{error("value-out-of-range"_id, "--size " + size + " is no size in pixels",
+      return Diagnostics{error("out-of-range"_id, "--size " + size + " is no size in pixels",
                                "two whole numbers: 1600,1100")};
     }
   }

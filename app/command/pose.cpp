@@ -95,7 +95,7 @@ Result<AxisPositions> read_headings(const Machine& machine, const std::string& t
   for (const Joint& joint : machine.joints()) {
     const double h = (*heading)[joint.letter];
     if (std::abs(h) <= 1.0) continue;
-    return error("value-out-of-range"_id,
+    return error("out-of-range"_id,
                  fmt::format("--heading {}={}: expected -1 .. +1", to_char(joint.letter), h),
                  "+1 after motion in +, -1 after motion in -");
   }
@@ -170,7 +170,7 @@ int inverse(const PoseOptions& options, const Machine& machine) {
 int run_pose(const PoseOptions& options) {
   if (!std::isfinite(options.tool_length) || options.tool_length < 0.0) {
     return refuse(
-        "value-out-of-range"_id,
+        "out-of-range"_id,
         fmt::format("--tool-length {}: expected a length in mm, 0 or more", options.tool_length));
   }
   const auto machine = load_machine(options.machine, ".");

@@ -31,8 +31,7 @@ Result<StepTest> test_of(const StepOptions& o) {
   StepTest test;
   const auto workpiece = programs::step_workpiece(o.workpiece);
   if (!workpiece)
-    return error("value-out-of-range"_id, fmt::format("there is no workpiece {}", o.workpiece),
-                 "1 or 2");
+    return error("out-of-range"_id, fmt::format("there is no workpiece {}", o.workpiece), "1 or 2");
   test.workpiece = programs::raised(*workpiece, o.raise);
   test.patterns = o.patterns;
   if (o.tool_diameter) test.tool_diameter = {*o.tool_diameter};

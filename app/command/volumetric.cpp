@@ -139,7 +139,7 @@ Result<Tolerances> read_tolerances(const Machine& machine, const std::vector<std
                           entry.terms.front().kind == kinematics::ErrorShape::Kind::constant;
     if (!constant || amount.kind != (angle ? UnitKind::angle : UnitKind::length) ||
         !(amount.value > 0.0)) {
-      return error("value-out-of-range"_id,
+      return error("out-of-range"_id,
                    fmt::format("tolerance {} = {}: expected {} greater than 0", entry.name,
                                entry.written, angle ? "an angle" : "a length"),
                    angle ? "for example 20 urad" : "for example 10 um");
@@ -152,13 +152,13 @@ Result<Tolerances> read_tolerances(const Machine& machine, const std::vector<std
 Result<Study> study_of(const VolumetricOptions& options) {
   if (!std::isfinite(options.tool_length) || options.tool_length < 0.0) {
     return error(
-        "value-out-of-range"_id,
+        "out-of-range"_id,
         fmt::format("--tool-length {}: expected a length in mm, 0 or more", options.tool_length));
   }
   // A page and a JSON document of a hundred points an axis would be a million vectors.
   constexpr int kMostPoints = 41;
   if (options.grid > kMostPoints) {
-    return error("value-out-of-range"_id,
+    return error("out-of-range"_id,
                  fmt::format("--grid {}: at most {} points an axis", options.grid, kMostPoints));
   }
   auto machine = load_machine(options.machine, ".");

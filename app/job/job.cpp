@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 Result<std::string> read_text(const fs::path& file, const TomlTable& table, std::string_view key) {
   auto text = read_whole_file(file);
   if (text) return text;
-  table.fail(key, "unreadable-file"_id, fmt::format("the file {} cannot be read", file.string()),
+  table.fail(key, "file-unreadable"_id, fmt::format("the file {} cannot be read", file.string()),
              "paths are relative to the job file");
-  return error("unreadable-file"_id, "unreadable");
+  return error("file-unreadable"_id, "unreadable");
 }
 
 void read_program(const TomlTable& root, programs::TestPiece& piece) {

@@ -188,7 +188,7 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   // A grid that the part falls through would be answered with nothing at all.
   const double coarsest = (box.max - box.min).minCoeff() / 4.0;
   if (pitch > coarsest) {
-    return error("value-out-of-range"_id,
+    return error("out-of-range"_id,
                  fmt::format("a pitch of {:g} mm is too coarse for this blank", pitch),
                  fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
   }

@@ -48,8 +48,7 @@ std::optional<Diagnostic> add_tool_length(const std::string& text, kinematics::S
   const auto word = tool_word(text, "--tool-length", "NUMBER=LENGTH, for example 1=150");
   if (!word) return word.error().front();
   if (!(word->value >= 0.0)) {
-    return error("value-out-of-range"_id,
-                 fmt::format("--tool-length {}: a length is not negative", text),
+    return error("out-of-range"_id, fmt::format("--tool-length {}: a length is not negative", text),
                  "mm from the spindle's gauge point to the tip");
   }
   setup.tools[word->number].length = word->value;
@@ -60,7 +59,7 @@ std::optional<Diagnostic> add_tool_diameter(const std::string& text, parser::Too
   const auto word = tool_word(text, "--tool-diameter", "NUMBER=DIAMETER, for example 1=10");
   if (!word) return word.error().front();
   if (!(word->value > 0.0)) {
-    return error("value-out-of-range"_id,
+    return error("out-of-range"_id,
                  fmt::format("--tool-diameter {}: a diameter is above zero", text), "in mm");
   }
   parser::Tool& tool = tools[word->number];

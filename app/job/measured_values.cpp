@@ -67,7 +67,7 @@ Result<MeasuredPart> from_toml(const fs::path& file, const InspectionPlan& plan)
       if (entry.has("uncertainty")) {
         value.uncertainty = quantity(entry, "uncertainty", angular);
         if (!(*value.uncertainty > 0.0))
-          entry.fail("uncertainty", "value-out-of-range"_id, "must be above 0");
+          entry.fail("uncertainty", "out-of-range"_id, "must be above 0");
       }
     } else {
       value.value = quantity(measured, name, angular);

@@ -74,7 +74,7 @@ std::vector<KnownError> read_known(const TomlTable& table, const kinematics::Mac
       error.value = amount(entry, "value", *parameter);
       error.uncertainty = amount(entry, "uncertainty", *parameter);
       if (error.uncertainty < 0.0)
-        entry.fail("uncertainty", "value-out-of-range"_id, "must not be negative");
+        entry.fail("uncertainty", "out-of-range"_id, "must not be negative");
     } else {
       error.value = amount(table, name, *parameter);
     }

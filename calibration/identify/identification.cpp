@@ -148,8 +148,8 @@ std::optional<std::size_t> suspect_of(const std::vector<Residual>& residuals) {
 
 Result<Identification> identify(const Observations& observations, const IdentifyOptions& options) {
   if (!(options.confidence > 0.0 && options.confidence < 1.0)) {
-    return error("option-out-of-range"_id,
-                 "the confidence of the intervals must be between 0 and 1", "0.95 is usual");
+    return error("out-of-range"_id, "the confidence of the intervals must be between 0 and 1",
+                 "0.95 is usual");
   }
   if (options.degrees_of_freedom &&
       (!(*options.degrees_of_freedom >= 1.0) || !std::isfinite(*options.degrees_of_freedom))) {

@@ -69,8 +69,7 @@ Change largest_change(const Identification& identification, const Eigen::VectorX
 Result<Refinement> refine(Observations observations, const Model& model,
                           const RefineOptions& options) {
   if (options.most_rounds < 1 || !(options.settled > 0.0)) {
-    return error("option-out-of-range"_id,
-                 "a refinement needs at least one round and a positive limit");
+    return error("out-of-range"_id, "a refinement needs at least one round and a positive limit");
   }
   const Eigen::VectorXd measured = observations.values;
   if (measured.size() != static_cast<Eigen::Index>(observations.rows.size())) {

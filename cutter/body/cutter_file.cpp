@@ -142,8 +142,7 @@ ToolList read_tools(const TomlTable& tools, ToolList base) {
       std::vector<int> numbers;
       for (const auto& [n, spec] : base) numbers.push_back(n);
       tools.fail(
-          key, "undefined-tool"_id,
-          fmt::format("the tool library has no tool {} to change", *number),
+          key, "unknown-tool"_id, fmt::format("the tool library has no tool {} to change", *number),
           fmt::format("it has {}; a tool of the job's own needs a type", fmt::join(numbers, ", ")));
       for (const std::string& inner : table.keys()) static_cast<void>(table.has(inner));
       continue;

@@ -67,7 +67,7 @@ Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tool
   for (const kinematics::PathBlock& block : path.blocks) {
     if (!tools.contains(block.tool)) {
       Diagnostic failure =
-          error("undefined-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
+          error("unknown-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
                 fmt::format("add tool.{} with type, diameter and length", block.tool));
       failure.line = static_cast<int>(block.source_line);
       return failure;

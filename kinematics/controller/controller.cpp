@@ -93,8 +93,9 @@ class Controller::State {
   }
   void execute(const parser::CompensationChange& change) {
     if (!state_.length_of(change)) {
-      fail("unknown-tool-length"_id,
-           change.offset_number == 0
+      const bool is_missing = change.offset_number == 0;
+      fail(is_missing ? "tool-length-missing"_id : "unknown-tool-length"_id,
+           is_missing
                ? std::string("tool length compensation without an H word")
                : fmt::format("H{}: there is no tool length of that number", change.offset_number),
            "H n takes the length of tool n of the job");

@@ -209,7 +209,7 @@ class Resolver {
       const auto before = first_.emplace(own.axis, &own).first->second;
       if (before->distance != own.distance) {
         refuse(*own.entry,
-               error("settling-distance"_id,
+               error("lost-motion-distance"_id,
                      fmt::format("error {}: {} settles over another distance than in {}",
                                  own.entry->name, to_char(own.axis), before->entry->name),
                      "an axis has one play: give one settling distance"));
@@ -242,7 +242,7 @@ class Resolver {
                  "draw it: --draw SEED, or error_draw = { seed = 1 } in the job"));
   }
   void refuse_settle(const ErrorEntry& entry, const NamedError& named) {
-    refuse(entry, error("settling-distance"_id,
+    refuse(entry, error("lost-motion-distance"_id,
                         fmt::format("error {}: two settling distances of {}", entry.name,
                                     to_char(named.error.axis)),
                         "an axis has one play: give one settling distance"));

@@ -247,7 +247,7 @@ DatumSystem read_datum(const TomlTable& table) {
 PlannedFrame read_frame(const TomlTable& table) {
   PlannedFrame frame;
   frame.name = table.text("name");
-  if (!table.has("planes")) table.fail("planes", "plan-value"_id, "this key is missing");
+  if (!table.has("planes")) table.fail("planes", "missing-key"_id, "this key is missing");
   frame.planes = table.texts_or("planes", {});
   frame.line = table.text("line");
   return frame;

@@ -82,7 +82,7 @@ std::size_t parameter_at(std::string_view text) {
 
 std::string value_text(const Parameters& parameters, std::string_view name, int decimals) {
   constexpr std::size_t kMaxDigits = 9;
-  Result<double> value = error("parameter-undefined"_id, "");
+  Result<double> value = error("unknown-parameter"_id, "");
   if (name[1] == '<') {
     value = parameters.read(bare_name(name.substr(2, name.size() - 3)));
   } else if (name.size() <= kMaxDigits) {

@@ -111,7 +111,7 @@ Outcome set_parameters(InterpreterState& state, const Block& block) {
                   "it tells the position, a mode or what a call gave back; use a name of your own");
     }
     if (setting.name && !setting.defines && !state.parameters.can_set(block.names[*setting.name])) {
-      return fail(state, setting.column, "parameter-undefined"_id,
+      return fail(state, setting.column, "unknown-parameter"_id,
                   fmt::format("{} is not defined", block.names[*setting.name]),
                   "define it before: DEF REAL and its name; parameters are R0 to R999");
     }

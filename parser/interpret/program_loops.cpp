@@ -34,7 +34,7 @@ ProgramRun::Failure ProgramRun::enter_loop(const Block& block, const Landmark& h
     if (!limit) return limit.error().front();
     const std::string& variable = block.names[flow.variable];
     if (!executor_.state().parameters.can_set(variable)) {
-      return at(block, flow.column, "parameter-undefined"_id,
+      return at(block, flow.column, "unknown-parameter"_id,
                 fmt::format("{} is not defined", variable),
                 "define it before: DEF INT and its name");
     }

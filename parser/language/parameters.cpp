@@ -47,7 +47,7 @@ Result<double> Parameters::read(double number) const {
   if (system_ != nullptr) {
     if (const auto kept = system_->number(*index)) {
       if (!is_vacant(*kept)) return *kept;
-      return error("parameter-unknown"_id,
+      return error("unknown-parameter"_id,
                    fmt::format("the value of #{} is the setup's and not known here", *index),
                    "set it in the program before it is read");
     }
@@ -56,7 +56,7 @@ Result<double> Parameters::read(double number) const {
   const auto found = all.find(*index);
   if (found == all.end()) {
     if (rules_.first_system != 0 && *index >= rules_.first_system) {
-      return error("parameter-unknown"_id, fmt::format("system variable #{} is not known", *index),
+      return error("unknown-parameter"_id, fmt::format("system variable #{} is not known", *index),
                    "positions are known once they are programmed; leave clocks, signals and "
                    "screens out of the "
                    "simulated program");
@@ -79,7 +79,7 @@ Result<double> Parameters::read(std::string_view name) const {
   if (found == all.end()) {
     if (rules_.names_are_defined) {
       const bool system = name.starts_with('$');
-      return error(system ? "parameter-unset"_id : "parameter-undefined"_id,
+      return error(system ? "parameter-unset"_id : "unknown-parameter"_id,
                    fmt::format("{} {}", name, system ? "has no value here" : "is not defined"),
                    system ? "it is known once the program has moved the axis in this frame"
                           : "define it before: DEF REAL and its name");

@@ -81,7 +81,7 @@ std::optional<Diagnostic> holes(const Mesh& mesh) {
   if (cycles.empty()) return std::nullopt;
   std::size_t edges = 0;
   for (const auto h : mesh.halfedges()) edges += mesh.is_border(h) ? 1 : 0;
-  return error("open-mesh"_id,
+  return error("mesh-open"_id,
                fmt::format("the mesh is open: {} with {} around; one is at {} mm",
                            counted(cycles.size(), "hole", "holes"), counted(edges, "edge", "edges"),
                            place_of(vec_of(mesh.point(mesh.target(cycles.front()))))),
@@ -148,7 +148,7 @@ std::optional<Diagnostic> shells(Mesh& mesh, const SurfaceMesh& given) {
 }  // namespace
 
 Diagnostics mesh_faults(const SurfaceMesh& mesh) {
-  if (mesh.triangles.empty()) return {error("empty-mesh"_id, "the mesh has no triangles")};
+  if (mesh.triangles.empty()) return {error("mesh-empty"_id, "the mesh has no triangles")};
   if (const auto clash = clashing_edges(mesh)) return {*clash};
   auto made = joined(mesh);
   if (!made) {

@@ -272,7 +272,7 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
     const auto body = bodies.find(block.tool);
     if (body == bodies.end()) {
       Diagnostic failure =
-          error("undefined-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
+          error("unknown-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
                 fmt::format("add tool.{} with type, diameter and length", block.tool));
       failure.line = static_cast<int>(block.source_line);
       return failure;

@@ -211,7 +211,7 @@ Outcome set_offset_memory(InterpreterState& state, const BlockWords& words, cons
   const double value = words['R'].value * unit_scale(state);
   const bool length = data.input == DataInput::length;
   if (length && adds && !tool.has_length) {
-    return fail(state, words['R'].column, "tool-length-unknown"_id,
+    return fail(state, words['R'].column, "unknown-tool-length"_id,
                 fmt::format("{} adds to the length of offset {}, which only the setup knows",
                             words.text_of('R'), *number),
                 "give the length in G90");

@@ -75,7 +75,7 @@ Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
     const auto given = given_tool_offset(state, words);
     if (!given) return given.error();
     if (!before && !words.has('Z')) {
-      return fail(state, code.column, "tool-length-unknown"_id,
+      return fail(state, code.column, "unknown-tool-length"_id,
                   code.code->name() + " leaves a length in force that the setup has", "give Z too");
     }
     ToolOffset offset = before.value_or(ToolOffset{});
@@ -114,7 +114,7 @@ Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
     of_tool = *given;
   }
   if (!before || !of_tool) {
-    return fail(state, code.column, "tool-length-unknown"_id,
+    return fail(state, code.column, "unknown-tool-length"_id,
                 code.code->name() + " adds to a length that only the setup knows",
                 "use G43.1 with the whole offset, or give the tool table");
   }
