@@ -38,7 +38,8 @@ void FindingList::add(Check check, Key key, const parser::SourcePlace& place, Wo
                        .line = place.line,
                        .column = place.column,
                        .message = std::move(words.message),
-                       .hint = std::move(words.hint)});
+                       .hint = std::move(words.hint),
+                       .diagnostic = words.diagnostic});
 }
 
 std::vector<Finding> FindingList::sorted() const {
@@ -56,7 +57,7 @@ void FindingList::raise(Check check, const Diagnostic& said, const parser::Sourc
   raise(
       check, key_of(said.message), place,
       [&] {
-        return Words{said.message, said.hint};
+        return Words{said.message, said.hint, said.id};
       },
       severity);
 }

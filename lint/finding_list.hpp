@@ -32,11 +32,13 @@ struct Finding {
   std::string message{};
   std::string hint{};
   std::uint64_t count = 1;
+  std::optional<DiagnosticId> diagnostic{};  // of what the interpreter or the controller says
 };
 
 struct Words {
   std::string message{};
   std::string hint{};
+  std::optional<DiagnosticId> diagnostic{};
 };
 
 class FindingList {

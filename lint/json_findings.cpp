@@ -19,14 +19,16 @@ std::string json_of(const CheckReport& report, const CheckedFile& checked) {
             {"findings", Json::array()},
             {"left_out", Json::object()}};
   for (const Finding& finding : report.findings) {
-    json["findings"].push_back({{"id", info_of(finding.check).id},
-                                {"severity", to_string(finding.severity)},
-                                {"file", finding.file},
-                                {"line", finding.line},
-                                {"column", finding.column},
-                                {"message", finding.message},
-                                {"hint", finding.hint},
-                                {"count", finding.count}});
+    json["findings"].push_back(
+        {{"id", info_of(finding.check).id},
+         {"severity", to_string(finding.severity)},
+         {"file", finding.file},
+         {"line", finding.line},
+         {"column", finding.column},
+         {"message", finding.message},
+         {"hint", finding.hint},
+         {"count", finding.count},
+         {"diagnostic", finding.diagnostic ? Json(finding.diagnostic->text()) : Json()}});
   }
   for (const auto& [check, count] : report.left_out) {
     json["left_out"][std::string(info_of(check).id)] = count;

@@ -99,6 +99,9 @@ std::string sarif_of(const CheckReport& report, const SourceLines& lines,
                        {"partialFingerprints",
                         {{"checkAndLine/v1", fmt::format("{:016x}:{}", mark, ++seen[mark])}}},
                        {"occurrenceCount", finding.count}});
+    if (finding.diagnostic) {
+      results.back()["properties"] = {{"diagnostic", finding.diagnostic->text()}};
+    }
   }
   const Json sarif{
       {"$schema", kSchema},

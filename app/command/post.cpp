@@ -80,9 +80,12 @@ int post_process(const PostOptions& options) {
                                        {"lines", program->source_lines.size()},
                                        {"inserted_points", plan->inserted},
                                        {"rewinds", plan->rewinds},
-                                       {"diagnostics", nlohmann::ordered_json::array()}};
-    for (const Diagnostic& warning : warnings)
+                                       {"diagnostics", nlohmann::ordered_json::array()},
+                                       {"diagnostic_ids", nlohmann::ordered_json::array()}};
+    for (const Diagnostic& warning : warnings) {
       written_doc["diagnostics"].push_back(to_string(warning));
+      written_doc["diagnostic_ids"].push_back(warning.id.text());
+    }
     std::cout << written_doc.dump(2) << '\n';
     return kDone;
   }

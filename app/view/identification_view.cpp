@@ -339,7 +339,7 @@ std::string identification_json(const Study& study, const StudyResult& result) {
   }
   json["diagnostics"] = Json::array();
   for (const Diagnostic& d : result.identification.diagnostics) {
-    json["diagnostics"].push_back({{"message", d.message}, {"hint", d.hint}});
+    json["diagnostics"].push_back({{"id", d.id.text()}, {"message", d.message}, {"hint", d.hint}});
   }
   return json.dump() + '\n';
 }

@@ -184,8 +184,9 @@ std::string to_json_line(const Motion& motion) {
 }
 
 std::string to_json_line(const Diagnostic& error) {
-  const Json json{{"line", error.line}, {"column", error.column},   {"file", error.file},
-                  {"type", "error"},    {"message", error.message}, {"hint", error.hint}};
+  const Json json{{"line", error.line}, {"column", error.column}, {"file", error.file},
+                  {"type", "error"},    {"id", error.id.text()},  {"message", error.message},
+                  {"hint", error.hint}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -64,6 +64,7 @@ TEST(JsonFindings, HaveTheKeysOfTheDocument) {
   EXPECT_EQ(finding["line"], 2);
   EXPECT_EQ(finding["column"], 2);
   EXPECT_EQ(finding["count"], 1);
+  EXPECT_EQ(finding["diagnostic"], "feed-missing");
   EXPECT_EQ(finding["message"], "G1 without a feed rate");
   EXPECT_FALSE(finding["hint"].get<std::string>().empty());
 }

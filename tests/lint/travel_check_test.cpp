@@ -36,6 +36,13 @@ TEST_F(TravelCheckTest, TellsAxisAmountLimitAndPlace) {
   EXPECT_EQ(report.findings.size(), 1U) << ids(report);
 }
 
+TEST_F(TravelCheckTest, ALengthWithoutANumberIsMissingOnAMachineToo) {
+  const auto found = of(on("iwf-bc", "G43\nG1 X10 F100\n"), "length-missing");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_EQ(found[0].diagnostic, "tool-length-missing"_id);
+}
+
 TEST_F(TravelCheckTest, IsSilentWithinTheTravels) {
   EXPECT_EQ(ids(on("iwf-bc", "G0 X400 Y-300\nG0 X-400 Y300\nG0 X0 Y0\n")), "");
 }
