@@ -108,12 +108,12 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
   parser::InterpreterOptions interpreter;
   interpreter.tools = diameters_of(piece);
   interpreter.search_path = {folder};
-  const auto motions = parser::motions_of(*program, interpreter);
+  auto motions = parser::motions_of(*program, interpreter);
   if (!motions) return motions.error();
   begin(on_stage, Stage::execute);
   auto commanded = kinematics::command(machine, setup_of(piece), *motions);
   if (!commanded) return in_file(commanded.error(), piece.program_file);
-  CommandedPiece result{.program = *std::move(commanded)};
+  CommandedPiece result{.motions = *std::move(motions), .program = *std::move(commanded)};
   result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
   result.warnings = in_file(std::move(result.program.warnings), piece.program_file);
   return result;

@@ -23,6 +23,7 @@
 #include "kinematics/timing/time_law.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
+#include "parser/motion.hpp"
 #include "parser/tool_table.hpp"
 #include "programs/test_piece.hpp"
 #include "stock/collision/collision.hpp"
@@ -71,6 +72,7 @@ struct TrialOptions {
 
 // A piece's program as the controller commands it, whatever the errors of machine and tools.
 struct CommandedPiece {
+  std::vector<parser::Motion> motions{};  // those that it commands
   kinematics::CommandedProgram program{};
   std::vector<OperationTrace> operations{};
   Diagnostics warnings{};

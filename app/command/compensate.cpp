@@ -70,11 +70,13 @@ int compensate(const CompensateOptions& options) {
     return refuse("output-overwrites-input"_id, "the output would overwrite the job",
                   "choose another folder for --out");
   }
-  const auto errors = trials::errors_for(job->machine, job->errors, job->piece);
+  const auto commanded = trials::command_piece(job->machine, job->piece);
+  if (!commanded) return refuse(commanded.error());
+  const auto errors = trials::errors_for(job->machine, job->errors, job->piece, *commanded);
   if (!errors) return refuse(errors.error());
   const auto dialect =
       options.dialect.empty() ? std::nullopt : parser::dialect_named(options.dialect);
-  auto made = calibration::compensated_piece(job->machine, *errors, job->piece,
+  auto made = calibration::compensated_piece(job->machine, *errors, job->piece, *commanded,
                                              {.bound = options.bound / kUmPerMm}, dialect);
   if (!made) return refuse(made.error());
   made->piece.title += ", compensated";

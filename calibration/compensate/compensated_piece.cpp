@@ -4,11 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "parser/interpreter.hpp"
-#include "parser/program.hpp"
 #include "parser/writing/motion_spelling.hpp"
 #include "parser/writing/motion_writer.hpp"
-#include "trials/trial.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -27,11 +24,19 @@ Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
                                            const programs::TestPiece& piece,
                                            const CompensationOptions& options,
                                            std::optional<parser::Dialect> dialect) {
-  const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
-  if (!program) return program.error();
-  const auto motions = parser::motions_of(*program);
-  if (!motions) return motions.error();
-  auto result = compensated(machine, errors, trials::setup_of(piece), *motions, options);
+  const auto commanded = trials::command_piece(machine, piece);
+  if (!commanded) return commanded.error();
+  return compensated_piece(machine, errors, piece, *commanded, options, dialect);
+}
+
+Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
+                                           const kinematics::GeometricErrors& errors,
+                                           const programs::TestPiece& piece,
+                                           const trials::CommandedPiece& commanded,
+                                           const CompensationOptions& options,
+                                           std::optional<parser::Dialect> dialect) {
+  auto result = compensated(machine, errors, trials::setup_of(piece), commanded.motions,
+                            commanded.program, options);
   if (!result) return in_file(std::move(result).error(), piece.program_file);
 
   CompensatedPiece made{.piece = piece, .before = result->before, .after = result->after};

@@ -12,6 +12,7 @@
 #include "calibration/compensate/compensation.hpp"
 #include "parser/dialect.hpp"
 #include "programs/test_piece.hpp"
+#include "trials/trial.hpp"
 
 namespace frustum::calibration {
 
@@ -25,5 +26,10 @@ struct CompensatedPiece {
     const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
     const programs::TestPiece& piece, const CompensationOptions& options = {},
     std::optional<parser::Dialect> dialect = {});
+// Of a piece that has been commanded before.
+[[nodiscard]] Result<CompensatedPiece> compensated_piece(
+    const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
+    const programs::TestPiece& piece, const trials::CommandedPiece& commanded,
+    const CompensationOptions& options = {}, std::optional<parser::Dialect> dialect = {});
 
 }  // namespace frustum::calibration

@@ -327,11 +327,18 @@ PathError beside(const ToolPath& nominal, const ToolPath& actual) {
 Result<CompensatedProgram> compensated(const Machine& machine, const GeometricErrors& errors,
                                        const Setup& setup, std::span<const Motion> motions,
                                        const CompensationOptions& options) {
-  const kinematics::TravelOptions sampling{.path_bound = 0.5 * options.bound};
   const auto commanded = kinematics::command(machine, setup, motions);
   if (!commanded) return commanded.error();
-  const ToolPath nominal = kinematics::travel(machine, setup, *commanded, {}, sampling).path;
-  const ToolPath actual = kinematics::travel(machine, setup, *commanded, errors, sampling).path;
+  return compensated(machine, errors, setup, motions, *commanded, options);
+}
+
+Result<CompensatedProgram> compensated(const Machine& machine, const GeometricErrors& errors,
+                                       const Setup& setup, std::span<const Motion> motions,
+                                       const kinematics::CommandedProgram& commanded,
+                                       const CompensationOptions& options) {
+  const kinematics::TravelOptions sampling{.path_bound = 0.5 * options.bound};
+  const ToolPath nominal = kinematics::travel(machine, setup, commanded, {}, sampling).path;
+  const ToolPath actual = kinematics::travel(machine, setup, commanded, errors, sampling).path;
 
   CompensatedProgram result;
   result.motions = Compensator(machine, errors, setup, actual, options).rewritten(motions);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "kinematics/controller/commanded_program.hpp"
 #include "kinematics/controller/setup.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
@@ -47,6 +48,13 @@ struct CompensatedProgram {
                                                      const kinematics::GeometricErrors& errors,
                                                      const kinematics::Setup& setup,
                                                      std::span<const parser::Motion> motions,
+                                                     const CompensationOptions& options = {});
+// Of motions that have been commanded before.
+[[nodiscard]] Result<CompensatedProgram> compensated(const kinematics::Machine& machine,
+                                                     const kinematics::GeometricErrors& errors,
+                                                     const kinematics::Setup& setup,
+                                                     std::span<const parser::Motion> motions,
+                                                     const kinematics::CommandedProgram& commanded,
                                                      const CompensationOptions& options = {});
 
 }  // namespace frustum::calibration

@@ -146,7 +146,7 @@ void Certifier::prove_clear_of(const Tool& tool, Search& search) const {
 
 namespace {
 
-// The deepest program_state near t: a walk downhill to either side, then a golden section.
+// The deepest place near t: a walk downhill to either side, then a golden section.
 double deepest_near(const BodyGeneratrix& body, const ToolPath& path, std::uint32_t segment,
                     double t, const Vec3& point) {
   const auto depth = [&](double at) {

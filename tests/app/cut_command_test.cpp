@@ -1,5 +1,5 @@
-// frustum cut as users and scripts see it: program_states, removal, limits, engines, files whole or
-// not at all.
+// frustum cut as users and scripts see it: states of the program, removal, limits, engines, files
+// whole or not at all.
 #include <gmock/gmock.h>
 
 #include <algorithm>

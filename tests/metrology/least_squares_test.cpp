@@ -410,9 +410,9 @@ TEST(EveryFit, AnswersRandomCloudsWithAFitOrAReason) {
     for (int set = 0; set < 300; ++set) {
       std::vector<Vec3> cloud;
       const int n = 6 + static_cast<int>(draws.between(0.0, 30.0));
-      const Vec3 segment(std::exp2(draws.between(-8, 4)), std::exp2(draws.between(-8, 4)), 1.0);
+      const Vec3 scale(std::exp2(draws.between(-8, 4)), std::exp2(draws.between(-8, 4)), 1.0);
       cloud.reserve(static_cast<std::size_t>(n));
-      for (int i = 0; i < n; ++i) cloud.emplace_back(segment.cwiseProduct(draws.place(10.0)));
+      for (int i = 0; i < n; ++i) cloud.emplace_back(scale.cwiseProduct(draws.place(10.0)));
       const auto fit = fit_element(kind, cloud);
       if (!fit) {
         EXPECT_FALSE(first_message(fit.error()).empty());

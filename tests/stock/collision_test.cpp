@@ -1,4 +1,4 @@
-// Shanks and holders in material, at the program_state they are there; rapids, many of them.
+// Shanks and holders in material, when they are there; rapids, many of them.
 #include "stock/collision/collision.hpp"
 
 #include <oneapi/tbb/global_control.h>

@@ -1,4 +1,5 @@
-// What each block removes, what is at any program_state, and how far a surface is from its nominal.
+// What each block removes, what is at any state of the program, and how far a surface is from its
+// nominal.
 #include "stock/solid/removal.hpp"
 
 #include <oneapi/tbb/global_control.h>

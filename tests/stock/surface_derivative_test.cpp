@@ -113,7 +113,7 @@ Slopes compare(const cutter::CutterSpec& spec, const Disturbance& by) {
   return slopes;
 }
 
-// An end is found to 4e-10 mm, and the program_state that makes it to the root of that: the normal
+// An end is found to 4e-10 mm, and the instant that makes it to the root of that: the normal
 // is then off by sqrt(2 * 4e-10 mm / 5 mm) at a radius of 5 mm.
 constexpr double kNormal = 1.5e-5;
 
