@@ -220,15 +220,15 @@ std::vector<Vec3> anything(Draws& draws, std::size_t least) {
   const auto flatness = [&] {
     return draws.between(0, 1) < 0.1 ? 0.0 : std::exp2(draws.between(-30, 4));
   };
-  const Vec3 scale(draws.between(0, 1) < 0.5 ? flatness() : 1.0,
-                   draws.between(0, 1) < 0.3 ? flatness() : 1.0, 1.0);
+  const Vec3 uneven(draws.between(0, 1) < 0.5 ? flatness() : 1.0,
+                    draws.between(0, 1) < 0.3 ? flatness() : 1.0, 1.0);
   const Vec3 centre = draws.between(0, 1) < 0.2 ? draws.place(1e3 * scale) : Vec3(0, 0, 0);
   const Pose pose = draws.pose(1.0);
   const bool shell = draws.between(0, 1) < 0.4;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < n; ++i) {
     Vec3 p = shell ? draws.direction().vec() : draws.place(1.0);
-    p = pose.direction(scale.cwiseProduct(p));
+    p = pose.direction(uneven.cwiseProduct(p));
     points.emplace_back(centre + scale * p);
     if (i > 0 && draws.between(0, 1) < 0.05) points.back() = points[i / 2];
   }
