@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/quantile.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::report {
@@ -28,15 +29,13 @@ Colour deviation_colour(const std::optional<float>& deviation, double span) {
 double natural_span(const SurfacePicture& picture) {
   constexpr double kShareInside = 0.995;
   constexpr double kSmallest = 1e-6;  // mm: 1 nm, what the cut is exact to
-  std::vector<float> sizes;
+  std::vector<double> sizes;
   for (const std::optional<float>& deviation : picture.deviation) {
-    if (deviation && std::isfinite(*deviation)) sizes.push_back(std::abs(*deviation));
+    if (deviation && std::isfinite(*deviation))
+      sizes.push_back(std::abs(static_cast<double>(*deviation)));
   }
   if (sizes.empty()) return 1e-3;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(kShareInside * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-  const double size = static_cast<double>(sizes[static_cast<std::size_t>(rank)]);
+  const double size = nearest_rank(sizes, kShareInside);
   return round_up_125(std::max(size, kSmallest));
 }
 

@@ -3,18 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
+
+#include "core/decimal.hpp"
 
 namespace frustum::report {
 
 std::string fixed_text(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
-  if (is_zero && text.front() == '-') text.erase(0, 1);
-  return text;
+  return fixed_decimal(value, decimals);
 }
 
 std::string duration_text(double seconds) {
@@ -92,10 +89,7 @@ double round_up_125(double value) {
 
 std::string exact_decimal(double value) {
   if (!std::isfinite(value) || value == 0.0) return "0";  // -0 too
-  std::array<char, 1100> text;                            // the smallest double has 1074 decimals
-  const auto [end, status] =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  return status == std::errc{} ? std::string(text.data(), end) : "0";
+  return shortest_decimal(value);
 }
 
 }  // namespace frustum::report

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/decimal.hpp"
 #include "parser/dialects/dialect_rules.hpp"
 #include "parser/language/expression.hpp"
 
@@ -74,7 +75,7 @@ int tenths_of(double number) {
 
 std::string Code::name() const {
   if (letter == kNamedWord) return std::string(word);
-  return letter + decimal_text(static_cast<double>(tenths) / 10.0);
+  return letter + shortest_decimal(static_cast<double>(tenths) / 10.0);
 }
 
 const Code* find_code(Dialect dialect, char letter, double number) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/decimal.hpp"
 #include "parser/interpret/block_flow.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 
@@ -37,7 +38,7 @@ const Word* macro_word(const InterpreterState& state, const Block& block) {
 }
 
 Result<Flow> call_macro(InterpreterState& state, const Block& block, const Word& code) {
-  const std::string name = "G" + decimal_text(code.number);
+  const std::string name = "G" + shortest_decimal(code.number);
   const ExpressionContext context{block.steps, block.names, state.parameters};
   if (!block.assignments.empty()) {
     return fail(state, block.assignments.front().column, "macro-beside"_id,
@@ -49,12 +50,12 @@ Result<Flow> call_macro(InterpreterState& state, const Block& block, const Word&
     const double nearest = std::round(value);
     if (std::abs(value - nearest) > 1e-4) {
       return fail(state, word.column, "not-whole"_id,
-                  fmt::format("{}{} is not a whole number", word.letter, decimal_text(value)),
+                  fmt::format("{}{} is not a whole number", word.letter, shortest_decimal(value)),
                   fmt::format("give {} without decimals", word.letter));
     }
     if (nearest < least || nearest > most) {
       return fail(state, word.column, "out-of-range"_id,
-                  fmt::format("{}{} is out of range", word.letter, decimal_text(value)),
+                  fmt::format("{}{} is out of range", word.letter, shortest_decimal(value)),
                   fmt::format("{} goes from {} to {}", word.letter, least, most));
     }
     return static_cast<int>(nearest);
@@ -78,7 +79,7 @@ Result<Flow> call_macro(InterpreterState& state, const Block& block, const Word&
     }
     if (letter == 'G') {
       return fail(state, word.column, "macro-beside"_id,
-                  fmt::format("G{} beside {}", decimal_text(value), name), "write two blocks");
+                  fmt::format("G{} beside {}", shortest_decimal(value), name), "write two blocks");
     }
     if (given.has(letter) && !is_centre(letter)) {
       return fail(state, word.column, "word-twice"_id,

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/decimal.hpp"
 #include "parser/interpret/frames/datum.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 
@@ -53,7 +54,7 @@ Result<bool> set_system_variable(InterpreterState& state, std::uint32_t column, 
   const std::string text = state.at_work.block->comments.empty()
                                ? std::string{}
                                : state.at_work.block->comments.front().text;
-  const std::string number = is_vacant(value) ? "0" : decimal_text(value);
+  const std::string number = is_vacant(value) ? "0" : shortest_decimal(value);
   switch (known->use) {
     case VariableUse::alarm:
       return fail(

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/decimal.hpp"
 #include "parser/interpret/block_comments.hpp"
 #include "parser/interpret/program_run.hpp"
 #include "parser/interpret/state/word_values.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kMaxLoopTurns = 1e9;
 std::string spelled(double value) {
-  return is_vacant(value) ? "a vacant value" : decimal_text(value);
+  return is_vacant(value) ? "a vacant value" : shortest_decimal(value);
 }
 
 // "120" of the label "N120".

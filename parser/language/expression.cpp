@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "core/decimal.hpp"
 #include "core/units.hpp"
 
 namespace frustum::parser {
@@ -254,11 +254,11 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
       if (is_vacant(b)) b = 0.0;
     }
     if (const auto domain = domain_of(step.operation, a, b); domain && !domain->holds) {
-      return at_column(
-          error(domain->id,
-                fmt::format(fmt::runtime(domain->message), decimal_text(a), decimal_text(b)),
-                domain->hint),
-          step.column);
+      return at_column(error(domain->id,
+                             fmt::format(fmt::runtime(domain->message), shortest_decimal(a),
+                                         shortest_decimal(b)),
+                             domain->hint),
+                       step.column);
     }
     stack[top - 1] = apply(step.operation, a, b);
     if (!std::isfinite(stack[top - 1])) {
@@ -268,13 +268,6 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
     }
   }
   return stack[0];
-}
-
-std::string decimal_text(double value) {
-  std::array<char, 400> buffer;  // NOLINT: filled by to_chars; 1.8e308 has 309 digits
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
-  return {buffer.data(), end.ptr};
 }
 
 }  // namespace frustum::parser

@@ -98,7 +98,4 @@ struct ExpressionContext {
 // The diagnostic has a column but neither file nor line.
 [[nodiscard]] Result<double> evaluate(const ExpressionContext& context, ExpressionRange range);
 
-// The shortest decimal text (no exponent) that reads back as exactly `value`.
-[[nodiscard]] std::string decimal_text(double value);
-
 }  // namespace frustum::parser

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/decimal.hpp"
 #include "parser/language/expression.hpp"
 
 namespace frustum::parser {
@@ -27,14 +28,14 @@ Result<int> Parameters::index_of(double number, const ParameterRules& rules) {
   if (std::abs(number - nearest) > 1e-4) {
     return error(
         "parameter-number"_id,
-        fmt::format("parameter {}{} is not a whole number", rules.prefix, decimal_text(number)),
+        fmt::format("parameter {}{} is not a whole number", rules.prefix, shortest_decimal(number)),
         rules.prefix == '#' ? "use ROUND, FIX or FUP on the computed number"
                             : "use ROUND or TRUNC on the computed number");
   }
   if (nearest < rules.first || nearest > rules.last) {
     return error(
         "parameter-number"_id,
-        fmt::format("parameter {}{} does not exist", rules.prefix, decimal_text(nearest)),
+        fmt::format("parameter {}{} does not exist", rules.prefix, shortest_decimal(nearest)),
         fmt::format("parameters are {0}{1} to {0}{2}", rules.prefix, rules.first, rules.last));
   }
   return static_cast<int>(nearest);

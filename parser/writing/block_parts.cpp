@@ -1,5 +1,6 @@
 #include "parser/writing/block_parts.hpp"
 
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 
 namespace frustum::parser {
@@ -21,7 +22,7 @@ std::string range_text(const ExpressionSpelling& spelling, const Block& block,
 
 std::string value_text(const ExpressionSpelling& spelling, const Block& block, const Word& word,
                        ExpressionLevel level) {
-  return word.expression.empty() ? decimal_text(word.number)
+  return word.expression.empty() ? shortest_decimal(word.number)
                                  : range_text(spelling, block, word.expression, level);
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/decimal.hpp"
 #include "core/pose.hpp"
 #include "core/units.hpp"
 #include "parser/writing/block_parts.hpp"
@@ -107,7 +108,7 @@ class RecordWriter {
     std::string text;
     for (const Word& word : block_.words) {
       const bool wanted = letters.find(word.letter) != std::string_view::npos;
-      if (wanted) text += (text.empty() ? "" : ",") + decimal_text(word.number);
+      if (wanted) text += (text.empty() ? "" : ",") + shortest_decimal(word.number);
     }
     return text;
   }
@@ -128,8 +129,8 @@ class RecordWriter {
   // Steps of zero are no words.
   [[nodiscard]] std::string take_step() {
     if (pen_.at) *pen_.at += point();
-    return fmt::format("{},{},{}", decimal_text(number('X')), decimal_text(number('Y')),
-                       decimal_text(number('Z')));
+    return fmt::format("{},{},{}", shortest_decimal(number('X')), shortest_decimal(number('Y')),
+                       shortest_decimal(number('Z')));
   }
   void take_unit() {
     const bool inches = name_ == "UNITS/INCHES";
@@ -148,9 +149,10 @@ class RecordWriter {
       centre.at(i) = number(kCentre[i]);
       if (!has(kCentre[i])) axis.at(i) = counterclockwise ? 1 : -1;
     }
-    return fmt::format("MOVARC/{},{},{},{},0,ANGLE,{}", decimal_text(centre[0]),
-                       decimal_text(centre[1]), decimal_text(centre[2]), fmt::join(axis, ","),
-                       decimal_text(kDegreesPerTurn * turns(counterclockwise)));
+    return fmt::format("MOVARC/{},{},{},{},0,ANGLE,{}", shortest_decimal(centre[0]),
+                       shortest_decimal(centre[1]), shortest_decimal(centre[2]),
+                       fmt::join(axis, ","),
+                       shortest_decimal(kDegreesPerTurn * turns(counterclockwise)));
   }
 
   // Full turns of the arc, the last one from the angle between its ends.
@@ -177,7 +179,7 @@ class RecordWriter {
       const auto* written = std::ranges::find(kCycleWords, word.letter, &CycleWord::letter);
       if (written == kCycleWords.end()) continue;
       text += fmt::format(",{}", written->written);
-      if (word.letter != 'I') text += "," + decimal_text(word.number);
+      if (word.letter != 'I') text += "," + shortest_decimal(word.number);
     }
     return text;
   }

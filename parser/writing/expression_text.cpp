@@ -1,4 +1,5 @@
 #include "parser/writing/expression_text.hpp"
+#include "core/decimal.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ class ExpressionWriter {
   void add(const ExpressionStep& step) {
     switch (step.operation) {
       case Operation::number:
-        return push(decimal_text(step.number), kOperand);
+        return push(shortest_decimal(step.number), kOperand);
       case Operation::named_parameter:
         return push(named(step), kPrimary);
       case Operation::exists:

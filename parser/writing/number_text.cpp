@@ -1,17 +1,16 @@
 #include "parser/writing/number_text.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/decimal.hpp"
+
 namespace frustum::parser {
 
 std::string fixed(double value, int decimals, WholeNumbers ending) {
-  std::string text = fmt::format("{:#.{}f}", value, decimals);
+  std::string text = with_point(fixed_decimal(value, decimals));
   text.erase(text.find_last_not_of('0') + 1);
-  if (text == "-0.") text = "0.";
   if (ending == WholeNumbers::without_point && text.back() == '.') text.pop_back();
   return text;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/decimal.hpp"
 #include "parser/dialects/expressions.hpp"
 #include "parser/dialects/o_words.hpp"
 #include "parser/writing/block_parts.hpp"
@@ -64,7 +65,7 @@ class Rs274Block {
 
   [[nodiscard]] std::string word_text(const Word& word) const {
     if (!word.expression.empty()) return address_of(word) + operand_text(word.expression);
-    const std::string number = decimal_text(word.number);
+    const std::string number = shortest_decimal(word.number);
     return address_of(word) + (word.decimal_point ? with_point(number) : number);
   }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/decimal.hpp"
 #include "parser/language/expression.hpp"
 #include "tests/parser/random_languages.hpp"
 #include "tests/parser/random_program.hpp"
@@ -43,9 +44,9 @@ class TextWriter {
   std::string hole(char kind) {
     switch (kind) {
       case 'n':
-        return decimal_text(dice_.number());
+        return shortest_decimal(dice_.number());
       case 'u':
-        return decimal_text(std::abs(dice_.number()));
+        return shortest_decimal(std::abs(dice_.number()));
       case 's':
         return signed_number();
       case 'd':

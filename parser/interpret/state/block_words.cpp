@@ -1,4 +1,5 @@
 #include "parser/interpret/state/block_words.hpp"
+#include "core/decimal.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ Diagnostic at(const Block& block, std::uint32_t column, DiagnosticId id, std::st
 }
 
 Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, double number) {
-  const std::string name = word.letter + decimal_text(number);
+  const std::string name = word.letter + shortest_decimal(number);
   const std::string_view remedy = remedy_for(dialect, word.letter, number);
   if (!remedy.empty()) {
     return at(block, word.column, "not-simulated"_id, name + " is not simulated",
@@ -70,7 +71,7 @@ std::string BlockWords::name_of(char letter) const {
 }
 
 std::string BlockWords::text_of(char letter) const {
-  return spelling_in(*block_, letter) + decimal_text((*this)[letter].value);
+  return spelling_in(*block_, letter) + shortest_decimal((*this)[letter].value);
 }
 
 std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {

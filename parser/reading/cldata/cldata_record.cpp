@@ -1,4 +1,5 @@
 #include "parser/reading/cldata/cldata_record.hpp"
+#include "core/decimal.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +47,7 @@ std::string CldataRecord::text_from(std::size_t first) const {
   std::string text;
   for (std::size_t i = first; i < arguments.size(); ++i) {
     if (!text.empty()) text += ',';
-    text += arguments[i].is_number() ? decimal_text(arguments[i].number) : arguments[i].word;
+    text += arguments[i].is_number() ? shortest_decimal(arguments[i].number) : arguments[i].word;
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -252,7 +253,7 @@ class CycleReader {
       turns = true;
       if (name == "FMAX" || name == "FAUTO") continue;
       const double value = in_.signed_number(name, place);
-      if (clearance) draft_.add_event("CYCL DEF 19 SETUP", place, decimal_text(value));
+      if (clearance) draft_.add_event("CYCL DEF 19 SETUP", place, shortest_decimal(value));
     }
     for (const char angle : {'A', 'B', 'C'}) {
       if (off || in_.failed() || given.find(angle) != std::string::npos) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -36,7 +37,7 @@ class FlowReader {
     constexpr double kLastFn = 99.0;
     if (number->value > kLastFn || number->decimal_point) {
       return in_.fail("unknown-word"_id, column,
-                      fmt::format("FN {} is not known", decimal_text(number->value)),
+                      fmt::format("FN {} is not known", shortest_decimal(number->value)),
                       "known are FN 0 to FN 16");
     }
     const auto fn = static_cast<int>(number->value);

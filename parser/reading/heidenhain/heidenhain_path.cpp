@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -225,7 +226,7 @@ class PathReader {
     if (in_.letters() != "F" || in_.next_name() == "MAX") return in_.go_to(feed_column);
     // The feed of the balancing moves.
     block_.comments.push_back(
-        {feed_column, false, "F" + decimal_text(in_.signed_number("F", feed_column)), "M128"});
+        {feed_column, false, "F" + shortest_decimal(in_.signed_number("F", feed_column)), "M128"});
   }
 
   void add_measured(char letter, Measure measure, const char* spelled, std::uint32_t column) {

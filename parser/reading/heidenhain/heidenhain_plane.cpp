@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -143,7 +144,7 @@ class PlaneReader {
         distance_ = value;
         distance_column_ = place;
       }
-      return pass(name == "MB" ? "PLANE MB" : "PLANE DIST", decimal_text(value));
+      return pass(name == "MB" ? "PLANE MB" : "PLANE DIST", shortest_decimal(value));
     }
     if (name == "SEQ" || name == "SYM") {
       const char sign = in_.peek();

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/decimal.hpp"
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {
@@ -14,7 +15,7 @@ using enum AxisLetter;
 std::string steps(std::string_view text) {
   std::string found;
   const auto place = [](const char* how, const AxisTarget& end) {
-    const auto number = [&](AxisLetter axis) { return decimal_text(end[axis].value_or(0.0)); };
+    const auto number = [&](AxisLetter axis) { return shortest_decimal(end[axis].value_or(0.0)); };
     return std::string(how) + " " + number(X) + " " + number(Y) + " " + number(Z) + "; ";
   };
   for (const Motion& motion : motions(text)) {
@@ -26,7 +27,7 @@ std::string steps(std::string_view text) {
       found += spindle->direction == SpindleDirection::off ? "off; " : "on; ";
     }
     if (const auto* pause = std::get_if<Dwell>(&motion.command)) {
-      found += "dwell " + decimal_text(pause->seconds) + "; ";
+      found += "dwell " + shortest_decimal(pause->seconds) + "; ";
     }
     if (const auto* event = std::get_if<Event>(&motion.command)) found += event->name + "; ";
   }

@@ -1,5 +1,6 @@
 // The frames of tilted planes against frames worked out by hand, and the forms against each other.
 #include "parser/interpret/frames/feature_frame.hpp"
+#include "core/decimal.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -144,7 +145,7 @@ TEST(FeatureFrame, EndsWithG69WhichMayMove) {
 }
 
 double angle() { return 0.01 * *rc::gen::inRange(-17900, 17900); }
-std::string number(double value) { return decimal_text(value); }
+std::string number(double value) { return shortest_decimal(value); }
 
 RC_GTEST_PROP(FeatureFrameLaws, EulerAnglesAreRollPitchYawOfTheReverseOrder, ()) {
   // Turning about own axes Z, X is turning about fixed ones X, Z: K = 0 leaves two turns.

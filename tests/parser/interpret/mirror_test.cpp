@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "core/decimal.hpp"
 #include "core/units.hpp"
 #include "tests/parser/running.hpp"
 
@@ -149,7 +150,7 @@ TEST(Polar, TakesArcsByTheirRadius) {
 
 // A program of straight moves and arcs, with what `side` makes of X and of the sense of arcs.
 std::string contour(const std::vector<int>& steps, double side, double size) {
-  const auto number = [&](double value) { return decimal_text(value * size); };
+  const auto number = [&](double value) { return shortest_decimal(value * size); };
   std::string text;
   for (const int step : steps) {
     const double x = side * (step % 7), y = step % 5 + 1.0;

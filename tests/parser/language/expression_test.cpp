@@ -1,4 +1,5 @@
 #include "parser/language/expression.hpp"
+#include "core/decimal.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -110,7 +111,7 @@ TEST(Expression, NestsAsDeeplyAsItPromises) {
 
 RC_GTEST_PROP(ExpressionLaws, DecimalTextReadsBackExactly, (double value)) {
   RC_PRE(std::isfinite(value));
-  const std::string text = decimal_text(value);
+  const std::string text = shortest_decimal(value);
   RC_ASSERT(text.find_first_of("eE") == std::string::npos);
   double read = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), read);
