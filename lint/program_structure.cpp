@@ -258,7 +258,7 @@ class Structure {
       if (fresh) continue;
       const SourcePlace place{block.line, 1, nullptr};
       findings.raise(Check::duplicate_number, FindingList::key_of(place), place, [&] {
-        return Words{fmt::format("N{} is jumped to, and stands on line {} already", *block.number,
+        return Words{fmt::format("N{} is jumped to, and is on line {} already", *block.number,
                                  known->second),
                      "give the blocks numbers of their own"};
       });

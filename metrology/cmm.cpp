@@ -68,7 +68,7 @@ class Probing {
       }
       if (!errors_.reaches(contact.centre)) {
         return error("cmm-travel"_id,
-                     fmt::format("{} lies beyond the machine's travel",
+                     fmt::format("{} is beyond the machine's travel",
                                  place_of(feature, centres.size(), planned)),
                      "enlarge the cmm's travel, or move its position");
       }

@@ -51,7 +51,7 @@ class TableLine {
                        "remark begins with ;"};
       }
       if (given.has(letter)) {
-        return Mistake{column, fmt::format("{} stands twice on the line", letter),
+        return Mistake{column, fmt::format("{} is twice on the line", letter),
                        "one tool has a line of its own"};
       }
       given.add(letter);
@@ -97,7 +97,7 @@ class TableLine {
     const bool sign_twice = at_ > 0 && text_[at_ - 1] == '+' && begin != read.ptr && *begin == '-';
     if (read.ec != std::errc{} || sign_twice || !std::isfinite(value)) {
       return Mistake{column, fmt::format("'{}' has no number", word_at(column)),
-                     fmt::format("write a number behind it, for example {}1", letter)};
+                     fmt::format("write a number after it, for example {}1", letter)};
     }
     at_ += static_cast<std::size_t>(read.ptr - begin);
     if (std::abs(value) > kMaxNumber) {

@@ -79,7 +79,7 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
   if (!piece.error_span.empty()) {
     line("");
     line(
-        "# Error shapes without a span of their own lie over the range that this operation "
+        "# Error shapes without a span of their own extend over the range that this operation "
         "travels");
     line("[error_span]");
     line(fmt::format("operation = \"{}\"", piece.error_span));

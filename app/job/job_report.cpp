@@ -153,9 +153,9 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial) {
       "workpiece frame on the table at ({:g}, {:g}, {:g}) mm, tilted ({:g}, {:g}, {:g}) deg",
       at.x(), at.y(), at.z(), tilt.x(), tilt.y(), tilt.z()));
   if (!job.piece.error_span.empty()) {
-    report.notes.push_back(
-        fmt::format("error shapes without a span of their own lie over the range that '{}' travels",
-                    job.piece.error_span));
+    report.notes.push_back(fmt::format(
+        "error shapes without a span of their own extend over the range that '{}' travels",
+        job.piece.error_span));
   }
   return report;
 }

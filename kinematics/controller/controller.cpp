@@ -124,7 +124,7 @@ class Controller::State {
   void execute(const parser::AlignToPlane& /*align*/) {
     if (!modes().plane) {
       fail("no-tilted-plane"_id,
-           "the tool is to be set square to a tilted plane, but none is active",
+           "the tool is to be set perpendicular to a tilted plane, but none is active",
            "define the plane first, for example with G68.2");
       return;
     }
@@ -317,7 +317,7 @@ class Controller::State {
     const parser::Feed& feed = manner.feed;
     const double length = move.motion.feed_length();
     if (feed.mode == parser::FeedMode::per_revolution && modes().spindle_speed() <= 0.0) {
-      fail("spindle-off"_id, "feed per revolution while the spindle stands",
+      fail("spindle-off"_id, "feed per revolution while the spindle is at rest",
            "start the spindle with S and M3 or M4 before the move");
       return false;
     }

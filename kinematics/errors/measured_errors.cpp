@@ -64,7 +64,7 @@ class CalibrationReader {
     if (in_points_) return point(rest, place);
     if (rest.front() == '[') return section(rest, place);
     if (!name_)
-      return problem("error-file"_id, line_, place, fmt::format("'{}' stands in no section", rest));
+      return problem("error-file"_id, line_, place, fmt::format("'{}' is in no section", rest));
     const std::size_t equals = rest.find('=');
     const std::string_view key = rest.substr(0, rest.find_first_of(" \t="));
     if (equals == std::string_view::npos)

@@ -28,7 +28,7 @@ std::optional<Diagnostic> problem_of(const Machine& machine, const VolumetricOpt
       if (!joint->endless && !joint->travel.contains(q)) {
         const double unit = joint->rotary() ? kDegPerRad : 1.0;
         return error("outside-travel"_id,
-                     fmt::format("{} = {} lies outside its travel {} .. {} {}", to_char(letter),
+                     fmt::format("{} = {} is outside its travel {} .. {} {}", to_char(letter),
                                  q * unit, joint->travel.lo * unit, joint->travel.hi * unit,
                                  joint->rotary() ? "deg" : "mm"));
       }

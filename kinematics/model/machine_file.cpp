@@ -122,7 +122,7 @@ class MachineReader {
     joint.home = table.number_or("home", 0.0) * scale;
     if (!joint.endless && !joint.travel.contains(joint.home)) {
       table.fail("home", "outside-travel"_id,
-                 fmt::format("{} lies outside the travel", joint.home / scale));
+                 fmt::format("{} is outside the travel", joint.home / scale));
     }
     if (table.is_array("functional_point")) {
       joint.functional_point.point = table.vector("functional_point");
@@ -156,7 +156,7 @@ class MachineReader {
     }
     // 1e-3: axes within 0.06 deg of one plane are a mistake in the file, not a machine.
     if (std::abs(directions.determinant()) < 1e-3) {
-      root.fail("axis", "axis-directions"_id, "the directions of X, Y and Z lie in one plane",
+      root.fail("axis", "axis-directions"_id, "the directions of X, Y and Z are in one plane",
                 "they must span space");
     }
     if (rotary.size() == 2 && rotary[0].cross(rotary[1]).norm() < 1e-3) {

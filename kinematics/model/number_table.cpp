@@ -83,7 +83,7 @@ Result<NumberTable> read_number_table(const std::filesystem::path& file) {
         }
         if (table.column(name) != nullptr) {
           return table.problem("given-twice"_id, number, cell.place,
-                               fmt::format("column '{}' stands twice", name));
+                               fmt::format("column '{}' is there twice", name));
         }
         table.columns.push_back({name, unit->kind, cell.place, {}});
         scales.push_back(unit->value);

@@ -234,7 +234,7 @@ Result<OrientationSolutions> RotaryAxes::solve(const Vec3& u) const {
                  fmt::format("tool direction {} cannot be reached with the one rotary axis {}: it "
                              "is {:.6f} deg off",
                              in_words(u), to_char(joint(0).letter), off * kDegPerRad),
-                 "directions must lie on the cone that the axis turns through");
+                 "directions must be on the cone that the axis turns through");
   }
   OrientationSolution s;
   if (v_off_axis_ < kPole) {

@@ -55,7 +55,7 @@ Result<StructureCode> parse_structure(std::string_view code) {
     const auto letter = axis_of(part);
     if (!letter) return refuse("'" + part + "' is not an axis (X Y Z A B C)");
     if (std::find(seen.begin(), seen.end(), *letter) != seen.end()) {
-      return refuse("axis " + part + " stands twice");
+      return refuse("axis " + part + " is there twice");
     }
     seen.push_back(*letter);
     rotary += is_rotary(*letter) ? 1 : 0;

@@ -35,7 +35,7 @@ Result<StraightLine> straight_line(std::span<const PlaceOnLine> places) {
   }
   // Coordinates carry 16 digits: a spread of less than 1e-11 of them is rounding.
   if (!(std::sqrt(squares) > 1e-11 * farthest)) {
-    return error("degenerate-points"_id, "the points lie at one place along the line",
+    return error("degenerate-points"_id, "the points are at one place along the line",
                  "a line needs 2 or more points at different places");
   }
   const double slope = products / squares;

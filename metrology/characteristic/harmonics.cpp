@@ -37,7 +37,7 @@ Result<std::vector<Harmonic>> harmonics(std::span<const double> angle,
   if (!(pivots.minCoeff() > 1e-8 * pivots.maxCoeff())) {
     return error("harmonics-undetermined"_id,
                  fmt::format("the points leave gaps in which {} undulations per revolution cannot "
-                             "be told apart",
+                             "be separated",
                              highest),
                  "measure the whole turn, or ask for fewer harmonics");
   }

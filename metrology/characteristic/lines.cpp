@@ -53,8 +53,7 @@ Result<Evaluated> evaluate_lines(const Toleranced& what) {
   const FittedFeature& second = *what.features.back();
   const auto axes = line_axes(what.planned.kind, first.planned->axis, what.planned.direction);
   if (!axes) {
-    return error("line-direction"_id, "the direction lies along the lines",
-                 "choose one across them");
+    return error("line-direction"_id, "the direction is along the lines", "choose one across them");
   }
   const double origin = first.planned->point.dot(axes->along);
   auto a = read_line(first, *axes, origin);

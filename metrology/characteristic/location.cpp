@@ -215,8 +215,8 @@ Result<Evaluated> symmetry_zone(const Toleranced& what) {
     const Vec3 along = axis->axis;
     const auto normal = UnitVec3::of(median.axis.vec() - median.axis.vec().dot(along) * along);
     if (!normal) {
-      return error("datum-unsuitable"_id, "the datum axis stands upright on the faces",
-                   "choose an axis that lies along them");
+      return error("datum-unsuitable"_id, "the datum axis is perpendicular to the faces",
+                   "choose an axis that is along them");
     }
     target = Target{Plane{axis->point, *normal}};
   }

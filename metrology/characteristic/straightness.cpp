@@ -133,7 +133,7 @@ Result<Evaluated> evaluate_straightness(const Toleranced& what) {
   if (profiles.empty()) {
     return error(
         "too-few-points"_id,
-        fmt::format("no three points of '{}' lie on one generatrix", feature.planned->name),
+        fmt::format("no three points of '{}' are on one generatrix", feature.planned->name),
         "plan three sections or more with the same number of points");
   }
   Evaluated zone;

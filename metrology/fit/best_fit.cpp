@@ -81,7 +81,7 @@ Result<BestFit> best_fit(std::span<const PointOnElement> points,
     return found;
   }
   return error("fit-not-converged"_id, "the best fit does not settle",
-               "check that the points belong to the planned features and lie near them");
+               "check that the points belong to the planned features and are near them");
 }
 
 }  // namespace frustum::metrology

@@ -69,7 +69,7 @@ std::optional<Diagnostic> senseless(const Constraints& c) {
   if (c.half_angle && !(*c.half_angle > 0.0 && *c.half_angle < std::numbers::pi / 2.0)) {
     return error("constraint-value"_id,
                  fmt::format("the half_angle to keep is {} rad", *c.half_angle),
-                 "half angles of cones lie between 0 and 90 deg");
+                 "half angles of cones are between 0 and 90 deg");
   }
   if (c.axis && !c.axis->point.allFinite()) {
     return error("constraint-value"_id, "the axis to keep is not finite",

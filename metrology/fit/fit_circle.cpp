@@ -82,7 +82,7 @@ std::optional<Diagnostic> elsewhere(const Constraints& keep, const UnitVec3& nor
   if (agrees) return std::nullopt;
   return error("constraint-not-applicable"_id,
                "the normal of a circle2d is not the direction to keep",
-               "a circle2d lies in the coordinate plane of its points, or in x y");
+               "a circle2d is in the coordinate plane of its points, or in x y");
 }
 
 // The plane's parameters are those of its own fit.

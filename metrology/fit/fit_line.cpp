@@ -21,7 +21,7 @@ Result<UnitVec3> direction_of(NormalisedPoints local, const std::optional<UnitVe
   // Two spreads that agree to nine digits: rounding, not the points, would choose the direction.
   if (principal.spread[1] > (1.0 - 1e-9) * principal.spread[0]) {
     return error("degenerate-points"_id,
-                 fmt::format("degenerate points for a {}: no direction stands out", what),
+                 fmt::format("degenerate points for a {}: no direction is distinct", what),
                  fmt::format("a {} needs points that spread along it more than across it", what));
   }
   const Vec3 direction = principal.directions.col(0);
@@ -75,8 +75,8 @@ Result<Fit<Line>> fit_line_2d(std::span<const Vec3> points, const FitOptions& op
   for (const auto& direction : {keep.parallel_to, keep.perpendicular_to}) {
     if (direction && std::abs(direction->vec().dot(plane.vec())) > 1e-9) {
       return error("constraint-not-applicable"_id,
-                   "the direction to keep does not lie in the plane of the line2d",
-                   "a line2d lies in the coordinate plane of its points, or in x y");
+                   "the direction to keep is not in the plane of the line2d",
+                   "a line2d is in the coordinate plane of its points, or in x y");
     }
   }
   auto axis = [&]() -> Result<UnitVec3> {

@@ -25,13 +25,13 @@ bool alike(double less, double more) { return less > (1.0 - 1e-9) * more; }
 
 Diagnostic no_plane(std::string_view what) {
   return error("degenerate-points"_id,
-               fmt::format("degenerate points for a {}: no plane stands out", what),
+               fmt::format("degenerate points for a {}: no plane is distinct", what),
                "the points spread as much across the plane as along it");
 }
 
 Diagnostic on_a_line(std::string_view what) {
   return error("degenerate-points"_id,
-               fmt::format("degenerate points for a {}: they lie on one straight line", what),
+               fmt::format("degenerate points for a {}: they are on one straight line", what),
                "spread the points over the surface");
 }
 

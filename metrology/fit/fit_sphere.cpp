@@ -40,7 +40,7 @@ Result<Minimum> solve_sphere(const NormalisedPoints& local) {
   const PrincipalDirections principal = principal_directions(local);
   const std::optional<double>& radius = local.constraints.radius;
   if (principal.spread[2] < kFlat * principal.spread[0] && !radius) {
-    return error("degenerate-points"_id, "degenerate points for a sphere: they lie in one plane",
+    return error("degenerate-points"_id, "degenerate points for a sphere: they are in one plane",
                  "probe the sphere also away from that plane");
   }
   const PointBlocks all = PointBlocks::of(local);

@@ -34,7 +34,7 @@ std::optional<std::string> reason(const Cone& cone) {
   // Half angles nearer than 1e-9 to 0 or 90 deg are a cylinder or a plane to rounding.
   if (!(cone.half_angle > 1e-9)) return "the best one is a cylinder";
   if (!(cone.half_angle < std::numbers::pi / 2.0 - 1e-9)) return "the best one is a plane";
-  return radius_of(cone.radius, "the best one is a plane", "they lie on both sides of its apex");
+  return radius_of(cone.radius, "the best one is a plane", "they are on both sides of its apex");
 }
 
 std::optional<std::string> reason(const Torus& torus) {

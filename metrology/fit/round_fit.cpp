@@ -37,7 +37,7 @@ std::optional<Diagnostic> coplanar(const NormalisedPoints& local,
     return std::nullopt;
   }
   return error("degenerate-points"_id,
-               fmt::format("degenerate points for a {}: they lie in one plane", what),
+               fmt::format("degenerate points for a {}: they are in one plane", what),
                "probe at two or more heights along the axis");
 }
 
@@ -70,7 +70,7 @@ Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
                  fmt::format("the {} fit did not converge in {} steps", what, found.iterations),
                  constraints.any()
                      ? fmt::format("check the points, and what the {} is to keep", what)
-                     : fmt::format("the points lie far from any {}", what));
+                     : fmt::format("the points are far from any {}", what));
   }
   if (auto reason = implausible(found.element)) {
     return error("degenerate-points"_id,
@@ -111,7 +111,7 @@ Result<Minimum> best_minimum(const std::vector<Element>& starts, const Normalise
     return error("degenerate-points"_id,
                  fmt::format("degenerate points for a {}: {}", wording.what,
                              reason.value_or("none fits them")),
-                 fmt::format("check that the points lie near a {}", wording.what));
+                 fmt::format("check that the points are near a {}", wording.what));
   }
   const auto best = std::min_element(finalists.begin(), finalists.end(), by_cost);
   return settled(best->second, all, keep, wording);

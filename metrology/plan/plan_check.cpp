@@ -27,7 +27,7 @@ class FeatureCheck {
       return;
     }
     if (feature_.zero && !UnitVec3::of(feature_.zero->cross(feature_.axis))) {
-      wrong("zero", "the direction where angles start must not lie along the axis");
+      wrong("zero", "the direction where angles start must not be along the axis");
     }
     if (is_round(feature_.kind)) round_geometry();
     if (feature_.kind == FeatureKind::line && !UnitVec3::of(feature_.normal.cross(feature_.axis))) {
@@ -51,7 +51,7 @@ class FeatureCheck {
     if (cone && !(feature_.half_angle > 0.0 && feature_.half_angle < std::numbers::pi / 2.0)) {
       wrong(
           "half_angle",
-          fmt::format("must lie between 0 and 90 deg, is {:.6g}", feature_.half_angle * kDegPerRad),
+          fmt::format("must be between 0 and 90 deg, is {:.6g}", feature_.half_angle * kDegPerRad),
           "turn the axis toward the growing radius instead of a negative angle");
     }
     if (feature_.side == Side::inside && feature_.radius <= 0.5 * plan_.probe.ball_diameter) {
@@ -141,7 +141,7 @@ void check_precedence(const InspectionPlan& plan, const PlanFault& fault) {
     fault(PlanPart::datum, 0, kKeys[i],
           fmt::format("'{}' takes no degree of freedom that the datums before it left",
                       shares[i].feature),
-          "leave it out, or choose a feature that lies across them");
+          "leave it out, or choose a feature that is across them");
   }
 }
 

@@ -103,7 +103,7 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
     return;
   }
   if (sine(first.axis, c.direction) < kSlack) {
-    wrong("direction", "lies along the lines", "choose one across them");
+    wrong("direction", "is along the lines", "choose one across them");
     return;
   }
   const double askew = std::abs(unit(c.direction).vec().dot(unit(first.axis).vec()));
@@ -116,8 +116,8 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
   for (const PlannedFeature* line : {&first, &second}) {
     if (facing(*line, axes->across) >= kSlack) continue;
     wrong("direction",
-          fmt::format("the surface of '{}' lies along what is measured, [{:.3g}, {:.3g}, {:.3g}], "
-                      "and tells nothing of it",
+          fmt::format("the surface of '{}' is along what is measured, [{:.3g}, {:.3g}, {:.3g}], "
+                      "and says nothing of it",
                       line->name, axes->across.x(), axes->across.y(), axes->across.z()),
           "choose a line on a surface that faces that way, or another direction");
   }

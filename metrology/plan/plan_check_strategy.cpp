@@ -86,11 +86,11 @@ class StrategyCheck {
   // A cone ends at its apex, a sphere at its poles.
   void on_surface(double along) const {
     if (feature_.kind == FeatureKind::sphere && !(std::abs(along) < feature_.radius)) {
-      wrong(fmt::format("the section at {} mm lies beyond the pole", along),
+      wrong(fmt::format("the section at {} mm is beyond the pole", along),
             "sections count from the centre toward the pole");
     }
     if (feature_.kind == FeatureKind::cone && !(section_radius(feature_, along) > 0.0)) {
-      wrong(fmt::format("the section at {} mm lies beyond the apex", along),
+      wrong(fmt::format("the section at {} mm is beyond the apex", along),
             "sections count from point toward growing radius");
     }
   }
@@ -98,7 +98,7 @@ class StrategyCheck {
   void sweep(double angle, int count, std::string_view what = "points on a circle") const {
     // A hair over a full turn is rounding in the file.
     if (!(std::abs(angle) > 0.0) || std::abs(angle) > 2.0 * std::numbers::pi + 1e-9) {
-      wrong(fmt::format("sweep must lie within one turn, is {:.6g} deg", angle * kDegPerRad));
+      wrong(fmt::format("sweep must be within one turn, is {:.6g} deg", angle * kDegPerRad));
     }
     if (count < 3) wrong(fmt::format("at least 3 {}, planned are {}", what, count));
   }
@@ -205,7 +205,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_sides(const PlannedF
     // 1e-6 of the sides, the last um over a metre: what points are planned off the plane would be a
     // systematic error.
     if (std::abs(side.dot(axis.vec())) > 1e-6 * side.norm()) {
-      return std::pair{"u and v must lie in the plane", "make both perpendicular to axis"};
+      return std::pair{"u and v must be in the plane", "make both perpendicular to axis"};
     }
   }
   return std::nullopt;

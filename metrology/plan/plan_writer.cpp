@@ -144,7 +144,7 @@ std::string text_of(const PlannedFeature& f) {
   }
   if (f.kind == FeatureKind::point) return out;
   if (f.kind == FeatureKind::line) {
-    line("normal", vector(f.normal), "outward normal of the surface it lies on");
+    line("normal", vector(f.normal), "outward normal of the surface it is on");
   } else {
     if (is_round(f.kind)) {
       line("side", toml_text(kSideNames.at(static_cast<std::size_t>(f.side))),

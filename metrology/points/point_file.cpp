@@ -146,8 +146,7 @@ class PointReader {
 
   Problem take_unit(const LengthUnit& unit, int column) {
     if (!found_.empty()) {
-      return fault("length-unit"_id, column,
-                   fmt::format("the unit {} stands behind points", unit.name),
+      return fault("length-unit"_id, column, fmt::format("the unit {} is after points", unit.name),
                    "state it before the first point");
     }
     if (unit_ && *unit_ != unit) {

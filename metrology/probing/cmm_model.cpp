@@ -53,7 +53,7 @@ ThermalState read_temperature(const TomlTable& table) {
     const double value = table.number_or(key, usual);
     if (value < -40.0 || value > 60.0) {
       table.fail(key, "cmm-temperature"_id,
-                 fmt::format("must lie between -40 and 60 degC, is {}", value),
+                 fmt::format("must be between -40 and 60 degC, is {}", value),
                  "temperatures are in degC");
     }
     return value;
@@ -89,7 +89,7 @@ void read_field(const TomlTable& table, CmmModel& cmm) {
   }
   cmm.position = table.vector_or("position", cmm.position);
   if ((cmm.position.cwiseAbs().array() > 0.5 * cmm.travel.array()).any()) {
-    table.fail("position", "cmm-volume"_id, "lies outside of the travel",
+    table.fail("position", "cmm-volume"_id, "is outside of the travel",
                "the place of the workpiece's origin from the centre of the volume");
   }
 }

@@ -94,8 +94,7 @@ Result<Eigen::RowVectorXd> Influence::lines(const PlannedCharacteristic& planned
   const PlannedFeature& first = *find_feature(plan_, planned.features.front());
   const auto axes = line_axes(planned.kind, first.axis, planned.direction);
   if (!axes)
-    return error("line-direction"_id, "the direction lies along the lines",
-                 "choose one across them");
+    return error("line-direction"_id, "the direction is along the lines", "choose one across them");
   const Pose place_from_workpiece = here->workpiece_from_place.inverse();
   Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(first_point_.back());
   // How the value changes with a motion of the frame, which moves every point against it.

@@ -211,8 +211,8 @@ constexpr std::string_view kNeedsIsoMotion =
 constexpr std::string_view kSinumerikNeedsArc =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K)";
 constexpr std::string_view kNeedsPolar =
-    "AP= and RP= are the end of G0, G1, G2, G3 and CT, or a pole behind G110, G111 and G112";
-constexpr std::string_view kNeedsThrough = "I1= J1= K1= give a point of the arc behind CIP";
+    "AP= and RP= are the end of G0, G1, G2, G3 and CT, or a pole after G110, G111 and G112";
+constexpr std::string_view kNeedsThrough = "I1= J1= K1= give a point of the arc after CIP";
 constexpr std::string_view kNeedsTraori = "A3= B3= C3= give the tool vector after TRAORI";
 
 constexpr std::array kSinumerikLetters{

@@ -83,8 +83,8 @@ Result<Flow> finish(InterpreterState& state, MotionFilters& filters, const Block
 
 Outcome finish_text(InterpreterState& state, MotionFilters& filters) {
   if (const auto& corner = filters.corners.corner()) {
-    Diagnostic open = error("corner-without-move"_id, corner->name + " with no move behind it",
-                            "write an L or C block behind it, or leave it out");
+    Diagnostic open = error("corner-without-move"_id, corner->name + " with no move after it",
+                            "write an L or C block after it, or leave it out");
     open.line = static_cast<int>(corner->place.line);
     open.column = static_cast<int>(corner->place.column);
     return open;

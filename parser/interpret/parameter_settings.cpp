@@ -84,7 +84,7 @@ Outcome set_numbered(InterpreterState& state, std::uint32_t column, int index, d
   if (written == ParameterWrite::read_only) {
     return fail(state, column, "parameter-read-only"_id,
                 fmt::format("parameter #{} can only be read", index),
-                "it tells the tool or the position; use another parameter");
+                "it is the tool or the position; use another parameter");
   }
   if (written == ParameterWrite::done) {
     return state.rules.parameters_count_at_once ? replace_datum(state, column) : Outcome{Done{}};
@@ -109,7 +109,7 @@ Outcome set_parameters(InterpreterState& state, const Block& block) {
     if (setting.name && state.system.keeps(block.names[*setting.name])) {
       return fail(state, setting.column, "parameter-read-only"_id,
                   fmt::format("parameter #<{}> can only be read", block.names[*setting.name]),
-                  "it tells the position, a mode or what a call gave back; use a name of your own");
+                  "it is the position, a mode or what a call gave back; use a name of your own");
     }
     if (setting.name && !setting.defines && !state.parameters.can_set(block.names[*setting.name])) {
       return fail(state, setting.column, "unknown-parameter"_id,

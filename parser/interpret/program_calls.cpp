@@ -78,7 +78,7 @@ ProgramRun::Failure ProgramRun::call_program(const Block& block, const std::stri
   if (holder == nullptr) {
     return at(
         block, block.flow->column, "missing-subprogram"_id, fmt::format("no subprogram {}", name),
-        fmt::format("write it behind the program, under %_N_{0}_SPF, or in a file {0}.spf", name));
+        fmt::format("write it after the program, under %_N_{0}_SPF, or in a file {0}.spf", name));
   }
   const Landmark* head = holder->map().head(name);
   CallFrame next{holder,

@@ -154,11 +154,10 @@ void ProgramMap::pair(const Program& program) {
              (begin.label == here.label || (here.label.empty() && !inner_only));
     });
     if (statement == open.rend()) {
-      add_fault(
-          program, here, "flow-unpaired"_id,
-          fmt::format("there is no {}{} to which this belongs", wording(*opener).begin,
-                      named(here)),
-          fmt::format("it stands behind its {}, with the same label", wording(*opener).begin));
+      add_fault(program, here, "flow-unpaired"_id,
+                fmt::format("there is no {}{} to which this belongs", wording(*opener).begin,
+                            named(here)),
+                fmt::format("it is after its {}, with the same label", wording(*opener).begin));
       continue;
     }
     if (inner_only) {
@@ -175,7 +174,7 @@ void ProgramMap::pair(const Program& program) {
     if (!inner_only) continue;
     Landmark& last = landmarks_[statement->last];
     if (last.kind == FlowKind::otherwise && !closes(here.kind)) {
-      add_fault(program, here, "flow-unpaired"_id, "a part of the if behind its else",
+      add_fault(program, here, "flow-unpaired"_id, "a part of the if after its else",
                 fmt::format("else of line {} is the last part", last.place.line));
     }
     last.next = i;

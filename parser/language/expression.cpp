@@ -70,10 +70,10 @@ std::optional<Domain> domain_of(Operation operation, double a, double b) {
                     "a negative base needs a whole exponent, zero one that is not negative"};
     case Operation::arc_sine:
       return Domain{std::abs(a) <= 1.0, "function-domain"_id, "ASIN of {0}",
-                    "its argument lies between -1 and 1"};
+                    "its argument is between -1 and 1"};
     case Operation::arc_cosine:
       return Domain{std::abs(a) <= 1.0, "function-domain"_id, "ACOS of {0}",
-                    "its argument lies between -1 and 1"};
+                    "its argument is between -1 and 1"};
     case Operation::square_root:
       return Domain{a >= 0.0, "function-domain"_id, "SQRT of {0}",
                     "its argument must not be negative"};

@@ -56,9 +56,9 @@ constexpr std::array kRows{
         "N is not the first word", "put the block number at the start of the block"},
     Row{"end of block", Stop::character, "/", Place::stop, "unexpected-character"_id,
         "unexpected / between words",
-        "block delete stands at the start of the block; division stands in [ ]"},
+        "block delete is at the start of the block; division is in [ ]"},
     Row{"end of block", Stop::character, "%", Place::stop, "unexpected-character"_id,
-        "unexpected % inside a block", "% stands alone on its line"},
+        "unexpected % inside a block", "% is alone on its line"},
     Row{"end of block", Stop::any, "", Place::stop, "unexpected-character"_id, "unexpected {found}",
         "a block consists of words such as G1 X10, settings such as #1=2, and comments in ( )"},
 };

@@ -295,7 +295,7 @@ TEST_F(StudyCommandsSystem, SaysWhatOfAVolumetricStudyIsWrong) {
   told("--grid 1", "a grid of 1 points an axis");
   told("--grid 1000", "at most 41 points an axis");
   told("--axes A=1", "'A=1' is not an axis of machine iwf-bc");
-  told("--axes B=200", "B = 200 lies outside its travel -110 .. 110 deg");
+  told("--axes B=200", "B = 200 is outside its travel -110 .. 110 deg");
   told("--tolerance rotations=10um", "tolerance rotations = 10um: expected an angle");
   told("--tolerance EXQ=10um", "unknown error name 'EXQ'");
   told("--error EXA=10um", "has no axis A");

@@ -119,7 +119,7 @@ TEST(ControllerFeed, RefusesAFeedPerRevolutionWhileTheSpindleStands) {
       lines({ToolChange{1}, kLength,
              LinearFeed{.end = target({{Z, 200}}), .feed = feed(0.1, FeedMode::per_revolution)}}));
   ASSERT_FALSE(e);
-  EXPECT_EQ(e.error().front().message, "feed per revolution while the spindle stands");
+  EXPECT_EQ(e.error().front().message, "feed per revolution while the spindle is at rest");
   EXPECT_EQ(e.error().front().line, 3);
 }
 
@@ -201,7 +201,7 @@ TEST(ControllerFrames, FollowATiltedPlaneWithAndWithoutTcp) {
   const auto none = run(shipped("iwf-bc"), lines({AlignToPlane{}}));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().front().message,
-            "the tool is to be set square to a tilted plane, but none is active");
+            "the tool is to be set perpendicular to a tilted plane, but none is active");
 }
 
 TEST(ControllerRotary, TurnsTheShortestWayWhenTold) {

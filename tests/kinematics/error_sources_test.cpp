@@ -215,7 +215,7 @@ TEST(MeasuredErrors, CalibrationFilesNameLineAndColumn) {
   EXPECT_EQ(problem("[EXX]\n[EYX]\n"), "1:1 [EXX] is empty");
   EXPECT_EQ(problem("[EXX]\nGridpoints = {\n1 0\n0 0\n}\n"), "4:1 the positions do not increase");
   EXPECT_EQ(problem("[EXX]\nGridpoints = {\n1 0\n2 0\n"), "4:0 the grid points are not closed");
-  EXPECT_EQ(problem("VALUE = 1\n"), "1:1 'VALUE = 1' stands in no section");
+  EXPECT_EQ(problem("VALUE = 1\n"), "1:1 'VALUE = 1' is in no section");
   EXPECT_EQ(problem("[EXX]\nVALUE =\n"), "2:8 '' is not a number");
 }
 

@@ -74,7 +74,7 @@ struct BadFile {
 constexpr BadFile kBadFiles[] = {
     // the structure: axis twice, no path from tool to workpiece
     {"t-(C)-Z-Y-b-X-A-C-w", "t-(C)-Z-Y-b-X-A-A-w", 2,
-     "structure: structure code 't-(C)-Z-Y-b-X-A-A-w': axis A stands twice (hint: tool first, b"},
+     "structure: structure code 't-(C)-Z-Y-b-X-A-A-w': axis A is there twice (hint: tool first, b"},
     {"t-(C)-Z-Y-b-X-A-C-w", "t-(C)-Z-Y-X-A-C-w", 2,
      "structure: structure code 't-(C)-Z-Y-X-A-C-w': there is no bed b between tool and workpiece"},
     {"t-(C)-Z-Y-b-X-A-C-w", "t-(C)-Z-b-Y-b-X-A-C-w", 2,
@@ -111,7 +111,7 @@ constexpr BadFile kBadFiles[] = {
      "axis.X.endless: a linear axis has a travel (hint: write travel = [lowest, highest] in mm)"},
     {"endless = true", "endless = \"yes\"", 22,
      "axis.C.endless: expected true or false, found text"},
-    {"home = 400", "home = 900", 17, "axis.Z.home: 900 lies outside the travel"},
+    {"home = 400", "home = 900", 17, "axis.Z.home: 900 is outside the travel"},
     {"home = 400", "home = nan", 17, "axis.Z.home: expected a finite number, found inf or nan"},
     // directions
     {"travel = [-400, 400]", "travel = [-400, 400]\ndirection = [1, 1, 0]", 9,
@@ -119,7 +119,7 @@ constexpr BadFile kBadFiles[] = {
     {"travel = [-400, 400]", "travel = [-400, 400]\ndirection = [1, 0]", 9,
      "axis.X.direction: expected three numbers [x, y, z], found 2"},
     {"travel = [-400, 400]", "travel = [-400, 400]\ndirection = [0, 1, 0]", 7,
-     "axis: the directions of X, Y and Z lie in one plane (hint: they must span space)"},
+     "axis: the directions of X, Y and Z are in one plane (hint: they must span space)"},
     {"endless = true", "endless = true\ndirection = [1, 0, 0]", 7,
      "axis: the two rotary axes are parallel (hint: they must orient the tool in two ways)"},
     // drives

@@ -82,7 +82,7 @@ TEST(Volumetric, SaysWhatCannotBeLookedAt) {
   EXPECT_EQ(message({.positions = {{{A, 0.1}}}}),
             "machine iwf-bc (t-(C)-Z-Y-b-X-B-C-w) has no axis A");
   EXPECT_EQ(message({.positions = {{{X, 1000.0}}}}),
-            "X = 1000 lies outside its travel -400 .. 400 mm");
+            "X = 1000 is outside its travel -400 .. 400 mm");
   EXPECT_EQ(message({.positions = {{{X, 0.0}}, {}}}),
             "axis X is held in one position and not in another");
   EXPECT_EQ(message({.positions = {{{C, 100.0}}}}), "accepted");  // endless

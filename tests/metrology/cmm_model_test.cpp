@@ -325,10 +325,9 @@ TEST(VirtualCmm, RefusesPointsBeyondItsTravel) {
   cmm.travel = Vec3(60.0, 60.0, 60.0);
   const auto m = measure(plan(), part(), cmm);
   ASSERT_FALSE(m);
-  EXPECT_EQ(
-      to_string(m.error().front()),
-      "error: feature 'A', point 1 at [32.000, 0.000, 0.000] lies beyond the machine's travel "
-      "(hint: enlarge the cmm's travel, or move its position)");
+  EXPECT_EQ(to_string(m.error().front()),
+            "error: feature 'A', point 1 at [32.000, 0.000, 0.000] is beyond the machine's travel "
+            "(hint: enlarge the cmm's travel, or move its position)");
 }
 
 std::string cmm_complaint(const std::string& text) {
@@ -376,10 +375,9 @@ TEST(CmmModel, NamesWhatIsImpossible) {
       cmm_complaint("[probe]\nforce = 0.1\n"),
       "job.toml:2:1: error: probe.force: bends a stylus, and none is stated (hint: write stylus "
       "= { length = 50, diameter = 2 })");
-  EXPECT_EQ(
-      cmm_complaint("[temperature]\npart = 295\n"),
-      "job.toml:2:1: error: temperature.part: must lie between -40 and 60 degC, is 295 (hint: "
-      "temperatures are in degC)");
+  EXPECT_EQ(cmm_complaint("[temperature]\npart = 295\n"),
+            "job.toml:2:1: error: temperature.part: must be between -40 and 60 degC, is 295 (hint: "
+            "temperatures are in degC)");
   EXPECT_EQ(
       cmm_complaint("[temperature]\npart_expansion = 11.5e-6\n"),
       "job.toml:2:1: error: temperature.part_expansion: is 1.15e-05 um/(m K) (hint: write 11.5 "

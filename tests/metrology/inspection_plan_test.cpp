@@ -124,7 +124,7 @@ TEST(InspectionPlan, NamesPlaceAndRemedyOfEveryMistake) {
       "cylinder");
   EXPECT_EQ(
       complaint(changed("[-11, -7, -3]", "[-40, -7, -3]")),
-      "part.plan.toml:49:1: error: feature[4].strategy: the section at -40 mm lies beyond the apex "
+      "part.plan.toml:49:1: error: feature[4].strategy: the section at -40 mm is beyond the apex "
       "(hint: sections count from point toward growing radius)");
   EXPECT_EQ(complaint("title = \"x\"\n[probe]\nball_diameter = 3\n"),
             "part.plan.toml:1:1: error: feature: the plan has no feature (hint: write at least one "

@@ -382,24 +382,24 @@ TEST(EveryFit, RefusesWhatDoesNotTellTheElement) {
   row.reserve(10);
   for (int i = 0; i < 10; ++i) row.emplace_back(i, 2.0 * i, -i);
   EXPECT_EQ(first_message(fit_plane(row).error()),
-            "degenerate points for a plane: they lie on one straight line");
+            "degenerate points for a plane: they are on one straight line");
   EXPECT_EQ(first_message(fit_circle(row).error()),
-            "degenerate points for a circle: they lie on one straight line");
+            "degenerate points for a circle: they are on one straight line");
   const auto ring =
       revolution({1, 2, 3}, unit({1, 1, 2}), 0, 0, 1, 20, 6.0, 0.0, [](double) { return 10.0; });
   for (const ElementKind kind : {ElementKind::sphere, ElementKind::cylinder, ElementKind::cone}) {
     const auto fit = fit_element(kind, ring);
     ASSERT_FALSE(fit);
     EXPECT_EQ(first_message(fit.error()),
-              "degenerate points for a " + std::string(name_of(kind)) + ": they lie in one plane");
+              "degenerate points for a " + std::string(name_of(kind)) + ": they are in one plane");
   }
   std::vector<Vec3> cube;
   cube.reserve(8);
   for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
   EXPECT_EQ(first_message(fit_line(cube).error()),
-            "degenerate points for a line: no direction stands out");
+            "degenerate points for a line: no direction is distinct");
   EXPECT_EQ(first_message(fit_plane(cube).error()),
-            "degenerate points for a plane: no plane stands out");
+            "degenerate points for a plane: no plane is distinct");
   EXPECT_EQ(to_string(fit_element("cilinder", cube).error().front()),
             "error: 'cilinder' is not an element (hint: did you mean cylinder?)");
 }

@@ -217,7 +217,7 @@ TEST(LineCharacteristic, SayWhichPointsAreMissing) {
   const auto m = evaluate(plan(), points);
   ASSERT_FALSE(m);
   EXPECT_EQ(m.error().front().message,
-            "characteristic 'dL': feature 'S_d': the points lie at one place along the line");
+            "characteristic 'dL': feature 'S_d': the points are at one place along the line");
 }
 
 TEST(InternalValue, UndoesTheUnitOfACharacteristic) {

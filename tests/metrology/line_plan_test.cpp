@@ -150,7 +150,7 @@ TEST(LinePlan, RefusesComparisonsThatMeanNothing) {
   EXPECT_EQ(first([](auto& c) {
               c.direction = {2, 0, 0.01};
             }),
-            "characteristic[1].direction: lies along the lines");
+            "characteristic[1].direction: is along the lines");
   EXPECT_EQ(first([](auto& c) {
               c.direction = {0.01, 1, 0};
             }),
@@ -159,8 +159,8 @@ TEST(LinePlan, RefusesComparisonsThatMeanNothing) {
   EXPECT_EQ(first([](auto& c) {
               c.direction = {0, 0, 1};
             }),
-            "characteristic[1].direction: the surface of 'S_c' lies along what is measured, [0, 0, "
-            "1], and tells nothing of it");
+            "characteristic[1].direction: the surface of 'S_c' is along what is measured, [0, 0, "
+            "1], and says nothing of it");
   EXPECT_EQ(first([](auto& c) { c.sections = {1}; }),
             "characteristic[1].section: a line_distance concerns the whole feature");
   EXPECT_EQ(plan_fault([](auto& p) {
@@ -171,12 +171,12 @@ TEST(LinePlan, RefusesComparisonsThatMeanNothing) {
   EXPECT_EQ(plan_fault([](auto& p) {
               p.characteristics[2].direction = {0, 1, 0};
             }),
-            "characteristic[3].direction: the surface of 'S_c' lies along what is measured, [0, 0, "
-            "-1], and tells nothing of it");
+            "characteristic[3].direction: the surface of 'S_c' is along what is measured, [0, 0, "
+            "-1], and says nothing of it");
   EXPECT_EQ(plan_fault([](auto& p) {
               p.characteristics[2].direction = {3, 0, 0};
             }),
-            "characteristic[3].direction: lies along the lines");
+            "characteristic[3].direction: is along the lines");
   EXPECT_EQ(plan_fault([](auto& p) { p.characteristics[1].name = "dL"; }),
             "characteristic[2].name: 'dL' names two characteristics");
 }

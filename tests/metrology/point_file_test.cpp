@@ -104,7 +104,7 @@ TEST(PointFile, RefusesUnitsThatItCannotHonour) {
             "p.csv:1:1: error: the file states the unit mm, --unit says inch (hint: leave --unit "
             "out, or correct the file)");
   EXPECT_EQ(point_file_complaint("1 2 3\n# unit: um\n4 5 6\n"),
-            "p.csv:2:1: error: the unit um stands behind points (hint: state it before the first "
+            "p.csv:2:1: error: the unit um is after points (hint: state it before the first "
             "point)");
 }
 

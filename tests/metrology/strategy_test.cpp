@@ -147,10 +147,9 @@ TEST(Strategy, NamesWhatIsImpossible) {
             "error: feature[1].strategy: from = 1 and to = 1 must be different heights");
   EXPECT_EQ(complaint(cylinder, SpiralStrategy{0.0, 1.0, 0.5}),
             "error: feature[1].strategy: a spiral takes one turn or more, planned are 0.5");
-  EXPECT_EQ(
-      complaint(cone, SpiralStrategy{0.0, -60.0}),
-      "error: feature[1].strategy: the section at -60 mm lies beyond the apex (hint: sections "
-      "count from point toward growing radius)");
+  EXPECT_EQ(complaint(cone, SpiralStrategy{0.0, -60.0}),
+            "error: feature[1].strategy: the section at -60 mm is beyond the apex (hint: sections "
+            "count from point toward growing radius)");
   EXPECT_EQ(complaint(cylinder, SpiralStrategy{0.0, 1.0, 3.0, 0, 0.0, 1e-6}),
             "error: feature[1].strategy: a pitch of 1e-06 mm makes more than 1000000 points of "
             "376.992 mm");

@@ -68,7 +68,7 @@ TEST(ToolTable, SaysWhereItIsWrong) {
            Case{"T1 P1\nT2 P2 Z5x\n", "2:9: error: 'x' has no number"},
            Case{"T1 Z\n", "1:4: error: 'Z' has no number"},
            Case{"T1 Z+-5\n", "1:4: error: 'Z+-5' has no number"},
-           Case{"T1 Z5 Z6\n", "1:7: error: Z stands twice on the line"},
+           Case{"T1 Z5 Z6\n", "1:7: error: Z is twice on the line"},
            Case{"T1 F5\n", "1:4: error: 'F5' is no word of a tool table"},
            Case{"T1 (end mill)\n", "1:4: error: '(end' is no word of a tool table"},
            Case{"T1.5 Z1\n", "1:1: error: T1.5 is no tool number"},

@@ -73,7 +73,7 @@ std::optional<Diagnostic> sideways(const ExtremeKind& kind, const Element& eleme
   constexpr double kLeast = 0.1;
   if (std::abs(normal.dot(options.outward->normalized())) >= kLeast) return std::nullopt;
   return error("outward-direction"_id,
-               fmt::format("the direction out of the material lies along the {}", kind.name),
+               fmt::format("the direction out of the material is along the {}", kind.name),
                fmt::format("give one nearer to its normal, which is +-({:.4g}, {:.4g}, {:.4g})",
                            normal.x(), normal.y(), normal.z()));
 }
@@ -279,11 +279,10 @@ Association finished(const Task& task, const ExtremeFound& found) {
 
 Diagnostic unproven(const Task& task) {
   if (task.what == Sought::inscribed) {
-    return error(
-        "association-open"_id,
-        fmt::format("no largest {} lies within these points: they leave it open on one side",
-                    task.kind.name),
-        "probe around more than half of the circumference, or use 'ls' or 'mz'");
+    return error("association-open"_id,
+                 fmt::format("no largest {} is within these points: they leave it open on one side",
+                             task.kind.name),
+                 "probe around more than half of the circumference, or use 'ls' or 'mz'");
   }
   return error("association-unproven"_id,
                fmt::format("no {} by '{}' could be proven: the points hardly tell it",

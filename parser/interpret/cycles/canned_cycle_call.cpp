@@ -157,8 +157,8 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     }
   } else if (depths.bottom > depths.level) {
     return fail(state, movement.column, "cycle-depth"_id,
-                fmt::format("the bottom of the hole ({:g} mm) lies above R ({:g} mm)",
-                            depths.bottom, depths.level),
+                fmt::format("the bottom of the hole ({:g} mm) is above R ({:g} mm)", depths.bottom,
+                            depths.level),
                 "give R above the bottom");
   }
   int holes = 1;

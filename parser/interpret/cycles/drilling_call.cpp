@@ -104,7 +104,7 @@ Result<DrillingCycle> drilling_heights(const InterpreterState& state, const Bloc
   }
   if (cycle.back < cycle.reference) {
     return fail(state, words['z'].column, "cycle-depth"_id,
-                fmt::format("RTP ({:g} mm) lies below RFP ({:g} mm)", cycle.back, cycle.reference),
+                fmt::format("RTP ({:g} mm) is below RFP ({:g} mm)", cycle.back, cycle.reference),
                 "the tool goes back to RTP by rapid: give it above the part");
   }
   const auto dwell = drilling_dwell(state, words, 'P', *modes / 10 % 10 == 2);

@@ -210,7 +210,7 @@ Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
   }
   if (cycle.back && *cycle.back < cycle.level) {
     return fail(state, words['v'].column, "cycle-depth"_id,
-                fmt::format("{} lies below where feeding begins", words.text_of('v')),
+                fmt::format("{} is below where feeding begins", words.text_of('v')),
                 "give a height above it");
   }
   if (word == HoleWord::deep || word == HoleWord::deep_pecks)

@@ -45,7 +45,8 @@ Result<double> lead_of(const InterpreterState& state, const BlockWords& words,
                 "the lead is above zero; the spindle's direction makes a thread left-handed");
   }
   if (state.modes.spindle == SpindleDirection::off) {
-    return fail(state, movement.column, "thread-spindle-off"_id, name + " while the spindle stands",
+    return fail(state, movement.column, "thread-spindle-off"_id,
+                name + " while the spindle is at rest",
                 "start the spindle with S and M3 or M4 before");
   }
   return lead;

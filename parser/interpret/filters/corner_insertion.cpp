@@ -82,13 +82,13 @@ Vec2 foot_on(const PathPiece& piece, const Vec2& point) {
 CornerInsertion::Failure CornerInsertion::insert(const Corner& corner) {
   if (corner_) {
     return complaint(corner.place, "corner-twice"_id,
-                     fmt::format("{} behind {}", corner.name, corner_->name),
-                     "a corner lies between two moves: write one of them");
+                     fmt::format("{} after {}", corner.name, corner_->name),
+                     "a corner is between two moves: write one of them");
   }
   if (!piece_) {
     return complaint(corner.place, "corner-without-move"_id,
-                     corner.name + " behind no cutting move in the plane",
-                     "write it right behind an L or C block that moves in X and Y");
+                     corner.name + " after no cutting move in the plane",
+                     "write it right after an L or C block that moves in X and Y");
   }
   corner_ = corner;
   return std::nullopt;
@@ -111,7 +111,7 @@ CornerInsertion::Failure CornerInsertion::take(Motion&& motion, const Sink& sink
   if (corner_ && !piece) {
     failure = complaint(corner_->place, "corner-without-move"_id,
                         corner_->name + " before no cutting move in the plane",
-                        "write an L or C block behind it that moves in X and Y alone");
+                        "write an L or C block after it that moves in X and Y alone");
   } else if (corner_) {
     failure = cut(motion, *piece, sink);
   }
@@ -158,7 +158,7 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
   }
   if (!corner.rounds && (before.is_arc() || piece.is_arc())) {
     return fail("corner-at-arc"_id, corner.name + " at an arc",
-                "a chamfer lies between two L blocks; round it by RND");
+                "a chamfer is between two L blocks; round it by RND");
   }
   const double side = turn > 0.0 ? 1.0 : -1.0;
   const double lengths[] = {length_of(before), length_of(piece)};
@@ -195,7 +195,7 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
         "corner-too-large"_id,
         fits
             ? fmt::format("{} takes {:.6g} mm of the {:.6g} mm of the move {} it", corner.name,
-                          lost[move], lengths[move], move == 0 ? "before" : "behind")
+                          lost[move], lengths[move], move == 0 ? "before" : "after")
             : fmt::format("{} of {:g} mm does not fit between its moves", corner.name, corner.size),
         "make it smaller");
   }

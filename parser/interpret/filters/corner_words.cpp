@@ -42,9 +42,9 @@ Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const Blo
         continue;
       }
       return fail(state, other.column, "corner-interrupted"_id,
-                  fmt::format("{} between {} and the move behind it", other.code->name(),
+                  fmt::format("{} between {} and the move after it", other.code->name(),
                               filters.corners.corner()->name),
-                  "write the moves of the contour one behind the other");
+                  "write the moves of the contour one after the other");
     }
   } else if (code.code == nullptr) {
     filters.corners.release(filters.to_radius);

@@ -269,7 +269,7 @@ RadiusCompensation::Failure RadiusCompensation::cut_corner(LastMove& next, const
     return at(motion, "radius-gouge"_id,
               fmt::format("the tool, of radius {:.6g} mm, does not fit into the corner: the move "
                           "{} it is {:.6g} mm too short",
-                          radius, before ? "before" : "behind", best->too_short()),
+                          radius, before ? "before" : "after", best->too_short()),
               kSmallerTool);
   }
   next.start = best->point;

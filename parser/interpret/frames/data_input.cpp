@@ -102,7 +102,7 @@ Outcome set_offset_here(InterpreterState& state, const BlockWords& words) {
     if (!known && needed) {
       return fail(state, column, axis_unknown_id(state, axis),
                   fmt::format("G10 L20 starts from where {} is, but {}", to_char(axis),
-                              place[axis] ? fmt::format("only the setup knows where {} lies",
+                              place[axis] ? fmt::format("only the setup knows where {} is",
                                                         work_offset_name(number))
                                           : why_axis_unknown(state, axis)),
                   "place the offset with G10 L2, or shift the words with G92");
@@ -167,7 +167,7 @@ Outcome set_tool_offsets(InterpreterState& state, const BlockWords& words, DataI
       return fail(
           state, words[letter].column, axis_unknown_id(state, axis),
           fmt::format("the tool is measured from where {} is, but {}", letter,
-                      axes[axis] && !origin ? fmt::format("only the setup knows where {} lies",
+                      axes[axis] && !origin ? fmt::format("only the setup knows where {} is",
                                                           work_offset_name(kFixture))
                                             : why_axis_unknown(state, axis)),
           "give the tool's offset with G10 L1, or place the work offset with G10 L2");

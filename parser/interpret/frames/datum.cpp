@@ -182,7 +182,7 @@ std::string why_axis_unknown(const InterpreterState& state, AxisLetter axis) {
   if (!state.position[axis]) return state.position.why_unknown(axis);
   if (!follows_words(state.modes, axis)) return "the axes are moved with the tool's tip";
   if (!state.modes.datum.origin[axis]) {
-    return fmt::format("only the setup knows where {} lies",
+    return fmt::format("only the setup knows where {} is",
                        work_offset_name(state.modes.work_offset));
   }
   return "only the setup knows the tool's length";

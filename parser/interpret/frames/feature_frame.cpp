@@ -58,7 +58,7 @@ Result<Pose> by_points(const FeatureWords& words) {
   const auto side = UnitVec3::of(words.parts[3]->place - origin);
   const auto first = UnitVec3::of(x);
   if (!axes || !side || first->vec().cross(side->vec()).norm() < std::sin(kParallel)) {
-    return error("plane-degenerate"_id, "the three points of the plane lie on one line",
+    return error("plane-degenerate"_id, "the three points of the plane are on one line",
                  "give Q1 the origin, Q2 a place on +X and Q3 a place beside that line");
   }
   const FeaturePart shift = words.parts[0].value_or(FeaturePart{});

@@ -94,7 +94,7 @@ Outcome set_plane(InterpreterState& state, const BlockWords& words) {
   if (!rotation) {
     const bool points = kind == TiltWord::points;
     return fail(state, code.column, "plane-degenerate"_id,
-                points ? "the points of PLANE POINTS lie on one line"
+                points ? "the points of PLANE POINTS are on one line"
                        : "the vectors of PLANE VECTOR span no plane",
                 points ? "give three points of the plane that form a triangle"
                        : "give B a direction across N, both longer than zero");

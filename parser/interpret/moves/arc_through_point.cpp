@@ -155,7 +155,7 @@ Outcome move_through_point(InterpreterState& state, const BlockWords& words,
   if (!(a.norm() > least && b.norm() > least && (end - *between).norm() > least) ||
       !(a.cross(b).norm() > kOnLine * a.norm() * b.norm())) {
     return fail(state, words[words.first_of(LetterSet(kBetween))].column, "arc-straight"_id,
-                "start, end and the point between lie on a line",
+                "start, end and the point between are on a line",
                 "give three points of a circle, or write a straight move");
   }
   const auto feed = feed_for(state, words, movement, true);

@@ -111,7 +111,7 @@ Outcome set_pole_in_plane(InterpreterState& state, const BlockWords& words, NonM
   if (words.has(normal)) {
     return fail(state, words[normal].column, "pole-plane"_id,
                 fmt::format("{} of a pole", words.text_of(normal)),
-                fmt::format("a pole lies in the plane: give {}", letters));
+                fmt::format("a pole is in the plane: give {}", letters));
   }
   for (const char letter : {to_char(u), to_char(v), kPolarRadius, kPolarAngle}) {
     if (!words.has(letter) || words[letter].measure == Measure::modal) continue;
@@ -277,7 +277,7 @@ Outcome lead_on(const InterpreterState& state, const Movement& movement, ArcWord
   const double aside = chord.dot(left);
   if (!(std::abs(aside) > kNearlyStraight * chord.norm())) {
     return fail(state, movement.column, "arc-straight"_id,
-                "the end of the arc lies straight ahead or behind",
+                "the end of the arc is straight ahead or behind",
                 "write a straight move, or give another end");
   }
   const double radius = chord.squaredNorm() / (2.0 * aside);

@@ -29,7 +29,7 @@ Outcome probe(InterpreterState& state, const BlockWords& words, const Movement& 
   const AxisTarget end = end_of(state, words);
   if (state.position.target() == before) {
     return fail(state, movement.column, "probe-empty"_id, "the probing move ends where it starts",
-                "give an end that lies behind what it is to meet");
+                "give an end beyond what it is to meet");
   }
   const auto feed = feed_for(state, words, movement, true);
   if (!feed) return feed.error();

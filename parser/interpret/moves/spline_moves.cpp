@@ -36,7 +36,7 @@ Outcome check_spline(const InterpreterState& state, const BlockWords& words,
                      const Movement& movement) {
   if (state.modes.plane != Plane::xy) {
     return fail(state, movement.column, "spline-plane"_id, "a spline outside G17",
-                "splines lie in the plane XY: G17");
+                "splines are in the plane XY: G17");
   }
   if (const char letter = words.first_of(LetterSet("ZABC")); letter != 0) {
     return fail(state, words[letter].column, "spline-axes"_id,
@@ -107,7 +107,7 @@ Outcome move_along_cubic(InterpreterState& state, const BlockWords& words,
   if (!has_first && (words.has('I') || words.has('J') || !state.spline.leads)) {
     return needs(words.first_of(LetterSet("IJ")), "I and J",
                  "I and J lead from the start to the first control point; both may be left out "
-                 "behind another G5");
+                 "after another G5");
   }
   const double scale = unit_scale(state);
   const Vec2 first =
@@ -188,7 +188,7 @@ Outcome move_along_nurbs(InterpreterState& state, const BlockWords& words,
     return fail(
         state, movement.column, "spline-points"_id,
         fmt::format("{} control points for a spline of order {}", nurbs.points.size(), nurbs.order),
-        "give at least as many points as its order L; the first is where the tool stands");
+        "give at least as many points as its order L; the first is where the tool is");
   }
   return trace_spline(state, words, movement, nurbs.points, nurbs.order);
 }

@@ -61,7 +61,7 @@ bool CldataArcs::set_axis(LineScanner& in, Circle& circle, const Vec3& axis, std
   axis.cwiseAbs().maxCoeff(&along);
   if (std::abs(std::abs(axis[along]) - 1.0) > kAlongAnAxis ||
       std::abs(axis.norm() - 1.0) > kAlongAnAxis) {
-    in.fail("arc-plane"_id, column, "the circle does not lie in a plane of X, Y, Z",
+    in.fail("arc-plane"_id, column, "the circle is not in a plane of X, Y, Z",
             "give an axis i,j,k along X, Y or Z, or write the arc as GOTO records");
     return false;
   }
@@ -219,7 +219,7 @@ std::optional<CldataArcs::Circle> CldataArcs::read_circle(LineScanner& in) {
 
 // ON,(LINE/x,y,z,x,y,z), ON,2,INTOF,(LINE/...), ON,(PLANE/i,j,k,d)
 std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, const Vec3& at) {
-  constexpr const char* kRemedy = "write ON,(LINE/x,y,z,x,y,z) behind the circle";
+  constexpr const char* kRemedy = "write ON,(LINE/x,y,z,x,y,z) after the circle";
   in.take(',');
   if (!in.take_name("ON") || !in.take(',')) {
     in.fail_unexpected(kRemedy);

@@ -147,7 +147,7 @@ class MacroReader {
               text.begin() + static_cast<std::ptrdiff_t>(in_.column() - 1), ' ');
     auto read = parse_block(text, block_.line, Dialect::fanuc);
     if (!read || !read->tape_mark) return read;
-    in_.fail_unexpected("% stands alone on its line");
+    in_.fail_unexpected("% is alone on its line");
     return in_.finish(std::move(block_));
   }
 
@@ -158,7 +158,7 @@ class MacroReader {
     const bool acts = !whole.words.empty() || !whole.assignments.empty();
     if (flow_.kind == FlowKind::only_if && !acts) {
       in_.fail("value-missing"_id, in_.column(), "THEN does nothing",
-               "write a setting behind it: THEN #1=2");
+               "write a setting after it: THEN #1=2");
     } else if (flow_.kind != FlowKind::only_if && acts) {
       in_.fail("statement-not-alone"_id,
                whole.words.empty() ? whole.assignments.front().column : whole.words.front().column,
@@ -266,7 +266,7 @@ Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
   if (auto plain = read_plain_block(text, line)) return *std::move(plain);
   if (const std::size_t second = second_block(text); second != std::string_view::npos) {
     Diagnostic twice =
-        error("statement-not-alone"_id, "a second block behind ;", "start a line for each block");
+        error("statement-not-alone"_id, "a second block after ;", "start a line for each block");
     twice.line = static_cast<int>(line);
     twice.column = static_cast<int>(second) + 1;
     return twice;

@@ -102,8 +102,8 @@ class OWordReader {
         if (!in_.take(')'))
           in_.fail("comment-not-closed"_id, start, "the comment is not closed", "close it with )");
       } else {
-        in_.fail("statement-not-alone"_id, start, "text behind an O word",
-                 "an O word stands alone in its block");
+        in_.fail("statement-not-alone"_id, start, "text after an O word",
+                 "an O word is alone in its block");
       }
     }
   }

@@ -48,7 +48,7 @@ std::string read_variable_name(LineScanner& in) {
 bool stands_alone(BlockDraft& draft, std::uint32_t column, bool behind_label = true) {
   if (behind_label && draft.labelled()) return true;
   if (!draft.begun()) return true;
-  draft.in.fail("statement-not-alone"_id, column, "a statement behind other words",
+  draft.in.fail("statement-not-alone"_id, column, "a statement after other words",
                 "write it in a block of its own");
   return false;
 }
@@ -97,8 +97,8 @@ void read_sinumerik_procedure(BlockDraft& draft, std::uint32_t column) {
     const std::string attribute = in.name();
     if (std::find(kAttributes.begin(), kAttributes.end(), attribute) == kAttributes.end()) {
       in.fail("unknown-word"_id, at,
-              attribute.empty() ? "unexpected text behind PROC"
-                                : fmt::format("{} has no meaning behind PROC", attribute),
+              attribute.empty() ? "unexpected text after PROC"
+                                : fmt::format("{} has no meaning after PROC", attribute),
               "known are SAVE, DISPLOF and SBLOF");
       return;
     }
@@ -149,7 +149,7 @@ void read_sinumerik_call(BlockDraft& draft, const std::string& name, std::uint32
     in.take('=');
     flow.condition = draft.read_expression(ExpressionLevel::sum);
   }
-  if (!ends(in)) in.fail_unexpected("a call stands alone in its block");
+  if (!ends(in)) in.fail_unexpected("a call is alone in its block");
 }
 
 }  // namespace frustum::parser

@@ -85,7 +85,7 @@ class FlowReader {
         break;
     }
     if (!in_.at_end() && in_.peek() != ';') {
-      in_.fail_unexpected(fmt::format("{} stands alone in its block", word.name));
+      in_.fail_unexpected(fmt::format("{} is alone in its block", word.name));
     }
   }
 
@@ -98,7 +98,7 @@ class FlowReader {
  private:
   void begin_flow(FlowKind kind, std::uint32_t column) {
     if (draft_.begun() && (!draft_.labelled() || kind == FlowKind::label)) {
-      in_.fail("statement-not-alone"_id, column, "a statement behind other words",
+      in_.fail("statement-not-alone"_id, column, "a statement after other words",
                "write it in a block of its own");
       return;
     }

@@ -184,15 +184,14 @@ TEST(OutsideMaterial, RefusesADirectionThatLiesAlongTheElement) {
     const auto found = associate("plane", plate, by(sideways));
     ASSERT_FALSE(found) << sideways.transpose();
     EXPECT_EQ(found.error().front().message,
-              "the direction out of the material lies along the plane");
+              "the direction out of the material is along the plane");
     EXPECT_NE(found.error().front().hint.find("nearer to its normal, which is +-("),
               std::string::npos);
   }
   EXPECT_TRUE(associate("plane", plate, by(Vec3(1.0, 0.0, 0.2))));
   const auto along = associate("line2d", line, by(Vec3::UnitX()));
   ASSERT_FALSE(along);
-  EXPECT_EQ(along.error().front().message,
-            "the direction out of the material lies along the line2d");
+  EXPECT_EQ(along.error().front().message, "the direction out of the material is along the line2d");
   EXPECT_TRUE(associate("line2d", line, by(Vec3(1.0, 0.0, 0.3))));
   // A boss is outside itself, whatever the direction.
   EXPECT_TRUE(associate("cylinder", rough_cylinder(7, 0.01), by(Vec3::UnitZ())));

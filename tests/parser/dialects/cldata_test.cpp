@@ -396,7 +396,7 @@ TEST(CldataErrors, SayWhereWhatAndTheRemedy) {
       {"CYCLE/DEEP,DEPTH,5,MMPM,80,CLEAR,3\n", "1:1: error: CYCLE has no STEP above zero"},
       {"CYCLE/DRILL,126.,85.,1.,MMPR\n", "1:18: error: the 85 in CYCLE could mean many things"},
       {"CYCLE/DRILL,DEPTH,5,MMPM,80,CLEAR,3,RETURN,1\n",
-       "1:44: error: RETURN,1 lies below where feeding begins"},
+       "1:44: error: RETURN,1 is below where feeding begins"},
       {"CYCLE/DRILL,DEPTH,-5,MMPM,80,CLEAR,3\n",
        "1:19: error: the depth of CYCLE is not above zero"},
       {"CYCLE/DRILL,DEPTH,5,MMPM,0,CLEAR,3\n",

@@ -225,7 +225,7 @@ TEST(SinumerikCycles, TellMistakes) {
       {"CYCLE81(5,0,-2,-5)\n", "1:13: error: SDIS=-2 is negative"},
       {"CYCLE81(5,0,2,,-5)\n", "1:16: error: DPR=-5 is negative"},
       {"CYCLE81(5,0,2,5)\n", "1:15: error: the bottom of the hole (5 mm) is not below RFP (0 mm)"},
-      {"CYCLE81(5,10,2,-5)\n", "1:9: error: RTP (5 mm) lies below RFP (10 mm)"},
+      {"CYCLE81(5,10,2,-5)\n", "1:9: error: RTP (5 mm) is below RFP (10 mm)"},
       {"CYCLE81(5,0,2,-5,,0,10)\n", "1:21: error: _GMODE=10 is not simulated"},
       {"CYCLE81(5,0,2,-5,,0,0,2)\n", "1:23: error: _DMODE=2 is another plane than that in force"},
       {"CYCLE81(5,0,2,-5,,0,0,1,1.5)\n", "1:25: error: _AMODE=1.5 is not a whole number"},

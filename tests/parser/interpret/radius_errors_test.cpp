@@ -38,16 +38,16 @@ using enum Dialect;
 TEST(RadiusErrors, OfTheContour) {
   constexpr RadiusMistake kMistakes[] = {
       {linuxcnc, "G41 D1 F100\nG1 X20\nX20 Y3\nX0\nM2\n",
-       "3:1: error: the tool, of radius 6 mm, does not fit into the corner: the move behind it is "
+       "3:1: error: the tool, of radius 6 mm, does not fit into the corner: the move after it is "
        "3 mm too short"},
       {linuxcnc, "G41 D1 F100\nG1 X20\nX20 Y20\nX15\nY40\nM2\n",
-       "4:1: error: the tool, of radius 6 mm, does not fit into the corner: the move behind it is "
+       "4:1: error: the tool, of radius 6 mm, does not fit into the corner: the move after it is "
        "1 mm too short"},
       {linuxcnc, "G41 D1 F100\nG1 X20\nY10\nX0\nM2\n",
        "4:1: error: the tool, of radius 6 mm, does not fit into the corner: the move before it is "
        "2 mm too short"},
       {linuxcnc, "G41 D1 F100\nG1 X20\nY30\nX17\nM2\n",
-       "4:1: error: the tool, of radius 6 mm, does not fit into the corner: the move behind it is "
+       "4:1: error: the tool, of radius 6 mm, does not fit into the corner: the move after it is "
        "3 mm too short"},
       {linuxcnc, "G41 D1 F100\nG1 X20\nG3 X20 Y8 J4\nM2\n",
        "3:1: error: the tool, of radius 6 mm, is inside an arc of radius 4 mm"},
