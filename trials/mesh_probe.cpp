@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "metrology/plan/strategy.hpp"
 #include "metrology/plan/point_scale.hpp"
+#include "metrology/plan/strategy.hpp"
 #include "stock/mesh/io/mesh_reader.hpp"
 #include "stock/mesh/weld_mesh.hpp"
 

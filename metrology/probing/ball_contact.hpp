@@ -32,7 +32,7 @@ enum class ContactState { contact, no_surface, starts_inside };
 struct BallContact {
   ContactState state = ContactState::no_surface;
   Vec3 centre = Vec3::Zero();  // of the ball; only with ContactState::contact
-  Touch touch{};  // the point that it rests on; the normal is from there to the centre
+  Touch touch{};               // the point that it rests on; the normal is from there to the centre
 };
 
 [[nodiscard]] BallContact touch_with_ball(const SurfaceProbeRef& part,

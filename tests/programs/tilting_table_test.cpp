@@ -94,18 +94,19 @@ TEST(TiltingTable, NamesTheAxisThatDoesNotFit) {
   const struct {
     std::map<std::string, std::string> words;
     const char* reason;
-  } cases[] = {{{{"Y-A-C-w", "Y-C-A-w"}}, "C, the outer rotary axis, is parallel to neither X nor Y"},
-               {{{"Y-A-C-w", "Y-A-B-w"}, {"[axis.C]", "[axis.B]"}},
-                "B, the inner rotary axis, is not vertical"},
-               {{{"b-Y-A-C-w", "b-A-Y-C-w"}}, "the table carries a linear axis"},
-               {{{"[axis.Y]", "[axis.Y]\ndirection = [0, 0.8, 0.6]"}},
-                "its linear axes are not parallel to X, Y and Z"},
-               {{{"Y-A-C-w", "Y-C-w"},
-                 {"[axis.A]\ntravel = [-120, 120]   # deg\nvelocity     = 180   # deg/s\n"
-                  "acceleration = 900   # deg/s^2\njerk         = 9000   # deg/s^3\n"
-                  "servo_gain   = 40\n",
-                  ""}},
-                "1 rotary axes on the workpiece side, not two"}};
+  } cases[] = {
+      {{{"Y-A-C-w", "Y-C-A-w"}}, "C, the outer rotary axis, is parallel to neither X nor Y"},
+      {{{"Y-A-C-w", "Y-A-B-w"}, {"[axis.C]", "[axis.B]"}},
+       "B, the inner rotary axis, is not vertical"},
+      {{{"b-Y-A-C-w", "b-A-Y-C-w"}}, "the table carries a linear axis"},
+      {{{"[axis.Y]", "[axis.Y]\ndirection = [0, 0.8, 0.6]"}},
+       "its linear axes are not parallel to X, Y and Z"},
+      {{{"Y-A-C-w", "Y-C-w"},
+        {"[axis.A]\ntravel = [-120, 120]   # deg\nvelocity     = 180   # deg/s\n"
+         "acceleration = 900   # deg/s^2\njerk         = 9000   # deg/s^3\n"
+         "servo_gain   = 40\n",
+         ""}},
+       "1 rotary axes on the workpiece side, not two"}};
   for (const auto& c : cases) {
     const std::string text = refusal(changed(c.words));
     EXPECT_NE(text.find(c.reason), std::string::npos) << "'" << c.reason << "' in: " << text;

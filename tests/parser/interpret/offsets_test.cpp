@@ -9,7 +9,9 @@ namespace {
 
 using enum AxisLetter;
 
-std::vector<Motion> run_linuxcnc(std::string_view text) { return motions(text, {}, Dialect::linuxcnc); }
+std::vector<Motion> run_linuxcnc(std::string_view text) {
+  return motions(text, {}, Dialect::linuxcnc);
+}
 
 AxisTarget end_of_last(const std::vector<Motion>& all) { return last_of<Traverse>(all).end; }
 
@@ -24,7 +26,8 @@ TEST(WorkOffsets, PlacedByTheProgramAreCommands) {
 }
 
 TEST(WorkOffsets, AreOfMillimetresInAnInchProgramToo) {
-  EXPECT_NEAR(*last_of<WorkOffsetSetting>(run_linuxcnc("G20\nG10 L2 P1 X1\n")).origin[0], 25.4, 1e-12);
+  EXPECT_NEAR(*last_of<WorkOffsetSetting>(run_linuxcnc("G20\nG10 L2 P1 X1\n")).origin[0], 25.4,
+              1e-12);
 }
 
 TEST(WorkOffsets, ThatAreKnownKeepThePositionKnown) {
@@ -138,7 +141,8 @@ TEST(ReferencePoints, OfTheMachineAreHomeReturns) {
 }
 
 TEST(ReferencePoints, ThatTheProgramStoresAreMoves) {
-  const auto all = run_linuxcnc("G10 L2 P1 X1 Y2 Z3\nG0 X10 Y20 Z30\nG28.1\nG0 X0 Y0 Z50\nG28 Z60\n");
+  const auto all =
+      run_linuxcnc("G10 L2 P1 X1 Y2 Z3\nG0 X10 Y20 Z30\nG28.1\nG0 X0 Y0 Z50\nG28 Z60\n");
   EXPECT_TRUE(all_of<HomeReturn>(all).empty());
   const auto moves = all_of<Traverse>(all);
   ASSERT_EQ(moves.size(), 4U);
