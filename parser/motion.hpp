@@ -169,10 +169,16 @@ enum class StopKind : std::uint8_t { program_stop, optional_stop, program_end };
 struct Stop {
   StopKind kind = StopKind::program_end;
 };
+// How much an event says of the simulation's truth. known: a comment, or a word that changes nothing
+// which is simulated. builder: a word that only the machine's builder knows, passed over. assumed:
+// the program depends on something that a control decides by its parameters; the text says which
+// way it was taken.
+enum class EventGrade : std::uint8_t { known, builder, assumed };
 // A comment or a known word that is not simulated; never silence.
 struct Event {
   std::string name{};  // "comment", "message", "G61", ...
   std::string text{};
+  EventGrade grade = EventGrade::known;
 };
 
 using Command = std::variant<Traverse, HomeReturn, LinearFeed, ArcFeed, Probe, Dwell, ToolChange,

@@ -21,6 +21,7 @@ constexpr std::array kFeedModes{"per_minute", "inverse_time", "per_revolution"};
 constexpr std::array kOrientationPaths{"rotary_axes", "great_circle"};
 constexpr std::array kRotaryPaths{"as_programmed", "shortest", "positive", "negative"};
 constexpr std::array kStopKinds{"program_stop", "optional_stop", "program_end"};
+constexpr std::array kEventGrades{"known", "builder", "assumed"};
 
 template <typename Names, typename Enum>
 const char* name_in(const Names& names, Enum value) {
@@ -170,6 +171,7 @@ void add(Json& json, const Event& event) {
   json["type"] = "event";
   json["name"] = event.name;
   json["text"] = event.text;
+  if (event.grade != EventGrade::known) json["grade"] = name_in(kEventGrades, event.grade);
 }
 
 }  // namespace

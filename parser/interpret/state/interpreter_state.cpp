@@ -45,6 +45,12 @@ void emit(InterpreterState& state, std::uint32_t column, Command command) {
   state.output.take(Motion{std::move(place), std::move(command)});
 }
 
+void assume(InterpreterState& state, std::uint32_t column, std::string_view name,
+            std::string_view text) {
+  if (!state.output.assumptions.emplace(name).second) return;
+  emit(state, column, Event{std::string(name), std::string(text), EventGrade::assumed});
+}
+
 void lose_pole(InterpreterState& state) {
   state.modes.pole_lost = state.modes.pole_lost || (state.modes.pole && state.modes.pole->given);
   state.modes.pole.reset();

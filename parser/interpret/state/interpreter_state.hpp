@@ -12,7 +12,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.hpp"
@@ -59,7 +61,8 @@ struct Output {
   std::uint64_t motions = 0;            // that have gone out
   std::optional<Diagnostic> failure{};  // of a motion that could not be made
   std::map<int, std::array<std::optional<double>, 3>>
-      programmed_offsets{};  // as the motions have them
+      programmed_offsets{};                          // as the motions have them
+  std::set<std::string, std::less<>> assumptions{};  // that have been told
 };
 
 struct InterpreterState {
@@ -89,6 +92,10 @@ struct InterpreterState {
 [[nodiscard]] Diagnostic in_this_block(const InterpreterState& state, Diagnostic diagnostic);
 
 void emit(InterpreterState& state, std::uint32_t column, Command command);
+// The program depends on what a control decides by its parameters: an event of the grade `assumed`,
+// the first time of each name. `text` says what was taken.
+void assume(InterpreterState& state, std::uint32_t column, std::string_view name,
+            std::string_view text);
 
 // The program does not know any more where these axes are.
 void forget(InterpreterState& state, LetterSet axes, PositionLoss loss);
