@@ -8,10 +8,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,28 +32,74 @@ constexpr std::uint64_t kBlocks = 200'000;
 constexpr std::uint64_t kManyBlocks = 10'000'000;
 constexpr double kKibPerMib = 1024.0;
 
+// How a language writes one point of the path: a block number, a position (mm), A and C (deg), a
+// feed (mm/min), and the same direction as a vector.
+struct Point {
+  std::uint64_t number = 0;
+  double x = 0.0, y = 0.0, z = 0.0;
+  double a = 0.0, c = 0.0;
+  double feed = 0.0;
+};
+struct Language {
+  Dialect dialect = Dialect::linuxcnc;
+  std::string_view extension;
+  std::string_view head;
+  void (*block)(fmt::memory_buffer& line, const Point& p);
+  std::string_view end;
+};
+
+void block_of_words(fmt::memory_buffer& line, const Point& p) {
+  fmt::format_to(std::back_inserter(line),
+                 "N{} G1 X{:.4f} Y{:.4f} Z{:.4f} A{:.4f} C{:.4f} F{:.1f}\n", p.number, p.x, p.y,
+                 p.z, p.a, p.c, p.feed);
+}
+void block_of_klartext(fmt::memory_buffer& line, const Point& p) {
+  fmt::format_to(std::back_inserter(line),
+                 "{} L X{:+.4f} Y{:+.4f} Z{:+.4f} A{:+.4f} C{:+.4f} F{:.1f}\n", p.number, p.x, p.y,
+                 p.z, p.a, p.c, p.feed);
+}
+void record_of_cldata(fmt::memory_buffer& line, const Point& p) {
+  constexpr double kRadian = 57.29577951308232;
+  const double tilt = p.a / kRadian, turn = p.c / kRadian;
+  fmt::format_to(std::back_inserter(line), "GOTO/{:.4f},{:.4f},{:.4f},{:.7f},{:.7f},{:.7f}\n", p.x,
+                 p.y, p.z, std::sin(tilt) * std::sin(turn), -std::sin(tilt) * std::cos(turn),
+                 std::cos(tilt));
+}
+
+constexpr std::array kLanguages{
+    Language{Dialect::linuxcnc, ".ngc", "G21 G17 G90 G94 G54\nG0 X0 Y0 Z50 A0 C0\n", block_of_words,
+             "M2\n"},
+    Language{Dialect::fanuc, ".nc", "G21 G17 G90 G94 G54\nG0 X0 Y0 Z50 A0 C0\n", block_of_words,
+             "M30\n"},
+    Language{Dialect::sinumerik, ".mpf", "G71 G17 G90 G94 G54\nG0 X0 Y0 Z50 A0 C0\n",
+             block_of_words, "M30\n"},
+    Language{Dialect::heidenhain, ".h", "0 BEGIN PGM BENCH MM\n1 L X+0 Y+0 Z+50 A+0 C+0 FMAX\n",
+             block_of_klartext, "9 M30\n10 END PGM BENCH MM\n"},
+    Language{Dialect::cldata, ".apt",
+             "PARTNO/BENCH\nUNITS/MM\nLOADTL/1\nMULTAX/ON\nFEDRAT/1200,MMPM\n", record_of_cldata,
+             "FINI\n"}};
+
 // A five-axis program in a file that goes when this does: blocks such as
 // N10 G1 X12.3456 Y-3.4567 Z1.2345 A-12.3456 C123.4567 F1200.
 class FiveAxisFile {
  public:
-  explicit FiveAxisFile(std::uint64_t blocks)
-      : path_(fs::temp_directory_path() / fmt::format("frustum_nc_bench_{}.ngc", getpid())) {
+  explicit FiveAxisFile(std::uint64_t blocks, const Language& language = kLanguages.front())
+      : path_(fs::temp_directory_path() /
+              fmt::format("frustum_nc_bench_{}{}", getpid(), language.extension)) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(path_.c_str(), "wb"),
                                                               std::fclose);
     if (out == nullptr) return;
-    fmt::print(out.get(), "G21 G17 G90 G94 G54\nG0 X0 Y0 Z50 A0 C0\n");
+    fmt::print(out.get(), "{}", language.head);
     fmt::memory_buffer line;
     for (std::uint64_t i = 0; i < blocks; ++i) {
       const double turn = 1e-3 * static_cast<double>(i);
       line.clear();
-      fmt::format_to(std::back_inserter(line),
-                     "N{} G1 X{:.4f} Y{:.4f} Z{:.4f} A{:.4f} C{:.4f} F{:.1f}\n", i % 100'000,
-                     40.0 * std::cos(turn), 40.0 * std::sin(turn),
-                     -20.0 + 5.0 * std::cos(0.1 * turn), -15.0 + 10.0 * std::sin(0.3 * turn),
-                     std::fmod(57.0 * turn, 360.0), 1200.0 + 100.0 * std::cos(turn));
+      language.block(line, {i % 100'000, 40.0 * std::cos(turn), 40.0 * std::sin(turn),
+                            -20.0 + 5.0 * std::cos(0.1 * turn), -15.0 + 10.0 * std::sin(0.3 * turn),
+                            std::fmod(57.0 * turn, 360.0), 1200.0 + 100.0 * std::cos(turn)});
       std::fwrite(line.data(), 1, line.size(), out.get());
     }
-    fmt::print(out.get(), "M2\n");
+    fmt::print(out.get(), "{}", language.end);
   }
   FiveAxisFile(const FiveAxisFile&) = delete;
   FiveAxisFile& operator=(const FiveAxisFile&) = delete;
@@ -111,13 +162,48 @@ void five_axis_blocks(benchmark::State& state) {
 }
 BENCHMARK(five_axis_blocks)->Unit(benchmark::kMillisecond);
 
-// The same file as Fanuc's.
-void five_axis_blocks_of_fanuc(benchmark::State& state) {
-  const FiveAxisFile file(kBlocks);
-  for (auto _ : state) benchmark::DoNotOptimize(run(file.path(), Dialect::fanuc));
+// The same path in each language; the argument is its place in kLanguages.
+void blocks_of_a_language(benchmark::State& state) {
+  const Language& language = kLanguages.at(static_cast<std::size_t>(state.range(0)));
+  state.SetLabel(std::string(name_of(language.dialect)));
+  const FiveAxisFile file(kBlocks, language);
+  for (auto _ : state) {
+    if (run(file.path(), language.dialect) < kBlocks) {
+      return state.SkipWithError("the program does not run");
+    }
+  }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kBlocks));
 }
-BENCHMARK(five_axis_blocks_of_fanuc)->Unit(benchmark::kMillisecond);
+BENCHMARK(blocks_of_a_language)
+    ->Unit(benchmark::kMillisecond)
+    ->DenseRange(0, static_cast<int>(kLanguages.size()) - 1);
+
+// `frustum parse` beside `rs274`, each started as a program, by the shortest of five wall times.
+void programs_by_wall_time(benchmark::State& state) {
+  const FiveAxisFile file(kBlocks);
+  const auto seconds_of_program = [](const std::string& command) {
+    const auto start = std::chrono::steady_clock::now();
+    if (std::system(command.c_str()) != 0)
+      return std::numeric_limits<double>::quiet_NaN();  // NOLINT
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const std::string name = file.path().string();
+  const std::string ours = fmt::format("'{}' parse '{}' --quiet", FRUSTUM_PROGRAM, name);
+  const std::string peer = fmt::format("rs274 -g '{}' >/dev/null 2>&1", name);
+  const bool has_peer = std::system("command -v rs274 >/dev/null") == 0;  // NOLINT: one thread
+  double best = std::numeric_limits<double>::infinity();
+  double best_of_peer = best;
+  for (auto _ : state) {
+    best = std::min(best, seconds_of_program(ours));
+    if (has_peer) best_of_peer = std::min(best_of_peer, seconds_of_program(peer));
+  }
+  if (!std::isfinite(best)) return state.SkipWithError("the program does not run");
+  state.counters["ours_ms"] = 1e3 * best;
+  if (!has_peer) return state.SetLabel("rs274 is not installed: apt-get install linuxcnc-uspace");
+  state.counters["rs274_ms"] = 1e3 * best_of_peer;
+  state.counters["times_rs274"] = best_of_peer / best;
+}
+BENCHMARK(programs_by_wall_time)->Unit(benchmark::kMillisecond)->Iterations(5);
 
 // In a process of its own, so that the peak is that of the run.
 void memory_of_ten_million_blocks(benchmark::State& state) {
