@@ -49,6 +49,11 @@ constexpr std::array kSigns{
     Sign{Dialect::cldata, "GOTO /", Where::start},
     Sign{Dialect::cldata, "FROM/", Where::start},
     Sign{Dialect::cldata, "UNITS/", Where::start},
+    Sign{Dialect::cldata, "UNIT/", Where::start},
+    Sign{Dialect::cldata, "TLDATA/", Where::start},
+    Sign{Dialect::cldata, "LOAD/TOOL", Where::start},
+    Sign{Dialect::cldata, "CYCLE/", Where::start},
+    Sign{Dialect::cldata, "CUTCOM/", Where::start},
     Sign{Dialect::cldata, "MULTAX", Where::start},
     Sign{Dialect::cldata, "LOADTL", Where::start},
     Sign{Dialect::cldata, "FEDRAT", Where::start},
@@ -115,11 +120,12 @@ struct Extension {
   Dialect dialect;
 };
 constexpr std::array kExtensions{
-    Extension{".mpf", Dialect::sinumerik},   Extension{".spf", Dialect::sinumerik},
-    Extension{".h", Dialect::heidenhain},    Extension{".ngc", Dialect::linuxcnc},
-    Extension{".apt", Dialect::cldata},      Extension{".cl", Dialect::cldata},
-    Extension{".cls", Dialect::cldata},      Extension{".cldata", Dialect::cldata},
-    Extension{".aptsource", Dialect::cldata}};
+    Extension{".mpf", Dialect::sinumerik}, Extension{".spf", Dialect::sinumerik},
+    Extension{".h", Dialect::heidenhain},  Extension{".ngc", Dialect::linuxcnc},
+    Extension{".apt", Dialect::cldata},    Extension{".cl", Dialect::cldata},
+    Extension{".cls", Dialect::cldata},    Extension{".cldata", Dialect::cldata},
+    Extension{".clsf", Dialect::cldata},   Extension{".clt", Dialect::cldata},
+    Extension{".ncl", Dialect::cldata},    Extension{".aptsource", Dialect::cldata}};
 
 // Lines looked at; programs say early what they are.
 constexpr int kLines = 400;

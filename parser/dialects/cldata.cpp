@@ -11,6 +11,7 @@ using enum CodeGroup;
 
 constexpr LetterSet kCldataOffsetWord{"H"};
 constexpr LetterSet kCldataHoleWords{"ZRuvQPfrI"};
+constexpr LetterSet kCldataDeepHoleWords{"ZRuvQxPfrI"};
 constexpr std::array kCldataCodes{
     named("UNITS/MM", unit, LengthUnit::millimetre),
     named("UNITS/INCHES", unit, LengthUnit::inch),
@@ -30,6 +31,7 @@ constexpr std::array kCldataCodes{
     named("RAPID GODLTA", motion, MotionMode::traverse),
     named("CIRCLE-", motion, MotionMode::arc_clockwise),
     named("CIRCLE+", motion, MotionMode::arc_counterclockwise),
+    named("CIRCLE/", motion, MotionMode::arc_about_axis),
     named("plane XY", plane, Plane::xy),
     named("plane ZX", plane, Plane::zx),
     named("plane YZ", plane, Plane::yz),
@@ -41,6 +43,7 @@ constexpr std::array kCldataCodes{
     named("CYCLE/ON", hole_cycle, HoleWord::on),
     named("CYCLE/DRILL", hole_cycle, HoleWord::drill, kCldataHoleWords),
     named("CYCLE/DEEP", hole_cycle, HoleWord::peck, kCldataHoleWords),
+    named("CYCLE/DEEP2", hole_cycle, HoleWord::deep_pecks, kCldataDeepHoleWords),
     named("CYCLE/BRKCHP", hole_cycle, HoleWord::break_chip, kCldataHoleWords),
     named("CYCLE/TAP", hole_cycle, HoleWord::tap, kCldataHoleWords),
     named("CYCLE/BORE", hole_cycle, HoleWord::bore, kCldataHoleWords),
@@ -56,10 +59,8 @@ constexpr std::string_view kWherePartIs =
     "let the CAM system write the path where the part is, or set the work offset in the job";
 constexpr std::string_view kTiltByVector = "give tool vectors in GOTO after MULTAX/ON";
 constexpr std::array kCldataRefusedWords{
-    RefusedWord{"CUTCOM", kTipPath},
     RefusedWord{"SWITCH", kTipPath},
     RefusedWord{"TRANS", kWherePartIs},
-    RefusedWord{"ORIGIN", kWherePartIs},
     RefusedWord{"TRACUT", kWherePartIs},
     RefusedWord{"SCALE", kWherePartIs},
     RefusedWord{"ROTATE", kTiltByVector},

@@ -120,7 +120,13 @@ void report_comments(InterpreterState& state, const Block& block) {
     // A ; by itself ends a block.
     if (comment.to_line_end && comment.text.empty()) continue;
     if (comment.event != nullptr) {
-      emit(state, comment.column, Event{comment.event, comment.text});
+      if (comment.assumed) {
+        assume(state, comment.column, comment.event, comment.text);
+        continue;
+      }
+      emit(state, comment.column,
+           Event{comment.event, comment.text,
+                 comment.of_builder ? EventGrade::builder : EventGrade::known});
       continue;
     }
     Event event{"comment", comment.text};

@@ -9,6 +9,7 @@
 #include "parser/interpret/frames/feature_plane.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/frames/tilted_plane.hpp"
+#include "parser/interpret/frames/tool_compensation.hpp"
 #include "parser/interpret/movement_of_block.hpp"
 #include "parser/interpret/moves/arc_through_point.hpp"
 #include "parser/interpret/moves/move_words.hpp"
@@ -87,6 +88,7 @@ constexpr std::array kModalMoves{
     ModalMove{MotionMode::traverse, MotionMode::linear, move_straight},
     ModalMove{MotionMode::arc_clockwise, MotionMode::arc_tangential, move_along_arc},
     ModalMove{MotionMode::arc_through, MotionMode::arc_through, move_through_point},
+    ModalMove{MotionMode::arc_about_axis, MotionMode::arc_about_axis, move_about_axis},
     ModalMove{MotionMode::cubic_spline, MotionMode::nurbs_end, move_along_spline},
     ModalMove{MotionMode::thread, MotionMode::thread, move_along_thread},
     ModalMove{MotionMode::rigid_tap, MotionMode::rigid_tap, tap_rigidly},
@@ -118,6 +120,7 @@ Outcome make_move(InterpreterState& state, const BlockWords& words, const Moveme
     }
   }
   if (movement.motion == MotionMode::none) return Done{};
+  guide_uncalled_tool(state, movement.column);
   if (auto done = announce_rotary_paths(state, words, movement.column); !done) return done;
   if (movement.non_modal == NonModal::machine_coordinates) {
     return move_in_machine_coordinates(state, words, movement);

@@ -69,6 +69,10 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     case MotionMode::nurbs:
     case MotionMode::nurbs_end:
       return letters_of_spline(movement.motion);
+    case MotionMode::arc_about_axis: {
+      const LetterSet letters = kAxisWords | LetterSet("IJKPuvw");
+      return guides_tip(state, words) ? letters | LetterSet(state.rules.vector_letters) : letters;
+    }
     case MotionMode::arc_through:
     case MotionMode::arc_tangential: {
       LetterSet letters = kAxisWords;

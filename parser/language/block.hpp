@@ -13,7 +13,7 @@
 //   p q      radius and angle of a polar position (@ ^, PR PA)
 //   s        a tilted plane goes on within the last one
 //   k        an arc goes on in the direction of the move before it (CT)
-//   u v w    a second shift of a tilted plane, along its own axes
+//   u v w    a second shift of a tilted plane, along its own axes; the axis of an arc in space
 //   f r      the feed of a hole cycle, per minute and per revolution
 //   @        a word without a number (TRAORI, TOOL CALL): `number` is its row in the code table
 // Units: as written. Columns count bytes from 1. Comments are UTF-8 (Latin-1 text is converted).
@@ -73,6 +73,8 @@ struct Comment {
   std::string text{};
   // The statement that this is the text of, when it is known but not simulated: "BLK FORM".
   const char* event = nullptr;
+  bool of_builder = false;  // a word whose meaning is the builder's of the machine
+  bool assumed = false;     // not written: what the reader had to choose
 };
 
 struct Block {

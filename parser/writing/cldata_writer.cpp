@@ -23,23 +23,28 @@ struct CycleWord {
   char letter;
   std::string_view written;
 };
-constexpr std::array kCycleWords{
-    CycleWord{'Z', "FEDTO"},  CycleWord{'R', "RAPTO"},  CycleWord{'u', "CLEAR"},
-    CycleWord{'f', "PERMIN"}, CycleWord{'r', "PERREV"}, CycleWord{'I', "RTRCTO,AUTO"},
-    CycleWord{'v', "RTRCTO"}, CycleWord{'Q', "STEP"},   CycleWord{'P', "DWELL"}};
+constexpr std::array kCycleWords{CycleWord{'Z', "FEDTO"},   CycleWord{'R', "RAPTO"},
+                                 CycleWord{'u', "CLEAR"},   CycleWord{'f', "PERMIN"},
+                                 CycleWord{'r', "PERREV"},  CycleWord{'I', "RTRCTO,AUTO"},
+                                 CycleWord{'v', "RTRCTO"},  CycleWord{'Q', "STEP"},
+                                 CycleWord{'x', "SUBPECK"}, CycleWord{'P', "DWELL"}};
 
 // What records are written by: the unit, whether TLAXIS was given, the last place.
 struct Pen {
   bool inches = false;
   bool tool_axis = false;
   std::optional<Vec3> at{};
+  std::string vector{};  // the last one written
 };
 
 class RecordWriter {
  public:
   RecordWriter(const Block& block, Pen& pen) : block_(block), pen_(pen) {
+    // Beside a move, what its reader has added to it is not written.
     for (const Word& word : block.words) {
-      if (name_.empty()) name_ = named_word(word);
+      const std::string_view name = named_word(word);
+      const bool added = name_ == "MULTAX/ON" || (name_.starts_with("FEDRAT/") && !name.empty());
+      if (name_.empty() || (added && !name.empty())) name_ = name;
     }
   }
 
@@ -47,8 +52,9 @@ class RecordWriter {
     std::string text = label() + record();
     // Behind a record, what it said that is not simulated.
     for (const Comment& comment : block_.comments) {
-      if (comment.event == nullptr || is_label(comment)) continue;
-      if (std::string_view(comment.event) == "TLAXIS") pen_.tool_axis = true;
+      if (comment.event == nullptr || comment.assumed || is_label(comment)) continue;
+      const std::string_view event = comment.event;
+      if (event == "TLAXIS" || event == "CSYS") pen_.tool_axis = true;
       text += name_.empty() ? event_text(comment) : "," + comment.text;
     }
     for (const Comment& comment : block_.comments) {
@@ -64,6 +70,7 @@ class RecordWriter {
   static std::string event_text(const Comment& comment) {
     const std::string_view event = comment.event;
     if (event == "END-OF-PATH") return "END" + comment.text;
+    if (event == "post word") return comment.text;
     return fmt::format("{}/{}", event == "message" ? "PPRINT" : event, comment.text);
   }
 
@@ -83,6 +90,7 @@ class RecordWriter {
       return arc + "\nGOTO/" + take_position();
     }
     if (name_.starts_with("UNITS/")) take_unit();
+    if (name_ == "MULTAX/OFF") pen_.vector.clear();
     if (name_ == "GOHOME") pen_.at.reset();
     if (name_.starts_with("FEDRAT")) {
       return fmt::format("FEDRAT/{},{}", numbers("F"),
@@ -123,8 +131,12 @@ class RecordWriter {
 
   [[nodiscard]] std::string take_position() {
     pen_.at = point();
-    // Without a vector of its own the place would have that of TLAXIS.
-    return numbers("XYZabc") + (pen_.tool_axis && !has('c') ? ",0,0,1" : "");
+    if (has('c')) pen_.vector = numbers("abc");
+    if (has('c') || !pen_.tool_axis) return numbers("XYZabc");
+    // Without a vector of its own the place would have that of TLAXIS. On an arc the tool stays as
+    // it is; elsewhere it is upright.
+    const bool stays = name_.starts_with("CIRCLE") && !pen_.vector.empty();
+    return numbers("XYZ") + "," + (stays ? pen_.vector : "0,0,1");
   }
   // Steps of zero are no words.
   [[nodiscard]] std::string take_step() {
@@ -138,37 +150,35 @@ class RecordWriter {
     pen_.inches = inches;
   }
 
-  // Its centre has words in the plane alone, so that the axis is the letter without one. The angle
-  // tells full turns from none.
+  // In a plane its centre has words there alone, so that the axis is the letter without one; in
+  // space u v w are the axis. The angle tells full turns from none.
   [[nodiscard]] std::string circle() const {
-    const bool counterclockwise = name_ == "CIRCLE+";
     constexpr std::string_view kCentre = "IJK";
-    std::array<double, 3> centre{};
-    std::array<int, 3> axis{};
-    for (std::size_t i = 0; i < centre.size(); ++i) {
-      centre.at(i) = number(kCentre[i]);
-      if (!has(kCentre[i])) axis.at(i) = counterclockwise ? 1 : -1;
+    Vec3 centre = Vec3::Zero();
+    Vec3 axis{number('u'), number('v'), number('w')};
+    for (std::size_t i = 0; i < kCentre.size(); ++i) {
+      const auto slot = static_cast<Eigen::Index>(i);
+      centre[slot] = number(kCentre[i]);
+      if (!has(kCentre[i])) axis[slot] = name_ == "CIRCLE+" ? 1.0 : -1.0;
     }
-    return fmt::format("MOVARC/{},{},{},{},0,ANGLE,{}", shortest_decimal(centre[0]),
-                       shortest_decimal(centre[1]), shortest_decimal(centre[2]),
-                       fmt::join(axis, ","),
-                       shortest_decimal(kDegreesPerTurn * turns(counterclockwise)));
+    const auto list = [](const Vec3& v) {
+      return fmt::format("{},{},{}", shortest_decimal(v[0]), shortest_decimal(v[1]),
+                         shortest_decimal(v[2]));
+    };
+    return fmt::format("MOVARC/{},{},0,ANGLE,{}", list(centre), list(axis),
+                       shortest_decimal(kDegreesPerTurn * turns(centre, axis)));
   }
 
   // Full turns of the arc, the last one from the angle between its ends.
-  [[nodiscard]] double turns(bool counterclockwise) const {
+  [[nodiscard]] double turns(const Vec3& centre, const Vec3& axis) const {
     if (!pen_.at) return 1.0;
-    std::array<int, 2> plane{0, 1};
-    if (!has('I')) plane = {1, 2};
-    if (!has('J')) plane = {2, 0};
-    const auto arm = [&](const Vec3& place) {
-      return Eigen::Vector2d(place[plane[0]] - number("IJK"[plane[0]]),
-                             place[plane[1]] - number("IJK"[plane[1]]));
+    const auto arm = [&](const Vec3& place) -> Vec3 {
+      const Vec3 from_centre = place - centre;
+      return from_centre - axis * from_centre.dot(axis);
     };
-    const Eigen::Vector2d from = arm(*pen_.at);
-    const Eigen::Vector2d to = arm(point());
-    const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-    double part = (counterclockwise ? angle : -angle) / (2.0 * std::numbers::pi);
+    const Vec3 from = arm(*pen_.at);
+    const Vec3 to = arm(point());
+    double part = std::atan2(axis.dot(from.cross(to)), from.dot(to)) / (2.0 * std::numbers::pi);
     if (part <= kNoTurn) part += 1.0;
     return part + (has('P') ? number('P') - 1.0 : 0.0);
   }

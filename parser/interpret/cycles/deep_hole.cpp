@@ -12,6 +12,11 @@ using enum CycleAction;
 // Of the depth: what is left below a peck is no peck of its own when it is rounding.
 constexpr double kDepthRounding = 1e-12;
 
+double peck_after(const DeepHole& hole, double peck) {
+  if (hole.others) return *hole.others;
+  return std::max(peck - hole.decrement, std::min(hole.least, peck));
+}
+
 // The depths that the pecks end at.
 std::vector<double> ends_of(const DeepHole& hole) {
   std::vector<double> ends;
@@ -19,7 +24,7 @@ std::vector<double> ends_of(const DeepHole& hole) {
   const double most = hole.depth * (1.0 - kDepthRounding);
   for (double end = peck; peck > 0.0 && end < most; end += peck) {
     ends.push_back(end);
-    peck = std::max(peck - hole.decrement, std::min(hole.least, peck));
+    peck = peck_after(hole, peck);
   }
   ends.push_back(hole.depth);
   return ends;
@@ -33,7 +38,7 @@ double peck_count(const DeepHole& hole) {
   double end = peck;
   while (peck > 0.0 && end < hole.depth && count <= kMostPecks) {
     count += 1.0;
-    peck = std::max(peck - hole.decrement, std::min(hole.least, peck));
+    peck = peck_after(hole, peck);
     end += peck;
   }
   const bool vanish = hole.first > 0.0 && peck <= 0.0 && end < hole.depth;

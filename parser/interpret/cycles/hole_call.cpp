@@ -52,7 +52,7 @@ std::optional<Vec3> point_of_hole(const AxisTarget& target) {
 }
 
 Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord word) {
-  for (const char letter : std::string_view("QDLHEgh")) {
+  for (const char letter : std::string_view("QDLHEghx")) {
     if (words[letter].value >= 0.0) continue;
     return fail(state, words[letter].column, "value-negative"_id,
                 fmt::format("{} is negative", words.text_of(letter)),
@@ -67,6 +67,7 @@ Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord
   hole.first = length('Q', 0.0);
   hole.decrement = length('D', 0.0);
   hole.least = length('L', 0.0);
+  if (words.has('x')) hole.others = length('x', 0.0);
   hole.chip = length('H', hole.chip);
   hole.break_each = length('E', 0.0);
   hole.dwell = cycle.dwell;

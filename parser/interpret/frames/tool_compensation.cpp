@@ -232,6 +232,16 @@ Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
   return Done{};
 }
 
+void guide_uncalled_tool(InterpreterState& state, std::uint32_t column) {
+  Compensation& compensation = state.modes.compensation;
+  const bool missing = compensation.tip && !compensation.length;
+  if (!missing || state.rules.dialect != Dialect::cldata) return;
+  assume(state, column, "LOADTL",
+         "no tool is called before the tool tilts: the one that the job has");
+  compensation.length = true;
+  emit(state, column, compensation_change(compensation));
+}
+
 CompensationChange compensation_change(const Compensation& compensation) {
   return {compensation.length ? compensation.mode() : LengthCompensation::off,
           compensation.tool_vectors && compensation.length, compensation.offset_number,

@@ -19,6 +19,8 @@ namespace frustum::parser {
 [[nodiscard]] Outcome change_compensation(InterpreterState& state, const BlockWords& words,
                                           const Compensation& next);
 [[nodiscard]] Outcome set_compensation(InterpreterState& state, const BlockWords& words);
+// CLDATA without a tool call: places are those of the tip, whatever the tool.
+void guide_uncalled_tool(InterpreterState& state, std::uint32_t column);
 
 // What the machine is to do: guiding the tip begins when the length is known.
 [[nodiscard]] CompensationChange compensation_change(const Compensation& compensation);

@@ -78,10 +78,17 @@ Result<Vec3> point_between(const InterpreterState& state, const BlockWords& word
   return point;
 }
 
-// `turn` is the axis times the angle; rotary axes share it evenly.
+// An arc about an axis, which climbs along it where it is a helix.
+struct Turn {
+  Vec3 centre;
+  Vec3 arm;     // from there to the start
+  Vec3 normal;  // counterclockwise about it
+  double angle;
+  double rise = 0.0;
+};
+
 Outcome cut_into_chords(InterpreterState& state, const BlockWords& words, const Movement& movement,
-                        const AxisTarget& before, const Vec3& arm, const Vec3& centre,
-                        const Vec3& turn, Feed feed) {
+                        const AxisTarget& before, const Turn& turn, Feed feed) {
   LetterSet turning = kRotaryWords;
   if (state.modes.compensation.tip) turning = turning | LetterSet(state.rules.vector_letters);
   if (const char letter = words.first_of(turning); letter != 0) {
@@ -89,8 +96,8 @@ Outcome cut_into_chords(InterpreterState& state, const BlockWords& words, const 
                 fmt::format("{} beside an arc in space", words.text_of(letter)),
                 "turn the tool in a block of its own, or write the arc as short G1 blocks");
   }
-  const double angle = turn.norm();
-  const double radius = arm.norm();
+  const double angle = turn.angle;
+  const double radius = turn.arm.norm();
   const double step = 4.0 * std::asin(std::sqrt(std::min(kSagitta / (2.0 * radius), 1.0)));
   const double count = std::max(std::ceil(angle / step), 1.0);
   if (!(count <= kMostChords)) {
@@ -99,14 +106,16 @@ Outcome cut_into_chords(InterpreterState& state, const BlockWords& words, const 
                 "check the point between; write an arc that is nearly straight as G1");
   }
   emit(state, movement.column,
-       Event{"CIP", fmt::format("an arc in space as {} lines within {} mm", count, kSagitta)});
+       Event{movement.motion == MotionMode::arc_through ? "CIP" : "CIRCLE",
+             fmt::format("an arc in space as {} lines within {} mm", count, kSagitta)});
   if (feed.mode == FeedMode::inverse_time) feed.value *= count;
-  const Vec3 normal = turn / angle;
   const AxisTarget end = end_of(state, words);
   AxisTarget target = before;
   for (double i = 1.0; i < count; i += 1.0) {
     const double part = angle * i / count;
-    const Vec3 point = centre + std::cos(part) * arm + std::sin(part) * normal.cross(arm);
+    const Vec3 point = turn.centre + std::cos(part) * turn.arm +
+                       std::sin(part) * turn.normal.cross(turn.arm) +
+                       turn.normal * (turn.rise * i / count);
     for (const AxisLetter axis : kLinearAxes) target[axis] = point[static_cast<Eigen::Index>(axis)];
     emit(state, movement.column,
          LinearFeed{target, state.modes.tool_axis, Coordinates::program, feed});
@@ -172,8 +181,54 @@ Outcome move_through_point(InterpreterState& state, const BlockWords& words,
                  state.modes.tool_axis, *feed});
     return Done{};
   }
-  return cut_into_chords(state, words, movement, before, start - arc.centre, arc.centre,
-                         arc.normal * arc.angle, *feed);
+  return cut_into_chords(state, words, movement, before,
+                         {arc.centre, start - arc.centre, arc.normal, arc.angle}, *feed);
+}
+
+Outcome move_about_axis(InterpreterState& state, const BlockWords& words,
+                        const Movement& movement) {
+  constexpr double kSameRadius = 0.01;  // mm: CAM systems write three decimals
+  constexpr double kNoTurn = 1e-6;      // rad
+  const AxisTarget before = end_of(state, words);
+  Vec3 start = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();
+  Vec3 axis = Vec3::Zero();
+  for (const AxisLetter letter : kLinearAxes) {
+    const auto slot = static_cast<Eigen::Index>(letter);
+    if (!state.position[letter]) {
+      return fail(
+          state, movement.column, state.position.unknown_id(letter),
+          fmt::format("the start of the arc is not known: {}", state.position.why_unknown(letter)),
+          "move to the start before");
+    }
+    start[slot] = *state.position[letter];
+    centre[slot] = words["IJK"[slot]].value * unit_scale(state);
+    axis[slot] = words[kBetween[static_cast<std::size_t>(slot)]].value;
+  }
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = set_targets(state, words); !done) return done;
+  if (auto done = set_tool_axis(state, words); !done) return done;
+  Vec3 end = start;
+  for (const AxisLetter letter : kLinearAxes) {
+    end[static_cast<Eigen::Index>(letter)] = *state.position[letter];
+  }
+  const double height = (start - centre).dot(axis);
+  const Vec3 from = start - centre - axis * height;
+  const double rise = (end - start).dot(axis);
+  const Vec3 to = end - centre - axis * (height + rise);
+  if (!(std::abs(from.norm() - to.norm()) <= kSameRadius) || !(from.norm() > 0.0)) {
+    return fail(state, movement.column, "arc-radius"_id,
+                fmt::format("the arc begins {:.6g} mm from its axis and ends {:.6g} mm from it",
+                            from.norm(), to.norm()),
+                "correct the centre or the end");
+  }
+  double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
+  if (angle <= kNoTurn) angle += 2.0 * std::numbers::pi;
+  if (words.has('P')) angle += 2.0 * std::numbers::pi * (words['P'].value - 1.0);
+  const auto feed = feed_for(state, words, movement, true);
+  if (!feed) return feed.error();
+  return cut_into_chords(state, words, movement, before,
+                         {centre + axis * height, from, axis, angle, rise}, *feed);
 }
 
 }  // namespace frustum::parser

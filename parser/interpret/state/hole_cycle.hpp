@@ -6,7 +6,8 @@
 // seconds, f or r the feed. Of Klartext: z the depth, below zero; V the height of the top; Q counts
 // from the top; w the dwell above; W the feed out. Of 203 and 205: D how much a peck is less than
 // the one before, L the least peck, H how far a chip is broken, K how often before the hole is
-// cleared, E how deep each time, g and h the stops above the last depth.
+// cleared, E how deep each time, g and h the stops above the last depth; of DEEP2: x each peck after
+// the first.
 // Units : mm along the axis of the hole, from its top; seconds
 // Errors: none
 #pragma once
@@ -21,10 +22,11 @@ namespace frustum::parser {
 
 // Pecks that shrink from one to the next: what follows from them is in cycles/deep_hole.hpp.
 struct DeepHole {
-  double depth = 0.0;       // below the top
-  double first = 0.0;       // Q202; 0: one peck
-  double decrement = 0.0;   // Q212
-  double least = 0.0;       // Q205
+  double depth = 0.0;              // below the top
+  double first = 0.0;              // Q202; 0: one peck
+  double decrement = 0.0;          // Q212
+  double least = 0.0;              // Q205
+  std::optional<double> others{};  // each peck after the first; then no decrement
   int breaks = 0;           // Q213 of 203: so many pecks break the chip before one clears the hole
   double break_each = 0.0;  // Q257 of 205: so deep the chip is broken, within a peck
   double chip = 0.2;        // Q256

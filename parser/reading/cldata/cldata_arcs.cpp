@@ -17,61 +17,60 @@ namespace {
 // CAM systems write four to six decimals.
 constexpr double kSamePlace = 0.01;    // mm
 constexpr double kAlongAnAxis = 1e-5;  // of a unit vector
+constexpr double kUnitLength = 1e-3;   // of an axis, written with few decimals
 constexpr double kSameTurns = 0.02;    // of TIMES, PITCH or ANGLE and of the end
 constexpr double kNoTurn = 1e-6;       // full turns: rounding of the points
 constexpr const char* kCircleRemedy = "give the centre x,y,z, the axis i,j,k and the radius";
 
-// The axes of a plane and its normal: 0 X, 1 Y, 2 Z, a right-handed triple.
-struct Axes {
-  int u;
-  int v;
-  int w;
-};
-Axes axes_of(Plane plane) {
-  const int normal = 2 - static_cast<int>(plane);
-  return {(normal + 1) % 3, (normal + 2) % 3, normal};
-}
-
-struct InPlane {
-  double u;
-  double v;
-};
-InPlane in_plane(const Vec3& from, const Vec3& to, Plane plane) {
-  const Axes axes = axes_of(plane);
-  return {to[axes.u] - from[axes.u], to[axes.v] - from[axes.v]};
+// A unit vector along X, Y or Z.
+std::optional<Eigen::Index> axis_along(const Vec3& axis) {
+  Eigen::Index along = 0;
+  if (axis.cwiseAbs().maxCoeff(&along) != 1.0) return std::nullopt;
+  return along;
 }
 
 }  // namespace
 
-double CldataArcs::Circle::distance(const Vec3& point) const {
-  const InPlane arm = in_plane(centre, point, plane);
-  return std::hypot(arm.u, arm.v);
+std::optional<Plane> CldataArc::plane() const {
+  const auto along = axis_along(axis);
+  if (!along) return std::nullopt;
+  return *along == 2 ? Plane::xy : *along == 1 ? Plane::zx : Plane::yz;
+}
+
+const char* CldataArc::code() const {
+  if (!plane()) return "CIRCLE/";
+  return axis.sum() > 0.0 ? "CIRCLE+" : "CIRCLE-";
+}
+
+Vec3 CldataArcs::Circle::arm(const Vec3& point) const {
+  const Vec3 from_centre = point - centre;
+  return from_centre - axis * from_centre.dot(axis);
 }
 
 double CldataArcs::Circle::turn(const Vec3& from, const Vec3& to) const {
-  const InPlane a = in_plane(centre, from, plane);
-  const InPlane b = in_plane(centre, to, plane);
-  const double angle = std::atan2(a.u * b.v - a.v * b.u, a.u * b.u + a.v * b.v);
-  const double turns = (counterclockwise ? angle : -angle) / (2.0 * std::numbers::pi);
+  const Vec3 a = arm(from);
+  const Vec3 b = arm(to);
+  const double turns = std::atan2(axis.dot(a.cross(b)), a.dot(b)) / (2.0 * std::numbers::pi);
   return turns > kNoTurn ? turns : turns + 1.0;
 }
 
 bool CldataArcs::set_axis(LineScanner& in, Circle& circle, const Vec3& axis, std::uint32_t column) {
-  Eigen::Index along = 0;
-  axis.cwiseAbs().maxCoeff(&along);
-  if (std::abs(std::abs(axis[along]) - 1.0) > kAlongAnAxis ||
-      std::abs(axis.norm() - 1.0) > kAlongAnAxis) {
-    in.fail("arc-plane"_id, column, "the circle is not in a plane of X, Y, Z",
-            "give an axis i,j,k along X, Y or Z, or write the arc as GOTO records");
+  if (!(std::abs(axis.norm() - 1.0) <= kUnitLength)) {
+    in.fail("arc-plane"_id, column, "the axis of the circle is no direction",
+            "give an axis i,j,k of length 1");
     return false;
   }
-  circle.plane = along == 2 ? Plane::xy : along == 1 ? Plane::zx : Plane::yz;
-  circle.counterclockwise = axis[along] > 0.0;
+  Eigen::Index along = 0;
+  axis.cwiseAbs().maxCoeff(&along);
+  const bool in_plane = std::abs(std::abs(axis[along]) - 1.0) <= kAlongAnAxis;
+  circle.axis = in_plane ? Vec3(Vec3::Unit(along) * (axis[along] > 0.0 ? 1.0 : -1.0))
+                         : Vec3(axis.normalized());
   return true;
 }
 
 void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_t line) {
   constexpr std::size_t kCircleNumbers = 7;
+  constexpr std::size_t kWithoutRadius = 6;
   constexpr std::size_t kMostNumbers =
       11;  // tolerance, fraction, diameter and corner of the cutter
   constexpr std::array kCounts{"TIMES", "PITCH", "ANGLE"};
@@ -81,7 +80,10 @@ void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_
   const auto numbers = static_cast<std::size_t>(word - given.begin());
   Circle circle;
   circle.line = line;
-  if (word != given.end()) {
+  const bool clockwise = word != given.end() && (word->word == "CLOCKWISE" || word->word == "CLW");
+  const bool sense = clockwise || (word != given.end() &&
+                                   (word->word == "COUNTERCLOCKWISE" || word->word == "CCLW"));
+  if (word != given.end() && !(sense && word + 1 == given.end())) {
     const auto* known = std::find(kCounts.begin(), kCounts.end(), word->word);
     if (known == kCounts.end()) {
       return in.fail("unknown-word"_id, word->column,
@@ -97,16 +99,16 @@ void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_
     circle.value = given.back().number;
     circle.column = word->column;
   }
-  if (numbers < kCircleNumbers || numbers > kMostNumbers) {
+  if (numbers < kWithoutRadius || numbers > kMostNumbers) {
     return in.fail("argument-count"_id, record.column,
                    fmt::format("{} with {} numbers", record.word, numbers), kCircleRemedy);
   }
   circle.centre = record.point();
-  circle.radius = given[6].number;
   if (!set_axis(in, circle, record.point(3), given[3].column)) return;
+  if (clockwise) circle.axis = -circle.axis;
   const bool helix = circle.value > 0.0;
   const bool nx = numbers > kCircleNumbers + 1;
-  circle.one_move = helix || nx || record.word == "MOVARC";
+  circle.one_move = helix || nx || sense || numbers == kWithoutRadius || record.word == "MOVARC";
   circle.closes = helix || !nx;
   circle_ = circle;
 }
@@ -122,18 +124,22 @@ std::optional<std::uint32_t> CldataArcs::waits_since() const {
 }
 
 // The started turns, when what the record says and where the move ends agree.
-std::optional<int> CldataArcs::turns_of(LineScanner& in, const Circle& circle,
-                                        const CldataRecord& record, double turn, double height) {
+std::optional<int> CldataArcs::turns_of(LineScanner& in, const Circle& circle, std::uint32_t column,
+                                        double turn, double height) {
   constexpr double kMostTurns = 10'000.0;
   constexpr double kDegreesOfATurn = 360.0;
   if (circle.value == 0.0) return 1;
   const std::string_view word = circle.word;
+  // NX counts the turns that are started.
+  if (word == "TIMES" && circle.value == std::floor(circle.value) && circle.value <= kMostTurns) {
+    return static_cast<int>(circle.value);
+  }
   const double said = word == "TIMES"   ? circle.value
                       : word == "PITCH" ? std::abs(height) / circle.value
                                         : circle.value / kDegreesOfATurn;
   const double full = std::round(said - turn);
   if (!(full >= 0.0 && full <= kMostTurns && std::abs(said - turn - full) <= kSameTurns)) {
-    in.fail("arc-turns"_id, record.column,
+    in.fail("arc-turns"_id, column,
             fmt::format("the arc makes {:.4g} turns by {}, but its end is {:.4g} of a turn away",
                         said, word, turn),
             fmt::format("correct {} on line {}, or the end", word, circle.line));
@@ -142,34 +148,32 @@ std::optional<int> CldataArcs::turns_of(LineScanner& in, const Circle& circle,
   return static_cast<int>(full) + 1;
 }
 
-std::optional<CldataArc> CldataArcs::to(LineScanner& in, const CldataRecord& record,
+std::optional<CldataArc> CldataArcs::to(LineScanner& in, const Vec3& end, std::uint32_t column,
                                         const std::optional<Vec3>& at, bool inches) {
   if (!circle_) return std::nullopt;
-  const Vec3 end = record.point();
-  const int normal = axes_of(circle_->plane).w;
-  CldataArc arc{circle_->centre, end, circle_->plane, circle_->counterclockwise, 1};
+  CldataArc arc{circle_->centre, end, circle_->axis, 1};
   if (!at) {  // the interpreter says so
     circle_.reset();
     return arc;
   }
   const double tolerance = kSamePlace / (inches ? kMmPerInch : 1.0);
   const double turn = circle_->turn(*at, end);
-  const double height = end[normal] - (*at)[normal];
+  const double height = (end - *at).dot(circle_->axis);
   const bool flat = std::abs(height) <= tolerance;
+  const Vec3 from = circle_->arm(*at);
+  const Vec3 to = circle_->arm(end);
   if (circle_->begun) {
-    const bool on = std::abs(circle_->distance(end) - circle_->distance(*at)) <= tolerance;
-    const bool stays =
-        in_plane(*at, end, circle_->plane).u == 0.0 && in_plane(*at, end, circle_->plane).v == 0.0;
-    if (!on || stays || flat != circle_->flat || circle_->turned + turn > 1.0 + kNoTurn) {
+    const bool on = std::abs(to.norm() - from.norm()) <= tolerance;
+    if (!on || to == from || flat != circle_->flat || circle_->turned + turn > 1.0 + kNoTurn) {
       circle_.reset();
       return std::nullopt;
     }
   } else if (turn > 1.0 - kNoTurn && !circle_->closes) {
-    in.fail("arc-turns"_id, record.column, "the arc ends where it starts: a full turn, or none?",
+    in.fail("arc-turns"_id, column, "the arc ends where it starts: a full turn, or none?",
             fmt::format("add TIMES,1 to the CIRCLE on line {}, or leave it out", circle_->line));
     return std::nullopt;
   }
-  const auto turns = turns_of(in, *circle_, record, turn, height);
+  const auto turns = turns_of(in, *circle_, column, turn, height);
   if (!turns) return std::nullopt;
   arc.turns = *turns;
   circle_->begun = true;
@@ -211,7 +215,12 @@ std::optional<CldataArcs::Circle> CldataArcs::read_circle(LineScanner& in) {
   Circle circle;
   circle.centre = shape.point();
   circle.radius = shape.arguments.back().number;
-  if (!flat && !set_axis(in, circle, shape.point(3), shape.arguments[3].column)) {
+  if (flat) return circle;
+  const std::uint32_t column = shape.arguments[3].column;
+  if (!set_axis(in, circle, shape.point(3), column)) return std::nullopt;
+  if (!axis_along(circle.axis)) {
+    in.fail("arc-plane"_id, column, "the circle is not in a plane of X, Y, Z",
+            "give an axis i,j,k along X, Y or Z, or write the arc as GOTO records");
     return std::nullopt;
   }
   return circle;
@@ -251,14 +260,14 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
     return std::nullopt;
   }
 
-  const Axes axes = axes_of(circle.plane);
+  const Eigen::Index w = axis_along(circle.axis).value_or(2);
   Vec3 foot = shape.point();  // a point of the line, then the one nearest to the centre
-  Vec3 way = line ? Vec3(shape.point(3) - foot) : Vec3(Vec3::Unit(axes.w).cross(foot));
-  if (line && circle.distance(foot) < kSamePlace &&
-      std::abs(circle.distance(shape.point(3)) - circle.radius) < kSamePlace) {
+  Vec3 way = line ? Vec3(shape.point(3) - foot) : Vec3(Vec3::Unit(w).cross(foot));
+  if (line && circle.arm(foot).norm() < kSamePlace &&
+      std::abs(circle.arm(shape.point(3)).norm() - circle.radius) < kSamePlace) {
     return shape.point(3);
   }
-  way[axes.w] = 0.0;
+  way[w] = 0.0;
   if (way.norm() == 0.0) {
     in.fail("arc-end"_id, shape.column, fmt::format("{} does not cross the circle", shape.word),
             kRemedy);
@@ -267,12 +276,12 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
   way.normalize();
   if (!line) {
     const Vec3 normal = foot;
-    const double slope = normal[axes.u] * normal[axes.u] + normal[axes.v] * normal[axes.v];
-    const double level = shape.arguments[3].number - normal[axes.w] * at[axes.w];
+    const double slope = normal.squaredNorm() - normal[w] * normal[w];
+    const double level = shape.arguments[3].number - normal[w] * at[w];
     foot = normal * (level / slope);
   }
   Vec3 arm = foot - circle.centre;
-  arm[axes.w] = 0.0;
+  arm[w] = 0.0;
   arm -= way * arm.dot(way);
   const double half = circle.radius * circle.radius - arm.squaredNorm();
   if (!(half >= 0.0)) {
@@ -284,7 +293,7 @@ std::optional<Vec3> CldataArcs::read_end(LineScanner& in, const Circle& circle, 
                            circle.centre + arm - way * std::sqrt(half)};
   if (circle.turn(at, ends[0]) > circle.turn(at, ends[1])) std::swap(ends[0], ends[1]);
   Vec3 end = ends.at(which - 1);
-  end[axes.w] = at[axes.w];
+  end[w] = at[w];
   if (!end.allFinite()) {
     in.fail("arc-end"_id, shape.column, "the end of the arc is too far away", kRemedy);
     return std::nullopt;
@@ -313,28 +322,34 @@ std::optional<CldataArc> CldataArcs::along_line(LineScanner& in, std::uint32_t c
   }
   const Vec3 along = direction_->is_point ? Vec3(direction_->vector - *at) : direction_->vector;
   direction_.reset();
-  const InPlane arm = in_plane(circle->centre, *at, circle->plane);
-  const InPlane way = in_plane(Vec3::Zero(), along, circle->plane);
-  const double sense = arm.u * way.v - arm.v * way.u;
+  const double sense = circle->axis.dot(circle->arm(*at).cross(along));
   if (sense == 0.0) {
     in.fail("arc-incomplete"_id, column, "the direction does not lead along the circle",
             "give INDIRV/i,j,k along the circle at its start");
     return std::nullopt;
   }
-  circle->counterclockwise = sense > 0.0;
+  if (sense < 0.0) circle->axis = -circle->axis;
   const auto end = read_end(in, *circle, *at);
   if (!end) return std::nullopt;
-  return CldataArc{circle->centre, *end, circle->plane, circle->counterclockwise, 1};
+  return CldataArc{circle->centre, *end, circle->axis, 1};
 }
 
 void add_arc(Block& block, const CldataArc& arc, std::uint32_t column) {
   constexpr std::array kPlanes{"plane XY", "plane ZX", "plane YZ"};
-  add_code(block, *find_code(Dialect::cldata, kPlanes.at(static_cast<std::size_t>(arc.plane))),
-           column);
-  const Axes axes = axes_of(arc.plane);
-  for (const int axis : {axes.u, axes.v}) {
+  const auto plane = arc.plane();
+  if (plane) {
+    add_code(block, *find_code(Dialect::cldata, kPlanes.at(static_cast<std::size_t>(*plane))),
+             column);
+  }
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (arc.axis[axis] != 0.0 && plane) continue;
     add_number(block, "IJK"[axis], arc.centre[axis], column);
     block.words.back().measure = Measure::absolute;
+  }
+  if (!plane) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      add_number(block, "uvw"[axis], arc.axis[axis], column);
+    }
   }
   if (arc.turns > 1) add_number(block, 'P', arc.turns, column);
 }

@@ -1,17 +1,18 @@
 // Arcs of APT CLDATA, which are spread over records.
 //
 //   CIRCLE/x,y,z,i,j,k,r and the GOTO records after it, as long as they go on along the circle.
-//                           With more numbers (tolerances and the cutter, as NX writes them) one
-//                           GOTO; TIMES,n or PITCH,p: a helix
+//                           Without radius (SolidWorks CAM) or with more numbers (tolerances and
+//                           the cutter, as NX writes them) one GOTO; TIMES,n or PITCH,p: a helix;
+//                           CLOCKWISE: against i,j,k
 //   MOVARC/x,y,z,i,j,k,r,ANGLE,a    one GOTO, `a` degrees further
 //   INDIRV/i,j,k            the direction at the start; INDIRP/x,y,z: towards a point; then
 //   TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z) up to where the line or plane meets the
 //                           circle; ON,2,INTOF: to the second place; a line from the centre to the
 //                           circle: to its end
 //
-// The tool turns counterclockwise about i,j,k, which is along X, Y or Z.
+// The tool turns counterclockwise about i,j,k.
 // Units : those of the file, degrees
-// Errors: by LineScanner::fail: numbers that are missing, a circle in no plane of the axes, one
+// Errors: by LineScanner::fail: numbers that are missing, an axis without length, a circle
 //         that does not lead to its GOTO, turns that disagree with the end, no start or direction
 #pragma once
 
@@ -26,9 +27,13 @@ namespace frustum::parser {
 struct CldataArc {
   Vec3 centre = Vec3::Zero();
   Vec3 end = Vec3::Zero();
-  Plane plane = Plane::xy;
-  bool counterclockwise = true;
+  Vec3 axis = Vec3::UnitZ();
   int turns = 1;
+
+  // The plane of X, Y and Z that it is in.
+  [[nodiscard]] std::optional<Plane> plane() const;
+  // The motion's word: "CIRCLE+" in a plane, else "CIRCLE/".
+  [[nodiscard]] const char* code() const;
 };
 
 class CldataArcs {
@@ -41,8 +46,8 @@ class CldataArcs {
   [[nodiscard]] std::optional<std::uint32_t> waits_since() const;
   // What is no GOTO ends a circle.
   void close() { circle_.reset(); }
-  // The arc from `at` to the point that a GOTO names; none when that move is straight.
-  [[nodiscard]] std::optional<CldataArc> to(LineScanner& in, const CldataRecord& record,
+  // The arc from `at` to the point that a GOTO at `column` names; none when that move is straight.
+  [[nodiscard]] std::optional<CldataArc> to(LineScanner& in, const Vec3& end, std::uint32_t column,
                                             const std::optional<Vec3>& at, bool inches);
   // Behind TLON.
   [[nodiscard]] std::optional<CldataArc> along_line(LineScanner& in, std::uint32_t column,
@@ -53,8 +58,7 @@ class CldataArcs {
     std::uint32_t line = 0;
     Vec3 centre = Vec3::Zero();
     double radius = 0.0;
-    Plane plane = Plane::xy;
-    bool counterclockwise = true;
+    Vec3 axis = Vec3::UnitZ();
     bool one_move = false;  // only the next GOTO belongs to it
     bool closes = true;     // a GOTO to its start is a full turn
     const char* word = "";  // TIMES, PITCH or ANGLE, with its number
@@ -64,7 +68,8 @@ class CldataArcs {
     bool flat = true;     // up to now
     bool begun = false;   // a GOTO has gone along it
 
-    [[nodiscard]] double distance(const Vec3& point) const;
+    // From the centre, across the axis.
+    [[nodiscard]] Vec3 arm(const Vec3& point) const;
     // Full turns between two points, above 0 and up to 1.
     [[nodiscard]] double turn(const Vec3& from, const Vec3& to) const;
   };
@@ -72,10 +77,10 @@ class CldataArcs {
     Vec3 vector = Vec3::Zero();
     bool is_point = false;
   };
-  // Whether the axis of the circle, at `column`, is one of X, Y and Z.
+  // Whether the axis of the circle, at `column`, is a unit vector.
   static bool set_axis(LineScanner& in, Circle& circle, const Vec3& axis, std::uint32_t column);
   [[nodiscard]] static std::optional<int> turns_of(LineScanner& in, const Circle& circle,
-                                                   const CldataRecord& record, double turn,
+                                                   std::uint32_t column, double turn,
                                                    double height);
   [[nodiscard]] static std::optional<Circle> read_circle(LineScanner& in);
   [[nodiscard]] static std::optional<Vec3> read_end(LineScanner& in, const Circle& circle,

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/constants.hpp"
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/block_draft.hpp"
 #include "parser/reading/cldata/cldata_feed.hpp"
@@ -23,26 +25,38 @@ struct CycleName {
   bool steps;
 };
 constexpr std::array kNames{
-    CycleName{"DRILL", "CYCLE/DRILL", false}, CycleName{"FACE", "CYCLE/DRILL", false},
-    CycleName{"DEEP", "CYCLE/DEEP", true},    CycleName{"BRKCHP", "CYCLE/BRKCHP", true},
-    CycleName{"TAP", "CYCLE/TAP", false},     CycleName{"BORE", "CYCLE/BORE", false},
+    CycleName{"DRILL", "CYCLE/DRILL", false},  CycleName{"FACE", "CYCLE/DRILL", false},
+    CycleName{"CSINK", "CYCLE/DRILL", false},  CycleName{"CBORE", "CYCLE/DRILL", false},
+    CycleName{"SPOT", "CYCLE/DRILL", false},   CycleName{"CTRDRL", "CYCLE/DRILL", false},
+    CycleName{"DEEP", "CYCLE/DEEP", true},     CycleName{"DEEP2", "CYCLE/DEEP2", true},
+    CycleName{"BRKCHP", "CYCLE/BRKCHP", true}, CycleName{"TAP", "CYCLE/TAP", false},
+    CycleName{"RTAP", "CYCLE/TAP", false},     CycleName{"BORE", "CYCLE/BORE", false},
     CycleName{"REAM", "CYCLE/BORE", false},
 };
+// Said of the tool or the control, not of the path; the first two with a number.
+constexpr std::array<std::string_view, 9> kRemarks{"CAM",   "ORIENT", "DIAMTR", "TLANGL", "OPTION",
+                                                   "FLOAT", "RIGID",  "MANUAL", "NOMORE"};
 
 class CycleReader {
  public:
-  CycleReader(LineScanner& in, const CldataRecord& record, bool inches)
-      : in_(in), record_(record), given_(record.arguments), inches_(inches) {}
+  CycleReader(LineScanner& in, const CldataRecord& record, const CldataModes& modes)
+      : in_(in), record_(record), given_(record.arguments), modes_(modes), inches_(modes.inches) {}
 
   void operator()(Block& block) {
     if (given_.empty() || given_[0].is_number())
       return fail("name-missing"_id, record_.column, "CYCLE has no name");
     const std::string& first = given_[0].word;
-    if (first == "OFF" || first == "ON") {
+    // Before a definition: nothing is drilled by them.
+    if ((first == "INIT" || first == "CLEAR") && given_.size() == 1) {
+      block.comments.push_back({record_.column, false, first, "CYCLE"});
+      return;
+    }
+    if (first == "OFF" || first == "ON" || first == "NOMORE") {
       if (given_.size() > 1)
         return fail("argument-count"_id, given_[1].column,
                     "CYCLE/" + first + " takes no arguments");
-      return add_code(block, *find_code(Dialect::cldata, "CYCLE/" + first), record_.column);
+      return add_code(block, *find_code(Dialect::cldata, first == "ON" ? "CYCLE/ON" : "CYCLE/OFF"),
+                      record_.column);
     }
     if (!take_name()) return;
     while (place_ < given_.size() && !in_.failed()) take_part();
@@ -64,7 +78,7 @@ class CycleReader {
     place_ = 1;
     // DRILL,DEEP and DRILL,BRKCHP; a word that is no cycle of its own is reported below.
     if (word == "DRILL" && given_.size() > 1 &&
-        (given_[1].word == "DEEP" || given_[1].word == "BRKCHP")) {
+        (given_[1].word == "DEEP" || given_[1].word == "BRKCHP" || given_[1].word == "CSINK")) {
       word = given_[1].word;
       place_ = 2;
     }
@@ -93,22 +107,50 @@ class CycleReader {
       back_to_start_ = true;
       return;
     }
-    if (part.word == "LEAD") {
+    if (part.word == "LEAD" || part.word == "PITCH" || part.word == "TPI") {
       feed_ = number_behind(part);
       per_revolution_ = true;
+      if (part.word == "TPI" && feed_) {
+        feed_->number = (inches_ ? 1.0 : kMmPerInch) / feed_->number;
+      }
       return;
     }
-    std::optional<Value>* slot = part.word == "DEPTH"                             ? &depth_
-                                 : part.word == "FEDTO"                           ? &feed_to_
-                                 : part.word == "CLEAR"                           ? &clear_
-                                 : part.word == "RAPTO"                           ? &rapid_to_
-                                 : part.word == "RTRCTO" || part.word == "RETURN" ? &back_
-                                 : part.word == "STEP"                            ? &step_
-                                 : part.word == "DWELL"                           ? &dwell_
-                                                                                  : nullptr;
-    if (slot == nullptr)
+    if (std::find(kRemarks.begin(), kRemarks.end(), part.word) != kRemarks.end()) {
+      std::string text = part.word;
+      if (place_ < given_.size() && given_[place_].is_number() &&
+          (part.word == "CAM" || part.word == "ORIENT" || part.word == "DIAMTR" ||
+           part.word == "TLANGL")) {
+        text += "," + shortest_decimal(given_[place_++].number);
+      }
+      remarks_ += (remarks_.empty() ? "" : ",") + text;
+      return;
+    }
+    if (part.word == "DWELL" && place_ < given_.size() && given_[place_].word == "REV") {
+      ++place_;
+      dwell_ = number_behind(part);
+      if (dwell_ && modes_.speed > 0.0) {
+        dwell_->number *= kSecondsPerMinute / modes_.speed;
+        return;
+      }
+      return fail("dwell-without-speed"_id, part.column,
+                  "a dwell in revolutions with no spindle speed");
+    }
+    struct Slot {
+      std::string_view word;
+      std::optional<Value> CycleReader::*value;
+    };
+    constexpr std::array kSlots{
+        Slot{"DEPTH", &CycleReader::depth_},  Slot{"FEDTO", &CycleReader::feed_to_},
+        Slot{"CLEAR", &CycleReader::clear_},  Slot{"RAPTO", &CycleReader::rapid_to_},
+        Slot{"RTRCTO", &CycleReader::back_},  Slot{"RETURN", &CycleReader::back_},
+        Slot{"STEP", &CycleReader::step_},    Slot{"INCR", &CycleReader::step_},
+        Slot{"1STPECK", &CycleReader::step_}, Slot{"SUBPECK", &CycleReader::others_},
+        Slot{"DWELL", &CycleReader::dwell_}};
+    const auto* slot = std::find_if(kSlots.begin(), kSlots.end(),
+                                    [&](const Slot& known) { return known.word == part.word; });
+    if (slot == kSlots.end())
       return fail("unknown-word"_id, part.column, part.word + " has no meaning in CYCLE");
-    *slot = number_behind(part);
+    this->*slot->value = number_behind(part);
     // RTRCTO,20,MANUAL
     if (part.word == "RTRCTO" && place_ < given_.size() && given_[place_].word == "MANUAL") {
       ++place_;
@@ -121,7 +163,7 @@ class CycleReader {
       depth_ = Value{part.column, part.number};
     } else if (place_ < given_.size() && !feed_ && cldata_feed_unit(given_[place_].word, inches_)) {
       set_feed(given_[place_++], Value{part.column, part.number});
-    } else if (feed_ && !clear_) {
+    } else if (!clear_ && (feed_ || place_ == given_.size())) {
       clear_ = Value{part.column, part.number};
     } else {
       fail("unknown-word"_id, part.column,
@@ -147,18 +189,29 @@ class CycleReader {
 
   void add_words(Block& block) {
     if (!depth_ && !feed_to_) return fail("value-missing"_id, record_.column, "CYCLE has no depth");
-    if (!feed_) return fail("value-missing"_id, record_.column, "CYCLE has no feed");
+    if (!feed_) take_feed_in_force(block);
     if (!clear_ && !rapid_to_)
       return fail("value-missing"_id, record_.column, "CYCLE has no clearance");
-    if (name_->steps && (!step_ || step_->number <= 0.0)) {
+    if (name_->steps && !step_) {
+      step_ = Value{record_.column, feed_to_ ? std::abs(feed_to_->number) : depth_->number};
+      step_->number += std::abs(clear_ ? clear_->number : rapid_to_->number);
+      if (step_->number == 0.0) step_->number = 1.0;
+      block.comments.push_back({record_.column, false, "no step is given: the hole is one peck",
+                                "CYCLE STEP", false, true});
+    }
+    if (name_->steps && step_->number <= 0.0) {
       return fail("out-of-range"_id, record_.column, "CYCLE has no STEP above zero");
+    }
+    if (others_ && (name_->code != "CYCLE/DEEP2" || others_->number <= 0.0)) {
+      return fail("out-of-range"_id, others_->column, "SUBPECK belongs to DEEP2, above zero");
     }
     if (step_ && !name_->steps) {
       return fail("unknown-word"_id, step_->column,
                   fmt::format("STEP has no meaning in {}", name_->code));
     }
     const Value depth = feed_to_ ? Value{feed_to_->column, std::abs(feed_to_->number)} : *depth_;
-    if (depth.number <= 0.0)
+    // FEDTO,0: to the place that GOTO names.
+    if (depth.number < 0.0 || (depth.number == 0.0 && !feed_to_))
       return fail("out-of-range"_id, depth.column, "the depth of CYCLE is not above zero");
     const bool is_height = feed_to_ || !clear_;
     const Value clear = clear_ ? *clear_ : *rapid_to_;
@@ -182,12 +235,29 @@ class CycleReader {
       add_number(block, 'v', back_->number, back_->column, "RETURN,");
     }
     if (step_) add_number(block, 'Q', step_->number, step_->column, "STEP,");
+    if (others_) add_number(block, 'x', others_->number, others_->column, "SUBPECK,");
     if (dwell_) add_number(block, 'P', dwell_->number, dwell_->column, "DWELL,");
+    if (!remarks_.empty()) {
+      block.comments.push_back({record_.column, false, remarks_, "CYCLE option"});
+    }
+  }
+
+  // That of FEDRAT; without one it changes the time, not the path.
+  void take_feed_in_force(Block& block) {
+    constexpr double kFeed = 1000.0;  // mm/min
+    feed_ = Value{record_.column, modes_.feed};
+    per_revolution_ = modes_.feed_per_revolution;
+    if (modes_.feed_given) return;
+    feed_->number = inches_ ? kFeed / kMmPerInch : kFeed;
+    per_revolution_ = false;
+    block.comments.push_back({record_.column, false, "no feed is given for the cycle: 1000 mm/min",
+                              "CYCLE", false, true});
   }
 
   LineScanner& in_;
   const CldataRecord& record_;
   const std::vector<CldataArgument>& given_;
+  const CldataModes& modes_;
   bool inches_;
   const CycleName* name_ = nullptr;
   std::size_t place_ = 0;
@@ -198,6 +268,8 @@ class CycleReader {
   std::optional<Value> rapid_to_{};
   std::optional<Value> back_{};
   std::optional<Value> step_{};
+  std::optional<Value> others_{};  // each peck after the first
+  std::string remarks_{};
   std::optional<Value> dwell_{};
   bool per_revolution_ = false;
   bool back_to_start_ = false;
@@ -205,8 +277,9 @@ class CycleReader {
 
 }  // namespace
 
-void read_cldata_cycle(LineScanner& in, const CldataRecord& record, bool inches, Block& block) {
-  CycleReader(in, record, inches)(block);
+void read_cldata_cycle(LineScanner& in, const CldataRecord& record, const CldataModes& modes,
+                       Block& block) {
+  CycleReader(in, record, modes)(block);
 }
 
 }  // namespace frustum::parser

@@ -3,6 +3,7 @@
 //   CYCLE/DRILL,DEPTH,12,MMPM,100,CLEAR,3,RAPTO,1,RETURN,20,DWELL,.5    (Creo)
 //   CYCLE/DRILL,RAPTO,3,FEDTO,-12,RTRCTO,AUTO,MMPM,100                  (NX)
 //   CYCLE/DRILL,12,100,MMPM,3                                           (depth, feed, clearance)
+//   CYCLE/DEEP2,FEDTO,12,1STPECK,5,SUBPECK,2,MMPM,100,RAPTO,3,RTRCTO,25 (SolidWorks CAM)
 //   CYCLE/OFF, CYCLE/ON
 //
 // The GOTO records after it name the top of each hole. Heights count from there along the tool:
@@ -16,10 +17,12 @@
 #pragma once
 
 #include "parser/reading/cldata/cldata_record.hpp"
+#include "parser/reading/cldata/cldata_settings.hpp"
 
 namespace frustum::parser {
 
 // Adds the words of the cycle: hole_cycle.hpp.
-void read_cldata_cycle(LineScanner& in, const CldataRecord& record, bool inches, Block& block);
+void read_cldata_cycle(LineScanner& in, const CldataRecord& record, const CldataModes& modes,
+                       Block& block);
 
 }  // namespace frustum::parser

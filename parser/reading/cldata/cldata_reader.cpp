@@ -1,44 +1,49 @@
 // APT CLDATA as CAM systems write it: a record a line, its word, / and its arguments.
 //
 // RAPID, CIRCLE and TLAXIS speak about the GOTO after them, so the reader keeps them until then.
+// GOTO records are nearly all of a program and have a reader of their own (cldata_place.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/spelling.hpp"
+#include "core/units.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/motion.hpp"
 #include "parser/reading/block_draft.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/cldata/cldata_arcs.hpp"
 #include "parser/reading/cldata/cldata_cycle.hpp"
+#include "parser/reading/cldata/cldata_place.hpp"
 #include "parser/reading/cldata/cldata_record.hpp"
 #include "parser/reading/cldata/cldata_settings.hpp"
+#include "parser/reading/cldata/cldata_words.hpp"
 #include "parser/reading/line_scanner.hpp"
 
 namespace frustum::parser {
 namespace {
 
-// Records whose arguments change nothing that is simulated.
-constexpr std::array<const char*, 32> kEvents{
-    "CUTTER", "TOOLNO", "MACHIN", "INTOL",  "OUTTOL", "TOLER",  "LEADER", "OPNAME",
-    "SELECT", "PLABEL", "LINTOL", "SEQNO",  "TLDATA", "MSYS",   "PAINT",  "CLDIST",
-    "CLEARP", "AUXFUN", "REWIND", "AUTOPS", "PSIS",   "SELCTL", "OFSTNO", "OPSKIP",
-    "CLPRNT", "NOPOST", "ISN",    "CLAMP",  "TMARK",  "RESET",  "THICK",  "BREAK"};
 constexpr std::array kPositionWords{'X', 'Y', 'Z', 'a', 'b', 'c'};
 constexpr std::array kVectorNames{"", "", "", "i ", "j ", "k "};
+// Vectors have six decimals or more.
+constexpr double kSameVector = 2e-6;
 constexpr const char* kPositionRemedy = "give x,y,z or x,y,z,i,j,k";
 
 // What the records before have said about those to come.
 struct Pending {
   bool rapid = false;
   bool goes_on = false;  // the record before was a GOTO
+  bool drills = false;   // a cycle is on, with a feed of its own
   CldataModes modes{};
   CldataArcs arcs{};
-  std::optional<Vec3> at{};  // the last place, as written
+  std::optional<Vec3> at{};    // the last place, as written
+  std::optional<Vec3> axis{};  // the last tool vector
+  std::string frame{};         // of MSYS
+  bool refused = false;        // what is no program for milling is reported once
 };
 
 class CldataReader {
@@ -49,7 +54,12 @@ class CldataReader {
   }
 
   Result<Block> operator()() {
-    if (!take_comment() && !in_.at_end()) read_record();
+    if (pending_.refused) return std::move(block_);
+    if (const auto place = read_cldata_place(in_.text())) {
+      read_place(*place);
+    } else if (!take_comment() && !in_.at_end()) {
+      read_record();
+    }
     return in_.finish(std::move(block_));
   }
 
@@ -97,12 +107,7 @@ class CldataReader {
     }
     record_.word = in_.name();
     if (record_.word.empty()) return in_.fail_unexpected("a record is a word, / and its arguments");
-    if (take_text() || take_note()) return;
-    if (in_.peek() == '=') {
-      return in_.fail("not-supported"_id, record_.column,
-                      record_.word + " is defined in the APT language",
-                      "let the APT processor write CLDATA, without definitions");
-    }
+    if (take_text() || is_no_program() || take_note() || take_turn_of_nothing()) return;
     if (record_.word == "TLON") {
       in_.take('/');
       read_guided_arc();
@@ -110,7 +115,13 @@ class CldataReader {
       return;
     }
     // LOAD/TOOL,5 is LOADTL/5.
-    if (in_.take('/')) record_.arguments = read_cldata_arguments(in_);
+    const std::uint32_t behind_word = in_.column();
+    if (in_.take('/')) {
+      if (!is_known()) return read_unknown(behind_word);
+      record_.arguments = read_cldata_arguments(in_);
+    } else if (!is_known()) {
+      return read_unknown(behind_word);
+    }
     if (record_.word == "LOAD" && !record_.arguments.empty() &&
         record_.arguments[0].word == "TOOL") {
       record_.word = "LOADTL";
@@ -133,20 +144,92 @@ class CldataReader {
     const std::string& word = record_.word;
     if (word == "TOOL" && in_.take_name("PATH")) return note("TOOL PATH");
     if (word == "END" && in_.peek() == '-') return note("END-OF-PATH");
-    for (const char* event : kEvents) {
+    if (word == "MSYS") return note_frame();
+    for (const char* event : cldata_note_words()) {
       if (word == event) return note(event);
     }
     return false;
   }
 
-  bool note(const char* event) {
+  // The frame that places of NX count in.
+  bool note_frame() {
+    std::string frame = rest_of_record();
+    block_.comments.push_back({record_.column, false, frame, "MSYS"});
+    if (!pending_.frame.empty() && pending_.frame != frame) {
+      assumed("MSYS", "places count in this frame from here on; the job says where it is");
+    }
+    if (!take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
+    pending_.frame = std::move(frame);
+    return true;
+  }
+
+  // ROTABL/0.0,,TABLE,CLW
+  bool take_turn_of_nothing() {
+    if (record_.word != "ROTABL" && record_.word != "ROTATE" && record_.word != "ROTHED") {
+      return false;
+    }
+    const std::uint32_t behind_word = in_.column();
     in_.take('/');
-    // Of all lines that it goes over.
+    const std::uint32_t column = in_.column();
+    in_.take('-');
+    const auto angle = in_.number();
+    if (angle && angle->value == 0.0) {
+      in_.go_to(column);
+      return note(record_.word == "ROTABL"   ? "ROTABL"
+                  : record_.word == "ROTATE" ? "ROTATE"
+                                             : "ROTHED");
+    }
+    in_.go_to(behind_word);
+    return false;
+  }
+
+  // What is written for the APT processor, for a lathe or for wire erosion.
+  bool is_no_program() {
+    const std::uint32_t behind_word = in_.column();
+    const bool source = in_.peek() == '=' || record_.word == "MACRO" || record_.word == "TERMAC";
+    if (!source && !names_the_process(record_.word)) return false;
+    in_.take('/');
+    const std::string arguments = in_.text_to("$");
+    in_.go_to(behind_word);
+    if (source) {
+      in_.fail("not-supported"_id, record_.column, record_.word + " is defined in the APT language",
+               "let the APT processor write CLDATA, without definitions");
+    } else if (is_not_milling(record_.word, arguments)) {
+      in_.fail("not-milling"_id, record_.column,
+               fmt::format("{}/{} is of a lathe or of wire erosion", record_.word, arguments),
+               "only programs for milling are read");
+    }
+    pending_.refused = in_.failed();
+    return in_.failed();
+  }
+
+  // The arguments of all lines that it goes over.
+  std::string rest_of_record() {
+    in_.take('/');
     std::string text = in_.text_to("$");
     while (!in_.at_end() && in_.peek() != '$') text += in_.text_to("$");
-    block_.comments.push_back({record_.column, false, std::move(text), event});
+    return text;
+  }
+  bool note(const char* event) {
+    block_.comments.push_back({record_.column, false, rest_of_record(), event});
     if (!take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
     return true;
+  }
+
+  // Words of post-processors are many; what could move the tool or is near a known word is a
+  // mistake.
+  void read_unknown(std::uint32_t behind_word) {
+    in_.go_to(behind_word);
+    const std::string arguments = rest_of_record();
+    const std::vector<std::string> known = known_records();
+    if (could_move(record_.word, arguments) || nearest_word(record_.word, known)) {
+      return in_.fail("unknown-word"_id, record_.column, "unknown record " + record_.word,
+                      suggestion(record_.word, known));
+    }
+    std::string text = record_.word;
+    if (!arguments.empty()) text += "/" + arguments;
+    block_.comments.push_back({record_.column, false, std::move(text), "post word", true});
+    take_comment();
   }
 
   void read_rest() {
@@ -163,10 +246,23 @@ class CldataReader {
     const bool inches = pending_.modes.inches;
     if (read_cldata_setting(in_, record_, pending_.modes, block_)) {
       if (pending_.modes.inches != inches) pending_.at.reset();
+      if (!pending_.modes.multax) pending_.axis.reset();
       return;
     }
-    in_.fail("unknown-word"_id, record_.column, "unknown record " + record_.word,
-             suggestion(record_.word, known_records()));
+    in_.fail("unknown-word"_id, record_.column, "unknown form of " + record_.word,
+             "look at the list of records in docs/dialects.md");
+  }
+
+  [[nodiscard]] bool is_known() const {
+    for (const Handler& handler : handlers()) {
+      if (record_.word == handler.word) return true;
+    }
+    for (const std::string_view word : cldata_setting_words()) {
+      if (record_.word == word) return true;
+    }
+    constexpr std::array<std::string_view, 3> kOthers{"LOAD", "CUTCOM", "ORIGIN"};
+    return std::find(kOthers.begin(), kOthers.end(), record_.word) != kOthers.end() ||
+           !remedy_for(Dialect::cldata, record_.word).empty();
   }
 
   // A circle ends with the GOTO records after it; what sets a mode may be before the first.
@@ -184,22 +280,31 @@ class CldataReader {
     return false;
   }
 
-  // Of records that are refused, the forms that change nothing.
   bool take_harmless() {
-    struct Form {
-      std::string_view word;
-      std::string_view argument;
-    };
-    constexpr std::array kForms{Form{"CUTCOM", "OFF"},  Form{"TRACUT", "NOMORE"},
-                                Form{"COPY", "NOMORE"}, Form{"MODE", "ABSOL"},
-                                Form{"THREAD", "OFF"},  Form{"ROTATE", "OFF"}};
-    for (const Form& form : kForms) {
-      if (record_.word != form.word || record_.only_word() != form.argument) continue;
-      block_.comments.push_back(
-          {record_.column, false, std::string(form.argument), form.word.data()});
-      return true;
+    if (record_.word == "CUTCOM") return take_cutter_compensation();
+    if (record_.word == "ORIGIN" && record_.only_word().empty()) return take_origin();
+    const char* word = harmless_cldata(record_.word, record_.only_word());
+    if (word == nullptr) return false;
+    block_.comments.push_back({record_.column, false, record_.only_word(), word});
+    return true;
+  }
+
+  bool take_cutter_compensation() {
+    block_.comments.push_back({record_.column, false, record_.text_from(0), "CUTCOM"});
+    if (record_.only_word() != "OFF") {
+      assumed(
+          "CUTCOM",
+          "places are those of the tool's centre, and the offset that the control adds is zero");
     }
-    return false;
+    return true;
+  }
+  bool take_origin() {
+    block_.comments.push_back({record_.column, false, record_.text_from(0), "ORIGIN"});
+    assumed("ORIGIN", "it says where the part is on the machine; places stay the part's");
+    return true;
+  }
+  void assumed(const char* name, const char* text) {
+    block_.comments.push_back({record_.column, false, text, name, false, true});
   }
 
   bool is_refused() {
@@ -236,7 +341,8 @@ class CldataReader {
     for (const Handler& handler : handlers()) words.emplace_back(handler.word);
     for (const std::string_view word : cldata_setting_words()) words.emplace_back(word);
     for (const char* word : cldata_text_words()) words.emplace_back(word);
-    words.insert(words.end(), kEvents.begin(), kEvents.end());
+    const auto notes = cldata_note_words();
+    words.insert(words.end(), notes.begin(), notes.end());
     return words;
   }
 
@@ -261,46 +367,95 @@ class CldataReader {
     add_code(block_, *find_code(Dialect::cldata, code), record_.column);
   }
 
-  void add_position(std::string_view code) {
-    if (!are_cldata_numbers(in_, record_, {3, 6}, kPositionRemedy)) return;
-    std::vector<CldataArgument> given = record_.arguments;
-    if (given.size() == 3)
-      given.insert(given.end(), pending_.modes.axis.begin(), pending_.modes.axis.end());
-    // A vector along Z says nothing new where the tool does not tilt.
-    const bool upright = given.size() == 6 && given[3].number == 0.0 && given[4].number == 0.0 &&
-                         given[5].number > 0.0;
-    const std::size_t count = upright && !pending_.modes.multax ? 3 : given.size();
-    add(code);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool written = i < record_.arguments.size();
-      add_number(block_, kPositionWords.at(i), given[i].number,
-                 written ? given[i].column : record_.column, i < 3 ? nullptr : kVectorNames.at(i));
+  // x,y,z and perhaps i,j,k.
+  [[nodiscard]] std::optional<CldataPlace> place_of_record() {
+    if (!are_cldata_numbers(in_, record_, {3, 6}, kPositionRemedy)) return std::nullopt;
+    CldataPlace place{record_.column, record_.arguments.size(), {}, {}};
+    for (std::size_t i = 0; i < place.count; ++i) {
+      place.numbers.at(i) = record_.arguments[i].number;
+      place.columns.at(i) = record_.arguments[i].column;
     }
-    pending_.at = record_.point();
+    return place;
   }
 
-  void read_start() { add_position("FROM"); }
+  // A place without a vector has that of TLAXIS or CSYS. A vector along Z says nothing new where
+  // the tool does not tilt; another one tilts it, with or without MULTAX.
+  void complete(CldataPlace& place) const {
+    constexpr std::size_t kCoordinates = 3;
+    if (place.count == kCoordinates && !pending_.modes.axis.empty()) {
+      place.count *= 2;
+      for (std::size_t i = 0; i < kCoordinates; ++i) {
+        place.numbers.at(i + kCoordinates) = pending_.modes.axis[i].number;
+        place.columns.at(i + kCoordinates) = place.column;
+      }
+    }
+    const bool upright = place.count > kCoordinates && place.numbers[3] == 0.0 &&
+                         place.numbers[4] == 0.0 && place.numbers[5] > 0.0;
+    if (upright && !pending_.modes.multax) place.count = kCoordinates;
+  }
+
+  void add_position(std::string_view code, CldataPlace place) {
+    constexpr std::size_t kCoordinates = 3;
+    complete(place);
+    const bool tilts = place.count > kCoordinates;
+    if (tilts && !pending_.modes.multax && code != "FROM") {
+      pending_.modes.multax = true;
+      add("MULTAX/ON");
+    }
+    // An arc goes on with the tool as it is.
+    if (tilts && code.starts_with("CIRCLE") && pending_.axis &&
+        (place.vector() - *pending_.axis).norm() <= kSameVector) {
+      place.count = kCoordinates;
+    }
+    add(code);
+    for (std::size_t i = 0; i < place.count; ++i) {
+      add_number(block_, kPositionWords.at(i), place.numbers.at(i), place.columns.at(i),
+                 i < kCoordinates ? nullptr : kVectorNames.at(i));
+    }
+    if (place.count > kCoordinates) pending_.axis = place.vector();
+    pending_.at = place.point();
+  }
+
+  void read_start() {
+    if (const auto place = place_of_record()) add_position("FROM", *place);
+  }
 
   void read_goto() {
     if (record_.word == "CONT" && !pending_.goes_on) {
       return in_.fail("arc-incomplete"_id, record_.column, "CONT goes on from no GOTO",
                       "write GOTO");
     }
-    if (!are_cldata_numbers(in_, record_, {3, 6}, kPositionRemedy)) return;
-    const auto arc = pending_.arcs.to(in_, record_, pending_.at, pending_.modes.inches);
+    if (const auto place = place_of_record()) read_place(*place);
+  }
+
+  void read_place(const CldataPlace& place) {
+    record_.column = place.column;
+    const auto arc =
+        pending_.arcs.to(in_, place.point(), place.column, pending_.at, pending_.modes.inches);
     if (in_.failed()) return;
     pending_.goes_on = true;
+    const bool rapid = std::exchange(pending_.rapid, false);
+    if (!rapid) need_feed();
     if (arc) {
-      pending_.rapid = false;
-      add_position(arc->counterclockwise ? "CIRCLE+" : "CIRCLE-");
-      return add_arc(block_, *arc, record_.column);
+      add_position(arc->code(), place);
+      return add_arc(block_, *arc, place.column);
     }
-    add_position(pending_.rapid ? "RAPID GOTO" : "GOTO");
-    pending_.rapid = false;
+    add_position(rapid ? "RAPID GOTO" : "GOTO", place);
+  }
+
+  // A feed that nothing gives changes the time, not the path.
+  void need_feed() {
+    constexpr double kFeed = 1000.0;  // mm/min
+    if (pending_.modes.feed_given || pending_.drills) return;
+    pending_.modes.feed_given = true;
+    add("FEDRAT/MMPM");
+    add_number(block_, 'F', pending_.modes.inches ? kFeed / kMmPerInch : kFeed, record_.column);
+    assumed("FEDRAT", "no feed is given before this move: 1000 mm/min");
   }
 
   void read_increment() {
     if (!are_cldata_numbers(in_, record_, {3}, "give dx,dy,dz")) return;
+    if (!pending_.rapid) need_feed();
     add(pending_.rapid ? "RAPID GODLTA" : "GODLTA");
     pending_.rapid = false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -318,7 +473,7 @@ class CldataReader {
       return add("GOHOME");
     }
     pending_.rapid = false;
-    add_position("RAPID GOTO");
+    if (const auto place = place_of_record()) add_position("RAPID GOTO", *place);
   }
 
   void read_circle() {
@@ -336,14 +491,24 @@ class CldataReader {
     pending_.goes_on = false;
     const auto arc = pending_.arcs.along_line(in_, record_.column, pending_.at);
     if (!arc) return;
-    record_.arguments.clear();
-    for (const double value : arc->end) record_.arguments.push_back({record_.column, {}, value});
+    CldataPlace place{record_.column, 3, {}, {}};
+    for (std::size_t i = 0; i < place.count; ++i) {
+      place.numbers.at(i) = arc->end[static_cast<Eigen::Index>(i)];
+      place.columns.at(i) = record_.column;
+    }
     pending_.rapid = false;
-    add_position(arc->counterclockwise ? "CIRCLE+" : "CIRCLE-");
+    need_feed();
+    add_position(arc->code(), place);
     add_arc(block_, *arc, record_.column);
   }
 
-  void read_cycle() { read_cldata_cycle(in_, record_, pending_.modes.inches, block_); }
+  void read_cycle() {
+    read_cldata_cycle(in_, record_, pending_.modes, block_);
+    if (in_.failed()) return;
+    const std::string& word = record_.arguments.front().word;
+    if (word == "INIT" || word == "CLEAR") return;
+    pending_.drills = word != "OFF" && word != "NOMORE";
+  }
 
   LineScanner in_;
   Pending& pending_;

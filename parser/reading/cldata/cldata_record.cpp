@@ -32,6 +32,18 @@ double read_number(LineScanner& in, std::uint32_t column) {
   return (negative ? -value : value) + 0.0;
 }
 
+// 1STPECK: digits that letters follow which are no exponent.
+std::string word_with_digits(LineScanner& in) {
+  const std::uint32_t column = in.column();
+  std::string word(in.digits());
+  const char next = in.peek_byte();
+  if (!word.empty() && next >= 'A' && next <= 'Z' && next != 'E' && next != 'D') {
+    return word + in.name();
+  }
+  in.go_to(column);
+  return {};
+}
+
 }  // namespace
 
 std::span<const char* const> cldata_text_words() { return kTexts; }
@@ -54,8 +66,10 @@ std::string CldataRecord::text_from(std::size_t first) const {
 
 std::vector<CldataArgument> read_cldata_arguments(LineScanner& in) {
   std::vector<CldataArgument> arguments;
+  if (in.at_end() || in.peek() == '$') return arguments;
   do {
     CldataArgument argument{in.column(), in.name(), 0.0};
+    if (argument.is_number()) argument.word = word_with_digits(in);
     if (argument.is_number()) argument.number = read_number(in, argument.column);
     arguments.push_back(std::move(argument));
   } while (in.take(','));

@@ -49,7 +49,7 @@ struct CldataRecord {
 // text: PARTNOFLANGE.
 [[nodiscard]] const char* cldata_text_word(std::string_view record);
 
-// The arguments from here on, separated by commas.
+// The arguments from here on, separated by commas; none where the record ends here (RAPID/).
 [[nodiscard]] std::vector<CldataArgument> read_cldata_arguments(LineScanner& in);
 
 // Whether all arguments are numbers, as many as one of `counts`; else it fails, with the remedy.

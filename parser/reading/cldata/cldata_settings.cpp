@@ -47,6 +47,8 @@ class SettingReader {
                       "write FEDRAT/500,MMPM");
     }
     modes_.feed_per_revolution = meaning->per_revolution;
+    modes_.feed_given = number->number > 0.0;
+    modes_.feed = number->number * meaning->scale;
     add(modes_.feed_per_revolution ? "FEDRAT/MMPR" : "FEDRAT/MMPM");
     add_number(block_, 'F', number->number * meaning->scale, number->column);
   }
@@ -71,6 +73,7 @@ class SettingReader {
                        [&](const Direction& known) { return known.word == argument.word; });
       if (argument.is_number()) {
         add_number(block_, 'S', argument.number, argument.column);
+        modes_.speed = argument.number;
       } else if (direction != kDirections.end()) {
         code = direction->code;
       } else if (argument.word == "RANGE" || argument.word == "MAXRPM") {
@@ -123,17 +126,38 @@ class SettingReader {
     add(modes_.multax ? "MULTAX/ON" : "MULTAX/OFF");
   }
 
+  // CSYS of SolidWorks CAM: the frame of an operation, by rows of a matrix. Places stay the part's;
+  // its Z is where the tool points while GOTO has no vector.
+  void read_frame() {
+    if (!are_cldata_numbers(in_, record_, {12}, "give the 12 numbers of the frame")) return;
+    const auto& given = record_.arguments;
+    if (!modes_.world) {
+      return in_.fail("not-supported"_id, record_.column, "CSYS without TRNTYP/WORLD",
+                      "let the CAM system write the path in the coordinates of the part");
+    }
+    modes_.axis = {given[2], given[6], given[10]};
+    note("CSYS");
+  }
+  void read_transform() {
+    modes_.world = !record_.arguments.empty() && record_.arguments.front().word == "WORLD";
+    if (modes_.world) return note("TRNTYP");
+    in_.fail("not-supported"_id, record_.column, "TRNTYP is not simulated",
+             "let the CAM system write the path in the coordinates of the part: TRNTYP/WORLD");
+  }
+
   // The vector of GOTO records without one of their own.
   void read_axis() {
     if (!are_cldata_numbers(in_, record_, {3}, "give i,j,k")) return;
     modes_.axis = record_.arguments;
-    block_.comments.push_back({record_.column, false, record_.text_from(0), "TLAXIS"});
+    note("TLAXIS");
   }
 
   void read_coolant() {
     const auto& given = record_.arguments;
-    const std::string state = given.empty() ? std::string() : given.front().word;
-    constexpr std::array kOthers{"MIST", "THRU", "AIR", "TAP", "TAPKUL"};
+    if (given.empty()) return note("COOLNT");
+    const std::string& state = given.front().word;
+    constexpr std::array kOthers{"MIST",    "THRU", "AIR", "TAP",  "TAPKUL",
+                                 "THROUGH", "HIGH", "LOW", "SOFT", "SHOWER"};
     const bool other = std::find(kOthers.begin(), kOthers.end(), state) != kOthers.end();
     if (state == "ON" || state == "FLOOD") {
       add("COOLNT/ON");
@@ -152,17 +176,25 @@ class SettingReader {
 
   void read_delay() {
     const auto& given = record_.arguments;
-    const bool turns = given.size() == 2 && given[1].word == "REV";
-    const bool seconds = given.size() == 1;
-    if ((!turns && !seconds) || !given.front().is_number()) {
+    const CldataArgument* time = nullptr;
+    const CldataArgument* unit = nullptr;
+    for (const CldataArgument& argument : given) {
+      (argument.is_number() ? time : unit) = &argument;
+    }
+    const bool turns = unit != nullptr && (unit->word == "REV" || unit->word == "REVS");
+    const bool seconds = unit == nullptr || unit->word == "SEC" || unit->word == "SECOND";
+    if ((!turns && !seconds) || time == nullptr || given.size() > (unit == nullptr ? 1U : 2U)) {
       return in_.fail("value-missing"_id, record_.column, record_.word + " without a time",
                       "write DELAY/2 (seconds) or DELAY/3,REV");
     }
     add(turns ? "DELAY REV" : "DELAY");
-    add_number(block_, turns ? 'S' : 'P', given[0].number, given[0].column, "DELAY/");
+    add_number(block_, turns ? 'S' : 'P', time->number, time->column, "DELAY/");
   }
 
  private:
+  void note(const char* event) {
+    block_.comments.push_back({record_.column, false, record_.text_from(0), event});
+  }
   void add(std::string_view code) {
     add_code(block_, *find_code(Dialect::cldata, code), record_.column);
   }
@@ -179,8 +211,11 @@ std::span<const SettingReader::Handler> SettingReader::handlers() {
       Handler{"SPINDL", &SettingReader::read_spindle},
       Handler{"LOADTL", &SettingReader::read_tool},
       Handler{"UNITS", &SettingReader::read_units},
+      Handler{"UNIT", &SettingReader::read_units},
       Handler{"MULTAX", &SettingReader::read_multax},
       Handler{"TLAXIS", &SettingReader::read_axis},
+      Handler{"TRNTYP", &SettingReader::read_transform},
+      Handler{"CSYS", &SettingReader::read_frame},
       Handler{"COOLNT", &SettingReader::read_coolant},
       Handler{"DELAY", &SettingReader::read_delay},
       Handler{"DWELL", &SettingReader::read_delay},

@@ -1,5 +1,5 @@
-// The records of APT CLDATA that set a mode: feed, spindle, tool, unit, tool axis, coolant; and
-// dwells.
+// The records of APT CLDATA that set a mode: feed, spindle, tool, unit, tool axis, the frame of an
+// operation, coolant; and dwells.
 //
 // Units : as written
 // Errors: by LineScanner::fail: words without a meaning in the record, a number that is missing
@@ -18,7 +18,11 @@ struct CldataModes {
   bool feed_per_revolution = false;
   bool inches = false;
   const char* spindle = "SPINDL/CLW";  // the last direction, for SPINDL/ON
-  std::vector<CldataArgument> axis{};  // of TLAXIS: i, j, k
+  std::vector<CldataArgument> axis{};  // of TLAXIS and CSYS: i, j, k
+  bool world = false;                  // places count in the part's frame (TRNTYP/WORLD)
+  bool feed_given = false;
+  double feed = 0.0;   // in the file's unit
+  double speed = 0.0;  // of the spindle, 1/min
 };
 
 // False when the record is none of these.

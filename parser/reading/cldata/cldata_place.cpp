@@ -1,0 +1,70 @@
+#include "parser/reading/cldata/cldata_place.hpp"
+
+#include <charconv>
+
+#include "parser/language/letter_case.hpp"
+
+namespace frustum::parser {
+namespace {
+
+class PlaceScanner {
+ public:
+  explicit PlaceScanner(std::string_view text) : text_(text) {}
+
+  void skip_blanks() {
+    while (place_ < text_.size() &&
+           (text_[place_] == ' ' || text_[place_] == '\t' || text_[place_] == '\r')) {
+      ++place_;
+    }
+  }
+  bool take(char expected) {
+    if (place_ >= text_.size() || upper(text_[place_]) != expected) return false;
+    ++place_;
+    return true;
+  }
+  [[nodiscard]] bool at_end() const { return place_ == text_.size(); }
+  [[nodiscard]] std::uint32_t column() const { return static_cast<std::uint32_t>(place_) + 1; }
+
+  // Digits and a point, without an exponent.
+  bool take_number(double& value) {
+    const bool negative = take('-');
+    if (!negative) take('+');
+    skip_blanks();
+    const char first = place_ < text_.size() ? text_[place_] : '\0';
+    if (first != '.' && (first < '0' || first > '9')) return false;
+    const char* const end = text_.data() + text_.size();
+    const auto read = std::from_chars(text_.data() + place_, end, value, std::chars_format::fixed);
+    if (read.ec != std::errc{}) return false;
+    place_ = static_cast<std::size_t>(read.ptr - text_.data());
+    value = (negative ? -value : value) + 0.0;
+    return true;
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t place_ = 0;
+};
+
+}  // namespace
+
+std::optional<CldataPlace> read_cldata_place(std::string_view text) {
+  PlaceScanner in(text);
+  in.skip_blanks();
+  CldataPlace place;
+  place.column = in.column();
+  if (!in.take('G') || !in.take('O') || !in.take('T') || !in.take('O')) return std::nullopt;
+  in.skip_blanks();
+  if (!in.take('/')) return std::nullopt;
+  do {
+    if (place.count == place.numbers.size()) return std::nullopt;
+    in.skip_blanks();
+    place.columns[place.count] = in.column();
+    if (!in.take_number(place.numbers[place.count])) return std::nullopt;
+    ++place.count;
+    in.skip_blanks();
+  } while (in.take(','));
+  if (!in.at_end() || (place.count != 3 && place.count != 6)) return std::nullopt;
+  return place;
+}
+
+}  // namespace frustum::parser

@@ -1,0 +1,274 @@
+// APT CLDATA in the forms that CAM systems write: SolidWorks CAM, NX, CATIA, Creo, Fusion.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "parser/writing/block_text.hpp"
+#include "tests/parser/running.hpp"
+#include "tests/parser/same_block.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using enum AxisLetter;
+
+std::vector<Motion> run_cl(const std::string& text) { return motions(text, {}, Dialect::cldata); }
+
+Vec3 place_of(const AxisTarget& end) {
+  return {end[X].value_or(NAN), end[Y].value_or(NAN), end[Z].value_or(NAN)};
+}
+
+// Names of the events of a grade, with their texts.
+std::vector<std::string> events_of(const std::string& text, EventGrade grade) {
+  std::vector<std::string> seen;
+  for (const Event& event : all_of<Event>(run_cl(text))) {
+    if (event.grade == grade) seen.push_back(event.name + "|" + event.text);
+  }
+  return seen;
+}
+std::vector<std::string> names_assumed(const std::string& text) {
+  std::vector<std::string> names = events_of(text, EventGrade::assumed);
+  for (std::string& name : names) name = name.substr(0, name.find('|'));
+  return names;
+}
+
+std::vector<std::string> ids_of(const std::string& text) {
+  return complaint_ids(text, {}, Dialect::cldata);
+}
+using Ids = std::vector<std::string>;
+
+constexpr const char* kTilted =
+    "UNIT/MM\nCUTTER/8.,0,4.,0,0,0,64.\nLOAD/TOOL,17\nCSI_SET_FLUTE_LENGTH/20.\n"
+    "TRNTYP/WORLD,0,0,0\nCSYS/0,0,1.,0,1.,0,0,0,0,1.,0,0\nRAPID/\n"
+    "GOTO/120.,5.,-3.,1.,0,0\nFEDRAT/288.6,MMPM\nGOTO/100.,5.,-3.,1.,0,0\n";
+
+TEST(CldataOfCam, Fault2_11_SolidWorksReadsFromUnitToFini) {
+  const auto all = run_cl(
+      "PARTNO/1\nUNIT/MM\nINSERT/[HOLDER=ER] 6.0mm DRILL\nCUTTER/6.,0,3.,1.8,31.,0,91.\n"
+      "LOAD/TOOL,16\nCSI_SET_FLUTE_LENGTH/60.\nCSI_SET_EXTENSION_LENGTH/70.\nSELECT/TOOL,17\n"
+      "COOLNT/FLOOD\nSPINDL/1691,RPM,CLW\nTRNTYP/WORLD,0,0,0\nSETUP/START,1\n"
+      "CSYS/1.,0,0,0,0,1.,0,0,0,0,1.,0\nRAPID/\nGOTO/10.,10.,25.\nCYCLE/INIT\n"
+      "CYCLE/DEEP2,FEDTO,9.,1STPECK,5.,SUBPECK,2.,MMPM,154.,RAPTO,3.,RTRCTO,25.\n"
+      "GOTO/10.,10.,0\nCYCLE/OFF\nFEDRAT/288.6,MMPM\nGOTO/5.,0,-2.\nCUTCOM/LEFT\n"
+      "CIRCLE/0,0,-2.,0,0,1.\nGOTO/5.,0,-2.\nGOTO/8.,0,-2.\nCIRCLE/0,0,-2.,0,0,-1.\n"
+      "GOTO/0,8.,-2.\nCUTCOM/OFF\nRAPID/\nGOTO/0,8.,25.\nSETUP/END,1\nFINI\n");
+  const auto arcs = all_of<ArcFeed>(all);
+  ASSERT_EQ(arcs.size(), 2U);
+  // The first one is a full turn, the line behind it is none.
+  EXPECT_EQ(place_of(arcs[0].end), Vec3(5, 0, -2));
+  EXPECT_EQ(arcs[0].turns, 1);
+  EXPECT_EQ(arcs[1].turns, -1);
+  EXPECT_EQ(place_of(arcs[1].end), Vec3(0, 8, -2));
+  EXPECT_EQ(place_of(last_of<Traverse>(all).end), Vec3(0, 8, 25));
+}
+
+TEST(CldataOfCam, Fault2_11_PecksAfterTheFirstHaveTheirOwnDepth) {
+  const auto depths = [](const std::string& cycle) {
+    std::vector<double> bottoms;
+    for (const LinearFeed& feed :
+         all_of<LinearFeed>(run_cl("LOADTL/1\nRAPID\nGOTO/0,0,50\n" + cycle + "\nGOTO/0,0,0\n"))) {
+      bottoms.push_back(*feed.end[Z]);
+    }
+    return bottoms;
+  };
+  using Depths = std::vector<double>;
+  EXPECT_EQ(depths("CYCLE/DEEP2,FEDTO,9,1STPECK,5,SUBPECK,2,MMPM,154,RAPTO,3,RTRCTO,25"),
+            (Depths{-5, -7, -9}));
+  EXPECT_EQ(depths("CYCLE/DEEP2,FEDTO,9,1STPECK,1,SUBPECK,6,MMPM,154,RAPTO,3,RTRCTO,25"),
+            (Depths{-1, -7, -9}));
+  EXPECT_EQ(depths("CYCLE/DEEP,FEDTO,4,INCR,3,MMPM,154,RAPTO,1,RTRCTO,25"), (Depths{-2, -4}));
+}
+
+TEST(CldataOfCam, Fault2_11_AVectorTiltsTheToolWithoutMultax) {
+  const auto all = run_cl(std::string(kTilted) + "GOTO/90,5,-3\n");
+  const auto change = last_of<CompensationChange>(all);
+  EXPECT_TRUE(change.tool_vectors);
+  ASSERT_EQ(all_of<LinearFeed>(all).size(), 2U);
+  for (const LinearFeed& feed : all_of<LinearFeed>(all)) {
+    ASSERT_TRUE(feed.tool_axis);
+    EXPECT_EQ(feed.tool_axis->vec(), Vec3(1, 0, 0));
+  }
+  // An upright vector says nothing.
+  EXPECT_TRUE(std::ranges::none_of(
+      all_of<CompensationChange>(run_cl("LOADTL/1\nRAPID\nGOTO/1,2,3,0,0,1\n")),
+      [](const CompensationChange& c) { return c.tool_vectors; }));
+}
+
+TEST(CldataOfCam, Fault2_11_TheFrameOfAnOperationPointsTheToolAndMovesNothing) {
+  // Upright again by CSYS alone.
+  const auto all = run_cl(std::string(kTilted) +
+                          "CSYS/1.,0,0,-59.5,0,1.,0,-59.5,0,0,1.,19.\nRAPID/\nGOTO/1,2,3\n");
+  const auto last = last_of<Traverse>(all);
+  EXPECT_EQ(place_of(last.end), Vec3(1, 2, 3));
+  EXPECT_EQ(last.tool_axis->vec(), Vec3(0, 0, 1));
+  EXPECT_EQ(ids_of("CSYS/1.,0,0,0,0,1.,0,0,0,0,1.,0\n"), Ids{"not-supported"});
+  EXPECT_EQ(ids_of("TRNTYP/LOCAL,0,0,0\n"), Ids{"not-supported"});
+}
+
+TEST(CldataOfCam, Fault2_11_ArcsOfATiltedToolAreLinesOnTheCircle) {
+  const std::string start = "LOADTL/1\nFEDRAT/100,MMPM\nRAPID\nGOTO/5,0,0,0,-.6,.8\n";
+  const auto all = run_cl(start + "CIRCLE/0,0,0,0,-.6,.8\nGOTO/0,4,3,0,-.6,.8\n");
+  const auto lines = all_of<LinearFeed>(all);
+  ASSERT_GT(lines.size(), 20U);
+  const Vec3 axis(0, -0.6, 0.8);
+  for (const LinearFeed& line : lines) {
+    EXPECT_NEAR(place_of(line.end).norm(), 5.0, 1e-9);
+    EXPECT_NEAR(place_of(line.end).dot(axis), 0.0, 1e-9);
+    EXPECT_GE(*line.end[X], -1e-9);  // a quarter, counterclockwise
+  }
+  EXPECT_EQ(place_of(lines.back().end), Vec3(0, 4, 3));
+  // A full turn, and one that climbs along the axis.
+  const auto turn =
+      all_of<LinearFeed>(run_cl(start + "CIRCLE/0,0,0,0,-.6,.8\nGOTO/5,0,0,0,-.6,.8\n"));
+  EXPECT_GT(turn.size(), 4 * lines.size() - 8);
+  const auto helix =
+      all_of<LinearFeed>(run_cl(start + "CIRCLE/0,0,0,0,-.6,.8\nGOTO/5,-6,8,0,-.6,.8\n"));
+  EXPECT_NEAR(place_of(helix[helix.size() / 2 - 1].end).dot(axis), 5.0, 0.02);
+  EXPECT_EQ(ids_of(start + "CIRCLE/0,0,0,0,-.6,.8\nGOTO/0,4.1,3,0,-.6,.8\n"), Ids{"arc-radius"});
+}
+
+TEST(CldataOfCam, Fault2_11_CutterCompensationIsAnAssumption) {
+  const std::string path = "LOADTL/1\nFEDRAT/100\nGOTO/0,0,0\n";
+  for (const char* record : {"CUTCOM/LEFT", "CUTCOM/RIGHT,XYPLAN", "CUTCOM/ON,LEFT,3"}) {
+    EXPECT_EQ(names_assumed(path + record + "\nGOTO/1,0,0\nCUTCOM/OFF\n" + record + "\n"),
+              std::vector<std::string>{"CUTCOM"});
+  }
+  EXPECT_TRUE(names_assumed(path + "CUTCOM/OFF\n").empty());
+  EXPECT_EQ(names_assumed("ORIGIN/1,2,3\n"), std::vector<std::string>{"ORIGIN"});
+  EXPECT_TRUE(names_assumed("MSYS/0,0,5,1,0,0,0,1,0\nMSYS/0,0,5,1,0,0,0,1,0\n").empty());
+  EXPECT_EQ(names_assumed("MSYS/0,0,5,1,0,0,0,1,0\nMSYS/0,0,6,1,0,0,0,1,0\n"),
+            std::vector<std::string>{"MSYS"});
+}
+
+TEST(CldataOfCam, ATiltedToolWithoutACallIsTheJobs) {
+  EXPECT_EQ(names_assumed("RAPID\nGOTO/149.94,11,.22,0,1,0\nRAPID\nGOTO/1,2,3\n"),
+            std::vector<std::string>{"LOADTL"});
+  EXPECT_TRUE(names_assumed("RAPID\nGOTO/149.94,11,.22,0,0,1\n").empty());
+}
+
+TEST(CldataOfCam, NxCountsTheTurnsThatAHelixStarts) {
+  const auto arc =
+      last_of<ArcFeed>(run_cl("LOADTL/1\nFEDRAT/5\nGOTO/5,0,0\n"
+                              "CIRCLE/0,0,-6,0,0,1,5,.06,.5,12,1,TIMES,3\nGOTO/0,5,-6\n"));
+  EXPECT_EQ(arc.turns, 3);
+}
+
+TEST(CldataOfCam, AMissingFeedIsAnAssumption) {
+  const std::string path = "LOADTL/1\nRAPID\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0\n";
+  EXPECT_EQ(names_assumed(path), std::vector<std::string>{"FEDRAT"});
+  EXPECT_EQ(last_of<LinearFeed>(run_cl(path)).feed.value, 1000.0);
+  EXPECT_EQ(last_of<LinearFeed>(run_cl("UNITS/INCHES\n" + path)).feed.value, 1000.0);
+  EXPECT_TRUE(names_assumed("FEDRAT/90\n" + path).empty());
+}
+
+TEST(CldataOfCam, CyclesHaveTheFeedInForce) {
+  const std::string cycle = "CYCLE/TAP,   50.5,    1.0\nGOTO/0,0,0\n";
+  const std::string start = "SPINDL/300,RPM,CLW\nLOADTL/1,1\nRAPID\nGOTO/0,0,1\n";
+  const auto feed = [&](const std::string& before) {
+    return all_of<LinearFeed>(run_cl(before + start + cycle)).front();
+  };
+  EXPECT_EQ(feed("FEDRAT/1.5,MMPR\n").feed.value, 1.5);
+  EXPECT_EQ(feed("FEDRAT/1.5,MMPR\n").feed.mode, FeedMode::per_revolution);
+  EXPECT_EQ(feed("").feed.value, 1000.0);
+  EXPECT_EQ(*feed("").end[Z], -50.5);
+  EXPECT_EQ(names_assumed(start + cycle), std::vector<std::string>{"CYCLE"});
+  // NX: the hole ends at its place.
+  EXPECT_EQ(*all_of<LinearFeed>(run_cl("CYCLE/DRILL,RAPTO,3.0000,FEDTO,0.0000,MMPM,250.0000\n"
+                                       "GOTO/66,0,240,0,0,1\n"))
+                 .front()
+                 .end[Z],
+            240.0);
+  const auto taps = [&](const std::string& lead) {
+    return all_of<LinearFeed>(
+               run_cl(start + "CYCLE/TAP,DEPTH,9," + lead + ",CLEAR,2\nGOTO/0,0,0\n"))
+        .front()
+        .feed;
+  };
+  EXPECT_DOUBLE_EQ(taps("TPI,20").value, 1.27);
+  EXPECT_EQ(taps("PITCH,1.25").mode, FeedMode::per_revolution);
+}
+
+TEST(CldataOfCam, DeepHolesWithoutAStepAreOnePeck) {
+  const std::string hole =
+      "LOADTL/1\nRAPID\nGOTO/0,0,9\n"
+      "CYCLE/DRILL,DEEP,RAPTO,3.0,FEDTO,-10,MMPM,250\nGOTO/0,0,0\n";
+  EXPECT_EQ(all_of<LinearFeed>(run_cl(hole)).size(), 1U);
+  EXPECT_EQ(names_assumed(hole), std::vector<std::string>{"CYCLE STEP"});
+}
+
+TEST(CldataOfCam, OptionsOfCyclesAreEventsAndDwellsMayBeTurns) {
+  const std::string start = "SPINDL/300,RPM,CLW\nLOADTL/1\nRAPID\nGOTO/0,0,9\n";
+  const auto events = events_of(
+      start + "CYCLE/DRILL,DEPTH,5,CAM,2,MMPM,9,CLEAR,3,DWELL,REV,10,ORIENT,90\nGOTO/0,0,0\n",
+      EventGrade::known);
+  EXPECT_NE(std::ranges::find(events, "CYCLE option|CAM,2,ORIENT,90"), events.end());
+  EXPECT_DOUBLE_EQ(
+      last_of<Dwell>(
+          run_cl(start + "CYCLE/DRILL,DEPTH,5,MMPM,9,CLEAR,3,DWELL,REV,10\nGOTO/0,0,0\n"))
+          .seconds,
+      2.0);
+  EXPECT_EQ(ids_of("CYCLE/DRILL,DEPTH,5,MMPM,9,CLEAR,3,DWELL,REV,10\n"),
+            Ids{"dwell-without-speed"});
+}
+
+TEST(CldataOfCam, WordsOfPostProcessorsAreTheBuilders) {
+  EXPECT_EQ(events_of("CSI_SET_FLUTE_LENGTH/20.\nSYSTEM/HIGH,ON,3\nWARMUP\n", EventGrade::builder),
+            (std::vector<std::string>{"post word|CSI_SET_FLUTE_LENGTH/20.",
+                                      "post word|SYSTEM/HIGH,ON,3", "post word|WARMUP"}));
+  // What could move the tool, or is near a known word, is a mistake.
+  for (const char* record :
+       {"GOAROUND/1", "ROTPOS/5", "ANYWHERE/1,2,3", "SPINDLE/ON", "FEDRTA/5"}) {
+    EXPECT_EQ(ids_of(std::string(record) + "\n"), Ids{"unknown-word"}) << record;
+  }
+}
+
+TEST(CldataOfCam, TurnsByNothingAreEvents) {
+  EXPECT_EQ(events_of("ROTABL/    0.000000,,TABLE,CLW\n", EventGrade::known),
+            std::vector<std::string>{"ROTABL|0.000000,,TABLE,CLW"});
+  EXPECT_EQ(ids_of("ROTABL/30.0,AAXIS\n"), Ids{"not-supported"});
+}
+
+TEST(CldataOfCam, LathesErosionAndAptSourcesAreRefusedOnce) {
+  for (const char* record : {"TOOLNO/1,TURN,1,0,3,0.4", "TURRET/1,OSETNO,1", "TLDATA/TURN,STANDARD",
+                             "MODE/TURN", "CYCLE/TURN,DEPTH,3"}) {
+    EXPECT_EQ(ids_of(std::string(record) + "\nGOTO/1,2\nSPINDL/500,SFM,CLW\n" + record + "\n"),
+              Ids{"not-milling"})
+        << record;
+  }
+  EXPECT_EQ(ids_of("P1 = POINT/1,2,3\nL1 = LINE/P1,P2\nGO/TO,L1\n"), Ids{"not-supported"});
+  EXPECT_EQ(ids_of("M1=MACRO/A\nTERMAC\n"), Ids{"not-supported"});
+  EXPECT_TRUE(ids_of("TOOLNO/1,MILL,1\nMODE/MILL\nPPRINT TURN THE PART\n").empty());
+}
+
+TEST(CldataOfCam, DelaysAndCoolantsInOtherForms) {
+  EXPECT_DOUBLE_EQ(last_of<Dwell>(run_cl("SPINDL/60,CLW\nDELAY/REV,3\n")).seconds, 3.0);
+  EXPECT_DOUBLE_EQ(last_of<Dwell>(run_cl("DELAY/SEC,4\n")).seconds, 4.0);
+  EXPECT_TRUE(ids_of("COOLNT/\nCOOLNT/THROUGH\nRAPID/\n").empty());
+  EXPECT_EQ(ids_of("DELAY/3,4\n"), Ids{"value-missing"});
+}
+
+// What the reader adds is not written, and is added again.
+TEST(CldataOfCam, IsReadBackAsItWasRead) {
+  const std::string text =
+      std::string("GOTO/1,2,3\n") + kTilted +
+      "CIRCLE/100,0,-3,1,0,0\nGOTO/100,-5,-3,1,0,0\nCIRCLE/100,-5,0,0,-.6,.8\nGOTO/103,-5,0\n"
+      "CYCLE/INIT\nCYCLE/DEEP2,FEDTO,9,1STPECK,5,SUBPECK,2,MMPM,154,RAPTO,3,RTRCTO,25\n"
+      "CYCLE/TAP,5,CAM,2,1\nCUTCOM/LEFT\nORIGIN/1,2,3\nWARMUP/7\nCYCLE/OFF\n";
+  const auto program = parse_program(text, "part.apt", Dialect::cldata);
+  ASSERT_TRUE(program);
+  const auto before = blocks_of(*program);
+  const std::string written = to_text(before, Dialect::cldata);
+  const auto again = parse_program(written, "part.apt", Dialect::cldata);
+  ASSERT_TRUE(again) << written;
+  const auto after = blocks_of(*again);
+  ASSERT_EQ(before.size(), after.size()) << written;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_TRUE(same_block(before[i], after[i])) << i << "\n" << written;
+  }
+}
+
+}  // namespace
+}  // namespace frustum::parser
