@@ -133,11 +133,11 @@ constexpr int kLines = 400;
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-// The line in upper case without comments of ISO programs.
+// The line without comments of ISO programs.
 std::string code_of(std::string_view line) {
   std::string code;
   int depth = 0;
-  for (const char c : upper_case(line)) {
+  for (const char c : line) {
     if (c == ';' && !code.empty() && code.find_first_not_of(" \t") != std::string::npos) break;
     // MSG( is no comment.
     if (c == '(' && (depth > 0 || code.empty() || !is_letter(code.back()))) ++depth;
@@ -145,6 +145,29 @@ std::string code_of(std::string_view line) {
     if (c == ')' && depth > 0) --depth;
   }
   return code;
+}
+
+// Whether the line speaks to people: three words or more that are no words of a program, which
+// capitals and digits make up. What is in quotation marks does not count.
+bool is_prose(std::string_view code) {
+  constexpr int kWords = 3;
+  code = code.substr(0, code.find('"'));
+  const std::string_view blanks = " \t\r";
+  int words = 0;
+  while (!code.empty()) {
+    code.remove_prefix(std::min(code.find_first_not_of(blanks), code.size()));
+    std::string_view word = code.substr(0, code.find_first_of(blanks));
+    code.remove_prefix(word.size());
+    while (!word.empty() && std::ispunct(static_cast<unsigned char>(word.back())) != 0) {
+      word.remove_suffix(1);
+    }
+    const bool letters = std::all_of(word.begin(), word.end(), is_letter);
+    const bool small = std::any_of(word.begin(), word.end(), [](char c) {
+      return std::islower(static_cast<unsigned char>(c)) != 0;
+    });
+    if (word.size() > 1 && letters && small) ++words;
+  }
+  return words >= kWords;
 }
 
 // Behind blanks, N and digits.
@@ -201,22 +224,44 @@ std::optional<std::string_view> find_sign(std::string_view code, const Sign& sig
   return std::nullopt;
 }
 
+// Signs that texts of a program may stand behind.
+bool may_be_beside_text(const Sign& sign) {
+  return sign.dialect == Dialect::cldata || sign.text == "BEGIN PGM";
+}
+
 std::optional<RecognisedDialect> by_content(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  // A page about programs shows some lines of them.
+  constexpr int kLinesOfAPage = 4;  // one of so many is prose
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const char line_end = text.find('\n') == std::string_view::npos ? '\r' : '\n';
+  std::optional<RecognisedDialect> recognised;
+  int lines = 0;
+  int lines_of_prose = 0;
   for (int line = 1; line <= kLines && !text.empty(); ++line) {
     const std::size_t end = std::min(text.find(line_end), text.size());
-    const std::string code = code_of(text.substr(0, end));
+    const std::string written = code_of(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
+    const bool prose = is_prose(written) && !behind_number(written).starts_with(';');
+    if (prose) ++lines_of_prose;
+    if (written.find_first_not_of(" \t\r") != std::string::npos) ++lines;
+    if (recognised) continue;
+    const std::string code = upper_case(written);
     for (const Sign& sign : kSigns) {
+      if (prose && !may_be_beside_text(sign)) continue;
       const auto found = find_sign(code, sign);
       if (!found) continue;
       const std::string_view shown = found->substr(0, found->find_last_not_of(" \t") + 1);
-      return RecognisedDialect{sign.dialect, fmt::format("line {}: {}", line, shown)};
+      recognised = RecognisedDialect{sign.dialect, fmt::format("line {}: {}", line, shown)};
+      break;
     }
+    if (recognised && (lines_of_prose == 0 || recognised->dialect == Dialect::cldata)) break;
   }
-  return std::nullopt;
+  if (recognised && recognised->dialect != Dialect::cldata &&
+      lines_of_prose * kLinesOfAPage > lines) {
+    return std::nullopt;
+  }
+  return recognised;
 }
 
 }  // namespace
@@ -232,12 +277,17 @@ std::optional<Dialect> dialect_named(std::string_view name) {
 }
 
 RecognisedDialect recognise_dialect(std::string_view text, std::string_view file) {
-  if (auto found = by_content(text)) return *std::move(found);
+  auto found = by_content(text);
   const std::string name = lower_case(file);
-  for (const Extension& extension : kExtensions) {
-    if (name.ends_with(extension.ending)) {
-      return {extension.dialect, fmt::format("the name ends in {}", extension.ending)};
-    }
+  const auto* extension =
+      std::find_if(kExtensions.begin(), kExtensions.end(),
+                   [&name](const Extension& known) { return name.ends_with(known.ending); });
+  // LinuxCNC can be taught Fanuc's words (REMAP), Fanuc's controls know no .ngc.
+  const bool remapped = found && found->dialect == Dialect::fanuc &&
+                        extension != kExtensions.end() && extension->dialect == Dialect::linuxcnc;
+  if (found && !remapped) return *std::move(found);
+  if (extension != kExtensions.end()) {
+    return {extension->dialect, fmt::format("the name ends in {}", extension->ending)};
   }
   return {Dialect::fanuc, "nothing says otherwise"};
 }

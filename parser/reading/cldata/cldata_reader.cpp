@@ -20,6 +20,7 @@
 #include "parser/reading/cldata/cldata_cycle.hpp"
 #include "parser/reading/cldata/cldata_place.hpp"
 #include "parser/reading/cldata/cldata_record.hpp"
+#include "parser/reading/cldata/cldata_remarks.hpp"
 #include "parser/reading/cldata/cldata_settings.hpp"
 #include "parser/reading/cldata/cldata_words.hpp"
 #include "parser/reading/line_scanner.hpp"
@@ -57,7 +58,7 @@ class CldataReader {
     if (pending_.refused) return std::move(block_);
     if (const auto place = read_cldata_place(in_.text())) {
       read_place(*place);
-    } else if (!take_comment() && !in_.at_end()) {
+    } else if (!remarks_.take_comment() && !in_.at_end()) {
       read_record();
     }
     return in_.finish(std::move(block_));
@@ -68,18 +69,6 @@ class CldataReader {
     std::string_view word;
     void (CldataReader::*read)();
   };
-
-  bool take_comment() {
-    const std::uint32_t column = in_.column();
-    if (!in_.take('$')) return in_.failed();
-    if (!in_.take('$')) {
-      in_.fail("value-missing"_id, column, "nothing follows the continuation mark",
-               "$ continues a record on the next line, $$ begins a comment");
-      return true;
-    }
-    block_.comments.push_back({column, true, in_.text_to(), nullptr});
-    return true;
-  }
 
   // A)GOTO/...
   void take_label() {
@@ -107,11 +96,15 @@ class CldataReader {
     }
     record_.word = in_.name();
     if (record_.word.empty()) return in_.fail_unexpected("a record is a word, / and its arguments");
-    if (take_text() || is_no_program() || take_note() || take_turn_of_nothing()) return;
+    if (remarks_.take_text() || is_no_program() || remarks_.take_note(pending_.frame) ||
+        remarks_.take_turn_of_nothing()) {
+      return;
+    }
     if (record_.word == "TLON") {
       in_.take('/');
       read_guided_arc();
-      if (!in_.failed() && !take_comment() && !in_.at_end()) in_.fail_unexpected("end the record");
+      if (!in_.failed() && !remarks_.take_comment() && !in_.at_end())
+        in_.fail_unexpected("end the record");
       return;
     }
     // LOAD/TOOL,5 is LOADTL/5.
@@ -128,59 +121,6 @@ class CldataReader {
       record_.arguments.erase(record_.arguments.begin());
     }
     read_rest();
-  }
-
-  bool take_text() {
-    const char* text = cldata_text_word(record_.word);
-    if (text == nullptr) return false;
-    in_.go_to(record_.column + static_cast<std::uint32_t>(std::string_view(text).size()));
-    in_.take('/');
-    const bool message = std::string_view(text) == "PPRINT";
-    block_.comments.push_back({record_.column, false, in_.text_to(), message ? "message" : text});
-    return true;
-  }
-
-  bool take_note() {
-    const std::string& word = record_.word;
-    if (word == "TOOL" && in_.take_name("PATH")) return note("TOOL PATH");
-    if (word == "END" && in_.peek() == '-') return note("END-OF-PATH");
-    if (word == "MSYS") return note_frame();
-    for (const char* event : cldata_note_words()) {
-      if (word == event) return note(event);
-    }
-    return false;
-  }
-
-  // The frame that places of NX count in.
-  bool note_frame() {
-    std::string frame = rest_of_record();
-    block_.comments.push_back({record_.column, false, frame, "MSYS"});
-    if (!pending_.frame.empty() && pending_.frame != frame) {
-      assumed("MSYS", "places count in this frame from here on; the job says where it is");
-    }
-    if (!take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
-    pending_.frame = std::move(frame);
-    return true;
-  }
-
-  // ROTABL/0.0,,TABLE,CLW
-  bool take_turn_of_nothing() {
-    if (record_.word != "ROTABL" && record_.word != "ROTATE" && record_.word != "ROTHED") {
-      return false;
-    }
-    const std::uint32_t behind_word = in_.column();
-    in_.take('/');
-    const std::uint32_t column = in_.column();
-    in_.take('-');
-    const auto angle = in_.number();
-    if (angle && angle->value == 0.0) {
-      in_.go_to(column);
-      return note(record_.word == "ROTABL"   ? "ROTABL"
-                  : record_.word == "ROTATE" ? "ROTATE"
-                                             : "ROTHED");
-    }
-    in_.go_to(behind_word);
-    return false;
   }
 
   // What is written for the APT processor, for a lathe or for wire erosion.
@@ -203,24 +143,11 @@ class CldataReader {
     return in_.failed();
   }
 
-  // The arguments of all lines that it goes over.
-  std::string rest_of_record() {
-    in_.take('/');
-    std::string text = in_.text_to("$");
-    while (!in_.at_end() && in_.peek() != '$') text += in_.text_to("$");
-    return text;
-  }
-  bool note(const char* event) {
-    block_.comments.push_back({record_.column, false, rest_of_record(), event});
-    if (!take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
-    return true;
-  }
-
   // Words of post-processors are many; what could move the tool or is near a known word is a
   // mistake.
   void read_unknown(std::uint32_t behind_word) {
     in_.go_to(behind_word);
-    const std::string arguments = rest_of_record();
+    const std::string arguments = remarks_.rest_of_record();
     const std::vector<std::string> known = known_records();
     if (could_move(record_.word, arguments) || nearest_word(record_.word, known)) {
       return in_.fail("unknown-word"_id, record_.column, "unknown record " + record_.word,
@@ -229,12 +156,12 @@ class CldataReader {
     std::string text = record_.word;
     if (!arguments.empty()) text += "/" + arguments;
     block_.comments.push_back({record_.column, false, std::move(text), "post word", true});
-    take_comment();
+    remarks_.take_comment();
   }
 
   void read_rest() {
-    if (!take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
-    if (in_.failed() || take_harmless() || is_refused()) return;
+    if (!remarks_.take_comment() && !in_.at_end()) in_.fail_unexpected("separate arguments by ,");
+    if (in_.failed() || remarks_.take_harmless() || is_refused()) return;
     const bool place = record_.word == "GOTO" || record_.word == "CONT";
     if (!place) {
       if (!leave_circle()) return;
@@ -278,33 +205,6 @@ class CldataReader {
              fmt::format("the CIRCLE on line {} has no GOTO", *line),
              "give the end of the arc by GOTO");
     return false;
-  }
-
-  bool take_harmless() {
-    if (record_.word == "CUTCOM") return take_cutter_compensation();
-    if (record_.word == "ORIGIN" && record_.only_word().empty()) return take_origin();
-    const char* word = harmless_cldata(record_.word, record_.only_word());
-    if (word == nullptr) return false;
-    block_.comments.push_back({record_.column, false, record_.only_word(), word});
-    return true;
-  }
-
-  bool take_cutter_compensation() {
-    block_.comments.push_back({record_.column, false, record_.text_from(0), "CUTCOM"});
-    if (record_.only_word() != "OFF") {
-      assumed(
-          "CUTCOM",
-          "places are those of the tool's centre, and the offset that the control adds is zero");
-    }
-    return true;
-  }
-  bool take_origin() {
-    block_.comments.push_back({record_.column, false, record_.text_from(0), "ORIGIN"});
-    assumed("ORIGIN", "it says where the part is on the machine; places stay the part's");
-    return true;
-  }
-  void assumed(const char* name, const char* text) {
-    block_.comments.push_back({record_.column, false, text, name, false, true});
   }
 
   bool is_refused() {
@@ -450,7 +350,7 @@ class CldataReader {
     pending_.modes.feed_given = true;
     add("FEDRAT/MMPM");
     add_number(block_, 'F', pending_.modes.inches ? kFeed / kMmPerInch : kFeed, record_.column);
-    assumed("FEDRAT", "no feed is given before this move: 1000 mm/min");
+    remarks_.assumed("FEDRAT", "no feed is given before this move: 1000 mm/min");
   }
 
   void read_increment() {
@@ -514,6 +414,7 @@ class CldataReader {
   Pending& pending_;
   Block block_;
   CldataRecord record_;
+  CldataRemarks remarks_{in_, record_, block_};
 };
 
 }  // namespace

@@ -76,6 +76,8 @@ TEST(Dialect, IsRecognisedByTheNameWhenTheContentIsSilent) {
   EXPECT_EQ(found("a.ngc").dialect, Dialect::linuxcnc);
   EXPECT_EQ(found("a.H").reason, "the name ends in .h");
   EXPECT_EQ(found("a.cls").dialect, Dialect::cldata);
+  EXPECT_EQ(found("a.clsf").dialect, Dialect::cldata);
+  EXPECT_EQ(found("a.ncl").dialect, Dialect::cldata);
   EXPECT_EQ(found("a.nc").dialect, Dialect::fanuc);
   EXPECT_EQ(found("a.nc").reason, "nothing says otherwise");
 }
@@ -97,6 +99,32 @@ TEST(Dialect, IsRecognisedBehindAByteOrderMarkAndByWordsWithNumbers) {
 TEST(Dialect, IsNotRecognisedByWordsOfComments) {
   EXPECT_EQ(recognise_dialect("(TRAORI, GOTO/1,2,3)\nG0 X0 ; TRAORI\n", "a.nc").reason,
             "nothing says otherwise");
+}
+
+TEST(Dialect, Fault2_14_RemappedWordsOfLinuxcncAreNotFanucs) {
+  const std::string text = "G21\nG68.2 X0 Y0 Z0 I0 J10 K0\nG53.1\nM2\n";
+  EXPECT_EQ(recognise_dialect(text, "five_axis.ngc").dialect, Dialect::linuxcnc);
+  EXPECT_EQ(recognise_dialect(text, "five_axis.nc").reason, "line 2: G68.2");
+  EXPECT_EQ(recognise_dialect("TRAORI\n" + text, "five_axis.ngc").dialect, Dialect::sinumerik);
+}
+
+TEST(Dialect, Fault2_19_ProseIsNoProgram) {
+  const std::string page =
+      "# How to position\n\nUse an assignment such as X=5 to move the axis there.\n\n"
+      "- a second hint for people who read this\n\n```\nG1 X=R1+5 F=100\n```\n";
+  EXPECT_EQ(recognise_dialect(page, "README.md").reason, "nothing says otherwise");
+  EXPECT_EQ(recognise_dialect("Function of the plane is to be set here\nG0 X1\n", "a.txt").reason,
+            "nothing says otherwise");
+  // A remark that is marked as none in many lines of a program; programs in small letters.
+  EXPECT_EQ(
+      recognise_dialect("a remark that nobody marked\nG0 X0\nG1 X=5 F1\nX6\nX7\nX8\n", "a.txt")
+          .reason,
+      "line 3: X=");
+  EXPECT_EQ(recognise_dialect("g1 x=r1 f100\nif r1==5 gotof ende\n", "a.txt").reason, "line 1: X=");
+  EXPECT_EQ(recognise_dialect("PARTNO a flange for the pump\nGOTO/1,2,3\n", "a.txt").dialect,
+            Dialect::cldata);
+  EXPECT_EQ(recognise_dialect("N10 MSG(\"now the first side is cut\")\nG0 X1\n", "a.txt").dialect,
+            Dialect::sinumerik);
 }
 
 TEST(Dialect, NamesReadBack) {
