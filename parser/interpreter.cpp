@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "parser/interpret/program_run.hpp"
+#include "parser/not_milling.hpp"
 
 namespace frustum::parser {
 
 Result<RunSummary> interpret(const Program& program, const MotionSink& sink,
                              const InterpreterOptions& options) {
+  if (auto foreign = not_milling(program)) return *std::move(foreign);
   return ProgramRun(program, sink, options)();
 }
 

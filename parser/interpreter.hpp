@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/control_settings.hpp"
 #include "parser/interpret/state/control_data.hpp"
 #include "parser/interpret/state/modal_state.hpp"
 #include "parser/motion.hpp"
@@ -51,6 +52,8 @@ struct InterpreterOptions {
   // known of the setup.
   WorkOffsets work_offsets{};
   std::array<AxisTarget, 2> reference_points{};
+  // Words of the machine's builder, and how numbers without a decimal point count.
+  ControlSettings control{};
   // LinuxCNC: the unit of the machine, in which parameters such as #5221 and #5403 count.
   LengthUnit machine_unit = LengthUnit::millimetre;
   // Subprograms within subprograms.

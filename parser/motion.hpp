@@ -59,7 +59,7 @@ enum class Plane : std::uint8_t { xy, zx, yz };
 enum class SpindleDirection : std::uint8_t { off, clockwise, counterclockwise };
 
 struct Feed {
-  // mm/min (deg/min for purely rotary moves); 1/min with inverse_time; mm with per_revolution.
+  // Above zero; zero where the program gives none and the control has one of its own. mm/min (deg/min for purely rotary moves); 1/min with inverse_time; mm with per_revolution.
   double value = 0.0;
   FeedMode mode = FeedMode::per_minute;
   // Threads: the axes follow the angle of the spindle from its mark on; with per_revolution.

@@ -111,6 +111,25 @@ struct DialectRules {
   // Words of their own round or break the corner between two moves.
   bool inserts_corners = false;
   LetterSet always_claimed{};  // words that have a meaning in every block
+  // Words that a block of G0 to G3 may have without a meaning where they are zero.
+  LetterSet idle_at_zero{};
+  // M words that are in no table are of the machine's builder.
+  bool unknown_m_words_are_builders = false;
+  // Of several words of the motion group in a block the last one counts.
+  bool last_motion_counts = false;
+  // Before the first motion word G0 is in force.
+  bool starts_with_rapid = false;
+  // H and D are words of their own: the number of the length in force, and of the next radius.
+  bool offset_numbers_stand_alone = false;
+  // The words count from where the program was before the length changed: it adds to the moves.
+  bool length_adds_to_moves = false;
+  // G52 is a shift of its own, within that of G92.
+  bool local_shift_is_apart = false;
+  // An arc with neither centre nor radius is a straight move; beside a radius the centre words do
+  // not count.
+  bool arcs_may_lack_centre = false;
+  // A cutting move before the first F goes on, with a feed that is not known (0).
+  bool feed_may_be_missing = false;
   std::span<const LetterUse> letters{};
   std::string_view known_letters{};
   ParameterRules parameters{};

@@ -36,6 +36,9 @@ constexpr std::array kFanucCodes{
     modal('G', 290, non_modal, NonModal::from_home, kAxisWords),
     modal('G', 310, non_modal, NonModal::skip),
     modal('G', 330, motion, MotionMode::thread),
+    modal('G', 700, unit, LengthUnit::inch),
+    modal('G', 710, unit, LengthUnit::millimetre),
+    modal('G', 921, non_modal, NonModal::shift_off, kAxisWords),
     modal('G', 541, work_offset, kExtendedWorkOffset, LetterSet("P")),
     passed('G', 50, CodeGroup::event, LetterSet("P")),        // high-speed machining
     passed('G', 51, CodeGroup::event, kSmoothingWords),       // look-ahead contour control
@@ -46,6 +49,10 @@ constexpr std::array kFanucCodes{
     passed('G', 620, path_control),                           // corners
     passed('G', 630, path_control),                           // tapping
     passed('M', 290),                                         // rigid tap
+    // Haas: blocks read ahead, smoothness, work offsets.
+    passed('G', 1030, CodeGroup::event, LetterSet("P")),
+    passed('G', 1870, CodeGroup::event, LetterSet("PE")),
+    modal('G', 1540, work_offset, kExtendedWorkOffset, LetterSet("P")),
     modal('G', 650, subprogram, SubprogramWord::macro),
     modal('G', 660, subprogram, SubprogramWord::macro),
     modal('G', 670, subprogram, SubprogramWord::end_modal),
@@ -113,6 +120,8 @@ constexpr std::array kFanucLetters{
     LetterUse{'X', kFanucNeedsMotion},
     LetterUse{'Y', kFanucNeedsMotion},
     LetterUse{'Z', kFanucNeedsMotion},
+    LetterUse{'x', ",C belongs to a block of G1 to G3 that moves in the plane"},
+    LetterUse{'y', ",R belongs to a block of G1 to G3 that moves in the plane"},
 };
 constexpr std::array kFanucDwell{DwellWord{'P', DwellUnit::milliseconds_without_point},
                                  DwellWord{'X', DwellUnit::seconds},
@@ -130,6 +139,15 @@ constexpr DialectRules kFanucRules{
     .dwell_hint = "give P in milliseconds, or X in seconds",
     .words_behind_move = kStopsBehindMove,
     .always_claimed = LetterSet("FST"),
+    .idle_at_zero = LetterSet("IJKRQ"),
+    .unknown_m_words_are_builders = true,
+    .last_motion_counts = true,
+    .starts_with_rapid = true,
+    .offset_numbers_stand_alone = true,
+    .length_adds_to_moves = true,
+    .local_shift_is_apart = true,
+    .arcs_may_lack_centre = true,
+    .feed_may_be_missing = true,
     .letters = kFanucLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
     .parameters = {.locals = 33, .unset_is_vacant = true, .first_system = 1000},

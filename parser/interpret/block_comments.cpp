@@ -142,7 +142,23 @@ void report_comments(InterpreterState& state, const Block& block) {
   }
 }
 
-void report_events(InterpreterState& state, const BlockWords& words) {
+void report_events(InterpreterState& state, const BlockWords& words, LetterSet idle) {
+  const auto texts_of = [&words](LetterSet letters) {
+    std::string text;
+    for (LetterSet left = letters & words.given(); !left.empty(); left = left.without_first()) {
+      text += (text.empty() ? "" : " ") + words.text_of(left.first());
+    }
+    return text;
+  };
+  if (words.builder().empty() && !idle.empty()) {
+    assume(state, words[words.first_of(idle)].column, "idle words",
+           fmt::format("{} has no meaning beside the move", texts_of(idle)));
+  }
+  for (const BuilderWord& word : words.builder()) {
+    const EventGrade grade = state.control.has(word.word) ? EventGrade::known : EventGrade::builder;
+    emit(state, word.column, Event{name_of(word.word), texts_of(idle), grade});
+    idle = {};
+  }
   for (const GivenCode& word : words.vacant()) {
     const auto written =
         std::find_if(state.at_work.block->words.begin(), state.at_work.block->words.end(),
@@ -150,13 +166,7 @@ void report_events(InterpreterState& state, const BlockWords& words) {
     emit(state, word.column, Event{"vacant", std::string(1, written->letter)});
   }
   for (const GivenCode& event : words.events()) {
-    std::string arguments;
-    for (char letter = 'A'; letter <= 'Z'; ++letter) {
-      if (!words.has(letter) || !event.code->arguments.has(letter)) continue;
-      if (!arguments.empty()) arguments += ' ';
-      arguments += words.text_of(letter);
-    }
-    emit(state, event.column, Event{event.code->name(), std::move(arguments)});
+    emit(state, event.column, Event{event.code->name(), texts_of(event.code->arguments)});
   }
 }
 

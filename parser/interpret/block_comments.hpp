@@ -10,6 +10,7 @@
 namespace frustum::parser {
 
 void report_comments(InterpreterState& state, const Block& block);
-void report_events(InterpreterState& state, const BlockWords& words);
+// `idle` are the words that nothing else in the block uses.
+void report_events(InterpreterState& state, const BlockWords& words, LetterSet idle = {});
 
 }  // namespace frustum::parser

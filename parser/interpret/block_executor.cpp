@@ -29,6 +29,7 @@
 #include "parser/interpret/parameter_settings.hpp"
 #include "parser/interpret/saved_modes.hpp"
 #include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/decimal_points.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 #include "parser/interpret/state/movement.hpp"
 #include "parser/interpret/state/word_values.hpp"
@@ -90,13 +91,16 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
     report_comments(state, block);
     return call_macro(state, block, *macro);
   }
-  auto words = read_words(block, state.parameters, state.rules.dialect);
+  auto words = read_words(block, state.parameters, state.rules, state.control);
   if (!words) return std::move(words).error();
+  const LengthUnit unit = words->value_or(CodeGroup::unit, state.modes.unit);
+  if (!words->without_point().empty()) count_without_points(state, *words, unit);
   const auto movement = movement_of(state, *words);
   if (!movement) return movement.error();
   const auto after_move = words_after_move(state, *words, *movement);
   if (!after_move) return after_move.error();
-  if (auto done = check_claims(state, *words, *movement); !done) return std::move(done).error();
+  const auto idle = check_claims(state, *words, *movement);
+  if (!idle) return idle.error();
 
   if (auto done = check_radius_compensation(state, filters, *words, *movement); !done) {
     return std::move(done).error();
@@ -110,7 +114,6 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
                 "look at the conditions before this block");
   }
   if (auto done = set_parameters(state, block); !done) return std::move(done).error();
-  const LengthUnit unit = words->value_or(CodeGroup::unit, state.modes.unit);
   if (!state.rules.feed_precedes_unit) state.modes.unit = unit;
   const bool dwells = movement->non_modal == NonModal::dwell;
   // F and S of a dwell are its time where the dialect says so.
@@ -132,12 +135,15 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
   if (auto done = keep_modes(state, *words); !done) return std::move(done).error();
   if (auto done = set_tool(state, *words); !done) return std::move(done).error();
   set_spindle_and_coolant(state, *words, *speed);
-  report_events(state, *words);
+  report_events(state, *words, *idle);
   if (dwells) {
     if (auto done = dwell(state, *words); !done) return std::move(done).error();
   }
   if (auto done = set_frames(state, filters, *words); !done) return std::move(done).error();
   if (auto done = make_move(state, *words, *movement); !done) return std::move(done).error();
+  if (filters.passes_corners && !state.rules.inserts_corners) {
+    if (auto done = keep_corner(state, filters, *words); !done) return std::move(done).error();
+  }
   auto drilled = state.rules.dialect == Dialect::sinumerik ? call_drilling_cycle(state, *words)
                                                            : call_hole_cycle(state, *words);
   if (!drilled) return std::move(drilled).error();

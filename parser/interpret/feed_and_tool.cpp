@@ -32,6 +32,7 @@ Outcome set_feed(InterpreterState& state, const BlockWords& words) {
   }
   if (!words.has('F')) return Done{};
   const double feed = words['F'].value;
+  state.modes.feed_was_given = true;
   if (feed < 0.0) {
     return fail(state, words['F'].column, "value-negative"_id,
                 fmt::format("{} is negative", words.text_of('F')), "give a feed above zero");

@@ -100,8 +100,14 @@ constexpr std::array kModalMoves{
 }  // namespace
 
 Outcome make_move(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  const bool by_itself = state.rules.starts_with_rapid && state.modes.motion == MotionMode::none &&
+                         !words.has(CodeGroup::motion);
+  const bool moves = movement.motion != MotionMode::none;
+  if (by_itself && moves && movement.non_modal == NonModal::none) {
+    assume(state, movement.column, "first motion", "G0 is in force before the first motion word");
+  }
   // Axis words or not, the motion word stays in force for the blocks after.
-  state.modes.motion = motion_of(state, words);
+  if (!by_itself || moves) state.modes.motion = motion_of(state, words);
   if (auto done = check_feature(state, movement); !done) return done;
   if (!is_cycle(state.modes.motion)) {
     state.modes.cycle.reset();
@@ -118,6 +124,9 @@ Outcome make_move(InterpreterState& state, const BlockWords& words, const Moveme
     for (const NonModalMove& row : kNonModalMoves) {
       if (row.word == movement.non_modal) return row.move(state, words, movement);
     }
+  }
+  if (movement.non_modal == NonModal::machine_coordinates && movement.motion == MotionMode::none) {
+    emit(state, movement.column, Event{"G53", {}});
   }
   if (movement.motion == MotionMode::none) return Done{};
   guide_uncalled_tool(state, movement.column);

@@ -18,6 +18,8 @@ namespace frustum::parser {
 namespace {
 
 constexpr LetterSet kMoveWords{"XYZABCIJKRabcpquvw"};
+// What a word of the machine's builder may have beside it.
+constexpr LetterSet kBuilderArguments{"PQRLEDHIJKSUVW"};
 
 LetterSet centre_letters(Plane plane) {
   constexpr std::array kLetters{LetterSet("IJ"), LetterSet("IK"), LetterSet("JK")};
@@ -35,6 +37,10 @@ LetterSet letters_of_spline(MotionMode mode) {
     default:
       return {};
   }
+}
+
+LetterSet corner_letters(const InterpreterState& state) {
+  return state.rules.dialect == Dialect::fanuc ? LetterSet("xy") : LetterSet{};
 }
 
 LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
@@ -61,7 +67,8 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
           guides_tip(state, words) && movement.non_modal != NonModal::machine_coordinates;
       LetterSet letters = kAxisWords | state.rules.polar_words;
       if (vectors) letters = letters | LetterSet(state.rules.vector_letters);
-      if (movement.motion == MotionMode::linear) letters.add('t');
+      if (movement.motion == MotionMode::linear)
+        letters = letters | corner_letters(state) | LetterSet("t");
       return letters;
     }
     case MotionMode::cubic_spline:
@@ -82,7 +89,8 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     }
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise: {
-      const LetterSet letters = kAxisWords | LetterSet("RPet") | state.rules.polar_words |
+      const LetterSet letters = kAxisWords | LetterSet("RPet") | corner_letters(state) |
+                                state.rules.polar_words |
                                 centre_letters(words.value_or(CodeGroup::plane, state.modes.plane));
       // Where I J K are the tool vector, an arc has them for its centre.
       const bool vectors = guides_tip(state, words) && state.rules.vector_letters != "IJK";
@@ -117,7 +125,8 @@ Outcome check_alone(const NonModalWord& used) {
 
 Result<Movement> to_home(const NonModalWord& used) {
   if (auto done = check_alone(used); !done) return std::move(done).error();
-  if (used.names_no_axis() && !used.state.rules.home_without_axes_is_all) {
+  const bool all = used.state.rules.home_without_axes_is_all || used.state.rules.starts_with_rapid;
+  if (used.names_no_axis() && !all) {
     return used.without_axes(
         fmt::format("give the axes to send home, for example G91 {} Z0", used.name()));
   }
@@ -137,7 +146,14 @@ Result<Movement> to_end(const NonModalWord& used) {
 
 Result<Movement> in_machine_coordinates(const NonModalWord& used) {
   const std::uint32_t column = used.given.column;
-  if (used.mode != MotionMode::traverse && used.mode != MotionMode::linear) {
+  const bool rests = used.names_no_axis() && used.state.rules.starts_with_rapid;
+  if (rests) return Movement{used.word(), MotionMode::none, column};
+  MotionMode mode = used.mode;
+  const bool of_block = used.words.has(CodeGroup::motion);
+  if (used.state.rules.starts_with_rapid && !of_block && mode != MotionMode::linear) {
+    mode = MotionMode::traverse;
+  }
+  if (mode != MotionMode::traverse && mode != MotionMode::linear) {
     return fail(used.state, column, "machine-coordinates"_id,
                 used.name() + " without a straight move",
                 "machine coordinates belong to a straight move, for example G53 G0 Z0");
@@ -148,7 +164,7 @@ Result<Movement> in_machine_coordinates(const NonModalWord& used) {
     return fail(used.state, column, "machine-coordinates"_id, used.name() + " in G91",
                 "machine coordinates need G90");
   }
-  return Movement{used.word(), used.mode, column};
+  return Movement{used.word(), mode, column};
 }
 
 // The non-modal words whose axis words are a place to go to.
@@ -184,8 +200,9 @@ bool axes_are_taken(const BlockWords& words) {
 MotionMode motion_of(const InterpreterState& state, const BlockWords& words) {
   const MotionMode after_cancel =
       state.rules.cycles.cancel_brings_motion_back ? state.modes.before_cycle : MotionMode::none;
-  return words.value_or(CodeGroup::motion,
-                        words.has(CodeGroup::cycle) ? after_cancel : state.modes.motion);
+  const auto mode = words.value_or(CodeGroup::motion,
+                                   words.has(CodeGroup::cycle) ? after_cancel : state.modes.motion);
+  return mode == MotionMode::none && state.rules.starts_with_rapid ? MotionMode::traverse : mode;
 }
 
 Result<Movement> movement_of(const InterpreterState& state, const BlockWords& words) {
@@ -218,8 +235,8 @@ Result<Movement> movement_of(const InterpreterState& state, const BlockWords& wo
       motion.code != nullptr ? motion.column : words[words.first_of(move_words)].column};
 }
 
-Outcome check_claims(const InterpreterState& state, const BlockWords& words,
-                     const Movement& movement) {
+Result<LetterSet> check_claims(const InterpreterState& state, const BlockWords& words,
+                               const Movement& movement) {
   LetterSet claimed = state.rules.always_claimed;
   LetterSet twice;
   const auto claim = [&](LetterSet letters) {
@@ -238,8 +255,17 @@ Outcome check_claims(const InterpreterState& state, const BlockWords& words,
                 fmt::format("{} could belong to two words of the block", words.text_of(letter)),
                 "write two blocks");
   }
-  const char letter = words.first_of(words.given().without(claimed));
-  if (letter == 0) return Done{};
+  if (state.rules.offset_numbers_stand_alone) claimed = claimed | LetterSet("HD");
+  LetterSet idle;
+  if (!words.builder().empty()) idle = kBuilderArguments;
+  if (movement.motion >= MotionMode::traverse && movement.motion <= MotionMode::arc_tangential) {
+    for (LetterSet left = state.rules.idle_at_zero; !left.empty(); left = left.without_first()) {
+      if (words[left.first()].value == 0.0) idle.add(left.first());
+    }
+  }
+  idle = words.given().without(claimed) & idle;
+  const char letter = words.first_of(words.given().without(claimed | idle));
+  if (letter == 0) return idle;
   const std::string_view use = letter_use(state.rules, letter);
   if (use.empty()) {
     return fail(state, words[letter].column, "unknown-word"_id,

@@ -12,7 +12,9 @@ namespace frustum::parser {
 
 [[nodiscard]] MotionMode motion_of(const InterpreterState& state, const BlockWords& words);
 [[nodiscard]] Result<Movement> movement_of(const InterpreterState& state, const BlockWords& words);
-[[nodiscard]] Outcome check_claims(const InterpreterState& state, const BlockWords& words,
-                                   const Movement& movement);
+// The words that nothing in the block uses, where they may be there all the same: beside a word of
+// the machine's builder, or idle.
+[[nodiscard]] Result<LetterSet> check_claims(const InterpreterState& state, const BlockWords& words,
+                                             const Movement& movement);
 
 }  // namespace frustum::parser

@@ -57,7 +57,9 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
       options_(options),
       rules_(rules_of(program.dialect)),
       executor_(program.dialect, options.start, data_before(options), sink),
-      main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {}
+      main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {
+  executor_.state().control = options.control;
+}
 
 Result<RunSummary> ProgramRun::operator()() {
   frames_.push_back({main_, BlockCursor(main_->program())});
@@ -282,6 +284,16 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
     return std::nullopt;
   }
   // Nothing that has run could make the next time another.
+  if (!statement_ran_ && rules_.dialect == Dialect::fanuc) {
+    const auto tell = [&](Command command) {
+      SourcePlace place = block.place_of(leave.column);
+      place.file = frame().program->place_file();
+      sink_(Motion{std::move(place), std::move(command)});
+    };
+    executor_.settle();
+    tell(Event{"M99", "the main program would begin again"});
+    return end_program(block, leave.column);
+  }
   if (!statement_ran_ || rules_.dialect != Dialect::fanuc) {
     return at(block, leave.column, "endless-loop"_id,
               "M99 in the main program would repeat it for ever", "end the main program with M30");

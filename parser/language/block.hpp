@@ -14,6 +14,7 @@
 //   s        a tilted plane goes on within the last one
 //   k        an arc goes on in the direction of the move before it (CT)
 //   u v w    a second shift of a tilted plane, along its own axes; the axis of an arc in space
+//   x y      a chamfer or a rounding between the move of the block and the next one (,C ,R)
 //   f r      the feed of a hole cycle, per minute and per revolution
 //   @        a word without a number (TRAORI, TOOL CALL): `number` is its row in the code table
 // Units: as written. Columns count bytes from 1. Comments are UTF-8 (Latin-1 text is converted).
@@ -46,6 +47,8 @@ constexpr char kPolarRadius = 'p';
 constexpr char kPolarAngle = 'q';
 constexpr char kTangential = 'k';
 constexpr char kSwivelOnTop = 's';
+constexpr char kCornerChamfer = 'x';
+constexpr char kCornerRadius = 'y';
 
 // A letter and its value: a plain number (the fast, common case) or an expression.
 struct Word {

@@ -25,14 +25,14 @@ class Rs274Block {
 
   std::string operator()() {
     SpacedText text;
-    if (block_.tape_mark) text.add("%");
+    if (block_.tape_mark) text.add("%" + tape_name());
     if (block_.deletable) text.add("/");
     if (block_.delete_switch != 0) text.add(fmt::format("{}", block_.delete_switch));
     if (block_.number) text.add(fmt::format("N{}", *block_.number));
     if (block_.flow)
       text.add(linuxcnc_ ? o_statement(*block_.flow) : macro_statement(*block_.flow));
     for (const Comment& comment : block_.comments) {
-      if (comment.event != nullptr) text.add(output_statement(comment));
+      if (comment.event != nullptr && !names_tape(comment)) text.add(output_statement(comment));
     }
     for (const Word& word : block_.words) text.add(word_text(word));
     for (const Assignment& setting : block_.assignments) text.add(setting_text(setting));
@@ -118,6 +118,14 @@ class Rs274Block {
       default:
         return (condition.empty() ? "" : "IF " + condition) + jump_text(flow);
     }
+  }
+
+  static bool names_tape(const Comment& comment) { return std::string_view(comment.event) == "%"; }
+  [[nodiscard]] std::string tape_name() const {
+    for (const Comment& comment : block_.comments) {
+      if (comment.event != nullptr && names_tape(comment)) return comment.text;
+    }
+    return {};
   }
 
   // DPRNT[X#1[53]], POPEN.

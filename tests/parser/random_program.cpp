@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "core/random.hpp"
@@ -74,6 +75,11 @@ ExpressionRange add_expression(Dice& dice, Block& block, Dialect dialect) {
 Word random_word(Dice& dice, Block& block, Dialect dialect) {
   Word word;
   word.letter = kLetters[dice.below(kLetters.size())];
+  if (dialect == Dialect::fanuc && dice.chance(0.05)) {
+    const bool rounds = dice.chance(0.5);
+    word.letter = rounds ? kCornerRadius : kCornerChamfer;
+    word.spelled = rounds ? ",R" : ",C";
+  }
   if (dice.chance(0.7)) {
     word.number = dice.number();
     word.decimal_point = word.number != std::floor(word.number) || dice.chance(0.3);
@@ -102,7 +108,7 @@ Assignment random_setting(Dice& dice, Block& block, Dialect dialect) {
   return setting;
 }
 
-Comment random_comment(Dice& dice, bool to_line_end) {
+Comment random_comment(Dice& dice, bool to_line_end, Dialect dialect) {
   constexpr std::array<std::string_view, 7> kParts{" ", "tool", "10 mm", "#1=2", "Fr\xC3\xA4ser",
                                                    "%", "N5"};
   Comment comment;
@@ -110,6 +116,7 @@ Comment random_comment(Dice& dice, bool to_line_end) {
   for (std::size_t i = dice.below(4); i > 0; --i)
     comment.text += kParts.at(dice.below(kParts.size()));
   if (to_line_end && dice.chance(0.5)) comment.text += "(not closed";
+  if (!to_line_end && dialect == Dialect::fanuc && dice.chance(0.2)) comment.text += "(of (two))";
   return comment;
 }
 
@@ -118,6 +125,9 @@ Block random_block(Dice& dice, std::uint32_t line, Dialect dialect) {
   block.line = line;
   if (dice.chance(0.02)) {
     block.tape_mark = true;
+    if (dialect == Dialect::fanuc && dice.chance(0.5)) {
+      block.comments.push_back({0, false, std::to_string(dice.below(1000)), "%"});
+    }
   } else {
     block.deletable = dice.chance(0.1);
     if (dice.chance(0.4)) block.number = static_cast<std::uint32_t>(dice.below(100'000'000));
@@ -129,8 +139,8 @@ Block random_block(Dice& dice, std::uint32_t line, Dialect dialect) {
       block.assignments.push_back(random_setting(dice, block, dialect));
     }
   }
-  while (dice.chance(0.2)) block.comments.push_back(random_comment(dice, false));
-  if (dice.chance(0.1)) block.comments.push_back(random_comment(dice, true));
+  while (dice.chance(0.2)) block.comments.push_back(random_comment(dice, false, dialect));
+  if (dice.chance(0.1)) block.comments.push_back(random_comment(dice, true, dialect));
   return block;
 }
 

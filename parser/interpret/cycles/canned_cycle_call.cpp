@@ -49,6 +49,10 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     cycle = CannedCycle{.initial = cycle.initial};
   }
   if (!goes_on) {
+    // The length of the tool has been switched on with no move of its own.
+    if (const auto programmed = state.position.programmed(depth_axis)) {
+      state.position.set(depth_axis, *programmed);
+    }
     if (!state.position[depth_axis]) {
       return fail(state, movement.column, state.position.unknown_id(depth_axis),
                   fmt::format("the cycle starts at an unknown {}: {}", depth_letter,
@@ -80,6 +84,10 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     return fail(state, movement.column, "cycle-word-missing"_id,
                 fmt::format("the cycle has no {}", letter), std::move(what));
   };
+  if (!cycle.level && state.rules.starts_with_rapid) {
+    assume(state, movement.column, "cycle without R", "feeding begins where the tool is");
+    cycle.level = cycle.level_is_step ? 0.0 : cycle.initial;
+  }
   if (!cycle.level) return missing('R', "give R, where feeding begins");
   if (!cycle.bottom) {
     return missing(depth_letter, fmt::format("give {}, the bottom of the hole", depth_letter));

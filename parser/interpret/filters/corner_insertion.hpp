@@ -37,6 +37,8 @@ class CornerInsertion {
   using Sink = std::function<void(Motion&&)>;
   using Failure = std::optional<Diagnostic>;
 
+  // Motions come from now on, from where the tool is.
+  void start(const AxisTarget& from) { reached_ = from; }
   // Whether a corner waits for the move after it.
   [[nodiscard]] const std::optional<Corner>& corner() const { return corner_; }
   [[nodiscard]] Failure take(Motion&& motion, const Sink& sink);

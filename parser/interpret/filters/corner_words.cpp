@@ -18,34 +18,54 @@ namespace {
 constexpr std::array kBesideMoves{CodeGroup::motion, CodeGroup::feed_source, CodeGroup::spindle,
                                   CodeGroup::coolant, CodeGroup::corner};
 
-}  // namespace
-
-Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const BlockWords& words) {
-  if (!state.rules.inserts_corners) return Done{};
-  const GivenCode& code = words[CodeGroup::corner];
+// Between a corner and the move after it.
+Outcome check_between(const InterpreterState& state, const MotionFilters& filters,
+                      const BlockWords& words) {
   const auto side = words.value_or(CodeGroup::radius_compensation, RadiusWord::off);
   const bool same_side =
       filters.radius.is_on()
           ? side == (filters.radius.setting().side == ToolSide::left ? RadiusWord::left
                                                                      : RadiusWord::right)
           : side == RadiusWord::off;
-  if (filters.corners.corner()) {
-    for (std::size_t group = 0; group < kCodeGroups; ++group) {
-      const GivenCode& other = words[static_cast<CodeGroup>(group)];
-      const bool repeated =
-          other.code != nullptr && same_side && other.code->group == CodeGroup::radius_compensation;
-      const bool pole = group == static_cast<std::size_t>(CodeGroup::non_modal) &&
-                        words.value_or(CodeGroup::non_modal, NonModal::none) == NonModal::pole;
-      if (other.code == nullptr || other.code->event || repeated || pole ||
-          std::find(kBesideMoves.begin(), kBesideMoves.end(), other.code->group) !=
-              kBesideMoves.end()) {
-        continue;
-      }
-      return fail(state, other.column, "corner-interrupted"_id,
-                  fmt::format("{} between {} and the move after it", other.code->name(),
-                              filters.corners.corner()->name),
-                  "write the moves of the contour one after the other");
+  for (std::size_t group = 0; group < kCodeGroups; ++group) {
+    const GivenCode& other = words[static_cast<CodeGroup>(group)];
+    const bool repeated =
+        other.code != nullptr && same_side && other.code->group == CodeGroup::radius_compensation;
+    const bool pole = group == static_cast<std::size_t>(CodeGroup::non_modal) &&
+                      words.value_or(CodeGroup::non_modal, NonModal::none) == NonModal::pole;
+    if (other.code == nullptr || other.code->event || repeated || pole ||
+        std::find(kBesideMoves.begin(), kBesideMoves.end(), other.code->group) !=
+            kBesideMoves.end()) {
+      continue;
     }
+    return fail(state, other.column, "corner-interrupted"_id,
+                fmt::format("{} between {} and the move after it", other.code->name(),
+                            filters.corners.corner()->name),
+                "write the moves of the contour one after the other");
+  }
+  return Done{};
+}
+
+// ,R and ,C are in the block of the first move: its motions begin to wait, or need not any more.
+Outcome prepare_corner(InterpreterState& state, MotionFilters& filters, const BlockWords& words) {
+  const bool has_word = words.has(kCornerRadius) || words.has(kCornerChamfer);
+  if (filters.corners.corner()) return check_between(state, filters, words);
+  if (!has_word && !filters.passes_corners) return Done{};
+  filters.corners.release(filters.to_radius);
+  if (has_word == filters.passes_corners) return Done{};
+  filters.pass_corners(state, has_word);
+  filters.corners.start(state.position.target());
+  return Done{};
+}
+
+}  // namespace
+
+Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const BlockWords& words) {
+  if (state.rules.dialect == Dialect::fanuc) return prepare_corner(state, filters, words);
+  if (!state.rules.inserts_corners) return Done{};
+  const GivenCode& code = words[CodeGroup::corner];
+  if (filters.corners.corner()) {
+    if (auto done = check_between(state, filters, words); !done) return done;
   } else if (code.code == nullptr) {
     filters.corners.release(filters.to_radius);
   }
@@ -69,6 +89,24 @@ Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const Blo
     corner.feed = words['f'].value * unit_scale(state);
   }
   if (auto failure = filters.corners.insert(corner)) return *std::move(failure);
+  return Done{};
+}
+
+Outcome keep_corner(InterpreterState& state, MotionFilters& filters, const BlockWords& words) {
+  for (const char letter : {kCornerRadius, kCornerChamfer}) {
+    if (!words.has(letter)) continue;
+    if (words[letter].value == 0.0) continue;
+    Corner corner{.name = words.text_of(letter), .rounds = letter == kCornerRadius};
+    corner.size = words[letter].value * unit_scale(state);
+    corner.place = state.at_work.block->place_of(words[letter].column);
+    corner.place.file = state.at_work.file;
+    if (corner.size < 0.0) {
+      return fail(state, words[letter].column, "value-not-positive"_id,
+                  fmt::format("{} is not above zero", corner.name),
+                  "give a size above zero, or leave it out");
+    }
+    if (auto failure = filters.corners.insert(corner)) return *std::move(failure);
+  }
   return Done{};
 }
 

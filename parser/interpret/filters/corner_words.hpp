@@ -14,4 +14,8 @@ namespace frustum::parser {
 [[nodiscard]] Outcome insert_corner(InterpreterState& state, MotionFilters& filters,
                                     const BlockWords& words);
 
+// ,R and ,C of the block, when its move is made.
+[[nodiscard]] Outcome keep_corner(InterpreterState& state, MotionFilters& filters,
+                                  const BlockWords& words);
+
 }  // namespace frustum::parser

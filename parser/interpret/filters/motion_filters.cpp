@@ -26,7 +26,12 @@ MotionFilters::MotionFilters(InterpreterState& state, const MotionSink& sink)
         if (!radius.is_on()) return to_sink(std::move(motion));
         keep_failure(state.output, radius.take(std::move(motion), to_sink));
       }) {
-  if (!state.rules.inserts_corners) {
+  pass_corners(state, state.rules.inserts_corners);
+}
+
+void MotionFilters::pass_corners(InterpreterState& state, bool on) {
+  passes_corners = on;
+  if (!on) {
     state.output.take = to_radius;
     return;
   }

@@ -18,7 +18,12 @@ struct MotionFilters {
   MotionFilters(const MotionFilters&) = delete;  // the output looks at them
   MotionFilters& operator=(const MotionFilters&) = delete;
 
+  // Motions pass the corners, or go by: where words in the block of the first move make corners,
+  // the others need not wait.
+  void pass_corners(InterpreterState& state, bool on);
+
   CornerInsertion corners{};
+  bool passes_corners = false;
   RadiusCompensation radius{};
   SourcePlace radius_since{};  // where it was switched on
   RadiusCompensation::Sink to_sink;

@@ -72,6 +72,7 @@ Result<double> radius_for(InterpreterState& state, const BlockWords& words) {
     number = *given;
     state.modes.radius_number = number;
   } else if (state.rules.radius.source == RadiusSource::last_d) {
+    if (!state.modes.radius_number && state.data.tools.empty()) return 0.0;
     if (!state.modes.radius_number) {
       return fail(state, code.column, "radius-number-missing"_id, name + " without D",
                   fmt::format("give the number of the offset, for example {} D1", name));
@@ -84,6 +85,8 @@ Result<double> radius_for(InterpreterState& state, const BlockWords& words) {
   }
   const std::uint32_t column = has_d ? words['D'].column : code.column;
   const auto tool = state.data.tools.find(number);
+  const bool unknown = state.rules.offset_numbers_stand_alone && state.data.tools.empty();
+  if (unknown || (number == 0 && state.rules.offset_numbers_stand_alone)) return 0.0;
   if (tool == state.data.tools.end()) {
     return fail(state, column, "radius-compensation"_id,
                 fmt::format("the tool table has no tool {}", number),
@@ -177,6 +180,15 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   }
   const auto radius = radius_for(state, words);
   if (!radius) return radius.error();
+  if (*radius == 0.0 && state.rules.offset_numbers_stand_alone) {
+    if (state.data.tools.empty()) {
+      assume(state, code.column, "cutter radius",
+             code.code->name() +
+                 " with a radius that only the setup knows: the moves are those of "
+                 "the contour");
+    }
+    return Done{};
+  }
   if (*radius == 0.0) {
     return fail(state, words.has('D') ? words['D'].column : code.column, "radius-compensation"_id,
                 code.code->name() + " with a tool of no diameter",

@@ -60,8 +60,8 @@ std::optional<double> growth(const ModalState& before, const ModalState& after, 
   return same ? std::optional(sum) : std::nullopt;
 }
 
-bool turns(const ModalState& modes) {
-  return modes.programmed_frame.turns() || modes.offset_frame.turns();
+bool mixes(const ModalState& modes, AxisLetter axis) {
+  return modes.programmed_frame.mixes(axis) || modes.offset_frame.mixes(axis);
 }
 
 bool follows_words(const ModalState& modes, AxisLetter axis) {
@@ -220,13 +220,12 @@ void follow_datum(InterpreterState& state, const ModalState& before, const AxisT
 }
 
 void arrive(InterpreterState& state, const AxisTarget& axes) {
-  if (turns(state.modes)) {
-    // A turned frame mixes the coordinates: all or none.
-    for (const AxisLetter axis : kLinearAxes) {
-      if (state.position[axis]) continue;
-      for (const AxisLetter other : kLinearAxes) {
-        state.position.forget(other, PositionLoss::machine_coordinates, state.at_work.block->line);
-      }
+  // Of the coordinates that a turn mixes all are known, or none.
+  for (const AxisLetter axis : kLinearAxes) {
+    if (state.position[axis] || !mixes(state.modes, axis)) continue;
+    for (const AxisLetter other : kLinearAxes) {
+      if (!mixes(state.modes, other)) continue;
+      state.position.forget(other, PositionLoss::machine_coordinates, state.at_work.block->line);
     }
   }
   AxisTarget place = axes;

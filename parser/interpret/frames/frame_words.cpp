@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/units.hpp"
 #include "parser/arc.hpp"
 #include "parser/interpret/frames/feature_plane.hpp"
@@ -18,6 +20,28 @@ constexpr double kLeastScale = 1e-5;
 
 constexpr double kMostScale = 1e4;
 
+// G92.1 X0 Y0: these axes have no shift any more.
+Outcome preset_axes(InterpreterState& state, const BlockWords& words) {
+  ProgrammedFrame next = state.modes.programmed_frame;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    if (words[letter].value != 0.0) {
+      return fail(state, words[letter].column, "out-of-range"_id,
+                  fmt::format("{} of {} is not zero", words.text_of(letter),
+                              words[CodeGroup::non_modal].code->name()),
+                  fmt::format("write {}0, which ends the shift of the axis", letter));
+    }
+    const auto slot = static_cast<std::size_t>(axis);
+    (is_rotary(axis) ? next.rotary_shift.at(slot - 3)
+                     : next.shift[static_cast<Eigen::Index>(slot)]) = 0.0;
+    state.modes.local_shift.at(slot) = 0.0;
+    state.data.shift.at(slot) = 0.0;
+  }
+  change_programmed_frame(state, next);
+  return Done{};
+}
+
 }  // namespace
 
 void change_programmed_frame(InterpreterState& state, const ProgrammedFrame& next) {
@@ -27,7 +51,9 @@ void change_programmed_frame(InterpreterState& state, const ProgrammedFrame& nex
     if (words[axis]) {
       state.position.set(axis, *words[axis]);
     } else {
+      const auto standing = state.position.standing(axis);
       state.position.forget(axis, PositionLoss::turned_frame, state.at_work.block->line);
+      if (standing) state.position.stand(axis, *standing);
     }
   }
   state.modes.programmed_frame = next;
@@ -40,9 +66,11 @@ Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal h
   const auto clear = [&] {
     next.shift.setZero();
     next.rotary_shift = {};
+    state.modes.local_shift = {};
   };
   switch (how) {
     case NonModal::shift_off:
+      if (!(words.given() & kAxisWords).empty()) return preset_axes(state, words);
       clear();
       state.data.shift = {};
       state.data.shift_counts = false;
@@ -76,8 +104,19 @@ Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal h
         const auto slot = static_cast<std::size_t>(axis);
         double& shift = is_rotary(axis) ? next.rotary_shift.at(slot - 3)
                                         : next.shift[static_cast<Eigen::Index>(slot)];
+        if (how == NonModal::shift && state.rules.local_shift_is_apart) {
+          shift += value - std::exchange(state.modes.local_shift.at(slot), value);
+          continue;
+        }
         if (how == NonModal::shift) {
           shift = value + (words[letter].measure == Measure::incremental ? shift : 0.0);
+          continue;
+        }
+        if (state.rules.starts_with_rapid && state.position.never_known(axis)) {
+          assume(state, words[letter].column, "start",
+                 fmt::format("the program begins where {} says, in the work offset in force",
+                             code.code->name()));
+          state.position.set(axis, value - std::exchange(shift, 0.0));
           continue;
         }
         if (!state.position[axis]) {
@@ -87,6 +126,7 @@ Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal h
                       fmt::format("move {} with G0 or G1 before", letter));
         }
         shift += *state.position[axis] - value;
+        state.modes.local_shift.at(slot) = 0.0;
       }
       for (std::size_t i = 0; i < 3; ++i) {
         state.data.shift.at(i) = next.shift[static_cast<Eigen::Index>(i)];
@@ -259,10 +299,13 @@ Outcome check_programmed_frame(const InterpreterState& state, const Movement& mo
   }
   if (!state.modes.programmed_frame.turns() && !state.modes.offset_frame.turns()) return Done{};
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
-    if (state.position[axis]) continue;
+    const bool mixed =
+        state.modes.programmed_frame.mixes(axis) || state.modes.offset_frame.mixes(axis);
+    if (state.position[axis] || !mixed) continue;
     return fail(state, movement.column, state.position.unknown_id(axis),
                 fmt::format("a move in a turned frame, but {}", state.position.why_unknown(axis)),
-                "program X, Y and Z once, in absolute coordinates, after the frame is turned");
+                fmt::format("program {} once, in absolute coordinates, after the frame is turned",
+                            to_char(axis)));
   }
   const bool arc = is_arc_in_plane(movement.motion) || is_spline(movement.motion);
   if (arc && !(state.modes.programmed_frame.keeps(state.modes.plane) &&

@@ -63,6 +63,27 @@ Result<ToolOffset> given_tool_offset(const InterpreterState& state, const BlockW
   return given;
 }
 
+// That of a number, as far as the program knows it.
+Result<std::optional<ToolOffset>> listed_offset(const InterpreterState& state,
+                                                const BlockWords& words, int number) {
+  const auto tool = state.data.tools.find(number);
+  if (tool != state.data.tools.end() && tool->second.has_length) {
+    ToolOffset offset = tool->second.offset;
+    offset.at(kLengthAxis) += tool->second.length_wear;
+    return std::optional(offset);
+  }
+  const bool none_given = words.has('H') && state.rules.offset_numbers_stand_alone;
+  if (number == 0) {
+    return state.data.tools_are_listed || none_given ? std::optional(ToolOffset{}) : std::nullopt;
+  }
+  if (!state.data.tools_are_listed) return std::optional<ToolOffset>{};
+  const std::uint32_t column =
+      words.has('H') ? words['H'].column : words[CodeGroup::length_compensation].column;
+  return fail(state, column, "tool-missing"_id,
+              fmt::format("tool {} is not in the tool table", number),
+              fmt::format("add a line T{} to the tool table", number));
+}
+
 // The tool's offset after a length word, as far as the program knows it.
 Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
                                                  const BlockWords& words,
@@ -85,21 +106,12 @@ Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
     }
     return Known{offset};
   }
-  const auto tool = state.data.tools.find(next.offset_number);
-  const bool in_table = tool != state.data.tools.end() && tool->second.has_length;
   const bool by_number = word != LengthWord::additional || words.has('H');
-  if (by_number && !in_table && state.data.tools_are_listed && next.offset_number != 0) {
-    const std::uint32_t column = words.has('H') ? words['H'].column : code.column;
-    return fail(state, column, "tool-missing"_id,
-                fmt::format("tool {} is not in the tool table", next.offset_number),
-                fmt::format("add a line T{} to the tool table", next.offset_number));
-  }
   Known of_tool;
-  if (in_table) {
-    of_tool = tool->second.offset;
-    of_tool->at(kLengthAxis) += tool->second.length_wear;
-  } else if (state.data.tools_are_listed) {
-    of_tool = ToolOffset{};  // no tool
+  if (by_number) {
+    const auto listed = listed_offset(state, words, next.offset_number);
+    if (!listed) return listed.error();
+    of_tool = *listed;
   }
   if (word != LengthWord::additional) return of_tool;
   const bool both = words.has('H') && !(words.given() & kAxisWords).empty();
@@ -127,7 +139,9 @@ Result<Compensation> compensation_after(const InterpreterState& state, const Blo
   const GivenCode& length = words[CodeGroup::length_compensation];
   if (length.code != nullptr) {
     next = compensation_of(static_cast<LengthWord>(length.code->value), next);
-    if (words.has('H')) {
+    if (state.rules.offset_numbers_stand_alone) {
+      if (next.length) next.offset_number = state.modes.length_number.value_or(0);
+    } else if (words.has('H')) {
       const auto number = whole(state, words, 'H', 1, kMaxOffsetNumber);
       if (!number) return number.error();
       next.offset_number = *number;
@@ -141,6 +155,13 @@ Result<Compensation> compensation_after(const InterpreterState& state, const Blo
       if (!offset) return offset.error();
       next.tool_offset = *offset;
     }
+  }
+  if (length.code == nullptr && next.length && words.has('H') &&
+      state.rules.offset_numbers_stand_alone) {
+    next.offset_number = state.modes.length_number.value_or(0);
+    const auto offset = listed_offset(state, words, next.offset_number);
+    if (!offset) return offset.error();
+    next.tool_offset = *offset;
   }
   if (state.rules.tool_brings_length && words.has(CodeGroup::tool_change)) next.length = true;
   if (words.has('D') && state.rules.always_claimed.has('D')) {
@@ -160,6 +181,17 @@ Result<Compensation> compensation_after(const InterpreterState& state, const Blo
   next.tip =
       words.value_or(CodeGroup::tool_tip, next.tip ? TipWord::on : TipWord::off) == TipWord::on;
   return next;
+}
+
+// H and D, which stay in force.
+Outcome set_offset_numbers(InterpreterState& state, const BlockWords& words) {
+  for (const char letter : {'H', 'D'}) {
+    if (!words.has(letter)) continue;
+    const auto number = whole(state, words, letter, 0, kMaxOffsetNumber);
+    if (!number) return number.error();
+    (letter == 'H' ? state.modes.length_number : state.modes.radius_number) = *number;
+  }
+  return Done{};
 }
 
 }  // namespace
@@ -196,6 +228,9 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
                   "it knows the tool's length (Z) alone");
     }
   }
+  const auto height = state.position[AxisLetter::Z] && !state.position.programmed(AxisLetter::Z)
+                          ? state.position[AxisLetter::Z]
+                          : state.position.programmed(AxisLetter::Z);
   const CompensationChange reported_before = compensation_change(before.compensation);
   const CompensationChange reported_after = compensation_change(next);
   const bool tip_before = reported_before.mode == LengthCompensation::tool_centre_point;
@@ -209,11 +244,18 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
     forget(state, kLinearWords, PositionLoss::length_compensation);
   } else {
     follow_datum(state, before, axes, PositionLoss::length_compensation);
+    const bool shifted = height != state.position[AxisLetter::Z];
+    if (state.rules.length_adds_to_moves && height && shifted && !tip_after) {
+      state.position.keep_programmed(AxisLetter::Z, *height);
+    }
   }
   return Done{};
 }
 
 Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
+  if (state.rules.offset_numbers_stand_alone && !words.has(CodeGroup::speed_mode)) {
+    if (auto done = set_offset_numbers(state, words); !done) return done;
+  }
   const auto next = compensation_after(state, words);
   if (!next) return next.error();
   const CompensationChange before = compensation_change(state.modes.compensation);
@@ -227,7 +269,8 @@ Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
   const GivenCode& tool = words[CodeGroup::tool_change];
   const GivenCode& cause = length.code != nullptr ? length : tip.code != nullptr ? tip : tool;
   if (length.code != nullptr || !same(before, after)) {
-    emit(state, cause.code != nullptr ? cause.column : words['D'].column, after);
+    const char alone = state.rules.offset_numbers_stand_alone ? 'H' : 'D';
+    emit(state, cause.code != nullptr ? cause.column : words[alone].column, after);
   }
   return Done{};
 }

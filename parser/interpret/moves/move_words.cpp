@@ -72,6 +72,18 @@ Outcome set_target(InterpreterState& state, const BlockWords& words, AxisLetter 
     state.position.set(axis, value);
     return Done{};
   }
+  if (const auto programmed = state.position.programmed(axis)) {
+    state.position.set(axis, *programmed + value);
+    return Done{};
+  }
+  if (state.rules.starts_with_rapid && state.position.never_known(axis) &&
+      !state.position.standing(axis)) {
+    assume(state, words[letter].column, "start",
+           fmt::format("{} counts from zero: nothing says where the axes are at the start",
+                       words.text_of(letter)));
+    state.position.set(axis, value);
+    return Done{};
+  }
   if (!state.position[axis]) {
     return fail(
         state, words[letter].column, state.position.unknown_id(axis),
@@ -119,7 +131,9 @@ Outcome set_targets(InterpreterState& state, const BlockWords& words) {
 Outcome set_tool_axis(InterpreterState& state, const BlockWords& words) {
   const char first = words.first_of(LetterSet(state.rules.vector_letters));
   if (auto done = check_orientation_reference(state, words); !done) return done;
-  if (first == 0) return Done{};
+  // I J K that are idle.
+  const bool guided = state.rules.vector_letters != "IJK" || state.modes.compensation.tip;
+  if (first == 0 || !guided) return Done{};
   if (const char rotary = words.first_of(kRotaryWords); rotary != 0) {
     return fail(state, words[rotary].column, "rotary-with-vector"_id,
                 fmt::format("{} and a tool vector in one block", words.text_of(rotary)),
@@ -136,8 +150,8 @@ Outcome set_tool_axis(InterpreterState& state, const BlockWords& words) {
   return Done{};
 }
 
-Result<Feed> feed_for(const InterpreterState& state, const BlockWords& words,
-                      const Movement& movement, bool linear) {
+Result<Feed> feed_for(InterpreterState& state, const BlockWords& words, const Movement& movement,
+                      bool linear) {
   if (words.has('t')) {
     if (words['t'].value <= 0.0) {
       return fail(state, words['t'].column, "value-not-positive"_id,
@@ -151,6 +165,12 @@ Result<Feed> feed_for(const InterpreterState& state, const BlockWords& words,
         state, movement.column, "feed-missing"_id,
         fmt::format("{} without F in G93", motion_name(movement.motion, state.rules.dialect)),
         "in G93 each cutting block needs its own F, the inverse of its minutes");
+  }
+  if (!state.modes.feed && state.rules.feed_may_be_missing && !state.modes.feed_was_given) {
+    assume(state, movement.column, "feed",
+           fmt::format("{} before the first F: the control has a feed of its own",
+                       motion_name(movement.motion, state.rules.dialect)));
+    return Feed{0.0, state.modes.feed_mode};
   }
   if (!state.modes.feed) {
     return fail(

@@ -15,7 +15,7 @@ namespace frustum::parser {
 [[nodiscard]] Outcome set_target(InterpreterState& state, const BlockWords& words, AxisLetter axis);
 [[nodiscard]] Outcome set_targets(InterpreterState& state, const BlockWords& words);
 [[nodiscard]] Outcome set_tool_axis(InterpreterState& state, const BlockWords& words);
-[[nodiscard]] Result<Feed> feed_for(const InterpreterState& state, const BlockWords& words,
+[[nodiscard]] Result<Feed> feed_for(InterpreterState& state, const BlockWords& words,
                                     const Movement& movement, bool linear);
 
 }  // namespace frustum::parser

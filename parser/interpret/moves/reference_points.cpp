@@ -86,7 +86,13 @@ Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t po
   }
   const AxisTarget before = state.position.target();
   LetterSet named;
-  if ((words.given() & kAxisWords).empty()) named = kAxisWords;
+  if ((words.given() & kAxisWords).empty()) {
+    named = kAxisWords;
+    if (!state.rules.home_without_axes_is_all) {
+      assume(state, column, "home without axes",
+             words[CodeGroup::non_modal].code->name() + " without axes sends all axes home");
+    }
+  }
   for (const AxisLetter axis : kAxisLetters) {
     const char letter = to_char(axis);
     if (!words.has(letter)) continue;
@@ -196,6 +202,55 @@ Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& w
   }
   leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
   if (!state.modes.tool_centre_point()) arrive(state, axes);
+  return Done{};
+}
+
+bool steps_by_axes(const InterpreterState& state, const BlockWords& words) {
+  const ModalState& modes = state.modes;
+  LetterSet unknown;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (words.has(letter) && !state.position[axis] && state.position.standing(axis) &&
+        !state.position.programmed(axis)) {
+      unknown.add(letter);
+    }
+  }
+  if (unknown.empty() || modes.distance != DistanceMode::incremental) return false;
+  if (modes.tool_centre_point() || modes.tilted || modes.polar || modes.tool_side) return false;
+  const AxisTarget axes = axis_positions(state);
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    const bool turned = modes.programmed_frame.mixes(axis) || modes.offset_frame.mixes(axis);
+    if (turned || words[letter].measure != Measure::modal || !axes[axis]) return false;
+  }
+  return true;
+}
+
+Outcome step_axes(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  const ProgrammedFrame& frame = state.modes.programmed_frame;
+  AxisTarget axes = axis_positions(state);
+  AxisTarget end;
+  LetterSet named;
+  for (const AxisLetter axis : kAxisLetters) {
+    const char letter = to_char(axis);
+    if (!words.has(letter)) continue;
+    named.add(letter);
+    double step = scaled(state, axis, words[letter].value);
+    if (!is_rotary(axis)) {
+      step *= frame.scale * (frame.mirrors.at(static_cast<std::size_t>(axis)) ? -1.0 : 1.0);
+    }
+    end[axis] = axes[axis] = *axes[axis] + step;
+  }
+  if (movement.motion == MotionMode::traverse) {
+    emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::machine});
+  } else {
+    const auto feed = feed_for(state, words, movement, !(named & kLinearWords).empty());
+    if (!feed) return feed.error();
+    emit(state, movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
+  }
+  leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
+  arrive(state, axes);
   return Done{};
 }
 

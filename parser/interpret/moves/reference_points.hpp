@@ -27,4 +27,9 @@ namespace frustum::parser {
 [[nodiscard]] Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& words,
                                                   const Movement& movement);
 
+// Steps of axes whose place only the machine knows, since G53 or G28 sent them there.
+[[nodiscard]] bool steps_by_axes(const InterpreterState& state, const BlockWords& words);
+[[nodiscard]] Outcome step_axes(InterpreterState& state, const BlockWords& words,
+                                const Movement& movement);
+
 }  // namespace frustum::parser

@@ -11,6 +11,7 @@
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/moves/polar_words.hpp"
 #include "parser/interpret/moves/pole.hpp"
+#include "parser/interpret/moves/reference_points.hpp"
 #include "parser/interpret/moves/rotary_paths.hpp"
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
@@ -30,6 +31,14 @@ bool moves_linearly(const AxisTarget& before, const AxisTarget& after) {
   return false;
 }
 
+// The F of a move that turns rotary axes alone counts degrees.
+bool feeds_along(const AxisTarget& before, const AxisTarget& after, bool turns_tool) {
+  if (moves_linearly(before, after)) return true;
+  if (turns_tool) return false;
+  return std::ranges::none_of(
+      kRotaryAxes, [&](AxisLetter axis) { return after[axis] && before[axis] != after[axis]; });
+}
+
 // Of an angle in degrees; a whole turn and a little is one.
 int started_turns(double angle) {
   constexpr double kDegreesOfATurn = 360.0;
@@ -45,6 +54,11 @@ Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
     point[slot] = target[axis].value_or(otherwise[slot]);
   }
   return point;
+}
+
+// Neither centre nor radius.
+bool lacks_centre(const BlockWords& words, PlaneAxes axes) {
+  return !words.has('R') && !words.has("IJK"[axes.u]) && !words.has("IJK"[axes.v]);
 }
 
 // Behind G40 the tool stays beside the contour until a move in the plane.
@@ -68,6 +82,7 @@ AxisTarget leaving_contour(InterpreterState& state, const BlockWords& words, Axi
 }  // namespace
 
 Outcome move_straight(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  if (steps_by_axes(state, words)) return step_axes(state, words, movement);
   const AxisTarget before = state.position.target();
   if (auto done = check_tool_length(state, movement); !done) return done;
   if (auto done = set_targets(state, words); !done) return done;
@@ -79,7 +94,8 @@ Outcome move_straight(InterpreterState& state, const BlockWords& words, const Mo
     emit(state, movement.column, Traverse{end, state.modes.tool_axis, Coordinates::program});
     return Done{};
   }
-  const auto feed = feed_for(state, words, movement, moves_linearly(before, end));
+  const bool turns_tool = words.first_of(LetterSet(state.rules.vector_letters)) != 0;
+  const auto feed = feed_for(state, words, movement, feeds_along(before, end, turns_tool));
   if (!feed) return feed.error();
   emit(state, movement.column, LinearFeed{end, state.modes.tool_axis, Coordinates::program, *feed});
   return Done{};
@@ -92,6 +108,11 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
                 "leave the contour by a straight move");
   }
   const PlaneAxes axes = axes_of(state.modes.plane);
+  if (state.rules.arcs_may_lack_centre && lacks_centre(words, axes)) {
+    assume(state, movement.column, "arc without centre",
+           "neither a centre nor R: the tool goes straight to the end");
+    return move_straight(state, words, {movement.non_modal, MotionMode::linear, movement.column});
+  }
   for (const int axis : {axes.u, axes.v}) {
     const auto letter = static_cast<AxisLetter>(axis);
     if (!state.position[letter]) {
@@ -120,7 +141,7 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   arc_words.start = spatial(before, arc_words.end);
   for (std::size_t i = 0; i < arc_words.centre.size(); ++i) {
     const char letter = "IJK"[i];
-    if (!words.has(letter)) continue;
+    if (!words.has(letter) || (state.rules.arcs_may_lack_centre && words.has('R'))) continue;
     const bool absolute = words[letter].measure == Measure::absolute;
     arc_words.centre.at(i) = words[letter].value * unit_scale(state) -
                              (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);

@@ -37,6 +37,19 @@ Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, d
             "near it are " + codes_near(dialect, word.letter, number));
 }
 
+// A word that only the builder of the machine knows.
+std::optional<ControlWord> word_of_builder(const DialectRules& rules,
+                                           const ControlSettings& control, char letter,
+                                           double number) {
+  constexpr double kLargestNumber = 99'999.0;
+  if (!(number >= 0.0 && number <= kLargestNumber)) return std::nullopt;
+  const ControlWord word{letter, static_cast<int>(std::lround(number * 10.0))};
+  if (std::abs(number * 10.0 - word.tenths) > 1e-3) return std::nullopt;
+  const bool unknown_m = rules.unknown_m_words_are_builders && letter == 'M' &&
+                         remedy_for(rules.dialect, letter, number).empty();
+  return unknown_m || control.has(word) ? std::optional(word) : std::nullopt;
+}
+
 }  // namespace
 
 char BlockWords::first_of(LetterSet letters) const {
@@ -103,7 +116,14 @@ std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
   return aside;
 }
 
-Result<BlockWords> read_words(const Block& block, const Parameters& parameters, Dialect dialect) {
+void BlockWords::rescale(LetterSet letters, double factor) {
+  for (LetterSet left = letters & given_; !left.empty(); left = left.without_first()) {
+    values_[slot(left.first())].value *= factor;
+  }
+}
+
+Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
+                              const DialectRules& rules, const ControlSettings& control) {
   const ExpressionContext context{block.steps, block.names, parameters};
   BlockWords words;
   words.block_ = &block;
@@ -136,15 +156,27 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters, 
                   "the values of words go up to 1e15");
       }
       words.given_.add(word.letter);
+      const bool plain = !word.decimal_point && number != 0.0 && word.expression.empty();
+      if (plain) words.without_point_.add(word.letter);
       words.values_[BlockWords::slot(word.letter)] = {number, word.column, word.decimal_point,
                                                       word.measure};
       continue;
     }
-    const Code* code = named ? &code_at(number) : find_code(dialect, word.letter, number);
-    if (code == nullptr) return unknown_code(block, dialect, word, number);
+    const Code* code = named ? &code_at(number) : find_code(rules.dialect, word.letter, number);
+    if (code == nullptr) {
+      const auto of_builder =
+          named ? std::nullopt : word_of_builder(rules, control, word.letter, number);
+      if (!of_builder) return unknown_code(block, rules.dialect, word, number);
+      words.builder_.push_back({*of_builder, word.column});
+      continue;
+    }
     if (code->event) words.events_.push_back({code, word.column});
     if (code->group == CodeGroup::event) continue;
     GivenCode& place = words.codes_[static_cast<std::size_t>(code->group)];
+    if (place.code != nullptr && rules.last_motion_counts && code->group == CodeGroup::motion) {
+      place = {code, word.column};
+      continue;
+    }
     if (place.code != nullptr) {
       return at(block, word.column, "word-twice"_id,
                 place.code == code ? fmt::format("{} is given twice in a block", code->name())

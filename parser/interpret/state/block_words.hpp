@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/control_settings.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/dialects/dialect_rules.hpp"
 #include "parser/language/block.hpp"
@@ -28,6 +29,12 @@ struct GivenWord {
 
 struct GivenCode {
   const Code* code = nullptr;  // in the code table, which lives for ever
+  std::uint32_t column = 0;
+};
+
+// A G or M word of the machine's builder, which only he knows.
+struct BuilderWord {
+  ControlWord word{};
   std::uint32_t column = 0;
 };
 
@@ -55,6 +62,12 @@ class BlockWords {
   [[nodiscard]] std::optional<BlockWords> set_aside(std::span<const int> tenths);
   // Words whose value is vacant: they count as not given.
   [[nodiscard]] const std::vector<GivenCode>& vacant() const { return vacant_; }
+  // Words of the machine's builder, and the letters of the block that are theirs.
+  [[nodiscard]] const std::vector<BuilderWord>& builder() const { return builder_; }
+  // Letters whose values are numbers without a decimal point, and not zero.
+  [[nodiscard]] LetterSet without_point() const { return without_point_; }
+  // Those of the letters count in another unit.
+  void rescale(LetterSet letters, double factor);
   // The first word of the block among `letters`, by column.
   [[nodiscard]] char first_of(LetterSet letters) const;
   // "X1.5", "A3=0.5": as the program spells the word and a message names it.
@@ -64,7 +77,7 @@ class BlockWords {
 
  private:
   friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
-                                       Dialect dialect);
+                                       const DialectRules& rules, const ControlSettings& control);
   static constexpr std::size_t slot(char letter) { return static_cast<std::size_t>(letter - 'A'); }
 
   const Block* block_ = nullptr;
@@ -75,10 +88,13 @@ class BlockWords {
   std::uint64_t groups_ = 0;
   std::vector<GivenCode> events_{};
   std::vector<GivenCode> vacant_{};
+  std::vector<BuilderWord> builder_{};
+  LetterSet without_point_{};
 };
 
 // The words refer to the block.
 [[nodiscard]] Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
-                                            Dialect dialect);
+                                            const DialectRules& rules,
+                                            const ControlSettings& control);
 
 }  // namespace frustum::parser

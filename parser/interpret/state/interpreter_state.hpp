@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/control_settings.hpp"
 #include "parser/dialects/dialect_rules.hpp"
 #include "parser/interpret/state/control_data.hpp"
 #include "parser/interpret/state/modal_state.hpp"
@@ -71,6 +72,7 @@ struct InterpreterState {
   InterpreterState& operator=(const InterpreterState&) = delete;
 
   const DialectRules& rules;
+  ControlSettings control{};
   ControlData data;
   ModalState modes{};
   ProgramPosition position;

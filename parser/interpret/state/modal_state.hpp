@@ -101,9 +101,11 @@ struct ModalState {
   DistanceMode arc_distance = DistanceMode::incremental;
   FeedMode feed_mode = FeedMode::per_minute;
   std::optional<FeedWord> feed{};
+  bool feed_was_given = false;  // by any F, also F0
   Compensation compensation{};
   std::optional<ToolSide> tool_side{};  // G41, G42; absent: G40
   std::optional<int> radius_number{};   // the last D of a radius compensation
+  std::optional<int> length_number{};   // the last H, where it is in force by itself
   int work_offset = 1;
   // Of the work offset in force: its origin, as far as the program knows it, and from it and the
   // tool the frame between the words' frame and the axes: the turn, the tool's offset along X and
@@ -125,9 +127,10 @@ struct ModalState {
   std::optional<FeatureWords> feature{};  // G68.2 over several blocks, until its last
   std::optional<PolarMode> polar{};       // G16
   ProgrammedFrame programmed_frame{};
-  ProgramFrame program_frame{};       // of Sinumerik, which is its word frame
-  AxisTarget way_home{};              // the place that the last G28 or G30 went by
-  LetterSet placed_in_other_frame{};  // axes that no absolute word has placed since it changed
+  std::array<double, 6> local_shift{};  // of its shift, the part of G52, where that is apart
+  ProgramFrame program_frame{};         // of Sinumerik, which is its word frame
+  AxisTarget way_home{};                // the place that the last G28 or G30 went by
+  LetterSet placed_in_other_frame{};    // axes that no absolute word has placed since it changed
   std::optional<ProgrammedFrame> frame_below{};  // of the words before G68.2: that plane is in it
   std::optional<Pole> pole{};                    // CC, G110 to G112
   bool pole_lost = false;                        // it was one of another frame

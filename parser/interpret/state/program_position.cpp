@@ -20,6 +20,7 @@ constexpr std::array kLossTexts{"",
 void ProgramPosition::forget(AxisLetter axis, PositionLoss loss, std::uint32_t line) {
   // An axis that was not known before keeps its first cause: that is where the remedy belongs.
   axes_[axis].reset();
+  programmed_[axis].reset();
   if (!target_[axis]) return;
   target_[axis].reset();
   causes_.at(static_cast<std::size_t>(axis)) = {loss, line};

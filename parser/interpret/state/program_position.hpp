@@ -48,7 +48,13 @@ class ProgramPosition {
   void set(AxisLetter axis, double value) {
     target_[axis] = value;
     axes_[axis].reset();
+    programmed_[axis].reset();
   }
+  // Where the program was along an axis before a tool length shifted it, which steps go on from.
+  [[nodiscard]] const std::optional<double>& programmed(AxisLetter axis) const {
+    return programmed_[axis];
+  }
+  void keep_programmed(AxisLetter axis, double value) { programmed_[axis] = value; }
   // Where an axis stands, in machine coordinates, while its program coordinate is not known.
   [[nodiscard]] const std::optional<double>& standing(AxisLetter axis) const { return axes_[axis]; }
   void stand(AxisLetter axis, double value) { axes_[axis] = value; }
@@ -70,6 +76,7 @@ class ProgramPosition {
   };
   AxisTarget target_{};
   AxisTarget axes_{};
+  AxisTarget programmed_{};
   std::array<Cause, kAxisLetters.size()> causes_{};
 };
 

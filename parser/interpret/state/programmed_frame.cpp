@@ -9,21 +9,37 @@ namespace {
 
 constexpr double kSameDirection = 1e-12;
 
-bool all_known(const AxisTarget& target) {
-  return target[AxisLetter::X] && target[AxisLetter::Y] && target[AxisLetter::Z];
-}
-
+// What is not known counts as zero.
 Vec3 point_of(const AxisTarget& target) {
-  return {*target[AxisLetter::X], *target[AxisLetter::Y], *target[AxisLetter::Z]};
+  return {target[AxisLetter::X].value_or(0.0), target[AxisLetter::Y].value_or(0.0),
+          target[AxisLetter::Z].value_or(0.0)};
 }
 
-void set_point(AxisTarget& target, const Vec3& point) {
-  for (const AxisLetter axis : kLinearAxes) target[axis] = point[static_cast<Eigen::Index>(axis)];
+// The coordinates of `point` that come of known ones of `from` alone, by `rotation`.
+void set_known(AxisTarget& target, const Vec3& point, const AxisTarget& from,
+               const Mat3& rotation) {
+  for (const AxisLetter axis : kLinearAxes) {
+    const auto row = static_cast<Eigen::Index>(axis);
+    target[axis] = point[row];
+    for (const AxisLetter other : kLinearAxes) {
+      if (rotation(row, static_cast<Eigen::Index>(other)) != 0.0 && !from[other])
+        target[axis].reset();
+    }
+  }
 }
 
 }  // namespace
 
 bool ProgrammedFrame::turns() const { return turn.rotation != Mat3::Identity(); }
+
+bool ProgrammedFrame::mixes(AxisLetter axis) const {
+  const auto i = static_cast<Eigen::Index>(axis);
+  for (Eigen::Index other = 0; other < 3; ++other) {
+    if (other != i && (turn.rotation(i, other) != 0.0 || turn.rotation(other, i) != 0.0))
+      return true;
+  }
+  return false;
+}
 
 bool ProgrammedFrame::is_identity() const {
   return shift.isZero(0.0) && turn.translation.isZero(0.0) &&
@@ -80,10 +96,8 @@ AxisTarget ProgrammedFrame::from_words(const AxisTarget& words) const {
       const auto slot = static_cast<Eigen::Index>(axis);
       place[axis] = stretched(axis, *place[axis] + shift[slot] + turn.translation[slot]);
     }
-  } else if (all_known(words)) {
-    set_point(place, point(point_of(words)));
   } else {
-    for (const AxisLetter axis : kLinearAxes) place[axis].reset();
+    set_known(place, point(point_of(words)), words, turn.rotation);
   }
   return place;
 }
@@ -100,14 +114,12 @@ AxisTarget ProgrammedFrame::to_words(const AxisTarget& place) const {
       const auto slot = static_cast<Eigen::Index>(axis);
       words[axis] = unstretched(axis, *words[axis]) - shift[slot] - turn.translation[slot];
     }
-  } else if (all_known(place)) {
+  } else {
     Vec3 turned;
     for (const AxisLetter axis : kLinearAxes) {
-      turned[static_cast<Eigen::Index>(axis)] = unstretched(axis, *place[axis]);
+      turned[static_cast<Eigen::Index>(axis)] = unstretched(axis, place[axis].value_or(0.0));
     }
-    set_point(words, turn.inverse().point(turned) - shift);
-  } else {
-    for (const AxisLetter axis : kLinearAxes) words[axis].reset();
+    set_known(words, turn.inverse().point(turned) - shift, place, turn.rotation.transpose());
   }
   return words;
 }

@@ -31,7 +31,9 @@ struct ProgrammedFrame {
   [[nodiscard]] Vec3 point(const Vec3& words) const;
   [[nodiscard]] Vec3 direction(const Vec3& words) const;
 
-  // Both leave out X, Y and Z when the frame is turned and one of them is not known.
+  // Whether the turn mixes the coordinate with another one.
+  [[nodiscard]] bool mixes(AxisLetter axis) const;
+  // Both leave out what the turn mixes with a coordinate that is not known.
   [[nodiscard]] AxisTarget from_words(const AxisTarget& words) const;
   [[nodiscard]] AxisTarget to_words(const AxisTarget& place) const;
   // A command in words, in offset coordinates. An arc's plane must stay one: see keeps_planes().

@@ -120,6 +120,41 @@ class BlockBuilder {
     block_.comments.push_back({column_of(after - 1), to_line_end, {}});
     in_comment_ = true;
   }
+  // Up to the bracket that closes the comment. In Custom Macro others may be within it, in pairs.
+  Iterator read_comment_text(Iterator begin) {
+    const std::string_view rest = text_.substr(offset_of(begin));
+    std::size_t end = std::min(rest.find_first_of("()"), rest.size());
+    if (is_macro()) {
+      end = std::min(rest.find(')'), rest.size());
+      int open = 1;
+      for (std::size_t at = 0; at < rest.size() && open > 0; ++at) {
+        if (rest[at] == '(') ++open;
+        if (rest[at] == ')' && --open == 0) end = at;
+      }
+    }
+    end_comment_text(rest.substr(0, end));
+    return begin + end;
+  }
+  // %00214: the number of the program.
+  Iterator read_tape_name(Iterator begin) {
+    in_.go_to(column_of(begin));
+    const std::string_view digits = in_.digits();
+    if (digits.empty()) return nullptr;
+    block_.comments.push_back({column_of(begin), false, std::string(digits), "%"});
+    return end_of_reading();
+  }
+  // ,R and ,C: corners.
+  Iterator begin_corner(Iterator begin) {
+    in_.go_to(column_of(begin));
+    const std::uint32_t column = in_.column() - 1;
+    const bool rounds = in_.take('R');
+    if (!rounds && !in_.take('C')) return nullptr;
+    const char letter = rounds ? kCornerRadius : kCornerChamfer;
+    block_.words.push_back({letter, false, column, 0.0, {}});
+    block_.words.back().spelled = rounds ? ",R" : ",C";
+    in_word_ = true;
+    return end_of_reading();
+  }
   void end_comment_text(std::string_view text) { block_.comments.back().text = utf8_of(text); }
   void end_comment() { in_comment_ = false; }
 
@@ -226,6 +261,7 @@ const auto kBlank = x3::char_(" \t\r");
 // The names are what syntax_error.cpp words the failures by.
 const x3::rule<struct WordValueRule> word_value = "value";
 const x3::rule<struct SettingValueRule> setting_value = "value";
+const x3::rule<struct CornerLetterRule> corner_letter = "R or C";
 const x3::rule<struct EqualsRule> equals = "equals";
 const x3::rule<struct CommentEndRule> comment_end = "closing parenthesis";
 const x3::rule<struct BlockNumberRule> block_number = "block number";
@@ -233,11 +269,15 @@ const x3::rule<struct ProgramNumberRule> program_number = "program number";
 const x3::rule<struct BlockEndRule> block_end = "end of block";
 
 const auto word_value_def = PartReader(&BlockBuilder::read_word_value);
+const auto corner_letter_def = PartReader(&BlockBuilder::begin_corner);
 const auto setting_value_def = PartReader(&BlockBuilder::read_setting_value);
 
 const auto kWord =
     (x3::char_("a-mp-zA-MP-Z@^")[after([](BlockBuilder& b, Iterator end) { b.begin_word(end); })] >
      word_value)[then([](BlockBuilder& b) { b.end_word(); })];
+
+const auto kCorner = (kInMacro >> x3::lit(',') > corner_letter >
+                      word_value)[then([](BlockBuilder& b) { b.end_word(); })];
 
 const auto equals_def = x3::lit('=');
 const auto kSetting =
@@ -248,7 +288,7 @@ const auto kCommentText = token([](BlockBuilder& b, std::string_view t) { b.end_
 const auto comment_end_def = x3::lit(')')[then([](BlockBuilder& b) { b.end_comment(); })];
 const auto kComment =
     (x3::lit('(')[after([](BlockBuilder& b, Iterator end) { b.begin_comment(end, false); })] >
-     x3::no_skip[x3::raw[*~x3::char_("()")][kCommentText]] > comment_end) |
+     x3::no_skip[PartReader(&BlockBuilder::read_comment_text)] > comment_end) |
     (x3::lit(';')[after([](BlockBuilder& b, Iterator end) { b.begin_comment(end, true); })] >
      x3::no_skip[x3::raw[*x3::char_][kCommentText]]);
 
@@ -267,11 +307,12 @@ const auto kDelete =
 const auto kTapeMark = x3::lit('%')[then([](BlockBuilder& b) { b.set_tape_mark(); })];
 const auto block_end_def = x3::eoi;
 const auto kBlock =
-    ((kTapeMark >> *kComment) | (-kDelete >> -((x3::no_case['n'] > block_number) >> -kDelete) >>
-                                 *(kWord | kComment | kSetting | kProgram))) > block_end;
+    ((kTapeMark >> -(kInMacro >> PartReader(&BlockBuilder::read_tape_name)) >> *kComment) |
+     (-kDelete >> -((x3::no_case['n'] > block_number) >> -kDelete) >>
+      *(kWord | kComment | kSetting | kProgram | kCorner))) > block_end;
 
-BOOST_SPIRIT_DEFINE(word_value, setting_value, equals, comment_end, block_number, program_number,
-                    block_end)
+BOOST_SPIRIT_DEFINE(word_value, corner_letter, setting_value, equals, comment_end, block_number,
+                    program_number, block_end)
 
 Diagnostic on_line(Diagnostic diagnostic, std::uint32_t line) {
   diagnostic.line = static_cast<int>(line);

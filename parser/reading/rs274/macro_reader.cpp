@@ -114,14 +114,23 @@ class MacroReader {
       return in_.fail("value-missing"_id, opening, fmt::format("{} has no text", keyword),
                       fmt::format("write it in brackets: {}[X#1[53]]", keyword));
     }
-    const std::size_t end = std::min(text_.find('('), text_.size());
-    const std::size_t closing = text_.substr(0, end).rfind(']');
-    if (closing == std::string_view::npos || closing < opening) {
+    const std::size_t closing = closing_bracket(opening);
+    if (closing == std::string_view::npos) {
       return in_.fail("bracket-not-closed"_id, opening, "the bracket is not closed",
                       "close it with ]");
     }
     comment_.text = utf8_of(text_.substr(opening, closing - opening));
     in_.go_to(static_cast<std::uint32_t>(closing) + 2);
+  }
+
+  // Of the bracket that is open before `from`; others may be within it.
+  [[nodiscard]] std::size_t closing_bracket(std::size_t from) const {
+    int open = 1;
+    for (std::size_t at = from; at < text_.size(); ++at) {
+      if (text_[at] == '[') ++open;
+      if (text_[at] == ']' && --open == 0) return at;
+    }
+    return std::string_view::npos;
   }
 
   void read_loop_number() {

@@ -122,7 +122,7 @@ TEST(Position, LostByABlockThatWasPassedOverHasAnIdOfItsOwn) {
     return true;
   };
   const auto program =
-      parse_program("G0 X0 Y0\nX[1/0] Y[2/0]\nG91 X1\nZ1\nM2\n", "part.nc", Dialect::fanuc);
+      parse_program("G0 X0 Y0\nX[1/0] Y[2/0]\nG91 X1\nZ1\nM2\n", "part.nc", Dialect::linuxcnc);
   ASSERT_TRUE(program);
   ASSERT_TRUE(motions_of(*program, options));
   ASSERT_EQ(ids.size(), 3U);

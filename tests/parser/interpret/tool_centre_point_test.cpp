@@ -20,7 +20,7 @@ TEST(ToolCentrePoint, IsSwitchedWithItsOffsetNumber) {
   EXPECT_EQ(changes[2].mode, LengthCompensation::tool_centre_point);
   EXPECT_TRUE(changes[2].tool_vectors);
   EXPECT_EQ(changes[3].mode, LengthCompensation::off);
-  EXPECT_EQ(changes[4].offset_number, 0);
+  EXPECT_EQ(changes[4].offset_number, 5);  // H stays in force
 }
 
 TEST(ToolCentrePoint, TakesEffectBeforeTheMoveOfItsBlock) {

@@ -51,8 +51,8 @@ TEST(WordFrame, RefusesArcsInAPlaneThatItTurns) {
       << lines[0];
 }
 
-TEST(WordFrame, NeedsAllAxesBeforeATurnedMove) {
-  const auto lines = complaints("G0 X0 Y0\nG68 X0 Y0 R30\nG0 X10\n");
+TEST(WordFrame, NeedsTheAxesItTurnsBeforeAMove) {
+  const auto lines = complaints("G0 X0\nG68 X0 Y0 R30\nG0 X10\n");
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines[0].find("a move in a turned frame, but"), std::string::npos) << lines[0];
 }

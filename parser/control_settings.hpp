@@ -1,0 +1,45 @@
+// What the builder of a machine, and the parameters of its control, make of a program's words.
+//
+// Units : none
+// Errors: what is no G or M word; names of decimal-point rules
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+
+namespace frustum::parser {
+
+// How a number without a decimal point counts, of words that take one: as it is written (calculator
+// type), or in the least increments of the axes: 0.001 mm, 0.0001 inch, 0.001 degrees.
+enum class DecimalPoint : std::uint8_t { calculator, increment };
+inline constexpr std::array kDecimalPoints{DecimalPoint::calculator, DecimalPoint::increment};
+[[nodiscard]] std::string_view name_of(DecimalPoint rule);
+[[nodiscard]] std::optional<DecimalPoint> decimal_point_named(std::string_view name);
+
+// A G or M word, by ten times its number.
+struct ControlWord {
+  char letter = 'M';
+  int tenths = 0;
+
+  bool operator==(const ControlWord&) const = default;
+};
+// "M31", "m031", "G187", "G5.1".
+[[nodiscard]] Result<ControlWord> control_word(std::string_view text);
+[[nodiscard]] std::string name_of(ControlWord word);
+
+struct ControlSettings {
+  // Words of the builder that move no axis and cut nothing: they become events of the grade
+  // `known`. M words that nobody knows are events of the grade `builder` without.
+  std::vector<ControlWord> words{};
+  DecimalPoint decimal_point = DecimalPoint::calculator;
+
+  [[nodiscard]] bool has(ControlWord word) const;
+};
+
+}  // namespace frustum::parser
