@@ -105,11 +105,11 @@ void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_
   }
   circle.centre = record.point();
   if (!set_axis(in, circle, record.point(3), given[3].column)) return;
-  if (clockwise) circle.axis = -circle.axis;
+  const bool of_nx = numbers > kCircleNumbers + 1;
+  if (clockwise || of_nx) circle.axis = -circle.axis;
   const bool helix = circle.value > 0.0;
-  const bool nx = numbers > kCircleNumbers + 1;
-  circle.one_move = helix || nx || sense || numbers == kWithoutRadius || record.word == "MOVARC";
-  circle.closes = helix || !nx;
+  circle.one_move = helix || of_nx || sense || numbers == kWithoutRadius || record.word == "MOVARC";
+  circle.closes = helix || !of_nx;
   circle_ = circle;
 }
 

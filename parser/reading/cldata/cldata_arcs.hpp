@@ -2,18 +2,21 @@
 //
 //   CIRCLE/x,y,z,i,j,k,r and the GOTO records after it, as long as they go on along the circle.
 //                           Without radius (SolidWorks CAM) or with more numbers (tolerances and
-//                           the cutter, as NX writes them) one GOTO; TIMES,n or PITCH,p: a helix;
-//                           CLOCKWISE: against i,j,k
+//                           the cutter: NX) one GOTO; TIMES,n or PITCH,p: a helix; CLOCKWISE:
+//                           against i,j,k
 //   MOVARC/x,y,z,i,j,k,r,ANGLE,a    one GOTO, `a` degrees further
 //   INDIRV/i,j,k            the direction at the start; INDIRP/x,y,z: towards a point; then
 //   TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z) up to where the line or plane meets the
 //                           circle; ON,2,INTOF: to the second place; a line from the centre to the
 //                           circle: to its end
 //
-// The tool turns counterclockwise about i,j,k.
+// The tool turns counterclockwise about i,j,k, in the form of NX clockwise.
 // Units : those of the file, degrees
 // Errors: by LineScanner::fail: numbers that are missing, an axis without length, a circle
 //         that does not lead to its GOTO, turns that disagree with the end, no start or direction
+// Source: PTC Creo Help, CL Output for Circular Interpolation (right-hand rule). NX: its CL files,
+//         where only clockwise arcs go on from the lines before and after them, and the reader of
+//         CL files of STEP Tools
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ bool CldataRemarks::take_note(std::string& frame) {
   const std::string& word = record_.word;
   if (word == "TOOL" && in_.take_name("PATH")) return note("TOOL PATH");
   if (word == "END" && in_.peek() == '-') return note("END-OF-PATH");
-  if (word == "MSYS") return note_frame(frame);
+  if (word == "MSYS" || word == "SYS") return note_frame(frame);
   for (const char* event : cldata_note_words()) {
     if (word == event) return note(event);
   }

@@ -152,8 +152,21 @@ TEST(CldataOfCam, ATiltedToolWithoutACallIsTheJobs) {
 TEST(CldataOfCam, NxCountsTheTurnsThatAHelixStarts) {
   const auto arc =
       last_of<ArcFeed>(run_cl("LOADTL/1\nFEDRAT/5\nGOTO/5,0,0\n"
-                              "CIRCLE/0,0,-6,0,0,1,5,.06,.5,12,1,TIMES,3\nGOTO/0,5,-6\n"));
+                              "CIRCLE/0,0,-6,0,0,-1,5,.06,.5,12,1,TIMES,3\nGOTO/0,5,-6\n"));
   EXPECT_EQ(arc.turns, 3);
+}
+
+// A lead-in as NX writes it: from the left down to the line along +X, the short way.
+TEST(CldataOfCam, NxTurnsClockwiseAboutTheAxis) {
+  const auto turns = [](const std::string& circle) {
+    return last_of<ArcFeed>(
+               run_cl("LOADTL/1\nFEDRAT/5\nGOTO/-7.5,23,70\n" + circle + "\nGOTO/5,10.5,70\n"))
+        .turns;
+  };
+  EXPECT_EQ(turns("CIRCLE/5,23,70,0,0,-1,12.5,.06,.5,25,0"), 1);
+  EXPECT_EQ(turns("CIRCLE/5,23,70,0,0,1,12.5,.06,.5,25,0"), -1);
+  EXPECT_EQ(turns("CIRCLE/5,23,70,0,0,1,12.5"), 1);  // Creo
+  EXPECT_EQ(turns("CIRCLE/5,23,70,0,0,1"), 1);       // SolidWorks CAM
 }
 
 TEST(CldataOfCam, AMissingFeedIsAnAssumption) {

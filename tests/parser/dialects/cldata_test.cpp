@@ -212,7 +212,7 @@ TEST(CldataArcs, ClimbInHelices) {
     return last_of<ArcFeed>(run_behind_start("GOTO/10,0,0\n" + circle + "\nGOTO/" + end + "\n"));
   };
   EXPECT_EQ(arc("CIRCLE/0,0,0,0,0,1,10,TIMES,3", "10,0,-6").turns, 3);
-  EXPECT_EQ(arc("CIRCLE/0,0,0,0,0,-1,10,.01,.5,8,0,TIMES,2.25", "0,-10,-6").turns, -3);
+  EXPECT_EQ(arc("CIRCLE/0,0,0,0,0,1,10,.01,.5,8,0,TIMES,2.25", "0,-10,-6").turns, -3);
   EXPECT_EQ(arc("CIRCLE/0,0,0,0,0,1,10,PITCH,2", "0,10,-4.5").turns, 3);
   EXPECT_EQ(arc("MOVARC/0,0,0,0,0,1,10,ANGLE,90", "0,10,0").turns, 1);
   EXPECT_EQ(arc("MOVARC/0,0,0,0,0,1,10,ANGLE,450", "0,10,0").turns, 2);
