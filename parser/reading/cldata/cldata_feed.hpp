@@ -1,4 +1,4 @@
-// The units of feeds in APT CLDATA: MMPM, MMPR, IPM, IPR, PERMIN, PERREV.
+// The units of feeds in APT CLDATA: MMPM, MMPR, IPM, IPR, FPM, FPR, PERMIN, PERREV.
 //
 // Units : `scale` brings a feed to the file's own unit
 // Errors: nothing for other words
@@ -26,6 +26,9 @@ struct CldataFeedUnit {
   if (word == "MMPR") return CldataFeedUnit{true, from_mm};
   if (word == "IPM") return CldataFeedUnit{false, from_inches};
   if (word == "IPR") return CldataFeedUnit{true, from_inches};
+  constexpr double kInchesPerFoot = 12.0;
+  if (word == "FPM") return CldataFeedUnit{false, kInchesPerFoot * from_inches};
+  if (word == "FPR") return CldataFeedUnit{true, kInchesPerFoot * from_inches};
   return std::nullopt;
 }
 

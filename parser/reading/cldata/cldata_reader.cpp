@@ -119,6 +119,9 @@ class CldataReader {
         record_.arguments[0].word == "TOOL") {
       record_.word = "LOADTL";
       record_.arguments.erase(record_.arguments.begin());
+    } else if (record_.word == "LOAD") {
+      in_.go_to(behind_word);
+      return add_post_word(remarks_.rest_of_record());
     }
     read_rest();
   }
@@ -147,15 +150,18 @@ class CldataReader {
   // mistake.
   void read_unknown(std::uint32_t behind_word) {
     in_.go_to(behind_word);
-    const std::string arguments = remarks_.rest_of_record();
+    std::string arguments = remarks_.rest_of_record();
     const std::vector<std::string> known = known_records();
     if (could_move(record_.word, arguments) || nearest_word(record_.word, known)) {
       return in_.fail("unknown-word"_id, record_.column, "unknown record " + record_.word,
                       suggestion(record_.word, known));
     }
-    std::string text = record_.word;
-    if (!arguments.empty()) text += "/" + arguments;
-    block_.comments.push_back({record_.column, false, std::move(text), "post word", true});
+    add_post_word(std::move(arguments));
+  }
+
+  void add_post_word(std::string arguments) {
+    if (!arguments.empty()) arguments.insert(0, "/");
+    block_.comments.push_back({record_.column, false, record_.word + arguments, "post word", true});
     remarks_.take_comment();
   }
 

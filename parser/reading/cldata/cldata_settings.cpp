@@ -25,6 +25,10 @@ class SettingReader {
 
   void read_feed() {
     const auto& given = record_.arguments;
+    // FEDRAT/INVERS,AUTO: the control may get the feed as the inverse of a time.
+    if (!given.empty() && given[0].word == "INVERS" && given.size() == 2 && !given[1].is_number()) {
+      return note("FEDRAT");
+    }
     const CldataArgument* number = nullptr;
     const CldataArgument* unit = nullptr;
     for (const CldataArgument& argument : given) {
@@ -40,7 +44,7 @@ class SettingReader {
     if (!meaning) {
       return in_.fail("unknown-word"_id, unit->column,
                       fmt::format("{} has no meaning in FEDRAT", unit->word),
-                      "units are MMPM, MMPR, IPM, IPR, PERMIN and PERREV");
+                      "units are MMPM, MMPR, IPM, IPR, FPM, FPR, PERMIN and PERREV");
     }
     if (number == nullptr) {
       return in_.fail("value-missing"_id, record_.column, "FEDRAT has no feed",
@@ -59,9 +63,14 @@ class SettingReader {
       std::string_view word;
       const char* code;
     };
-    constexpr std::array kDirections{Direction{"CLW", "SPINDL/CLW"},
-                                     Direction{"CCLW", "SPINDL/CCLW"},
-                                     Direction{"OFF", "SPINDL/OFF"}};
+    constexpr std::array kDirections{
+        Direction{"CLW", "SPINDL/CLW"},   Direction{"CCLW", "SPINDL/CCLW"},
+        Direction{"CW", "SPINDL/CLW"},    Direction{"CCW", "SPINDL/CCLW"},
+        Direction{"OFF", "SPINDL/OFF"},   Direction{"STOP", "SPINDL/OFF"},
+        Direction{"NOMORE", "SPINDL/OFF"}};
+    // Of the gearbox, or of the angle at which it stops.
+    constexpr std::array<std::string_view, 8> kRemarks{"RANGE", "MAXRPM", "LOW",    "MEDIUM",
+                                                       "HIGH",  "AUTO",   "ORIENT", "LOCK"};
     const auto& given = record_.arguments;
     if (given.empty())
       return in_.fail("value-missing"_id, record_.column, "SPINDL says nothing", kRemedy);
@@ -76,8 +85,8 @@ class SettingReader {
         modes_.speed = argument.number;
       } else if (direction != kDirections.end()) {
         code = direction->code;
-      } else if (argument.word == "RANGE" || argument.word == "MAXRPM") {
-        // Of the gearbox.
+      } else if (std::find(kRemarks.begin(), kRemarks.end(), argument.word) != kRemarks.end()) {
+        if (argument.word == "ORIENT" || argument.word == "LOCK") code = "SPINDL/OFF";
         block_.comments.push_back({argument.column, false, record_.text_from(i), "SPINDL"});
         break;
       } else if (argument.word == "SFM" || argument.word == "SMM") {
@@ -156,21 +165,20 @@ class SettingReader {
     const auto& given = record_.arguments;
     if (given.empty()) return note("COOLNT");
     const std::string& state = given.front().word;
-    constexpr std::array kOthers{"MIST",    "THRU", "AIR", "TAP",  "TAPKUL",
-                                 "THROUGH", "HIGH", "LOW", "SOFT", "SHOWER"};
-    const bool other = std::find(kOthers.begin(), kOthers.end(), state) != kOthers.end();
     if (state == "ON" || state == "FLOOD") {
       add("COOLNT/ON");
     } else if (state == "OFF") {
       add("COOLNT/OFF");
-    } else if (!other) {
-      return in_.fail("value-missing"_id, record_.column, "COOLNT says nothing that is known",
-                      "write COOLNT/ON, FLOOD, MIST, THRU, AIR, TAP or OFF");
+    } else {
+      constexpr std::array kOthers{"MIST", "THRU", "AIR", "TAP", "TAPKUL", "THROUGH"};
+      note("COOLNT");
+      block_.comments.back().of_builder =
+          std::find(kOthers.begin(), kOthers.end(), state) == kOthers.end();
+      return;
     }
     // What kind, and the pressure.
-    if (other || given.size() > 1) {
-      const std::size_t first = other ? 0 : 1;
-      block_.comments.push_back({given[first].column, false, record_.text_from(first), "COOLNT"});
+    if (given.size() > 1) {
+      block_.comments.push_back({given[1].column, false, record_.text_from(1), "COOLNT"});
     }
   }
 

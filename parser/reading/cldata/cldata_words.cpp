@@ -9,15 +9,17 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::array<const char*, 64> kNotes{
-    "CUTTER", "TOOLNO", "MACHIN", "INTOL",       "OUTTOL",    "TOLER",  "LEADER", "OPNAME",
-    "SELECT", "PLABEL", "LINTOL", "SEQNO",       "TLDATA",    "MSYS",   "PAINT",  "CLDIST",
-    "CLEARP", "AUXFUN", "REWIND", "AUTOPS",      "PSIS",      "SELCTL", "OFSTNO", "OPSKIP",
-    "CLPRNT", "NOPOST", "ISN",    "CLAMP",       "TMARK",     "RESET",  "THICK",  "BREAK",
-    "SETUP",  "MFGNO",  "LIMITS", "SAFETY",      "VERIFY",    "PLOT",   "MCHTOL", "MAXDPM",
-    "MAXVEL", "RETAIN", "TOOLSZ", "PROGRM",      "OPTIOL",    "FLUSH",  "COUPLE", "DEBUG",
-    "STOCK",  "BOX",    "OPER",   "OPFEATSTART", "OPFEATEND", "HEADER", "CHECK",  "TLSPEC",
-    "ZEROPT", "BLANK",  "MDWRIT", "MDEND",       "LIBRY",     "DRESS",  "MILL",   "NOTE"};
+constexpr std::array kNotes{
+    "CUTTER",  "TOOLNO", "MACHIN", "INTOL",       "OUTTOL",    "TOLER",  "LEADER", "OPNAME",
+    "SELECT",  "PLABEL", "LINTOL", "SEQNO",       "TLDATA",    "MSYS",   "PAINT",  "CLDIST",
+    "CLEARP",  "AUXFUN", "REWIND", "AUTOPS",      "PSIS",      "SELCTL", "OFSTNO", "OPSKIP",
+    "CLPRNT",  "NOPOST", "ISN",    "CLAMP",       "TMARK",     "RESET",  "THICK",  "BREAK",
+    "SETUP",   "MFGNO",  "LIMITS", "SAFETY",      "VERIFY",    "PLOT",   "MCHTOL", "MAXDPM",
+    "MAXVEL",  "RETAIN", "TOOLSZ", "PROGRM",      "OPTIOL",    "FLUSH",  "COUPLE", "DEBUG",
+    "STOCK",   "BOX",    "OPER",   "OPFEATSTART", "OPFEATEND", "HEADER", "CHECK",  "TLSPEC",
+    "ZEROPT",  "BLANK",  "MDWRIT", "MDEND",       "LIBRY",     "DRESS",  "MILL",   "NOTE",
+    "SELECTL", "ARCSLP", "OPTION", "CHUCK",       "OSETNO",    "PROGNO", "LPRINT", "PRINT",
+    "RESERV",  "UNLOAD", "HEAD",   "SET",         "ZOFF"};
 
 bool is_place(std::string_view arguments) {
   constexpr int kCoordinates = 3;
@@ -53,9 +55,9 @@ const char* harmless_cldata(std::string_view record, std::string_view argument) 
 }
 
 bool could_move(std::string_view record, std::string_view arguments) {
-  constexpr std::array<std::string_view, 16> kMoves{"GO",    "MOV", "ROT",  "ARC",  "CIR", "TRA",
-                                                    "SPLIN", "NUR", "HELI", "LIN",  "CUR", "AXIS",
-                                                    "POCK",  "POL", "TURN", "SHIFT"};
+  constexpr std::array<std::string_view, 21> kMoves{
+      "GO",   "MOV",  "ROT", "ARC",  "CIR",   "TRA",  "SPLIN", "NUR",  "HELI",  "LIN", "CUR",
+      "AXIS", "POCK", "POL", "TURN", "SHIFT", "RETR", "RTRC",  "APPR", "PLUNG", "LEAD"};
   return is_place(arguments) ||
          std::any_of(kMoves.begin(), kMoves.end(),
                      [&](std::string_view start) { return record.starts_with(start); });

@@ -261,6 +261,28 @@ TEST(CldataOfCam, DelaysAndCoolantsInOtherForms) {
   EXPECT_DOUBLE_EQ(last_of<Dwell>(run_cl("DELAY/SEC,4\n")).seconds, 4.0);
   EXPECT_TRUE(ids_of("COOLNT/\nCOOLNT/THROUGH\nRAPID/\n").empty());
   EXPECT_EQ(ids_of("DELAY/3,4\n"), Ids{"value-missing"});
+  EXPECT_EQ(events_of("COOLNT/OIL,HIGH\nLOAD/HEAD,1\n", EventGrade::builder),
+            (std::vector<std::string>{"COOLNT|OIL,HIGH", "post word|LOAD/HEAD,1"}));
+}
+
+TEST(CldataOfCam, SpindlesAndFeedsInOtherForms) {
+  const auto spindle = [](const std::string& record) {
+    return last_of<SpindleChange>(run_cl("SPINDL/100,CLW\n" + record + "\n"));
+  };
+  EXPECT_EQ(spindle("SPINDL/CCW,500,HIGH").direction, SpindleDirection::counterclockwise);
+  EXPECT_EQ(spindle("SPINDL/CCW,500,HIGH").speed, 500.0);
+  EXPECT_EQ(spindle("SPINDL/STOP").direction, SpindleDirection::off);
+  EXPECT_EQ(spindle("SPINDL/ORIENT,90").direction, SpindleDirection::off);
+  EXPECT_DOUBLE_EQ(
+      last_of<LinearFeed>(run_cl("FEDRAT/2,FPM\nFEDRAT/INVERS,AUTO\nGOTO/1,2,3\n")).feed.value,
+      609.6);
+}
+
+TEST(CldataOfCam, WhatRunsElsewhereIsRefused) {
+  for (const char* record : {"DEFSUB/1", "IF/1", "JUMPTO/2", "READ/2,X", "DNTCUT", "TOOL/5"}) {
+    EXPECT_EQ(ids_of(std::string(record) + "\n"), Ids{"not-supported"}) << record;
+  }
+  EXPECT_EQ(ids_of("RETRACT/10\n"), Ids{"unknown-word"});
 }
 
 // What the reader adds is not written, and is added again.

@@ -335,7 +335,6 @@ constexpr Mistake kCldata[] = {
     {"SPINDL\n", "1:1: error: SPINDL says nothing"},
     {"LOADTL/T1\n", "1:1: error: LOADTL has no number"},
     {"UNITS/FEET\n", "1:1: error: UNITS without MM or INCHES"},
-    {"COOLNT/WET\n", "1:1: error: COOLNT says nothing that is known"},
     {"DELAY\n", "1:1: error: DELAY without a time"},
     {"CYCLE/DRILL,5\n", "1:1: error: CYCLE has no clearance"},
     {"TRACUT/1\n", "1:1: error: TRACUT is not simulated"},
