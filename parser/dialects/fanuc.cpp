@@ -126,7 +126,8 @@ constexpr std::array kFanucLetters{
 constexpr std::array kFanucDwell{DwellWord{'P', DwellUnit::milliseconds_without_point},
                                  DwellWord{'X', DwellUnit::seconds},
                                  DwellWord{'U', DwellUnit::seconds}};
-constexpr std::array<std::string_view, 3> kFanucFiles{"{}", "{}.nc", "{}.NC"};
+constexpr std::array<std::string_view, 7> kFanucFiles{"{}",     "{}.nc",  "{}.NC", "{}.cnc",
+                                                      "{}.tap", "{}.txt", "{}.eia"};
 
 constexpr DialectRules kFanucRules{
     .dialect = Dialect::fanuc,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,21 @@ namespace frustum::parser {
 namespace {
 
 constexpr int kMaxTool = 99'999'999;
+
+// T1.1 of Fagor and others: the tool and its offset.
+Result<int> tool_number(InterpreterState& state, const BlockWords& words) {
+  constexpr double kMostTools = 1000.0;
+  const double number = words['T'].value;
+  const double tenths = number * 10.0;
+  const bool with_offset = state.rules.dialect == Dialect::fanuc && number > 0.0 &&
+                           number < kMostTools && number != std::floor(number) &&
+                           std::abs(tenths - std::round(tenths)) < 1e-9;
+  if (!with_offset) return whole(state, words, 'T', 0, kMaxTool);
+  assume(state, words['T'].column, "tool with offset",
+         fmt::format("{}: tool {:g}, and behind the point its offset", words.text_of('T'),
+                     std::floor(number)));
+  return static_cast<int>(number);
+}
 
 }  // namespace
 
@@ -47,7 +63,7 @@ Outcome set_feed(InterpreterState& state, const BlockWords& words) {
 
 Outcome set_tool(InterpreterState& state, const BlockWords& words) {
   if (words.has('T')) {
-    const auto tool = whole(state, words, 'T', 0, kMaxTool);
+    const auto tool = tool_number(state, words);
     if (!tool) return tool.error();
     if (auto done = check_tool_exists(state, *tool, words['T'].column); !done) return done;
     state.modes.selected_tool = *tool;

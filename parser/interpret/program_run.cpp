@@ -106,10 +106,18 @@ ProgramRun::Failure ProgramRun::run_next() {
   statement_ran_ = statement_ran_ || block.flow.has_value();
   const std::size_t calls = frames_.size();
   auto failure = block.flow ? follow_statement(block) : execute(block);
+  if (executor_.state().system.signals_read) tell_signals(block);
   if (!failure || !goes_on(*failure)) return failure;
   // A subprogram that has been left took its block with it.
   if (frames_.size() == calls) pass_over(executor_.state(), block);
   return std::nullopt;
+}
+
+void ProgramRun::tell_signals(const Block& block) {
+  InterpreterState& state = executor_.state();
+  state.system.signals_read = false;
+  state.at_work.block = &block;
+  assume(state, 1, "signals", "the inputs that #1000 to #1035 read are off");
 }
 
 ProgramRun::Failure ProgramRun::count_block(const Block& block) {

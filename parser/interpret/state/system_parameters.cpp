@@ -248,6 +248,8 @@ constexpr int kLinuxcncPosition = 5420;
 constexpr int kFanucPosition = 5001;
 constexpr int kFanucPositionNow = 5041;  // with the length of the tool
 constexpr int kAxesOfParameters = 6;
+constexpr int kFirstSignal = 1000;  // inputs, one by one and all together
+constexpr int kLastSignal = 1035;
 
 }  // namespace
 
@@ -262,6 +264,10 @@ Value SystemParameters::number(int index) const {
       return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(now)));
     }
     if (const Value mode = modal_variable(state, index)) return mode;
+    if (index >= kFirstSignal && index <= kLastSignal) {
+      signals_read = true;
+      return 0.0;
+    }
   }
   return read_parameter(data, dialect, index);
 }

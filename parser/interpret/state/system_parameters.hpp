@@ -36,6 +36,8 @@ class SystemParameters final : public KeptParameters {
   const ProgramPosition& position;
   const ControlData& data;
   int call_level = 0;
+  // A signal of the machine has been read, which are all taken to be off.
+  mutable bool signals_read = false;
 };
 
 }  // namespace frustum::parser

@@ -279,6 +279,19 @@ TEST(FanucWords, ContourWithARadiusOfTheSetupIsKeptAsItIs) {
   EXPECT_EQ(complaint_ids("G0 X0 Y0\nG41 D2 G1 X10 F100\n", options), Names{"radius-compensation"});
 }
 
+TEST(FanucWords, SignalsOfTheMachineAreOff) {
+  const auto all = motions("IF [#1005 EQ 1] GOTO 9\n#1=#1032\nG0 X[5+#1]\nN9 M30\n");
+  EXPECT_EQ(last_of<Traverse>(all).end[X], 5.0);
+  EXPECT_EQ(assumed(all), Names{"signals"});
+}
+
+TEST(FanucWords, ToolMayNameItsOffset) {
+  const auto all = motions("T1.1 M6\n");
+  EXPECT_EQ(last_of<ToolChange>(all).tool, 1);
+  EXPECT_EQ(assumed(all), Names{"tool with offset"});
+  EXPECT_EQ(complaint_ids("T1701.1302 M6\n"), Names{"not-whole"});
+}
+
 TEST(FanucWords, UnitsByG70AndG71) {
   EXPECT_NEAR(*last_of<Traverse>(motions("G70 G0 X1.\n")).end[X], 25.4, 1e-12);
   EXPECT_EQ(*last_of<Traverse>(motions("G20\nG71\nG0 X1.\n")).end[X], 1.0);
