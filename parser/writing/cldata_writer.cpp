@@ -165,8 +165,13 @@ class RecordWriter {
       return fmt::format("{},{},{}", shortest_decimal(v[0]), shortest_decimal(v[1]),
                          shortest_decimal(v[2]));
     };
-    return fmt::format("MOVARC/{},{},0,ANGLE,{}", list(centre), list(axis),
-                       shortest_decimal(kDegreesPerTurn * turns(centre, axis)));
+    const bool started = std::ranges::any_of(block_.comments, [](const Comment& comment) {
+      return comment.assumed && std::string_view(comment.event) == "CIRCLE TIMES";
+    });
+    const std::string extent =
+        started ? "TIMES," + shortest_decimal(has('P') ? number('P') : 1.0)
+                : "ANGLE," + shortest_decimal(kDegreesPerTurn * turns(centre, axis));
+    return fmt::format("MOVARC/{},{},0,{}", list(centre), list(axis), extent);
   }
 
   // Full turns of the arc, the last one from the angle between its ends.

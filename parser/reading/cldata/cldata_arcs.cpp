@@ -176,6 +176,8 @@ std::optional<CldataArc> CldataArcs::to(LineScanner& in, const Vec3& end, std::u
   const auto turns = turns_of(in, *circle_, column, turn, height);
   if (!turns) return std::nullopt;
   arc.turns = *turns;
+  arc.times_started = std::string_view(circle_->word) == "TIMES" && turn < 1.0 - kNoTurn &&
+                      circle_->value == std::floor(circle_->value);
   circle_->begun = true;
   circle_->flat = flat;
   circle_->turned += turn;

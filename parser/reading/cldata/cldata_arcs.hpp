@@ -32,6 +32,7 @@ struct CldataArc {
   Vec3 end = Vec3::Zero();
   Vec3 axis = Vec3::UnitZ();
   int turns = 1;
+  bool times_started = false;  // TIMES was taken for the turns that are started
 
   // The plane of X, Y and Z that it is in.
   [[nodiscard]] std::optional<Plane> plane() const;

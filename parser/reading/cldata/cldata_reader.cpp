@@ -344,6 +344,9 @@ class CldataReader {
     if (!rapid) need_feed();
     if (arc) {
       add_position(arc->code(), place);
+      if (arc->times_started) {
+        remarks_.assumed("CIRCLE TIMES", "it counts the turns that are started");
+      }
       return add_arc(block_, *arc, place.column);
     }
     add_position(rapid ? "RAPID GOTO" : "GOTO", place);

@@ -20,7 +20,7 @@ namespace frustum::parser {
 // Whether a record that is nowhere defined could move the tool or the part: by its name (GO..,
 // ROT..), or by having a place for its arguments.
 [[nodiscard]] bool could_move(std::string_view record, std::string_view arguments);
-// Whether the record says that the program is one for turning or wire erosion: by its word alone, or
+// Whether the record says that the program is one for turning or wire erosion, by its word alone or
 // by one of its arguments.
 [[nodiscard]] bool names_the_process(std::string_view record);
 [[nodiscard]] bool is_not_milling(std::string_view record, std::string_view arguments);

@@ -150,10 +150,11 @@ TEST(CldataOfCam, ATiltedToolWithoutACallIsTheJobs) {
 }
 
 TEST(CldataOfCam, NxCountsTheTurnsThatAHelixStarts) {
-  const auto arc =
-      last_of<ArcFeed>(run_cl("LOADTL/1\nFEDRAT/5\nGOTO/5,0,0\n"
-                              "CIRCLE/0,0,-6,0,0,-1,5,.06,.5,12,1,TIMES,3\nGOTO/0,5,-6\n"));
-  EXPECT_EQ(arc.turns, 3);
+  const std::string helix =
+      "LOADTL/1\nFEDRAT/5\nGOTO/5,0,0\n"
+      "CIRCLE/0,0,-6,0,0,-1,5,.06,.5,12,1,TIMES,3\nGOTO/0,5,-6\n";
+  EXPECT_EQ(last_of<ArcFeed>(run_cl(helix)).turns, 3);
+  EXPECT_EQ(names_assumed(helix), std::vector<std::string>{"CIRCLE TIMES"});
 }
 
 // A lead-in as NX writes it: from the left down to the line along +X, the short way.
@@ -290,6 +291,7 @@ TEST(CldataOfCam, IsReadBackAsItWasRead) {
   const std::string text =
       std::string("GOTO/1,2,3\n") + kTilted +
       "CIRCLE/100,0,-3,1,0,0\nGOTO/100,-5,-3,1,0,0\nCIRCLE/100,-5,0,0,-.6,.8\nGOTO/103,-5,0\n"
+      "CIRCLE/98,-5,0,0,0,-1,5,.06,.5,12,1,TIMES,2\nGOTO/98,0,-1\n"
       "CYCLE/INIT\nCYCLE/DEEP2,FEDTO,9,1STPECK,5,SUBPECK,2,MMPM,154,RAPTO,3,RTRCTO,25\n"
       "CYCLE/TAP,5,CAM,2,1\nCUTCOM/LEFT\nORIGIN/1,2,3\nWARMUP/7\nCYCLE/OFF\n";
   const auto program = parse_program(text, "part.apt", Dialect::cldata);
