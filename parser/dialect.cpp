@@ -106,6 +106,8 @@ constexpr std::array kSigns{
     Sign{Dialect::linuxcnc, "O# REPEAT", Where::start},
     Sign{Dialect::linuxcnc, "G38.2", Where::word},
     Sign{Dialect::linuxcnc, "G38.3", Where::word},
+    Sign{Dialect::linuxcnc, "G33.1", Where::word},
+    Sign{Dialect::linuxcnc, "G64 P", Where::word},
     Sign{Dialect::linuxcnc, "M428", Where::word},
     Sign{Dialect::linuxcnc, "M429", Where::word},
     Sign{Dialect::linuxcnc, "O<", Where::start},

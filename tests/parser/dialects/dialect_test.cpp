@@ -86,6 +86,8 @@ TEST(Dialect, IsRecognisedBehindAByteOrderMarkAndByWordsWithNumbers) {
   const auto reason = [](std::string_view text) { return recognise_dialect(text, "a.txt").reason; };
   EXPECT_EQ(reason("\xEF\xBB\xBF\x30 BEGIN PGM A MM\n"), "line 1: BEGIN PGM");
   EXPECT_EQ(reason("G0 X0\no100 sub\n"), "line 2: O100 SUB");
+  EXPECT_EQ(reason("G0 X0\nG17 G64 P0.01\n"), "line 2: G64 P");
+  EXPECT_EQ(reason("G64 (P0.01)\nG0 X0\n"), "nothing says otherwise");
   EXPECT_EQ(reason("N5 R12=5.5\n"), "line 1: R12=");
   EXPECT_EQ(reason("G2 X10 Y0 CR = 10\n"), "line 1: CR =");
   EXPECT_EQ(reason("T=\"MILL\" M6\n"), "line 1: T=\"");
