@@ -10,19 +10,10 @@
 namespace frustum::parser {
 namespace {
 
-// RS-274: what a post-processor's rounding to three decimals, on a large radius, may leave.
-constexpr double kRadiusTolerance = 0.01;           // mm
-constexpr double kRelativeRadiusTolerance = 0.001;  // of the radius
-constexpr double kLargestRadiusTolerance = 0.5;     // mm
 // Shorter than any controller's increment: an arc that ends so near its start is a full circle.
 constexpr double kFullCircleGap = 1e-6;  // mm
 // A difference of just the tolerance is allowed, whatever its last digits.
 constexpr double kRounding = 1e-9;  // mm
-
-double tolerance_at(double radius) {
-  return std::max(kRadiusTolerance,
-                  std::min(kRelativeRadiusTolerance * radius, kLargestRadiusTolerance));
-}
 
 const char* word_of(bool clockwise) { return clockwise ? "G2" : "G3"; }
 
@@ -45,7 +36,7 @@ Result<Arc> arc_by_radius(const ArcWords& words) {
                  fmt::format("give the centre of a full circle by {}", centre_words(words.plane)));
   }
   const double half = chord / 2.0;
-  if (half - std::abs(radius) > tolerance_at(half)) {
+  if (half - std::abs(radius) > words.tolerance.reach.value_or(words.tolerance.at(half))) {
     return error("arc-radius"_id,
                  fmt::format("R {} is too small: the end is {} from the start",
                              mm(std::abs(radius)), mm(chord)),
@@ -77,17 +68,19 @@ Result<Arc> arc_by_centre(const ArcWords& words) {
   };
   const double at_start = distance(words.start);
   const double at_end = distance(words.end);
-  if (at_start == 0.0) {
+  if (at_start <= words.tolerance.least_radius) {
     return error("arc-centre-is-start"_id, "the centre of the arc is its start",
                  fmt::format("{} lead from the start to the centre", centre_words(words.plane)));
   }
   const double difference = std::abs(at_start - at_end);
-  if (difference > tolerance_at(std::max(at_start, at_end)) + kRounding) {
+  const ArcTolerance& allowed = words.tolerance;
+  if (difference > allowed.at(std::max(at_start, at_end)) + kRounding) {
     return error("arc-radius"_id,
                  fmt::format("the start of the arc is {} from the centre, its end {}: {} apart",
                              mm(at_start), mm(at_end), mm(difference)),
-                 fmt::format("allowed are 0.01 mm, or 0.1 % of the radius up to 0.5 mm; "
+                 fmt::format("allowed are {:.3g} mm, or {:g} % of the radius up to {:.3g} mm; "
                              "correct {} or the end",
+                             allowed.absolute, 100.0 * allowed.relative, allowed.largest,
                              centre_words(words.plane)));
   }
   const double gap =
@@ -100,6 +93,10 @@ Result<Arc> arc_by_centre(const ArcWords& words) {
 }
 
 }  // namespace
+
+double ArcTolerance::at(double radius) const {
+  return std::max(absolute, std::min(relative * radius, largest));
+}
 
 const char* centre_words(Plane plane) {
   constexpr std::array kWords{"I and J", "I and K", "J and K"};

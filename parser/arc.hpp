@@ -6,7 +6,7 @@
 // Shape    : centre words or a radius, not both; a radius below zero is the arc longer than half a
 //            turn
 // Errors   : no centre, both, radius zero or too small, end at the start with a radius, radii that
-//            disagree by more than 0.01 mm and by more than 0.1 % or 0.5 mm
+//            disagree by more than the tolerance
 // Accuracy : 1e-12 relative
 // Source   : RS-274/NGC, sections 3.5.3.1 and 3.5.3.2
 #pragma once
@@ -33,6 +33,19 @@ struct PlaneAxes {
 // "I and J": the words that give the centre in the plane.
 [[nodiscard]] const char* centre_words(Plane plane);
 
+// How far the words of an arc may disagree: what a post-processor's rounding leaves on a large radius.
+struct ArcTolerance {
+  // Of the radii at start and end: always, and in proportion to the radius up to the largest.
+  double absolute = 0.01;  // mm
+  double relative = 0.001;
+  double largest = 0.5;  // mm
+  // By how much R may be below half the chord; absent: as the radii.
+  std::optional<double> reach{};  // mm
+  double least_radius = 0.0;      // mm: a smaller radius is none
+
+  [[nodiscard]] double at(double radius) const;
+};
+
 struct ArcWords {
   Plane plane = Plane::xy;
   bool clockwise = false;
@@ -41,6 +54,7 @@ struct ArcWords {
   std::array<std::optional<double>, 3> centre{};  // I J K; those of the plane count
   bool centre_is_absolute = false;                // G90.1
   std::optional<double> radius{};
+  ArcTolerance tolerance{};
 };
 
 struct Arc {

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "parser/arc.hpp"
 #include "parser/dialect.hpp"
 #include "parser/dialects/code.hpp"
 #include "parser/dialects/radius_rules.hpp"
@@ -104,6 +106,8 @@ struct DialectRules {
   bool tool_brings_feed = false;
   // M words, by ten times their numbers, that count when the move of their block is done.
   std::span<const int> words_behind_move{};
+  ArcTolerance arcs{};
+  std::optional<ArcTolerance> arcs_in_inches{};  // where the unit of the program matters
   // Arcs without centre words or radius turn about the last pole (CC).
   bool arcs_turn_about_pole = false;
   // While a hole cycle is on, each move names the top of a hole.
@@ -150,6 +154,10 @@ struct DialectRules {
   bool data_follow_distance_mode = false;
   // A new tilted plane begins without programmable frame.
   bool planes_end_frames = false;
+  // The number of a program, O100, that is met on the way is its title: what follows is run on.
+  bool runs_into_programs = false;
+  // Statements that do not belong together are wrong where the program runs into them, not before.
+  bool faults_count_when_run = false;
   // Subprograms are programs with a head of their own, or files without; every end of a program
   // returns from one.
   bool subprograms_are_programs = false;

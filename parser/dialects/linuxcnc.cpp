@@ -1,8 +1,10 @@
 // LinuxCNC, that is RS-274/NGC.
+#include "core/units.hpp"
 #include "parser/dialects/dialect_rules.hpp"
 #include "parser/dialects/shared_codes.hpp"
 
 #include <array>
+#include <numbers>
 
 namespace frustum::parser {
 namespace {
@@ -16,6 +18,7 @@ constexpr std::array kLinuxCncCodes{
     modal('G', 51, motion, MotionMode::quadratic_spline),
     modal('G', 52, motion, MotionMode::nurbs),
     modal('G', 53, motion, MotionMode::nurbs_end),
+    modal('G', 62, motion, MotionMode::nurbs_by_knots),
     modal('G', 922, non_modal, NonModal::shift_suspend),
     modal('G', 923, non_modal, NonModal::shift_resume),
     modal('G', 410, radius_compensation, RadiusWord::left, LetterSet("D")),
@@ -116,6 +119,14 @@ constexpr std::array kLinuxCncLetters{
 constexpr std::array kLinuxCncDwell{DwellWord{'P', DwellUnit::seconds}};
 constexpr std::array<std::string_view, 2> kLinuxCncFiles{"{}.ngc", "{}.nc"};
 
+// Two thousandths of the diagonal of a square of 1: 0.01 mm or 0.001 in; a hundred times as much
+// while it is below 0.1 % of the radius. What R may lack, and the least radius, is 0.00005 in.
+constexpr ArcTolerance arc_tolerance(double least_step) {
+  constexpr double kReach = 0.00005 * kMmPerInch;
+  const double absolute = 2.0 * least_step * std::numbers::sqrt2;
+  return {absolute, 0.001, 100.0 * absolute, kReach, kReach};
+}
+
 constexpr DialectRules kLinuxCncRules{
     .dialect = Dialect::linuxcnc,
     .codes = {kLinuxCncCodes, kUserCodes, kMachineCodes, kIsoCodes, kRs274Codes},
@@ -125,10 +136,16 @@ constexpr DialectRules kLinuxCncRules{
     .dwell_hint = "give P in seconds",
     .home_without_axes_is_all = true,
     .feed_precedes_unit = true,
+    .arcs = arc_tolerance(0.01),
+    .arcs_in_inches = arc_tolerance(0.001 * kMmPerInch),
     .always_claimed = LetterSet("FST"),
     .letters = kLinuxCncLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T X Y Z",
-    .parameters = {.locals = 30, .named_locals = true, .unset_is_zero = true},
+    .parameters = {.locals = 30,
+                   .named_locals = true,
+                   .unset_is_zero = true,
+                   .values_may_be_unknown = true,
+                   .last = 5601},
     .cycles = {.retract_to_initial = false,
                .words_end_with_their_g_word = true,
                .feed_out_to_clearance = true,
@@ -144,6 +161,8 @@ constexpr DialectRules kLinuxCncRules{
                .any_move_leaves = true},
     .polar_words = LetterSet("pq"),
     .data_words = kLinuxCncDataWords,
+    .runs_into_programs = true,
+    .faults_count_when_run = true,
     .file_names = kLinuxCncFiles,
 };
 

@@ -23,7 +23,10 @@ struct SpokenComment {
   const char* event;
   bool filled;
   bool of_linuxcnc;
+  EventGrade grade = EventGrade::known;
 };
+
+constexpr const char* kAbort = "abort";
 
 constexpr std::array kSpoken{
     SpokenComment{"MSG,", "message", false, false},
@@ -33,6 +36,11 @@ constexpr std::array kSpoken{
     SpokenComment{"LOGOPEN,", "logopen", false, true},
     SpokenComment{"LOGAPPEND,", "logappend", false, true},
     SpokenComment{"LOGCLOSE", "logclose", false, true},
+    SpokenComment{"ABORT,", kAbort, true, true},
+    // Statements of Python, which are the configuration's.
+    SpokenComment{"PY,", "py", false, true, EventGrade::builder},
+    SpokenComment{"PYRUN,", "pyrun", false, true, EventGrade::builder},
+    SpokenComment{"PYRELOAD", "pyreload", false, true},
 };
 
 constexpr std::string_view kUnset = "######";
@@ -88,7 +96,8 @@ std::string value_text(const Parameters& parameters, std::string_view name, int 
   } else if (name.size() <= kMaxDigits) {
     value = parameters.read(std::stod(std::string(name.substr(1))));
   }
-  return value ? fmt::format("{:.{}f}", *value, decimals) : std::string(kUnset);
+  return value && !is_vacant(*value) ? fmt::format("{:.{}f}", *value, decimals)
+                                     : std::string(kUnset);
 }
 
 // The text with its parameters filled in.
@@ -114,7 +123,7 @@ std::string filled(std::string_view text, const Parameters& parameters) {
 
 }  // namespace
 
-void report_comments(InterpreterState& state, const Block& block) {
+Outcome report_comments(InterpreterState& state, const Block& block) {
   state.at_work.block = &block;
   for (const Comment& comment : block.comments) {
     // A ; by itself ends a block.
@@ -134,12 +143,20 @@ void report_comments(InterpreterState& state, const Block& block) {
       if (spoken.of_linuxcnc && state.rules.dialect != Dialect::linuxcnc) continue;
       const auto text = behind(comment.text, spoken.prefix);
       if (!text) continue;
-      event = {spoken.event, without_blanks_before(spoken.filled ? filled(*text, state.parameters)
-                                                                 : std::string(*text))};
+      event = {spoken.event,
+               without_blanks_before(spoken.filled ? filled(*text, state.parameters)
+                                                   : std::string(*text)),
+               spoken.grade};
       break;
+    }
+    if (event.name == kAbort) {
+      return fail(state, comment.column, "program-alarm"_id,
+                  fmt::format("the program stops itself: {}", event.text),
+                  "look at the conditions before this block");
     }
     emit(state, comment.column, std::move(event));
   }
+  return Done{};
 }
 
 void report_events(InterpreterState& state, const BlockWords& words, LetterSet idle) {

@@ -9,7 +9,8 @@
 
 namespace frustum::parser {
 
-void report_comments(InterpreterState& state, const Block& block);
+// A comment may end the program: (ABORT, text).
+[[nodiscard]] Outcome report_comments(InterpreterState& state, const Block& block);
 // `idle` are the words that nothing else in the block uses.
 void report_events(InterpreterState& state, const BlockWords& words, LetterSet idle = {});
 

@@ -88,7 +88,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
   state.at_work.block = &block;
   state.at_work.moved = false;
   if (const Word* macro = macro_word(state, block)) {
-    report_comments(state, block);
+    if (auto done = report_comments(state, block); !done) return std::move(done).error();
     return call_macro(state, block, *macro);
   }
   auto words = read_words(block, state.parameters, state.rules, state.control);
@@ -106,7 +106,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
     return std::move(done).error();
   }
   if (auto done = insert_corner(state, filters, *words); !done) return std::move(done).error();
-  report_comments(state, block);
+  if (auto done = report_comments(state, block); !done) return std::move(done).error();
   if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
       raised.code != nullptr) {
     return fail(state, raised.column, "program-alarm"_id,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -32,6 +33,21 @@ Result<int> tool_number(InterpreterState& state, const BlockWords& words) {
   return static_cast<int>(number);
 }
 
+// A feed that only the machine knows, as that of a material of plasma cutting.
+void take_unknown_feed(InterpreterState& state, const BlockWords& words) {
+  constexpr double kFeed = 1000.0;  // mm/min
+  for (const GivenCode& word : words.vacant()) {
+    const auto& written = state.at_work.block->words;
+    const bool is_feed = std::any_of(written.begin(), written.end(), [&](const Word& w) {
+      return w.column == word.column && w.letter == 'F';
+    });
+    if (!is_feed) continue;
+    assume(state, word.column, "feed",
+           fmt::format("a value that only the machine knows: {:g} mm/min taken", kFeed));
+    state.modes.feed = FeedWord{kFeed / feed_scale(state, state.modes.feed_mode), kFeed};
+  }
+}
+
 }  // namespace
 
 Outcome set_feed(InterpreterState& state, const BlockWords& words) {
@@ -46,6 +62,7 @@ Outcome set_feed(InterpreterState& state, const BlockWords& words) {
     }
     state.modes.feed = state.modes.tool_feed;
   }
+  if (state.parameters.rules().values_may_be_unknown) take_unknown_feed(state, words);
   if (!words.has('F')) return Done{};
   const double feed = words['F'].value;
   state.modes.feed_was_given = true;

@@ -89,7 +89,7 @@ constexpr std::array kModalMoves{
     ModalMove{MotionMode::arc_clockwise, MotionMode::arc_tangential, move_along_arc},
     ModalMove{MotionMode::arc_through, MotionMode::arc_through, move_through_point},
     ModalMove{MotionMode::arc_about_axis, MotionMode::arc_about_axis, move_about_axis},
-    ModalMove{MotionMode::cubic_spline, MotionMode::nurbs_end, move_along_spline},
+    ModalMove{MotionMode::cubic_spline, MotionMode::nurbs_by_knots, move_along_spline},
     ModalMove{MotionMode::thread, MotionMode::thread, move_along_thread},
     ModalMove{MotionMode::rigid_tap, MotionMode::rigid_tap, tap_rigidly},
     ModalMove{MotionMode::thread_cycle, MotionMode::thread_cycle, cut_thread},

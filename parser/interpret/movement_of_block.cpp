@@ -34,6 +34,8 @@ LetterSet letters_of_spline(MotionMode mode) {
       return kAxisWords | LetterSet("IJ");
     case MotionMode::nurbs:
       return kAxisWords | LetterSet("PL");
+    case MotionMode::nurbs_by_knots:
+      return kAxisWords | LetterSet("PQRK");
     default:
       return {};
   }
@@ -48,7 +50,8 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
   switch (movement.motion) {
     default:
       // R Q P: depths and dwell; L K: how many; I J K: the shift of G87.
-      return is_cycle(movement.motion) ? kAxisWords | LetterSet("RQPLIJK") : LetterSet{};
+      if (!is_cycle(movement.motion)) return {};
+      return kAxisWords | LetterSet("RQPLIJK") | state.rules.polar_words;
     case MotionMode::thread:
       if (state.rules.leads_by_axis) return kAxisWords | LetterSet("IJK");
       return state.rules.thread_lead == 'K' ? kAxisWords | LetterSet("K") : kAxisWords;
@@ -75,6 +78,7 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     case MotionMode::quadratic_spline:
     case MotionMode::nurbs:
     case MotionMode::nurbs_end:
+    case MotionMode::nurbs_by_knots:
       return letters_of_spline(movement.motion);
     case MotionMode::arc_about_axis: {
       const LetterSet letters = kAxisWords | LetterSet("IJKPuvw");
@@ -195,6 +199,17 @@ bool axes_are_taken(const BlockWords& words) {
   return false;
 }
 
+// Of LinuxCNC, motions other than lines and arcs name their end in the block of their word.
+Outcome check_end_of_motion(const InterpreterState& state, const GivenCode& motion,
+                            MotionMode mode) {
+  if (state.rules.dialect != Dialect::linuxcnc || motion.code == nullptr ||
+      mode <= MotionMode::arc_counterclockwise) {
+    return Done{};
+  }
+  return fail(state, motion.column, "axes-missing"_id, motion.code->name() + " names no axis",
+              "give the end of the motion on the block");
+}
+
 }  // namespace
 
 MotionMode motion_of(const InterpreterState& state, const BlockWords& words) {
@@ -218,7 +233,7 @@ Result<Movement> movement_of(const InterpreterState& state, const BlockWords& wo
     if (motion.code == nullptr) return none;
   }
   if (axes_are_taken(words)) return none;
-  const bool of_nurbs = mode == MotionMode::nurbs || mode == MotionMode::nurbs_end;
+  const bool of_nurbs = mode >= MotionMode::nurbs && mode <= MotionMode::nurbs_by_knots;
   if (motion.code != nullptr && of_nurbs) return Movement{non_modal, mode, motion.column};
   const GivenCode& length = words[CodeGroup::length_compensation];
   const bool axes_of_tool =
@@ -229,7 +244,10 @@ Result<Movement> movement_of(const InterpreterState& state, const BlockWords& wo
       state.rules.arcs_turn_about_pole && motion.code != nullptr &&
       (mode == MotionMode::arc_clockwise || mode == MotionMode::arc_counterclockwise);
   const LetterSet move_words = words.given() & kMoveWords;
-  if (move_words.empty() && !circle) return none;
+  if (move_words.empty() && !circle) {
+    if (auto done = check_end_of_motion(state, motion, mode); !done) return std::move(done).error();
+    return none;
+  }
   return Movement{
       non_modal, mode,
       motion.code != nullptr ? motion.column : words[words.first_of(move_words)].column};

@@ -78,6 +78,12 @@ Result<bool> set_system_variable(InterpreterState& state, std::uint32_t column, 
 }
 
 Outcome set_numbered(InterpreterState& state, std::uint32_t column, int index, double value) {
+  const bool unknown = is_vacant(value) && state.parameters.rules().values_may_be_unknown;
+  if (unknown && read_parameter(state.data, state.rules.dialect, index)) {
+    return fail(state, column, "unknown-parameter"_id,
+                fmt::format("#{} is set to a value that only the machine knows", index),
+                "set it to a value of the program");
+  }
   const auto written = is_vacant(value)
                            ? ParameterWrite::not_kept
                            : write_parameter(state.data, state.rules.dialect, index, value);

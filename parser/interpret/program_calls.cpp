@@ -53,13 +53,17 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
   const Landmark* entry = holder == nullptr ? nullptr : holder->map().target(*name);
   // Labels share the parameters of their file.
   const bool has_locals = !rules_.calls_whole_files;
-  if (holder != nullptr && !holder->map().faults().empty()) return holder->map().faults().front();
+  if (holder != nullptr && !rules_.faults_count_when_run && !holder->map().faults().empty()) {
+    return holder->map().faults().front();
+  }
+  if (entry != nullptr && entry->fault) return holder->map().faults()[*entry->fault];
   if (entry == nullptr) {
     return at(block, flow.column, "missing-subprogram"_id, unlabelled("no subprogram", *name),
               options_.search_path.empty() || rules_.calls_whole_files
                   ? "define it in the program"
                   : "define it in the program or in a file of its name");
   }
+  if (has_locals) defined_.insert({holder.get(), entry->place.offset});
   CallFrame next{holder,        BlockCursor(holder->program()),
                  *name,         rules_.calls_whole_files ? kEndOfLabel : "endsub",
                  entry->behind, {entry->place.line, entry->column},
@@ -132,11 +136,13 @@ ProgramRun::Failure ProgramRun::give_back(const Block& block) {
     return at(block, flow.column, "flow-outside-call"_id, "return outside a subprogram",
               "end the main program with M2");
   }
+  double returned = 0.0;
   if (!flow.condition.empty()) {
     const auto value = value_of(block, flow.condition);
     if (!value) return value.error().front();
-    executor_.state().parameters.set("_value", *value);
+    returned = *value;
   }
+  executor_.state().parameters.set("_value", returned);
   executor_.state().parameters.set("_value_returned", flow.condition.empty() ? 0.0 : 1.0);
   return_from_call();
   return std::nullopt;

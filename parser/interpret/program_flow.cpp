@@ -40,6 +40,11 @@ Result<double> ProgramRun::value_of(const Block& block, ExpressionRange range) {
 Result<bool> ProgramRun::holds(const Block& block, const FlowStatement& flow) {
   const auto value = value_of(block, flow.condition);
   if (!value) return value.error();
+  if (is_vacant(*value) && rules_.parameters.values_may_be_unknown) {
+    assume(executor_.state(), flow.column, "condition",
+           fmt::format("on line {}, of a value that only the machine knows: taken as not met",
+                       block.line));
+  }
   return (*value != 0.0 && !is_vacant(*value)) != flow.negated;
 }
 
@@ -70,7 +75,9 @@ Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange r
 }
 
 ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
-  report_comments(executor_.state(), block);
+  if (auto done = report_comments(executor_.state(), block); !done) {
+    return in_this_file(std::move(done).error().front());
+  }
   const FlowStatement& flow = *block.flow;
   const TextPlace place = frame().cursor.block_place();
   switch (flow.kind) {
@@ -101,8 +108,8 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
       break;
   }
   const ProgramMap& map = frame().program->map();
-  if (!map.faults().empty()) return map.faults().front();
   const Landmark& here = map.at(place);
+  if (const Diagnostic* fault = map.fault_of(here, !rules_.faults_count_when_run)) return *fault;
   switch (here.kind) {
     case FlowKind::branch:
     case FlowKind::else_branch: {
@@ -147,6 +154,12 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
       return std::nullopt;
     case FlowKind::subprogram:
       // Reached by the blocks before it: a definition, which runs when it is called.
+      if (!defined_.insert({frame().program.get(), here.place.offset}).second) {
+        return at(
+            block, flow.column, "subprogram-in-path"_id,
+            fmt::format("the program runs into subprogram {}, which it has met before", flow.label),
+            "end the main program with M2 before it, or define it before it is called");
+      }
       frame().cursor.go_to(map[here.end].behind);
       return std::nullopt;
     case FlowKind::end_sub:

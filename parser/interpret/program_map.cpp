@@ -67,10 +67,16 @@ bool closes(FlowKind kind) {
 ProgramMap::ProgramMap(const Program& program) {
   BlockCursor cursor(program);
   std::size_t programs = 0;
+  bool begun = false;
   while (true) {
     const auto block = cursor.next();
+    begun = begun || !block;
     if (!block) continue;
     if (*block == nullptr) break;
+    // What is behind the closing % is no part of the program.
+    if (program.dialect == Dialect::linuxcnc && begun && (*block)->tape_mark) break;
+    begun = begun || (*block)->tape_mark || !(*block)->words.empty() || (*block)->flow ||
+            (*block)->program || !(*block)->assignments.empty();
     const TextPlace place = cursor.block_place();
     if ((*block)->program)
       programs_.emplace(*(*block)->program, Numbered{place, (*block)->program_column});
@@ -87,13 +93,19 @@ ProgramMap::ProgramMap(const Program& program) {
   pair(program);
 }
 
-void ProgramMap::add_fault(const Program& program, const Landmark& landmark, DiagnosticId id,
+void ProgramMap::add_fault(const Program& program, Landmark& landmark, DiagnosticId id,
                            std::string message, std::string hint) {
   Diagnostic fault = error(id, std::move(message), std::move(hint));
   fault.file = program.file;
   fault.line = static_cast<int>(landmark.place.line);
   fault.column = static_cast<int>(landmark.column);
+  landmark.fault = landmark.fault.value_or(faults_.size());
   faults_.push_back(std::move(fault));
+}
+
+const Diagnostic* ProgramMap::fault_of(const Landmark& landmark, bool any) const {
+  if (any) return faults_.empty() ? nullptr : &faults_.front();
+  return landmark.fault ? &faults_[*landmark.fault] : nullptr;
 }
 
 void ProgramMap::pair(const Program& program) {
@@ -103,12 +115,12 @@ void ProgramMap::pair(const Program& program) {
   };
   std::vector<Open> open;
   const auto unended = [&](const Open& statement) {
-    const Landmark& begin = landmarks_[statement.begin];
+    Landmark& begin = landmarks_[statement.begin];
     add_fault(program, begin, "flow-unpaired"_id,
               fmt::format("{}{} has no end", wording(begin.kind).begin, named(begin)),
               fmt::format("close it with its {}", wording(begin.kind).end));
   };
-  const auto twice = [&](const Landmark& here, const Landmark& first) {
+  const auto twice = [&](Landmark& here, const Landmark& first) {
     add_fault(program, here, "flow-name-twice"_id,
               fmt::format("{} is already on line {}", here.label, first.place.line),
               "give each its own name");

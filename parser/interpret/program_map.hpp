@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,8 @@ struct Landmark {
   std::size_t begin = 0;
   std::size_t next = 0;
   std::size_t end = 0;
+  // Of those that are wrong: of its program's faults.
+  std::optional<std::size_t> fault{};
 };
 
 class ProgramMap {
@@ -43,6 +46,8 @@ class ProgramMap {
   explicit ProgramMap(const Program& program);
 
   [[nodiscard]] const Diagnostics& faults() const { return faults_; }
+  // What keeps a statement from being run: its own fault, or where `any` the first of the program.
+  [[nodiscard]] const Diagnostic* fault_of(const Landmark& landmark, bool any) const;
   // In the order of the text.
   [[nodiscard]] const Landmark& operator[](std::size_t index) const { return landmarks_[index]; }
   // The one whose block is at `place`, which must be one.
@@ -64,8 +69,8 @@ class ProgramMap {
 
  private:
   void pair(const Program& program);
-  void add_fault(const Program& program, const Landmark& landmark, DiagnosticId id,
-                 std::string message, std::string hint);
+  void add_fault(const Program& program, Landmark& landmark, DiagnosticId id, std::string message,
+                 std::string hint);
 
   std::vector<Landmark> landmarks_{};
   [[nodiscard]] std::size_t program_at(TextPlace place) const;

@@ -88,7 +88,8 @@ ProgramRun::Failure ProgramRun::run_next() {
   }
   if (*next == nullptr) return run_off(nullptr);
   const Block& block = **next;
-  if (frame().opened && (block.tape_mark || block.program)) return run_off(&block);
+  const bool next_program = block.program && !rules_.runs_into_programs;
+  if (frame().opened && (block.tape_mark || next_program)) return run_off(&block);
   if (!frame().opened && does_something(block)) {
     frame().opened = true;
     if (frames_.size() == 1) frame().entry = frame().cursor.block_place();
@@ -290,6 +291,11 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
     frame().cursor.go_to(*target);
     frame().parts.clear();
     return std::nullopt;
+  }
+  if (rules_.dialect == Dialect::linuxcnc) {
+    assume(executor_.state(), leave.column, "M99",
+           "the program would begin again without an end: run once");
+    return end_program(block, leave.column);
   }
   // Nothing that has run could make the next time another.
   if (!statement_ran_ && rules_.dialect == Dialect::fanuc) {

@@ -9,8 +9,10 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "parser/interpret/call_frame.hpp"
@@ -93,6 +95,8 @@ class ProgramRun {
   // Motions so far, and the blocks before the last of them.
   std::uint64_t motions_ = 0;
   std::uint64_t blocks_at_motion_ = 0;
+  // Where the O subs are that have been defined, on the way or by a call.
+  std::set<std::pair<const LoadedProgram*, std::uint64_t>> defined_{};
   bool statement_ran_ = false;  // since the main program began, or began again by M99
   bool syntax_failed_ = false;
   // The else that a branch whose condition did not hold goes on with, by the offset of its block.

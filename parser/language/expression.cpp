@@ -195,6 +195,7 @@ double apply(Operation operation, double a, double b) {
     case Operation::parameter:
     case Operation::named_parameter:
     case Operation::exists:
+    case Operation::exists_number:
       break;
   }
   return a;
@@ -234,6 +235,10 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
       stack[top++] = set ? 1.0 : 0.0;
       continue;
     }
+    if (step.operation == Operation::exists_number) {
+      stack[top - 1] = context.parameters.has(stack[top - 1]) ? 1.0 : 0.0;
+      continue;
+    }
     if (step.operation == Operation::parameter) {
       auto value = context.parameters.read(stack[top - 1]);
       if (!value) return at_column(value.error().front(), step.column);
@@ -243,6 +248,10 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
     double b = takes_two(step.operation) ? stack[--top] : 0.0;
     double a = stack[top - 1];
     if (is_vacant(a) || is_vacant(b)) {
+      if (context.parameters.rules().values_may_be_unknown) {
+        stack[top - 1] = kVacant;
+        continue;
+      }
       const bool asks =
           step.operation == Operation::equal || step.operation == Operation::not_equal;
       if (asks) {

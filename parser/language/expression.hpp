@@ -26,6 +26,7 @@ enum class Operation : std::uint8_t {
   parameter,        // takes the number of the parameter
   named_parameter,  // `number` of the step is the index of the name
   exists,           // 1 when the named parameter is set, else 0
+  exists_number,    // 1 when there is a parameter of that number, else 0
   negate,
   add,
   subtract,

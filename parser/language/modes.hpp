@@ -21,6 +21,7 @@ enum class MotionMode : std::uint8_t {
   quadratic_spline,  // G5.1
   nurbs,             // G5.2: a control point
   nurbs_end,         // G5.3
+  nurbs_by_knots,    // G6.2
   // Synchronised with the spindle, and probing: cycles/thread_moves.hpp, moves/probing.hpp.
   thread,
   rigid_tap,

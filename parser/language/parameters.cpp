@@ -47,7 +47,7 @@ Result<double> Parameters::read(double number) const {
   if (!index) return std::move(index).error();
   if (system_ != nullptr) {
     if (const auto kept = system_->number(*index)) {
-      if (!is_vacant(*kept)) return *kept;
+      if (!is_vacant(*kept) || rules_.values_may_be_unknown) return *kept;
       return error("unknown-parameter"_id,
                    fmt::format("the value of #{} is the setup's and not known here", *index),
                    "set it in the program before it is read");
@@ -85,6 +85,9 @@ Result<double> Parameters::read(std::string_view name) const {
                    system ? "it is known once the program has moved the axis in this frame"
                           : "define it before: DEF REAL and its name");
     }
+    // Of a pin of the machine, or of its configuration.
+    const bool of_machine = name.starts_with("_hal[") || name.starts_with("_ini[");
+    if (rules_.values_may_be_unknown && of_machine) return kVacant;
     const std::string spelled = spelling_of(name);
     return error("parameter-unset"_id, fmt::format("parameter {} has no value", spelled),
                  fmt::format("set it on an earlier block: {}=...", spelled));
@@ -131,10 +134,16 @@ bool Parameters::has(std::string_view name) const {
   return named(name).contains(name) || (system_ != nullptr && system_->named(name));
 }
 
+bool Parameters::has(double number) const {
+  const auto value = read(number);
+  return value && !is_vacant(*value);
+}
+
 void Parameters::enter(std::span<const double> arguments) {
   locals_.emplace_back();
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (!is_vacant(arguments[i])) locals_.back().numbered[static_cast<int>(i) + 1] = arguments[i];
+    if (!is_vacant(arguments[i]) || rules_.values_may_be_unknown)
+      locals_.back().numbered[static_cast<int>(i) + 1] = arguments[i];
   }
 }
 

@@ -33,6 +33,9 @@ struct ParameterRules {
   // A number that was never set is vacant, as #0 is: 0 in a computation, equal to nothing but
   // vacant ones, and a word of that value is not given at all (Custom Macro).
   bool unset_is_vacant = false;
+  // What only the machine knows is read all the same, as a vacant value that makes all that is
+  // computed from it vacant; what needs the value is an error (LinuxCNC).
+  bool values_may_be_unknown = false;
   // From this number on they are the controller's own: one that it does not keep cannot be read. 0:
   // none are.
   int first_system = 0;
@@ -67,6 +70,8 @@ class Parameters {
   [[nodiscard]] Result<double> read(double number) const;
   [[nodiscard]] Result<double> read(std::string_view name) const;
   [[nodiscard]] bool has(std::string_view name) const;
+  // Whether there is a parameter of that number; where numbers are vacant until set, a set one.
+  [[nodiscard]] bool has(double number) const;
   // The number as an index, when a parameter of that number can exist.
   [[nodiscard]] static Result<int> index_of(double number, const ParameterRules& rules = {});
 

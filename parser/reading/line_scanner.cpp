@@ -132,6 +132,12 @@ std::optional<std::uint32_t> LineScanner::block_number() {
   return value;
 }
 
+void LineScanner::skip_decimals() {
+  if (peek_byte() != '.') return;
+  ++place_;
+  while (is_digit(peek_byte())) ++place_;
+}
+
 // Of the digits before the place.
 double LineScanner::value_of(std::string_view digits) {
   double value = 0.0;

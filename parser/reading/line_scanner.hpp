@@ -61,6 +61,8 @@ class LineScanner {
   [[nodiscard]] std::optional<double> whole_number();
   // The number of a block or program: up to 8 digits.
   [[nodiscard]] std::optional<std::uint32_t> block_number();
+  // The decimals of a block number, which count for nothing.
+  void skip_decimals();
   // [ + | - ] number; `whose` has no number when there is none.
   [[nodiscard]] double signed_number(std::string_view whose, std::uint32_t whose_column);
   // To the end of the line, or up to one of `stops`; blanks at both ends are left out.

@@ -34,6 +34,10 @@ class ExpressionWriter {
         return push(
             fmt::format("EXISTS{}{}{}", spelling_.call_open, named(step), spelling_.call_close),
             kPrimary);
+      case Operation::exists_number:
+        return push(
+            fmt::format("EXISTS{}{}{}", spelling_.call_open, numbered(pop()), spelling_.call_close),
+            kPrimary);
       case Operation::parameter:
         return push(numbered(pop()), kPrimary);
       case Operation::negate:

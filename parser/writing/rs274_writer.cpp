@@ -94,6 +94,7 @@ class Rs274Block {
   }
 
   [[nodiscard]] std::string o_statement(const FlowStatement& flow) const {
+    if (flow.kind == FlowKind::program) return fmt::format("O<{}>", flow.label);
     std::string text = fmt::format("{} {}", label_text(flow), o_word(flow));
     if (!flow.condition.empty()) text += " " + bracketed(flow.condition);
     for (const ExpressionRange argument : flow.arguments) text += " " + bracketed(argument);

@@ -193,6 +193,7 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
                               : std::max(*state.position[w], depths.level));
   }
   for (int hole = 0; hole < holes; ++hole) {
+    if (auto done = set_polar_target(state, words); !done) return done;
     if (auto done = set_place_in_plane(state, words); !done) return done;
     for (const AxisLetter axis : {u, v}) {
       if (state.position[axis]) continue;

@@ -62,6 +62,20 @@ void RadiusCompensation::set_plane_axes(AxisTarget& target, const Vec2& point) c
   target[static_cast<AxisLetter>(axes.v)] = point.y();
 }
 
+void RadiusCompensation::send(Motion&& motion, const Sink& sink) const {
+  const PlaneAxes axes = axes_of(setting_->plane);
+  if (AxisTarget* target = target_of(motion.command);
+      target != nullptr && setting_->control != Vec2::Zero()) {
+    if (const auto point = plane_point(*target))
+      set_plane_axes(*target, *point + setting_->control);
+    if (auto* arc = std::get_if<ArcFeed>(&motion.command)) {
+      arc->center[axes.u] += setting_->control.x();
+      arc->center[axes.v] += setting_->control.y();
+    }
+  }
+  sink(std::move(motion));
+}
+
 void RadiusCompensation::start(const RadiusSetting& setting, const AxisTarget& position) {
   setting_ = setting;
   programmed_ = plane_point(position);
@@ -91,7 +105,7 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
       piece.centre = {arc->center[axes.u], arc->center[axes.v]};
       piece.turns = arc->turns;
     }
-    return last_ ? follow(std::move(motion), piece, sink) : enter(std::move(motion), piece);
+    return last_ ? follow(std::move(motion), piece, sink) : enter(std::move(motion), piece, sink);
   }
   if (target != nullptr && setting_->rules.entry_comes_first && !last_) {
     return at(motion, "radius-compensation"_id,
@@ -114,7 +128,8 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
   return std::nullopt;
 }
 
-RadiusCompensation::Failure RadiusCompensation::enter(Motion&& motion, const PathPiece& piece) {
+RadiusCompensation::Failure RadiusCompensation::enter(Motion&& motion, const PathPiece& piece,
+                                                      const Sink& sink) {
   const RadiusRules& rules = setting_->rules;
   if (piece.is_arc() && !rules.entry_may_be_arc) {
     return at(motion, "radius-compensation"_id, "the first move with radius compensation is an arc",
@@ -132,7 +147,7 @@ RadiusCompensation::Failure RadiusCompensation::enter(Motion&& motion, const Pat
                           distance, setting_->radius),
               "begin the entry further away, or use a smaller tool");
   }
-  if (piece.is_arc()) return enter_by_arc(std::move(motion), piece);
+  if (piece.is_arc()) return enter_by_arc(std::move(motion), piece, sink);
   LastMove move{piece, piece, piece.start, 0.0, true};
   if (programmed_) move.beside = parallel(piece, left());
   wait(std::move(motion), std::move(move));
@@ -141,7 +156,8 @@ RadiusCompensation::Failure RadiusCompensation::enter(Motion&& motion, const Pat
 
 // From where it starts, tangent to the parallel at its end.
 RadiusCompensation::Failure RadiusCompensation::enter_by_arc(Motion&& motion,
-                                                             const PathPiece& piece) {
+                                                             const PathPiece& piece,
+                                                             const Sink& sink) {
   if (auto failure = check_arc(piece, motion)) return failure;
   PathPiece entry = piece;
   entry.end = parallel(piece, left()).end;
@@ -158,6 +174,12 @@ RadiusCompensation::Failure RadiusCompensation::enter_by_arc(Motion&& motion,
   const PlaneAxes axes = axes_of(setting_->plane);
   arc.center[axes.u] = entry.centre.x();
   arc.center[axes.v] = entry.centre.y();
+  // The centre of the edge has to be where the arc begins.
+  if (setting_->control != Vec2::Zero()) {
+    AxisTarget start = reached_;
+    set_plane_axes(start, entry.start);
+    send({motion.place, LinearFeed{start, arc.tool_axis, Coordinates::program, arc.feed}}, sink);
+  }
   wait(std::move(motion), {piece, entry, entry.start, 0.0, true});
   return std::nullopt;
 }
@@ -193,7 +215,9 @@ RadiusCompensation::Failure RadiusCompensation::follow(Motion&& motion, const Pa
       std::numbers::pi - std::abs(angle) < limit
           ? side * (curvature_of(last_->programmed) + curvature_of(piece)) < -kNoMove
           : angle > 0.0;
-  if (std::abs(angle) <= limit) {
+  if (setting_->radius == 0.0) {
+    release(next.start, sink);
+  } else if (std::abs(angle) <= limit) {
     next.start = last_->beside.end;
     release(next.start, sink);
   } else if (concave) {
@@ -214,7 +238,7 @@ void RadiusCompensation::go_round_corner(Motion& motion, const PathPiece& corner
   AxisTarget end = reached_;
   set_plane_axes(end, corner.end);
   if (const auto* traverse = std::get_if<Traverse>(&motion.command)) {
-    sink({motion.place, Traverse{end, traverse->tool_axis, traverse->coordinates}});
+    send({motion.place, Traverse{end, traverse->tool_axis, traverse->coordinates}}, sink);
     return;
   }
   Feed& feed = *feed_of_contour(motion.command);
@@ -228,7 +252,7 @@ void RadiusCompensation::go_round_corner(Motion& motion, const PathPiece& corner
   const PlaneAxes axes = axes_of(setting_->plane);
   arc.center[axes.u] = corner.centre.x();
   arc.center[axes.v] = corner.centre.y();
-  sink({motion.place, arc});
+  send({motion.place, arc}, sink);
 }
 
 RadiusCompensation::Failure RadiusCompensation::cut_corner(LastMove& next, const Motion& motion) {
@@ -301,7 +325,7 @@ void RadiusCompensation::release(const Vec2& end, const Sink& sink) {
       arc->turns = arc->turns > 0 ? started : -started;
     }
   }
-  for (Motion& motion : waiting_) sink(std::move(motion));
+  for (Motion& motion : waiting_) send(std::move(motion), sink);
   waiting_.clear();
   last_.reset();
 }

@@ -33,9 +33,11 @@ namespace frustum::parser {
 
 struct RadiusSetting {
   ToolSide side = ToolSide::left;
-  double radius = 0.0;  // above zero
+  double radius = 0.0;  // of a point: the path is the contour
   Plane plane = Plane::xy;
   RadiusRules rules{};
+  // The point that the axes place, from the centre of the edge: a lathe tool's corner.
+  Vec2 control = Vec2::Zero();
 };
 
 class RadiusCompensation {
@@ -66,8 +68,8 @@ class RadiusCompensation {
     bool entry = false;
   };
 
-  [[nodiscard]] Failure enter(Motion&& motion, const PathPiece& piece);
-  [[nodiscard]] Failure enter_by_arc(Motion&& motion, const PathPiece& piece);
+  [[nodiscard]] Failure enter(Motion&& motion, const PathPiece& piece, const Sink& sink);
+  [[nodiscard]] Failure enter_by_arc(Motion&& motion, const PathPiece& piece, const Sink& sink);
   [[nodiscard]] Failure follow(Motion&& motion, const PathPiece& piece, const Sink& sink);
   [[nodiscard]] Failure cut_corner(LastMove& next, const Motion& motion);
   [[nodiscard]] Failure check_arc(const PathPiece& piece, const Motion& motion) const;
@@ -78,6 +80,8 @@ class RadiusCompensation {
   // What waits is final: the last move ends at `end`.
   void release(const Vec2& end, const Sink& sink);
   void set_plane_axes(AxisTarget& target, const Vec2& point) const;
+  // The motion of the edge's centre as one of the control point.
+  void send(Motion&& motion, const Sink& sink) const;
   [[nodiscard]] std::optional<Vec2> plane_point(const AxisTarget& target) const;
   [[nodiscard]] double left() const;  // mm, below zero: right
 

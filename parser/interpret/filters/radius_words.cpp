@@ -44,41 +44,53 @@ bool leaves_contour(NonModal word) {
 
 std::string_view off_word(Dialect dialect) { return dialect == Dialect::heidenhain ? "R0" : "G40"; }
 
-// The radius, below zero for a tool of negative diameter.
-Result<double> radius_for(InterpreterState& state, const BlockWords& words) {
+// The edge that follows the contour.
+struct ToolEdge {
+  double radius = 0.0;  // below zero for a tool of negative diameter
+  int orientation = kCentred;
+};
+
+// Where the control point of a lathe tool is, from the centre of its edge, in radii along Z and X.
+Vec2 control_point(int orientation) {
+  constexpr std::array<std::array<int, 2>, 10> kPoints{
+      {{0, 0}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}, {1, 0}, {0, -1}, {-1, 0}, {0, 1}, {0, 0}}};
+  const auto& point = kPoints.at(static_cast<std::size_t>(orientation));
+  return {point[0], point[1]};
+}
+
+Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::radius_compensation];
   const std::string name = code.code->name();
   const auto word = static_cast<RadiusWord>(code.code->value);
+  int orientation = kCentred;
   if (words.has('L')) {
     const auto shape = whole(state, words, 'L', kCentred, kCentredToo);
     if (!shape) return shape.error();
-    if (*shape != kCentred && *shape != kCentredToo) {
-      return fail(state, words['L'].column, "not-simulated"_id,
-                  fmt::format("{} is not simulated", words.text_of('L')),
-                  "shapes of lathe tools are not simulated; leave L out");
-    }
+    orientation = *shape;
   }
   if (word == RadiusWord::left_by_diameter || word == RadiusWord::right_by_diameter) {
     if (!words.has('D'))
       return fail(state, code.column, "radius-number-missing"_id, name + " without D",
                   "give the diameter by D");
-    return words['D'].value / 2.0 * unit_scale(state);
+    return ToolEdge{words['D'].value / 2.0 * unit_scale(state), orientation};
   }
   const bool has_d = words.has('D') && code.code->arguments.has('D');
+  const bool of_linuxcnc = state.rules.dialect == Dialect::linuxcnc;
   int number = state.modes.tool;
   if (has_d) {
     const auto given = whole(state, words, 'D', 0, kMaxToolNumber);
     if (!given) return given.error();
-    number = *given;
+    // D0 of LinuxCNC is the tool in the spindle.
+    if (*given != 0 || !of_linuxcnc) number = *given;
     state.modes.radius_number = number;
   } else if (state.rules.radius.source == RadiusSource::last_d) {
-    if (!state.modes.radius_number && state.data.tools.empty()) return 0.0;
+    if (!state.modes.radius_number && state.data.tools.empty()) return ToolEdge{};
     if (!state.modes.radius_number) {
       return fail(state, code.column, "radius-number-missing"_id, name + " without D",
                   fmt::format("give the number of the offset, for example {} D1", name));
     }
     number = *state.modes.radius_number;
-  } else if (number == 0) {
+  } else if (number == 0 && !of_linuxcnc) {
     return fail(state, code.column, "radius-number-missing"_id,
                 name + " without a tool in the spindle",
                 has_d ? "" : "call the tool before, by its number");
@@ -86,13 +98,20 @@ Result<double> radius_for(InterpreterState& state, const BlockWords& words) {
   const std::uint32_t column = has_d ? words['D'].column : code.column;
   const auto tool = state.data.tools.find(number);
   const bool unknown = state.rules.offset_numbers_stand_alone && state.data.tools.empty();
-  if (unknown || (number == 0 && state.rules.offset_numbers_stand_alone)) return 0.0;
+  if (unknown || (number == 0 && state.rules.offset_numbers_stand_alone)) return ToolEdge{};
+  // No tool has no diameter.
+  if (tool == state.data.tools.end() && number == 0 && of_linuxcnc) return ToolEdge{};
   if (tool == state.data.tools.end()) {
     return fail(state, column, "radius-compensation"_id,
                 fmt::format("the tool table has no tool {}", number),
                 "give the tool's diameter in the tool table");
   }
-  return tool->second.diameter / 2.0;
+  return ToolEdge{tool->second.diameter / 2.0, tool->second.orientation};
+}
+
+// Whether a tool without diameter may follow a contour.
+bool may_be_point(const InterpreterState& state) {
+  return state.rules.dialect == Dialect::linuxcnc;
 }
 
 void switch_radius_off(InterpreterState& state, MotionFilters& filters, std::uint32_t column) {
@@ -178,9 +197,10 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
     return fail(state, code.column, "radius-plane"_id, code.code->name() + " in G19",
                 "radius compensation works in G17 and G18");
   }
-  const auto radius = radius_for(state, words);
-  if (!radius) return radius.error();
-  if (*radius == 0.0 && state.rules.offset_numbers_stand_alone) {
+  const auto edge = edge_for(state, words);
+  if (!edge) return edge.error();
+  const double radius = edge->radius;
+  if (radius == 0.0 && state.rules.offset_numbers_stand_alone) {
     if (state.data.tools.empty()) {
       assume(state, code.column, "cutter radius",
              code.code->name() +
@@ -189,16 +209,22 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
     }
     return Done{};
   }
-  if (*radius == 0.0) {
+  const Vec2 control = control_point(edge->orientation);
+  if (control != Vec2::Zero() && state.modes.plane != Plane::zx) {
+    return fail(state, words.has('L') ? words['L'].column : code.column, "radius-plane"_id,
+                code.code->name() + " with a lathe tool outside G18",
+                "the edge of a lathe tool is in the plane of Z and X: G18");
+  }
+  if (radius == 0.0 && !may_be_point(state)) {
     return fail(state, words.has('D') ? words['D'].column : code.column, "radius-compensation"_id,
                 code.code->name() + " with a tool of no diameter",
                 "give the tool's diameter, or leave radius compensation out");
   }
   const bool left =
-      (word == RadiusWord::left || word == RadiusWord::left_by_diameter) == (*radius > 0.0);
+      (word == RadiusWord::left || word == RadiusWord::left_by_diameter) == (radius >= 0.0);
   const ToolSide side = left ? ToolSide::left : ToolSide::right;
   // The path is made in words, which the frame scales.
-  const double in_words = std::abs(*radius) / state.modes.programmed_frame.scale;
+  const double in_words = std::abs(radius) / state.modes.programmed_frame.scale;
   if (filters.radius.is_on()) {
     const bool same =
         filters.radius.setting().side == side && filters.radius.setting().radius == in_words;
@@ -226,8 +252,9 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   state.contour_exit.arc_waits = false;
   emit(state, code.column,
        Event{"radius_compensation", fmt::format("{} of the contour, radius {:.9g} mm",
-                                                left ? "left" : "right", std::abs(*radius))});
-  filters.radius.start({side, in_words, state.modes.plane, state.rules.radius}, from);
+                                                left ? "left" : "right", std::abs(radius))});
+  filters.radius.start({side, in_words, state.modes.plane, state.rules.radius, in_words * control},
+                       from);
   return Done{};
 }
 

@@ -307,11 +307,10 @@ Outcome check_programmed_frame(const InterpreterState& state, const Movement& mo
                 fmt::format("program {} once, in absolute coordinates, after the frame is turned",
                             to_char(axis)));
   }
-  const bool arc = is_arc_in_plane(movement.motion) || is_spline(movement.motion);
-  if (arc && !(state.modes.programmed_frame.keeps(state.modes.plane) &&
-               state.modes.offset_frame.keeps(state.modes.plane))) {
+  if (is_spline(movement.motion) && !(state.modes.programmed_frame.keeps(state.modes.plane) &&
+                                      state.modes.offset_frame.keeps(state.modes.plane))) {
     return fail(state, movement.column, "arc-plane-turned"_id,
-                "an arc in a plane that the frame turns",
+                "a spline in a plane that the frame turns",
                 "write it as straight moves, or turn the frame about the normal of the plane");
   }
   return Done{};

@@ -142,9 +142,11 @@ Result<Compensation> compensation_after(const InterpreterState& state, const Blo
     if (state.rules.offset_numbers_stand_alone) {
       if (next.length) next.offset_number = state.modes.length_number.value_or(0);
     } else if (words.has('H')) {
-      const auto number = whole(state, words, 'H', 1, kMaxOffsetNumber);
+      const bool of_linuxcnc = state.rules.dialect == Dialect::linuxcnc;
+      const auto number = whole(state, words, 'H', of_linuxcnc ? 0 : 1, kMaxOffsetNumber);
       if (!number) return number.error();
-      next.offset_number = *number;
+      // H0 is the tool in the spindle.
+      next.offset_number = *number == 0 ? state.modes.tool : *number;
     } else if (state.rules.dialect != Dialect::fanuc && next.length &&
                length.code->arguments.has('H') &&
                length.code->value != static_cast<std::uint8_t>(LengthWord::additional)) {
@@ -180,6 +182,7 @@ Result<Compensation> compensation_after(const InterpreterState& state, const Blo
   }
   next.tip =
       words.value_or(CodeGroup::tool_tip, next.tip ? TipWord::on : TipWord::off) == TipWord::on;
+  next.tip_without_length = next.tip && state.rules.dialect == Dialect::linuxcnc;
   return next;
 }
 
@@ -286,6 +289,9 @@ void guide_uncalled_tool(InterpreterState& state, std::uint32_t column) {
 }
 
 CompensationChange compensation_change(const Compensation& compensation) {
+  if (compensation.tip_without_length && !compensation.length) {
+    return {LengthCompensation::tool_centre_point, false, 0, 0.0};
+  }
   return {compensation.length ? compensation.mode() : LengthCompensation::off,
           compensation.tool_vectors && compensation.length, compensation.offset_number,
           compensation.length && compensation.tool_offset

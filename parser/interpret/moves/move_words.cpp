@@ -21,11 +21,11 @@ namespace frustum::parser {
 namespace {
 
 const char* motion_name(MotionMode motion, Dialect dialect) {
-  constexpr std::array kNames{"",    "G0", "G1", "G2",   "G3",   "CT",
-                              "CIP", "",   "G5", "G5.1", "G5.2", "G5.3"};
-  constexpr std::array kPlain{"",         "a rapid move", "a cutting move", "an arc",
-                              "an arc",   "an arc",       "an arc",         "an arc",
-                              "a spline", "a spline",     "a spline",       "a spline"};
+  constexpr std::array kNames{"", "G0", "G1",   "G2",   "G3",   "CT",  "CIP",
+                              "", "G5", "G5.1", "G5.2", "G5.3", "G6.2"};
+  constexpr std::array kPlain{"",         "a rapid move", "a cutting move", "an arc",   "an arc",
+                              "an arc",   "an arc",       "an arc",         "a spline", "a spline",
+                              "a spline", "a spline",     "a spline"};
   if (is_cycle(motion)) return "a canned cycle";
   if (motion >= MotionMode::probe_towards) return "a probing move";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;
@@ -52,7 +52,8 @@ Outcome set_start(InterpreterState& state, const BlockWords& words) {
 }
 
 Outcome check_tool_length(const InterpreterState& state, const Movement& movement) {
-  if (!state.modes.compensation.tip || state.modes.compensation.length) return Done{};
+  const Compensation& compensation = state.modes.compensation;
+  if (!compensation.tip || compensation.length || compensation.tip_without_length) return Done{};
   return fail(state, movement.column, "tool-length-missing"_id,
               "the tool-tip control is on, but no tool length is in force",
               state.rules.tool_brings_length ? "call a tool before the move"

@@ -27,9 +27,15 @@ struct CurvePoint {
 
 class Spline {
  public:
-  Spline(std::span<const ControlPoint> points, int order) : points_(points), degree_(order - 1) {}
+  Spline(std::span<const ControlPoint> points, int order, std::span<const double> knots)
+      : points_(points), knots_(knots), degree_(order - 1) {}
 
   [[nodiscard]] int spans() const { return static_cast<int>(points_.size()) - degree_; }
+
+  // The parameters at the ends of a span.
+  [[nodiscard]] std::array<double, 2> ends(int span) const {
+    return {knot(span + degree_), knot(span + degree_ + 1)};
+  }
 
   // De Boor's scheme within one span, whose ends are its own.
   [[nodiscard]] CurvePoint at(int span, double parameter) const {
@@ -56,10 +62,14 @@ class Spline {
   }
 
  private:
-  // 0, .. 0, 1, 2, .. n, .. n
-  [[nodiscard]] double knot(int index) const { return std::clamp(index - degree_, 0, spans()); }
+  // Uniform: 0, .. 0, 1, 2, .. n, .. n
+  [[nodiscard]] double knot(int index) const {
+    if (!knots_.empty()) return knots_[static_cast<std::size_t>(index)];
+    return std::clamp(index - degree_, 0, spans());
+  }
 
   std::span<const ControlPoint> points_;
+  std::span<const double> knots_;
   int degree_;
 };
 
@@ -170,15 +180,18 @@ class ArcFit {
 }  // namespace
 
 std::vector<PathPiece> arcs_of_spline(std::span<const ControlPoint> points, int order,
-                                      double tolerance) {
-  const Spline spline(points, order);
+                                      double tolerance, std::span<const double> knots) {
+  const Spline spline(points, order, knots);
   // No nearer than the numbers of coordinates are to each other.
   constexpr double kNumbers = 1e-12;
   for (const ControlPoint& point : points) {
     tolerance = std::max(tolerance, kNumbers * point.place.norm());
   }
   ArcFit fit(spline, tolerance);
-  for (int span = 0; span < spline.spans(); ++span) fit.add(span, span, span + 1, 0);
+  for (int span = 0; span < spline.spans(); ++span) {
+    const auto [from, to] = spline.ends(span);
+    if (from < to) fit.add(span, from, to, 0);
+  }
   return fit.take();
 }
 

@@ -8,6 +8,7 @@
 
 #include "parser/arc.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/arc_chords.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/moves/polar_words.hpp"
 #include "parser/interpret/moves/pole.hpp"
@@ -129,6 +130,8 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   if (auto done = check_polar_arc(state, words); !done) return done;
   ArcWords arc_words;
   arc_words.plane = state.modes.plane;
+  const bool inches = state.modes.unit != LengthUnit::millimetre && state.rules.arcs_in_inches;
+  arc_words.tolerance = inches ? *state.rules.arcs_in_inches : state.rules.arcs;
   arc_words.clockwise = movement.motion == MotionMode::arc_clockwise;
   arc_words.centre_is_absolute = state.modes.arc_distance == DistanceMode::absolute;
   const AxisTarget before = state.position.target();
@@ -193,9 +196,14 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   }
   const auto feed = feed_for(state, words, movement, true);
   if (!feed) return feed.error();
-  emit(state, movement.column,
-       ArcFeed{end_of(state, words), arc->centre, state.modes.plane,
-               arc_words.clockwise ? -turns : turns, state.modes.tool_axis, *feed});
+  const ArcFeed move{end_of(state, words),  arc->centre,
+                     state.modes.plane,     arc_words.clockwise ? -turns : turns,
+                     state.modes.tool_axis, *feed};
+  if (!state.modes.programmed_frame.keeps(state.modes.plane) ||
+      !state.modes.offset_frame.keeps(state.modes.plane)) {
+    return cut_arc_into_chords(state, movement, before, move);
+  }
+  emit(state, movement.column, move);
   return Done{};
 }
 

@@ -125,7 +125,9 @@ void BlockWords::rescale(LetterSet letters, double factor) {
 Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
                               const DialectRules& rules, const ControlSettings& control) {
   const ExpressionContext context{block.steps, block.names, parameters};
-  BlockWords words;
+  // In its place from the start: it is large.
+  Result<BlockWords> result{BlockWords{}};
+  BlockWords& words = *result;
   words.block_ = &block;
   for (const Word& word : block.words) {
     double number = word.number;
@@ -137,6 +139,14 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
                   failure.hint);
       }
       number = *computed;
+      const bool needed = word.letter != 'F' && word.letter != 'S';
+      if (is_vacant(number) && needed && parameters.rules().values_may_be_unknown) {
+        return at(
+            block, word.column, "unknown-parameter"_id,
+            fmt::format("the value of {} is one that only the machine knows", word.letter),
+            "set it in the program: values of pins (_hal), of the configuration (_ini), of "
+            "tools that are in no table and of places before the first move are the machine's");
+      }
       if (is_vacant(number)) {
         words.vacant_.push_back({nullptr, word.column});
         continue;
@@ -187,7 +197,7 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
     place = {code, word.column};
     words.groups_ |= bit_of(code->group);
   }
-  return words;
+  return result;
 }
 
 }  // namespace frustum::parser

@@ -30,6 +30,8 @@ struct Compensation {
   bool tip = false;
   bool tool_vectors = false;
   int offset_number = 0;
+  // The tip control works without a length too: the tip is where the spindle ends.
+  bool tip_without_length = false;
   // Of the tool, along the axes, where the program or its tool table gives them; else only the
   // setup knows.
   std::optional<ToolOffset> tool_offset{};

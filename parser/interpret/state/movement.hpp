@@ -19,7 +19,7 @@ struct Movement {
 
 [[nodiscard]] constexpr bool is_cycle(MotionMode mode) { return mode >= MotionMode::peck_short; }
 [[nodiscard]] constexpr bool is_spline(MotionMode mode) {
-  return mode >= MotionMode::cubic_spline && mode <= MotionMode::nurbs_end;
+  return mode >= MotionMode::cubic_spline && mode <= MotionMode::nurbs_by_knots;
 }
 
 }  // namespace frustum::parser

@@ -21,11 +21,13 @@ struct ControlPoint {
 };
 
 struct SplineInProgress {
-  // The control points since G5.2.
+  // The control points since G5.2 or G6.2, in the axes of the plane.
   struct Nurbs {
     SourcePlace place{};
     int order = 0;
     std::vector<ControlPoint> points{};
+    Vec2 from = Vec2::Zero();     // where the tool is
+    std::vector<double> knots{};  // of G6.2; else they are uniform
   };
   std::optional<Nurbs> nurbs{};
   // From where the last G5 ended to the first control point of the next, if that follows.

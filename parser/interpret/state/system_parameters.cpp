@@ -21,8 +21,9 @@ Value position_of(const SystemParameters& of, AxisLetter axis) {
 }
 
 double motion_word(MotionMode mode) {
-  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  50.0,  51.0,  52.0,  53.0,  330.0,
-                               331.0, 760.0, 382.0, 383.0, 384.0, 385.0, 730.0, 740.0, 810.0, 820.0,
+  constexpr std::array kTenths{-1.0,  0.0,   10.0,  20.0,  30.0,  -1.0,  -1.0,  -1.0,
+                               50.0,  51.0,  52.0,  53.0,  62.0,  330.0, 331.0, 760.0,
+                               382.0, 383.0, 384.0, 385.0, 730.0, 740.0, 810.0, 820.0,
                                830.0, 840.0, 850.0, 860.0, 870.0, 880.0, 890.0, 760.0};
   return kTenths.at(static_cast<std::size_t>(mode));
 }
@@ -115,6 +116,9 @@ constexpr std::array kNamed{
     Named{"_current_tool", [](const SystemParameters& of) -> Value { return of.state.tool; }},
     Named{"_selected_tool",
           [](const SystemParameters& of) -> Value { return of.state.selected_tool.value_or(0); }},
+    // Until a subprogram has returned.
+    Named{"_value", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
+    Named{"_value_returned", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
     Named{"_call_level", [](const SystemParameters& of) -> Value { return of.call_level; }},
     Named{"_task", [](const SystemParameters& /*of*/) -> Value { return 0.0; }},
     Named{"_vmajor", [](const SystemParameters& /*of*/) -> Value { return 2.9; }},
@@ -256,7 +260,9 @@ constexpr int kLastSignal = 1035;
 Value SystemParameters::number(int index) const {
   const int first = dialect == Dialect::fanuc ? kFanucPosition : kLinuxcncPosition;
   if (index >= first && index < first + kAxesOfParameters) {
-    return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(index - first)));
+    const Value known =
+        position_of(*this, kAxisLetters.at(static_cast<std::size_t>(index - first)));
+    return known || dialect != Dialect::linuxcnc ? known : kVacant;
   }
   if (dialect == Dialect::fanuc) {
     const int now = index - kFanucPositionNow;
@@ -277,7 +283,9 @@ Value SystemParameters::named(std::string_view name) const {
   if (dialect != Dialect::linuxcnc) return std::nullopt;
   const auto found = std::find_if(kNamed.begin(), kNamed.end(),
                                   [name](const Named& entry) { return entry.name == name; });
-  return found == kNamed.end() ? std::nullopt : found->value(*this);
+  if (found == kNamed.end()) return keeps(name) ? Value(kVacant) : std::nullopt;
+  // Where the program does not know an axis the machine does.
+  return found->value(*this).value_or(kVacant);
 }
 
 bool SystemParameters::keeps(std::string_view name) const {

@@ -66,6 +66,7 @@ class BlockBuilder {
   Iterator read_block_number(Iterator begin) {
     in_.go_to(column_of(begin));
     block_.number = in_.block_number();
+    if (dialect_ == Dialect::linuxcnc) in_.skip_decimals();
     return block_.number ? end_of_reading() : nullptr;
   }
   Iterator read_program_number(Iterator begin) {
@@ -107,7 +108,7 @@ class BlockBuilder {
     Assignment& setting = block_.assignments.back();
     ExpressionReader reader = reader_at(begin);
     setting.index.first = static_cast<std::uint32_t>(block_.steps.size());
-    std::string name = read_parameter_index(reader);
+    std::string name = read_parameter_index(reader, dialect_);
     setting.index.count = static_cast<std::uint32_t>(block_.steps.size()) - setting.index.first;
     if (!name.empty()) {
       setting.name = static_cast<std::uint32_t>(block_.names.size());

@@ -29,7 +29,10 @@ class OWordReader {
   // The statement, when the block begins with one.
   std::optional<Result<Block>> operator()() {
     if (in_.take('/')) block_.deletable = true;
-    if (in_.take('N')) block_.number = in_.block_number();
+    if (in_.take('N')) {
+      block_.number = in_.block_number();
+      in_.skip_decimals();
+    }
     if (in_.take('/')) block_.deletable = true;
     flow_.column = in_.column();
     if (!in_.take('O')) return std::nullopt;
@@ -38,6 +41,13 @@ class OWordReader {
     const std::string keyword = lower_case(in_.letters());
     // O100 alone begins a numbered program.
     if (keyword.empty() && only_digits_) return std::nullopt;
+    // O<part> alone is the title of the program.
+    if (keyword.empty() && flow_.label_value.empty() && at_comments()) {
+      flow_.kind = FlowKind::program;
+      read_comments();
+      block_.flow = std::move(flow_);
+      return in_.finish(std::move(block_));
+    }
     const auto* known = std::ranges::find(kOWords, keyword, &OWord::name);
     if (known == kOWords.end()) {
       in_.fail("unknown-word"_id, keyword_column,
@@ -83,7 +93,11 @@ class OWordReader {
       in_.fail("argument-count"_id, in_.column(),
                fmt::format("{} takes no expression", keyword.name), "leave it out");
     } else if (keyword.needs == OWordNeeds::arguments) {
-      while (in_.peek() == '[') {
+      while (!in_.failed() && (in_.peek() == '[' || in_.peek() == '(')) {
+        if (in_.peek() == '(') {
+          read_comment();
+          continue;
+        }
         flow_.arguments.emplace_back();
         read_expression(flow_.arguments.back());
       }
@@ -92,19 +106,23 @@ class OWordReader {
     }
   }
 
+  bool at_comments() { return in_.at_end() || in_.peek() == '(' || in_.peek() == ';'; }
+
   void read_comments() {
-    while (!in_.at_end()) {
-      const std::uint32_t start = in_.column();
-      if (in_.take(';')) {
-        block_.comments.push_back({start, true, utf8_of(in_.bytes_to()), nullptr});
-      } else if (in_.take('(')) {
-        block_.comments.push_back({start, false, utf8_of(in_.bytes_to(")")), nullptr});
-        if (!in_.take(')'))
-          in_.fail("comment-not-closed"_id, start, "the comment is not closed", "close it with )");
-      } else {
-        in_.fail("statement-not-alone"_id, start, "text after an O word",
-                 "an O word is alone in its block");
-      }
+    while (!in_.at_end()) read_comment();
+  }
+
+  void read_comment() {
+    const std::uint32_t start = in_.column();
+    if (in_.take(';')) {
+      block_.comments.push_back({start, true, utf8_of(in_.bytes_to()), nullptr});
+    } else if (in_.take('(')) {
+      block_.comments.push_back({start, false, utf8_of(in_.bytes_to(")")), nullptr});
+      if (!in_.take(')'))
+        in_.fail("comment-not-closed"_id, start, "the comment is not closed", "close it with )");
+    } else {
+      in_.fail("statement-not-alone"_id, start, "text after an O word",
+               "an O word is alone in its block");
     }
   }
 

@@ -1,6 +1,8 @@
 #include "parser/reading/rs274/plain_block.hpp"
 
+#include <array>
 #include <charconv>
+#include <cstdint>
 
 #include "parser/language/letter_case.hpp"
 
@@ -9,6 +11,9 @@ namespace {
 
 // Room for the words of most blocks, so that they are allocated once.
 constexpr std::size_t kWordsOfAPlainBlock = 8;
+
+constexpr std::array kPowersOfTen{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                  1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -51,19 +56,39 @@ class PlainReader {
     const bool negative = take('-');
     if (!negative) take('+');
     (void)peek();
-    const std::size_t start = place_;
-    while (is_digit(at_place())) ++place_;
-    word.decimal_point = at_place() == '.';
-    if (word.decimal_point) {
-      ++place_;
-      while (is_digit(at_place())) ++place_;
-    }
-    const auto read = std::from_chars(text_.data() + start, text_.data() + place_, word.number);
-    if (read.ec != std::errc{}) return false;
+    if (!read_number(word)) return false;
     // The sum turns -0 into 0.
     word.number = (negative ? -word.number : word.number) + 0.0;
     block.words.push_back(word);
     return true;
+  }
+
+  // Without a sign. Up to 15 digits are a whole number without loss, which one division by a power of
+  // ten rounds as the decimal number is.
+  bool read_number(Word& word) {
+    const std::size_t start = place_;
+    std::uint64_t digits = 0;
+    const auto read_digits = [&] {
+      for (; is_digit(at_place()); ++place_) {
+        digits = 10 * digits + static_cast<std::uint64_t>(text_[place_] - '0');
+      }
+    };
+    read_digits();
+    word.decimal_point = at_place() == '.';
+    std::size_t decimals = 0;
+    if (word.decimal_point) {
+      const std::size_t point = place_++;
+      read_digits();
+      decimals = place_ - point - 1;
+    }
+    const std::size_t length = place_ - start;
+    if (length < kPowersOfTen.size()) {
+      if (length == (word.decimal_point ? 1U : 0U)) return false;
+      word.number = static_cast<double>(digits) / kPowersOfTen[decimals];
+      return true;
+    }
+    const auto read = std::from_chars(text_.data() + start, text_.data() + place_, word.number);
+    return read.ec == std::errc{};
   }
 
   [[nodiscard]] char at_place() const { return place_ < text_.size() ? text_[place_] : '\0'; }

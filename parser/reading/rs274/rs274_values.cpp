@@ -1,5 +1,7 @@
 #include "parser/reading/rs274/rs274_values.hpp"
 
+#include <cctype>
+
 #include "parser/dialects/expressions.hpp"
 #include "parser/language/letter_case.hpp"
 
@@ -23,46 +25,47 @@ std::string read_name(LineScanner& in) {
 }
 
 // What is after the # in that column.
-void read_parameter(ExpressionReader& reader, std::uint32_t column) {
+void read_parameter(ExpressionReader& reader, std::uint32_t column, Dialect dialect,
+                    Operation numbered = Operation::parameter,
+                    Operation named = Operation::named_parameter) {
   if (!reader.enter(column)) return;
-  const std::string name = read_parameter_index(reader);
+  const std::string name = read_parameter_index(reader, dialect);
   reader.leave();
-  if (name.empty()) return reader.push(Operation::parameter, column);
-  reader.push_name(name, column);
+  if (name.empty()) return reader.push(numbered, column);
+  reader.push_name(name, column, named);
 }
 
-void read_existence(ExpressionReader& reader, std::uint32_t column) {
+void read_existence(ExpressionReader& reader, std::uint32_t column, Dialect dialect) {
   LineScanner& in = reader.in();
   const std::uint32_t opening = reader.open_bracket(kExists);
   if (!reader.enter(opening)) return;
   const std::uint32_t parameter = in.column();
-  if (!in.take('#') || !in.take('<')) {
-    in.go_to(parameter);
-    return report(in, kNoParameter, parameter, {});
-  }
-  reader.push_name(read_name(in), column, Operation::exists);
+  if (!in.take('#')) return report(in, kNoParameter, parameter, {});
+  read_parameter(reader, column, dialect, Operation::exists_number, Operation::exists);
   reader.close_bracket(opening, kExists);
   reader.leave();
 }
 
+template <Dialect dialect>
 bool read_variable(ExpressionReader& reader, const std::string& /*name*/, std::uint32_t column) {
   LineScanner& in = reader.in();
   if (in.take('#')) {
-    read_parameter(reader, column);
+    read_parameter(reader, column, dialect);
   } else if (in.take_bytes(kExists)) {
-    read_existence(reader, column);
+    read_existence(reader, column, dialect);
   } else {
     return false;
   }
   return true;
 }
 
-ExpressionRules rules_for(Dialect dialect) {
+template <Dialect dialect>
+ExpressionRules rules_for() {
   const ExpressionMistake open_at_end{"bracket-not-closed"_id, "the bracket is not closed",
                                       "close it with ]", true};
   return {
       .spelling = expressions_of(dialect),
-      .read_variable = read_variable,
+      .read_variable = read_variable<dialect>,
       .no_operand = {"value-missing"_id, "a number is missing before {found}",
                      "write a number, a parameter (#1), a function (SIN[30]) or an expression in "
                      "[ ]"},
@@ -83,7 +86,7 @@ ExpressionRules rules_for(Dialect dialect) {
 
 }  // namespace
 
-std::string read_parameter_index(ExpressionReader& reader) {
+std::string read_parameter_index(ExpressionReader& reader, Dialect dialect) {
   LineScanner& in = reader.in();
   const std::uint32_t column = in.column();
   if (in.take('<')) return read_name(in);
@@ -92,7 +95,9 @@ std::string read_parameter_index(ExpressionReader& reader) {
   } else if (in.peek() == '[') {
     reader.append_bracketed({});
   } else if (in.take('#')) {
-    read_parameter(reader, column);
+    read_parameter(reader, column, dialect);
+  } else if (dialect == Dialect::linuxcnc && std::isalpha(static_cast<unsigned char>(in.peek()))) {
+    reader.append(ExpressionLevel::operand, column);
   } else {
     report(in, kNoParameter, column, {});
   }
@@ -100,8 +105,8 @@ std::string read_parameter_index(ExpressionReader& reader) {
 }
 
 const ExpressionRules& rs274_expressions(Dialect dialect) {
-  static const ExpressionRules kLinuxcnc = rules_for(Dialect::linuxcnc);
-  static const ExpressionRules kFanuc = rules_for(Dialect::fanuc);
+  static const ExpressionRules kLinuxcnc = rules_for<Dialect::linuxcnc>();
+  static const ExpressionRules kFanuc = rules_for<Dialect::fanuc>();
   return dialect == Dialect::linuxcnc ? kLinuxcnc : kFanuc;
 }
 

@@ -15,7 +15,8 @@ namespace frustum::parser {
 
 [[nodiscard]] const ExpressionRules& rs274_expressions(Dialect dialect);
 
-// What is after #: a name, or else the steps of a number.
-[[nodiscard]] std::string read_parameter_index(ExpressionReader& reader);
+// What is after #: a name, or else the steps of a number. LinuxCNC takes a function for it:
+// #FIX[#1].
+[[nodiscard]] std::string read_parameter_index(ExpressionReader& reader, Dialect dialect);
 
 }  // namespace frustum::parser

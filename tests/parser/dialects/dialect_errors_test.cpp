@@ -17,8 +17,6 @@ struct Mistake {
 constexpr Mistake kLinuxcnc[] = {
     {"G0 X0\nG43.4 H1\n", "2:1: error: G43.4 is not simulated"},
     {"M430\n", "1:1: error: M430 is not simulated"},
-    {"M428\nG0 X1 Y2 Z3\n",
-     "2:1: error: the tool-tip control is on, but no tool length is in force"},
     {"G43 H0\n", "1:5: error: H0 is out of range"},
     {"G68.2 X0 Y0 Z0\n", "1:1: error: unknown word G68.2"},
     {"G53.1\n", "1:1: error: unknown word G53.1"},
@@ -78,8 +76,8 @@ constexpr Mistake kLinuxcnc[] = {
     {"G10 L2 P1 R10\nG0 X1\n",
      "2:1: error: a move in a turned frame, but Y has not been "
      "programmed yet"},
-    {"G10 L2 P1 R10\nG0 X1 Y1 Z1\nG18 G2 X2 Z1 I1 F1\n",
-     "3:5: error: an arc in a plane that the frame turns"},
+    {"G10 L2 P1 R10\nG0 X1 Y1 Z1\nG18 G5.1 X2 Z1 I1 J1 F1\n",
+     "3:5: error: a spline in a plane that the frame turns"},
     {"G10 L2 P1 X0 P2\n", "1:14: error: P is given twice in a block"},
     {"G54.1 P1\n", "1:1: error: unknown word G54.1"},
     {"M100 R1\n", "1:6: error: R1 has no meaning in this block"},

@@ -192,11 +192,14 @@ TEST(Linuxcnc, DwellsInSecondsWithOrWithoutAPoint) {
 TEST(Linuxcnc, KeepsTheTipSwitchOverLengthWords) {
   const auto changes = all_of<CompensationChange>(
       run_dialect(Dialect::linuxcnc, "M428\nT4 M6\nG43\nG43 H5\nG49\nM429\n"));
-  ASSERT_EQ(changes.size(), 3U);
+  ASSERT_EQ(changes.size(), 5U);
   EXPECT_EQ(changes[0].mode, LengthCompensation::tool_centre_point);
-  EXPECT_EQ(changes[0].offset_number, 4);
-  EXPECT_EQ(changes[1].offset_number, 5);
-  EXPECT_EQ(changes[2].mode, LengthCompensation::off);
+  EXPECT_EQ(changes[0].length, 0.0);
+  EXPECT_EQ(changes[1].mode, LengthCompensation::tool_centre_point);
+  EXPECT_EQ(changes[1].offset_number, 4);
+  EXPECT_EQ(changes[2].offset_number, 5);
+  EXPECT_EQ(changes[3].length, 0.0);
+  EXPECT_EQ(changes[4].mode, LengthCompensation::off);
 }
 
 // --- Sinumerik -----------------------------------------------------------------------------------

@@ -174,8 +174,6 @@ TEST(SinumerikFrames, TellsMistakes) {
       {"TRANS I5\n", "1:7: error: I5 has no meaning in this block"},
       {"TRANS X5 ROT Z5\n", "1:10: error: TRANS and ROT contradict each other in a block"},
       {"ROTS X5 Y5\n", "1:1: error: ROTS is not simulated"},
-      {"G0 X0 Y0 Z0\nROT X30\nG2 X5 I5 F100\n",
-       "3:1: error: an arc in a plane that the frame turns"},
       {"G0 X0\nROT Z30\nG0 X5\n",
        "3:1: error: a move in a turned frame, but Y has not been programmed yet"},
       {"G0 X0\nTRANS X5\nG91 X1\n",

@@ -253,11 +253,15 @@ struct Printed {
     CanonicalMove move{std::string(kArcKinds.at(static_cast<std::size_t>(plane))),
                        {end[0], end[1], end[2], angle(3, numbers.at(6)), angle(4, numbers.at(7)),
                         angle(5, numbers.at(8))}};
+    move.unit = unit;
+    if (turn != 0.0 && plane != Plane::xy) {
+      move.kind = "turned arc";
+      return move;
+    }
     for (int i = 0; i < 3; ++i) {
       if (i != slot[2]) move.values.emplace_back(centre[i]);
     }
     move.values.emplace_back(numbers.at(4));
-    move.unit = unit;
     return move;
   }
 };
@@ -301,6 +305,11 @@ std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
   std::uint32_t spline_line = 0;  // whose moves trace the spline that was reported
   for (const Motion& motion : motions) {
     const auto* event = std::get_if<Event>(&motion.command);
+    // An arc in chords is one move to their end.
+    if (event != nullptr && event->name == "chords") {
+      spline_line = motion.place.line;
+      moves.push_back({"turned arc", {}});
+    }
     if (event != nullptr && event->name == "spline") {
       spline_line = motion.place.line;
       moves.push_back({"spline", {std::stod(event->text)}});
@@ -313,6 +322,9 @@ std::vector<CanonicalMove> moves_of(const std::vector<Motion>& motions) {
     }
     surface_speed = surface_speed || (event != nullptr && event->name == "surface_speed");
     auto move = std::visit(walk, motion.command);
+    if (move && traces && motion.place.line == spline_line && moves.back().kind == "turned arc") {
+      moves.back().values = move->values;
+    }
     if (!move || (traces && motion.place.line == spline_line)) continue;
     if (!surface_speed) move->spindle = spindle;
     moves.push_back(*std::move(move));

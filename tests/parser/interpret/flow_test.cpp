@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "2:1: error: there is no if 2 to which this belongs"},
         Mistake{"o1 else\n", "1:1: error: there is no if 1 to which this belongs"},
         Mistake{"o1 break\n", "1:1: error: there is no loop 1 to which this belongs"},
-        Mistake{"o1 if [1]\no1 else\no1 else\no1 endif\n",
+        Mistake{"o1 if [0]\no1 else\no1 else\no1 endif\n",
                 "3:1: error: a part of the if after its else"},
         Mistake{"o1 sub\no1 endsub\no1 sub\no1 endsub\n", "3:1: error: 1 is already on line 1"},
         Mistake{"o1 while [1]\no2 sub\no2 endsub\no1 endwhile\n",

@@ -1,0 +1,109 @@
+// Programs that others wrote, in a folder that FRUSTUM_RS274_PROGRAMS names: rs274 and our reader
+// command the same, or both refuse. Prints how many do, and where each of the others differs first.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "parser/interpreter.hpp"
+#include "parser/language/letter_case.hpp"
+#include "parser/program.hpp"
+#include "tests/parser/interpret/rs274_runs.hpp"
+
+namespace frustum::parser {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kAgreeing = 0.97;
+
+// Each text once.
+std::vector<fs::path> distinct_programs(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string ending = lower_case(entry.path().extension().string());
+    const bool program = ending == ".ngc" || ending == ".nc" || ending == ".tap";
+    if (entry.is_regular_file() && program) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::set<std::string> texts;
+  std::erase_if(files, [&texts](const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return !texts.insert(std::string(std::istreambuf_iterator<char>(in), {})).second;
+  });
+  return files;
+}
+
+// A table in which whatever tool a program asks for is there: T1 to T99.
+fs::path usual_tools() {
+  const fs::path file = fs::path(testing::TempDir()) / "rs274_folder_tools.tbl";
+  std::ofstream out(file);
+  for (int tool = 1; tool <= 99; ++tool) {
+    out << fmt::format("T{0} P{0} D0.125 Z{1:.3f} ;\n", tool, 0.5 + 0.001 * tool);
+  }
+  return file;
+}
+
+// What the program says to the operator is no part of the comparison.
+std::vector<CanonicalMove> commands(std::vector<CanonicalMove> moves) {
+  std::erase_if(moves, [](const CanonicalMove& move) {
+    return move.kind.starts_with("message") || move.kind.starts_with("log");
+  });
+  return without_standing_still(std::move(moves));
+}
+
+struct Comparison {
+  bool decided = true;
+  bool agrees = false;
+  std::string found{};
+};
+
+Comparison compare(const fs::path& file, const fs::path& tools) {
+  const Rs274Start start{tools, file.parent_path()};
+  const Rs274Run run = run_rs274(file, start);
+  if (run.timed_out) return {false, false, "rs274 does not end"};
+  InterpreterOptions options = options_like_rs274(start);
+  options.max_blocks = 3'000'000;
+  const auto program = open_program(file, Dialect::linuxcnc);
+  if (!program) return {true, !run.ended(), to_string(program.error().front())};
+  const auto motions = motions_of(*program, options);
+  if (!motions) return {true, !run.ended(), to_string(motions.error().front())};
+  if (!run.ended()) {
+    const std::size_t behind = run.output.find("executing");
+    return {true, false,
+            "rs274 alone refuses: " + run.output.substr(std::min(behind, run.output.size()))};
+  }
+  const std::string found =
+      difference(commands(moves_of(*motions)), commands(moves_of_rs274(run.output)));
+  return {true, found.empty(), found};
+}
+
+TEST(Rs274Folder, CommandsTheSameInProgramsOfOthers) {
+  const char* folder = std::getenv("FRUSTUM_RS274_PROGRAMS");
+  if (folder == nullptr) GTEST_SKIP() << "FRUSTUM_RS274_PROGRAMS names no folder";
+  if (!has_rs274()) GTEST_SKIP() << "rs274 is not installed: scripts/setup --with-oracle";
+  const fs::path tools = usual_tools();
+  std::size_t agreeing = 0;
+  std::size_t decided = 0;
+  for (const fs::path& file : distinct_programs(folder)) {
+    const Comparison comparison = compare(file, tools);
+    decided += comparison.decided ? 1 : 0;
+    agreeing += comparison.decided && comparison.agrees ? 1 : 0;
+    if (comparison.decided && comparison.agrees) continue;
+    fmt::print("{}: {}\n", fs::relative(file, folder).string(), comparison.found);
+  }
+  ASSERT_GT(decided, 0U);
+  const double share = static_cast<double>(agreeing) / static_cast<double>(decided);
+  fmt::print("{} of {} distinct programs agree: {:.1f} %\n", agreeing, decided, 100.0 * share);
+  EXPECT_GE(share, kAgreeing);
+}
+
+}  // namespace
+}  // namespace frustum::parser
