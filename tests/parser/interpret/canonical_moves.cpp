@@ -275,9 +275,13 @@ std::vector<std::optional<double>> place_of(const std::vector<CanonicalMove>& mo
   return std::vector<std::optional<double>>(kAxes, 0.0);
 }
 
-bool moves_linearly(const std::vector<CanonicalMove>& moves, std::size_t at) {
+// Whether the move turns rotary axes alone.
+bool turns_only(const std::vector<CanonicalMove>& moves, std::size_t at) {
   const auto before = place_of({moves.begin(), moves.begin() + static_cast<std::ptrdiff_t>(at)});
-  return !std::equal(before.begin(), before.begin() + 3, moves[at].values.begin());
+  const auto& after = moves[at].values;
+  return !moves[at].kind.starts_with("arc") &&
+         std::equal(before.begin(), before.begin() + 3, after.begin()) &&
+         !std::equal(before.begin() + 3, before.begin() + 6, after.begin() + 3);
 }
 
 std::vector<double> numbers_in(std::string_view text) {
@@ -423,7 +427,7 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
         move.spindle = signed_speed(printed.direction, printed.speed);
       // A purely rotary move has its feed in degrees, whatever the unit.
       const bool cuts = move.kind == "feed" || move.kind == "probe" || move.kind.starts_with("arc");
-      if (cuts) move.rate = moves_linearly(moves, told) ? printed.rate : printed.rate_in_degrees;
+      if (cuts) move.rate = turns_only(moves, told) ? printed.rate_in_degrees : printed.rate;
     }
   }
   return moves;
