@@ -16,6 +16,7 @@ constexpr std::array kPowersOfTen{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+std::uint64_t digit_of(char c) { return static_cast<std::uint64_t>(c - '0'); }
 
 class PlainReader {
  public:
@@ -66,29 +67,26 @@ class PlainReader {
   // Without a sign. Up to 15 digits are a whole number without loss, which one division by a power of
   // ten rounds as the decimal number is.
   bool read_number(Word& word) {
-    const std::size_t start = place_;
+    const char* const start = text_.data() + place_;
+    const char* const end = text_.data() + text_.size();
+    const char* at = start;
     std::uint64_t digits = 0;
-    const auto read_digits = [&] {
-      for (; is_digit(at_place()); ++place_) {
-        digits = 10 * digits + static_cast<std::uint64_t>(text_[place_] - '0');
-      }
-    };
-    read_digits();
-    word.decimal_point = at_place() == '.';
+    for (; at != end && is_digit(*at); ++at) digits = 10 * digits + digit_of(*at);
+    word.decimal_point = at != end && *at == '.';
     std::size_t decimals = 0;
     if (word.decimal_point) {
-      const std::size_t point = place_++;
-      read_digits();
-      decimals = place_ - point - 1;
+      const char* const behind_point = ++at;
+      for (; at != end && is_digit(*at); ++at) digits = 10 * digits + digit_of(*at);
+      decimals = static_cast<std::size_t>(at - behind_point);
     }
-    const std::size_t length = place_ - start;
+    const auto length = static_cast<std::size_t>(at - start);
+    place_ += length;
     if (length < kPowersOfTen.size()) {
       if (length == (word.decimal_point ? 1U : 0U)) return false;
       word.number = static_cast<double>(digits) / kPowersOfTen[decimals];
       return true;
     }
-    const auto read = std::from_chars(text_.data() + start, text_.data() + place_, word.number);
-    return read.ec == std::errc{};
+    return std::from_chars(start, at, word.number).ec == std::errc{};
   }
 
   [[nodiscard]] char at_place() const { return place_ < text_.size() ? text_[place_] : '\0'; }

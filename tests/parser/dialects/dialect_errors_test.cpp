@@ -71,7 +71,7 @@ constexpr Mistake kLinuxcnc[] = {
     {"#5400=1\n", "1:1: error: parameter #5400 can only be read"},
     {"#5420=1\n", "1:1: error: parameter #5420 can only be read"},
     {"G0 X#5221\n", "1:4: error: the value of X is one that only the machine knows"},
-    {"T3 M6\n#1=#5403\n", "2:4: error: the value of #5403 is the setup's and not known here"},
+    {"T3 M6\nG0 Z#5403\n", "2:4: error: the value of Z is one that only the machine knows"},
     {"G10 L2 P1 R10\nG0 X1\n",
      "2:1: error: a move in a turned frame, but Y has not been "
      "programmed yet"},

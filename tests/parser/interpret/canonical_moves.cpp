@@ -436,14 +436,19 @@ std::vector<CanonicalMove> moves_of_rs274(std::string_view output) {
 std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> moves) {
   constexpr std::size_t kAxes = 6;
   std::vector<CanonicalMove> kept;
-  std::vector<std::optional<double>> place;
+  std::vector<std::optional<double>> place(kAxes, 0.0);
   for (CanonicalMove& move : moves) {
     if (move.values.size() < kAxes) {
       kept.push_back(std::move(move));
       continue;
     }
     std::vector<std::optional<double>> end(move.values.begin(), move.values.begin() + kAxes);
-    const bool stands = move.kind == "traverse" && end == place;
+    const auto near = [&move](const std::optional<double>& left,
+                              const std::optional<double>& right) {
+      return left == right || (left && right && std::abs(*left - *right) <= kAgree * move.unit);
+    };
+    const bool stands = move.kind == "traverse" &&
+                        std::equal(end.begin(), end.end(), place.begin(), place.end(), near);
     place = std::move(end);
     if (!stands) kept.push_back(std::move(move));
   }
