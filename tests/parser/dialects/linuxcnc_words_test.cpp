@@ -162,6 +162,12 @@ TEST(LinuxCncWords, Fault2_14_TheEndingOfTheNameComesBeforeWordsOfFanuc) {
   EXPECT_EQ(recognise_dialect("G68.2 P0 X0 Y0 Z0 I10 J0 K0\n", "part.nc").dialect, Dialect::fanuc);
 }
 
+TEST(LinuxCncWords, M99OfTheMainProgramRunsItOnce) {
+  const auto all = run_linuxcnc("G0 X5\nM99\n");
+  EXPECT_EQ(all_of<Traverse>(all).size(), 1U);
+  EXPECT_EQ(last_of<Event>(all).grade, EventGrade::assumed);
+}
+
 TEST(LinuxCncWords, TheMotionModeIsTenTimesItsWord) {
   EXPECT_EQ(linuxcnc_place("G0 X0 Y0 Z5\nG81 X1 Z-1 R1 F100\n#1=#<_motion_mode>\nG5.1 X2 I1 J1\n"
                            "#2=#<_motion_mode>\nG0 X#1 Y#2\n"),

@@ -89,7 +89,6 @@ TEST(RadiusErrors, OfTheToolAndItsWord) {
        "2:1: error: G41 while radius compensation is on, since line 1"},
       {fanuc, "G41\n", "1:1: error: G41 without D"},
       {fanuc, "G41 D7\n", "1:5: error: the tool table has no tool 7"},
-      {linuxcnc, "G41 D5\n", "1:5: error: G41 with a tool of no diameter"},
       {fanuc, "G41 D1\nG42 D1\n", "2:1: error: G42 while radius compensation is on, since line 1"},
       {fanuc, "G41 D1\nG41 D2\n", "2:1: error: G41 while radius compensation is on, since line 1"},
       {fanuc, "G41.2 D1\n", "1:1: error: G41.2 is not simulated"},
