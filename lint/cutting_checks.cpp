@@ -77,12 +77,6 @@ void check_length_number(const parser::Motion& motion, const MotionState& state,
 
 void check_feed(const CuttingMove& move, FindingList& findings) {
   const double feed = move.feed.value;
-  if (feed == 0.0) {
-    findings.raise(Check::feed_missing, 0, move.place, [] {
-      return Words{"a cutting move without a feed rate", "give F on this block or before"};
-    });
-    return;
-  }
   if (move.feed.mode == FeedMode::inverse_time) {
     if (!move.length) return;
     const double speed = *move.length * feed;

@@ -38,6 +38,10 @@ struct ControlSettings {
   // `known`. M words that nobody knows are events of the grade `builder` without.
   std::vector<ControlWord> words{};
   DecimalPoint decimal_point = DecimalPoint::calculator;
+  // Before the first F the control has a feed of its own (Fanuc's parameter 1411), which is 0 in
+  // the motions; else cutting without one is an error, as it always is where errors do not end the
+  // run (InterpreterOptions::go_on).
+  bool feed_before_first_word = true;
 
   [[nodiscard]] bool has(ControlWord word) const;
 };

@@ -59,6 +59,7 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
       executor_(program.dialect, options.start, data_before(options), sink),
       main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {
   executor_.state().control = options.control;
+  if (options.go_on) executor_.state().control.feed_before_first_word = false;
 }
 
 Result<RunSummary> ProgramRun::operator()() {

@@ -130,7 +130,7 @@ TEST_F(CheckCommandSystem, ListsItsChecks) {
 }
 
 TEST_F(CheckCommandSystem, ParseEndsItsLinesWithTheError) {
-  write("part.nc", "G0 X1\nG1 X2\n");
+  write("part.nc", "G0 X1\nG1 X2 F0\n");
   const Outcome outcome = run("parse part.nc --canon --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("part.nc:2:1: error: G1 without a feed rate"), std::string::npos);

@@ -167,7 +167,8 @@ Result<Feed> feed_for(InterpreterState& state, const BlockWords& words, const Mo
         fmt::format("{} without F in G93", motion_name(movement.motion, state.rules.dialect)),
         "in G93 each cutting block needs its own F, the inverse of its minutes");
   }
-  if (!state.modes.feed && state.rules.feed_may_be_missing && !state.modes.feed_was_given) {
+  if (!state.modes.feed && state.rules.feed_may_be_missing &&
+      state.control.feed_before_first_word && !state.modes.feed_was_given) {
     assume(state, movement.column, "feed",
            fmt::format("{} before the first F: the control has a feed of its own",
                        motion_name(movement.motion, state.rules.dialect)));

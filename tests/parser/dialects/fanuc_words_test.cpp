@@ -243,6 +243,9 @@ TEST(FanucWords, CuttingMoveBeforeTheFirstFeedHasNone) {
   EXPECT_EQ(all_of<LinearFeed>(all).at(1).feed.value, 100.0);
   EXPECT_EQ(assumed(all), Names{"feed"});
   EXPECT_EQ(complaint_ids("G1 X5 F0\n"), Names{"feed-missing"});
+  InterpreterOptions strict;
+  strict.control.feed_before_first_word = false;
+  EXPECT_EQ(complaint_ids("G1 X5\n", strict), Names{"feed-missing"});
   EXPECT_EQ(complaint_ids("G1 X5 F100\nG95 X6\n"), Names{"feed-missing"});
 }
 

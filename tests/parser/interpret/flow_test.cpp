@@ -131,7 +131,7 @@ TEST(Flow, GoesOnBehindBlocksThatCannotBeRun) {
   };
   std::vector<double> x;
   const Program program{"part.nc", Dialect::fanuc,
-                        ProgramText("G0 X1 Y1\nG1 X2 F0\nG999\nX(\nG91 G0 X1\nM98 P7\nG0 X1\n")};
+                        ProgramText("G0 X1 Y1\nG1 X2\nG999\nX(\nG91 G0 X1\nM98 P7\nG0 X1\n")};
   const auto summary = interpret(
       program,
       [&](Motion&& motion) {
