@@ -165,12 +165,10 @@ class RecordWriter {
       return fmt::format("{},{},{}", shortest_decimal(v[0]), shortest_decimal(v[1]),
                          shortest_decimal(v[2]));
     };
-    const bool started = std::ranges::any_of(block_.comments, [](const Comment& comment) {
-      return comment.assumed && std::string_view(comment.event) == "CIRCLE TIMES";
-    });
     const std::string extent =
-        started ? "TIMES," + shortest_decimal(has('P') ? number('P') : 1.0)
-                : "ANGLE," + shortest_decimal(kDegreesPerTurn * turns(centre, axis));
+        is_assumed("CIRCLE TIMES")
+            ? "TIMES," + shortest_decimal(has('P') ? number('P') : 1.0)
+            : "ANGLE," + shortest_decimal(kDegreesPerTurn * turns(centre, axis));
     return fmt::format("MOVARC/{},{},0,{}", list(centre), list(axis), extent);
   }
 
@@ -188,11 +186,25 @@ class RecordWriter {
     return part + (has('P') ? number('P') - 1.0 : 0.0);
   }
 
+  [[nodiscard]] bool is_assumed(std::string_view name) const {
+    return std::ranges::any_of(block_.comments, [name](const Comment& comment) {
+      return comment.assumed && comment.event == name;
+    });
+  }
+
+  // What its reader had to assume is not written.
   [[nodiscard]] std::string cycle() const {
     std::string text(name_);
+    std::string left_out;
+    if (is_assumed("CYCLE")) left_out += "fr";
+    if (is_assumed("CYCLE STEP")) left_out += "Q";
+    if (is_assumed("CYCLE numbers")) {
+      left_out += "ZRufr";
+      text += fmt::format(",{},{}", shortest_decimal(number('Z')), shortest_decimal(number('u')));
+    }
     for (const Word& word : block_.words) {
       const auto* written = std::ranges::find(kCycleWords, word.letter, &CycleWord::letter);
-      if (written == kCycleWords.end()) continue;
+      if (written == kCycleWords.end() || left_out.find(word.letter) != std::string::npos) continue;
       text += fmt::format(",{}", written->written);
       if (word.letter != 'I') text += "," + shortest_decimal(word.number);
     }

@@ -163,8 +163,9 @@ class CycleReader {
       depth_ = Value{part.column, part.number};
     } else if (place_ < given_.size() && !feed_ && cldata_feed_unit(given_[place_].word, inches_)) {
       set_feed(given_[place_++], Value{part.column, part.number});
-    } else if (!clear_ && (feed_ || place_ == given_.size())) {
+    } else if (!clear_ && (feed_ || place_ == given_.size() || !given_[place_].is_number())) {
       clear_ = Value{part.column, part.number};
+      clear_is_bare_ = !feed_;
     } else {
       fail("unknown-word"_id, part.column,
            fmt::format("the {} in CYCLE could mean many things", part.number));
@@ -237,6 +238,10 @@ class CycleReader {
     if (step_) add_number(block, 'Q', step_->number, step_->column, "STEP,");
     if (others_) add_number(block, 'x', others_->number, others_->column, "SUBPECK,");
     if (dwell_) add_number(block, 'P', dwell_->number, dwell_->column, "DWELL,");
+    if (clear_is_bare_) {
+      block.comments.push_back({clear_->column, false, "the second number is the clearance",
+                                "CYCLE numbers", false, true});
+    }
     if (!remarks_.empty()) {
       block.comments.push_back({record_.column, false, remarks_, "CYCLE option"});
     }
@@ -269,6 +274,7 @@ class CycleReader {
   std::optional<Value> back_{};
   std::optional<Value> step_{};
   std::optional<Value> others_{};  // each peck after the first
+  bool clear_is_bare_ = false;     // CYCLE/TAP,50,1
   std::string remarks_{};
   std::optional<Value> dwell_{};
   bool per_revolution_ = false;

@@ -188,7 +188,7 @@ TEST(CldataOfCam, CyclesHaveTheFeedInForce) {
   EXPECT_EQ(feed("FEDRAT/1.5,MMPR\n").feed.mode, FeedMode::per_revolution);
   EXPECT_EQ(feed("").feed.value, 1000.0);
   EXPECT_EQ(*feed("").end[Z], -50.5);
-  EXPECT_EQ(names_assumed(start + cycle), std::vector<std::string>{"CYCLE"});
+  EXPECT_EQ(names_assumed(start + cycle), (std::vector<std::string>{"CYCLE", "CYCLE numbers"}));
   // NX: the hole ends at its place.
   EXPECT_EQ(*all_of<LinearFeed>(run_cl("CYCLE/DRILL,RAPTO,3.0000,FEDTO,0.0000,MMPM,250.0000\n"
                                        "GOTO/66,0,240,0,0,1\n"))
@@ -289,7 +289,7 @@ TEST(CldataOfCam, WhatRunsElsewhereIsRefused) {
 // What the reader adds is not written, and is added again.
 TEST(CldataOfCam, IsReadBackAsItWasRead) {
   const std::string text =
-      std::string("GOTO/1,2,3\n") + kTilted +
+      "CYCLE/TAP,5,1\nCYCLE/DEEP,DEPTH,5,CLEAR,1\nCYCLE/OFF\nGOTO/1,2,3\n" + std::string(kTilted) +
       "CIRCLE/100,0,-3,1,0,0\nGOTO/100,-5,-3,1,0,0\nCIRCLE/100,-5,0,0,-.6,.8\nGOTO/103,-5,0\n"
       "CIRCLE/98,-5,0,0,0,-1,5,.06,.5,12,1,TIMES,2\nGOTO/98,0,-1\n"
       "CYCLE/INIT\nCYCLE/DEEP2,FEDTO,9,1STPECK,5,SUBPECK,2,MMPM,154,RAPTO,3,RTRCTO,25\n"
