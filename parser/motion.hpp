@@ -117,6 +117,9 @@ struct ToolChange {
 // the program or its tool table gives the length itself (G43.1, G10 L1), and goes before what the
 // setup has under that number.
 enum class LengthCompensation : std::uint8_t { off, length, tool_centre_point };
+// The further edges of a tool (D2 of Sinumerik) have offset numbers of their own: edge 2 of tool 7
+// has 10007.
+constexpr int kEdgeOffsets = 10'000;
 struct CompensationChange {
   LengthCompensation mode = LengthCompensation::off;
   bool tool_vectors = false;  // G43.5: I J K give the tool axis

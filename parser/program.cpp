@@ -41,6 +41,8 @@ Diagnostics read_to_end(const Program& program, BlockCursor& cursor, const Take&
     auto block = cursor.next();
     if (!block) {
       failures.push_back(std::move(block).error().front());
+      // All that follows is of another kind of machine.
+      if (failures.back().id == "not-milling"_id) return {failures.back()};
       continue;
     }
     if (*block == nullptr) return failures;

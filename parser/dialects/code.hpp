@@ -47,6 +47,7 @@ enum class CodeGroup : std::uint8_t {
   hole_cycle,
   hole_call,
   drilling_cycle,
+  hole_pattern,
   corner,
   raised_error,
   tool_change,
@@ -141,6 +142,8 @@ enum class DrillingWord : std::uint8_t {
   bore_dwell,
   bore  // CYCLE89: feeds out
 };
+// Places at which the drilling cycle in force is called: hole_pattern.hpp.
+enum class PatternWord : std::uint8_t { row, circle, grid };
 // The programmable frame: the first four replace it, the others go on within it.
 enum class FrameWord : std::uint8_t {
   shift,

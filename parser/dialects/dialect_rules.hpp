@@ -13,6 +13,7 @@
 #include "parser/dialect.hpp"
 #include "parser/dialects/code.hpp"
 #include "parser/dialects/radius_rules.hpp"
+#include "parser/language/modes.hpp"
 #include "parser/language/parameters.hpp"
 
 namespace frustum::parser {
@@ -87,6 +88,8 @@ struct DialectRules {
   std::array<std::span<const Code>, 5> codes{};
   std::span<const RefusedCode> refused_codes{};
   std::span<const RefusedWord> refused_words{};
+  // What only a lathe has: the program is none of a mill.
+  std::span<const std::string_view> turning_words{};
   // The three letters of the tool vector, and how the dialect spells them.
   std::string_view vector_letters{};
   std::string_view vector_spelling{};
@@ -114,6 +117,8 @@ struct DialectRules {
   bool holes_at_moves = false;
   // Words of their own round or break the corner between two moves.
   bool inserts_corners = false;
+  // The motion in force before the program gives one.
+  MotionMode first_motion = MotionMode::none;
   LetterSet always_claimed{};  // words that have a meaning in every block
   // Words that a block of G0 to G3 may have without a meaning where they are zero.
   LetterSet idle_at_zero{};
@@ -134,6 +139,9 @@ struct DialectRules {
   bool arcs_may_lack_centre = false;
   // A cutting move before the first F goes on, with a feed that is not known (0).
   bool feed_may_be_missing = false;
+  // Words of a move that round or break the corner at its end; cycles have parameters under their
+  // letters.
+  LetterSet corner_words{};
   std::span<const LetterUse> letters{};
   std::string_view known_letters{};
   ParameterRules parameters{};

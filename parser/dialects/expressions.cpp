@@ -89,6 +89,10 @@ constexpr auto kFanucFunctions = joined(
 
 constexpr auto kSinumerikOperators = joined(
     std::array{
+        BinaryOperator{sum, "<<", Operation::join},
+        BinaryOperator{sum, "B_AND", Operation::bit_and},
+        BinaryOperator{sum, "B_OR", Operation::bit_or},
+        BinaryOperator{sum, "B_XOR", Operation::bit_xor},
         BinaryOperator{disjunction, "OR", Operation::logical_or},
         BinaryOperator{disjunction, "XOR", Operation::logical_xor},
         BinaryOperator{conjunction, "AND", Operation::logical_and},
@@ -110,6 +114,7 @@ constexpr auto kSinumerikFunctions = joined(
         ExpressionFunction{"ROUNDUP", Operation::fup},
         ExpressionFunction{"MINVAL", Operation::least, Arguments::two},
         ExpressionFunction{"MAXVAL", Operation::greatest, Arguments::two},
+        ExpressionFunction{"POT", Operation::square},
     },
     kFunctions);
 

@@ -20,6 +20,20 @@ constexpr std::string_view kNoFlow = "write the blocks out in the order in which
 constexpr std::string_view kNoThreads = "tap with CYCLE84, or leave threading out of the program";
 constexpr LetterSet kPoleWords{"XYZpq"};
 constexpr LetterSet kDrillingWords{"zVuZdPKQrWfevmtwxeIJEkslghi"};
+constexpr int kFirstFurtherOffset = 5050;  // G505
+constexpr std::size_t kFurtherOffsets = 95;
+
+// G505 to G599.
+constexpr std::array<Code, kFurtherOffsets> further_offsets() {
+  std::array<Code, kFurtherOffsets> codes{};
+  for (std::size_t i = 0; i < kFurtherOffsets; ++i) {
+    const int number = static_cast<int>(i);
+    codes[i] = modal('G', kFirstFurtherOffset + 10 * number, work_offset, 5 + number);
+  }
+  return codes;
+}
+constexpr auto kFurtherOffsetCodes = further_offsets();
+
 constexpr std::array kSinumerikCodes{
     modal('G', 40, non_modal, NonModal::dwell),
     modal('G', 700, unit, LengthUnit::inch_but_feeds),
@@ -29,8 +43,6 @@ constexpr std::array kSinumerikCodes{
     modal('G', 410, radius_compensation, RadiusWord::left),
     modal('G', 420, radius_compensation, RadiusWord::right),
     modal('G', 5000, work_offset, 0),
-    modal('G', 5050, work_offset, 5),
-    modal('G', 5060, work_offset, 6),
     passed('G', 90),  // exact stop on this block
     passed('G', 600, path_control),
     passed('G', 640, path_control),
@@ -44,8 +56,10 @@ constexpr std::array kSinumerikCodes{
     passed('G', 6030),
     passed('G', 4500),  // arcs round outer corners, as they always are here
     passed('G', 970),
-    passed('G', 6200),  // slower in corners
+    passed('G', 620),  // slower in corners
     passed('G', 6210),
+    passed('G', 2900),  // the language of Siemens, not ISO
+    passed('M', 700),   // the spindle as an axis
     modal('G', 1100, non_modal, NonModal::pole_from_here, kPoleWords),
     modal('G', 1110, non_modal, NonModal::pole_from_origin, kPoleWords),
     modal('G', 1120, non_modal, NonModal::pole_from_pole, kPoleWords),
@@ -53,6 +67,9 @@ constexpr std::array kSinumerikCodes{
     named("CT", motion, MotionMode::arc_tangential),
     named("CIP", motion, MotionMode::arc_through),
     named("MCALL", hole_call, 0),
+    named("HOLES1", hole_pattern, PatternWord::row, LetterSet("uvqfdk")),
+    named("HOLES2", hole_pattern, PatternWord::circle, LetterSet("uvrqdk")),
+    named("CYCLE801", hole_pattern, PatternWord::grid, LetterSet("uvqfdkl")),
     named("CYCLE81", drilling_cycle, DrillingWord::drill, kDrillingWords),
     named("CYCLE82", drilling_cycle, DrillingWord::drill_dwell, kDrillingWords),
     named("CYCLE83", drilling_cycle, DrillingWord::peck, kDrillingWords),
@@ -67,6 +84,7 @@ constexpr std::array kSinumerikCodes{
     named("SUPA", non_modal, NonModal::machine_coordinates),
     named("TRAORI", tool_tip, TipWord::on),
     named("TRAFOOF", tool_tip, TipWord::off),
+    named("TRAOOF", tool_tip, TipWord::off),  // as it is misspelled
     named("ORIAXES", orientation_path, OrientationPath::rotary_axes),
     named("ORIVECT", orientation_path, OrientationPath::great_circle),
     named("ORIPLANE", orientation_path, OrientationPath::great_circle),
@@ -82,7 +100,6 @@ constexpr std::array kSinumerikCodes{
     named("CYCLE800()", tilted_plane, TiltWord::off),
     named("ORIWKS", orientation_reference, OrientationReference::workpiece),
     named("ORIMKS", orientation_reference, OrientationReference::machine),
-    passed("STOPRE"),
     passed("FFWON"),
     passed("FFWOF"),
     passed("SOFT"),
@@ -126,6 +143,22 @@ constexpr std::array kSinumerikCodes{
     passed("DISPLOF"),
     passed("CUT2D"),
     passed("CUT2DF"),
+    passed("CUT3DC"),
+    passed("CUT3DF"),
+    passed("CUT3DFS"),
+    passed("CUT3DFF"),
+    passed("CUT3DCC"),
+    passed("TOROTOF"),
+    passed("PAROTOF"),
+    passed("CUTCONOF"),
+    passed("CPMOF"),
+    passed("SOFTA"),
+    passed("BRISKA"),
+    passed("DRIVEA"),
+    passed("FLIN"),
+    passed("FCUB"),
+    passed("ORISROF"),
+    passed("CLGOF"),
     passed("SPATH"),
     passed("DIAMOF"),
     passed("CFTCP"),
@@ -143,15 +176,21 @@ constexpr std::array kSinumerikRefusedCodes{
     RefusedCode{'G', 3310, 3329, kNoThreads},
     RefusedCode{'G', 4510, 4510, "go round outer corners by an arc: G450"},
     RefusedCode{'G', 740, 759, "move to the positions with SUPA and D0"},
-    RefusedCode{'G', 5070, 5990, "use G54 to G57, G505 and G506"},
+    RefusedCode{'G', 580, 599, "shift by TRANS and ATRANS"},
+    RefusedCode{'G', 1400, 1489, "approach and leave the contour by G1, G2 and G3 blocks"},
+    RefusedCode{'G', 2470, 2489, "approach and leave the contour by G1, G2 and G3 blocks"},
+    RefusedCode{'G', 3400, 3489, "approach and leave the contour by G1, G2 and G3 blocks"},
+    RefusedCode{'G', 2910, 2919, "the program goes on in the ISO language: read it as fanuc"},
+    RefusedCode{'G', 200, 219, "words of the ISO language need G291, or reading as fanuc"},
+    RefusedCode{'G', 280, 289, "words of the ISO language need G291, or reading as fanuc"},
+    RefusedCode{'G', 430, 449, "words of the ISO language need G291, or reading as fanuc"},
+    RefusedCode{'G', 490, 499, "words of the ISO language need G291, or reading as fanuc"},
+    RefusedCode{'G', 800, 899, "words of the ISO language need G291, or reading as fanuc"},
     RefusedCode{'G', 960, 969, "give the spindle speed in revolutions per minute"},
 };
 constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"ROTS", kNoFrames},
     RefusedWord{"AROTS", kNoFrames},
-    RefusedWord{"CROTS", kNoFrames},
-    RefusedWord{"CTRANS", kNoFrames},
-    RefusedWord{"CROT", kNoFrames},
     RefusedWord{"TOFRAME", kNoFrames},
     RefusedWord{"PAROT", kNoFrames},
     RefusedWord{"TRACYL", kNoTransformation},
@@ -170,12 +209,10 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"POLY", kNoSplines},
     RefusedWord{"INVCW", kNoSplines},
     RefusedWord{"INVCCW", kNoSplines},
-    RefusedWord{"RND", kNoCorners},
-    RefusedWord{"RNDM", kNoCorners},
-    RefusedWord{"CHF", kNoCorners},
-    RefusedWord{"CHR", kNoCorners},
     RefusedWord{"ANG", kNoCorners},
     RefusedWord{"AR", "give the arc by its centre I J K, or by CR="},
+    RefusedWord{"DISC", "go round outer corners by an arc: G450 alone"},
+    RefusedWord{"DISR", "approach and leave the contour by G1, G2 and G3 blocks"},
     RefusedWord{"OFFN", "program the path of the tool centre and use G40"},
     RefusedWord{"DL", "give the tool's true size in the job"},
     RefusedWord{"TOFFL", "give the tool's true size in the job"},
@@ -183,7 +220,22 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"MEAW", "leave probing out of the simulated program"},
     RefusedWord{"CYCLE840", kNoCycles},
     RefusedWord{"CYCLE61", kNoCycles},
+    RefusedWord{"CYCLE60", kNoCycles},
     RefusedWord{"CYCLE62", kNoCycles},
+    RefusedWord{"CYCLE64", kNoCycles},
+    RefusedWord{"CYCLE70", kNoCycles},
+    RefusedWord{"CYCLE71", kNoCycles},
+    RefusedWord{"CYCLE73", kNoCycles},
+    RefusedWord{"CYCLE74", kNoCycles},
+    RefusedWord{"CYCLE75", kNoCycles},
+    RefusedWord{"CYCLE78", kNoCycles},
+    RefusedWord{"CYCLE79", kNoCycles},
+    RefusedWord{"CYCLE90", kNoCycles},
+    RefusedWord{"CYCLE802", kNoCycles},
+    RefusedWord{"CYCLE899", kNoCycles},
+    RefusedWord{"POCKET1", kNoCycles},
+    RefusedWord{"POCKET2", kNoCycles},
+    RefusedWord{"POCKET5", kNoCycles},
     RefusedWord{"CYCLE63", kNoCycles},
     RefusedWord{"CYCLE72", kNoCycles},
     RefusedWord{"CYCLE76", kNoCycles},
@@ -193,18 +245,36 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"SLOT1", kNoCycles},
     RefusedWord{"SLOT2", kNoCycles},
     RefusedWord{"LONGHOLE", kNoCycles},
-    RefusedWord{"HOLES1", kNoCycles},
-    RefusedWord{"HOLES2", kNoCycles},
+    RefusedWord{"POS", "move the axis by G0 or G1"},
+    RefusedWord{"POSA", "move the axis by G0 or G1"},
+    RefusedWord{"POSP", "move the axis by G0 or G1"},
+    RefusedWord{"MOV", "move the axis by G0 or G1"},
+    RefusedWord{"AX", "name the axis: X=5"},
+    RefusedWord{"GEOAX", "use the axes X Y Z as the machine has them"},
+    RefusedWord{"ROTAX", "use the axes X Y Z as the machine has them"},
+    RefusedWord{"MEASURE", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE961", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE971", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE976", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE977", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE978", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE979", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE982", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE996", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE997", "leave probing out of the simulated program"},
+    RefusedWord{"CYCLE998", "leave probing out of the simulated program"},
     RefusedWord{"ORIEULER", "give directions by A3= B3= C3="},
     RefusedWord{"ORIRPY", "give directions by A3= B3= C3="},
-    RefusedWord{"CALL", kNoFlow},
-    RefusedWord{"EXTCALL", kNoFlow},
-    RefusedWord{"PCALL", kNoFlow},
     RefusedWord{"GOTOS", "write a loop: LOOP and ENDLOOP"},
     RefusedWord{"KONT", "approach and leave the contour straight: NORM"},
     RefusedWord{"SF", "write threads of one start, which begin at the spindle's mark"},
-    RefusedWord{"DIAMON", "give X as a radius: DIAMOF"},
 };
+
+// Cycles and words of lathes.
+constexpr std::array<std::string_view, 17> kTurningWords{
+    "DIAMON",   "DIAM90",   "DIAM90A",  "DIAMCHAN", "CYCLE92", "CYCLE93",
+    "CYCLE94",  "CYCLE95",  "CYCLE96",  "CYCLE97",  "CYCLE98", "CYCLE930",
+    "CYCLE940", "CYCLE950", "CYCLE951", "CYCLE952", "CYCLE99"};
 
 constexpr std::string_view kNeedsIsoMotion =
     "axis words need a motion word: G0, G1, G2, G3, CIP, CT or G33";
@@ -219,7 +289,6 @@ constexpr std::array kSinumerikLetters{
     LetterUse{'A', kNeedsIsoMotion},
     LetterUse{'B', kNeedsIsoMotion},
     LetterUse{'C', kNeedsIsoMotion},
-    LetterUse{'H', "auxiliary functions H are not read; leave it out"},
     LetterUse{'I', kSinumerikNeedsArc},
     LetterUse{'J', kSinumerikNeedsArc},
     LetterUse{'K', kSinumerikNeedsArc},
@@ -244,9 +313,10 @@ constexpr std::array<std::string_view, 4> kFileNames{"{}.spf", "{}.SPF", "{}.mpf
 
 constexpr DialectRules kSinumerikRules{
     .dialect = Dialect::sinumerik,
-    .codes = {kSinumerikCodes, kMachineCodes, kIsoCodes},
+    .codes = {kSinumerikCodes, kMachineCodes, kIsoCodes, kFurtherOffsetCodes},
     .refused_codes = kSinumerikRefusedCodes,
     .refused_words = kSinumerikRefusedWords,
+    .turning_words = kTurningWords,
     .vector_letters = "abc",
     .vector_spelling = "A3= B3= C3=",
     .vector_hint = "switch it on with TRAORI",
@@ -255,7 +325,10 @@ constexpr DialectRules kSinumerikRules{
     .tool_brings_length = true,
     .machine_coordinates_keep_length = true,
     .words_behind_move = kStopsBehindMove,
+    .first_motion = MotionMode::linear,
     .always_claimed = LetterSet("FSTD"),
+    .unknown_m_words_are_builders = true,
+    .corner_words = LetterSet("rhimfl"),
     .letters = kSinumerikLetters,
     .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP I1 J1 K1",
     .parameters = {.named_locals = true,

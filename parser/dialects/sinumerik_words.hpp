@@ -25,8 +25,9 @@ struct TypeName {
   std::string_view name;
   VariableKind kind;
 };
-inline constexpr std::array kTypeNames{TypeName{"REAL", VariableKind::real},
-                                       TypeName{"INT", VariableKind::whole},
-                                       TypeName{"BOOL", VariableKind::truth}};
+inline constexpr std::array kTypeNames{
+    TypeName{"REAL", VariableKind::real},  TypeName{"INT", VariableKind::whole},
+    TypeName{"BOOL", VariableKind::truth}, TypeName{"STRING", VariableKind::text},
+    TypeName{"AXIS", VariableKind::axis},  TypeName{"CHAR", VariableKind::character}};
 
 }  // namespace frustum::parser

@@ -82,7 +82,7 @@ Result<Flow> finish(InterpreterState& state, MotionFilters& filters, const Block
 }
 
 Outcome finish_text(InterpreterState& state, MotionFilters& filters) {
-  if (const auto& corner = filters.corners.corner()) {
+  if (const auto& corner = filters.corners.corner(); corner && !corner->if_any) {
     Diagnostic open = error("corner-without-move"_id, corner->name + " with no move after it",
                             "write an L or C block after it, or leave it out");
     open.line = static_cast<int>(corner->place.line);

@@ -15,6 +15,7 @@
 #include "parser/interpret/feed_and_tool.hpp"
 #include "parser/interpret/filters/corner_words.hpp"
 #include "parser/interpret/filters/motion_filters.hpp"
+#include "parser/interpret/filters/move_corners.hpp"
 #include "parser/interpret/filters/radius_words.hpp"
 #include "parser/interpret/frames/datum.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
@@ -106,6 +107,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
     return std::move(done).error();
   }
   if (auto done = insert_corner(state, filters, *words); !done) return std::move(done).error();
+  if (auto done = look_for_corner(state, filters, *words); !done) return std::move(done).error();
   if (auto done = report_comments(state, block); !done) return std::move(done).error();
   if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
       raised.code != nullptr) {
@@ -141,7 +143,8 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
   }
   if (auto done = set_frames(state, filters, *words); !done) return std::move(done).error();
   if (auto done = make_move(state, *words, *movement); !done) return std::move(done).error();
-  if (filters.passes_corners && !state.rules.inserts_corners) {
+  if (auto done = ask_for_corner(state, filters, *words); !done) return std::move(done).error();
+  if (filters.passes_corners && !state.rules.inserts_corners && state.rules.corner_words.empty()) {
     if (auto done = keep_corner(state, filters, *words); !done) return std::move(done).error();
   }
   auto drilled = state.rules.dialect == Dialect::sinumerik ? call_drilling_cycle(state, *words)

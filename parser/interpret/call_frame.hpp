@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "parser/interpret/block_executor.hpp"
@@ -64,6 +65,13 @@ struct ModalMacro {
   CallSubprogram call{};  // its arguments are what the macro has left of them
 };
 
+// What a call gives: values, vacant where one is left out, and the names of those that are
+// variables.
+struct GivenArguments {
+  std::vector<double> values{};
+  std::vector<std::string> variables{};
+};
+
 struct CallFrame {
   std::shared_ptr<LoadedProgram> program;
   BlockCursor cursor;
@@ -73,8 +81,10 @@ struct CallFrame {
   SourcePlace named{};  // where its name stands
   std::uint64_t runs_left = 1;
   bool has_locals = false;
-  bool opened = false;              // a block that does something has been reached
-  std::vector<double> arguments{};  // for the head of the program; vacant where left out
+  bool opened = false;         // a block that does something has been reached
+  GivenArguments arguments{};  // for the head of the program
+  // What gives its value back to which variable of the caller (VAR).
+  std::vector<std::pair<std::string, std::string>> given_back{};
   std::vector<CountedLoop> loops{};
   std::vector<RepeatedPart> parts{};
   // Those at work in this program, innermost last. Moves of a macro called by one of them call

@@ -12,6 +12,7 @@
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 #include "parser/interpret/state/word_values.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -48,6 +49,37 @@ void take_unknown_feed(InterpreterState& state, const BlockWords& words) {
   }
 }
 
+// The number that a tool with a name goes by: its name when that is one, that of the tool table
+// whose remark is the name, else the first that is free.
+int tool_named(InterpreterState& state, const GivenWord& word) {
+  constexpr int kFirstNamedTool = 1001;
+  constexpr std::size_t kMostDigits = 8;
+  const std::string& name = state.parameters.text_of(word.value);
+  const bool digits = !name.empty() && name.size() <= kMostDigits &&
+                      name.find_first_not_of("0123456789") == std::string::npos;
+  if (digits) return std::stoi(name);
+  if (name.empty()) return 0;
+  const auto known = state.data.tool_names.find(name);
+  if (known != state.data.tool_names.end()) return known->second;
+  for (const auto& [number, tool] : state.data.tools) {
+    if (upper_case(tool.remark) == upper_case(name)) {
+      state.data.tool_names.emplace(name, number);
+      return number;
+    }
+  }
+  int number = kFirstNamedTool;
+  const auto taken = [&] {
+    return state.data.tools.contains(number) ||
+           std::ranges::any_of(state.data.tool_names,
+                               [&](const auto& tool) { return tool.second == number; });
+  };
+  while (taken()) ++number;
+  state.data.tool_names.emplace(name, number);
+  emit(state, word.column,
+       Event{"tool_name", fmt::format("{} is tool {}", name, number), EventGrade::assumed});
+  return number;
+}
+
 }  // namespace
 
 Outcome set_feed(InterpreterState& state, const BlockWords& words) {
@@ -79,7 +111,9 @@ Outcome set_feed(InterpreterState& state, const BlockWords& words) {
 }
 
 Outcome set_tool(InterpreterState& state, const BlockWords& words) {
-  if (words.has('T')) {
+  if (words.has('T') && is_text(words['T'].value)) {
+    state.modes.selected_tool = tool_named(state, words['T']);
+  } else if (words.has('T')) {
     const auto tool = tool_number(state, words);
     if (!tool) return tool.error();
     if (auto done = check_tool_exists(state, *tool, words['T'].column); !done) return done;

@@ -150,7 +150,9 @@ Result<Movement> to_end(const NonModalWord& used) {
 
 Result<Movement> in_machine_coordinates(const NonModalWord& used) {
   const std::uint32_t column = used.given.column;
-  const bool rests = used.names_no_axis() && used.state.rules.starts_with_rapid;
+  // G53 of Sinumerik holds for its block, which moves nothing.
+  const bool rests = used.names_no_axis() && (used.state.rules.starts_with_rapid ||
+                                              used.state.rules.dialect == Dialect::sinumerik);
   if (rests) return Movement{used.word(), MotionMode::none, column};
   MotionMode mode = used.mode;
   const bool of_block = used.words.has(CodeGroup::motion);
@@ -186,9 +188,10 @@ constexpr std::array kPlaceWords{
 };
 
 // Groups whose words, where they have arguments, take the axis words.
-constexpr std::array kGroupsWithAxes{
-    CodeGroup::tilted_plane, CodeGroup::program_frame,  CodeGroup::scaling, CodeGroup::mirror,
-    CodeGroup::hole_cycle,   CodeGroup::drilling_cycle, CodeGroup::corner};
+constexpr std::array kGroupsWithAxes{CodeGroup::tilted_plane, CodeGroup::program_frame,
+                                     CodeGroup::scaling,      CodeGroup::mirror,
+                                     CodeGroup::hole_cycle,   CodeGroup::drilling_cycle,
+                                     CodeGroup::corner,       CodeGroup::hole_pattern};
 
 // Whether the axis words are of another word than the motion's.
 bool axes_are_taken(const BlockWords& words) {
@@ -217,7 +220,8 @@ MotionMode motion_of(const InterpreterState& state, const BlockWords& words) {
       state.rules.cycles.cancel_brings_motion_back ? state.modes.before_cycle : MotionMode::none;
   const auto mode = words.value_or(CodeGroup::motion,
                                    words.has(CodeGroup::cycle) ? after_cancel : state.modes.motion);
-  return mode == MotionMode::none && state.rules.starts_with_rapid ? MotionMode::traverse : mode;
+  if (mode != MotionMode::none) return mode;
+  return state.rules.starts_with_rapid ? MotionMode::traverse : state.rules.first_motion;
 }
 
 Result<Movement> movement_of(const InterpreterState& state, const BlockWords& words) {
@@ -273,6 +277,7 @@ Result<LetterSet> check_claims(const InterpreterState& state, const BlockWords& 
                 fmt::format("{} could belong to two words of the block", words.text_of(letter)),
                 "write two blocks");
   }
+  claimed = claimed | state.rules.corner_words;
   if (state.rules.offset_numbers_stand_alone) claimed = claimed | LetterSet("HD");
   LetterSet idle;
   if (!words.builder().empty()) idle = kBuilderArguments;

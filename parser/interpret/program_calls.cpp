@@ -6,6 +6,7 @@
 #include "parser/interpret/cycles/hole_call.hpp"
 #include "parser/interpret/program_run.hpp"
 #include "parser/interpret/saved_modes.hpp"
+#include "parser/interpret/state/word_values.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -29,20 +30,25 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
               fmt::format("a subprogram takes up to {}", kMaxArguments));
   }
   std::vector<double> arguments;
+  std::vector<std::string> variables;
   for (const ExpressionRange& argument : flow.arguments) {
+    const bool variable =
+        argument.count == 1 && block.steps[argument.first].operation == Operation::named_parameter;
+    variables.push_back(
+        variable ? block.names[static_cast<std::size_t>(block.steps[argument.first].number)] : "");
     if (argument.empty()) {
       arguments.push_back(kVacant);
       continue;
     }
-    const auto value = value_of(block, argument);
-    if (!value) return value.error().front();
+    const auto value = parser::value_of(executor_.state(), block, argument);
+    if (!value) return in_this_file(value.error().front());
     arguments.push_back(*value);
   }
   const auto count = count_of(block, flow.condition);
   if (!count) return count.error().front();
   if (*count == 0) return std::nullopt;
   if (rules_.subprograms_are_programs) {
-    return call_program(block, *name, std::move(arguments), *count);
+    return call_program(block, *name, {std::move(arguments), std::move(variables)}, *count);
   }
   if (flow.of_file) {
     if (!flow.by_cycle) return follow(block, CallFile{*name, flow.column});
@@ -75,7 +81,7 @@ ProgramRun::Failure ProgramRun::call(const Block& block) {
 
 // A program with its head in a file that is open, or in one of its own.
 ProgramRun::Failure ProgramRun::call_program(const Block& block, const std::string& name,
-                                             std::vector<double> arguments, std::uint64_t count) {
+                                             GivenArguments arguments, std::uint64_t count) {
   std::shared_ptr<LoadedProgram> holder = frame().program;
   if (holder->map().head(name) == nullptr) holder = main_;
   if (holder->map().head(name) == nullptr) holder = file_of(name);
@@ -103,7 +109,7 @@ ProgramRun::Failure ProgramRun::call_program(const Block& block, const std::stri
 ProgramRun::Failure ProgramRun::receive(const Block& block) {
   const FlowStatement& flow = *block.flow;
   if (frames_.size() == 1) return std::nullopt;
-  const std::vector<double>& given = frame().arguments;
+  const std::vector<double>& given = frame().arguments.values;
   // A head without PROC takes none, which the call cannot know.
   if (given.size() > flow.parameters.size() && !block.tape_mark) {
     return at(block, flow.column, "call-arguments"_id,
@@ -120,8 +126,17 @@ ProgramRun::Failure ProgramRun::receive(const Block& block) {
       if (!otherwise) return otherwise.error().front();
       value = *otherwise;
     }
-    executor_.state().parameters.define(block.names[parameter.name], parameter.kind,
-                                        is_vacant(value) ? 0.0 : value);
+    const std::string& name = block.names[parameter.name];
+    executor_.state().parameters.define(name, parameter.kind, is_vacant(value) ? 0.0 : value);
+    if (!parameter.gives_back || i >= frame().arguments.variables.size()) continue;
+    const std::string& variable = frame().arguments.variables[i];
+    if (variable.empty()) {
+      return at(
+          block, flow.column, "call-arguments"_id,
+          fmt::format("{} gives {} back, and the call has no variable there", frame().name, name),
+          "give a variable of DEF, or an R parameter");
+    }
+    frame().given_back.emplace_back(name, variable);
   }
   return std::nullopt;
 }

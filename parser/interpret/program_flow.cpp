@@ -33,8 +33,12 @@ std::optional<std::uint32_t> block_number_of(std::string_view label) {
 
 Result<double> ProgramRun::value_of(const Block& block, ExpressionRange range) {
   auto value = parser::value_of(executor_.state(), block, range);
-  if (value) return value;
-  return in_this_file(std::move(value).error().front());
+  if (!value) return in_this_file(std::move(value).error().front());
+  if (!is_unknown(*value)) return value;
+  return at(block, block.flow->column, "unknown-value"_id,
+            fmt::format("what comes next depends on {}, which only the machine knows",
+                        executor_.state().parameters.text_of(*value)),
+            "give a number");
 }
 
 Result<bool> ProgramRun::holds(const Block& block, const FlowStatement& flow) {

@@ -69,7 +69,7 @@ Result<RunSummary> ProgramRun::operator()() {
     if (!failure) continue;
     executor_.settle();
     Diagnostics failures{*std::move(failure)};
-    if (syntax_failed_) {
+    if (syntax_failed_ && failures.front().id != "not-milling"_id) {
       // The rest of the text is read for its own mistakes, so that they are mended together.
       const auto more = syntax_errors(frame().program->program(), frame().cursor.place());
       failures.insert(failures.end(), more.begin(), more.end());
@@ -203,7 +203,15 @@ void ProgramRun::return_from_call() {
   } else {
     caller.modal_macros = std::move(done.modal_macros);
   }
+  std::vector<double> results;
+  for (const auto& [name, variable] : done.given_back) {
+    const auto value = executor_.state().parameters.read(name);
+    results.push_back(value ? *value : 0.0);
+  }
   if (done.has_locals) executor_.state().parameters.leave();
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    executor_.state().parameters.set(done.given_back[i].second, results[i]);
+  }
   leave_call(executor_.state());
   frames_.pop_back();
   executor_.state().at_work.file = frame().program->place_file();
@@ -229,6 +237,7 @@ Result<const Block*> ProgramRun::next_block() {
 }
 
 ProgramRun::Failure ProgramRun::end_program(const Block& block, std::uint32_t column) {
+  if (auto done = executor_.end_of_text(); !done) return in_main(std::move(done).error().front());
   SourcePlace place = block.place_of(column);
   place.file = frame().program->place_file();
   sink_(Motion{std::move(place), Stop{StopKind::program_end}});

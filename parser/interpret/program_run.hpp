@@ -58,7 +58,7 @@ class ProgramRun {
   [[nodiscard]] Failure call(const Block& block);
   [[nodiscard]] Failure give_back(const Block& block);
   [[nodiscard]] Failure call_program(const Block& block, const std::string& name,
-                                     std::vector<double> arguments, std::uint64_t count);
+                                     GivenArguments arguments, std::uint64_t count);
   [[nodiscard]] Failure receive(const Block& block);
   [[nodiscard]] Failure choose(const Block& block);
   [[nodiscard]] Failure jump(const Block& block);

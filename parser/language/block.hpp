@@ -8,6 +8,8 @@
 //   d        a tilted plane turns the rotary axes to its normal (0: it does not)
 //   m        they turn with the tip of the tool held where it is (MOVE)
 //   D L K E H g h  of a deep hole: hole_cycle.hpp
+//   r h i m  a rounding, a chamfer by its length or by its width at the corner, roundings from here
+//   f l      on (RND= CHF= CHR= RNDM=), and their feeds (FRC= FRCM=)
 //   t        the duration of the block in seconds (FT)
 //   e        full turns of an arc beyond the first (TURN=)
 //   p q      radius and angle of a polar position (@ ^, PR PA)
@@ -61,13 +63,25 @@ struct Word {
   const char* spelled = nullptr;  // "A3=" where the dialect's spelling is not the letter
 };
 
-// #1=2, #<depth>=[#1*2]. A name represents itself, a number is computed by `index`.
+// CTRANS(X,10,Y,20): a part of a frame.
+struct FramePart {
+  std::string name{};
+  std::string axes{};
+  std::vector<ExpressionRange> values{};
+};
+
+// #1=2, #<depth>=[#1*2]. A name represents itself, a number is computed by `index`. A name with
+// indices is that of an element, or of an array where it is defined.
 struct Assignment {
   std::uint32_t column = 0;
   std::optional<std::uint32_t> name{};  // index into Block::names
   ExpressionRange index{};
   ExpressionRange value{};
   std::optional<VariableKind> defines{};  // DEF REAL LENGTH=5: a variable of the subprogram
+  std::vector<ExpressionRange> indices{};
+  std::vector<ExpressionRange> more{};  // A[0]=SET(1,2,3): the values after the first
+  bool fills = false;                   // A[0]=REP(1): all from there on
+  std::vector<FramePart> frame{};       // $P_PFRAME=CTRANS(X,10):CROT(Z,30)
 };
 
 struct Comment {

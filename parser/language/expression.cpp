@@ -190,7 +190,12 @@ double apply(Operation operation, double a, double b) {
       return from_bcd(a);
     case Operation::to_bcd:
       return to_bcd(a);
+    case Operation::square:
+      return a * a;
     case Operation::as_it_is:
+    case Operation::text:
+    case Operation::join:
+    case Operation::element:
     case Operation::number:
     case Operation::parameter:
     case Operation::named_parameter:
@@ -204,7 +209,7 @@ double apply(Operation operation, double a, double b) {
 constexpr bool takes_two(Operation operation) {
   return (operation >= Operation::add && operation <= Operation::remainder) ||
          operation == Operation::arc_tangent || operation == Operation::least ||
-         operation == Operation::greatest;
+         operation == Operation::greatest || operation == Operation::join;
 }
 
 Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
@@ -212,12 +217,32 @@ Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
   return diagnostic;
 }
 
+// Of a text as it is, of a number its digits.
+std::string joined_text(const Parameters& parameters, double value) {
+  return is_text(value) ? parameters.text_of(value) : shortest_decimal(value);
+}
+
+// Where an operand is a text or unknown.
+Result<double> apply_to_symbols(const Parameters& parameters, Operation operation, double a,
+                                double b) {
+  if (is_unknown(a)) return a;
+  if (is_unknown(b)) return b;
+  if (operation == Operation::join) {
+    return parameters.text_value(joined_text(parameters, a) + joined_text(parameters, b));
+  }
+  if (operation == Operation::equal) return a == b ? 1.0 : 0.0;
+  if (operation == Operation::not_equal) return a == b ? 0.0 : 1.0;
+  return error("wrong-type"_id,
+               "a computation with the text \"" + parameters.text_of(is_text(a) ? a : b) + "\"",
+               "texts can be compared by == and <> and joined by <<");
+}
+
 }  // namespace
 
 Result<double> evaluate(const ExpressionContext& context, ExpressionRange range) {
-  // Each open bracket holds at most six pending operands: of ATAN, a logical term, a comparison, a
-  // sum, a product, a power.
-  std::array<double, 6 * (kMaxExpressionDepth + 2)> stack;  // NOLINT: written before it is read
+  // Each open bracket holds at most eight pending operands: two indices, of ATAN, a logical term, a
+  // comparison, a sum, a product, a power.
+  std::array<double, 8 * (kMaxExpressionDepth + 2)> stack;  // NOLINT: written before it is read
   std::size_t top = 0;
   for (const ExpressionStep& step : context.steps.subspan(range.first, range.count)) {
     if (step.operation == Operation::number) {
@@ -237,6 +262,21 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
     }
     if (step.operation == Operation::exists_number) {
       stack[top - 1] = context.parameters.has(stack[top - 1]) ? 1.0 : 0.0;
+      continue;
+    }
+    if (step.operation == Operation::text) {
+      stack[top++] =
+          context.parameters.text_value(context.names[static_cast<std::size_t>(step.number)]);
+      continue;
+    }
+    if (step.operation == Operation::element) {
+      const std::uint32_t indices = indices_of_element(step);
+      top -= indices;
+      auto value =
+          context.parameters.read_element(context.names[name_of_element(step)],
+                                          std::span<const double>(stack).subspan(top, indices));
+      if (!value) return at_column(value.error().front(), step.column);
+      stack[top++] = *value;
       continue;
     }
     if (step.operation == Operation::parameter) {
@@ -261,6 +301,12 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
       }
       if (is_vacant(a)) a = 0.0;
       if (is_vacant(b)) b = 0.0;
+    }
+    if (is_symbol(a) || is_symbol(b) || step.operation == Operation::join) {
+      const auto value = apply_to_symbols(context.parameters, step.operation, a, b);
+      if (!value) return at_column(value.error().front(), step.column);
+      stack[top - 1] = *value;
+      continue;
     }
     if (const auto domain = domain_of(step.operation, a, b); domain && !domain->holds) {
       return at_column(error(domain->id,

@@ -5,7 +5,8 @@
 // negative, and operators of one level bind to the left, `**` too: RS-274's rules. Custom Macro has
 // operations of its own under some of these names: AND, OR and XOR combine bits, FIX and FUP round
 // towards zero and away from it, MOD has the sign of what is divided.
-// A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0.
+// A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0. Texts are
+// values too, which can be compared and joined; what is computed from an unknown value is unknown.
 // Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
 // beyond the range of numbers; each at the column of the operation.
 #pragma once
@@ -68,6 +69,10 @@ enum class Operation : std::uint8_t {
   from_bcd,  // BIN
   to_bcd,    // BCD
   as_it_is,  // ADP, which is for words that count increments
+  square,
+  text,     // `number` of the step is the index of the name that is its text
+  join,     // of two: their texts one after the other
+  element,  // of an array: takes its indices
 };
 
 struct ExpressionStep {
@@ -77,6 +82,20 @@ struct ExpressionStep {
 
   bool operator==(const ExpressionStep&) const = default;
 };
+
+// An array has up to this many indices.
+constexpr std::uint32_t kMaxIndices = 3;
+
+// The step of an element holds the index of the name and how many indices there are.
+[[nodiscard]] constexpr double element_step(std::uint32_t name, std::uint32_t indices) {
+  return static_cast<double>(name * (kMaxIndices + 1) + indices);
+}
+[[nodiscard]] constexpr std::uint32_t name_of_element(const ExpressionStep& step) {
+  return static_cast<std::uint32_t>(step.number) / (kMaxIndices + 1);
+}
+[[nodiscard]] constexpr std::uint32_t indices_of_element(const ExpressionStep& step) {
+  return static_cast<std::uint32_t>(step.number) % (kMaxIndices + 1);
+}
 
 // Brackets within brackets beyond this are refused by the grammar, which bounds the stack of
 // evaluate().

@@ -91,6 +91,7 @@ struct FormalParameter {
   std::uint32_t name = 0;  // index into Block::names
   VariableKind kind = VariableKind::real;
   ExpressionRange otherwise{};  // what it is when the call gives none; 0 without
+  bool gives_back = false;      // VAR: a variable of the call has its value afterwards
 };
 
 struct FlowStatement {

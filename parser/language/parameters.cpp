@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/decimal.hpp"
 #include "parser/language/expression.hpp"
@@ -79,11 +80,8 @@ Result<double> Parameters::read(std::string_view name) const {
   }
   if (found == all.end()) {
     if (rules_.names_are_defined) {
-      const bool system = name.starts_with('$');
-      return error(system ? "parameter-unset"_id : "unknown-parameter"_id,
-                   fmt::format("{} {}", name, system ? "has no value here" : "is not defined"),
-                   system ? "it is known once the program has moved the axis in this frame"
-                          : "define it before: DEF REAL and its name");
+      // What the machine knows, its global data among it; an error where the path depends on it.
+      return unknown_value(name);
     }
     // Of a pin of the machine, or of its configuration.
     const bool of_machine = name.starts_with("_hal[") || name.starts_with("_ini[");
@@ -113,10 +111,104 @@ void Parameters::set(std::string_view name, double value) {
     return;
   }
   if (const auto kind = locals_.back().kinds.find(name); kind != locals_.back().kinds.end()) {
-    if (kind->second == VariableKind::whole) value = std::round(value);
-    if (kind->second == VariableKind::truth) value = value != 0.0 ? 1.0 : 0.0;
+    if (is_symbol(value)) {
+      // as it is
+    } else if (kind->second == VariableKind::whole) {
+      value = std::round(value);
+    } else if (kind->second == VariableKind::truth) {
+      value = value != 0.0 ? 1.0 : 0.0;
+    }
   }
   named(name).insert_or_assign(std::string(name), value);
+}
+
+double Parameters::text_value(std::string_view text) const {
+  auto found = symbol_numbers_.find(text);
+  if (found == symbol_numbers_.end()) {
+    found = symbol_numbers_.emplace(text, symbols_.size()).first;
+    symbols_.push_back(&found->first);
+  }
+  return kFirstText + static_cast<double>(found->second);
+}
+
+double Parameters::unknown_value(std::string_view name) const {
+  return kFirstUnknown + (text_value(name) - kFirstText);
+}
+
+const std::string& Parameters::text_of(double symbol) const {
+  const double first = is_unknown(symbol) ? kFirstUnknown : kFirstText;
+  const auto place = static_cast<std::size_t>(symbol - first);
+  // A number so large, which no word can have.
+  static const std::string kNumber = "a number beyond 8e15";
+  return place < symbols_.size() ? *symbols_[place] : kNumber;
+}
+
+std::string Parameters::name_of_element(std::string_view name, std::span<const double> indices) {
+  std::string full(name);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    full += i == 0 ? '[' : ',';
+    full += shortest_decimal(indices[i]);
+  }
+  return full + ']';
+}
+
+const Parameters::Array* Parameters::array_of(std::string_view name) const {
+  const auto found = locals_.back().arrays.find(name);
+  return found == locals_.back().arrays.end() ? nullptr : &found->second;
+}
+
+void Parameters::define_array(std::string_view name, VariableKind kind,
+                              std::vector<std::size_t> dimensions, double value) {
+  std::size_t count = 1;
+  for (const std::size_t size : dimensions) count *= size;
+  locals_.back().arrays.insert_or_assign(
+      std::string(name), Array{kind, std::move(dimensions), std::vector<double>(count, value)});
+}
+
+std::size_t Parameters::size_of(std::string_view name) const {
+  const Array* array = array_of(name);
+  return array == nullptr ? 0 : array->values.size();
+}
+
+Result<std::size_t> Parameters::place_in(std::string_view name,
+                                         std::span<const double> indices) const {
+  const Array* array = array_of(name);
+  if (array == nullptr) {
+    return error("unknown-parameter"_id, fmt::format("{}[] is not defined", name),
+                 fmt::format("define it before: DEF REAL {}[10]", name));
+  }
+  if (indices.size() != array->dimensions.size()) {
+    return error("array-index"_id, fmt::format("{} has {} indices", name, array->dimensions.size()),
+                 "give as many as in its definition");
+  }
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const double nearest = std::round(indices[i]);
+    if (!(nearest >= 0.0 && nearest < static_cast<double>(array->dimensions[i]))) {
+      return error("array-index"_id,
+                   fmt::format("{} has no element {}", name, shortest_decimal(nearest)),
+                   fmt::format("its elements are 0 to {}", array->dimensions[i] - 1));
+    }
+    place = place * array->dimensions[i] + static_cast<std::size_t>(nearest);
+  }
+  return place;
+}
+
+Result<double> Parameters::read_element(std::string_view name,
+                                        std::span<const double> indices) const {
+  if (name.starts_with('$')) return read(name_of_element(name, indices));
+  if (array_of(name) == nullptr) return unknown_value(name_of_element(name, indices));
+  const auto place = place_in(name, indices);
+  if (!place) return place.error();
+  return array_of(name)->values[*place];
+}
+
+bool Parameters::set_element(std::string_view name, std::size_t place, double value) {
+  const auto found = locals_.back().arrays.find(name);
+  if (found == locals_.back().arrays.end() || place >= found->second.values.size()) return false;
+  if (found->second.kind == VariableKind::whole && !is_symbol(value)) value = std::round(value);
+  found->second.values[place] = value;
+  return true;
 }
 
 void Parameters::define(std::string_view name, VariableKind kind, double value) {
@@ -127,7 +219,7 @@ void Parameters::define(std::string_view name, VariableKind kind, double value) 
 bool Parameters::can_set(std::string_view name) const {
   if (!rules_.names_are_defined) return true;
   if (const auto number = number_in(name)) return index_of(*number, rules_).has_value();
-  return named(name).contains(name);
+  return name.starts_with('$') || named(name).contains(name);
 }
 
 bool Parameters::has(std::string_view name) const {

@@ -62,6 +62,18 @@ class KeptParameters {
 constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] inline bool is_vacant(double value) { return std::isnan(value); }
 
+// Texts are values like numbers, which stand for them, and so are the values of system variables
+// that only the machine knows. Both are beyond the numbers that words can have.
+constexpr double kFirstText = 8e15;
+constexpr double kFirstUnknown = 8.5e15;
+[[nodiscard]] constexpr bool is_symbol(double value) { return value >= kFirstText && value < 9e15; }
+[[nodiscard]] constexpr bool is_text(double value) {
+  return value >= kFirstText && value < kFirstUnknown;
+}
+[[nodiscard]] constexpr bool is_unknown(double value) {
+  return value >= kFirstUnknown && value < 9e15;
+}
+
 class Parameters {
  public:
   explicit Parameters(const ParameterRules& rules = {}, const KeptParameters* system = nullptr)
@@ -80,6 +92,26 @@ class Parameters {
   // A variable of the subprogram at work, which keeps its kind: whole numbers are rounded.
   void define(std::string_view name, VariableKind kind, double value);
   [[nodiscard]] bool can_set(std::string_view name) const;
+  // An array of the subprogram at work, each element of that value.
+  void define_array(std::string_view name, VariableKind kind, std::vector<std::size_t> dimensions,
+                    double value);
+  // The place of an element in its array; that of a text variable's length is left out.
+  [[nodiscard]] Result<std::size_t> place_in(std::string_view name,
+                                             std::span<const double> indices) const;
+  [[nodiscard]] Result<double> read_element(std::string_view name,
+                                            std::span<const double> indices) const;
+  // Whether the array has that place.
+  [[nodiscard]] bool set_element(std::string_view name, std::size_t place, double value);
+  // How many elements it has; 0 when there is no such array.
+  [[nodiscard]] std::size_t size_of(std::string_view name) const;
+  // The name of a system variable with its indices: $TC_DP6[1,1].
+  [[nodiscard]] static std::string name_of_element(std::string_view name,
+                                                   std::span<const double> indices);
+
+  // The value that stands for a text, or for what only the machine knows, and back.
+  [[nodiscard]] double text_value(std::string_view text) const;
+  [[nodiscard]] double unknown_value(std::string_view name) const;
+  [[nodiscard]] const std::string& text_of(double symbol) const;
   [[nodiscard]] const ParameterRules& rules() const { return rules_; }
 
   // A call: #1, #2, .. are `arguments` until the matching leave().
@@ -89,16 +121,24 @@ class Parameters {
  private:
   using Numbered = std::unordered_map<int, double>;
   using Named = std::map<std::string, double, std::less<>>;
+  struct Array {
+    VariableKind kind = VariableKind::real;
+    std::vector<std::size_t> dimensions{};
+    std::vector<double> values{};
+  };
   struct Locals {
+    std::map<std::string, Array, std::less<>> arrays{};
     Numbered numbered{};
     Named named{};
     std::map<std::string, VariableKind, std::less<>> kinds{};
   };
+  [[nodiscard]] const Array* array_of(std::string_view name) const;
   // The number that a name such as R5 represents.
   [[nodiscard]] std::optional<double> number_in(std::string_view name) const;
   [[nodiscard]] bool is_local(int index) const { return index <= rules_.locals; }
   [[nodiscard]] bool is_local(std::string_view name) const {
     if (!rules_.local_names.empty()) return name.starts_with(rules_.local_names);
+    if (name.starts_with('$')) return false;
     return rules_.named_locals && (rules_.names_are_defined || !name.starts_with('_'));
   }
   [[nodiscard]] Numbered& numbered(int index) {
@@ -116,6 +156,9 @@ class Parameters {
 
   ParameterRules rules_;
   const KeptParameters* system_;
+  // Texts and names that values stand for. Reading an expression may add one.
+  mutable std::map<std::string, std::size_t, std::less<>> symbol_numbers_{};
+  mutable std::vector<const std::string*> symbols_{};
   Numbered numbered_{};
   Named named_{};
   std::vector<Locals> locals_{

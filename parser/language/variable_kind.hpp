@@ -8,6 +8,6 @@
 
 namespace frustum::parser {
 
-enum class VariableKind : std::uint8_t { real, whole, truth };
+enum class VariableKind : std::uint8_t { real, whole, truth, text, axis, character };
 
 }  // namespace frustum::parser

@@ -171,6 +171,23 @@ void ExpressionReader::append_divisor(const ExpressionFunction& function) {
   append_bracketed(function.name);
 }
 
+void ExpressionReader::append_element(const std::string& array, std::uint32_t column) {
+  const std::uint32_t opening = in_.column();
+  in_.take('[');
+  std::uint32_t indices = 0;
+  do {
+    append(sum, opening);
+    ++indices;
+  } while (indices < kMaxIndices && in_.take(','));
+  if (!in_.take(']')) {
+    in_.fail("bracket-not-closed"_id, in_.column(), "the index is not closed", "close it with ]");
+  }
+  block_.names.push_back(array);
+  const auto name = static_cast<std::uint32_t>(block_.names.size() - 1);
+  if (!in_.failed())
+    block_.steps.push_back({Operation::element, column, element_step(name, indices)});
+}
+
 void ExpressionReader::append_bracketed(std::string_view whose) {
   const std::uint32_t opening = open_bracket(whose);
   append(spelling_.argument, opening);

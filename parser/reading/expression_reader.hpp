@@ -60,6 +60,8 @@ class ExpressionReader {
   [[nodiscard]] LineScanner& in() { return in_; }
   // An expression within something that opened at that column, or here.
   void append(ExpressionLevel level, std::uint32_t opening = 0);
+  // The indices of that array in [ ], then its element.
+  void append_element(const std::string& array, std::uint32_t column);
   // An argument in its brackets.
   void append_bracketed(std::string_view whose);
   // The column of the bracket.

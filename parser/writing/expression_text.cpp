@@ -38,6 +38,10 @@ class ExpressionWriter {
         return push(
             fmt::format("EXISTS{}{}{}", spelling_.call_open, numbered(pop()), spelling_.call_close),
             kPrimary);
+      case Operation::text:
+        return push('"' + names_[static_cast<std::size_t>(step.number)] + '"', kPrimary);
+      case Operation::element:
+        return push(element(step), kPrimary);
       case Operation::parameter:
         return push(numbered(pop()), kPrimary);
       case Operation::negate:
@@ -88,6 +92,14 @@ class ExpressionWriter {
   [[nodiscard]] std::string named(const ExpressionStep& step) const {
     return fmt::format("{}{}{}", spelling_.name_open, names_[static_cast<std::size_t>(step.number)],
                        spelling_.name_close);
+  }
+  // A[1,2]
+  std::string element(const ExpressionStep& step) {
+    std::string indices;
+    for (std::uint32_t i = 0; i < indices_of_element(step); ++i) {
+      indices = at(pop(), static_cast<int>(ExpressionLevel::sum)) + (i == 0 ? "" : ",") + indices;
+    }
+    return fmt::format("{}[{}]", names_[name_of_element(step)], indices);
   }
   // #1, ##1, #[#1+1], R[R1+1].
   [[nodiscard]] std::string numbered(const Piece& index) const {

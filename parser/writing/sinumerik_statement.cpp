@@ -76,8 +76,9 @@ class StatementWriter {
   [[nodiscard]] std::string procedure() const {
     std::string parameters;
     for (const FormalParameter& parameter : flow_.parameters) {
-      parameters += fmt::format("{}{} {}", parameters.empty() ? "" : ",",
-                                sinumerik_type(parameter.kind), block_.names[parameter.name]);
+      parameters += fmt::format("{}{}{} {}", parameters.empty() ? "" : ",",
+                                parameter.gives_back ? "VAR " : "", sinumerik_type(parameter.kind),
+                                block_.names[parameter.name]);
       if (!parameter.otherwise.empty()) parameters += "=" + text(parameter.otherwise, sum);
     }
     return fmt::format("PROC {}({}){}", flow_.label, parameters, flow_.keeps_modes ? " SAVE" : "");
@@ -124,6 +125,8 @@ std::string_view sinumerik_measure(Measure measure) {
 }
 
 std::string_view sinumerik_type(VariableKind kind) {
+  // A text needs its greatest length.
+  if (kind == VariableKind::text) return "STRING[200]";
   return std::ranges::find(kTypeNames, kind, &TypeName::kind)->name;
 }
 

@@ -25,9 +25,12 @@ constexpr std::array<std::string_view, 16> kSwivel{
     "_B=", "_C=", "_X1=", "_Y1=",   "_Z1=", "_DIR=", "_FR_I", "_DMODE"};
 
 // Events that are written NAME=text, and NAME text; else NAME(text).
-constexpr std::array<std::string_view, 8> kSettings{"SPOS", "SPOSA", "ADIS",   "ADISPOS",
-                                                    "LIMS", "OVR",   "OVRRAP", "ACC"};
-constexpr std::array<std::string_view, 3> kOpenTexts{"G25", "G26", "EXTERN"};
+constexpr std::array<std::string_view, 24> kSettings{
+    "SPOS",    "SPOSA", "ADIS",    "ADISPOS", "LIMS",     "OVR", "OVRRAP", "ACC",
+    "CTOL",    "OTOL",  "STOLF",   "ATOL",    "FD",       "SCC", "FL",     "JERKLIM",
+    "VELOLIM", "FGREF", "ACCLIMA", "OVRA",    "FIFOCTRL", "FPR", "TOLFRC", "CUTMOD"};
+constexpr std::array<std::string_view, 10> kOpenTexts{
+    "G25", "G26", "EXTERN", "DEFINE", "WHENEVER", "WHEN", "EVERY", "IDS", "ID", "DO"};
 
 template <std::size_t N>
 bool is_in(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -56,6 +59,8 @@ std::string comment_text(const Comment& comment) {
   if (comment.event == nullptr) return ";" + comment.text;
   const std::string_view event = comment.event;
   if (is_retract(comment)) return "";  // a parameter of the cycle
+  if (comment.of_builder && event.size() == 1)
+    return comment.event + comment.text;
   if (is_in(kSettings, event)) return fmt::format("{}={}", event, comment.text);
   if (is_in(kOpenTexts, event)) return fmt::format("{} {}", event, comment.text);
   return call_text(event == "message" ? "MSG" : event, comment.text);
@@ -160,6 +165,42 @@ class SinumerikBlock {
     return fmt::format("CYCLE800({})", fmt::join(slots, ","));
   }
 
+  [[nodiscard]] std::string list_text(std::span<const ExpressionRange> ranges,
+                                      ExpressionLevel level) const {
+    std::vector<std::string> parts;
+    for (const ExpressionRange& range : ranges) {
+      parts.push_back(range_text(spelling_, block_, range, level));
+    }
+    return fmt::format("{}", fmt::join(parts, ","));
+  }
+
+  // CTRANS(X,10,Y,20):CROT(Z,30)
+  [[nodiscard]] std::string frame_text(const Assignment& setting) const {
+    std::vector<std::string> parts;
+    for (const FramePart& part : setting.frame) {
+      std::vector<std::string> values;
+      for (std::size_t i = 0; i < part.axes.size(); ++i) {
+        std::string value(1, part.axes[i]);
+        if (i < part.values.size()) {
+          value += "," + range_text(spelling_, block_, part.values[i], sum);
+        }
+        values.push_back(std::move(value));
+      }
+      parts.push_back(fmt::format("{}({})", part.name, fmt::join(values, ",")));
+    }
+    return fmt::format("{}", fmt::join(parts, ":"));
+  }
+
+  // 5, SET(1,2,3), REP(0)
+  [[nodiscard]] std::string values_text(const Assignment& setting) const {
+    const std::string first = range_text(spelling_, block_, setting.value, disjunction);
+    if (setting.fills) return fmt::format("REP({})", first);
+    const bool whole_array = setting.defines && !setting.indices.empty();
+    if (setting.more.empty() && !whole_array) return first;
+    return fmt::format("SET({}{}{})", first, setting.more.empty() ? "" : ",",
+                       list_text(setting.more, disjunction));
+  }
+
   // R1=2 R[R1]=3 WIDTH=4, DEF REAL WIDTH=4, DEPTH=0
   [[nodiscard]] std::string settings_text() const {
     std::string text;
@@ -172,7 +213,9 @@ class SinumerikBlock {
       text += setting.name
                   ? block_.names[*setting.name]
                   : fmt::format("R[{}]", range_text(spelling_, block_, setting.index, sum));
-      text += "=" + range_text(spelling_, block_, setting.value, disjunction);
+      if (!setting.indices.empty()) text += "[" + list_text(setting.indices, sum) + "]";
+      if (!setting.value.empty()) text += "=" + values_text(setting);
+      if (!setting.frame.empty()) text += "=" + frame_text(setting);
     }
     return text;
   }

@@ -14,6 +14,7 @@
 #include "parser/interpret/cycles/canned_cycle.hpp"
 #include "parser/interpret/cycles/canned_cycle_call.hpp"
 #include "parser/interpret/cycles/drilling_steps.hpp"
+#include "parser/interpret/cycles/hole_pattern.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/state/block_words.hpp"
@@ -299,9 +300,28 @@ Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uin
   return Done{};
 }
 
+// HOLES1, HOLES2, CYCLE801: the modal cycle at each place; without one the tool only goes there.
+Outcome drill_pattern(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::hole_pattern];
+  const auto places = pattern_places(state, words);
+  if (!places) return places.error();
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  for (const Vec2& place : *places) {
+    state.position.set(static_cast<AxisLetter>(axes.u), place.x());
+    state.position.set(static_cast<AxisLetter>(axes.v), place.y());
+    emit(state, code.column,
+         Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+    if (!state.modes.drilling) continue;
+    const DrillingCycle cycle = *state.modes.drilling;
+    if (auto done = drill_here(state, cycle, code.column); !done) return done;
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Outcome call_drilling_cycle(InterpreterState& state, const BlockWords& words) {
+  if (words.has(CodeGroup::hole_pattern)) return drill_pattern(state, words);
   const GivenCode& code = words[CodeGroup::drilling_cycle];
   const bool modal = words.has(CodeGroup::hole_call);
   if (code.code == nullptr) {

@@ -10,8 +10,6 @@
 namespace frustum::parser {
 namespace {
 
-using enum AxisLetter;
-
 constexpr double kStraight = 1e-6;        // sine of the angle between two moves that have no corner
 constexpr double kCornerRounding = 1e-9;  // mm
 
@@ -34,38 +32,13 @@ Feed* feed_of_line(Command& command) {
   if (auto* arc = std::get_if<ArcFeed>(&command)) return &arc->feed;
   return nullptr;
 }
-void end_at(Command& command, const Vec2& point) {
+AxisTarget& moved_end(Command& command) {
   auto* feed = std::get_if<LinearFeed>(&command);
-  AxisTarget& end = feed != nullptr ? feed->end : std::get<ArcFeed>(command).end;
-  end[X] = point.x();
-  end[Y] = point.y();
+  return feed != nullptr ? feed->end : std::get<ArcFeed>(command).end;
 }
 bool cuts_nothing(const Command& command) {
   return std::holds_alternative<Event>(command) || std::holds_alternative<SpindleChange>(command) ||
          std::holds_alternative<CoolantChange>(command);
-}
-
-// A cutting move that moves X and Y alone; nothing for others.
-std::optional<PathPiece> piece_of(const AxisTarget& from, const Command& command) {
-  const auto* line = std::get_if<LinearFeed>(&command);
-  const auto* arc = std::get_if<ArcFeed>(&command);
-  if (line == nullptr && arc == nullptr) return std::nullopt;
-  if (line != nullptr && line->coordinates == Coordinates::machine) return std::nullopt;
-  if (arc != nullptr && arc->plane != Plane::xy) return std::nullopt;
-  const AxisTarget& end = line != nullptr ? line->end : arc->end;
-  for (const AxisLetter axis : {Z, A, B, C}) {
-    if (end[axis] && end[axis] != from[axis]) return std::nullopt;
-  }
-  if (!from[X] || !from[Y] || !end[X] || !end[Y]) return std::nullopt;
-  PathPiece piece{Vec2(*from[X], *from[Y]), Vec2(*end[X], *end[Y])};
-  if (arc != nullptr) {
-    if (std::abs(arc->turns) != 1) return std::nullopt;
-    piece.centre = arc->center.head<2>();
-    piece.turns = arc->turns;
-  } else if ((piece.end - piece.start).norm() < kCornerRounding) {
-    return std::nullopt;
-  }
-  return piece;
 }
 
 // Of a line or circle, the point next to `point`.
@@ -79,12 +52,41 @@ Vec2 foot_on(const PathPiece& piece, const Vec2& point) {
 
 }  // namespace
 
+void CornerInsertion::begin(const AxisTarget& reached, Plane plane) {
+  reached_ = reached;
+  plane_ = plane;
+}
+
+std::optional<PathPiece> CornerInsertion::piece_of(const Command& command) const {
+  const auto* line = std::get_if<LinearFeed>(&command);
+  const auto* arc = std::get_if<ArcFeed>(&command);
+  if (line == nullptr && arc == nullptr) return std::nullopt;
+  if (line != nullptr && line->coordinates == Coordinates::machine) return std::nullopt;
+  if (arc != nullptr && arc->plane != plane_) return std::nullopt;
+  const AxisTarget& end = line != nullptr ? line->end : arc->end;
+  for (const AxisLetter axis : kAxisLetters) {
+    if (axis != u() && axis != v() && end[axis] && end[axis] != reached_[axis]) return std::nullopt;
+  }
+  if (!reached_[u()] || !reached_[v()] || !end[u()] || !end[v()]) return std::nullopt;
+  PathPiece piece{Vec2(*reached_[u()], *reached_[v()]), Vec2(*end[u()], *end[v()])};
+  if (arc != nullptr) {
+    if (std::abs(arc->turns) != 1) return std::nullopt;
+    const PlaneAxes axes = axes_of(plane_);
+    piece.centre = Vec2(arc->center[axes.u], arc->center[axes.v]);
+    piece.turns = arc->turns;
+  } else if ((piece.end - piece.start).norm() < kCornerRounding) {
+    return std::nullopt;
+  }
+  return piece;
+}
+
 CornerInsertion::Failure CornerInsertion::insert(const Corner& corner) {
   if (corner_) {
     return complaint(corner.place, "corner-twice"_id,
                      fmt::format("{} after {}", corner.name, corner_->name),
                      "a corner is between two moves: write one of them");
   }
+  if (!piece_ && corner.if_any) return std::nullopt;
   if (!piece_) {
     return complaint(corner.place, "corner-without-move"_id,
                      corner.name + " after no cutting move in the plane",
@@ -106,9 +108,11 @@ CornerInsertion::Failure CornerInsertion::take(Motion&& motion, const Sink& sink
     return std::nullopt;
   }
   const AxisTarget* end = end_of(motion.command);
-  auto piece = piece_of(reached_, motion.command);
+  auto piece = piece_of(motion.command);
   Failure failure;
-  if (corner_ && !piece) {
+  if (corner_ && !piece && corner_->if_any) {
+    // The contour ends here.
+  } else if (corner_ && !piece) {
     failure = complaint(corner_->place, "corner-without-move"_id,
                         corner_->name + " before no cutting move in the plane",
                         "write an L or C block after it that moves in X and Y alone");
@@ -150,6 +154,7 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
     return complaint(corner.place, id, std::move(message), std::move(hint));
   };
   const double turn = signed_angle(direction_at_end(before), direction_at_start(piece));
+  if (corner.if_any && std::abs(turn) < kStraight) return std::nullopt;
   if (std::abs(std::sin(turn)) < kStraight) {
     return fail("corner-none"_id,
                 fmt::format("{} where the moves {}", corner.name,
@@ -162,9 +167,10 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
   }
   const double side = turn > 0.0 ? 1.0 : -1.0;
   const double lengths[] = {length_of(before), length_of(piece)};
-  double lost[] = {corner.size, corner.size};
-  Vec2 begin = before.end - corner.size * direction_at_end(before);
-  Vec2 end = piece.start + corner.size * direction_at_start(piece);
+  const double share = corner.across ? corner.size / (2.0 * std::cos(turn / 2.0)) : corner.size;
+  double lost[] = {share, share};
+  Vec2 begin = before.end - share * direction_at_end(before);
+  Vec2 end = piece.start + share * direction_at_start(piece);
   Vec2 centre = Vec2::Zero();
   bool fits = true;
   if (corner.rounds) {
@@ -205,11 +211,14 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
     return fail("corner-timed"_id, corner.name + " beside a move with FT",
                 "give the moves at the corner a feed F");
   }
+  if (corner.feed_of_next) feed = *feed_of_line(next.command);
   if (corner.feed) feed.value = *corner.feed;
-  end_at(waiting_.front().command, begin);
+  AxisTarget& shortened = moved_end(waiting_.front().command);
+  shortened[u()] = begin.x();
+  shortened[v()] = begin.y();
   AxisTarget target = reached_;
-  target[X] = end.x();
-  target[Y] = end.y();
+  target[u()] = end.x();
+  target[v()] = end.y();
   const auto tool_axis = std::visit(
       [](const auto& command) -> std::optional<UnitVec3> {
         if constexpr (requires { command.tool_axis; }) return command.tool_axis;
@@ -217,11 +226,14 @@ CornerInsertion::Failure CornerInsertion::cut(Motion& next, PathPiece& piece, co
       },
       waiting_.front().command);
   piece.start = end;
-  const double height = target[Z].value_or(0.0);
+  Vec3 middle = Vec3::Zero();
+  middle[axes_of(plane_).u] = centre.x();
+  middle[axes_of(plane_).v] = centre.y();
+  middle[axes_of(plane_).w] = target[w()].value_or(0.0);
   release(sink);
   if (corner.rounds) {
-    sink(Motion{corner.place, ArcFeed{target, Vec3(centre.x(), centre.y(), height), Plane::xy,
-                                      side > 0.0 ? 1 : -1, tool_axis, feed}});
+    sink(Motion{corner.place,
+                ArcFeed{target, middle, plane_, side > 0.0 ? 1 : -1, tool_axis, feed}});
   } else {
     sink(Motion{corner.place, LinearFeed{target, tool_axis, Coordinates::program, feed}});
   }

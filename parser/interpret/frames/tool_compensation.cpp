@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -134,7 +135,7 @@ Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
   return of_tool;
 }
 
-Result<Compensation> compensation_after(const InterpreterState& state, const BlockWords& words) {
+Result<Compensation> compensation_after(InterpreterState& state, const BlockWords& words) {
   Compensation next = state.modes.compensation;
   const GivenCode& length = words[CodeGroup::length_compensation];
   if (length.code != nullptr) {
@@ -169,16 +170,15 @@ Result<Compensation> compensation_after(const InterpreterState& state, const Blo
   if (words.has('D') && state.rules.always_claimed.has('D')) {
     const auto edge = whole(state, words, 'D', 0, kMaxEdge);
     if (!edge) return edge.error();
-    if (*edge > 1) {
-      return fail(state, words['D'].column, "not-simulated"_id,
-                  fmt::format("{} is not simulated", words.text_of('D')),
-                  "tools have one edge here: D1, or D0 for no length");
-    }
-    next.length = *edge == 1;
+    next.length = *edge > 0;
+    state.modes.tool_edge = std::max(*edge, 1);
+  } else if (words.has(CodeGroup::tool_change)) {
+    state.modes.tool_edge = 1;
   }
   if (state.rules.tool_brings_length) {
     next.length = next.length && state.modes.tool != 0;
-    next.offset_number = next.length ? state.modes.tool : 0;
+    const int edge = state.modes.tool_edge - 1;
+    next.offset_number = next.length ? kEdgeOffsets * edge + state.modes.tool : 0;
   }
   next.tip =
       words.value_or(CodeGroup::tool_tip, next.tip ? TipWord::on : TipWord::off) == TipWord::on;
@@ -269,6 +269,9 @@ Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
 
   const GivenCode& length = words[CodeGroup::length_compensation];
   const GivenCode& tip = words[CodeGroup::tool_tip];
+  if (tip.code != nullptr && tip.code->word == "TRAOOF") {
+    assume(state, tip.column, "TRAOOF", "read as TRAFOOF, which it looks like");
+  }
   const GivenCode& tool = words[CodeGroup::tool_change];
   const GivenCode& cause = length.code != nullptr ? length : tip.code != nullptr ? tip : tool;
   if (length.code != nullptr || !same(before, after)) {

@@ -75,6 +75,40 @@ void return_to_point(InterpreterState& state, std::size_t point, LetterSet axes,
   leave_program_coordinates(state, to_machine, PositionLoss::home);
 }
 
+// Where only the setup knows the tool's length: as with no work offset (G500), which is the same
+// place.
+Outcome move_tip_in_machine_coordinates(InterpreterState& state, const BlockWords& words,
+                                        const Movement& movement, const AxisTarget& end,
+                                        LetterSet named) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  if (state.modes.tilted || !state.modes.programmed_frame.is_identity() ||
+      !state.modes.offset_frame.is_identity()) {
+    return fail(
+        state, code.column, "tool-length-active"_id,
+        fmt::format("{} with a tool length that only the setup knows, in a turned or shifted "
+                    "frame",
+                    code.code->name()),
+        "end the frame before, or write D0 on this block");
+  }
+  AxisTarget axes = axis_positions(state);
+  emit(state, movement.column, WorkOffsetChange{0});
+  if (movement.motion == MotionMode::traverse) {
+    emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::program});
+  } else {
+    const auto feed = feed_for(state, words, movement, true);
+    if (!feed) return feed.error();
+    emit(state, movement.column, LinearFeed{end, std::nullopt, Coordinates::program, *feed});
+  }
+  emit(state, movement.column, WorkOffsetChange{state.modes.work_offset});
+  for (const AxisLetter axis : kAxisLetters) {
+    if (end[axis]) axes[axis] = end[axis];
+  }
+  axes[AxisLetter::Z].reset();
+  leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
+  arrive(state, axes);
+  return Done{};
+}
+
 }  // namespace
 
 Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t point) {
@@ -181,12 +215,16 @@ Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& w
     end[axis] = scaled(state, axis, words[letter].value);
   }
   const Compensation& kept = state.modes.compensation;
-  const bool tip_moves = kept.tip || (kept.length && !(named & kLinearWords).empty());
-  if (state.rules.machine_coordinates_keep_length && tip_moves) {
+  if (state.rules.machine_coordinates_keep_length && kept.tip) {
     return fail(state, words[CodeGroup::non_modal].column, "tool-length-active"_id,
-                fmt::format("{} with a tool length or TRAORI would place the tool's tip",
+                fmt::format("{} with TRAORI would place the tool's tip",
                             words[CodeGroup::non_modal].code->name()),
-                "switch them off before: TRAFOOF, and D0 on this block");
+                "switch it off before: TRAFOOF");
+  }
+  if (state.rules.machine_coordinates_keep_length && kept.length && end[AxisLetter::Z]) {
+    assume(state, words[CodeGroup::non_modal].column, "machine-coordinates-length",
+           "SUPA, G53 and G153 keep the tool's length (MN_G53_TOOLCORR = 0)");
+    return move_tip_in_machine_coordinates(state, words, movement, end, named);
   }
   if (movement.motion == MotionMode::traverse) {
     emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::machine});

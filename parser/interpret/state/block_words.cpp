@@ -122,6 +122,25 @@ void BlockWords::rescale(LetterSet letters, double factor) {
   }
 }
 
+namespace {
+
+// X="LEFT", X=$AA_IM[X]
+Diagnostic symbol_in_word(const Block& block, const Parameters& parameters, const Word& word,
+                          double value, const std::string& name) {
+  if (is_text(value)) {
+    return at(
+        block, word.column, "wrong-type"_id,
+        fmt::format("{} has the text \"{}\" instead of a number", name, parameters.text_of(value)),
+        "texts are for T and for calls");
+  }
+  return at(block, word.column, "unknown-value"_id,
+            fmt::format("{} depends on {}, which only the machine knows", name,
+                        parameters.text_of(value)),
+            "give a number");
+}
+
+}  // namespace
+
 Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
                               const DialectRules& rules, const ControlSettings& control) {
   const ExpressionContext context{block.steps, block.names, parameters};
@@ -159,8 +178,11 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
                   fmt::format("{} is given twice in a block", words.name_of(word.letter)),
                   "leave one of them out, or write two blocks");
       }
+      if (is_symbol(number) && (word.letter != 'T' || is_unknown(number))) {
+        return symbol_in_word(block, parameters, word, number, words.name_of(word.letter));
+      }
       // Beyond this sums and squares of positions would leave the range of numbers.
-      if (!(std::abs(number) <= kLargestValue)) {
+      if (!(std::abs(number) <= kLargestValue) && !is_symbol(number)) {
         return at(block, word.column, "out-of-range"_id,
                   words.name_of(word.letter) + " is too large",
                   "the values of words go up to 1e15");

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ struct ControlData {
   bool shift_counts = false;
   int selected_offset = 1;
   int tool = 0;
-  LengthUnit unit = LengthUnit::millimetre;  // of the lengths in parameters
+  std::map<std::string, int, std::less<>> tool_names{};  // of tools that are called by names
+  LengthUnit unit = LengthUnit::millimetre;              // of the lengths in parameters
 
   // What is there, or an empty entry.
   [[nodiscard]] WorkOffset work_offset(int number) const;

@@ -93,6 +93,12 @@ struct Pole {
   std::optional<double> angle{};
 };
 
+// RNDM= and FRCM=: roundings of all corners, and their feed; zero where there is none.
+struct ModalCorner {
+  double radius = 0.0;
+  double feed = 0.0;
+};
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   MotionMode before_cycle = MotionMode::none;  // the last motion that was no canned cycle
@@ -116,6 +122,7 @@ struct ModalState {
   ProgrammedFrame offset_frame{};
   std::optional<int> selected_tool{};
   int tool = 0;                                        // in the spindle
+  int tool_edge = 1;                                   // D of Sinumerik, above zero
   std::optional<FeedWord> tool_feed{};                 // of TOOL CALL, for F AUTO
   RotaryPath rotary_path = RotaryPath::as_programmed;  // M126
   std::array<RotaryPath, 3> announced_rotary_paths{};  // of A, B, C: the last ones in the motions
@@ -145,6 +152,7 @@ struct ModalState {
   double spindle_speed = 0.0;
   bool surface_speed = false;  // G96: S is a cutting speed, which the spindle follows
   bool flood = false;
+  ModalCorner corner{};
   std::optional<UnitVec3> tool_axis{};  // the last tool vector, until a rotary word replaces it
 
   [[nodiscard]] bool tool_centre_point() const { return compensation.tip; }

@@ -237,9 +237,19 @@ Value sinumerik_variable(const SystemParameters& of, std::string_view name) {
     const auto axis = std::string_view("XYZABC").find(name[start.size()]);
     return position_of(of, kAxisLetters.at(axis));
   }
+  // Neither a search for a block nor a test or another simulation is under way.
+  constexpr std::array<std::string_view, 5> kOfTheRun{"$P_SEARCH", "$P_SEARCHL", "$P_ISTEST",
+                                                      "$P_SIM", "$P_DRYRUN"};
+  if (std::find(kOfTheRun.begin(), kOfTheRun.end(), name) != kOfTheRun.end()) return 0.0;
   if (name == "$P_TOOLNO") return of.state.tool;
   if (name == "$P_F") return of.state.feed ? of.state.feed->as_written : 0.0;
   if (name == "$P_S") return of.state.spindle_speed;
+  if (name == "$P_TOOL") return of.state.compensation.length ? of.state.tool_edge : 0;
+  if (name == "$P_TOOLR" || name == "$P_TOOLD") {
+    const auto tool = of.data.tools.find(of.state.tool);
+    if (tool == of.data.tools.end()) return std::nullopt;
+    return in_program_unit(tool->second.diameter / (name == "$P_TOOLR" ? 2.0 : 1.0), of.state);
+  }
   if (name == "$P_SDIR") {
     // 3 clockwise, 4 counterclockwise, 5 off: as the M words.
     constexpr std::array kWords{5.0, 3.0, 4.0};

@@ -20,7 +20,7 @@ std::uint64_t digit_of(char c) { return static_cast<std::uint64_t>(c - '0'); }
 
 class PlainReader {
  public:
-  explicit PlainReader(std::string_view text) : text_(text) {}
+  PlainReader(std::string_view text, LetterSet letters) : text_(text), letters_(letters) {}
 
   // Whether all of the text is plain.
   bool read(Block& block) {
@@ -50,7 +50,7 @@ class PlainReader {
 
   bool read_word(Block& block) {
     const char letter = upper(text_[place_]);
-    if (letter < 'A' || letter > 'Z' || letter == 'N' || letter == 'O') return false;
+    if (letter < 'A' || letter > 'Z' || !letters_.has(letter)) return false;
     Word word;
     word.letter = letter;
     word.column = static_cast<std::uint32_t>(++place_);
@@ -102,15 +102,17 @@ class PlainReader {
   }
 
   std::string_view text_;
+  LetterSet letters_;
   std::size_t place_ = 0;
 };
 
 }  // namespace
 
-std::optional<Block> read_plain_block(std::string_view text, std::uint32_t line) {
+std::optional<Block> read_plain_block(std::string_view text, std::uint32_t line,
+                                      LetterSet letters) {
   std::optional<Block> block(std::in_place);
   block->line = line;
-  if (!PlainReader(text).read(*block)) block.reset();
+  if (!PlainReader(text, letters).read(*block)) block.reset();
   return block;
 }
 

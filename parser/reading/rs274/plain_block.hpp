@@ -11,9 +11,14 @@
 #include <string_view>
 
 #include "parser/language/block.hpp"
+#include "parser/language/letter_set.hpp"
 
 namespace frustum::parser {
 
-[[nodiscard]] std::optional<Block> read_plain_block(std::string_view text, std::uint32_t line);
+constexpr LetterSet kLettersOfRs274{"ABCDEFGHIJKLMPQRSTUVWXYZ"};
+
+// Words of other letters are not plain.
+[[nodiscard]] std::optional<Block> read_plain_block(std::string_view text, std::uint32_t line,
+                                                    LetterSet letters = kLettersOfRs274);
 
 }  // namespace frustum::parser

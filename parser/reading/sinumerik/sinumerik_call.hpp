@@ -20,4 +20,7 @@ void read_sinumerik_definition(BlockDraft& draft, std::uint32_t column);
 // NAME(1, R2) P3; the name is read.
 void read_sinumerik_call(BlockDraft& draft, const std::string& name, std::uint32_t column);
 
+// CALL "NAME", EXTCALL("NAME"), PCALL NAME(1,2): after the first word.
+void read_sinumerik_named_call(BlockDraft& draft, std::uint32_t column);
+
 }  // namespace frustum::parser

@@ -91,6 +91,23 @@ constexpr std::array kOfStoppedBoring{kBack,  kReference,     kClearance,
 constexpr std::array kOfBoring{kBack,          kReference, kClearance, kDepth,
                                kRelativeDepth, kDwell,     kDirection};
 
+constexpr CycleParameter kFirstPlace{'u', "SPCA="};
+constexpr CycleParameter kSecondPlace{'v', "SPCO="};
+constexpr CycleParameter kStartAngle{'q', "STA1="};
+constexpr std::array kOfRow{kFirstPlace,
+                            kSecondPlace,
+                            kStartAngle,
+                            CycleParameter{'f', "FDIS="},
+                            CycleParameter{'d', "DBH="},
+                            CycleParameter{'k', "NUM="}};
+constexpr std::array kOfCircle{CycleParameter{'u', "CPA="},  CycleParameter{'v', "CPO="},
+                               CycleParameter{'r', "RAD="},  kStartAngle,
+                               CycleParameter{'d', "INDA="}, CycleParameter{'k', "NUM="}};
+constexpr std::array kOfGrid{CycleParameter{'u', "_SPCA="}, CycleParameter{'v', "_SPCO="},
+                             CycleParameter{'q', "_STA="},  CycleParameter{'f', "_DIS1="},
+                             CycleParameter{'d', "_DIS2="}, CycleParameter{'k', "_NUM1="},
+                             CycleParameter{'l', "_NUM2="}};
+
 struct Cycle {
   std::string_view name;
   std::span<const CycleParameter> parameters;
@@ -100,7 +117,8 @@ constexpr std::array kCycles{
     Cycle{"CYCLE83", kOfPecking},       Cycle{"CYCLE84", kOfTapping},
     Cycle{"CYCLE85", kOfReaming},       Cycle{"CYCLE86", kOfOrientedBoring},
     Cycle{"CYCLE87", kOfStoppedBoring}, Cycle{"CYCLE88", kOfBoring},
-    Cycle{"CYCLE89", kOfDrilling},
+    Cycle{"CYCLE89", kOfDrilling},      Cycle{"HOLES1", kOfRow},
+    Cycle{"HOLES2", kOfCircle},         Cycle{"CYCLE801", kOfGrid},
 };
 const Cycle* cycle_of(std::string_view name) {
   const auto* found = std::find_if(kCycles.begin(), kCycles.end(),
@@ -160,7 +178,10 @@ void read_sinumerik_modal_call(BlockDraft& draft, std::uint32_t column) {
   LineScanner& in = draft.in;
   add_code(draft.block, *find_code(Dialect::sinumerik, "MCALL"), column);
   const std::string name = in.next_name();
-  if (name.empty() || is_sinumerik_cycle(name)) return;
+  if (name.empty() ||
+      (is_sinumerik_cycle(name) && name.starts_with("CYCLE8") && name.size() == 7)) {
+    return;
+  }
   in.fail("not-supported"_id, column, fmt::format("MCALL {} is not simulated", name),
           "MCALL calls CYCLE81 to CYCLE89; call a program in a block of its own at each place");
 }

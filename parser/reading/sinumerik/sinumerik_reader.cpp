@@ -6,11 +6,14 @@
 #include <charconv>
 
 #include "parser/dialects/code_table.hpp"
+#include "parser/dialects/dialect_rules.hpp"
 #include "parser/reading/block_draft.hpp"
 #include "parser/reading/block_reader.hpp"
+#include "parser/reading/rs274/plain_block.hpp"
 #include "parser/reading/sinumerik/sinumerik_call.hpp"
 #include "parser/reading/sinumerik/sinumerik_cycle.hpp"
 #include "parser/reading/sinumerik/sinumerik_flow.hpp"
+#include "parser/reading/sinumerik/sinumerik_settings.hpp"
 #include "parser/reading/sinumerik/sinumerik_swivel.hpp"
 #include "parser/reading/sinumerik/sinumerik_values.hpp"
 
@@ -26,17 +29,14 @@ struct Address {
 };
 // Words that are written with = and longer than their letter.
 constexpr std::array kAddresses{
-    Address{"A3", 'a', "A3="}, Address{"B3", 'b', "B3="},     Address{"C3", 'c', "C3="},
-    Address{"CR", 'R', "CR="}, Address{"TURN", 'e', "TURN="}, Address{"RPL", 'R', "RPL="},
-    Address{"AP", 'q', "AP="}, Address{"RP", 'p', "RP="},     Address{"I1", 'u', "I1="},
-    Address{"J1", 'v', "J1="}, Address{"K1", 'w', "K1="}};
-// Settings that change nothing that is simulated.
-constexpr std::array<const char*, 8> kSettings{"SPOS", "SPOSA", "ADIS",   "ADISPOS",
-                                               "LIMS", "OVR",   "OVRRAP", "ACC"};
-
-// Statements that take anything in brackets and change nothing that is simulated.
-constexpr std::array<const char*, 6> kEvents{"CYCLE832", "WORKPIECE",   "FGROUP",
-                                             "FGREF",    "GROUP_BEGIN", "GROUP_END"};
+    Address{"A3", 'a', "A3="},     Address{"B3", 'b', "B3="},     Address{"C3", 'c', "C3="},
+    Address{"CR", 'R', "CR="},     Address{"TURN", 'e', "TURN="}, Address{"RPL", 'R', "RPL="},
+    Address{"AP", 'q', "AP="},     Address{"RP", 'p', "RP="},     Address{"I1", 'u', "I1="},
+    Address{"J1", 'v', "J1="},     Address{"K1", 'w', "K1="},     Address{"RND", 'r', "RND="},
+    Address{"RNDM", 'm', "RNDM="}, Address{"CHF", 'h', "CHF="},   Address{"CHR", 'i', "CHR="},
+    Address{"FRC", 'f', "FRC="},   Address{"FRCM", 'l', "FRCM="}};
+// Words of these letters with plain numbers need no more than their letter.
+constexpr LetterSet kPlainLetters{"ABCDFGIJKMSTXYZ"};
 
 class SinumerikReader {
  public:
@@ -83,11 +83,7 @@ class SinumerikReader {
     const std::uint32_t column = in_.column();
     const char first = in_.peek();
     if (first == ';') return draft_.read_comment();
-    if (first == '$') {
-      in_.fail("not-supported"_id, column, "system variables are not read",
-               "give a number or an R parameter");
-      return;
-    }
+    if (first == '$') return read_system_setting(draft_, column);
     if ((first < 'A' || first > 'Z') && first != '_') {
       in_.fail_unexpected("a block consists of words such as G1 X10 and X=R1+2; comments follow ;");
       return;
@@ -96,6 +92,7 @@ class SinumerikReader {
     const char next = in_.peek_byte();
     if (letters.size() == 1 && letters != "_") {
       if (letters == "R" && in_.take('[')) return read_indexed_setting(column);
+      if (next == '[') return read_variable_setting(draft_, letters, column);
       if (next >= '0' && next <= '9') {
         const auto digits = in_.digits();
         const bool extended = in_.peek() == '=';
@@ -104,6 +101,9 @@ class SinumerikReader {
           return read_sinumerik_call(draft_, letters + std::string(digits), column);
         }
         if (extended) return read_extended(letters + std::string(digits), column);
+        if (letters == "M" && in_.peek() == '(') {
+          return read_builder_call(draft_, "M" + std::string(digits), column);
+        }
         in_.go_to(column);
         (void)in_.letters();
       }
@@ -135,6 +135,7 @@ class SinumerikReader {
       }
       in_.go_to(start);
     }
+    if (letter == 'H') return read_auxiliary(draft_, "H", column);
     Word word;
     word.letter = letter;
     word.column = column;
@@ -177,6 +178,13 @@ class SinumerikReader {
       return draft_.end_setting();
     }
     if (read_address(name, column)) return;
+    const char letter = name.front();
+    if (letter == 'H') return read_auxiliary(draft_, "H", column);
+    if (letter == 'M' || letter == 'S' || letter == 'T') {
+      // S1=1000: of the first spindle, which is the one that is simulated.
+      if (name.substr(1) == "1") return read_word(letter, column);
+      return read_auxiliary(draft_, letter == 'M' ? "M" : letter == 'S' ? "S" : "T", column);
+    }
     const bool direction = name.size() == 2 && name.front() >= 'A' && name.front() <= 'C';
     in_.fail("not-supported"_id, column, fmt::format("{}= is not simulated", name),
              direction ? "give the tool vector by A3= B3= C3="
@@ -200,85 +208,38 @@ class SinumerikReader {
     if (read_address(name, column)) return;
     if (in_.peek() == ':') return read_sinumerik_label(draft_, name, column);
     if (read_sinumerik_flow(draft_, name, column)) return;
-    if (name == "MSG") return read_event("message", column, true);
-    for (const char* setting : kSettings) {
-      if (name == setting) return read_setting(setting, column);
-    }
+    if (read_sinumerik_setting(draft_, name, column)) return;
     if (name == "CYCLE800") return read_sinumerik_swivel(draft_, column);
     if (name == "MCALL") return read_sinumerik_modal_call(draft_, column);
     if (is_sinumerik_cycle(name)) return read_sinumerik_cycle(draft_, name, column);
     if (name == "PROC") return read_sinumerik_procedure(draft_, column);
     if (name == "DEF") return read_sinumerik_definition(draft_, column);
     if (name == "EXTERN") return draft_.add_event("EXTERN", column, in_.text_to(";"));
-    for (const char* event : kEvents) {
-      if (name != event) continue;
-      return in_.peek() == '[' ? read_setting(event, column) : read_event(event, column, false);
-    }
     if (const Code* code = find_code(Dialect::sinumerik, name); code != nullptr) {
       add_code(block_, *code, column);
-      if (name == "TRAORI" && in_.take('(')) {
-        if (const auto number = in_.digits(); number != "1" && !number.empty()) {
-          in_.fail("not-supported"_id, column,
-                   "TRAORI(" + std::string(number) + ") is not simulated",
-                   "there is one transformation: TRAORI or TRAORI(1)");
-        }
-        close_bracket(in_, "TRAORI");
-      }
-      return;
+      return read_brackets_of_word(draft_, name, column);
+    }
+    if (std::ranges::find(rules_of(Dialect::sinumerik).turning_words, name) !=
+        rules_of(Dialect::sinumerik).turning_words.end()) {
+      return in_.fail("not-milling"_id, column, "a lathe program: " + name + " is of turning",
+                      "only programs of milling machines are simulated");
     }
     if (const auto remedy = remedy_for(Dialect::sinumerik, name); !remedy.empty()) {
       in_.fail("not-supported"_id, column, name + " is not simulated", std::string(remedy));
       return;
     }
-    if (in_.peek() == '=' && is_variable(name)) {
-      in_.take('=');
-      draft_.begin_setting(name, column);
-      (void)draft_.read_expression(ExpressionLevel::disjunction);
-      return draft_.end_setting();
+    const char next = in_.peek();
+    if ((next == '=' || next == '[') && is_variable(name)) {
+      return read_variable_setting(draft_, name, column);
+    }
+    if (name == "CALL" || name == "EXTCALL" || name == "PCALL") {
+      return read_sinumerik_named_call(draft_, column);
     }
     const bool first =
         block_.words.empty() && block_.assignments.empty() && (!block_.flow || draft_.labelled());
     if (first && name.size() > 1) return read_sinumerik_call(draft_, name, column);
     in_.fail("unknown-word"_id, column, "unknown word " + name,
              "known are " + known_words(Dialect::sinumerik));
-  }
-
-  // ADIS=0.1, read and kept as text.
-  void read_setting(const char* name, std::uint32_t column) {
-    if (in_.take('[')) {
-      (void)in_.text_to("]");
-      in_.take(']');
-    }
-    if (!in_.take('=')) {
-      return in_.fail("keyword-missing"_id, column, fmt::format("{} has no =", name),
-                      fmt::format("write {}=0", name));
-    }
-    const std::uint32_t from = in_.column();
-    // SPOS=DC(30) says how it turns.
-    for (const std::string_view measure : {"AC", "IC", "DC", "ACP", "ACN"}) {
-      if (in_.take_name(measure)) break;
-    }
-    (void)draft_.read_expression(ExpressionLevel::sum);
-    const auto text = in_.text().substr(from - 1, in_.column() - from);
-    draft_.add_event(name, column, std::string(text.substr(0, text.find_last_not_of(" \t\r") + 1)));
-  }
-
-  // NAME(...), kept as text.
-  void read_event(const char* name, std::uint32_t column, bool message) {
-    if (!in_.take('(')) {
-      in_.fail("bracket-missing"_id, in_.column(), "the opening bracket is missing",
-               "write the text in ( )");
-      return;
-    }
-    std::string text;
-    if (in_.take('"')) {
-      text = in_.text_to("\"");
-      if (!in_.take('"'))
-        in_.fail("text-not-closed"_id, column, "the text is not closed", "close it with \"");
-    }
-    if (!message || text.empty()) text += in_.text_to(")");
-    close_bracket(in_, name);
-    draft_.add_event(name, column, std::move(text));
   }
 
   BlockDraft draft_;
@@ -289,6 +250,13 @@ class SinumerikReader {
 }  // namespace
 
 Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line) {
+  if (auto plain = read_plain_block(text, line, kPlainLetters)) {
+    const bool simple = plain->number.value_or(0) <= kMaxBlockNumber &&
+                        std::ranges::none_of(plain->words, [](const Word& word) {
+                          return word.letter == 'G' && (word.number == 25.0 || word.number == 26.0);
+                        });
+    if (simple) return *std::move(plain);
+  }
   return SinumerikReader(text, line)();
 }
 

@@ -15,6 +15,13 @@ namespace frustum::parser {
 // The ) of `whose`; reports when it is missing.
 void close_bracket(LineScanner& in, std::string_view whose);
 
+// [X], [1,X,TR]: indices of which one at least is a name, as they are written without blanks; empty,
+// and nothing is read, when there are none.
+[[nodiscard]] std::string read_index_names(LineScanner& in);
+
+// X, which as a value is its own name.
+[[nodiscard]] bool is_axis_name(std::string_view name);
+
 // R and digits.
 [[nodiscard]] bool is_r_parameter(std::string_view name);
 

@@ -259,7 +259,7 @@ TEST(SinumerikCycles, TellMistakes) {
       {"CYCLE87(5,0,2,-5,,2)\n", "1:19: error: SDIR=2 is out of range"},
       {"MCALL L10\n", "1:1: error: MCALL L10 is not simulated"},
       {"MCALL HOLES1(0,0,0,10,5,3)\n", "1:1: error: MCALL HOLES1 is not simulated"},
-      {"HOLES2(0,0,0,10,5,3)\n", "1:1: error: HOLES2 is not simulated"},
+      {"HOLES2(0,0,10,10,5)\n", "1:1: error: HOLES2 has no number of holes"},
       {"CYCLE840(5,0,2,-5)\n", "1:1: error: CYCLE840 is not simulated"},
       {"G0 X0 Y0 CYCLE81(5,0,2,-5)\n", "1:4: error: X0 has no meaning in this block"},
       {"CYCLE81(5,0,2,-5) CYCLE82(5,0,2,-5)\n", "1:19: error: CYCLE82 beside another cycle"},
