@@ -6,7 +6,7 @@
 //         CYCLE801 (_SPCA,_SPCO,_STA,_DIS1,_DIS2,_NUM1,_NUM2): rows of _NUM1 places _DIS1 apart,
 //         _NUM2 of them _DIS2 apart, turned by _STA; to and fro
 // Units : mm
-// Errors: a number of holes that is none, a distance below zero, a place of the tool that is unknown
+// Errors: a number of holes that is none, a distance below zero
 // Source: Siemens, SINUMERIK 840D/840Di/810D Programming Guide Cycles (PGZ), drilling patterns
 #pragma once
 

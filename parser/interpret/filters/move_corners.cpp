@@ -16,8 +16,7 @@ constexpr std::array kWithinContour{
     CodeGroup::motion,       CodeGroup::spindle,  CodeGroup::coolant,  CodeGroup::stop,
     CodeGroup::path_control, CodeGroup::distance, CodeGroup::feed_mode};
 
-// What ends a contour that a corner waits in: another code than these, but for the plane and side in
-// force.
+// What ends a contour that a corner waits in: another code than these, but for the plane in force.
 const GivenCode* end_of_contour(const InterpreterState& state, const BlockWords& words) {
   for (std::size_t group = 0; group < kCodeGroups; ++group) {
     const GivenCode& code = words[static_cast<CodeGroup>(group)];

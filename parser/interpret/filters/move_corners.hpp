@@ -1,8 +1,8 @@
 // RND= CHF= CHR= RNDM= of Sinumerik in the block of a move: the corner at its end.
 //
 // Units : mm, mm/min
-// Errors: a size below zero, two corners at once, compensation that changes between a corner and the
-//         move after it; those of corner_insertion.hpp
+// Errors: a size below zero, two corners at once, compensation that changes between a corner and
+//         the move after it; those of corner_insertion.hpp
 #pragma once
 
 #include "parser/interpret/filters/motion_filters.hpp"

@@ -15,8 +15,8 @@ namespace frustum::parser {
 // The ) of `whose`; reports when it is missing.
 void close_bracket(LineScanner& in, std::string_view whose);
 
-// [X], [1,X,TR]: indices of which one at least is a name, as they are written without blanks; empty,
-// and nothing is read, when there are none.
+// [X], [1,X,TR]: indices of which one at least is a name, as they are written without blanks;
+// empty, and nothing is read, when there are none.
 [[nodiscard]] std::string read_index_names(LineScanner& in);
 
 // X, which as a value is its own name.
