@@ -48,6 +48,9 @@ struct InterpreterOptions {
   // What D, H and T words refer to. G10 L1 of a program changes its own copy. Where it is empty the
   // program takes tools as the setup has them.
   ToolTable tools{};
+  // Radius compensation with a tool whose diameter is not known: the programmed contour itself is
+  // given out, as an assumption; else it is an error.
+  bool contours_without_diameter = false;
   // Where work offsets and the points of G28 and G30 are before the program, as far as that is
   // known of the setup.
   WorkOffsets work_offsets{};

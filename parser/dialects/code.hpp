@@ -49,6 +49,7 @@ enum class CodeGroup : std::uint8_t {
   drilling_cycle,
   hole_pattern,
   corner,
+  approach,
   raised_error,
   tool_change,
   spindle,
@@ -77,6 +78,7 @@ enum class NonModal : std::uint8_t {
   pole_from_pole,
   start,        // where the tool is before the program moves it
   second_home,  // G30
+  retract_tool,  // M140: away along the tool
   keep_home,    // G28.1: where the axes are is home from now on
   keep_second_home,
   skip,            // G31: a probing move that may meet nothing
@@ -113,6 +115,20 @@ enum class DiameterWord : std::uint8_t { radius, diameter };
 enum class SpeedWord : std::uint8_t { revolutions, surface };
 enum class SavedModesWord : std::uint8_t { save, drop, restore, save_for_call };
 enum class CornerWord : std::uint8_t { rounding, chamfer };
+// Ways on to a contour and off it (APPR, DEP): contour_approach.hpp.
+enum class ApproachWord : std::uint8_t {
+  line_along,   // the line goes on into the contour
+  line_across,  // and stands upright on it
+  arc,          // touches the contour; of so many degrees
+  line_and_arc,
+  leave_along,
+  leave_across,
+  leave_by_arc,
+  leave_by_arc_and_line
+};
+[[nodiscard]] constexpr bool is_departure(ApproachWord word) {
+  return word >= ApproachWord::leave_along;
+}
 enum class PolarWord : std::uint8_t { off, on };
 enum class ScalingWord : std::uint8_t { off, on };
 enum class MirrorWord : std::uint8_t { off, on };
@@ -128,7 +144,18 @@ enum class HoleWord : std::uint8_t {
   tap,
   bore,
   deep,
-  deep_pecks
+  deep_pecks,
+  bore_oriented,  // 202: the tool leaves the wall before it goes back
+  old_peck,       // a part of the definition alone
+  old_tap
+};
+// Where the hole cycle in force is done.
+enum class HoleCall : std::uint8_t {
+  here,
+  at_moves,  // from now on where each move ends
+  at_place,
+  ring,
+  grid
 };
 // What is done at the hole where the tool is: drilling_cycle.hpp.
 enum class DrillingWord : std::uint8_t {

@@ -20,7 +20,7 @@ constexpr std::array kHeidenhainCodes{
     named("L FMAX", motion, MotionMode::traverse),
     named("LN", motion, MotionMode::linear),
     named("LN FMAX", motion, MotionMode::traverse),
-    named("CC", non_modal, NonModal::pole, LetterSet("XY")),
+    named("CC", non_modal, NonModal::pole, LetterSet("XYZ")),
     named("C DR-", motion, MotionMode::arc_clockwise),
     named("C DR+", motion, MotionMode::arc_counterclockwise),
     named("CR DR-", motion, MotionMode::arc_clockwise),
@@ -28,6 +28,14 @@ constexpr std::array kHeidenhainCodes{
     named("CT", motion, MotionMode::arc_counterclockwise, LetterSet("k")),
     named("RND", corner, CornerWord::rounding, LetterSet("Rf")),
     named("CHF", corner, CornerWord::chamfer, LetterSet("Rf")),
+    named("APPR LT", approach, ApproachWord::line_along, LetterSet("XYZABCpqld")),
+    named("APPR LN", approach, ApproachWord::line_across, LetterSet("XYZABCpqld")),
+    named("APPR CT", approach, ApproachWord::arc, LetterSet("XYZABCpqRid")),
+    named("APPR LCT", approach, ApproachWord::line_and_arc, LetterSet("XYZABCpqRd")),
+    named("DEP LT", approach, ApproachWord::leave_along, LetterSet("Zld")),
+    named("DEP LN", approach, ApproachWord::leave_across, LetterSet("Zld")),
+    named("DEP CT", approach, ApproachWord::leave_by_arc, LetterSet("ZRid")),
+    named("DEP LCT", approach, ApproachWord::leave_by_arc_and_line, LetterSet("XYZABCpqRd")),
     named("TOOL CALL", tool_change, 0),
     named("F AUTO", feed_source, 0),
     named("R0", radius_compensation, RadiusWord::off),
@@ -48,8 +56,27 @@ constexpr std::array kHeidenhainCodes{
     named("CYCL DEF 203", hole_cycle, HoleWord::deep, kHeidenhainHoleWords | LetterSet("DLKH")),
     named("CYCL DEF 205", hole_cycle, HoleWord::deep_pecks,
           kHeidenhainHoleWords | LetterSet("DLEHgh")),
-    named("CYCL CALL", hole_call, 0),
-    modal('M', 990, hole_call, 0),
+    named("CYCL DEF 206", hole_cycle, HoleWord::tap, kHeidenhainHoleWords),
+    named("CYCL DEF 202", hole_cycle, HoleWord::bore_oriented,
+          kHeidenhainHoleWords | LetterSet("no")),
+    named("CYCL DEF 240", hole_cycle, HoleWord::drill, kHeidenhainHoleWords),
+    named("CYCL DEF 1.1", hole_cycle, HoleWord::old_peck, LetterSet("u")),
+    named("CYCL DEF 1.2", hole_cycle, HoleWord::old_peck, LetterSet("z")),
+    named("CYCL DEF 1.3", hole_cycle, HoleWord::old_peck, LetterSet("Q")),
+    named("CYCL DEF 1.4", hole_cycle, HoleWord::old_peck, LetterSet("P")),
+    named("CYCL DEF 1.5", hole_cycle, HoleWord::old_peck, LetterSet("f")),
+    named("CYCL DEF 2.1", hole_cycle, HoleWord::old_tap, LetterSet("u")),
+    named("CYCL DEF 2.2", hole_cycle, HoleWord::old_tap, LetterSet("z")),
+    named("CYCL DEF 2.3", hole_cycle, HoleWord::old_tap, LetterSet("P")),
+    named("CYCL DEF 2.4", hole_cycle, HoleWord::old_tap, LetterSet("f")),
+    named("CYCL CALL", hole_call, HoleCall::here),
+    named("CYCL CALL POS", hole_call, HoleCall::at_place, LetterSet("XYZ")),
+    named("CYCL DEF 220", hole_call, HoleCall::ring, LetterSet("xydabcKuVvel")),
+    named("CYCL DEF 221", hole_call, HoleCall::grid, LetterSet("xyabcKLuVve")),
+    modal('M', 990, hole_call, HoleCall::here),
+    modal('M', 890, hole_call, HoleCall::at_moves),
+    named("M140 MB MAX", non_modal, NonModal::retract_tool, LetterSet("f")),
+    named("M140", non_modal, NonModal::retract_tool, LetterSet("zf")),
     named("FN 14", raised_error, 0, LetterSet("E")),
     named("DWELL", non_modal, NonModal::dwell, LetterSet("P")),
     named("PLANE SPATIAL", tilted_plane, TiltWord::spatial, LetterSet("ABCdm")),
@@ -71,24 +98,59 @@ constexpr std::array kHeidenhainCodes{
     modal('M', 1360, feed_mode, FeedMode::per_revolution),
     modal('M', 1370, feed_mode, FeedMode::per_minute),
     passed('M', 900),   // corners at a constant speed
+    passed('M', 940),   // what a rotary axis shows is less than a turn again
+    passed('M', 970),   // small steps of a contour, which matter beside it only
+    passed('M', 980),   // open corners, likewise
+    passed('M', 1010),  // another tool when this one is worn
+    passed('M', 1020),
+    passed('M', 1030),  // the feed down
+    passed('M', 1050),
+    passed('M', 1060),
     passed('M', 1070),  // no stop at oversized tools
     passed('M', 1080),
+    passed('M', 1090),  // the feed of the edge at arcs
+    passed('M', 1100),
+    passed('M', 1110),
+    passed('M', 1120),  // transitions between moves
+    passed('M', 1130),
+    passed('M', 1160),  // the feed of rotary axes
+    passed('M', 1170),
+    passed('M', 1180),  // the handwheel beside the program
+    passed('M', 1200),  // looks ahead along a contour
+    passed('M', 1240),
+    passed('M', 1340),  // stops at corners of rotary axes
+    passed('M', 1350),
+    passed('M', 1380),  // which axes tilt
+    passed('M', 1410),  // a probe is not watched
+    passed('M', 1420),
+    passed('M', 1450),
+    passed('M', 1480),  // the tool leaves the part at a stop of the machine
+    passed('M', 1490),
+    passed('M', 1500),
+    passed('M', 1970),  // corners of a contour, which matter beside it only
 };
 
 // What would change the part and is not simulated.
 constexpr std::array kHeidenhainRefusedCodes{
-    RefusedCode{'M', 890, 899, "call the cycle by M99 or CYCL CALL at each hole"},
-    RefusedCode{'M', 920, 929, "use M91, the machine's own coordinates"},
-    RefusedCode{'M', 970, 1039, "write the path out as L and C blocks"},
-    RefusedCode{'M', 1090, 1120, "give the feed of the tool tip, without M109 to M112"},
-    RefusedCode{'M', 1160, 1180, "give the feed of the tool tip with M128 instead"},
+    RefusedCode{'M', 920, 939, "use M91, the machine's own coordinates"},
+    RefusedCode{'M', 950, 969, "write the path out as L and C blocks"},
+    RefusedCode{'M', 1040, 1049, "set the datum by CYCL DEF 247"},
+    RefusedCode{'M', 1140, 1159, "give the path of the tool tip with M128 instead"},
     RefusedCode{'M', 1300, 1309, "program in the tilted plane, or use PLANE RESET"},
-    RefusedCode{'M', 1380, 1449, "use FUNCTION TCPM or M128"},
+    RefusedCode{'M', 1430, 1449, "use FUNCTION TCPM or M128"},
+    RefusedCode{'M', 2000, 2049, "programs of laser cutting are not simulated"},
 };
 constexpr std::array kHeidenhainRefusedWords{
-    RefusedWord{"APPR", "write the approach as L and C blocks"},
-    RefusedWord{"DEP", "write the departure as L and C blocks"},
-    RefusedWord{"CYCL", "write the cycle out as L blocks"},
+    RefusedWord{"FL", "write the contour with its end points, as L and C blocks"},
+    RefusedWord{"FLT", "write the contour with its end points, as L and C blocks"},
+    RefusedWord{"FC", "write the contour with its end points, as L and C blocks"},
+    RefusedWord{"FCT", "write the contour with its end points, as L and C blocks"},
+    RefusedWord{"FPOL", "write the contour with its end points, as L and C blocks"},
+    RefusedWord{"FSELECT", "write the contour with its end points, as L and C blocks"},
+    RefusedWord{"TCH", "what a probe finds is not the program's to know: leave it out"},
+    RefusedWord{"PATTERN", "call the cycle by CYCL CALL POS or M99 at each hole"},
+    RefusedWord{"POLARKIN", "write the path in X and Y"},
+    RefusedWord{"SQL", "set what it would read by FN 0: Q1 = +5"},
     RefusedWord{"SPL", "write splines as short L blocks"},
 };
 
@@ -136,7 +198,9 @@ constexpr DialectRules kHeidenhainRules{
     .words_behind_move = kBehindMove,
     .arcs_turn_about_pole = true,
     .inserts_corners = true,
-    .always_claimed = LetterSet("FST"),
+    .always_claimed = LetterSet("FSTj"),
+//    .unknown_m_words_are_builders = true,
+//    .feed_may_be_missing = true,
     .letters = kHeidenhainLetters,
     .known_letters = "X Y Z A B C F FT M R",
     .parameters = {.local_names = "QL"},

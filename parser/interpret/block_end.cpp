@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parser/interpret/block_flow.hpp"
+#include "parser/interpret/filters/approach_words.hpp"
 #include "parser/interpret/filters/motion_filters.hpp"
 #include "parser/interpret/filters/radius_words.hpp"
 #include "parser/interpret/moves/spline_moves.hpp"
@@ -50,6 +51,7 @@ Result<Flow> finish(InterpreterState& state, MotionFilters& filters, const Block
                   "end it with END PGM, which goes back to the caller");
     }
     if (kind == StopKind::program_end) {
+      if (auto open = check_approach_at_end(filters); !open) return std::move(open).error();
       auto done =
           end_radius_compensation(state, filters, state.at_work.block->place_of(stop.column));
       if (!done) return std::move(done).error();
@@ -82,6 +84,7 @@ Result<Flow> finish(InterpreterState& state, MotionFilters& filters, const Block
 }
 
 Outcome finish_text(InterpreterState& state, MotionFilters& filters) {
+  if (auto done = check_approach_at_end(filters); !done) return done;
   if (const auto& corner = filters.corners.corner(); corner && !corner->if_any) {
     Diagnostic open = error("corner-without-move"_id, corner->name + " with no move after it",
                             "write an L or C block after it, or leave it out");

@@ -13,6 +13,7 @@
 #include "parser/interpret/cycles/drilling_call.hpp"
 #include "parser/interpret/cycles/hole_call.hpp"
 #include "parser/interpret/feed_and_tool.hpp"
+#include "parser/interpret/filters/approach_words.hpp"
 #include "parser/interpret/filters/corner_words.hpp"
 #include "parser/interpret/filters/motion_filters.hpp"
 #include "parser/interpret/filters/move_corners.hpp"
@@ -106,6 +107,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
   if (auto done = check_radius_compensation(state, filters, *words, *movement); !done) {
     return std::move(done).error();
   }
+  if (auto done = check_approach(state, filters, *words); !done) return std::move(done).error();
   if (auto done = insert_corner(state, filters, *words); !done) return std::move(done).error();
   if (auto done = look_for_corner(state, filters, *words); !done) return std::move(done).error();
   if (auto done = report_comments(state, block); !done) return std::move(done).error();
@@ -146,6 +148,9 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
   if (auto done = ask_for_corner(state, filters, *words); !done) return std::move(done).error();
   if (filters.passes_corners && !state.rules.inserts_corners && state.rules.corner_words.empty()) {
     if (auto done = keep_corner(state, filters, *words); !done) return std::move(done).error();
+  }
+  if (auto done = approach_or_leave_contour(state, filters, *words); !done) {
+    return std::move(done).error();
   }
   auto drilled = state.rules.dialect == Dialect::sinumerik ? call_drilling_cycle(state, *words)
                                                            : call_hole_cycle(state, *words);

@@ -120,6 +120,10 @@ Outcome set_tool(InterpreterState& state, const BlockWords& words) {
     state.modes.selected_tool = *tool;
   }
   const GivenCode& change = words[CodeGroup::tool_change];
+  if (change.code != nullptr) state.modes.tool_oversize = 0.0;
+  if (words.has('j') && state.rules.always_claimed.has('j')) {
+    state.modes.tool_oversize = words['j'].value * unit_scale(state);
+  }
   if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
     if (!words.has('Q')) {
       return fail(state, change.column, "tool-missing"_id, change.code->name() + " without a tool",

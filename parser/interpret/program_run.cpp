@@ -46,6 +46,7 @@ ControlData data_before(const InterpreterOptions& options) {
   data.work_offsets = options.work_offsets;
   data.reference_points = options.reference_points;
   data.unit = options.machine_unit;
+  data.contours_without_diameter = options.contours_without_diameter;
   return data;
 }
 

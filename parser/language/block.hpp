@@ -10,6 +10,7 @@
 //   D L K E H g h  of a deep hole: hole_cycle.hpp
 //   r h i m  a rounding, a chamfer by its length or by its width at the corner, roundings from here
 //   f l      on (RND= CHF= CHR= RNDM=), and their feeds (FRC= FRCM=)
+//   l i      the length or the angle of a way on to a contour (LEN, CCA)
 //   t        the duration of the block in seconds (FT)
 //   e        full turns of an arc beyond the first (TURN=)
 //   p q      radius and angle of a polar position (@ ^, PR PA)

@@ -23,8 +23,11 @@ void BlockCursor::go_to(TextPlace place) {
 std::string_view BlockCursor::next_text(std::vector<std::uint32_t>& line_starts) {
   std::string_view text = lines_.next();
   std::size_t mark = continuation_mark(text, dialect_);
-  if (mark == std::string_view::npos) return text;
   joined_.clear();
+  if (mark == std::string_view::npos && opens_parameter_lines(text, dialect_)) {
+    return with_parameter_lines(text, line_starts);
+  }
+  if (mark == std::string_view::npos) return text;
   while (true) {
     const std::size_t start = joined_.size();
     joined_ += text;
@@ -36,6 +39,27 @@ std::string_view BlockCursor::next_text(std::vector<std::uint32_t>& line_starts)
     text = lines_.next();
     mark = continuation_mark(text, dialect_);
   }
+}
+
+std::string_view BlockCursor::with_parameter_lines(std::string_view text,
+                                                   std::vector<std::uint32_t>& line_starts) {
+  joined_ = text;
+  while (!lines_.at_end()) {
+    const TextPlace here = lines_.place();
+    const std::string_view next = lines_.next();
+    if (!is_parameter_line(next)) {
+      lines_.go_to(here);
+      break;
+    }
+    joined_ += '\n';
+    line_starts.push_back(static_cast<std::uint32_t>(joined_.size()));
+    const std::size_t start = joined_.size();
+    joined_ += next;
+    const std::size_t mark = continuation_mark(next, dialect_);
+    if (mark == std::string_view::npos) continue;
+    std::fill(joined_.begin() + static_cast<std::ptrdiff_t>(start + mark), joined_.end(), ' ');
+  }
+  return joined_;
 }
 
 Result<const Block*> BlockCursor::next() {

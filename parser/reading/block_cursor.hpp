@@ -39,6 +39,10 @@ class BlockCursor {
   // The text of one block, lines that continue it joined by line feeds.
   [[nodiscard]] std::string_view next_text(std::vector<std::uint32_t>& line_starts);
 
+  // Of a cycle whose parameters follow in lines of their own, without a mark.
+  [[nodiscard]] std::string_view with_parameter_lines(std::string_view text,
+                                                      std::vector<std::uint32_t>& line_starts);
+
   // Of a program that has been read.
   std::shared_ptr<const std::vector<ReadBlock>> kept_;
   std::size_t next_kept_ = 0;

@@ -56,4 +56,24 @@ std::size_t continuation_mark(std::string_view line, Dialect dialect) {
   return std::string_view::npos;
 }
 
+bool opens_parameter_lines(std::string_view line, Dialect dialect) {
+  if (dialect != Dialect::heidenhain) return false;
+  line = line.substr(std::min(line.find_first_not_of("0123456789 \t"), line.size()));
+  if (line.size() < 4 || upper(line[0]) != 'C' || upper(line[1]) != 'Y') return false;
+  line = line.substr(0, line.find(';'));
+  // Three digits: the cycles whose parameters are Q.
+  const std::size_t digit = std::min(line.find_first_of("0123456789"), line.size());
+  const std::size_t end = std::min(line.find_first_not_of("0123456789", digit), line.size());
+  return end - digit == 3 && line.find('=') == std::string_view::npos;
+}
+
+bool is_parameter_line(std::string_view line) {
+  line = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (line.empty() || upper(line[0]) != 'Q') return false;
+  const std::size_t end = line.find_first_not_of("0123456789", 1);
+  if (end == 1 || end == std::string_view::npos) return false;
+  const std::size_t sign = line.find_first_not_of(" \t", end);
+  return sign != std::string_view::npos && line[sign] == '=';
+}
+
 }  // namespace frustum::parser

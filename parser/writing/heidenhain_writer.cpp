@@ -15,7 +15,6 @@ namespace {
 
 using enum ExpressionLevel;
 
-constexpr double kTipControl = 128.0;  // M128, which may have the feed of its moves after it
 
 // Words of the code table that are elements of a line, no statements.
 constexpr std::array<std::string_view, 6> kElements{
@@ -40,6 +39,15 @@ constexpr std::array kSpellings{
     Spelling{"CYCL DEF 19", "CYCL DEF 19.1"},
     Spelling{"CYCL DEF 19 OFF", "CYCL DEF 19.1"},
     Spelling{"CYCL DEF 26", "CYCL DEF 26.1", "XYZ"},
+    Spelling{"CYCL DEF 1.1", "CYCL DEF 1.1 SET UP"},
+    Spelling{"CYCL DEF 1.2", "CYCL DEF 1.2 DEPTH"},
+    Spelling{"CYCL DEF 1.3", "CYCL DEF 1.3 PECKG"},
+    Spelling{"CYCL DEF 1.4", "CYCL DEF 1.4 DWELL"},
+    Spelling{"CYCL DEF 1.5", "CYCL DEF 1.5 F"},
+    Spelling{"CYCL DEF 2.1", "CYCL DEF 2.1 SET UP"},
+    Spelling{"CYCL DEF 2.2", "CYCL DEF 2.2 DEPTH"},
+    Spelling{"CYCL DEF 2.3", "CYCL DEF 2.3 DWELL"},
+    Spelling{"CYCL DEF 2.4", "CYCL DEF 2.4 F"},
 };
 // Known and not simulated: what is before and after their text.
 struct EventForm {
@@ -61,10 +69,24 @@ constexpr std::array kEvents{
     EventForm{"CYCL DEF 11", "CYCL DEF 11.0 "},
     EventForm{"FN 15", "FN 15: "},
     EventForm{"FN 16", "FN 16: "},
+    EventForm{"FN 17", "FN 17: "},
+    EventForm{"FN 19", "FN 19: "},
+    EventForm{"FN 20", "FN 20: "},
+    EventForm{"FN 26", "FN 26: "},
+    EventForm{"FN 27", "FN 27: "},
+    EventForm{"FN 29", "FN 29: "},
+    EventForm{"FN 37", "FN 37: "},
+    EventForm{"FN 38", "FN 38: "},
+    EventForm{"QS", ""},
+    EventForm{"END PGM", ""},
+    EventForm{"CYCL DEF 1", "CYCL DEF 1.0 "},
+    EventForm{"CYCL DEF 2", "CYCL DEF 2.0 "},
+    EventForm{"TOOL CALL VC", "S( ", " )"},
     EventForm{"CYCL DEF 12", "CYCL DEF 12.0 "},
     EventForm{"CYCL DEF 19", "CYCL DEF 19.0 "},
     EventForm{"CYCL DEF 19 SETUP", "SETUP "},
     EventForm{"CYCL DEF 26", "CYCL DEF 26.0 "},
+    EventForm{"TCPM F", "F "},
     EventForm{"PLANE DIST", "DIST "},
 };
 
@@ -96,8 +118,10 @@ std::string event_text(const Comment& comment) {
   return fmt::format("{}{}{}", form->before, comment.text, form->behind);
 }
 
-bool is_feed_of_tip_control(const Comment& comment) {
-  return comment.event != nullptr && std::string_view(comment.event) == "M128";
+// M128 F2000, M120 LA5: what belongs to the M word of that name.
+bool is_operand_of_m(const Comment& comment) {
+  return comment.event != nullptr && comment.event[0] == 'M' && comment.event[1] >= '0' &&
+         comment.event[1] <= '9';
 }
 
 class KlartextBlock {
@@ -113,7 +137,7 @@ class KlartextBlock {
     add_elements();
     for (const Assignment& setting : block_.assignments) text_.add(setting_text(setting));
     for (const Comment& comment : block_.comments) {
-      if (comment.event == nullptr || is_feed_of_tip_control(comment)) continue;
+      if (comment.event == nullptr || is_operand_of_m(comment)) continue;
       if (std::string_view(comment.event) == "BEGIN PGM") {
         program_ = comment.text.substr(0, comment.text.find(' '));
       }
@@ -134,8 +158,9 @@ class KlartextBlock {
       return name_statement(std::string(code));
     }
     // A tool call without a tool.
-    const bool calls = !block_.words.empty() &&
-                       (block_.words.front().letter == 'S' || block_.words.front().letter == 'F');
+    const bool calls = !block_.words.empty() && (block_.words.front().letter == 'S' ||
+                                                 block_.words.front().letter == 'F' ||
+                                                 block_.words.front().letter == 'j');
     if (calls) name_ = "TOOL CALL";
   }
 
@@ -145,7 +170,7 @@ class KlartextBlock {
     if (spelling != kSpellings.end()) {
       name_ = spelling->written;
       implied_ = spelling->implied;
-    } else if (code == "END PGM" && !program_.empty()) {
+    } else if (code == "END PGM" && !program_.empty() && !has_event("END PGM")) {
       name_ += " " + program_;
     } else if (code.starts_with("PLANE ")) {
       if (!has('d') && !has('m')) ending_ = "STAY";
@@ -155,8 +180,17 @@ class KlartextBlock {
       name_.resize(name_.size() - ending.size());
       ending_ = ending.substr(1);
     }
-    const bool path = name_ == "L" || name_ == "C" || name_ == "CT";
-    if (path && (has(kPolarRadius) || has(kPolarAngle))) name_ += 'P';
+    if (!has(kPolarRadius) && !has(kPolarAngle)) return;
+    if (name_ == "L" || name_ == "C" || name_ == "CT") name_ += 'P';
+    if (name_.starts_with("APPR ") || name_.starts_with("DEP ")) {
+      name_.insert(name_.find(' ') + 1, "P");
+    }
+  }
+
+  [[nodiscard]] bool has_event(std::string_view event) const {
+    return std::ranges::any_of(block_.comments, [&](const Comment& comment) {
+      return comment.event != nullptr && event == comment.event;
+    });
   }
 
   [[nodiscard]] bool has(char letter) const {
@@ -164,16 +198,18 @@ class KlartextBlock {
   }
 
   void add_elements() {
-    auto tip_feed = std::ranges::find_if(block_.comments, is_feed_of_tip_control);
+    auto operand_of_m = std::ranges::find_if(block_.comments, is_operand_of_m);
     for (const Word& word : block_.words) {
       const bool implied =
           word.spelled == nullptr && implied_.find(word.letter) != std::string_view::npos;
       if (&word == statement_ || implied) continue;
       text_.add(element_text(word));
-      const bool tip_control = word.letter == 'M' && word.number == kTipControl;
-      if (!tip_control || tip_feed == block_.comments.end()) continue;
-      text_.add(event_text(*tip_feed));
-      tip_feed = std::find_if(tip_feed + 1, block_.comments.end(), is_feed_of_tip_control);
+      while (word.letter == 'M' && operand_of_m != block_.comments.end() &&
+             operand_of_m->event == fmt::format("M{:g}", word.number)) {
+        text_.add(operand_of_m->text);
+        operand_of_m =
+            std::find_if(operand_of_m + 1, block_.comments.end(), is_operand_of_m);
+      }
     }
   }
 

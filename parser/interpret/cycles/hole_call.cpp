@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/units.hpp"
 #include "parser/interpret/cycles/canned_cycle.hpp"
 #include "parser/interpret/cycles/canned_cycle_call.hpp"
 #include "parser/interpret/cycles/deep_hole.hpp"
@@ -35,6 +38,8 @@ MotionMode kind_of(HoleWord word, bool dwells) {
       return MotionMode::peck_short;
     case HoleWord::tap:
       return MotionMode::tap;
+    case HoleWord::bore_oriented:
+      return MotionMode::fine_bore;
     case HoleWord::bore:
       return dwells ? MotionMode::bore_dwell : MotionMode::bore;
     default:
@@ -42,13 +47,54 @@ MotionMode kind_of(HoleWord word, bool dwells) {
   }
 }
 
-std::optional<Vec3> point_of_hole(const AxisTarget& target) {
-  Vec3 point;
-  for (const AxisLetter axis : kLinearAxes) {
-    if (!target[axis]) return std::nullopt;
-    point[static_cast<Eigen::Index>(axis)] = *target[axis];
+// Of the pecking of older controls: how far above the last depth the tool stops coming back.
+double stop_above(double depth) {
+  constexpr double kShallowDepth = 30.0;
+  constexpr double kOfShallowDepth = 0.6;
+  constexpr double kShareOfDepth = 1.0 / 50.0;
+  constexpr double kMostAbove = 7.0;
+  return depth <= kShallowDepth ? kOfShallowDepth : std::min(depth * kShareOfDepth, kMostAbove);
+}
+
+// 202: off the wall, back by the feed out, and over the centre again.
+std::vector<CycleStep> steps_of_oriented_bore(const CycleDepths& depths) {
+  using enum CycleAction;
+  std::vector<CycleStep> steps{{feed, depths.bottom}};
+  if (depths.dwell > 0.0) steps.push_back({dwell, depths.dwell});
+  steps.push_back({stop_spindle});
+  steps.push_back({orient_spindle});
+  steps.push_back({feed, depths.bottom, true});
+  steps.push_back({feed, depths.level, true});
+  if (depths.clear > depths.level) steps.push_back({rapid, depths.clear, true});
+  steps.push_back({rapid, std::max(depths.clear, depths.level)});
+  steps.push_back({start_spindle});
+  return steps;
+}
+
+// The words of 1 and 2 come one a block; the first begins anew.
+Outcome set_old_cycle(InterpreterState& state, const BlockWords& words, HoleWord word) {
+  HoleCycle& cycle = state.modes.hole_cycle;
+  const double scale = unit_scale(state);
+  if (words.has('u')) {
+    cycle = {};
+    cycle.on = cycle.of_tool = true;
+    cycle.clear = cycle.level = std::abs(words['u'].value) * scale;
   }
-  return point;
+  cycle.kind = word == HoleWord::old_peck ? MotionMode::peck : MotionMode::tap;
+  if (words.has('z')) {
+    if (words['z'].value >= 0.0) {
+      return fail(state, words['z'].column, "cycle-depth"_id,
+                  fmt::format("the depth {:g} is not below zero", words['z'].value),
+                  "the depth counts from the surface, downwards: DEPTH -20");
+    }
+    cycle.depth = -words['z'].value * scale;
+  }
+  if (words.has('Q')) cycle.peck = std::abs(words['Q'].value) * scale;
+  if (words.has('P')) cycle.dwell = words['P'].value;
+  if (words.has('f')) {
+    cycle.feed = {words['f'].value * feed_scale(state, FeedMode::per_minute), FeedMode::per_minute};
+  }
+  return Done{};
 }
 
 Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord word) {
@@ -96,13 +142,24 @@ Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord
   return Done{};
 }
 
-// From where the tool is, over the hole and down. After a turn of the tool its place says nothing
-// about heights.
+}  // namespace
+
+std::optional<Vec3> point_of_hole(const AxisTarget& target) {
+  Vec3 point;
+  for (const AxisLetter axis : kLinearAxes) {
+    if (!target[axis]) return std::nullopt;
+    point[static_cast<Eigen::Index>(axis)] = *target[axis];
+  }
+  return point;
+}
+
 void drill_from_top(InterpreterState& state, const Vec3& top, const std::optional<Vec3>& from,
                     bool turns, std::uint32_t column) {
   const HoleCycle& cycle = state.modes.hole_cycle;
   const Vec3 axis = state.modes.tool_axis ? state.modes.tool_axis->vec() : Vec3::UnitZ();
-  const auto place = [&](double height, bool /*shifted*/) -> Vec3 { return top + height * axis; };
+  const auto place = [&](double height, bool shifted) -> Vec3 {
+    return top + height * axis + (shifted ? cycle.off_wall : Vec3::Zero());
+  };
   // The tool has not gone to the top.
   bool must_move = !from || turns;
   if (from) {
@@ -145,13 +202,16 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
     depths.peck_from = 0.0;
     depths.dwell_above = cycle.dwell_above;
   }
-  drill(state,
-        cycle.deep ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
-                   : steps_at_hole(cycle.kind, depths),
-        column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
+  if (cycle.of_tool) {
+    depths.chip = stop_above(cycle.depth);
+    depths.peck_from = 0.0;
+  }
+  std::vector<CycleStep> steps = cycle.deep
+                                     ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
+                                 : cycle.kind == MotionMode::fine_bore ? steps_of_oriented_bore(depths)
+                                                                       : steps_at_hole(cycle.kind, depths);
+  drill(state, steps, column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
 }
-
-}  // namespace
 
 Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::hole_cycle];
@@ -164,6 +224,9 @@ Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
     if (!cycle.on || cycle.kind != MotionMode::none) return Done{};
     return fail(state, code.column, "cycle-missing"_id, "there is no cycle to switch on",
                 "define one before");
+  }
+  if (word == HoleWord::old_peck || word == HoleWord::old_tap) {
+    return set_old_cycle(state, words, word);
   }
   const double scale = unit_scale(state);
   cycle = {};
@@ -182,6 +245,9 @@ Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const char feed = words.has('r') ? 'r' : 'f';
   const FeedMode mode = feed == 'r' ? FeedMode::per_revolution : FeedMode::per_minute;
   cycle.feed = {words[feed].value * feed_scale(state, mode), mode};
+  if (words[feed].value == kFeedOfToolCall && state.modes.tool_feed) {
+    cycle.feed = {state.modes.tool_feed->scaled, FeedMode::per_minute};
+  }
   if (from_surface) {
     cycle.top = words['V'].value * scale;
     cycle.dwell_above = words['w'].value;
@@ -213,6 +279,17 @@ Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
     return fail(state, words['v'].column, "cycle-depth"_id,
                 fmt::format("{} is below where feeding begins", words.text_of('v')),
                 "give a height above it");
+  }
+  if (word == HoleWord::bore_oriented) {
+    constexpr double kOffWall = 0.2;  // mm
+    constexpr int kLastDirection = 4;
+    const auto direction = whole(state, words, 'n', 0, kLastDirection);
+    if (!direction) return direction.error();
+    const std::array kDirections{Vec3(0, 0, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(1, 0, 0),
+                                 Vec3(0, 1, 0)};
+    cycle.off_wall = kDirections.at(static_cast<std::size_t>(*direction)) *
+                     (words.has('o') ? words['o'].value * scale : kOffWall);
+    return Done{};
   }
   if (word == HoleWord::deep || word == HoleWord::deep_pecks)
     return set_deep_hole(state, words, word);
@@ -256,38 +333,6 @@ Outcome make_hole(InterpreterState& state, const BlockWords& words, const Moveme
                      (axis_before && axis_before->vec().cross(axis).norm() > kSameAxis);
   if (!cycle.start) cycle.start = from;
   drill_from_top(state, *top, from, turns, movement.column);
-  return Done{};
-}
-
-Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
-  const GivenCode& code = words[CodeGroup::hole_call];
-  if (code.code == nullptr || !state.modes.hole_cycle.program.empty()) return Done{};
-  if (!state.modes.hole_cycle.on) {
-    return fail(state, code.column, "cycle-missing"_id, code.code->name() + " without a cycle",
-                "define it before, for example by CYCL DEF 200");
-  }
-  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
-    if (state.position[axis]) continue;
-    return fail(
-        state, code.column, state.position.unknown_id(axis),
-        fmt::format("the place of the hole is not known: {}", state.position.why_unknown(axis)),
-        "move to the hole before");
-  }
-  const Movement movement{NonModal::none, MotionMode::linear, code.column};
-  if (auto done = check_tool_length(state, movement); !done) return done;
-  if (auto done = check_programmed_frame(state, movement); !done) return done;
-  if (state.modes.programmed_frame.scale != 1.0 || state.modes.programmed_frame.mirrors[2]) {
-    return fail(state, code.column, "cycle-frame"_id,
-                "a cycle where the depths are scaled or mirrored",
-                "end that before, by CYCL DEF 11.1 SCL 1 or CYCL DEF 8.1");
-  }
-  if (state.modes.tool_axis) {
-    return fail(state, code.column, "cycle-tool-vector"_id, "a cycle with a tool vector",
-                "tilt the plane by PLANE before");
-  }
-  const Vec3 top(*state.position[AxisLetter::X], *state.position[AxisLetter::Y],
-                 *state.modes.hole_cycle.top);
-  drill_from_top(state, top, point_of_hole(state.position.target()), false, code.column);
   return Done{};
 }
 

@@ -4,6 +4,8 @@
 // Errors: the first one of the block, with line, column and hint
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "parser/interpret/state/block_words.hpp"
@@ -17,7 +19,13 @@ void set_called_program(InterpreterState& state, std::string name);
 // The words name the top of the hole; the tool comes from where it is, over the hole and down.
 [[nodiscard]] Outcome make_hole(InterpreterState& state, const BlockWords& words,
                                 const Movement& movement);
-// CYCL CALL, M99: at the place where the tool is.
+// From where the tool is, over the hole and down. After a turn of the tool its place says nothing
+// about heights.
+void drill_from_top(InterpreterState& state, const Vec3& top, const std::optional<Vec3>& from,
+                    bool turns, std::uint32_t column);
+// X, Y and Z of a target, where all are known.
+[[nodiscard]] std::optional<Vec3> point_of_hole(const AxisTarget& target);
+// CYCL CALL, M99, M89: where the tool is; CYCL CALL POS; on rings and grids.
 [[nodiscard]] Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words);
 
 }  // namespace frustum::parser

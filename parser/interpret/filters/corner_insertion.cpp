@@ -99,7 +99,8 @@ CornerInsertion::Failure CornerInsertion::insert(const Corner& corner) {
 void CornerInsertion::release(const Sink& sink) {
   corner_.reset();
   piece_.reset();
-  for (Motion& motion : std::exchange(waiting_, {})) sink(std::move(motion));
+  for (Motion& motion : waiting_) sink(std::move(motion));
+  waiting_.clear();
 }
 
 CornerInsertion::Failure CornerInsertion::take(Motion&& motion, const Sink& sink) {

@@ -25,6 +25,9 @@ MotionFilters::MotionFilters(InterpreterState& state, const MotionSink& sink)
       to_radius([this, &state](Motion&& motion) {
         if (!radius.is_on()) return to_sink(std::move(motion));
         keep_failure(state.output, radius.take(std::move(motion), to_sink));
+      }),
+      to_corners([this, &state](Motion&& motion) {
+        keep_failure(state.output, corners.take(std::move(motion), to_radius));
       }) {
   pass_corners(state, state.rules.inserts_corners);
 }
@@ -36,7 +39,7 @@ void MotionFilters::pass_corners(InterpreterState& state, bool on) {
     return;
   }
   state.output.take = [this, &state](Motion&& motion) {
-    keep_failure(state.output, corners.take(std::move(motion), to_radius));
+    keep_failure(state.output, approach.take(std::move(motion), to_corners, to_sink, radius));
   };
 }
 

@@ -1,10 +1,11 @@
-// The filters that motions pass on their way out: roundings and chamfers between them, then radius
-// compensation; and last the frames between the words and the coordinates of the work offset.
+// The filters that motions pass on their way out: ways on to a contour, roundings and chamfers
+// between them, then radius compensation; and last the frames between the words and the coordinates of the work offset.
 //
 // Units : mm, rad
 // Errors: a motion that a filter cannot make is Output::failure of the state
 #pragma once
 
+#include "parser/interpret/filters/contour_approach.hpp"
 #include "parser/interpret/filters/corner_insertion.hpp"
 #include "parser/interpret/filters/radius_compensation.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
@@ -22,12 +23,14 @@ struct MotionFilters {
   // the others need not wait.
   void pass_corners(InterpreterState& state, bool on);
 
+  ContourApproach approach{};
   CornerInsertion corners{};
   bool passes_corners = false;
   RadiusCompensation radius{};
   SourcePlace radius_since{};  // where it was switched on
   RadiusCompensation::Sink to_sink;
   CornerInsertion::Sink to_radius;
+  ContourApproach::Sink to_corners;
 };
 
 }  // namespace frustum::parser

@@ -76,8 +76,10 @@ void RadiusCompensation::send(Motion&& motion, const Sink& sink) const {
   sink(std::move(motion));
 }
 
-void RadiusCompensation::start(const RadiusSetting& setting, const AxisTarget& position) {
+void RadiusCompensation::start(const RadiusSetting& setting, const AxisTarget& position,
+                               bool beside_contour) {
   setting_ = setting;
+  beside_contour_ = beside_contour;
   programmed_ = plane_point(position);
   reached_ = position;
 }
@@ -105,7 +107,9 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
       piece.centre = {arc->center[axes.u], arc->center[axes.v]};
       piece.turns = arc->turns;
     }
-    return last_ ? follow(std::move(motion), piece, sink) : enter(std::move(motion), piece, sink);
+    if (last_) return follow(std::move(motion), piece, sink);
+    return beside_contour_ ? go_on_beside(std::move(motion), piece)
+                           : enter(std::move(motion), piece, sink);
   }
   if (target != nullptr && setting_->rules.entry_comes_first && !last_) {
     return at(motion, "radius-compensation"_id,
@@ -150,6 +154,15 @@ RadiusCompensation::Failure RadiusCompensation::enter(Motion&& motion, const Pat
   if (piece.is_arc()) return enter_by_arc(std::move(motion), piece, sink);
   LastMove move{piece, piece, piece.start, 0.0, true};
   if (programmed_) move.beside = parallel(piece, left());
+  wait(std::move(motion), std::move(move));
+  return std::nullopt;
+}
+
+RadiusCompensation::Failure RadiusCompensation::go_on_beside(Motion&& motion,
+                                                             const PathPiece& piece) {
+  if (auto failure = check_arc(piece, motion)) return failure;
+  LastMove move{piece, parallel(piece, left()), {}, 0.0, false};
+  move.start = move.beside.start;
   wait(std::move(motion), std::move(move));
   return std::nullopt;
 }

@@ -48,8 +48,10 @@ class RadiusCompensation {
   [[nodiscard]] bool is_on() const { return setting_.has_value(); }
   [[nodiscard]] const RadiusSetting& setting() const { return *setting_; }
 
-  // `position`: where the tool is, as far as it is known.
-  void start(const RadiusSetting& setting, const AxisTarget& position);
+  // `position`: where the tool is, as far as it is known; with `beside_contour` where the contour
+  // begins, whose first move needs no entry: the tool is abeam of it already.
+  void start(const RadiusSetting& setting, const AxisTarget& position,
+             bool beside_contour = false);
   // A motion of the program. On, what it and those before it give goes to the sink when it is
   // final.
   [[nodiscard]] Failure take(Motion&& motion, const Sink& sink);
@@ -70,6 +72,7 @@ class RadiusCompensation {
 
   [[nodiscard]] Failure enter(Motion&& motion, const PathPiece& piece, const Sink& sink);
   [[nodiscard]] Failure enter_by_arc(Motion&& motion, const PathPiece& piece, const Sink& sink);
+  [[nodiscard]] Failure go_on_beside(Motion&& motion, const PathPiece& piece);
   [[nodiscard]] Failure follow(Motion&& motion, const PathPiece& piece, const Sink& sink);
   [[nodiscard]] Failure cut_corner(LastMove& next, const Motion& motion);
   [[nodiscard]] Failure check_arc(const PathPiece& piece, const Motion& motion) const;
@@ -86,6 +89,7 @@ class RadiusCompensation {
   [[nodiscard]] double left() const;  // mm, below zero: right
 
   std::optional<RadiusSetting> setting_{};
+  bool beside_contour_ = false;
   std::optional<Vec2> programmed_{};  // where the program has got to
   AxisTarget reached_{};              // the last target, as programmed
   std::optional<LastMove> last_{};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -37,6 +38,9 @@ constexpr std::array kGroupsOff{CodeGroup::length_compensation,
                                 CodeGroup::mirror,
                                 CodeGroup::hole_call,
                                 CodeGroup::drilling_cycle};
+
+// M97, M98 and M197 of Klartext.
+constexpr std::array kAtCorners{970, 980, 1970};
 
 bool leaves_contour(NonModal word) {
   return word != NonModal::none && word != NonModal::dwell && !is_pole(word);
@@ -106,7 +110,8 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
                 fmt::format("the tool table has no tool {}", number),
                 "give the tool's diameter in the tool table");
   }
-  return ToolEdge{tool->second.diameter / 2.0, tool->second.orientation};
+  return ToolEdge{tool->second.diameter / 2.0 + state.modes.tool_oversize,
+                  tool->second.orientation};
 }
 
 // Whether a tool without diameter may follow a contour.
@@ -115,17 +120,35 @@ bool may_be_point(const InterpreterState& state) {
 }
 
 void switch_radius_off(InterpreterState& state, MotionFilters& filters, std::uint32_t column) {
-  if (!filters.radius.is_on()) return;
-  state.modes.tool_side.reset();
-  const Plane plane = filters.radius.setting().plane;
-  const auto centre = filters.radius.stop(filters.to_sink);
-  emit(state, column, Event{"radius_compensation", "off"});
+  const auto centre = stop_radius_compensation(state, filters, column);
   if (!centre) return;
+  const PlaneAxes axes = axes_of(state.modes.plane);
   state.contour_exit.arc_waits = true;
   if (state.rules.radius.any_move_leaves) return;
-  const PlaneAxes axes = axes_of(plane);
   state.contour_exit.place[static_cast<AxisLetter>(axes.u)] = centre->x();
   state.contour_exit.place[static_cast<AxisLetter>(axes.v)] = centre->y();
+}
+
+// There is no diameter to compensate by, and the setup knows none: the contour itself is the path.
+bool goes_along_contour(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::radius_compensation];
+  const auto word = static_cast<RadiusWord>(code.code->value);
+  const bool by_word =
+      word == RadiusWord::left_by_diameter || word == RadiusWord::right_by_diameter;
+  if (!state.data.contours_without_diameter || by_word || !state.data.tools.empty()) return false;
+  int number = state.modes.tool;
+  if (words.has('D') && code.code->arguments.has('D')) {
+    number = static_cast<int>(words['D'].value);
+  } else if (state.rules.radius.source == RadiusSource::last_d) {
+    number = state.modes.radius_number.value_or(-1);
+  }
+  if (number > 0) state.modes.radius_number = number;
+  state.modes.tool_side = word == RadiusWord::left ? ToolSide::left : ToolSide::right;
+  assume(state, code.column, "contour-without-diameter",
+         fmt::format("the diameter of tool {} is not known: the tool's centre goes along the "
+                     "programmed contour",
+                     number));
+  return true;
 }
 
 }  // namespace
@@ -173,6 +196,14 @@ Outcome check_radius_compensation(const InterpreterState& state, const MotionFil
   for (const CodeGroup group : kGroupsOff) {
     if (words.has(group)) return refuse(words[group]);
   }
+  for (const GivenCode& event : words.events()) {
+    if (state.rules.dialect == Dialect::heidenhain &&
+        std::find(kAtCorners.begin(), kAtCorners.end(), event.code->tenths) != kAtCorners.end()) {
+      return fail(state, event.column, "not-simulated"_id,
+                  fmt::format("{} at a contour is not simulated", event.code->name()),
+                  "it changes the corners of the path: write them out");
+    }
+  }
   if (words.has('D') && state.rules.always_claimed.has('D')) {
     return fail(state, words['D'].column, "radius-compensation"_id,
                 fmt::format("{} with radius compensation on", words.text_of('D')),
@@ -193,6 +224,7 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
     switch_radius_off(state, filters, code.column);
     return Done{};
   }
+  if (goes_along_contour(state, words)) return Done{};
   if (!state.rules.radius.in_yz && state.modes.plane == Plane::yz) {
     return fail(state, code.column, "radius-plane"_id, code.code->name() + " in G19",
                 "radius compensation works in G17 and G18");
@@ -256,6 +288,15 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   filters.radius.start({side, in_words, state.modes.plane, state.rules.radius, in_words * control},
                        from);
   return Done{};
+}
+
+std::optional<Vec2> stop_radius_compensation(InterpreterState& state, MotionFilters& filters,
+                                             std::uint32_t column) {
+  state.modes.tool_side.reset();
+  if (!filters.radius.is_on()) return std::nullopt;
+  auto centre = filters.radius.stop(filters.to_sink);
+  emit(state, column, Event{"radius_compensation", "off"});
+  return centre;
 }
 
 Outcome end_radius_compensation(InterpreterState& state, MotionFilters& filters,

@@ -5,6 +5,9 @@
 // Errors: the first one of the block, with line, column and hint
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "parser/interpret/filters/motion_filters.hpp"
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
@@ -17,6 +20,9 @@ namespace frustum::parser {
                                                 const BlockWords& words, const Movement& movement);
 [[nodiscard]] Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
                                               const BlockWords& words);
+// The contour ends where the program is: the place of the tool's centre, when it was beside it.
+std::optional<Vec2> stop_radius_compensation(InterpreterState& state, MotionFilters& filters,
+                                             std::uint32_t column);
 [[nodiscard]] Outcome end_radius_compensation(InterpreterState& state, MotionFilters& filters,
                                               const SourcePlace& place);
 

@@ -42,6 +42,29 @@ Outcome preset_axes(InterpreterState& state, const BlockWords& words) {
   return Done{};
 }
 
+// Of Klartext the datum shift of cycle 7 is one: a shift of zero in a tilted plane ends the one from
+// before the plane too, which then does not come back with the end of the plane.
+void reset_shift_below(InterpreterState& state, const BlockWords& words) {
+  auto& below = state.modes.frame_below;
+  if (state.rules.dialect != Dialect::heidenhain || !below) return;
+  bool any = false;
+  for (const AxisLetter axis : kAxisLetters) {
+    const GivenWord& word = words[to_char(axis)];
+    if (!words.has(to_char(axis)) || word.value != 0.0 || word.measure == Measure::incremental) {
+      continue;
+    }
+    const auto slot = static_cast<std::size_t>(axis);
+    double& shift = is_rotary(axis) ? below->rotary_shift.at(slot - 3)
+                                    : below->shift[static_cast<Eigen::Index>(slot)];
+    any = any || shift != 0.0;
+    shift = 0.0;
+  }
+  if (!any) return;
+  assume(state, words[CodeGroup::non_modal].column, "datum-shift-in-plane",
+         "a datum shift of zero within a tilted plane ends the shift from before the plane; the "
+         "plane stays where it is until it ends");
+}
+
 }  // namespace
 
 void change_programmed_frame(InterpreterState& state, const ProgrammedFrame& next) {
@@ -128,6 +151,7 @@ Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal h
         shift += *state.position[axis] - value;
         state.modes.local_shift.at(slot) = 0.0;
       }
+      reset_shift_below(state, words);
       for (std::size_t i = 0; i < 3; ++i) {
         state.data.shift.at(i) = next.shift[static_cast<Eigen::Index>(i)];
         state.data.shift.at(3 + i) = next.rotary_shift.at(i);

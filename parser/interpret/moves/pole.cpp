@@ -81,7 +81,14 @@ Outcome set_pole(InterpreterState& state, const BlockWords& words) {
     here[static_cast<Eigen::Index>(axis)] = state.position[axis].value_or(0.0);
   }
   Vec3 pole = state.modes.pole ? state.modes.pole->at : here;
-  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
+  Plane plane = Plane::xy;
+  if (words.has('Z')) plane = words.has('X') ? Plane::zx : Plane::yz;
+  if (words.has('Z') && words.has('X') == words.has('Y')) {
+    return fail(state, words['Z'].column, "pole-plane"_id, "the pole is in no plane",
+                "give two of X, Y and Z");
+  }
+  const PlaneAxes axes = axes_of(plane);
+  for (const AxisLetter axis : {static_cast<AxisLetter>(axes.u), static_cast<AxisLetter>(axes.v)}) {
     const char letter = to_char(axis);
     const bool relative = words.has(letter) && words[letter].measure == Measure::incremental;
     const bool as_before = !words.has(letter) && !state.modes.pole;
@@ -96,8 +103,8 @@ Outcome set_pole(InterpreterState& state, const BlockWords& words) {
         words[letter].value * unit_scale(state) + (relative ? *state.position[axis] : 0.0);
   }
   // CC alone is where the tool is.
-  if ((words.given() & LetterSet("XY")).empty()) pole = here;
-  state.modes.pole = Pole{.at = pole};
+  if ((words.given() & LetterSet("XYZ")).empty()) pole = here;
+  state.modes.pole = Pole{.at = pole, .plane = plane};
   return Done{};
 }
 

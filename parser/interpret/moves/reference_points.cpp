@@ -292,4 +292,49 @@ Outcome step_axes(InterpreterState& state, const BlockWords& words, const Moveme
   return Done{};
 }
 
+Outcome retract_tool(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  if (!words.has('z')) {
+    assume(state, code.column, "M140 MB MAX",
+           "the tool goes to Z's home position; on a control to the end of the travel along the "
+           "tool");
+    HomeReturn home;
+    home.axes.at(static_cast<std::size_t>(AxisLetter::Z)) = true;
+    emit(state, code.column, Command{home});
+    leave_program_coordinates(state, state.modes.tilted ? kLinearWords : LetterSet("Z"),
+                              PositionLoss::home);
+    return Done{};
+  }
+  const double way = words['z'].value * unit_scale(state);
+  if (way < 0.0) {
+    return fail(state, words['z'].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of('z')), "give a way above zero");
+  }
+  Vec3 along = Vec3::UnitZ();
+  if (state.modes.tool_axis) {
+    along = state.modes.tool_axis->vec();
+  } else if (!state.modes.tilted) {
+    for (const AxisLetter axis : kRotaryAxes) {
+      if (!state.position[axis] || *state.position[axis] == 0.0) continue;
+      return fail(state, code.column, "not-simulated"_id,
+                  fmt::format("M140 with {} turned", to_char(axis)),
+                  "where the tool points is the machine's to know: write the retraction as an L "
+                  "block");
+    }
+  }
+  for (const AxisLetter axis : kLinearAxes) {
+    const double part = way * along[static_cast<Eigen::Index>(axis)];
+    if (part == 0.0) continue;
+    if (!state.position[axis]) {
+      return fail(state, code.column, state.position.unknown_id(axis),
+                  fmt::format("M140 goes on from a place that is not known: {}",
+                              state.position.why_unknown(axis)),
+                  fmt::format("program {} once before", to_char(axis)));
+    }
+    state.position.set(axis, *state.position[axis] + part);
+  }
+  emit(state, code.column, Traverse{state.position.target(), state.modes.tool_axis});
+  return Done{};
+}
+
 }  // namespace frustum::parser

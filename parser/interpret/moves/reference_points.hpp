@@ -31,5 +31,7 @@ namespace frustum::parser {
 [[nodiscard]] bool steps_by_axes(const InterpreterState& state, const BlockWords& words);
 [[nodiscard]] Outcome step_axes(InterpreterState& state, const BlockWords& words,
                                 const Movement& movement);
+// M140: away from the workpiece along the tool, by z or to the end of the travel.
+[[nodiscard]] Outcome retract_tool(InterpreterState& state, const BlockWords& words);
 
 }  // namespace frustum::parser

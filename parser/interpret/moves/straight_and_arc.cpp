@@ -80,6 +80,29 @@ AxisTarget leaving_contour(InterpreterState& state, const BlockWords& words, Axi
   return end;
 }
 
+// Of Klartext the plane of the pole, or of the coordinates of CR, whatever the tool's axis is.
+Plane plane_of_arc(const InterpreterState& state, const BlockWords& words) {
+  if (!state.rules.arcs_turn_about_pole || words.has(kTangential)) return state.modes.plane;
+  if (!words.has('R')) return state.modes.pole ? state.modes.pole->plane : state.modes.plane;
+  if (!words.has('Z') || words.has('X') == words.has('Y')) return state.modes.plane;
+  return words.has('X') ? Plane::zx : Plane::yz;
+}
+
+// The plane of one block.
+class PlaneOfBlock {
+ public:
+  PlaneOfBlock(ModalState& modes, Plane plane) : modes_(modes), kept_(modes.plane) {
+    modes.plane = plane;
+  }
+  PlaneOfBlock(const PlaneOfBlock&) = delete;
+  PlaneOfBlock& operator=(const PlaneOfBlock&) = delete;
+  ~PlaneOfBlock() { modes_.plane = kept_; }
+
+ private:
+  ModalState& modes_;
+  Plane kept_;
+};
+
 }  // namespace
 
 Outcome move_straight(InterpreterState& state, const BlockWords& words, const Movement& movement) {
@@ -108,6 +131,7 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
                 "the first move after radius compensation is an arc",
                 "leave the contour by a straight move");
   }
+  const PlaneOfBlock plane(state.modes, plane_of_arc(state, words));
   const PlaneAxes axes = axes_of(state.modes.plane);
   if (state.rules.arcs_may_lack_centre && lacks_centre(words, axes)) {
     assume(state, movement.column, "arc without centre",
@@ -160,7 +184,10 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
                   "give the centre by CC before");
     }
     arc_words.centre_is_absolute = true;
-    arc_words.centre = {state.modes.pole->at[0], state.modes.pole->at[1], std::nullopt};
+    arc_words.centre = {};
+    for (const int axis : {axes.u, axes.v}) {
+      arc_words.centre.at(static_cast<std::size_t>(axis)) = state.modes.pole->at[axis];
+    }
   }
   if (words.has('R')) arc_words.radius = words['R'].value * unit_scale(state);
 

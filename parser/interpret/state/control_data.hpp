@@ -47,6 +47,8 @@ struct ControlData {
   int tool = 0;
   std::map<std::string, int, std::less<>> tool_names{};  // of tools that are called by names
   LengthUnit unit = LengthUnit::millimetre;              // of the lengths in parameters
+  // Where the diameter of a contour's tool is not known, its centre goes along the contour.
+  bool contours_without_diameter = false;
 
   // What is there, or an empty entry.
   [[nodiscard]] WorkOffset work_offset(int number) const;

@@ -1,13 +1,17 @@
 // Hole cycles: defined once, done at each hole that the program names afterwards. CYCLE of CLDATA;
-// CYCL DEF 200, 201, 203, 205 and 207 of Klartext, called by CYCL CALL or M99 where the tool is.
+// CYCL DEF 200 to 207, 240, 1 and 2 of Klartext, called by CYCL CALL or M99 where the tool is, by
+// M89 where each move ends, by CYCL DEF 220 and 221 on a ring or a grid.
 //
 // The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v
 // how high it goes afterwards (I: as high as before the first hole), Q the peck, P the dwell in
 // seconds, f or r the feed. Of Klartext: z the depth, below zero; V the height of the top; Q counts
 // from the top; w the dwell above; W the feed out. Of 203 and 205: D how much a peck is less than
 // the one before, L the least peck, H how far a chip is broken, K how often before the hole is
-// cleared, E how deep each time, g and h the stops above the last depth; of DEEP2: x each peck after
-// the first.
+// cleared, E how deep each time, g and h the stops above the last depth; of DEEP2: x each peck
+// after the first. Of 202: n the direction off
+// the wall, o how far. Of 220 and 221: x y the centre or the corner, d the diameter, a b c the start,
+// stop and step of the angle, or the spacings and the turn; K L how many holes, e and l how the tool
+// goes between them.
 // Units : mm along the axis of the hole, from its top; seconds
 // Errors: none
 #pragma once
@@ -19,6 +23,9 @@
 #include "parser/motion.hpp"
 
 namespace frustum::parser {
+
+// A feed that the tool call has (AUTO); MAX is 99999.
+constexpr double kFeedOfToolCall = -1.0;
 
 // Pecks that shrink from one to the next: what follows from them is in cycles/deep_hole.hpp.
 struct DeepHole {
@@ -52,8 +59,12 @@ struct HoleCycle {
   double dwell = 0.0;
   Feed feed{};
   std::optional<Feed> feed_out{};
-  std::optional<double> top{};  // its coordinate along Z; absent: the hole's place says
+  // Its coordinate along Z; absent: the hole's place says, or the tool is `clear` above it.
+  std::optional<double> top{};
   double dwell_above = 0.0;     // seconds
+  bool at_moves = false;        // M89
+  bool of_tool = false;         // 1, 2: heights count from where the tool is
+  Vec3 off_wall = Vec3::Zero();  // of 202, before the tool goes back
   std::optional<Vec3> start{};  // where the tool was then
   std::optional<DeepHole> deep{};
   std::string program{};  // a call runs this program file instead (CYCL DEF 12)

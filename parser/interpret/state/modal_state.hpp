@@ -123,6 +123,7 @@ struct ModalState {
   std::optional<int> selected_tool{};
   int tool = 0;                                        // in the spindle
   int tool_edge = 1;                                   // D of Sinumerik, above zero
+  double tool_oversize = 0.0;                          // mm of its radius (DR of TOOL CALL)
   std::optional<FeedWord> tool_feed{};                 // of TOOL CALL, for F AUTO
   RotaryPath rotary_path = RotaryPath::as_programmed;  // M126
   std::array<RotaryPath, 3> announced_rotary_paths{};  // of A, B, C: the last ones in the motions

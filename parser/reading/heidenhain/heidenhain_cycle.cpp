@@ -13,6 +13,10 @@
 namespace frustum::parser {
 namespace {
 
+// Feeds that are no numbers: hole_cycle.hpp.
+constexpr double kFastestFeed = 99'999.0;
+constexpr double kFeedOfTool = -1.0;
+
 struct CycleParameter {
   const char* name;
   char letter;  // hole_cycle.hpp
@@ -71,6 +75,36 @@ constexpr std::array kTap{
     CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
     CycleParameter{"Q239", 'r', "Q239=", true}, CycleParameter{"Q203", 'V', "Q203=", true},
     CycleParameter{"Q204", 'v', "Q204="}};
+constexpr std::array kTapFloating{
+    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
+    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
+    CycleParameter{"Q203", 'V', "Q203=", true}, CycleParameter{"Q204", 'v', "Q204="}};
+constexpr std::array kBore{
+    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
+    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
+    CycleParameter{"Q208", 'W', "Q208="},       CycleParameter{"Q203", 'V', "Q203=", true},
+    CycleParameter{"Q204", 'v', "Q204="},       CycleParameter{"Q214", 'n', "Q214="},
+    CycleParameter{"Q336", kWithoutEffect, ""}, CycleParameter{"Q357", 'o', "Q357="}};
+constexpr std::array kCentre{
+    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q343", 0, ""},
+    CycleParameter{"Q201", 'z', "Q201=", true}, CycleParameter{"Q344", kWithoutEffect, ""},
+    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
+    CycleParameter{"Q203", 'V', "Q203=", true}, CycleParameter{"Q204", 'v', "Q204="},
+    CycleParameter{"Q342", kWithoutEffect, ""}, CycleParameter{"Q253", kWithoutEffect, ""}};
+constexpr std::array kRing{
+    CycleParameter{"Q216", 'x', "Q216=", true}, CycleParameter{"Q217", 'y', "Q217=", true},
+    CycleParameter{"Q244", 'd', "Q244=", true}, CycleParameter{"Q245", 'a', "Q245="},
+    CycleParameter{"Q246", 'b', "Q246="},       CycleParameter{"Q247", 'c', "Q247="},
+    CycleParameter{"Q241", 'K', "Q241=", true}, CycleParameter{"Q200", 'u', "Q200="},
+    CycleParameter{"Q203", 'V', "Q203="},       CycleParameter{"Q204", 'v', "Q204="},
+    CycleParameter{"Q301", 'e', "Q301="},       CycleParameter{"Q365", 'l', "Q365="}};
+constexpr std::array kGrid{
+    CycleParameter{"Q225", 'x', "Q225=", true}, CycleParameter{"Q226", 'y', "Q226=", true},
+    CycleParameter{"Q237", 'a', "Q237="},       CycleParameter{"Q238", 'b', "Q238="},
+    CycleParameter{"Q242", 'K', "Q242=", true}, CycleParameter{"Q243", 'L', "Q243=", true},
+    CycleParameter{"Q224", 'c', "Q224="},       CycleParameter{"Q200", 'u', "Q200="},
+    CycleParameter{"Q203", 'V', "Q203="},       CycleParameter{"Q204", 'v', "Q204="},
+    CycleParameter{"Q301", 'e', "Q301="}};
 constexpr std::array kCycles{
     ParameterCycle{247.0, "CYCL DEF 247", kPreset, "the preset's number is Q339"},
     ParameterCycle{200.0, "CYCL DEF 200", kDrill,
@@ -84,7 +118,40 @@ constexpr std::array kCycles{
                    "it has Q200 Q201 Q206 Q202 Q203 Q204 Q212 Q205 Q258 Q259 Q257 Q256 Q211 Q379 "
                    "Q253 Q208, for example Q200=+2"},
     ParameterCycle{207.0, "CYCL DEF 207", kTap,
-                   "it has Q200 Q201 Q239 Q203 Q204, for example Q200=+2"}};
+                   "it has Q200 Q201 Q239 Q203 Q204, for example Q200=+2"},
+    ParameterCycle{206.0, "CYCL DEF 206", kTapFloating,
+                   "it has Q200 Q201 Q206 Q211 Q203 Q204, for example Q200=+2"},
+    ParameterCycle{202.0, "CYCL DEF 202", kBore,
+                   "it has Q200 Q201 Q206 Q211 Q208 Q203 Q204 Q214 Q336, for example Q200=+2"},
+    ParameterCycle{240.0, "CYCL DEF 240", kCentre,
+                   "it has Q200 Q343 Q201 Q344 Q206 Q211 Q203 Q204, for example Q200=+2"},
+    ParameterCycle{220.0, "CYCL DEF 220", kRing,
+                   "it has Q216 Q217 Q244 Q245 Q246 Q247 Q241 Q200 Q203 Q204 Q301 Q365, for "
+                   "example Q241=+8"},
+    ParameterCycle{221.0, "CYCL DEF 221", kGrid,
+                   "it has Q225 Q226 Q237 Q238 Q242 Q243 Q224 Q200 Q203 Q204 Q301, for example "
+                   "Q242=+6"}};
+// Cycles of older controls, whose parameters are in blocks of their own: 1.1 SET UP, 1.2 DEPTH.
+struct OldCycleParameter {
+  double cycle;
+  int part;
+  const char* code;
+  char letter;
+};
+constexpr std::array kOldCycles{
+    OldCycleParameter{1.0, 1, "CYCL DEF 1.1", 'u'}, OldCycleParameter{1.0, 2, "CYCL DEF 1.2", 'z'},
+    OldCycleParameter{1.0, 3, "CYCL DEF 1.3", 'Q'}, OldCycleParameter{1.0, 4, "CYCL DEF 1.4", 'P'},
+    OldCycleParameter{1.0, 5, "CYCL DEF 1.5", 'f'}, OldCycleParameter{2.0, 1, "CYCL DEF 2.1", 'u'},
+    OldCycleParameter{2.0, 2, "CYCL DEF 2.2", 'z'}, OldCycleParameter{2.0, 3, "CYCL DEF 2.3", 'P'},
+    OldCycleParameter{2.0, 4, "CYCL DEF 2.4", 'f'}};
+// Known and not simulated: tolerance, load and vibration of the machine.
+struct PassedCycle {
+  double number;
+  const char* event;
+};
+constexpr std::array kPassedCycles{
+    PassedCycle{32.0, "CYCL DEF 32"}, PassedCycle{239.0, "CYCL DEF 239"},
+    PassedCycle{332.0, "CYCL DEF 332"}, PassedCycle{392.0, "CYCL DEF 392"}};
 
 class CycleReader {
  public:
@@ -92,10 +159,7 @@ class CycleReader {
 
   void read_cycle(std::uint32_t column) {
     const bool defines = in_.take_name("DEF");
-    if (!defines && in_.take_name("CALL")) {
-      add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL"), column);
-      return read_heidenhain_elements(draft_, "CYCL CALL");
-    }
+    if (!defines && in_.take_name("CALL")) return read_call(column);
     const auto number = defines ? in_.number() : std::nullopt;
     if (!number) {
       return in_.fail("keyword-missing"_id, column,
@@ -105,7 +169,10 @@ class CycleReader {
     const double cycle = std::floor(number->value + 1e-6);
     const int part = static_cast<int>(std::lround((number->value - cycle) * 10.0));
     if (cycle == 9.0) return read_dwell_cycle(part, column);
-    if (cycle == 32.0) return note(draft_, "CYCL DEF 32", column, in_.text_to(";"));
+    if (cycle == 1.0 || cycle == 2.0) return read_old_cycle(cycle, part, column);
+    for (const PassedCycle& passed : kPassedCycles) {
+      if (cycle == passed.number) return read_passed(passed.event, column);
+    }
     if (cycle == 7.0) return read_shift(part, column);
     if (cycle == 8.0) return read_mirror(part, column);
     if (cycle == 10.0) return read_turn(part, column);
@@ -121,11 +188,11 @@ class CycleReader {
       const char* text;
     };
     constexpr std::array kRemedies{
-        Remedy{202.0, "use CYCL DEF 201, or write the cycle out as L blocks"},
-        Remedy{206.0, "use CYCL DEF 207, or write the cycle out as L blocks"},
-        Remedy{209.0, "use CYCL DEF 207, or write the cycle out as L blocks"},
-        Remedy{220.0, "call the cycle by CYCL CALL or M99 at each hole"},
-        Remedy{221.0, "call the cycle by CYCL CALL or M99 at each hole"}};
+        Remedy{209.0, "use CYCL DEF 207, or write the cycle out as L blocks"}};
+    if (cycle >= 800.0 && cycle < 900.0) {
+      return in_.fail("not-milling"_id, column, fmt::format("CYCL DEF {} is one of turning", cycle),
+                      "programs of lathes are not simulated");
+    }
     const auto* remedy = std::find_if(kRemedies.begin(), kRemedies.end(),
                                       [&](const Remedy& r) { return r.cycle == cycle; });
     in_.fail("not-supported"_id, column, fmt::format("CYCL DEF {} is not simulated", cycle),
@@ -133,6 +200,55 @@ class CycleReader {
   }
 
  private:
+  void read_call(std::uint32_t column) {
+    const std::uint32_t place = in_.column();
+    if (in_.take_name("POS")) {
+      add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL POS"), column);
+      return read_heidenhain_axes(draft_, "CYCL CALL POS");
+    }
+    if (in_.take_name("PAT")) {
+      return in_.fail("not-supported"_id, place, "CYCL CALL PAT is not simulated",
+                      "call the cycle by CYCL CALL POS or M99 at each hole");
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL"), column);
+    read_heidenhain_elements(draft_, "CYCL CALL");
+  }
+
+  // All that belongs to it, over several lines.
+  void read_passed(const char* event, std::uint32_t column) {
+    std::string text;
+    while (!in_.at_end()) {
+      if (in_.peek() == ';') {
+        draft_.read_comment();
+        continue;
+      }
+      const std::string part = in_.text_to(";");
+      if (!part.empty()) text += (text.empty() ? "" : " ") + part;
+    }
+    draft_.add_event(event, column, std::move(text));
+  }
+
+  // CYCL DEF 1.1 SET UP -2; the words are in the language of the control.
+  void read_old_cycle(double cycle, int part, std::uint32_t column) {
+    if (part == 0) {
+      return note(draft_, cycle == 1.0 ? "CYCL DEF 1" : "CYCL DEF 2", column, in_.text_to(";"));
+    }
+    const auto* known =
+        std::find_if(kOldCycles.begin(), kOldCycles.end(), [&](const OldCycleParameter& p) {
+          return p.cycle == cycle && p.part == part;
+        });
+    if (known == kOldCycles.end()) {
+      return in_.fail("unknown-word"_id, column,
+                      fmt::format("CYCL DEF {:g} has no part {}", cycle, part),
+                      "write CYCL DEF 1.1 SET UP -2 to 1.5 F100");
+    }
+    while (!in_.letters().empty() || in_.take('.')) {
+    }
+    add_code(block_, *find_code(Dialect::heidenhain, known->code), column);
+    add_value(draft_, known->letter, known->code, column, "");
+    end_statement(draft_);
+  }
+
   // CYCL DEF 7.1 X+60, IX+5
   void read_shift(int part, std::uint32_t column) {
     if (part == 0) return note(draft_, "CYCL DEF 7", column, in_.text_to(";"));
@@ -257,6 +373,11 @@ class CycleReader {
     }
     for (const char angle : {'A', 'B', 'C'}) {
       if (off || in_.failed() || given.find(angle) != std::string::npos) continue;
+      // Of one alone the plane is the same whether it is a spatial angle or that of an axis.
+      if (given.size() == 1) {
+        add_number(block_, angle, 0.0, column);
+        continue;
+      }
       return in_.fail("value-missing"_id, column, fmt::format("CYCL DEF 19 has no {}", angle),
                       "give all three spatial angles, A B C; of axis angles only the machine knows "
                       "the plane: use PLANE SPATIAL");
@@ -316,6 +437,15 @@ class CycleReader {
       }
       if (known->letter == kWithoutEffect) {
         (void)in_.signed_number(name, place);
+        continue;
+      }
+      // Of feeds: by rapid, or as the tool call has it.
+      if (in_.take_name("MAX") || in_.take_name("FMAX")) {
+        add_number(block_, known->letter, kFastestFeed, place, known->spelled);
+        continue;
+      }
+      if (in_.take_name("AUTO") || in_.take_name("FAUTO")) {
+        add_number(block_, known->letter, kFeedOfTool, place, known->spelled);
         continue;
       }
       add_value(draft_, known->letter, name, place, known->spelled);

@@ -11,6 +11,16 @@
 namespace frustum::parser {
 namespace {
 
+// What speaks to the operator, to files or to the machine, and sets nothing that is read here.
+struct PassedFn {
+  int number;
+  const char* event;
+};
+constexpr std::array kPassedFn{PassedFn{15, "FN 15"}, PassedFn{16, "FN 16"}, PassedFn{17, "FN 17"},
+                               PassedFn{19, "FN 19"}, PassedFn{20, "FN 20"}, PassedFn{26, "FN 26"},
+                               PassedFn{27, "FN 27"}, PassedFn{29, "FN 29"}, PassedFn{37, "FN 37"},
+                               PassedFn{38, "FN 38"}};
+
 constexpr const char* kFnJump = "write FN 9: IF +Q1 EQU +Q3 GOTO LBL 5";
 
 class FlowReader {
@@ -46,8 +56,14 @@ class FlowReader {
     if (fn >= 9 && fn <= 12)
       return read_fn_jump(kComparisons.at(static_cast<std::size_t>(fn - 9)), column);
     if (fn == 14) return read_raised_error(column);
-    if (fn == 15) return note(draft_, "FN 15", column, in_.text_to(";"));
-    if (fn == 16) return note(draft_, "FN 16", column, in_.text_to(";"));
+    if (fn == 17 && !sets_tool_data()) {
+      return in_.fail("not-supported"_id, column, "FN 17 is not simulated",
+                      "what it writes could move the datum: known is FN 17: SYSWRITE ID50, the tool "
+                      "table");
+    }
+    for (const PassedFn& passed : kPassedFn) {
+      if (fn == passed.number) return note(draft_, passed.event, column, in_.text_to(";"));
+    }
     const std::uint32_t place = in_.column();
     const std::string target = in_.name();
     if (fn > 8 && fn != 13) {
@@ -132,8 +148,11 @@ class FlowReader {
 
   // CALL LBL 1, CALL LBL 1 REP 3.
   void read_call(std::uint32_t column) {
-    if (in_.take_name("PGM")) return read_program_call(false);
-    if (!in_.take_name("LBL")) {
+    const std::uint32_t begin = in_.column();
+    const std::string kind = in_.letters();
+    if (kind == "PGM") return read_program_call(false);
+    if (kind != "LBL") {
+      in_.go_to(begin);
       const std::string what = in_.name();
       return in_.fail("not-supported"_id, column,
                       fmt::format("CALL {} is not simulated", what.empty() ? "alone" : what),
@@ -186,6 +205,16 @@ class FlowReader {
   }
 
  private:
+  // SYSWRITE ID50 ..
+  bool sets_tool_data() {
+    const std::uint32_t place = in_.column();
+    const bool writes = in_.take_name("SYSWRITE");
+    const std::string group = in_.next_name();
+    const bool of_tools = writes && (group == "ID50" || group == "ID");
+    in_.go_to(place);
+    return of_tools;
+  }
+
   void read_fn_jump(Operation comparison, std::uint32_t column) {
     if (!in_.take_name("IF"))
       return in_.fail("keyword-missing"_id, in_.column(), "FN has no IF", kFnJump);
@@ -201,7 +230,7 @@ class FlowReader {
     condition.count += draft_.read_expression(ExpressionLevel::operand).count;
     push(comparison, place);
     ++condition.count;
-    if (!in_.take_name("GOTO") || !in_.take_name("LBL")) {
+    if (!in_.take_name("GOTO") || in_.letters() != "LBL") {
       return in_.fail("keyword-missing"_id, in_.column(), "FN has no GOTO LBL", kFnJump);
     }
     read_label_name();

@@ -1,11 +1,34 @@
 // FUNCTION of Klartext: TCPM, MODE, DWELL.
 #include <fmt/format.h>
 
+#include <array>
+#include <string_view>
+
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
 namespace frustum::parser {
 namespace {
+
+// What changes no path: files, counters, the spindle's speed and the feed, the watch over the
+// machine, and the display of axes beside X, Y and Z.
+struct PassedFunction {
+  std::string_view word;
+  const char* event;
+};
+constexpr std::array kPassedFunctions{
+    PassedFunction{"DCM", "FUNCTION DCM"},
+    PassedFunction{"AFC", "FUNCTION AFC"},
+    PassedFunction{"COUNT", "FUNCTION COUNT"},
+    PassedFunction{"FEED", "FUNCTION FEED"},
+    PassedFunction{"S", "FUNCTION S"},
+    PassedFunction{"LIFTOFF", "FUNCTION LIFTOFF"},
+    PassedFunction{"FILECOPY", "FUNCTION FILECOPY"},
+    PassedFunction{"FILEMOVE", "FUNCTION FILEMOVE"},
+    PassedFunction{"FILEDELETE", "FUNCTION FILEDELETE"},
+    PassedFunction{"SPINDLE", "FUNCTION SPINDLE"},
+    PassedFunction{"PARAXCOMP", "FUNCTION PARAXCOMP"},
+    PassedFunction{"PROG", "FUNCTION PROG"}};
 
 class FunctionReader {
  public:
@@ -21,7 +44,18 @@ class FunctionReader {
       add_code(block_, *find_code(Dialect::heidenhain, "FUNCTION RESET TCPM"), column);
       return read_heidenhain_elements(draft_, "FUNCTION RESET TCPM");
     }
-    if (kind == "MODE") return note(draft_, "FUNCTION MODE", column, in_.text_to(";"));
+    if (kind == "MODE" || kind == "TURNDATA") {
+      const std::uint32_t place = in_.column();
+      const std::string mode = in_.next_name();
+      if (kind == "MODE" && mode != "TURN" && mode != "GRIND") {
+        return note(draft_, "FUNCTION MODE", column, in_.text_to(";"));
+      }
+      return in_.fail("not-milling"_id, place, fmt::format("FUNCTION {} {}", kind, mode),
+                      "programs of lathes and grinding machines are not simulated");
+    }
+    for (const PassedFunction& passed : kPassedFunctions) {
+      if (kind == passed.word) return note(draft_, passed.event, column, in_.text_to(";"));
+    }
     if (kind == "DWELL") {
       const std::uint32_t place = in_.column();
       // The number may follow without a blank: TIME2.
@@ -52,7 +86,9 @@ class FunctionReader {
                  remedy);
       };
       if (name == "F") {
-        if (value != "TCP") refused("the feed is that of the tool tip: F TCP");
+        // Of the contour or of the tip: the path is the same.
+        if (value == "CONT") draft_.add_event("TCPM F", place, value);
+        if (value != "TCP" && value != "CONT") refused("the feed is that of the tool tip: F TCP");
       } else if (name == "AXIS") {
         if (value != "POS") refused("rotary words are axis positions: AXIS POS");
       } else if (name == "PATHCTRL" && (value == "AXIS" || value == "VECTOR")) {

@@ -29,6 +29,29 @@ constexpr std::array kPolar{PolarElement{"PR", kPolarRadius, Measure::modal},
 constexpr std::array kToolVector{Element{"TX", 'a', "TX"}, Element{"TY", 'b', "TY"},
                                  Element{"TZ", 'c', "TZ"}};
 
+// What may follow an M word, as letters with or without a number, or as a word of its own.
+struct Operand {
+  double m;
+  std::string_view letters;
+  std::string_view word;
+  const char* event;
+};
+constexpr std::array kOperandsOfM{Operand{128.0, "F", "", "M128"},
+                                  Operand{94.0, "ABCUVW", "", "M94"},
+                                  Operand{103.0, "F", "", "M103"},
+                                  Operand{112.0, "TAE", "", "M112"},
+                                  Operand{116.0, "ABC", "", "M116"},
+                                  Operand{118.0, "XYZABC", "", "M118"},
+                                  Operand{120.0, "", "LA", "M120"},
+                                  Operand{124.0, "T", "", "M124"},
+                                  Operand{138.0, "ABC", "", "M138"},
+                                  Operand{197.0, "", "DL", "M197"}};
+
+// Whether a number or a parameter follows.
+bool begins_value(char next) {
+  return (next >= '0' && next <= '9') || next == '.' || next == '+' || next == '-' || next == 'Q';
+}
+
 template <typename Known, std::size_t N>
 const Known* find(const std::array<Known, N>& elements, std::string_view name) {
   for (const Known& element : elements) {
@@ -45,6 +68,7 @@ struct Path {
   bool radius = false;
   bool sense = false;
   bool feed = false;
+  bool link = false;  // of a way on to a contour: LEN, CCA
 };
 
 class PathReader {
@@ -95,6 +119,26 @@ class PathReader {
     }
   }
 
+  // APPR LT, DEP PLCT
+  void read_link(const std::string& statement, std::uint32_t column) {
+    const std::uint32_t place = in_.column();
+    std::string shape = in_.letters();
+    const bool polar = shape.starts_with('P');
+    if (polar) shape.erase(0, 1);
+    const Code* code = find_code(Dialect::heidenhain, statement + " " + shape);
+    if (code == nullptr || (polar && statement == "DEP" && shape != "LCT")) {
+      return in_.fail("unknown-word"_id, place, statement + " does not say how",
+                      statement == "APPR" ? "write APPR LT, LN, CT or LCT; PLT, PLN, PCT or PLCT"
+                                          : "write DEP LT, LN, CT, LCT or PLCT");
+    }
+    add_code(block_, *code, column);
+    Path path;
+    path.axes = path.radius = path.feed = path.link = true;
+    path.polar = polar;
+    read_elements(statement, path);
+    if (rapid_ && !in_.failed()) add_number(block_, 'd', 1.0, column, "FMAX");
+  }
+
   void read_elements(const std::string& statement, const Path& path) {
     while (!in_.at_end()) {
       if (in_.peek() == ';') {
@@ -112,10 +156,10 @@ class PathReader {
       const std::string name = in_.letters();
       const Element* element = find(kIncremental, name);
       const std::string axis = element == nullptr ? name : std::string(1, element->letter);
-      if (axis != "X" && axis != "Y") {
+      if (axis != "X" && axis != "Y" && axis != "Z") {
         if (name.empty()) return in_.fail_unexpected("write CC X+0 Y+0");
         return in_.fail("unknown-word"_id, place, fmt::format("{} has no meaning in CC", name),
-                        "the pole has X and Y: CC X+0 Y+0");
+                        "the pole has X and Y: CC X+0 Y+0; or Z and one of them");
       }
       add_measured(axis.front(), element == nullptr ? Measure::modal : Measure::incremental,
                    element == nullptr ? nullptr : element->spelled, place);
@@ -154,6 +198,14 @@ class PathReader {
       in_.take(sense_);
       return;
     }
+    if (path.link && (name == "LEN" || name == "CCA")) {
+      return add_value(draft_, name == "LEN" ? 'l' : 'i', name, column,
+                       name == "LEN" ? "LEN" : "CCA");
+    }
+    if (name == "S" || name == "SQ" || name == "SQL" || name == "SQR") {
+      in_.go_to(column + 1);
+      return add_value(draft_, 'S', "S", column, nullptr);
+    }
     if (name == "R") return read_radius(statement, path, column);
     if (name == "RL" || name == "RR") {
       if (!path.axes || path.vector) {
@@ -174,6 +226,14 @@ class PathReader {
 
   void read_radius(const std::string& statement, const Path& path, std::uint32_t column) {
     const bool is_signed = in_.peek_byte() == '+' || in_.peek_byte() == '-';
+    // R, F and M without numbers are left from a dialog: nothing changes.
+    if (!is_signed && !begins_value(in_.peek())) return;
+    if (in_.peek() == 'Q') {
+      if (path.radius) {
+        has_radius_ = true;
+        return add_value(draft_, 'R', "R", column, nullptr);
+      }
+    }
     const double value = in_.signed_number("R", column);
     if (!is_signed && value == 0.0) {
       add_code(block_, *find_code(Dialect::heidenhain, "R0"), column);
@@ -206,27 +266,67 @@ class PathReader {
       return in_.fail("not-supported"_id, column, name + " is not simulated",
                       "give F, FMAX, F AUTO or FT; feed per revolution is M136");
     }
+    if (!begins_value(in_.peek())) return;
     add_value(draft_, 'F', name, column, nullptr);
   }
 
   void read_m(std::uint32_t column) {
+    if (!begins_value(in_.peek())) return;
     const double code = in_.signed_number("M", column);
-    if (code == 140.0) {
-      return in_.fail("not-supported"_id, column, "M140 is not simulated",
-                      "retract by L Z... R0 FMAX M91");
-    }
+    if (code == 140.0) return read_retraction(column);
     const auto add = [&](double m) { add_number(block_, 'M', m, column); };
     if (code == 13.0 || code == 14.0) {  // spindle and coolant
       add(code - 10.0);
       return add(8.0);
     }
     add(code);
-    if (code != 128.0 || in_.peek() != 'F') return;
-    const std::uint32_t feed_column = in_.column();
-    if (in_.letters() != "F" || in_.next_name() == "MAX") return in_.go_to(feed_column);
-    // The feed of the balancing moves.
-    block_.comments.push_back(
-        {feed_column, false, "F" + shortest_decimal(in_.signed_number("F", feed_column)), "M128"});
+    for (const Operand& operand : kOperandsOfM) {
+      if (operand.m == code) return read_operands_of_m(operand);
+    }
+  }
+
+  // What belongs to an M word: M128 F2000, M103 F20, M120 LA5, M118 X1 Y1, M94 C, M138 A C.
+  void read_operands_of_m(const Operand& operand) {
+    std::string taken;
+    while (!in_.at_end()) {
+      const std::uint32_t column = in_.column();
+      const std::string name = in_.letters();
+      const bool by_parameter = name.size() > 1 && name[1] == 'Q';
+      const bool known =
+          by_parameter ? operand.letters.find(name.front()) != std::string_view::npos
+          : name.size() == 1
+              ? operand.letters.find(name.front()) != std::string_view::npos
+              : operand.word == name;
+      const bool again = known && taken.find(name.front()) != std::string::npos;
+      if (!known || again || (name == "F" && in_.next_name() == "MAX")) return in_.go_to(column);
+      taken += name.front();
+      std::string text = by_parameter ? name.substr(0, 1) : name;
+      if (by_parameter) in_.go_to(column + 1);
+      const bool is_signed = in_.peek() == '+' || in_.peek() == '-';
+      if (in_.peek() == 'Q' || by_parameter) {
+        in_.take('+');
+        text += in_.name();
+      } else if (is_signed || begins_value(in_.peek())) {
+        text += shortest_decimal(in_.signed_number(text, column));
+      }
+      block_.comments.push_back({column, false, std::move(text), operand.event});
+    }
+  }
+
+  // M140 MB MAX, M140 MB+50: away from the workpiece along the tool.
+  void read_retraction(std::uint32_t column) {
+    const std::uint32_t place = in_.column();
+    if (in_.letters() != "MB") {
+      return in_.fail("value-missing"_id, place, "M140 has no MB",
+                      "write M140 MB MAX, or M140 MB+50");
+    }
+    const bool all = in_.take_name("MAX");
+    add_code(block_, *find_code(Dialect::heidenhain, all ? "M140 MB MAX" : "M140"), column);
+    if (!all) add_value(draft_, 'z', "MB", place, "MB");
+    const std::uint32_t feed_place = in_.column();
+    if (in_.peek() != 'F') return;
+    if (in_.letters() != "F" || !begins_value(in_.peek())) return in_.go_to(feed_place);
+    add_value(draft_, 'f', "F", feed_place, "F");
   }
 
   void add_measured(char letter, Measure measure, const char* spelled, std::uint32_t column) {
@@ -251,7 +351,7 @@ void read_heidenhain_corner(BlockDraft& draft, const std::string& statement, std
   add_code(draft.block, *find_code(Dialect::heidenhain, statement), column);
   const bool rounds = statement == "RND";
   const std::uint32_t place = in.column();
-  if (rounds && in.letters() != "R") {
+  if (rounds && in.letters() != "R" && !begins_value(in.peek())) {
     return in.fail("value-missing"_id, place, "RND has no radius", "write RND R5");
   }
   add_value(draft, 'R', rounds ? "R" : statement, place, rounds ? "R" : "");
@@ -265,11 +365,14 @@ void read_heidenhain_corner(BlockDraft& draft, const std::string& statement, std
   }
   end_statement(draft);
 }
+void read_heidenhain_link(BlockDraft& draft, const std::string& statement, std::uint32_t column) {
+  PathReader(draft).read_link(statement, column);
+}
 void read_heidenhain_path(BlockDraft& draft, const std::string& statement, std::uint32_t column) {
   PathReader(draft).read_path(statement, column);
 }
 void read_heidenhain_elements(BlockDraft& draft, const std::string& statement) {
-  PathReader(draft).read_elements(statement, {});
+  PathReader(draft).read_elements(statement, {.feed = true});
 }
 void read_heidenhain_axes(BlockDraft& draft, const std::string& statement) {
   PathReader(draft).read_elements(statement, {.axes = true});

@@ -11,6 +11,7 @@
 #include "parser/language/letter_case.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
+#include "parser/reading/heidenhain/plain_line.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -20,9 +21,19 @@ constexpr std::string_view kLineHint =
 
 constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
 // By their first words.
-constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL", "BEGIN",
-                                 "END", "BLK",  "STOP",  "FN",       "LBL",  "CALL",
-                                 "M3",  "Q1",   "RND",   "CHF"};
+constexpr std::array kStatements{"CC",    "TOOL",   "PLANE", "FUNCTION", "CYCL",  "BEGIN", "END",
+                                 "BLK",   "STOP",   "FN",    "LBL",      "CALL",  "M3",    "Q1",
+                                 "RND",   "CHF",    "APPR",  "DEP",      "TRANS", "PRESET"};
+// Statements that change nothing that is simulated.
+constexpr std::array kPassedStatements{"SEL TABLE", "CONTOUR DEF", "SEL CONTOUR", "SECTION"};
+// Words whose number may follow without a blank: LBL1, FN0:, RND5.
+constexpr std::array<std::string_view, 5> kRunOn{"LBL", "FN", "RND", "CHF", "N"};
+
+bool is_axis_word(std::string_view name) {
+  if (name.starts_with('I')) name.remove_prefix(1);
+  return !name.empty() && std::string_view("XYZABC").find(name.front()) != std::string_view::npos &&
+         name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
 
 class HeidenhainReader {
  public:
@@ -47,21 +58,40 @@ class HeidenhainReader {
  private:
   void read_statement() {
     const std::uint32_t column = in_.column();
-    if (in_.peek() == ';') return draft_.read_comment();
+    const char first = in_.peek();
+    if (first == ';') return draft_.read_comment();
     if (in_.take('*')) {
       in_.take('-');
       return note(draft_, "structure", column, in_.text_to());
     }
-    const std::string name = in_.name();
+    // Of a simulator or a transfer program, before the program itself.
+    if (first == '(' && program_.empty()) {
+      block_.comments.push_back({column, true, in_.text_to(), nullptr});
+      return;
+    }
+    std::string name = in_.name();
     if (std::find(kPaths.begin(), kPaths.end(), name) != kPaths.end()) {
       return read_heidenhain_path(draft_, name, column);
     }
+    for (const std::string_view word : kRunOn) {
+      const bool runs_on = name.size() > word.size() && name.starts_with(word) &&
+                           name.find_first_not_of("0123456789", word.size()) == std::string::npos;
+      if (!runs_on) continue;
+      in_.go_to(column + static_cast<std::uint32_t>(word.size()));
+      if (word == "N") return read_numbered();
+      name = word;
+    }
     if (name == "RND" || name == "CHF") return read_heidenhain_corner(draft_, name, column);
+    if (name == "RNDR") {
+      in_.go_to(column + 3);
+      return read_heidenhain_corner(draft_, "RND", column);
+    }
     if (name == "CC") return read_heidenhain_pole(draft_, column);
+    if (name == "APPR" || name == "DEP") return read_heidenhain_link(draft_, name, column);
     if (name == "TOOL") return read_heidenhain_tool(draft_, column);
     if (name == "PLANE") return read_heidenhain_plane(draft_, column);
     if (name == "FUNCTION") return read_heidenhain_function(draft_, column);
-    if (name == "CYCL") return read_heidenhain_cycle(draft_, column);
+    if (name == "CYCL" || name == "CYCLE") return read_heidenhain_cycle(draft_, column);
     if (name == "BEGIN" || name == "END") return read_frame_of_program(name, column);
     if (name == "BLK" && in_.take_name("FORM"))
       return note(draft_, "BLK FORM", column, in_.text_to(";"));
@@ -69,15 +99,30 @@ class HeidenhainReader {
       add_code(block_, *find_code(Dialect::heidenhain, "STOP"), column);
       return read_heidenhain_elements(draft_, "STOP");
     }
-    if (name.size() > 1 && name.front() == 'M' &&
-        name.find_first_not_of("0123456789", 1) == std::string::npos) {
+    if (is_element(name)) {
       in_.go_to(column);
-      return read_heidenhain_elements(draft_, "M");
+      return read_heidenhain_elements(draft_, "a line without a statement");
+    }
+    // A line goes on.
+    if (is_axis_word(name)) {
+      in_.go_to(column);
+      return read_heidenhain_path(draft_, "L", column);
     }
     if (is_q_parameter(name)) return read_heidenhain_setting(draft_, name, column);
+    if (is_text_parameter(name)) {
+      in_.go_to(column);
+      return note(draft_, "QS", column, in_.text_to());
+    }
     if (name == "FN") return read_heidenhain_fn(draft_, column);
     if (name == "LBL") return read_heidenhain_label(draft_, column);
     if (name == "CALL") return read_heidenhain_call(draft_, column);
+    if (name == "TRANS" || name == "PRESET") return read_heidenhain_transform(draft_, name, column);
+    for (const std::string_view passed : kPassedStatements) {
+      const std::size_t blank = passed.find(' ');
+      if (name != passed.substr(0, blank)) continue;
+      if (blank != std::string_view::npos && !in_.take_name(passed.substr(blank + 1))) continue;
+      return note(draft_, passed.data(), column, in_.text_to(";"));
+    }
     if (const auto remedy = remedy_for(Dialect::heidenhain, name); !remedy.empty()) {
       return in_.fail("not-supported"_id, column, name + " is not simulated", std::string(remedy));
     }
@@ -85,6 +130,25 @@ class HeidenhainReader {
     std::vector<std::string> known(kStatements.begin(), kStatements.end());
     known.insert(known.end(), kPaths.begin(), kPaths.end());
     in_.fail("unknown-word"_id, column, "unknown statement " + name, suggestion(name, known));
+  }
+
+  // N10 L X+5
+  void read_numbered() {
+    block_.number = in_.block_number();
+    if (!in_.failed() && !in_.at_end()) read_statement();
+  }
+
+  // M3, R0, FMAX, F500, S2000 at the start of a line.
+  [[nodiscard]] static bool is_element(std::string_view name) {
+    if (name == "RL" || name == "RR" || name == "R" || name == "FMAX" || name == "FAUTO") {
+      return true;
+    }
+    if (name.empty() || std::string_view("MFSR").find(name.front()) == std::string_view::npos) {
+      return false;
+    }
+    return name.size() == 1 ||
+           name.find_first_not_of("0123456789", 1) == std::string_view::npos ||
+           (name[1] == 'Q' && name.front() != 'R');
   }
 
   void read_frame_of_program(const std::string& name, std::uint32_t column) {
@@ -96,18 +160,16 @@ class HeidenhainReader {
     std::string text = in_.text_to(";");
     const std::string called = text.substr(0, text.find(' '));
     if (name == "END") {
-      if (!program_.empty() && upper_case(called) != upper_case(program_)) {
-        return in_.fail("program-name-mismatch"_id, place,
-                        fmt::format("END PGM {} of the program {}", called, program_),
-                        "BEGIN PGM and END PGM have the same name");
-      }
       add_code(block_, *find_code(Dialect::heidenhain, "END PGM"), column);
+      if (!program_.empty() && upper_case(called) != upper_case(program_)) {
+        return note(draft_, "END PGM", column, std::move(text));
+      }
       return end_statement(draft_);
     }
     program_ = called;
     const std::string unit = upper_case(text.substr(text.find_last_of(' ') + 1));
     const bool metric = unit == "MM";
-    if (!metric && unit != "INCH") {
+    if (!metric && unit != "INCH" && unit != "IN") {
       return in_.fail("keyword-missing"_id, place, "BEGIN PGM has no unit",
                       "end it with MM or INCH");
     }
@@ -125,7 +187,9 @@ class HeidenhainReader {
 }  // namespace
 
 BlockReader heidenhain_reader() {
-  return [program = std::string()](std::string_view text, std::uint32_t line) mutable {
+  return [program = std::string()](std::string_view text,
+                                   std::uint32_t line) mutable -> Result<Block> {
+    if (auto plain = read_plain_line(text, line)) return *std::move(plain);
     return HeidenhainReader(text, line, program)();
   };
 }

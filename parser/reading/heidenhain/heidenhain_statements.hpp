@@ -15,6 +15,8 @@ namespace frustum::parser {
 
 // L, LN, C, CR, CT, LP, CP, CTP; the elements of a line that has no path: STOP M5; axes alone; CC.
 void read_heidenhain_path(BlockDraft& draft, const std::string& statement, std::uint32_t column);
+// APPR LT, DEP LCT: on to a contour and off it.
+void read_heidenhain_link(BlockDraft& draft, const std::string& statement, std::uint32_t column);
 void read_heidenhain_elements(BlockDraft& draft, const std::string& statement);
 void read_heidenhain_axes(BlockDraft& draft, const std::string& statement);
 void read_heidenhain_pole(BlockDraft& draft, std::uint32_t column);
@@ -30,6 +32,9 @@ void read_heidenhain_tool(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_plane(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_function(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_cycle(BlockDraft& draft, std::uint32_t column);
+// TRANS DATUM AXIS X+5, PRESET SELECT #1
+void read_heidenhain_transform(BlockDraft& draft, const std::string& statement,
+                               std::uint32_t column);
 
 // A call of the program file that is named next: TNC:\\WORK\\SLOT.H, "SLOT.H", SLOT. Folders of the
 // control are left out.
@@ -38,6 +43,8 @@ void read_heidenhain_program_call(BlockDraft& draft, bool by_cycle);
 [[nodiscard]] const ExpressionRules& heidenhain_expressions();
 // Q1, QL1, QR1
 [[nodiscard]] bool is_q_parameter(std::string_view name);
+// QS1
+[[nodiscard]] bool is_text_parameter(std::string_view name);
 // A word with [ + | - ] and a number or a parameter.
 void add_value(BlockDraft& draft, char letter, std::string_view whose, std::uint32_t column,
                const char* spelled);

@@ -12,7 +12,9 @@ class ToolReader {
   explicit ToolReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
 
   void read_tool(std::uint32_t column) {
-    const std::string kind = in_.name();
+    const std::uint32_t kind_column = in_.column();
+    const std::string kind = in_.letters();
+    if (kind != "DEF" && kind != "CALL") in_.go_to(kind_column);
     if (kind == "DEF") return note(draft_, "TOOL DEF", column, in_.text_to(";"));
     if (kind != "CALL")
       return in_.fail("keyword-missing"_id, column, "TOOL without CALL or DEF",
@@ -49,6 +51,12 @@ class ToolReader {
                       fmt::format("tool axis {} is not simulated", name), "the tool is along Z");
     }
     // SQ1, FQ2
+    // S( VC = 120 ): a cutting speed, of which the control makes one of the spindle.
+    if (name == "S" && in_.peek() == '(') {
+      std::string speed = in_.text_to(")");
+      in_.take(')');
+      return draft_.add_event("TOOL CALL VC", column, speed.erase(0, 1));
+    }
     const bool by_parameter =
         (name.starts_with('S') || name.starts_with('F')) && name.size() > 1 && name[1] == 'Q';
     if (by_parameter) {
@@ -56,8 +64,12 @@ class ToolReader {
       name.resize(1);
     }
     if (name == "S" || name == "F") return add_value(draft_, name[0], name, column, nullptr);
+    if (name == "DR" && in_.peek_byte() != '2') return add_value(draft_, 'j', name, column, "DR");
     if (name == "DL" || name == "DR") {
-      if (in_.peek_byte() == '2') (void)in_.digits();
+      if (in_.peek_byte() == '2') {
+        name += '2';
+        (void)in_.digits();
+      }
       if (in_.signed_number(name, column) != 0.0) {
         in_.fail("not-supported"_id, column, name + " is not simulated",
                  "give the tool's true size in the job");

@@ -68,6 +68,11 @@ bool is_q_parameter(std::string_view name) {
   return letters == "Q" || letters == "QL" || letters == "QR";
 }
 
+bool is_text_parameter(std::string_view name) {
+  return name.size() > 2 && name.starts_with("QS") &&
+         name.find_first_not_of("0123456789", 2) == std::string_view::npos;
+}
+
 void add_value(BlockDraft& draft, char letter, std::string_view whose, std::uint32_t column,
                const char* spelled) {
   LineScanner& in = draft.in;

@@ -1,0 +1,176 @@
+// Hole cycles where the tool is, at a place, and on rings and grids: CYCL CALL, M99, M89, CYCL DEF
+// 220 and 221 of Klartext.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include "core/units.hpp"
+#include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/cycles/hole_call.hpp"
+#include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/move_words.hpp"
+#include "parser/interpret/moves/plane_path.hpp"
+#include "parser/interpret/state/block_words.hpp"
+#include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/movement.hpp"
+#include "parser/interpret/state/word_values.hpp"
+
+namespace frustum::parser {
+namespace {
+
+// What a cycle at the place of the tool needs.
+Outcome check_hole_call(InterpreterState& state, const GivenCode& code) {
+  const Movement movement{NonModal::none, MotionMode::linear, code.column};
+  const HoleCycle& cycle = state.modes.hole_cycle;
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  if (state.modes.programmed_frame.scale != 1.0 || state.modes.programmed_frame.mirrors[2]) {
+    return fail(state, code.column, "cycle-frame"_id,
+                "a cycle where the depths are scaled or mirrored",
+                "end that before, by CYCL DEF 11.1 SCL 1 or CYCL DEF 8.1");
+  }
+  if (state.modes.tool_axis) {
+    return fail(state, code.column, "cycle-tool-vector"_id, "a cycle with a tool vector",
+                "tilt the plane by PLANE before");
+  }
+  if (!cycle.of_tool) return Done{};
+  if (!(cycle.depth > 0.0) || !(cycle.feed.value > 0.0)) {
+    return fail(state, code.column, "cycle-depth"_id, "the cycle has no depth or no feed",
+                "define all its parts before, from SET UP to F");
+  }
+  if (cycle.kind == MotionMode::peck && cycle.clear + cycle.depth > kMostPecks * cycle.peck) {
+    return fail(state, code.column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks),
+                "give a larger step");
+  }
+  return Done{};
+}
+
+// The height of the surface; of 1 and 2 the tool is `clear` above it.
+Result<double> surface_of_holes(const InterpreterState& state, const GivenCode& code) {
+  const HoleCycle& cycle = state.modes.hole_cycle;
+  if (cycle.top) return *cycle.top;
+  if (state.position[AxisLetter::Z]) return *state.position[AxisLetter::Z] - cycle.clear;
+  return fail(state, code.column, state.position.unknown_id(AxisLetter::Z),
+              fmt::format("the height of the hole is not known: {}",
+                          state.position.why_unknown(AxisLetter::Z)),
+              "move the tool to the set-up clearance before");
+}
+
+// 220: on a circle; 221: in lines, each back the way of the last.
+Result<std::vector<Vec2>> holes_of_pattern(const InterpreterState& state, const BlockWords& words,
+                                           HoleCall pattern) {
+  constexpr int kMostHoles = 9'999;
+  constexpr double kDegreesRound = 360.0;
+  const double scale = unit_scale(state);
+  const Vec2 origin(words['x'].value * scale, words['y'].value * scale);
+  const auto count = whole(state, words, 'K', 1, kMostHoles);
+  if (!count) return count.error();
+  std::vector<Vec2> holes;
+  const auto about = [](const Vec2& arm, double degrees) -> Vec2 {
+    const double angle = degrees * kRadPerDeg;
+    return {arm.x() * std::cos(angle) - arm.y() * std::sin(angle),
+            arm.x() * std::sin(angle) + arm.y() * std::cos(angle)};
+  };
+  if (pattern == HoleCall::ring) {
+    if (words['l'].value != 0.0) {
+      return fail(state, words['l'].column, "not-simulated"_id,
+                  fmt::format("{} is not simulated", words.text_of('l')),
+                  "the tool goes straight from hole to hole: Q365=0");
+    }
+    const double start = words['a'].value;
+    const double stop = words.has('b') ? words['b'].value : start + kDegreesRound;
+    const bool round = std::abs(stop - start) >= kDegreesRound;
+    const int gaps = round ? *count : std::max(*count - 1, 1);
+    const double step = words['c'].value != 0.0 ? words['c'].value : (stop - start) / gaps;
+    const Vec2 arm(words['d'].value * scale / 2.0, 0.0);
+    for (int i = 0; i < *count; ++i) holes.push_back(origin + about(arm, start + i * step));
+    return holes;
+  }
+  const auto lines = whole(state, words, 'L', 1, kMostHoles);
+  if (!lines) return lines.error();
+  for (int line = 0; line < *lines; ++line) {
+    for (int i = 0; i < *count; ++i) {
+      const int column = line % 2 == 0 ? i : *count - 1 - i;
+      const Vec2 arm(column * words['a'].value * scale, line * words['b'].value * scale);
+      holes.push_back(origin + about(arm, words['c'].value));
+    }
+  }
+  return holes;
+}
+
+Outcome call_pattern(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::hole_call];
+  const auto holes = holes_of_pattern(state, words, static_cast<HoleCall>(code.code->value));
+  if (!holes) return holes.error();
+  const double scale = unit_scale(state);
+  HoleCycle& cycle = state.modes.hole_cycle;
+  if (words.has('u')) {
+    cycle.clear = words['u'].value * scale;
+    cycle.level = cycle.clear;
+  }
+  if (words.has('V')) cycle.top = words['V'].value * scale;
+  if (words.has('v')) cycle.back = std::max(words['v'].value * scale, cycle.clear);
+  const auto surface = surface_of_holes(state, code);
+  if (!surface) return surface.error();
+  const bool low_between = words.has('e') && words['e'].value == 0.0;
+  const auto back = cycle.back;
+  for (std::size_t i = 0; i < holes->size(); ++i) {
+    if (low_between) cycle.back = i + 1 < holes->size() ? std::optional(cycle.clear) : back;
+    drill_from_top(state, Vec3((*holes)[i].x(), (*holes)[i].y(), *surface),
+                   point_of_hole(state.position.target()), false, code.column);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::hole_call];
+  HoleCycle& cycle = state.modes.hole_cycle;
+  const bool by_move = code.code == nullptr && cycle.at_moves && state.at_work.moved;
+  if ((code.code == nullptr && !by_move) || !cycle.program.empty()) return Done{};
+  const GivenCode& cause = by_move ? words[CodeGroup::motion] : code;
+  const auto call = by_move ? HoleCall::at_moves : static_cast<HoleCall>(code.code->value);
+  if (!cycle.on && call == HoleCall::at_moves) {
+    emit(state, code.column, Event{code.code->name(), "", EventGrade::builder});
+    return Done{};
+  }
+  if (!cycle.on) {
+    return fail(state, code.column, "cycle-missing"_id, code.code->name() + " without a cycle",
+                "define it before, for example by CYCL DEF 200");
+  }
+  cycle.at_moves = call == HoleCall::at_moves;
+  if (cycle.at_moves && !state.at_work.moved) return Done{};
+  if (auto done = check_hole_call(state, cause); !done) return done;
+  if (call == HoleCall::ring || call == HoleCall::grid) return call_pattern(state, words);
+  const auto from = point_of_hole(state.position.target());
+  double above = 0.0;
+  if (call == HoleCall::at_place) {
+    for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
+      if (!words.has(to_char(axis))) continue;
+      if (auto done = set_target(state, words, axis); !done) return done;
+    }
+    above = words['Z'].value * unit_scale(state);
+  }
+  for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
+    if (state.position[axis]) continue;
+    return fail(
+        state, cause.column, state.position.unknown_id(axis),
+        fmt::format("the place of the hole is not known: {}", state.position.why_unknown(axis)),
+        "move to the hole before");
+  }
+  const auto surface = surface_of_holes(state, cause);
+  if (!surface) return surface.error();
+  const Vec3 top(*state.position[AxisLetter::X], *state.position[AxisLetter::Y], *surface + above);
+  drill_from_top(state, top, from, false, cause.column);
+  return Done{};
+}
+
+}  // namespace frustum::parser
