@@ -34,6 +34,8 @@ int parse_file(const ParseOptions& options) {
   };
   parser::InterpreterOptions run = options_for(options.file);
   run.block_delete = options.block_delete;
+  // Diameters are the job's to know.
+  run.contours_without_diameter = true;
   if (options.inch_machine) run.machine_unit = parser::LengthUnit::inch;
   run.search_path.insert(run.search_path.end(), options.search_path.begin(),
                          options.search_path.end());

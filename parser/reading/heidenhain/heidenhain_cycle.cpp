@@ -160,6 +160,12 @@ class CycleReader {
   void read_cycle(std::uint32_t column) {
     const bool defines = in_.take_name("DEF");
     if (!defines && in_.take_name("CALL")) return read_call(column);
+    // Of simulators; no control has it.
+    if (!defines && in_.take_name("END")) {
+      draft_.add_event("CYCL END", column, in_.text_to(";"));
+      block_.comments.back().of_builder = true;
+      return end_statement(draft_);
+    }
     const auto number = defines ? in_.number() : std::nullopt;
     if (!number) {
       return in_.fail("keyword-missing"_id, column,
@@ -418,8 +424,13 @@ class CycleReader {
       }
       const std::uint32_t place = in_.column();
       const std::string name = in_.name();
+      // The cycle's name, in the language of the control.
+      if (name.empty() && block_.words.size() == 1) {
+        in_.take(in_.peek());
+        continue;
+      }
       if (name.empty()) return in_.fail_unexpected(std::string(cycle.form));
-      if (!in_.take('=')) continue;  // the cycle's name
+      if (!in_.take('=')) continue;
       const auto known =
           std::find_if(cycle.parameters.begin(), cycle.parameters.end(),
                        [&](const CycleParameter& parameter) { return name == parameter.name; });

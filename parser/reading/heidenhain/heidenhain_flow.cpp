@@ -209,8 +209,8 @@ class FlowReader {
   bool sets_tool_data() {
     const std::uint32_t place = in_.column();
     const bool writes = in_.take_name("SYSWRITE");
-    const std::string group = in_.next_name();
-    const bool of_tools = writes && (group == "ID50" || group == "ID");
+    const bool group = in_.letters() == "ID";
+    const bool of_tools = writes && group && in_.digits() == "50";
     in_.go_to(place);
     return of_tools;
   }

@@ -351,7 +351,7 @@ void read_heidenhain_corner(BlockDraft& draft, const std::string& statement, std
   add_code(draft.block, *find_code(Dialect::heidenhain, statement), column);
   const bool rounds = statement == "RND";
   const std::uint32_t place = in.column();
-  if (rounds && in.letters() != "R" && !begins_value(in.peek())) {
+  if (rounds && in.letters() != "R") {
     return in.fail("value-missing"_id, place, "RND has no radius", "write RND R5");
   }
   add_value(draft, 'R', rounds ? "R" : statement, place, rounds ? "R" : "");

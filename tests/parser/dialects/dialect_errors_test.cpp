@@ -305,7 +305,7 @@ constexpr Mistake kHeidenhain[] = {
     {"CYCL DEF 247 DATUM SETTING\n", "1:1: error: CYCL DEF 247 without a number"},
     {"CYCL DEF 247 Q338=1\n", "1:14: error: Q338 has no meaning in CYCL DEF 247"},
     {"L IX+1 FMAX\n", "1:3: error: IX1 is incremental, but X has not been programmed yet"},
-    {"L M97\n", "1:3: error: M97 is not simulated"},
+    {"L M95\n", "1:3: error: M95 is not simulated"},
     {"STOP X+1\n", "1:6: error: X has no meaning in STOP"},
     {"123456789 L X+1\n", "1:1: error: the line number is too large"},
 };

@@ -123,8 +123,8 @@ TEST(DeepHoleErrors, SayWhereWhatAndTheRemedy) {
       {"205 Q200=2 Q201=-9 Q206=9 Q203=0 Q202=1 Q258=-1", "1:50: error: Q258=-1 is negative"},
       {"205 Q200=2 Q201=-9 Q206=9 Q203=0 Q202=1 Q213=1",
        "1:50: error: Q213 has no meaning in CYCL DEF 205"},
-      {"202 Q200=2", "1:1: error: CYCL DEF 202 is not simulated"},
-      {"220 Q216=2", "1:1: error: CYCL DEF 220 is not simulated"},
+      {"202 Q200=2", "1:1: error: CYCL DEF 202 has no Q201"},
+      {"209 Q200=2", "1:1: error: CYCL DEF 209 is not simulated"},
   };
   for (const WrongHole& wrong : mistakes) {
     const auto lines =
