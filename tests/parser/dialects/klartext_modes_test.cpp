@@ -87,7 +87,7 @@ TEST(KlartextFeeds, OfToolCallsAreInForce) {
   EXPECT_EQ(feeds("TOOL CALL 1 Z S100 F50\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\nL X+2 F70\nL X+3\n"
                   "L X+4 F AUTO\nTOOL CALL 2 Z S100\nL X+5 M3\nTOOL CALL 2 Z F90\nL X+6\n"),
             (std::vector<double>{50, 70, 70, 50, 50, 90}));
-  EXPECT_EQ(mode_complaint("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+0 FMAX M3\nL X+1\n"),
+  EXPECT_EQ(mode_complaint("TOOL CALL 1 Z S100 F50\nL X+1\nL X+2 F0\n"),
             "3:1: error: a cutting move without a feed rate (hint: give F on this block or before, "
             "above zero)");
 }

@@ -105,7 +105,16 @@ TEST(KlartextWords, Fault2_09_OneAngleOfCycle19IsEnough) {
   EXPECT_FALSE(complaints("CYCL DEF 19.1 A+30 C+20\n", {}, Dialect::heidenhain).empty());
 }
 
-TEST(KlartextWords, DISABLED_TheBuildersMWordsAreTold) {
+// The caller of a subprogram, or the operator, has given the feed.
+TEST(KlartextWords, AMoveBeforeTheFirstFeedIsAnAssumption) {
+  const auto all = run_words("L X+1\nL Y+1\n");
+  EXPECT_EQ(all_of<LinearFeed>(all).size(), 2U);
+  const Event* told = event_named(all, "feed");
+  ASSERT_NE(told, nullptr);
+  EXPECT_EQ(told->grade, EventGrade::assumed);
+}
+
+TEST(KlartextWords, TheBuildersMWordsAreTold) {
   const Event* event = nullptr;
   const auto all = run_words("M25\nL X+1 FMAX M85\n");
   for (const char* name : {"M25", "M85"}) {
