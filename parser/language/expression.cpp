@@ -79,6 +79,8 @@ std::optional<Domain> domain_of(Operation operation, double a, double b) {
                     "its argument must not be negative"};
     case Operation::logarithm:
       return Domain{a > 0.0, "function-domain"_id, "LN of {0}", "its argument must be positive"};
+    case Operation::common_logarithm:
+      return Domain{a > 0.0, "function-domain"_id, "LOG of {0}", "its argument must be positive"};
     case Operation::remainder:
       return Domain{std::round(b) != 0.0, "division-by-zero"_id, "{0} MOD zero",
                     "check the divisor before MOD"};
@@ -192,6 +194,12 @@ double apply(Operation operation, double a, double b) {
       return to_bcd(a);
     case Operation::square:
       return a * a;
+    case Operation::fraction:
+      return a - std::trunc(a);
+    case Operation::sign:
+      return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : 0.0;
+    case Operation::common_logarithm:
+      return std::log10(a);
     case Operation::as_it_is:
     case Operation::text:
     case Operation::join:

@@ -79,6 +79,8 @@ Result<double> Parameters::read(std::string_view name) const {
     if (const auto kept = system_->named(name)) return *kept;
   }
   if (found == all.end()) {
+    // What the machine knows; it is an error where the path depends on it.
+    if (name.starts_with('$')) return unknown_value(name);
     if (rules_.names_are_defined) {
       // What the machine knows, its global data among it; an error where the path depends on it.
       return unknown_value(name);

@@ -145,7 +145,11 @@ bool ExpressionReader::append_function(const std::string& name, std::uint32_t co
 }
 
 void ExpressionReader::append_arguments(const ExpressionFunction& function) {
-  if (spelling_.call_open.empty()) return append(spelling_.argument);
+  if (spelling_.call_open.empty()) {
+    append(spelling_.argument);
+    if (function.arguments != Arguments::one) push_number(1.0, in_.column());
+    return;
+  }
   const std::uint32_t opening = open_bracket(function.name);
   append(spelling_.argument, opening);
   if (function.arguments != Arguments::one) {

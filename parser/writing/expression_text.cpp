@@ -74,7 +74,10 @@ class ExpressionWriter {
   void call(const ExpressionFunction& function) {
     const auto argument = [this] { return at(pop(), static_cast<int>(spelling_.argument)); };
     std::string arguments = argument();
-    if (function.arguments != Arguments::one) {
+    // Of one, where functions have no brackets: the other is 1.
+    const bool of_one = function.arguments != Arguments::one && spelling_.call_open.empty();
+    if (of_one) arguments = argument();
+    if (function.arguments != Arguments::one && !of_one) {
       const bool divided = function.arguments != Arguments::two;
       const std::string first = argument();
       arguments = divided ? fmt::format("{}{}/{}{}", first, spelling_.call_close,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "parser/dialects/expressions.hpp"
@@ -232,8 +233,27 @@ class KlartextBlock {
     const std::string& name = block_.names[*setting.name];
     const auto steps = steps_of(block_, setting.value);
     // The one computation that formulas do not have: the angle from 0 to 360 degrees.
-    if (steps.back().operation == Operation::modulo) return angle_text(name, setting.value);
+    const bool angle = steps.size() > 3 && steps.back().operation == Operation::modulo &&
+                       steps[steps.size() - 3].operation == Operation::arc_tangent;
+    if (angle) return angle_text(name, setting.value);
+    if (steps.back().operation == Operation::element) return system_data_text(name, steps);
     return fmt::format("{} = {}", name, range_text(spelling(), block_, setting.value, sum));
+  }
+
+  // FN 18: SYSREAD Q1 = ID270 NR1 IDX3, of which NR is one step.
+  [[nodiscard]] std::string system_data_text(const std::string& name,
+                                             std::span<const ExpressionStep> steps) const {
+    const ExpressionStep& element = steps.back();
+    const std::string group = block_.names[name_of_element(element)].substr(1);
+    const auto first = static_cast<std::uint32_t>(&steps.front() - block_.steps.data());
+    const auto count = static_cast<std::uint32_t>(steps.size() - 1);
+    const std::uint32_t of_number = 1;
+    std::string text =
+        fmt::format("FN 18: SYSREAD {} = {} NR{}", name, group,
+                    range_text(spelling(), block_, {first, of_number}, operand));
+    if (of_number == count) return text;
+    return text + fmt::format(" IDX{}", range_text(spelling(), block_,
+                                                   {first + of_number, count - of_number}, operand));
   }
 
   // FN 13: Q1 = +Q2 ANG +Q3, which ends with the operations of ANG and MOD 360.

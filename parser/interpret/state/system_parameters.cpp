@@ -290,6 +290,7 @@ Value SystemParameters::number(int index) const {
 
 Value SystemParameters::named(std::string_view name) const {
   if (dialect == Dialect::sinumerik) return sinumerik_variable(*this, name);
+  if (dialect == Dialect::heidenhain) return klartext_variable(*this, name);
   if (dialect != Dialect::linuxcnc) return std::nullopt;
   const auto found = std::find_if(kNamed.begin(), kNamed.end(),
                                   [name](const Named& entry) { return entry.name == name; });

@@ -40,4 +40,8 @@ class SystemParameters final : public KeptParameters {
   mutable bool signals_read = false;
 };
 
+// Of Klartext: the preassigned Q parameters and what FN 18 reads (klartext_data.cpp).
+[[nodiscard]] std::optional<double> klartext_variable(const SystemParameters& of,
+                                                      std::string_view name);
+
 }  // namespace frustum::parser

@@ -61,6 +61,7 @@ class FlowReader {
                       "what it writes could move the datum: known is FN 17: SYSWRITE ID50, the tool "
                       "table");
     }
+    if (fn == 18) return read_system_data(column);
     for (const PassedFn& passed : kPassedFn) {
       if (fn == passed.number) return note(draft_, passed.event, column, in_.text_to(";"));
     }
@@ -205,6 +206,45 @@ class FlowReader {
   }
 
  private:
+  // FN 18: SYSREAD Q1 = ID270 NR1 IDX3: an element of the control's data, by number and index.
+  void read_system_data(std::uint32_t column) {
+    constexpr const char* kForm = "write FN 18: SYSREAD Q1 = ID270 NR1 IDX3";
+    if (!in_.take_name("SYSREAD")) {
+      return in_.fail("keyword-missing"_id, column, "FN 18 has no SYSREAD", kForm);
+    }
+    const std::uint32_t place = in_.column();
+    const std::string target = in_.name();
+    if (!is_q_parameter(target) || !in_.take('=')) {
+      return in_.fail("value-missing"_id, place, "FN sets no parameter", kForm);
+    }
+    draft_.begin_setting(target, place);
+    std::string group;
+    std::uint32_t indices = 0;
+    for (const std::string_view word : {"ID", "NR", "IDX"}) {
+      const std::uint32_t at = in_.column();
+      const bool there = in_.letters().starts_with(word);
+      in_.go_to(at);
+      if (!there && word == "IDX") break;
+      if (there) in_.go_to(at + static_cast<std::uint32_t>(word.size()));
+      if (word == "ID") group = there ? std::string(in_.digits()) : std::string();
+      if (!there || group.empty()) {
+        return in_.fail("value-missing"_id, at, fmt::format("FN 18 has no {}", word), kForm);
+      }
+      if (word == "ID") continue;
+      const ExpressionRange value = draft_.read_expression(ExpressionLevel::operand);
+      if (word == "NR" && value.count != 1 && !in_.failed()) {
+        return in_.fail("value-missing"_id, at, "NR of FN 18 is no number", kForm);
+      }
+      ++indices;
+    }
+    const std::uint32_t name = draft_.add_name("$ID" + group);
+    if (!in_.failed()) {
+      block_.steps.push_back({Operation::element, place, element_step(name, indices)});
+    }
+    draft_.end_setting();
+    end_statement(draft_);
+  }
+
   // SYSWRITE ID50 ..
   bool sets_tool_data() {
     const std::uint32_t place = in_.column();

@@ -109,10 +109,11 @@ class HeidenhainReader {
       return read_heidenhain_path(draft_, "L", column);
     }
     if (is_q_parameter(name)) return read_heidenhain_setting(draft_, name, column);
-    if (is_text_parameter(name)) {
-      in_.go_to(column);
-      return note(draft_, "QS", column, in_.text_to());
+    if (name == "DECLARE" && in_.take_name("STRING")) {
+      const std::uint32_t place = in_.column();
+      return read_text_setting(in_.name(), place);
     }
+    if (is_text_parameter(name)) return read_text_setting(name, column);
     if (name == "FN") return read_heidenhain_fn(draft_, column);
     if (name == "LBL") return read_heidenhain_label(draft_, column);
     if (name == "CALL") return read_heidenhain_call(draft_, column);
@@ -130,6 +131,25 @@ class HeidenhainReader {
     std::vector<std::string> known(kStatements.begin(), kStatements.end());
     known.insert(known.end(), kPaths.begin(), kPaths.end());
     in_.fail("unknown-word"_id, column, "unknown statement " + name, suggestion(name, known));
+  }
+
+  // QS1 = "MILL" || QS2; what else a text is made of is left to the control.
+  void read_text_setting(const std::string& name, std::uint32_t column) {
+    const std::uint32_t place = in_.column();
+    const std::string whole = in_.text_to(";");
+    bool plain = is_text_parameter(name);
+    bool quoted = false;
+    for (const char c : whole) {
+      if (c == '"') quoted = !quoted;
+      plain = plain && (quoted || std::string_view("\"QSqs0123456789|=\t ").find(c) !=
+                                      std::string_view::npos);
+    }
+    if (!plain || quoted || whole.find('"') == std::string::npos) {
+      in_.go_to(column);
+      return note(draft_, "QS", column, in_.text_to());
+    }
+    in_.go_to(place);
+    read_heidenhain_setting(draft_, name, column);
   }
 
   // N10 L X+5

@@ -1,6 +1,9 @@
 // TOOL CALL and TOOL DEF of Klartext.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string>
+
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -20,17 +23,23 @@ class ToolReader {
       return in_.fail("keyword-missing"_id, column, "TOOL without CALL or DEF",
                       "write TOOL CALL 1 Z S5000");
     const std::string next = in_.next_name();
-    if (in_.peek() == '"' || next.starts_with("QS")) {
-      return in_.fail("not-supported"_id, in_.column(), "TOOL CALL has a name instead of a number",
-                      "tools go by their numbers here: TOOL CALL 1 Z S5000");
-    }
     const std::uint32_t place = in_.column();
-    if (is_q_parameter(next)) {
+    const bool by_name = in_.peek() == '"' || is_text_parameter(next);
+    if (by_name || is_q_parameter(next)) {
       add_code(block_, *find_code(Dialect::heidenhain, "TOOL CALL"), column);
-      add_value(draft_, 'T', "TOOL CALL", place, "tool ");
+      Word word;
+      word.letter = 'T';
+      word.column = place;
+      word.spelled = "tool ";
+      word.expression = draft_.read_expression(ExpressionLevel::operand);
+      block_.words.push_back(word);
     } else if (const auto tool = in_.number()) {
       add_code(block_, *find_code(Dialect::heidenhain, "TOOL CALL"), column);
-      add_number(block_, 'T', tool->value, place, "tool ");
+      if (tool->value == std::floor(tool->value)) {
+        add_number(block_, 'T', tool->value, place, "tool ");
+      } else {
+        read_tool_step(place);
+      }
     }
     while (!in_.at_end()) {
       if (in_.peek() == ';') {
@@ -42,6 +51,21 @@ class ToolReader {
   }
 
  private:
+  // TOOL CALL 5.1: a step of tool 5, which has data of its own, as a tool by that name.
+  void read_tool_step(std::uint32_t place) {
+    in_.go_to(place);
+    std::string name(in_.digits());
+    in_.take('.');
+    name += '.' + std::string(in_.digits());
+    Word word;
+    word.letter = 'T';
+    word.column = place;
+    word.spelled = "tool ";
+    word.expression = {static_cast<std::uint32_t>(block_.steps.size()), 1};
+    block_.steps.push_back({Operation::text, place, static_cast<double>(draft_.add_name(name))});
+    block_.words.push_back(word);
+  }
+
   void read_tool_element() {
     const std::uint32_t column = in_.column();
     std::string name = in_.letters();

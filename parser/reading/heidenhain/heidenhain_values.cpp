@@ -23,6 +23,18 @@ bool read_variable(ExpressionReader& reader, const std::string& name, std::uint3
     reader.push(Operation::power, column);
     return true;
   }
+  if (name.empty() && reader.in().take('"')) {
+    const std::string text = reader.in().text_to("\"");
+    if (!reader.in().take('"')) {
+      reader.in().fail("text-not-closed"_id, column, "the text is not closed", "close it with \"");
+    }
+    reader.push_name(text, column, Operation::text);
+    return true;
+  }
+  if (is_text_parameter(name)) {
+    reader.push_name(name, column);
+    return true;
+  }
   if (name == "NEG") {
     reader.push_number(0.0, column);
     reader.append(operand);
@@ -47,8 +59,8 @@ const ExpressionRules& heidenhain_expressions() {
       .no_operand = kNoParameter,
       .no_operand_at_end = kNoParameter,
       .unknown_operand = {"unknown-word"_id, "{name} is no parameter and no function",
-                          "parameters are Q1, QL1 and QR1; functions SIN COS TAN ASIN ACOS SQ SQRT "
-                          "LN EXP NEG ABS INT; and PI",
+                          "parameters are Q1, QL1 and QR1; functions SIN COS TAN ASIN ACOS ATAN SQ "
+                          "SQRT LN LOG EXP NEG ABS INT FRAC SGN; and PI",
                           true},
       .not_closed = kNotClosed,
       .not_closed_at_end = kNotClosed,

@@ -277,7 +277,7 @@ constexpr Mistake kHeidenhain[] = {
     {"PLANE RESET TURN FOO\n", "1:18: error: FOO has no meaning in PLANE"},
     {"FUNCTION TCPM F TCP AXIS SPAT\n", "1:21: error: AXIS SPAT is not simulated"},
     {"FUNCTION TURN\n", "1:1: error: FUNCTION TURN is not simulated"},
-    {"TOOL CALL \"MILL\" Z\n", "1:11: error: TOOL CALL has a name instead of a number"},
+    {"TOOL CALL \"MILL Z\n", "1:11: error: the text is not closed"},
     {"TOOL CALL 1 X\n", "1:13: error: tool axis X is not simulated"},
     {"TOOL CALL 1 Z DL+0.1\n", "1:15: error: DL is not simulated"},
     {"TOOL 5\n", "1:1: error: TOOL without CALL or DEF"},

@@ -114,6 +114,68 @@ TEST(KlartextWords, AMoveBeforeTheFirstFeedIsAnAssumption) {
   EXPECT_EQ(told->grade, EventGrade::assumed);
 }
 
+TEST(KlartextWords, Fault2_09_FormulasHaveMoreFunctions) {
+  const auto place = [](const std::string& formula) {
+    return *last_of<Traverse>(run_words("Q2 = -2.75\nQ1 = " + formula + "\nL X+Q1 FMAX\n")).end[X];
+  };
+  EXPECT_NEAR(place("ATAN 1"), 45.0, 1e-12);
+  EXPECT_NEAR(place("2 * ATAN NEG 1"), -90.0, 1e-12);
+  EXPECT_NEAR(place("FRAC Q2"), -0.75, 1e-12);
+  EXPECT_NEAR(place("SGN Q2"), -1.0, 1e-12);
+  EXPECT_NEAR(place("SGN 0 + SGN 5"), 1.0, 1e-12);
+  EXPECT_NEAR(place("LOG 1000"), 3.0, 1e-12);
+  EXPECT_NEAR(place("400 % 360"), 40.0, 1e-12);
+}
+
+// What the program can know of the control, and what it cannot.
+TEST(KlartextWords, Fault2_09_SystemDataAreReadWhereTheyAreKnown) {
+  const auto read = [](const std::string& data) {
+    return *last_of<Traverse>(run_words("TOOL CALL 7 Z S900\nL X+1 Y-2.5 C+30 FMAX M8\nFN 18: "
+                                        "SYSREAD Q1 = " +
+                                        data + "\nL Z+Q1 FMAX\n"))
+                .end[Z];
+  };
+  EXPECT_EQ(read("ID20 NR1"), 7.0);
+  EXPECT_EQ(read("ID20 NR4"), 900.0);
+  EXPECT_EQ(read("ID20 NR8"), 1.0);
+  EXPECT_EQ(read("ID270 NR1 IDX2"), -2.5);
+  EXPECT_NEAR(read("ID270 NR1 IDX6"), 30.0, 1e-12);
+  EXPECT_EQ(read("ID210 NR6"), 0.0);
+  EXPECT_EQ(read("ID280 NR1"), 0.0);
+  // What is not known is an error where the path depends on it, and nowhere else.
+  EXPECT_TRUE(failures_of("FN18: SYSREAD Q1 = ID230 NR2 IDX3\nQ2 = Q1 + 5\nL X+1 FMAX\n", {},
+                          Dialect::heidenhain)
+                  .empty());
+  const auto lines = complaints("FN18: SYSREAD Q1 = ID230 NR2 IDX3\nQ2 = Q1 + 5\nL Z+Q2 FMAX\n", {},
+                                Dialect::heidenhain);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines[0].starts_with("3:3: error: Z depends on $ID230[2,3]")) << lines[0];
+  EXPECT_EQ(complaint_ids("FN 18: SYSREAD Q1 = ID230 NR2\nFN 9: IF +Q1 EQU +0 GOTO LBL 1\nLBL 1\n",
+                          {}, Dialect::heidenhain),
+            std::vector<std::string>{"unknown-value"});
+}
+
+TEST(KlartextWords, Fault2_09_ToolsHaveNames) {
+  InterpreterOptions options;
+  const auto tools = [&](const std::string& text) {
+    std::vector<int> numbers;
+    for (const ToolChange& change : all_of<ToolChange>(motions(text, options, Dialect::heidenhain)))
+      numbers.push_back(change.tool);
+    return numbers;
+  };
+  options.tools[4].remark = "MILL_10";
+  const auto numbers = tools("TOOL CALL \"MILL_10\" Z S1000\nQS1 = \"MILL\" || \"_10\"\nTOOL CALL QS1 "
+                             "Z\nTOOL CALL \"DRILL\" Z\nTOOL CALL 5.1 Z\nTOOL CALL \"DRILL\" Z\n");
+  ASSERT_EQ(numbers.size(), 5U);
+  EXPECT_EQ(numbers[0], 4);
+  EXPECT_EQ(numbers[1], 4);
+  EXPECT_EQ(numbers[2], numbers[4]);
+  EXPECT_NE(numbers[2], numbers[3]);
+  EXPECT_NE(numbers[2], 4);
+  EXPECT_NE(event_named(motions("TOOL CALL \"DRILL\" Z\n", options, Dialect::heidenhain), "tool_name"),
+            nullptr);
+}
+
 TEST(KlartextWords, TheBuildersMWordsAreTold) {
   const Event* event = nullptr;
   const auto all = run_words("M25\nL X+1 FMAX M85\n");

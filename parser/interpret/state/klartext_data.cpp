@@ -1,0 +1,101 @@
+// What Klartext reads of the control: $ID270[1,3] for FN 18: SYSREAD ID270 NR1 IDX3, always in mm
+// and degrees, and the preassigned parameters Q108 to Q114.
+//
+// Source: Heidenhain TNC 426/430 Technical Manual, FN 18 SYSREAD; TNC7 (81762x-17), System data;
+//         TNC 620 (73498x-02), Preassigned Q parameters
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/units.hpp"
+#include "parser/interpret/state/system_parameters.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using Value = std::optional<double>;
+
+constexpr double kToolAxisZ = 2.0;
+
+double minus_if(bool on) { return on ? -1.0 : 0.0; }
+
+// X Y Z A B C are 1 to 6.
+Value of_axis(const AxisTarget& values, int index) {
+  if (index < 1 || index > static_cast<int>(kAxisLetters.size())) return std::nullopt;
+  const AxisLetter axis = kAxisLetters.at(static_cast<std::size_t>(index - 1));
+  if (!values[axis]) return std::nullopt;
+  return is_rotary(axis) ? *values[axis] * kDegPerRad : *values[axis];
+}
+
+// 0 M3, 1 M4; which of them M5 came after is not kept.
+Value spindle_state(const ModalState& modes) {
+  if (modes.spindle == SpindleDirection::off) return std::nullopt;
+  return modes.spindle == SpindleDirection::clockwise ? 0.0 : 1.0;
+}
+
+Value of_tool(const SystemParameters& of, int number, int tool) {
+  const auto found = of.data.tools.find(tool);
+  if (found == of.data.tools.end()) return std::nullopt;
+  constexpr std::size_t kAlongZ = 2;
+  if (number == 1 && found->second.has_length) return found->second.offset.at(kAlongZ);
+  if (number == 2 && found->second.diameter > 0.0) return found->second.diameter / 2.0;
+  return std::nullopt;
+}
+
+Value system_data(const SystemParameters& of, int group, int number, int index) {
+  const ModalState& modes = of.state;
+  switch (group * 100 + number) {
+    case 2001:
+      return modes.tool;
+    case 2003:
+      return kToolAxisZ;
+    case 2004:
+      return modes.spindle_speed;
+    case 2005:
+      return spindle_state(modes);
+    case 2008:
+      return modes.flood ? 1.0 : 0.0;
+    case 2009:
+      return modes.feed ? Value(modes.feed->scaled) : std::nullopt;
+    case 5001:
+    case 5002:
+      return of_tool(of, number, index > 0 ? index : modes.tool);
+    case 21004:
+      return modes.programmed_frame.scale;
+    case 21006:
+      return minus_if(modes.tilted);
+    case 27001:
+      return of_axis(of.position.target(), index);
+    case 28001:
+      return minus_if(modes.compensation.tip);
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Value klartext_variable(const SystemParameters& of, std::string_view name) {
+  if (name == "Q108") return of_tool(of, 2, of.state.tool);
+  if (name == "Q109") return kToolAxisZ;
+  if (name == "Q110") return spindle_state(of.state);
+  if (name == "Q111") return of.state.flood ? 1.0 : 0.0;
+  if (name == "Q113") return of.state.unit == LengthUnit::millimetre ? 0.0 : 1.0;
+  if (name == "Q114") return of_tool(of, 1, of.state.tool);
+  constexpr std::string_view kGroup = "$ID";
+  if (!name.starts_with(kGroup)) return std::nullopt;
+  std::array<int, 3> numbers{};
+  const char* place = name.data() + kGroup.size();
+  const char* const end = name.data() + name.size();
+  for (int& number : numbers) {
+    const auto read = std::from_chars(place, end, number);
+    if (read.ec != std::errc{}) return std::nullopt;
+    place = read.ptr + 1;
+    if (read.ptr == end || *read.ptr == ']') break;
+    if (*read.ptr == '.') return std::nullopt;
+  }
+  return system_data(of, numbers[0], numbers[1], numbers[2]);
+}
+
+}  // namespace frustum::parser
