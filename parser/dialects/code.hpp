@@ -76,10 +76,10 @@ enum class NonModal : std::uint8_t {
   pole_from_here,
   pole_from_origin,
   pole_from_pole,
-  start,        // where the tool is before the program moves it
-  second_home,  // G30
+  start,         // where the tool is before the program moves it
+  second_home,   // G30
   retract_tool,  // M140: away along the tool
-  keep_home,    // G28.1: where the axes are is home from now on
+  keep_home,     // G28.1: where the axes are is home from now on
   keep_second_home,
   skip,            // G31: a probing move that may meet nothing
   check_home,      // G27

@@ -123,14 +123,13 @@ constexpr auto kHeidenhainOperators =
                       BinaryOperator{sum, "||", Operation::join},
                       BinaryOperator{product, "%", Operation::modulo}},
            kArithmetic);
-constexpr auto kHeidenhainFunctions =
-    joined(std::array{ExpressionFunction{"INT", Operation::truncate},
-                      ExpressionFunction{"FRAC", Operation::fraction},
-                      ExpressionFunction{"SGN", Operation::sign},
-                      ExpressionFunction{"LOG", Operation::common_logarithm},
-                      ExpressionFunction{"ATAN", Operation::arc_tangent,
-                                         Arguments::one_or_divided}},
-           kFunctions);
+constexpr auto kHeidenhainFunctions = joined(
+    std::array{ExpressionFunction{"INT", Operation::truncate},
+               ExpressionFunction{"FRAC", Operation::fraction},
+               ExpressionFunction{"SGN", Operation::sign},
+               ExpressionFunction{"LOG", Operation::common_logarithm},
+               ExpressionFunction{"ATAN", Operation::arc_tangent, Arguments::one_or_divided}},
+    kFunctions);
 
 constexpr ExpressionSpelling kLinuxcnc{.operators = kLinuxcncOperators,
                                        .functions = kLinuxcncFunctions,

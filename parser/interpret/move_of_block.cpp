@@ -47,8 +47,8 @@ constexpr std::array kNonModalMoves{
                  [](auto& state, auto& words, const auto&) { return go_home(state, words, 1); }},
     NonModalMove{NonModal::second_home,
                  [](auto& state, auto& words, const auto&) { return go_home(state, words, 2); }},
-    NonModalMove{NonModal::retract_tool, [](auto& state, auto& words,
-                                            const auto&) { return retract_tool(state, words); }},
+    NonModalMove{NonModal::retract_tool,
+                 [](auto& state, auto& words, const auto&) { return retract_tool(state, words); }},
     NonModalMove{NonModal::keep_home,
                  [](auto& state, auto&, const auto& movement) {
                    return keep_point(state, 0, movement.column);

@@ -188,11 +188,10 @@ constexpr std::array kPlaceWords{
 };
 
 // Groups whose words, where they have arguments, take the axis words.
-constexpr std::array kGroupsWithAxes{CodeGroup::tilted_plane, CodeGroup::program_frame,
-                                     CodeGroup::scaling,      CodeGroup::mirror,
-                                     CodeGroup::hole_cycle,   CodeGroup::drilling_cycle,
-                                     CodeGroup::corner,       CodeGroup::hole_pattern,
-                                     CodeGroup::approach,     CodeGroup::hole_call};
+constexpr std::array kGroupsWithAxes{
+    CodeGroup::tilted_plane, CodeGroup::program_frame,  CodeGroup::scaling, CodeGroup::mirror,
+    CodeGroup::hole_cycle,   CodeGroup::drilling_cycle, CodeGroup::corner,  CodeGroup::hole_pattern,
+    CodeGroup::approach,     CodeGroup::hole_call};
 
 // Whether the axis words are of another word than the motion's.
 bool axes_are_taken(const BlockWords& words) {

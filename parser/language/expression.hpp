@@ -70,9 +70,9 @@ enum class Operation : std::uint8_t {
   to_bcd,    // BCD
   as_it_is,  // ADP, which is for words that count increments
   square,
-  text,     // `number` of the step is the index of the name that is its text
-  join,     // of two: their texts one after the other
-  element,  // of an array: takes its indices
+  text,              // `number` of the step is the index of the name that is its text
+  join,              // of two: their texts one after the other
+  element,           // of an array: takes its indices
   fraction,          // FRAC, without its whole part
   sign,              // SGN: 1, 0 or -1
   common_logarithm,  // LOG

@@ -79,12 +79,8 @@ Result<double> Parameters::read(std::string_view name) const {
     if (const auto kept = system_->named(name)) return *kept;
   }
   if (found == all.end()) {
-    // What the machine knows; it is an error where the path depends on it.
-    if (name.starts_with('$')) return unknown_value(name);
-    if (rules_.names_are_defined) {
-      // What the machine knows, its global data among it; an error where the path depends on it.
-      return unknown_value(name);
-    }
+    // What the machine knows, its global data among it; an error where the path depends on it.
+    if (name.starts_with('$') || rules_.names_are_defined) return unknown_value(name);
     // Of a pin of the machine, or of its configuration.
     const bool of_machine = name.starts_with("_hal[") || name.starts_with("_ini[");
     if (rules_.values_may_be_unknown && of_machine) return kVacant;

@@ -24,8 +24,8 @@ using BlockReader = std::function<Result<Block>(std::string_view text, std::uint
 // Where the mark is that continues the line on the next one; npos when it ends here.
 [[nodiscard]] std::size_t continuation_mark(std::string_view line, Dialect dialect);
 
-// Of Klartext: a cycle without its parameters (CYCL DEF 200 DRILLING), which follow in lines such as
-// Q200=2, though no mark says so.
+// Of Klartext: a cycle without its parameters (CYCL DEF 200 DRILLING), which follow in lines such
+// as Q200=2, though no mark says so.
 [[nodiscard]] bool opens_parameter_lines(std::string_view line, Dialect dialect);
 [[nodiscard]] bool is_parameter_line(std::string_view line);
 

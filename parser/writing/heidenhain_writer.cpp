@@ -16,7 +16,6 @@ namespace {
 
 using enum ExpressionLevel;
 
-
 // Words of the code table that are elements of a line, no statements.
 constexpr std::array<std::string_view, 6> kElements{
     "R0", "RL", "RR", "F AUTO", "PATHCTRL AXIS", "PATHCTRL VECTOR"};
@@ -159,9 +158,9 @@ class KlartextBlock {
       return name_statement(std::string(code));
     }
     // A tool call without a tool.
-    const bool calls = !block_.words.empty() && (block_.words.front().letter == 'S' ||
-                                                 block_.words.front().letter == 'F' ||
-                                                 block_.words.front().letter == 'j');
+    const bool calls = !block_.words.empty() &&
+                       (block_.words.front().letter == 'S' || block_.words.front().letter == 'F' ||
+                        block_.words.front().letter == 'j');
     if (calls) name_ = "TOOL CALL";
   }
 
@@ -208,8 +207,7 @@ class KlartextBlock {
       while (word.letter == 'M' && operand_of_m != block_.comments.end() &&
              operand_of_m->event == fmt::format("M{:g}", word.number)) {
         text_.add(operand_of_m->text);
-        operand_of_m =
-            std::find_if(operand_of_m + 1, block_.comments.end(), is_operand_of_m);
+        operand_of_m = std::find_if(operand_of_m + 1, block_.comments.end(), is_operand_of_m);
       }
     }
   }
@@ -248,12 +246,12 @@ class KlartextBlock {
     const auto first = static_cast<std::uint32_t>(&steps.front() - block_.steps.data());
     const auto count = static_cast<std::uint32_t>(steps.size() - 1);
     const std::uint32_t of_number = 1;
-    std::string text =
-        fmt::format("FN 18: SYSREAD {} = {} NR{}", name, group,
-                    range_text(spelling(), block_, {first, of_number}, operand));
+    std::string text = fmt::format("FN 18: SYSREAD {} = {} NR{}", name, group,
+                                   range_text(spelling(), block_, {first, of_number}, operand));
     if (of_number == count) return text;
-    return text + fmt::format(" IDX{}", range_text(spelling(), block_,
-                                                   {first + of_number, count - of_number}, operand));
+    return text +
+           fmt::format(" IDX{}", range_text(spelling(), block_,
+                                            {first + of_number, count - of_number}, operand));
   }
 
   // FN 13: Q1 = +Q2 ANG +Q3, which ends with the operations of ANG and MOD 360.

@@ -206,10 +206,10 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
     depths.chip = stop_above(cycle.depth);
     depths.peck_from = 0.0;
   }
-  std::vector<CycleStep> steps = cycle.deep
-                                     ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
-                                 : cycle.kind == MotionMode::fine_bore ? steps_of_oriented_bore(depths)
-                                                                       : steps_at_hole(cycle.kind, depths);
+  std::vector<CycleStep> steps =
+      cycle.deep ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
+      : cycle.kind == MotionMode::fine_bore ? steps_of_oriented_bore(depths)
+                                            : steps_at_hole(cycle.kind, depths);
   drill(state, steps, column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
 }
 

@@ -20,8 +20,12 @@ namespace {
 using enum AxisLetter;
 
 // What may be in the blocks between an approach and the contour's first move.
-constexpr std::array kBeforeContour{CodeGroup::motion,  CodeGroup::feed_source, CodeGroup::spindle,
-                                    CodeGroup::coolant, CodeGroup::feed_mode,   CodeGroup::corner,
+constexpr std::array kBeforeContour{CodeGroup::motion,
+                                    CodeGroup::feed_source,
+                                    CodeGroup::spindle,
+                                    CodeGroup::coolant,
+                                    CodeGroup::feed_mode,
+                                    CodeGroup::corner,
                                     CodeGroup::radius_compensation};
 
 constexpr double kWholeTurn = 360.0;  // degrees
@@ -158,8 +162,7 @@ Outcome leave_contour(InterpreterState& state, MotionFilters& filters, const Blo
   }
   const auto straight = [&] {
     if (feed) {
-      emit(state, code.column,
-           LinearFeed{at, state.modes.tool_axis, Coordinates::program, *feed});
+      emit(state, code.column, LinearFeed{at, state.modes.tool_axis, Coordinates::program, *feed});
     } else {
       emit(state, code.column, Traverse{at, state.modes.tool_axis, Coordinates::program});
     }

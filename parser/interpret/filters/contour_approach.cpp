@@ -153,12 +153,11 @@ ContourApproach::Failure ContourApproach::take(Motion&& motion, const Sink& next
   }
   const auto& contour = approach_->contour;
   const auto piece = piece_from(Vec2(*contour[X], *contour[Y]), motion.command);
-  const bool may_wait =
-      !piece && (std::holds_alternative<Event>(motion.command) ||
-                 std::holds_alternative<SpindleChange>(motion.command) ||
-                 std::holds_alternative<CoolantChange>(motion.command) ||
-                 std::holds_alternative<Dwell>(motion.command) ||
-                 end_of_waiting(motion.command) != nullptr);
+  const bool may_wait = !piece && (std::holds_alternative<Event>(motion.command) ||
+                                   std::holds_alternative<SpindleChange>(motion.command) ||
+                                   std::holds_alternative<CoolantChange>(motion.command) ||
+                                   std::holds_alternative<Dwell>(motion.command) ||
+                                   end_of_waiting(motion.command) != nullptr);
   if (may_wait) {
     waiting_.push_back(std::move(motion));
     return std::nullopt;
@@ -209,8 +208,7 @@ ContourApproach::Failure ContourApproach::arrive(const Vec2& along, const Sink& 
     const auto& feed = move.first_of_approach ? to.feed_before : to.feed;
     if (move.piece.is_arc() && feed) {
       const Vec3 centre(move.piece.centre.x(), move.piece.centre.y(), at[Z].value_or(0.0));
-      beside({to.place,
-              ArcFeed{at, centre, Plane::xy, move.piece.turns, to.tool_axis, *feed}});
+      beside({to.place, ArcFeed{at, centre, Plane::xy, move.piece.turns, to.tool_axis, *feed}});
     } else if (!none) {
       straight(feed);
     }

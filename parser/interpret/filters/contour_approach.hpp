@@ -41,8 +41,8 @@ struct LinkMove {
 };
 
 // From `from` to `contour`, where the tool goes on in the direction `along`; `side` 1: the tool is
-// left of the contour, -1: right of it. `left` mm of the contour is the tool's centre. Nothing where
-// a tangent does not exist.
+// left of the contour, -1: right of it. Both places are those of the tool's centre. Nothing where a
+// tangent does not exist.
 [[nodiscard]] std::optional<std::vector<LinkMove>> moves_to_contour(const ContourLink& link,
                                                                     const Vec2& from,
                                                                     const Vec2& contour,
@@ -59,7 +59,7 @@ struct Approach {
   std::optional<ToolSide> side{};  // absent: the one where the tool is
   double radius = 0.0;             // of the tool, where it is compensated
   AxisTarget from{};
-  AxisTarget contour{};  // its first point, as programmed
+  AxisTarget contour{};               // its first point, as programmed
   std::optional<Feed> feed_before{};  // absent: by rapid
   std::optional<Feed> feed{};
   std::optional<UnitVec3> tool_axis{};

@@ -1,5 +1,6 @@
 // The filters that motions pass on their way out: ways on to a contour, roundings and chamfers
-// between them, then radius compensation; and last the frames between the words and the coordinates of the work offset.
+// between them, then radius compensation; and last the frames between the words and the coordinates
+// of the work offset.
 //
 // Units : mm, rad
 // Errors: a motion that a filter cannot make is Output::failure of the state

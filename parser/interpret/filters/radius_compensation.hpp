@@ -50,8 +50,7 @@ class RadiusCompensation {
 
   // `position`: where the tool is, as far as it is known; with `beside_contour` where the contour
   // begins, whose first move needs no entry: the tool is abeam of it already.
-  void start(const RadiusSetting& setting, const AxisTarget& position,
-             bool beside_contour = false);
+  void start(const RadiusSetting& setting, const AxisTarget& position, bool beside_contour = false);
   // A motion of the program. On, what it and those before it give goes to the sink when it is
   // final.
   [[nodiscard]] Failure take(Motion&& motion, const Sink& sink);

@@ -42,8 +42,8 @@ Outcome preset_axes(InterpreterState& state, const BlockWords& words) {
   return Done{};
 }
 
-// Of Klartext the datum shift of cycle 7 is one: a shift of zero in a tilted plane ends the one from
-// before the plane too, which then does not come back with the end of the plane.
+// Of Klartext the datum shift of cycle 7 is one: a shift of zero in a tilted plane ends the one
+// from before the plane too, which then does not come back with the end of the plane.
 void reset_shift_below(InterpreterState& state, const BlockWords& words) {
   auto& below = state.modes.frame_below;
   if (state.rules.dialect != Dialect::heidenhain || !below) return;

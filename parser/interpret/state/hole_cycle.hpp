@@ -8,10 +8,9 @@
 // from the top; w the dwell above; W the feed out. Of 203 and 205: D how much a peck is less than
 // the one before, L the least peck, H how far a chip is broken, K how often before the hole is
 // cleared, E how deep each time, g and h the stops above the last depth; of DEEP2: x each peck
-// after the first. Of 202: n the direction off
-// the wall, o how far. Of 220 and 221: x y the centre or the corner, d the diameter, a b c the start,
-// stop and step of the angle, or the spacings and the turn; K L how many holes, e and l how the tool
-// goes between them.
+// after the first. Of 202: n the direction off the wall, o how far. Of 220 and 221: x y the centre or
+// the corner, d the diameter, a b c the start, stop and step of the angle, or the spacings and the
+// turn; K L how many holes, e and l how the tool goes between them.
 // Units : mm along the axis of the hole, from its top; seconds
 // Errors: none
 #pragma once
@@ -61,11 +60,11 @@ struct HoleCycle {
   std::optional<Feed> feed_out{};
   // Its coordinate along Z; absent: the hole's place says, or the tool is `clear` above it.
   std::optional<double> top{};
-  double dwell_above = 0.0;     // seconds
-  bool at_moves = false;        // M89
-  bool of_tool = false;         // 1, 2: heights count from where the tool is
+  double dwell_above = 0.0;      // seconds
+  bool at_moves = false;         // M89
+  bool of_tool = false;          // 1, 2: heights count from where the tool is
   Vec3 off_wall = Vec3::Zero();  // of 202, before the tool goes back
-  std::optional<Vec3> start{};  // where the tool was then
+  std::optional<Vec3> start{};   // where the tool was then
   std::optional<DeepHole> deep{};
   std::string program{};  // a call runs this program file instead (CYCL DEF 12)
 };

@@ -239,10 +239,9 @@ class CycleReader {
     if (part == 0) {
       return note(draft_, cycle == 1.0 ? "CYCL DEF 1" : "CYCL DEF 2", column, in_.text_to(";"));
     }
-    const auto* known =
-        std::find_if(kOldCycles.begin(), kOldCycles.end(), [&](const OldCycleParameter& p) {
-          return p.cycle == cycle && p.part == part;
-        });
+    const auto* known = std::find_if(
+        kOldCycles.begin(), kOldCycles.end(),
+        [&](const OldCycleParameter& p) { return p.cycle == cycle && p.part == part; });
     if (known == kOldCycles.end()) {
       return in_.fail("unknown-word"_id, column,
                       fmt::format("CYCL DEF {:g} has no part {}", cycle, part),

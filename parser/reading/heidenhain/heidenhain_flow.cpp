@@ -57,9 +57,10 @@ class FlowReader {
       return read_fn_jump(kComparisons.at(static_cast<std::size_t>(fn - 9)), column);
     if (fn == 14) return read_raised_error(column);
     if (fn == 17 && !sets_tool_data()) {
-      return in_.fail("not-supported"_id, column, "FN 17 is not simulated",
-                      "what it writes could move the datum: known is FN 17: SYSWRITE ID50, the tool "
-                      "table");
+      return in_.fail(
+          "not-supported"_id, column, "FN 17 is not simulated",
+          "what it writes could move the datum: known is FN 17: SYSWRITE ID50, the tool "
+          "table");
     }
     if (fn == 18) return read_system_data(column);
     for (const PassedFn& passed : kPassedFn) {

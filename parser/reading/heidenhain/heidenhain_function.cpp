@@ -16,19 +16,18 @@ struct PassedFunction {
   std::string_view word;
   const char* event;
 };
-constexpr std::array kPassedFunctions{
-    PassedFunction{"DCM", "FUNCTION DCM"},
-    PassedFunction{"AFC", "FUNCTION AFC"},
-    PassedFunction{"COUNT", "FUNCTION COUNT"},
-    PassedFunction{"FEED", "FUNCTION FEED"},
-    PassedFunction{"S", "FUNCTION S"},
-    PassedFunction{"LIFTOFF", "FUNCTION LIFTOFF"},
-    PassedFunction{"FILECOPY", "FUNCTION FILECOPY"},
-    PassedFunction{"FILEMOVE", "FUNCTION FILEMOVE"},
-    PassedFunction{"FILEDELETE", "FUNCTION FILEDELETE"},
-    PassedFunction{"SPINDLE", "FUNCTION SPINDLE"},
-    PassedFunction{"PARAXCOMP", "FUNCTION PARAXCOMP"},
-    PassedFunction{"PROG", "FUNCTION PROG"}};
+constexpr std::array kPassedFunctions{PassedFunction{"DCM", "FUNCTION DCM"},
+                                      PassedFunction{"AFC", "FUNCTION AFC"},
+                                      PassedFunction{"COUNT", "FUNCTION COUNT"},
+                                      PassedFunction{"FEED", "FUNCTION FEED"},
+                                      PassedFunction{"S", "FUNCTION S"},
+                                      PassedFunction{"LIFTOFF", "FUNCTION LIFTOFF"},
+                                      PassedFunction{"FILECOPY", "FUNCTION FILECOPY"},
+                                      PassedFunction{"FILEMOVE", "FUNCTION FILEMOVE"},
+                                      PassedFunction{"FILEDELETE", "FUNCTION FILEDELETE"},
+                                      PassedFunction{"SPINDLE", "FUNCTION SPINDLE"},
+                                      PassedFunction{"PARAXCOMP", "FUNCTION PARAXCOMP"},
+                                      PassedFunction{"PROG", "FUNCTION PROG"}};
 
 class FunctionReader {
  public:

@@ -36,16 +36,12 @@ struct Operand {
   std::string_view word;
   const char* event;
 };
-constexpr std::array kOperandsOfM{Operand{128.0, "F", "", "M128"},
-                                  Operand{94.0, "ABCUVW", "", "M94"},
-                                  Operand{103.0, "F", "", "M103"},
-                                  Operand{112.0, "TAE", "", "M112"},
-                                  Operand{116.0, "ABC", "", "M116"},
-                                  Operand{118.0, "XYZABC", "", "M118"},
-                                  Operand{120.0, "", "LA", "M120"},
-                                  Operand{124.0, "T", "", "M124"},
-                                  Operand{138.0, "ABC", "", "M138"},
-                                  Operand{197.0, "", "DL", "M197"}};
+constexpr std::array kOperandsOfM{
+    Operand{128.0, "F", "", "M128"},   Operand{94.0, "ABCUVW", "", "M94"},
+    Operand{103.0, "F", "", "M103"},   Operand{112.0, "TAE", "", "M112"},
+    Operand{116.0, "ABC", "", "M116"}, Operand{118.0, "XYZABC", "", "M118"},
+    Operand{120.0, "", "LA", "M120"},  Operand{124.0, "T", "", "M124"},
+    Operand{138.0, "ABC", "", "M138"}, Operand{197.0, "", "DL", "M197"}};
 
 // Whether a number or a parameter follows.
 bool begins_value(char next) {
@@ -292,11 +288,10 @@ class PathReader {
       const std::uint32_t column = in_.column();
       const std::string name = in_.letters();
       const bool by_parameter = name.size() > 1 && name[1] == 'Q';
-      const bool known =
-          by_parameter ? operand.letters.find(name.front()) != std::string_view::npos
-          : name.size() == 1
-              ? operand.letters.find(name.front()) != std::string_view::npos
-              : operand.word == name;
+      const bool known = by_parameter ? operand.letters.find(name.front()) != std::string_view::npos
+                         : name.size() == 1
+                             ? operand.letters.find(name.front()) != std::string_view::npos
+                             : operand.word == name;
       const bool again = known && taken.find(name.front()) != std::string::npos;
       if (!known || again || (name == "F" && in_.next_name() == "MAX")) return in_.go_to(column);
       taken += name.front();

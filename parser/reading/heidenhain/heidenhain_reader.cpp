@@ -21,9 +21,9 @@ constexpr std::string_view kLineHint =
 
 constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
 // By their first words.
-constexpr std::array kStatements{"CC",    "TOOL",   "PLANE", "FUNCTION", "CYCL",  "BEGIN", "END",
-                                 "BLK",   "STOP",   "FN",    "LBL",      "CALL",  "M3",    "Q1",
-                                 "RND",   "CHF",    "APPR",  "DEP",      "TRANS", "PRESET"};
+constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL",  "BEGIN", "END",
+                                 "BLK", "STOP", "FN",    "LBL",      "CALL",  "M3",    "Q1",
+                                 "RND", "CHF",  "APPR",  "DEP",      "TRANS", "PRESET"};
 // Statements that change nothing that is simulated.
 constexpr std::array kPassedStatements{"SEL TABLE", "CONTOUR DEF", "SEL CONTOUR", "SECTION"};
 // Words whose number may follow without a blank: LBL1, FN0:, RND5.
@@ -166,8 +166,7 @@ class HeidenhainReader {
     if (name.empty() || std::string_view("MFSR").find(name.front()) == std::string_view::npos) {
       return false;
     }
-    return name.size() == 1 ||
-           name.find_first_not_of("0123456789", 1) == std::string_view::npos ||
+    return name.size() == 1 || name.find_first_not_of("0123456789", 1) == std::string_view::npos ||
            (name[1] == 'Q' && name.front() != 'R');
   }
 

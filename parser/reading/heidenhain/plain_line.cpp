@@ -127,9 +127,7 @@ class PlainLineReader {
   }
 
   [[nodiscard]] char at_place() const { return place_ < text_.size() ? text_[place_] : '\0'; }
-  [[nodiscard]] char behind() const {
-    return place_ + 1 < text_.size() ? text_[place_ + 1] : '\0';
-  }
+  [[nodiscard]] char behind() const { return place_ + 1 < text_.size() ? text_[place_ + 1] : '\0'; }
   // The next character that is not blank; 0 at the end.
   char peek() {
     while (at_place() == ' ' || at_place() == '\t' || at_place() == '\r') ++place_;

@@ -1,5 +1,5 @@
-// Lines of Klartext that are straight moves by plain numbers, by far the most: 12 L X+1.5 Y-2 R0 F500
-// FMAX M3. What is not such a line is left to the reader of statements.
+// Lines of Klartext that are straight moves by plain numbers, by far the most: 12 L X+1.5 Y-2 R0
+// F500 M3. What is not such a line is left to the reader of statements.
 //
 // Units : none; values are as written
 // Shape : the block that the reader of statements would give (plain_line_test.cpp)

@@ -201,8 +201,8 @@ TEST(KlartextApproach, SaysWhatIsMissing) {
            {"TOOL CALL 1 Z\nDEP LT LEN5 F100\n", "2:1: error: DEP LT leaves no contour"},
            {kStart + "L X+0 F100\nDEP LN LEN5\n", "4:1: error: DEP LN without radius compensation"},
        }) {
-    EXPECT_TRUE(complaint(wrong.text).starts_with(wrong.complaint))
-        << complaint(wrong.text) << "\n" << wrong.text;
+    EXPECT_TRUE(complaint(wrong.text).starts_with(wrong.complaint)) << complaint(wrong.text) << "\n"
+                                                                    << wrong.text;
   }
 }
 
@@ -222,8 +222,7 @@ TEST(KlartextApproach, GoesAlongTheContourOfAToolWithoutDiameter) {
                                {{0, 0, -5}}});
   bool told = false;
   for (const Event& event : all_of<Event>(all)) {
-    told = told || (event.name == "contour-without-diameter" &&
-                    event.grade == EventGrade::assumed);
+    told = told || (event.name == "contour-without-diameter" && event.grade == EventGrade::assumed);
   }
   EXPECT_TRUE(told);
 }

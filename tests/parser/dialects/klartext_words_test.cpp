@@ -34,8 +34,8 @@ void expect_ends(const std::string& text, const std::vector<Vec3>& expected) {
   const auto found = ends_of_moves(run_words(text));
   ASSERT_EQ(found.size(), expected.size()) << text;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_LT((found[i] - expected[i]).norm(), 1e-9)
-        << i << ": " << found[i].transpose() << "\n" << text;
+    EXPECT_LT((found[i] - expected[i]).norm(), 1e-9) << i << ": " << found[i].transpose() << "\n"
+                                                     << text;
   }
 }
 const Event* event_named(const std::vector<Motion>& all, std::string_view name) {
@@ -164,16 +164,18 @@ TEST(KlartextWords, Fault2_09_ToolsHaveNames) {
     return numbers;
   };
   options.tools[4].remark = "MILL_10";
-  const auto numbers = tools("TOOL CALL \"MILL_10\" Z S1000\nQS1 = \"MILL\" || \"_10\"\nTOOL CALL QS1 "
-                             "Z\nTOOL CALL \"DRILL\" Z\nTOOL CALL 5.1 Z\nTOOL CALL \"DRILL\" Z\n");
+  const auto numbers = tools(
+      "TOOL CALL \"MILL_10\" Z S1000\nQS1 = \"MILL\" || \"_10\"\nTOOL CALL QS1 "
+      "Z\nTOOL CALL \"DRILL\" Z\nTOOL CALL 5.1 Z\nTOOL CALL \"DRILL\" Z\n");
   ASSERT_EQ(numbers.size(), 5U);
   EXPECT_EQ(numbers[0], 4);
   EXPECT_EQ(numbers[1], 4);
   EXPECT_EQ(numbers[2], numbers[4]);
   EXPECT_NE(numbers[2], numbers[3]);
   EXPECT_NE(numbers[2], 4);
-  EXPECT_NE(event_named(motions("TOOL CALL \"DRILL\" Z\n", options, Dialect::heidenhain), "tool_name"),
-            nullptr);
+  EXPECT_NE(
+      event_named(motions("TOOL CALL \"DRILL\" Z\n", options, Dialect::heidenhain), "tool_name"),
+      nullptr);
 }
 
 TEST(KlartextWords, TheBuildersMWordsAreTold) {
@@ -188,8 +190,9 @@ TEST(KlartextWords, TheBuildersMWordsAreTold) {
 
 // A pole in Z/X: from Z to X is counterclockwise, seen from +Y.
 TEST(KlartextWords, ArcsAreInThePlaneOfTheirPole) {
-  const auto all = run_words("L X+5 Y+1 Z+0 F100\nCC X+0 Z+0\nC X+0 Z+5 DR-\nCC Y+0 Z+0\nL Y+5 "
-                             "Z+0\nC Y+0 Z+5 DR+\n");
+  const auto all = run_words(
+      "L X+5 Y+1 Z+0 F100\nCC X+0 Z+0\nC X+0 Z+5 DR-\nCC Y+0 Z+0\nL Y+5 "
+      "Z+0\nC Y+0 Z+5 DR+\n");
   const auto arcs = all_of<ArcFeed>(all);
   ASSERT_EQ(arcs.size(), 2U);
   EXPECT_EQ(arcs[0].plane, Plane::zx);
@@ -204,8 +207,9 @@ TEST(KlartextFrames, AShiftThatEndsInATiltedPlaneDoesNotComeBack) {
   const std::string before =
       "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+50\nCYCL DEF 7.2 Y+20\nPLANE SPATIAL SPA+90 SPB+0 SPC+0 "
       "STAY\n";
-  const std::string ends = "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+0\nCYCL DEF 7.2 Y+0\nCYCL DEF 7.3 "
-                           "Z+0\n";
+  const std::string ends =
+      "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+0\nCYCL DEF 7.2 Y+0\nCYCL DEF 7.3 "
+      "Z+0\n";
   const std::string after = "PLANE RESET STAY\nL X+1 Y+2 Z+3 FMAX\n";
   expect_ends(before + after, {{51, 22, 3}});
   expect_ends(before + ends + after, {{1, 2, 3}});
@@ -234,9 +238,10 @@ const std::string kTool = "TOOL CALL 1 Z S1000\nM3\n";
 
 // M89 drills where each move ends, up to the move with M99.
 TEST(KlartextWords, M89CallsACycleAfterEachMove) {
-  const auto all = run_words(kTool +
-                             "CYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 Q204=+10\n"
-                             "L X+0 Y+0 Z+10 FMAX M89\nL X+20 FMAX\nL X+40 FMAX M99\nL X+60 FMAX\n");
+  const auto all =
+      run_words(kTool +
+                "CYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 Q204=+10\n"
+                "L X+0 Y+0 Z+10 FMAX M89\nL X+20 FMAX\nL X+40 FMAX M99\nL X+60 FMAX\n");
   std::vector<double> holes;
   for (const LinearFeed& feed : all_of<LinearFeed>(all)) holes.push_back(*feed.end[X]);
   EXPECT_EQ(holes, (std::vector<double>{0, 20, 40}));
@@ -252,16 +257,11 @@ TEST(KlartextWords, TheOldPeckingCycleCountsFromTheTool) {
 }
 
 TEST(KlartextWords, BoringLeavesTheWallBeforeItGoesBack) {
-  expect_ends(kTool +
-                  "L X+1 Y+2 Z+50 FMAX\nCYCL DEF 202 BORING Q200=+2 Q201=-5 Q206=+100 Q211=+0 "
-                  "Q208=+250 Q203=+0 Q204=+20 Q214=1 Q336=+0\nCYCL CALL\n",
-              {{1, 2, 50},
-               {1, 2, 2},
-               {1, 2, -5},
-               {0.8, 2, -5},
-               {0.8, 2, 2},
-               {0.8, 2, 20},
-               {1, 2, 20}});
+  expect_ends(
+      kTool +
+          "L X+1 Y+2 Z+50 FMAX\nCYCL DEF 202 BORING Q200=+2 Q201=-5 Q206=+100 Q211=+0 "
+          "Q208=+250 Q203=+0 Q204=+20 Q214=1 Q336=+0\nCYCL CALL\n",
+      {{1, 2, 50}, {1, 2, 2}, {1, 2, -5}, {0.8, 2, -5}, {0.8, 2, 2}, {0.8, 2, 20}, {1, 2, 20}});
 }
 
 // CYCL CALL POS names the place; its Z is a shift of the surface.
@@ -274,8 +274,9 @@ TEST(KlartextWords, ACycleIsCalledAtAPlace) {
 
 TEST(KlartextWords, PatternsCallTheCycleBefore) {
   const std::string drill =
-      kTool + "L X+0 Y+0 Z+50 FMAX\nCYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 "
-              "Q204=+20\n";
+      kTool +
+      "L X+0 Y+0 Z+50 FMAX\nCYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 "
+      "Q204=+20\n";
   const auto holes = [](const std::string& text) {
     std::vector<Vec3> found;
     for (const LinearFeed& feed : all_of<LinearFeed>(run_words(text))) {
@@ -328,9 +329,9 @@ TEST(KlartextWords, ParametersOfACycleMayFollowWithoutMarks) {
   ASSERT_EQ(feeds.size(), 2U);
   EXPECT_EQ(feeds[0].feed.value, 250.0);
   EXPECT_EQ(feeds[1].feed.value, 99'999.0);
-  EXPECT_NE(event_named(run_words("CYCL DEF 392 ATC~\nQ240=0 ;MODE~\nQ241=1 ;WEIGHT\n"),
-                        "CYCL DEF 392"),
-            nullptr);
+  EXPECT_NE(
+      event_named(run_words("CYCL DEF 392 ATC~\nQ240=0 ;MODE~\nQ241=1 ;WEIGHT\n"), "CYCL DEF 392"),
+      nullptr);
 }
 
 TEST(KlartextWords, TurningIsNotMilling) {
