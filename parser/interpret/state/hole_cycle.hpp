@@ -9,8 +9,8 @@
 // the one before, L the least peck, H how far a chip is broken, K how often before the hole is
 // cleared, E how deep each time, g and h the stops above the last depth; of DEEP2: x each peck
 // after the first. Of 202: n the direction off the wall, o how far. Of 220 and 221: x y the centre
-// or the corner, d the diameter, a b c the start, stop and step of the angle, or the spacings and the
-// turn; K L how many holes, e and l how the tool goes between them.
+// or the corner, d the diameter, a b c the start, stop and step of the angle, or the spacings and
+// the turn; K L how many holes, e and l how the tool goes between them.
 // Units : mm along the axis of the hole, from its top; seconds
 // Errors: none
 #pragma once
