@@ -18,6 +18,7 @@ constexpr std::array kHeidenhainCodes{
     named("STOP", stop, StopKind::program_stop),
     named("L", motion, MotionMode::linear),
     named("L FMAX", motion, MotionMode::traverse),
+    named("L A+Q120 B+Q121 C+Q122", non_modal, NonModal::align),
     named("LN", motion, MotionMode::linear),
     named("LN FMAX", motion, MotionMode::traverse),
     named("CC", non_modal, NonModal::pole, LetterSet("XYZ")),

@@ -259,6 +259,7 @@ const Language kHeidenhain{
          "DEP CT CCA`u R+`u",
          "DEP PLCT PR`q PA`q R`u F`u",
          "N`d L X`q",
+         "L A+Q120 B+Q121 C+Q122 R0",
          "Z`q FMAX",
          "M140 MB MAX",
          "L M140 MB`q FMAX",

@@ -38,16 +38,16 @@ Result<ContourLink> link_of(const InterpreterState& state, const BlockWords& wor
       link.shape == ApproachWord::line_along || link.shape == ApproachWord::line_across ||
       link.shape == ApproachWord::leave_along || link.shape == ApproachWord::leave_across;
   const char size = by_line ? 'l' : 'R';
-  if (!words.has(size)) {
+  // LEN may be left out.
+  if (!words.has(size) && !by_line) {
     return fail(state, code.column, "word-missing"_id,
-                fmt::format("{} without {}", code.code->name(), by_line ? "LEN" : "R"),
-                by_line ? "give the length of the line, for example LEN10"
-                        : "give the radius of the arc, for example R5");
+                fmt::format("{} without R", code.code->name()),
+                "give the radius of the arc, for example R5");
   }
   link.size = words[size].value * unit_scale(state);
   const bool takes_sign =
       link.shape == ApproachWord::arc || link.shape == ApproachWord::leave_by_arc || by_line;
-  if (link.size == 0.0 || (link.size < 0.0 && !takes_sign)) {
+  if ((link.size == 0.0 && words.has(size)) || (link.size < 0.0 && !takes_sign)) {
     return fail(state, words[size].column, "value-not-positive"_id,
                 fmt::format("{} is not above zero", words.text_of(size)),
                 "give a length above zero");

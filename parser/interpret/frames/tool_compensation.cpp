@@ -284,8 +284,9 @@ Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
 void guide_uncalled_tool(InterpreterState& state, std::uint32_t column) {
   Compensation& compensation = state.modes.compensation;
   const bool missing = compensation.tip && !compensation.length;
-  if (!missing || state.rules.dialect != Dialect::cldata) return;
-  assume(state, column, "LOADTL",
+  const bool klartext = state.rules.dialect == Dialect::heidenhain;
+  if (!missing || (!klartext && state.rules.dialect != Dialect::cldata)) return;
+  assume(state, column, klartext ? "TOOL CALL" : "LOADTL",
          "no tool is called before the tool tilts: the one that the job has");
   compensation.length = true;
   emit(state, column, compensation_change(compensation));

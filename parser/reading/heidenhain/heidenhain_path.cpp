@@ -105,6 +105,7 @@ class PathReader {
       word += " FMAX";
     }
     block_.words.front().number = row_of(*find_code(Dialect::heidenhain, word));
+    if (statement == "L") turn_to_plane();
     if (statement == "CP" && !has_angle_) {
       return in_.fail("value-missing"_id, column, "CP has no angle",
                       "give PA or IPA; a full turn is IPA+360 DR+");
@@ -133,6 +134,28 @@ class PathReader {
     path.polar = polar;
     read_elements(statement, path);
     if (rapid_ && !in_.failed()) add_number(block_, 'd', 1.0, column, "FMAX");
+  }
+
+  // L A+Q120 C+Q122: to the positions of the axes that the control has computed of the plane.
+  void turn_to_plane() {
+    const auto turns = [](const Word& word) {
+      return std::string_view("ABC").find(word.letter) != std::string_view::npos;
+    };
+    const auto computed = [this](const Word& word) {
+      if (word.expression.count != 1 || word.measure != Measure::modal) return false;
+      const ExpressionStep& step = block_.steps[word.expression.first];
+      return step.operation == Operation::named_parameter &&
+             block_.names[static_cast<std::size_t>(step.number)] ==
+                 fmt::format("Q{}", 120 + (word.letter - 'A'));
+    };
+    bool any = false;
+    for (const Word& word : block_.words) {
+      if (turns(word) ? !computed(word) : word.letter >= 'X' && word.letter <= 'Z') return;
+      any = any || turns(word);
+    }
+    if (!any) return;
+    std::erase_if(block_.words, turns);
+    block_.words.front().number = row_of(*find_code(Dialect::heidenhain, "L A+Q120 B+Q121 C+Q122"));
   }
 
   void read_elements(const std::string& statement, const Path& path) {

@@ -183,7 +183,7 @@ TEST(KlartextApproach, SaysWhatIsMissing) {
     std::string complaint;
   };
   for (const Wrong& wrong : std::vector<Wrong>{
-           {kStart + "APPR LT X+0 Y+0 RL F200\n", "3:1: error: APPR LT without LEN"},
+           {kStart + "APPR LT X+0 Y+0 LEN0 RL F200\n", "3:17: error: LEN0 is not above zero"},
            {kStart + "APPR CT X+0 Y+0 R5 RL F200\n", "3:1: error: APPR CT without CCA"},
            {kStart + "APPR LCT X+0 Y+0 RL F200\n", "3:1: error: APPR LCT without R"},
            {kStart + "APPR CT X+0 Y+0 CCA400 R5 RL F200\n", "3:17: error: CCA400 is out of range"},

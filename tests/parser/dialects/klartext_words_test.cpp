@@ -105,6 +105,30 @@ TEST(KlartextWords, Fault2_09_OneAngleOfCycle19IsEnough) {
   EXPECT_FALSE(complaints("CYCL DEF 19.1 A+30 C+20\n", {}, Dialect::heidenhain).empty());
 }
 
+// Q120 to Q122 are where the axes have to be for the plane.
+TEST(KlartextWords, TheAxesGoWhereThePlaneWantsThem) {
+  const auto all = run_words(
+      "PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\nL A+Q120 C+Q122 R0 FMAX\nL X+1 Y+2 Z+3 FMAX\n");
+  EXPECT_EQ(all_of<AlignToPlane>(all).size(), 1U);
+  EXPECT_EQ(all_of<Traverse>(all).size(), 1U);
+  EXPECT_FALSE(failures_of("L A+Q120 C+Q122 FMAX\n", {}, Dialect::heidenhain).empty());
+}
+
+// The tool in the spindle is the one of the setup.
+TEST(KlartextWords, TheTipMayBeGuidedBeforeAToolIsCalled) {
+  const auto all = run_words("M128\nL X+1 A+10 FMAX\n");
+  EXPECT_EQ(last_of<CompensationChange>(all).mode, LengthCompensation::tool_centre_point);
+  EXPECT_EQ(event_named(all, "TOOL CALL")->grade, EventGrade::assumed);
+}
+
+TEST(KlartextWords, AWholeTurnGoesTheWayOfDr) {
+  const auto arc = last_of<ArcFeed>(run_words("L X+5 Y+0 Z+0 F100\nCC X+0 Y+0\nCP IPA+360 DR-\n"));
+  EXPECT_EQ(arc.turns, -1);
+  EXPECT_FALSE(
+      failures_of("L X+5 Y+0 Z+0 F100\nCC X+0 Y+0\nCP IPA+90 DR-\n", {}, Dialect::heidenhain)
+          .empty());
+}
+
 // The caller of a subprogram, or the operator, has given the feed.
 TEST(KlartextWords, AMoveBeforeTheFirstFeedIsAnAssumption) {
   const auto all = run_words("L X+1\nL Y+1\n");
