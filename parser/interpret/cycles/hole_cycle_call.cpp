@@ -147,6 +147,11 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
                 "define it before, for example by CYCL DEF 200");
   }
   cycle.at_moves = call == HoleCall::at_moves;
+  if (cycle.at_moves && !by_move) {
+    assume(state, code.column, "M89",
+           "the cycle is called where each move ends; by a parameter of the control M89 may be the "
+           "builder's");
+  }
   if (cycle.at_moves && !state.at_work.moved) return Done{};
   if (auto done = check_hole_call(state, cause); !done) return done;
   if (call == HoleCall::ring || call == HoleCall::grid) return call_pattern(state, words);

@@ -269,6 +269,7 @@ TEST(KlartextWords, M89CallsACycleAfterEachMove) {
   std::vector<double> holes;
   for (const LinearFeed& feed : all_of<LinearFeed>(all)) holes.push_back(*feed.end[X]);
   EXPECT_EQ(holes, (std::vector<double>{0, 20, 40}));
+  EXPECT_EQ(event_named(all, "M89")->grade, EventGrade::assumed);
   EXPECT_EQ(event_named(run_words("M89\n"), "M89")->grade, EventGrade::builder);
 }
 
