@@ -164,6 +164,11 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
             fmt::format("the program runs into subprogram {}, which it has met before", flow.label),
             "end the main program with M2 before it, or define it before it is called");
       }
+      // One within it is wrong even if nothing calls it.
+      for (std::size_t i = here.begin + 1; i < here.end; ++i) {
+        if (map[i].kind == FlowKind::subprogram && map[i].fault)
+          return *map.fault_of(map[i], false);
+      }
       frame().cursor.go_to(map[here.end].behind);
       return std::nullopt;
     case FlowKind::end_sub:

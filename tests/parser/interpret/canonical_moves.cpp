@@ -187,7 +187,8 @@ class Walk {
   std::map<int, std::array<double, 3>> origins_{};
   int offset_ = 1;
   std::optional<double> length_ = 0.0;
-  std::array<std::optional<double>, kAxisLetters.size()> place_{};
+  // All axes are at zero at the start.
+  std::array<std::optional<double>, kAxisLetters.size()> place_{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 };
 
 // What the printed calls are relative to.
@@ -447,7 +448,7 @@ std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> mov
                               const std::optional<double>& right) {
       return left == right || (left && right && std::abs(*left - *right) <= kAgree * move.unit);
     };
-    const bool stands = move.kind == "traverse" &&
+    const bool stands = (move.kind == "traverse" || move.kind == "feed") &&
                         std::equal(end.begin(), end.end(), place.begin(), place.end(), near);
     place = std::move(end);
     if (!stands) kept.push_back(std::move(move));

@@ -27,7 +27,7 @@ struct CanonicalMove {
 // Of lines such as "   12 N..... STRAIGHT_FEED(1.0000, ...)".
 [[nodiscard]] std::vector<CanonicalMove> moves_of_rs274(std::string_view output);
 
-// Leaves out rapid moves to where the tool is.
+// Leaves out straight moves to where the tool is.
 [[nodiscard]] std::vector<CanonicalMove> without_standing_still(std::vector<CanonicalMove> moves);
 
 // "feed 1.0 2.0 3.0 0 0 0 feed 100 spindle 1000"

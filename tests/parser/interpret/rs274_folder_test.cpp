@@ -54,8 +54,10 @@ fs::path usual_tools() {
   return file;
 }
 
-// What the program says to the operator is no part of the comparison.
+// What the program says to the operator is no part of the comparison, nor is the coolant that the
+// end of the program switches off.
 std::vector<CanonicalMove> commands(std::vector<CanonicalMove> moves) {
+  if (!moves.empty() && moves.back().kind == "coolant off") moves.pop_back();
   std::erase_if(moves, [](const CanonicalMove& move) {
     return move.kind.starts_with("message") || move.kind.starts_with("log");
   });
@@ -64,7 +66,8 @@ std::vector<CanonicalMove> commands(std::vector<CanonicalMove> moves) {
 
 // It has run a program that has no end.
 bool ran_to_the_end(const Rs274Run& run) {
-  return run.ended() || run.output.find("File ended with no percent sign") != std::string::npos;
+  return (run.ended() && run.exit_code == 0) ||
+         run.output.find("File ended with no percent sign") != std::string::npos;
 }
 
 // What rs274 says beside its calls, "   12 N..... STRAIGHT_FEED(..)".
@@ -94,6 +97,7 @@ constexpr std::array kUndecided{
     Undecided{"Unknown m code used: M1", ""},  // programs of the user's own
     Undecided{"M-code greater than 199: M42", ""},
     Undecided{"M-code greater than 199: M43", ""},
+    Undecided{"R word with no g code that uses it", "G64"},
     Undecided{"_hal[", ""},
     Undecided{"_ini[", ""},
 };

@@ -66,6 +66,7 @@ Rs274Run run_rs274(const fs::path& program, const Rs274Start& start) {
     run.output += part.data();
   }
   const int status = pclose(pipe);
+  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   run.timed_out =
       run.output.size() >= kMostOutput || (WIFEXITED(status) && WEXITSTATUS(status) == kTimedOut);
   fs::remove_all(folder);

@@ -24,6 +24,7 @@ struct Rs274Start {
 struct Rs274Run {
   std::string output{};
   bool timed_out = false;
+  int exit_code = 0;
 
   // It came to the end of the program.
   [[nodiscard]] bool ended() const;
