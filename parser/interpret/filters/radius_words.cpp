@@ -52,7 +52,6 @@ std::string_view off_word(Dialect dialect) { return dialect == Dialect::heidenha
 struct ToolEdge {
   double radius = 0.0;  // below zero for a tool of negative diameter
   int orientation = kCentred;
-  bool known = true;  // else only the setup knows it
 };
 
 // Where the control point of a lathe tool is, from the centre of its edge, in radii along Z and X.
@@ -106,7 +105,6 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   if (unknown || (number == 0 && state.rules.offset_numbers_stand_alone)) return ToolEdge{};
   // No tool has no diameter.
   if (tool == state.data.tools.end() && number == 0 && of_linuxcnc) return ToolEdge{};
-  if (state.data.tools.empty() && of_linuxcnc) return ToolEdge{.known = false};
   if (tool == state.data.tools.end()) {
     return fail(state, column, "radius-compensation"_id,
                 fmt::format("the tool table has no tool {}", number),
@@ -234,7 +232,7 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   const auto edge = edge_for(state, words);
   if (!edge) return edge.error();
   const double radius = edge->radius;
-  if (!edge->known || (radius == 0.0 && state.rules.offset_numbers_stand_alone)) {
+  if (radius == 0.0 && state.rules.offset_numbers_stand_alone) {
     if (state.data.tools.empty()) {
       assume(state, code.column, "cutter radius",
              code.code->name() +

@@ -162,14 +162,6 @@ TEST(LinuxCncWords, Fault2_14_TheEndingOfTheNameComesBeforeWordsOfFanuc) {
   EXPECT_EQ(recognise_dialect("G68.2 P0 X0 Y0 Z0 I10 J0 K0\n", "part.nc").dialect, Dialect::fanuc);
 }
 
-TEST(LinuxCncWords, AContourOfAToolThatOnlyTheSetupKnowsIsTakenAsItIs) {
-  const auto all = run_linuxcnc("G0 X0 Y0 Z0\nG41 D3\nG1 Z-1 F100\nX20\nY20\nG40 X0\nM2\n");
-  EXPECT_EQ(all_of<Event>(all).front().grade, EventGrade::assumed);
-  EXPECT_EQ(all_of<LinearFeed>(all)[1].end[X], 20.0);
-  EXPECT_EQ(linuxcnc_ids("G0 X0 Y0 Z0\nG41 D3 G1 X20 F100\n", mill_and_lathe_tool()),
-            Ids{"radius-compensation"});
-}
-
 TEST(LinuxCncWords, Fault2_05_ADefinitionWithinAnotherIsAnErrorEvenUncalled) {
   EXPECT_EQ(linuxcnc_ids("o1 sub\no2 sub\no2 endsub\no1 endsub\nG0 X1\nM2\n"),
             Ids{"flow-unpaired"});

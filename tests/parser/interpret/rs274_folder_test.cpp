@@ -122,9 +122,16 @@ Comparison compare(const fs::path& file, const fs::path& tools) {
   options.max_blocks = 3'000'000;
   const auto program = open_program(file, Dialect::linuxcnc);
   const bool theirs = ran_to_the_end(run);
-  if (!program) return {true, !theirs, to_string(program.error().front())};
+  // A program without an end is refused too, after it has run.
+  const bool refused = run.exit_code != 0;
+  if (!program) return {true, refused, to_string(program.error().front())};
   const auto motions = motions_of(*program, options);
-  if (!motions) return {true, !theirs, to_string(motions.error().front())};
+  if (!motions) {
+    const Diagnostic& ours = motions.error().front();
+    // R beside G64 and M19: later releases refuse it as well.
+    const bool later = ours.id == "word-ambiguous"_id;
+    return {refused || !later, refused, to_string(ours)};
+  }
   if (!theirs) {
     const std::string complaint = complaint_of(run.output);
     return {!decides_nothing(complaint), false, "rs274 alone refuses: " + complaint};
