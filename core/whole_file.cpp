@@ -39,6 +39,29 @@ std::optional<PartFile> open_part(const fs::path& target) {
   return std::nullopt;
 }
 
+bool write_bytes(File file, std::string_view bytes) {
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  const int reason = errno;
+  // Closing writes what is buffered, so its result counts too.
+  const bool closed = std::fclose(file.release()) == 0;
+  if (!written) errno = reason;
+  return written && closed;
+}
+
+// Nothing can be renamed over a device or a pipe; /dev/stdout may be a link to a file.
+bool is_device(const fs::path& path) {
+  const std::string name = path.lexically_normal().string();
+  std::error_code failure;
+  return (name.starts_with("/dev/") && !name.starts_with("/dev/shm/")) ||
+         name.starts_with("/proc/") ||
+         (fs::exists(path, failure) && !fs::is_regular_file(path, failure));
+}
+Result<fs::path> write_through(const fs::path& path, std::string_view bytes) {
+  File file{std::fopen(path.c_str(), "wb")};
+  if (file && write_bytes(std::move(file), bytes)) return path;
+  return cannot_write(path, std::strerror(errno));
+}
+
 }  // namespace
 
 Result<std::string> read_whole_file(const fs::path& path) {
@@ -72,17 +95,16 @@ Diagnostic cannot_write(const fs::path& path, std::string_view reason) {
 Result<fs::path> write_whole_file(const fs::path& path, std::string_view bytes) {
   std::error_code failure;
   if (fs::is_directory(path, failure)) return cannot_write(path, "it is a folder");
+  if (is_device(path)) return write_through(path, bytes);
   auto part = open_part(path);
   if (!part) return cannot_write(path, std::strerror(errno));
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), part->file.get()) == bytes.size();
-  // Closing writes what is buffered, so its result counts too.
-  const bool closed = std::fclose(part->file.release()) == 0;
+  const bool written = write_bytes(std::move(part->file), bytes);
   const int reason = errno;
-  if (written && closed) {
+  if (written) {
     fs::rename(part->path, path, failure);
     if (!failure) return path;
   }
-  const std::string why = written && closed ? failure.message() : std::strerror(reason);
+  const std::string why = written ? failure.message() : std::strerror(reason);
   fs::remove(part->path, failure);
   return cannot_write(path, why);
 }

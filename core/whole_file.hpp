@@ -3,6 +3,7 @@
 // The house reads files here, but for NC programs, which are read line by line (parser/reading).
 // What is written goes to a new file beside the target, which is then renamed over it, so that an
 // existing file is untouched until the new one is complete, and a failure leaves nothing behind.
+// Devices and pipes (/dev/stdout) are written as they are.
 // Units: none. Errors: a diagnostic that names the file when it cannot be read or written.
 #pragma once
 

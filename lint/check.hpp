@@ -28,6 +28,9 @@ enum class Check : std::uint8_t {
   parameter_unset,
   vacant_word,
   not_simulated,
+  builder_word,
+  assumed,
+  decimal_point,
   feed_missing,
   feed_high,
   feed_low,
@@ -61,14 +64,21 @@ enum class Check : std::uint8_t {
   over_travel,
   rotary_over_travel,
   axis_too_slow,
+  rapid_in_material,
+  body_in_material,
+  unknown_suppression,
+  unused_suppression,
 };
+
+// What a check looks at beyond the program.
+enum class Needs : std::uint8_t { nothing, machine, job };
 
 struct CheckInfo {
   Check check;
   std::string_view id;  // "over-travel", as --disable and SARIF have it
   Severity severity;    // a finding may be graver or milder
   std::string_view title;
-  bool needs_machine = false;
+  Needs needs = Needs::nothing;
 };
 
 [[nodiscard]] std::span<const CheckInfo> all_checks();

@@ -16,22 +16,21 @@ FindingList::Key FindingList::key_of(const std::string& text) {
   return std::hash<std::string>()(text);
 }
 
-bool FindingList::counted(Check check, Key key) {
-  if (!wants(check)) return true;
-  const auto known = index_.find({check, key});
+bool FindingList::counted(Check check, Key key, bool taken) {
+  const auto known = index_.find({check, key, taken});
   if (known != index_.end()) {
     ++findings_[known->second].count;
     return true;
   }
-  if (places_[check] < kMostPlaces) return false;
-  ++left_out_[check];
+  if (places_[{check, taken}] < kMostPlaces) return false;
+  if (!taken) ++left_out_[check];
   return true;
 }
 
 void FindingList::add(Check check, Key key, const parser::SourcePlace& place, Words words,
-                      std::optional<Severity> severity) {
-  ++places_[check];
-  index_.emplace(std::pair(check, key), findings_.size());
+                      std::optional<Severity> severity, const Suppression* taken) {
+  ++places_[{check, taken != nullptr}];
+  index_.emplace(Place(check, key, taken != nullptr), findings_.size());
   findings_.push_back({.check = check,
                        .severity = severity.value_or(info_of(check).severity),
                        .file = place.file ? *place.file : file_,
@@ -40,6 +39,9 @@ void FindingList::add(Check check, Key key, const parser::SourcePlace& place, Wo
                        .message = std::move(words.message),
                        .hint = std::move(words.hint),
                        .diagnostic = words.diagnostic});
+  if (taken == nullptr) return;
+  findings_.back().suppressed = Suppressed::by_comment;
+  findings_.back().reason = taken->reason;
 }
 
 std::vector<Finding> FindingList::sorted() const {

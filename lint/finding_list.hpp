@@ -2,7 +2,8 @@
 //
 // A check raises a finding under a key of its own (a place, a feed, a segment between two changes
 // of a mode); what comes again under the same key is counted. A check keeps kMostPlaces findings;
-// those beyond are counted too.
+// those beyond are counted too. What a comment of the program takes is kept apart under the same
+// keys, so that it does not hide what comes again elsewhere.
 //
 // Units : none
 // Errors: none
@@ -13,15 +14,20 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "lint/check.hpp"
+#include "lint/suppressions.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::lint {
 
 constexpr std::size_t kMostPlaces = 100;
+
+// Why a finding does not count: a comment of the program, or it is in the baseline.
+enum class Suppressed : std::uint8_t { no, by_comment, by_baseline };
 
 struct Finding {
   Check check = Check::program_error;
@@ -33,6 +39,8 @@ struct Finding {
   std::string hint{};
   std::uint64_t count = 1;
   std::optional<DiagnosticId> diagnostic{};  // of what the interpreter or the controller says
+  Suppressed suppressed = Suppressed::no;
+  std::string reason{};  // of the comment
 };
 
 struct Words {
@@ -45,9 +53,8 @@ class FindingList {
  public:
   using Key = std::uint64_t;
 
-  // `file`: the main program's, for places that name none.
-  FindingList(std::string file, std::set<Check> disabled)
-      : file_(std::move(file)), disabled_(std::move(disabled)) {}
+  FindingList(const parser::Program& program, std::set<Check> disabled)
+      : file_(program.file), disabled_(std::move(disabled)), suppressions_(program) {}
 
   [[nodiscard]] static Key key_of(const parser::SourcePlace& place);
   [[nodiscard]] static Key key_of(double value);
@@ -57,13 +64,17 @@ class FindingList {
   template <typename Write>
   void raise(Check check, Key key, const parser::SourcePlace& place, const Write& words,
              std::optional<Severity> severity = {}) {
-    if (counted(check, key)) return;
-    add(check, key, place, words(), severity);
+    if (!wants(check)) return;
+    const Suppression* taken = suppressions_.taking(check, place);
+    if (counted(check, key, taken != nullptr)) return;
+    add(check, key, place, words(), severity, taken);
   }
   // What the interpreter or the controller says; the same words are the same finding.
   void raise(Check check, const Diagnostic& said, const parser::SourcePlace& place,
              std::optional<Severity> severity = {});
   [[nodiscard]] bool wants(Check check) const { return !disabled_.contains(check); }
+
+  [[nodiscard]] const Suppressions& suppressions() const { return suppressions_; }
 
   // By file (the main program first), line and column.
   [[nodiscard]] std::vector<Finding> sorted() const;
@@ -71,16 +82,19 @@ class FindingList {
   [[nodiscard]] const std::map<Check, std::uint64_t>& left_out() const { return left_out_; }
 
  private:
-  // Whether there is nothing to add: a repeat, one too many, or not wanted.
-  [[nodiscard]] bool counted(Check check, Key key);
+  using Place = std::tuple<Check, Key, bool>;  // true: a comment takes it
+
+  // Whether there is nothing to add: a repeat, or one too many.
+  [[nodiscard]] bool counted(Check check, Key key, bool taken);
   void add(Check check, Key key, const parser::SourcePlace& place, Words words,
-           std::optional<Severity> severity);
+           std::optional<Severity> severity, const Suppression* taken);
 
   std::string file_;
   std::set<Check> disabled_;
+  Suppressions suppressions_;
   std::vector<Finding> findings_{};
-  std::map<std::pair<Check, Key>, std::size_t> index_{};
-  std::map<Check, std::size_t> places_{};
+  std::map<Place, std::size_t> index_{};
+  std::map<std::pair<Check, bool>, std::size_t> places_{};
   std::map<Check, std::uint64_t> left_out_{};
 };
 

@@ -1,39 +1,76 @@
 #include "lint/json_findings.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace frustum::lint {
+namespace {
 
-std::string json_of(const CheckReport& report, const CheckedFile& checked) {
-  using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
+
+std::string text_of_json(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json status_of(bool passed) { return passed ? "pass" : "fail"; }
+
+Json counts_json(const FindingCounts& counts) {
+  Json json{{"error", counts.errors}, {"warning", counts.warnings}, {"note", counts.notes}};
+  if (counts.suppressed > 0) json["suppressed"] = counts.suppressed;
+  return json;
+}
+
+Json finding_json(const Finding& finding) {
+  Json json{{"id", info_of(finding.check).id},
+            {"severity", to_string(finding.severity)},
+            {"file", finding.file},
+            {"line", finding.line},
+            {"column", finding.column},
+            {"message", finding.message},
+            {"hint", finding.hint},
+            {"count", finding.count},
+            {"diagnostic", finding.diagnostic ? Json(finding.diagnostic->text()) : Json()}};
+  if (finding.suppressed != Suppressed::no) {
+    json["suppressed"] = finding.suppressed == Suppressed::by_comment ? "comment" : "baseline";
+    json["reason"] = finding.reason;
+  }
+  return json;
+}
+
+Json file_json(const CheckedFile& checked) {
+  const CheckReport& report = checked.report;
   Json json{{"file", checked.file},
             {"dialect", checked.dialect},
             {"machine", checked.machine.empty() ? Json() : Json(checked.machine)},
-            {"status", checked.passed ? "pass" : "fail"},
+            {"status", status_of(checked.passed)},
             {"blocks", report.blocks},
             {"motions", report.motions},
-            {"counts",
-             {{"error", report.count(Severity::error)},
-              {"warning", report.count(Severity::warning)},
-              {"note", report.count(Severity::note)}}},
+            {"counts", counts_json(counts_of({&checked, 1}))},
             {"findings", Json::array()},
+            {"suppressed", Json::array()},
             {"left_out", Json::object()}};
   for (const Finding& finding : report.findings) {
-    json["findings"].push_back(
-        {{"id", info_of(finding.check).id},
-         {"severity", to_string(finding.severity)},
-         {"file", finding.file},
-         {"line", finding.line},
-         {"column", finding.column},
-         {"message", finding.message},
-         {"hint", finding.hint},
-         {"count", finding.count},
-         {"diagnostic", finding.diagnostic ? Json(finding.diagnostic->text()) : Json()}});
+    json[finding.suppressed == Suppressed::no ? "findings" : "suppressed"].push_back(
+        finding_json(finding));
   }
   for (const auto& [check, count] : report.left_out) {
     json["left_out"][std::string(info_of(check).id)] = count;
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
+}
+
+}  // namespace
+
+std::string json_of(const CheckedFile& checked) { return text_of_json(file_json(checked)); }
+
+std::string json_of(std::span<const CheckedFile> checked) {
+  const bool passed =
+      std::ranges::all_of(checked, [](const CheckedFile& each) { return each.passed; });
+  Json json{{"status", status_of(passed)},
+            {"counts", counts_json(counts_of(checked))},
+            {"files", Json::array()}};
+  for (const CheckedFile& each : checked) json["files"].push_back(file_json(each));
+  return text_of_json(json);
 }
 
 }  // namespace frustum::lint

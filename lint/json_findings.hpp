@@ -4,20 +4,15 @@
 // Errors: none; bytes that are no text are replaced
 #pragma once
 
+#include <span>
 #include <string>
-#include <string_view>
 
-#include "lint/program_check.hpp"
+#include "lint/checked_file.hpp"
 
 namespace frustum::lint {
 
-struct CheckedFile {
-  std::string file{};
-  std::string_view dialect{};
-  std::string machine{};  // empty: none
-  bool passed = true;
-};
-
-[[nodiscard]] std::string json_of(const CheckReport& report, const CheckedFile& checked);
+[[nodiscard]] std::string json_of(const CheckedFile& checked);
+// Of several programs: {"status", "counts", "files": [..]}.
+[[nodiscard]] std::string json_of(std::span<const CheckedFile> checked);
 
 }  // namespace frustum::lint

@@ -37,7 +37,9 @@ bool rotary_axis_moves(const AxisTarget& from, const AxisTarget& to) {
 }
 
 void MotionState::follow(const parser::Motion& motion) {
+  const parser::LengthCompensation before = modes.compensation.mode;
   modes.follow(motion.command);
+  if (std::holds_alternative<parser::CompensationChange>(motion.command)) change_length(before);
   std::visit([this](const auto& command) { after(command); }, motion.command);
   if (!std::holds_alternative<parser::Event>(motion.command)) place = motion.place;
   if (std::holds_alternative<parser::LinearFeed>(motion.command) ||
@@ -51,12 +53,9 @@ void MotionState::forget_linear() {
 }
 
 void MotionState::place_at(const AxisTarget& end, parser::Coordinates coordinates) {
-  if (coordinates == parser::Coordinates::program) {
-    position = end;
-    return;
-  }
   for (const AxisLetter axis : parser::kAxisLetters) {
-    if (end[axis]) position[axis].reset();
+    if (!end[axis]) continue;  // it stays where it is
+    position[axis] = coordinates == parser::Coordinates::program ? end[axis] : std::nullopt;
   }
 }
 
@@ -80,16 +79,22 @@ void MotionState::after(const parser::LinearFeed& move) {
 void MotionState::after(const parser::ArcFeed& move) {
   cuts = true;
   retracted = false;
-  position = move.end;
+  place_at(move.end, parser::Coordinates::program);
 }
 void MotionState::after(const parser::Probe& /*move*/) {
   // Where the probe has met the part nobody knows.
   position = {};
 }
 void MotionState::after(const parser::ToolChange& /*change*/) { ++compensation_changes; }
-void MotionState::after(const parser::CompensationChange& /*change*/) {
+void MotionState::change_length(parser::LengthCompensation before) {
   ++compensation_changes;
-  forget_linear();
+  const bool tip = before == parser::LengthCompensation::tool_centre_point || modes.tip_control();
+  // A length alone is along Z.
+  if (tip || modes.plane) {
+    forget_linear();
+  } else {
+    position[AxisLetter::Z].reset();
+  }
 }
 void MotionState::after(const parser::SpindleChange& /*change*/) { ++spindle_changes; }
 void MotionState::after(const parser::TiltedPlaneChange& /*change*/) { forget_linear(); }

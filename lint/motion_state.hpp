@@ -33,13 +33,13 @@ struct MotionState {
  private:
   void place_at(const parser::AxisTarget& end, parser::Coordinates coordinates);
   void forget_linear();
+  void change_length(parser::LengthCompensation before);
   void after(const parser::Traverse& move);
   void after(const parser::HomeReturn& move);
   void after(const parser::LinearFeed& move);
   void after(const parser::ArcFeed& move);
   void after(const parser::Probe& move);
   void after(const parser::ToolChange& change);
-  void after(const parser::CompensationChange& change);
   void after(const parser::SpindleChange& change);
   void after(const parser::TiltedPlaneChange& change);
   void after(const parser::WorkOffsetChange& change);

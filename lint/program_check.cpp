@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/spelling.hpp"
 #include "lint/arc_checks.hpp"
 #include "lint/cutting_checks.hpp"
+#include "lint/decimal_points.hpp"
 #include "lint/end_checks.hpp"
 #include "lint/parameter_reads.hpp"
 #include "lint/program_structure.hpp"
@@ -26,28 +30,72 @@ using parser::SourcePlace;
 // Blocks that cannot be run, after which the rest of the program says little.
 constexpr std::uint64_t kMostErrors = 1'000;
 
-// Whether what runs next may be what has run: a jump, the end of a loop, M99 in the main program.
-bool comes_round(const parser::BlockAhead& ahead) {
-  using enum parser::FlowKind;
-  const parser::Block& block = ahead.block;
-  if (block.flow) {
-    const parser::FlowKind kind = block.flow->kind;
-    return kind == jump || kind == choice || kind == end_loop;
+// What a motion on a machine costs, and each of the positions that are looked at, in blocks.
+constexpr std::uint64_t kCostOfMotion = 8;
+
+// Blocks that run again, which a program may have without end.
+class Repeats {
+ public:
+  struct Jump {
+    SourcePlace from{};
+    std::uint64_t count = 0;  // so often
+  };
+  // A jump back to this block, if it is one.
+  [[nodiscard]] std::optional<Jump> see(const parser::BlockAhead& ahead) {
+    Way& way = way_of(ahead);
+    const std::uint32_t line = ahead.block.line;
+    std::optional<Jump> jump;
+    if (line <= way.line) {
+      jump = Jump{way.place, ++jumps_[FindingList::key_of(way.place)]};
+    }
+    runs_again_ = line <= way.farthest;
+    if (runs_again_) ++blocks_;
+    way.line = line;
+    way.farthest = std::max(way.farthest, line);
+    way.place = ahead.block.place_of(ahead.block.flow ? ahead.block.flow->column : 1);
+    way.place.file = ahead.file;
+    return jump;
   }
-  return ahead.calls == 0 &&
-         std::any_of(block.words.begin(), block.words.end(), [](const parser::Word& word) {
-           return word.letter == 'M' && word.number == 99.0;
-         });
-}
+  void add_cost(std::uint64_t blocks) {
+    if (runs_again_) blocks_ += blocks;
+  }
+  [[nodiscard]] std::uint64_t blocks() const { return blocks_; }
+
+ private:
+  // Of one file at one depth of calls.
+  struct Way {
+    std::uint32_t line = 0;
+    std::uint32_t farthest = 0;
+    SourcePlace place{};
+  };
+  Way& way_of(const parser::BlockAhead& ahead) {
+    if (last_ == nullptr || ahead.file != file_ || ahead.calls != calls_) {
+      file_ = ahead.file;
+      calls_ = ahead.calls;
+      last_ = &ways_[{file_ ? *file_ : std::string(), calls_}];
+    }
+    return *last_;
+  }
+
+  std::map<std::pair<std::string, std::size_t>, Way> ways_{};
+  std::map<FindingList::Key, std::uint64_t> jumps_{};
+  std::shared_ptr<const std::string> file_{};
+  std::size_t calls_ = 0;
+  Way* last_ = nullptr;
+  bool runs_again_ = false;
+  std::uint64_t blocks_ = 0;
+};
 
 class ProgramCheck {
  public:
   ProgramCheck(const parser::Program& program, const CheckOptions& options)
       : program_(program),
-        findings_(program.file, options.disabled),
+        findings_(program, options.disabled),
         reads_(program.dialect),
-        run_(options.run),
-        most_turns_(options.most_turns) {
+        points_(program.dialect == parser::Dialect::fanuc && !options.decimal_point_is_known),
+        options_(options),
+        run_(options.run) {
+    state_.position = options.home;
     if (options.machine != nullptr) travel_.emplace(*options.machine, options.setup, findings_);
     run_.watch = [this](const parser::BlockAhead& ahead) { return see(ahead); };
     run_.go_on = [this](Diagnostic&& error) { return go_on(error); };
@@ -61,29 +109,88 @@ class ProgramCheck {
       for (const Diagnostic& error : summary.error()) report(error);
     }
     short_segments_.finish(findings_);
+    points_.finish(findings_);
     if (travel_) travel_->finish();
     // The modes at the end say something only of a program that came there.
     if (state_.place.line == 0) state_.place = last_block_;
     if (summary && !broken_off_) check_end(state_, summary->state, program_.dialect, findings_);
+    if (summary && !broken_off_ && errors_ == 0 && options_.look_further) look_further();
+    judge_suppressions();
     return {findings_.sorted(), findings_.left_out(), blocks_, motions_};
   }
 
  private:
+  void look_further() {
+    looked_further_ = true;
+    for (Finding& found : options_.look_further()) {
+      const SourcePlace place{found.line, found.column, nullptr};
+      findings_.raise(
+          found.check, FindingList::key_of(place), place,
+          [&] {
+            return Words{found.message, found.hint};
+          },
+          found.severity);
+    }
+  }
+
+  void judge_suppressions() {
+    std::vector<std::string> known;
+    for (const CheckInfo& info : all_checks()) known.emplace_back(info.id);
+    for (const Suppression& each : findings_.suppressions().all()) {
+      const auto key = FindingList::key_of(each.place) * 64 + each.place.column;
+      if (!each.check) {
+        findings_.raise(Check::unknown_suppression, FindingList::key_of(each.id) ^ key, each.place,
+                        [&] { return words_of_unknown(each, known); });
+      } else if (!each.used && could_be_used(*each.check)) {
+        findings_.raise(Check::unused_suppression, FindingList::key_of(each.id) ^ key, each.place,
+                        [&] {
+                          return Words{fmt::format("there is no {} to suppress here", each.id),
+                                       "leave the comment out"};
+                        });
+      }
+    }
+  }
+  static Words words_of_unknown(const Suppression& comment, const std::vector<std::string>& known) {
+    if (comment.id.empty()) {
+      return {"the comment names no check", "frustum: ignore ID, one or several of --list"};
+    }
+    return {fmt::format("the comment suppresses '{}', which is no check", comment.id),
+            suggestion(comment.id, known)};
+  }
+  // Not, where it was not looked for.
+  [[nodiscard]] bool could_be_used(Check check) const {
+    const Needs needs = info_of(check).needs;
+    return findings_.wants(check) && !broken_off_ && check != Check::unused_suppression &&
+           check != Check::unknown_suppression &&
+           (needs == Needs::nothing || (needs == Needs::machine && travel_.has_value()) ||
+            (needs == Needs::job && looked_further_));
+  }
+
   bool see(const parser::BlockAhead& ahead) {
     ++blocks_;
     last_block_ = {ahead.block.line, 1, ahead.file};
     reads_.see(ahead, findings_);
-    if (!comes_round(ahead)) return true;
-    SourcePlace place = ahead.block.place_of(ahead.block.flow ? ahead.block.flow->column : 1);
-    place.file = ahead.file;
-    const auto key = FindingList::key_of(place);
-    if (++turns_[key] <= most_turns_) return true;
-    findings_.raise(Check::endless_loop, key, place, [&] {
-      return Words{fmt::format("reached {} times: does this loop end?", most_turns_),
-                   "look for a condition that never changes; the checks end here"};
-    });
-    broken_off_ = true;
-    return false;
+    points_.see(ahead);
+    const auto jump = repeats_.see(ahead);
+    if (jump && jump->count > options_.most_turns) {
+      findings_.raise(Check::endless_loop, FindingList::key_of(jump->from), jump->from, [&] {
+        return Words{fmt::format("reached {} times: does this loop end?", options_.most_turns),
+                     "look for a condition that never changes; the checks end here"};
+      });
+      broken_off_ = true;
+    } else if (repeats_.blocks() > options_.most_repeats) {
+      findings_.raise(
+          Check::endless_loop, FindingList::key_of(last_block_), last_block_,
+          [&] {
+            return Words{
+                fmt::format("loops and repeats have run {} blocks again: the checks end here",
+                            options_.most_repeats),
+                "a longer program is checked with a greater --most-repeats"};
+          },
+          Severity::warning);
+      broken_off_ = true;
+    }
+    return !broken_off_;
   }
 
   bool go_on(const Diagnostic& error) {
@@ -117,7 +224,11 @@ class ProgramCheck {
       check_tip_control(*move, state_, program_.dialect, findings_);
       short_segments_.see(*move);
     }
-    if (travel_) travel_->see(motion);
+    if (travel_) {
+      const std::uint64_t before = travel_->samples();
+      travel_->see(motion);
+      repeats_.add_cost(kCostOfMotion + travel_->samples() - before);
+    }
     state_.follow(motion);
   }
 
@@ -129,6 +240,30 @@ class ProgramCheck {
     if (std::find(kTold.begin(), kTold.end(), event.name) != kTold.end()) return;
     // The first line of a cycle of Klartext; what the others say is simulated.
     if (event.name.starts_with("CYCL DEF") && event.name != "CYCL DEF 32") return;
+    if (event.grade == parser::EventGrade::builder) {
+      findings_.raise(Check::builder_word, FindingList::key_of(event.name), place, [&] {
+        return Words{fmt::format("{} is a word of the machine's builder, passed over", event.name),
+                     "name it under [controller] words of the machine, if it moves nothing"};
+      });
+      return;
+    }
+    if (event.name == "decimal point") {
+      if (options_.decimal_point_is_known || event.text.empty()) return;
+      // As DecimalPoints has it, so that both are one finding.
+      const auto key = static_cast<FindingList::Key>(event.text.front());
+      findings_.raise(Check::decimal_point, key, place, [&] {
+        return Words{event.text,
+                     "write the point, or say which by --decimal-point or [controller] "
+                     "decimal_point"};
+      });
+      return;
+    }
+    if (event.grade == parser::EventGrade::assumed) {
+      findings_.raise(Check::assumed, FindingList::key_of(event.name), place, [&] {
+        return Words{fmt::format("{}: taken that {}", event.name, event.text), ""};
+      });
+      return;
+    }
     if (event.name == "vacant") {
       findings_.raise(Check::vacant_word, FindingList::key_of(place), place, [&] {
         return Words{fmt::format("the parameter of {} is vacant: the word is left out", event.text),
@@ -146,25 +281,28 @@ class ProgramCheck {
   FindingList findings_;
   MotionState state_{};
   ParameterReads reads_;
+  DecimalPoints points_;
   ShortSegments short_segments_{};
   std::optional<TravelCheck> travel_{};
+  const CheckOptions& options_;
   parser::InterpreterOptions run_;
-  std::uint64_t most_turns_;
+  Repeats repeats_{};
   WrongLines wrong_lines_{};
-  std::map<FindingList::Key, std::uint64_t> turns_{};
   SourcePlace last_block_{1, 1, nullptr};
   std::uint64_t errors_ = 0;
   std::uint64_t blocks_ = 0;
   std::uint64_t motions_ = 0;
   bool broken_off_ = false;
+  bool looked_further_ = false;
 };
 
 }  // namespace
 
 std::size_t CheckReport::count(Severity severity) const {
   return static_cast<std::size_t>(
-      std::count_if(findings.begin(), findings.end(),
-                    [severity](const Finding& f) { return f.severity == severity; }));
+      std::count_if(findings.begin(), findings.end(), [severity](const Finding& f) {
+        return f.severity == severity && f.suppressed == Suppressed::no;
+      }));
 }
 
 CheckReport check_program(const parser::Program& program, const CheckOptions& options) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -27,9 +28,17 @@ struct CheckOptions {
   parser::InterpreterOptions run{};              // `watch` and `go_on` are the check's own
   const kinematics::Machine* machine = nullptr;  // null: the checks that need one are left out
   kinematics::Setup setup{};
+  // Where the axes are before the program, also as far as that is only assumed.
+  parser::AxisTarget home{};
+  bool decimal_point_is_known = false;  // else words without a point are findings
   std::set<Check> disabled{};
   // A loop or jump that comes more often than this is taken for one that never ends.
-  std::uint64_t most_turns = 1'000'000;
+  std::uint64_t most_turns = 300'000;
+  // So many blocks run again, by loops and repeats, before the check ends; a move that is held
+  // against a machine counts for several.
+  std::uint64_t most_repeats = 1'000'000;
+  // What else is looked for in a program that runs to its end: in the stock of a job.
+  std::function<std::vector<Finding>()> look_further{};
 };
 
 struct CheckReport {

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+
+#include "lint/fingerprints.hpp"
 
 namespace frustum::lint {
 namespace {
@@ -29,32 +33,36 @@ std::string uri_text(const std::string& path) {
   return uri;
 }
 
-std::string uri_of(const std::string& file, const fs::path& folder) {
+constexpr const char* kFolder = "WORKING_FOLDER";
+
+// Below the folder its name there, else the whole path.
+Json location_of(const std::string& file, const fs::path& folder) {
   const fs::path whole = (folder / file).lexically_normal();
   const fs::path relative = whole.lexically_relative(folder.lexically_normal());
   const bool below = !relative.empty() && *relative.begin() != "..";
-  return below ? uri_text(relative.generic_string()) : "file://" + uri_text(whole.generic_string());
+  if (!below) return {{"uri", file_uri(whole)}};
+  return {{"uri", uri_text(relative.generic_string())}, {"uriBaseId", kFolder}};
 }
 
-// FNV-1a: the same on every machine.
-std::uint64_t fingerprint(std::string_view id, std::string_view line) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const std::string_view part : {id, line}) {
-    for (const char byte : part) {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-    }
-  }
-  return hash;
-}
-
-Json rules() {
+Json rules(const SarifOptions& options) {
   Json list = Json::array();
   for (const CheckInfo& info : all_checks()) {
-    list.push_back({{"id", info.id},
-                    {"shortDescription", {{"text", info.title}}},
-                    {"defaultConfiguration", {{"level", to_string(info.severity)}}}});
+    Json rule{{"id", info.id},
+              {"shortDescription", {{"text", info.title}}},
+              {"fullDescription", {{"text", std::string(info.title) + "."}}},
+              {"defaultConfiguration", {{"level", to_string(info.severity)}}}};
+    if (!options.documents.empty()) rule["helpUri"] = options.documents + "check.md#the-checks";
+    list.push_back(std::move(rule));
   }
   return list;
+}
+
+Json driver(const SarifOptions& options) {
+  Json json{
+      {"name", "Frustum"}, {"version", options.version}, {"semanticVersion", options.version}};
+  if (!options.documents.empty()) json["informationUri"] = options.documents + "README.md";
+  json["rules"] = rules(options);
+  return json;
 }
 
 // The column in the units that SARIF counts in, from one in bytes.
@@ -75,44 +83,97 @@ std::string message_of(const Finding& finding) {
   return text;
 }
 
-}  // namespace
-
-std::string sarif_of(const CheckReport& report, const SourceLines& lines,
-                     const SarifOptions& options) {
-  Json results = Json::array();
-  std::map<std::uint64_t, int> seen;
-  for (const Finding& finding : report.findings) {
-    const CheckInfo& info = info_of(finding.check);
-    Json place{{"artifactLocation", {{"uri", uri_of(finding.file, options.folder)}}}};
-    const auto found = lines.find({finding.file, finding.line});
-    const std::string_view line = found == lines.end() ? std::string_view() : found->second;
-    if (finding.line > 0) {
-      place["region"] = {{"startLine", finding.line},
-                         {"startColumn", utf16_column(line, finding.column)}};
-    }
-    const std::uint64_t mark = fingerprint(info.id, line);
-    results.push_back({{"ruleId", info.id},
-                       {"ruleIndex", static_cast<std::size_t>(finding.check)},
-                       {"level", to_string(finding.severity)},
-                       {"message", {{"text", message_of(finding)}}},
-                       {"locations", Json::array({{{"physicalLocation", place}}})},
-                       {"partialFingerprints",
-                        {{"checkAndLine/v1", fmt::format("{:016x}:{}", mark, ++seen[mark])}}},
-                       {"occurrenceCount", finding.count}});
-    if (finding.diagnostic) {
-      results.back()["properties"] = {{"diagnostic", finding.diagnostic->text()}};
+// The files that were checked, then those with a finding besides.
+class Artifacts {
+ public:
+  Artifacts(std::span<const CheckedFile> checked, const fs::path& folder) : folder_(folder) {
+    for (const CheckedFile& each : checked) add(each.file, true);
+    for (const CheckedFile& each : checked) {
+      for (const Finding& finding : each.report.findings) add(finding.file, false);
     }
   }
-  const Json sarif{
-      {"$schema", kSchema},
-      {"version", "2.1.0"},
-      {"runs",
-       Json::array(
-           {{{"tool",
-              {{"driver",
-                {{"name", "Frustum"}, {"semanticVersion", options.version}, {"rules", rules()}}}}},
-             {"columnKind", "utf16CodeUnits"},
-             {"results", results}}})}};
+  [[nodiscard]] Json location(const std::string& file) const {
+    Json location = location_of(file, folder_);
+    location["index"] = index_.at(file);
+    return location;
+  }
+  [[nodiscard]] const Json& list() const { return list_; }
+
+ private:
+  void add(const std::string& file, bool target) {
+    if (!index_.try_emplace(file, list_.size()).second) return;
+    list_.push_back({{"location", location_of(file, folder_)}});
+    if (target) list_.back()["roles"] = Json::array({"analysisTarget"});
+  }
+
+  fs::path folder_;
+  Json list_ = Json::array();
+  std::map<std::string, std::size_t> index_{};
+};
+
+// Empty: the finding counts.
+Json suppressions_json(const Finding& finding) {
+  if (finding.suppressed == Suppressed::no) return Json::array();
+  const bool comment = finding.suppressed == Suppressed::by_comment;
+  Json suppression{{"kind", comment ? "inSource" : "external"}, {"status", "accepted"}};
+  const std::string reason = comment ? finding.reason : std::string("in the baseline");
+  if (!reason.empty()) suppression["justification"] = reason;
+  return Json::array({suppression});
+}
+
+Json result_of(const Finding& finding, const std::string& fingerprint, const CheckedFile& checked,
+               const Artifacts& artifacts) {
+  const auto found = checked.lines.find({finding.file, finding.line});
+  const std::string_view line = found == checked.lines.end() ? std::string_view() : found->second;
+  Json place{{"artifactLocation", artifacts.location(finding.file)}};
+  if (finding.line > 0) {
+    place["region"] = {{"startLine", finding.line},
+                       {"startColumn", utf16_column(line, std::max(finding.column, 1U))}};
+  }
+  Json result{{"ruleId", info_of(finding.check).id},
+              {"ruleIndex", static_cast<std::size_t>(finding.check)},
+              {"level", to_string(finding.severity)},
+              {"message", {{"text", message_of(finding)}}},
+              {"locations", Json::array({{{"physicalLocation", place}}})},
+              {"partialFingerprints", {{"checkAndLine/v2", fingerprint}}},
+              {"occurrenceCount", finding.count}};
+  result["suppressions"] = suppressions_json(finding);
+  if (finding.diagnostic) result["properties"] = {{"diagnostic", finding.diagnostic->text()}};
+  return result;
+}
+
+// How the run of the program itself went.
+Json invocation_of(const SarifOptions& options) {
+  Json notifications = Json::array();
+  for (const Diagnostic& trouble : options.troubles) {
+    notifications.push_back(
+        {{"level", to_string(trouble.severity)}, {"message", {{"text", to_string(trouble)}}}});
+  }
+  return {{"executionSuccessful", options.troubles.empty()},
+          {"workingDirectory", {{"uri", file_uri(options.folder / "")}}},
+          {"toolExecutionNotifications", notifications}};
+}
+
+}  // namespace
+
+std::string file_uri(const fs::path& path) { return "file://" + uri_text(path.generic_string()); }
+
+std::string sarif_of(std::span<const CheckedFile> checked, const SarifOptions& options) {
+  const Artifacts artifacts(checked, options.folder);
+  Json results = Json::array();
+  for (const CheckedFile& each : checked) {
+    const auto marks = fingerprints_of(each.report.findings, each.lines);
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      results.push_back(result_of(each.report.findings[i], marks[i], each, artifacts));
+    }
+  }
+  const Json run{{"tool", {{"driver", driver(options)}}},
+                 {"invocations", Json::array({invocation_of(options)})},
+                 {"originalUriBaseIds", {{kFolder, {{"uri", file_uri(options.folder / "")}}}}},
+                 {"artifacts", artifacts.list()},
+                 {"columnKind", "utf16CodeUnits"},
+                 {"results", results}};
+  const Json sarif{{"$schema", kSchema}, {"version", "2.1.0"}, {"runs", Json::array({run})}};
   return sarif.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -47,29 +47,37 @@ std::string counted(std::size_t count, std::string_view noun) {
 
 }  // namespace
 
-std::string text_of(const CheckReport& report, const SourceLines& lines) {
+std::string text_of(const CheckedFile& checked) {
   std::string text;
   const auto out = std::back_inserter(text);
-  for (const Finding& finding : report.findings) {
+  for (const Finding& finding : checked.report.findings) {
+    if (finding.suppressed != Suppressed::no) continue;
     fmt::format_to(out, "{}:{}:{}: {}: {}", finding.file, finding.line, finding.column,
                    to_string(finding.severity), finding.message);
     if (finding.count > 1) fmt::format_to(out, " ({} times)", finding.count);
     fmt::format_to(out, " [{}]\n", info_of(finding.check).id);
-    const auto line = lines.find({finding.file, finding.line});
-    if (line != lines.end()) {
+    const auto line = checked.lines.find({finding.file, finding.line});
+    if (line != checked.lines.end()) {
       const Shown part = shown(line->second, finding.column);
       fmt::format_to(out, "{:>6} | {}\n       | {}\n", finding.line, part.line, part.caret);
     }
     if (!finding.hint.empty()) fmt::format_to(out, "       = {}\n", finding.hint);
   }
-  for (const auto& [check, count] : report.left_out) {
+  for (const auto& [check, count] : checked.report.left_out) {
     fmt::format_to(out, "note: {} more of [{}] are not listed\n", count, info_of(check).id);
   }
-  fmt::format_to(out, "{}, {}, {} in {} that ran\n",
-                 counted(report.count(Severity::error), "error"),
-                 counted(report.count(Severity::warning), "warning"),
-                 counted(report.count(Severity::note), "note"), counted(report.blocks, "block"));
   return text;
+}
+
+std::string summary_of(std::span<const CheckedFile> checked) {
+  const FindingCounts counts = counts_of(checked);
+  std::string text =
+      fmt::format("{}, {}, {}", counted(counts.errors, "error"),
+                  counted(counts.warnings, "warning"), counted(counts.notes, "note"));
+  if (counts.suppressed > 0) text += fmt::format(", {} suppressed", counts.suppressed);
+  text += fmt::format(" in {} that ran", counted(counts.blocks, "block"));
+  if (checked.size() != 1) text += fmt::format(", {}", counted(checked.size(), "program"));
+  return text + "\n";
 }
 
 }  // namespace frustum::lint

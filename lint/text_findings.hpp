@@ -9,14 +9,16 @@
 // Errors: none
 #pragma once
 
+#include <span>
 #include <string>
 
-#include "lint/program_check.hpp"
-#include "lint/source_lines.hpp"
+#include "lint/checked_file.hpp"
 
 namespace frustum::lint {
 
-// Ends with a line that counts the findings.
-[[nodiscard]] std::string text_of(const CheckReport& report, const SourceLines& lines);
+// What is suppressed is left out.
+[[nodiscard]] std::string text_of(const CheckedFile& checked);
+// "1 error, 0 warnings, 2 notes in 40 blocks that ran, 3 programs": the last line.
+[[nodiscard]] std::string summary_of(std::span<const CheckedFile> checked);
 
 }  // namespace frustum::lint

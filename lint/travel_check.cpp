@@ -29,6 +29,11 @@ constexpr double kAtLimit = 1e-9;  // mm, rad
 // Below this a speed beyond an axis's is one of rounded feeds.
 constexpr double kSpeedMargin = 1.001;
 constexpr int kLeastParts = 16;
+// A move of more parts than this goes farther than any machine; what it lacks of its own number is
+// looked at more coarsely, once the program has had many of them.
+constexpr int kManyParts = 128;
+constexpr int kMostParts = 4096;
+constexpr std::uint64_t kPartsOfLongMoves = 200'000;
 constexpr int kJobOffsets = 6;    // G54 to G59
 constexpr double kNarrow = 1e-6;  // of a move, where its peak is searched
 
@@ -89,6 +94,8 @@ class TravelCheck::State {
     std::visit([this](const auto& command) { assume(command); }, motion.command);
     command(motion);
   }
+
+  [[nodiscard]] std::uint64_t samples() const { return samples_taken_; }
 
   void finish() {
     for (AxisWatch& axis : axes_) {
@@ -172,7 +179,8 @@ class TravelCheck::State {
     const BlockMotion& motion = move.motion;
     samples_.clear();
     // Where the move begins, the one before has ended and been judged.
-    const int parts = motion.straight() ? 1 : std::max(kLeastParts, motion.least_parts());
+    const int parts = motion.straight() ? 1 : parts_of(motion.least_parts());
+    samples_taken_ += static_cast<std::uint64_t>(parts);
     for (int i = 0; i <= parts; ++i) {
       samples_.push_back(i == 0       ? motion.start()
                          : i == parts ? motion.end()
@@ -184,6 +192,14 @@ class TravelCheck::State {
       if (!axis.joint.endless) judge_reach(axis, reach_of(motion, axis.joint.letter));
       if (seconds > 0.0 && axis.joint.dynamics.velocity > 0.0) judge_speed(i, seconds);
     }
+  }
+
+  [[nodiscard]] int parts_of(int wanted) {
+    if (wanted <= kManyParts) return std::max(kLeastParts, wanted);
+    if (long_parts_ > kPartsOfLongMoves) return kManyParts;
+    const int parts = std::min(wanted, kMostParts);
+    long_parts_ += static_cast<std::uint64_t>(parts);
+    return parts;
   }
 
   // A peak between two samples is beside the outermost of them.
@@ -300,6 +316,8 @@ class TravelCheck::State {
   std::vector<AxisWatch> axes_{};
   std::vector<std::optional<Haste>> hastes_{};
   std::vector<AxisPositions> samples_{};
+  std::uint64_t samples_taken_ = 0;
+  std::uint64_t long_parts_ = 0;  // of moves of many parts
   SourcePlace place_{};
   kinematics::Controller controller_;
 };
@@ -310,6 +328,7 @@ TravelCheck::TravelCheck(const kinematics::Machine& machine, kinematics::Setup s
 TravelCheck::~TravelCheck() = default;
 
 void TravelCheck::see(const parser::Motion& motion) { state_->see(motion); }
+std::uint64_t TravelCheck::samples() const { return state_->samples(); }
 void TravelCheck::finish() { state_->finish(); }
 
 }  // namespace frustum::lint

@@ -33,6 +33,8 @@ class TravelCheck {
 
   void see(const parser::Motion& motion);
   void finish();
+  // Positions that have been looked at so far: what the check costs.
+  [[nodiscard]] std::uint64_t samples() const;
 
  private:
   class State;

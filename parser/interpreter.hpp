@@ -51,6 +51,8 @@ struct InterpreterOptions {
   // Radius compensation with a tool whose diameter is not known: the programmed contour itself is
   // given out, as an assumption; else it is an error.
   bool contours_without_diameter = false;
+  // A table that has lengths is the control's own: other tools do not exist.
+  bool tools_are_all = true;
   // Where work offsets and the points of G28 and G30 are before the program, as far as that is
   // known of the setup.
   WorkOffsets work_offsets{};

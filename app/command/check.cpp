@@ -1,19 +1,17 @@
-// frustum check: holds an NC program against what goes wrong at the machine.
+// frustum check: holds NC programs against what goes wrong at the machine.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
-#include <set>
+#include <utility>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
-#include "app/job/machine_setup.hpp"
-#include "app/job/nc_file.hpp"
+#include "app/job/machine_files.hpp"
+#include "app/job/program_checker.hpp"
 #include "app/view/console.hpp"
-#include "core/spelling.hpp"
 #include "core/whole_file.hpp"
 #include "lint/json_findings.hpp"
-#include "lint/program_check.hpp"
 #include "lint/sarif_findings.hpp"
 #include "lint/text_findings.hpp"
 
@@ -22,17 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CheckOptions {
-  std::string file{};
-  SetupWords setup_words{};
-  std::string dialect{};  // recognised when not given
-  std::vector<std::string> search{};
-  std::vector<std::string> disabled{};
-  std::string fail_on = "error";
+struct CheckCommand {
+  std::vector<std::string> paths{};
+  CheckSettings settings{};
   std::string sarif{};
-  std::string tools{};  // a tool table
-  bool inch_machine = false;
-  bool block_delete = false;
+  bool no_settings = false;
+  bool write_baseline = false;
   bool json = false;
   bool quiet = false;
   bool list = false;
@@ -40,120 +33,139 @@ struct CheckOptions {
 
 int list_checks() {
   for (const lint::CheckInfo& info : lint::all_checks()) {
-    std::cout << info.id << " (" << to_string(info.severity)
-              << (info.needs_machine ? ", with a machine" : "") << "): " << info.title << '\n';
+    const char* needs = info.needs == lint::Needs::machine ? ", with a machine"
+                        : info.needs == lint::Needs::job   ? ", with a job"
+                                                           : "";
+    std::cout << info.id << " (" << to_string(info.severity) << needs << "): " << info.title
+              << '\n';
   }
   return kDone;
 }
 
-Result<std::set<lint::Check>> disabled_checks(const std::vector<std::string>& names) {
-  std::vector<std::string> known;
-  for (const lint::CheckInfo& info : lint::all_checks()) known.emplace_back(info.id);
-  std::set<lint::Check> disabled;
-  Diagnostics unknown;
-  for (const std::string& name : names) {
-    if (const auto check = lint::check_named(name)) {
-      disabled.insert(*check);
-      continue;
+// The programs of all paths, each once.
+std::vector<std::string> programs_of(const CheckCommand& options, ProgramChecker& checker) {
+  std::vector<std::string> programs;
+  for (const std::string& path : options.paths) {
+    for (std::string& program : checker.programs_of(path)) {
+      if (std::ranges::find(programs, program) == programs.end()) {
+        programs.push_back(std::move(program));
+      }
     }
-    unknown.push_back(error("unknown-check"_id, "--disable " + name + ": there is no such check",
-                            suggestion(name, known)));
   }
-  if (!unknown.empty()) return unknown;
-  return disabled;
+  if (options.paths.empty()) {
+    if (auto program = checker.program_of_job()) programs.push_back(*std::move(program));
+  }
+  return programs;
 }
 
-bool passes(const lint::CheckReport& report, const std::string& fail_on) {
-  const bool warnings_fail = fail_on == "warning";
-  return report.count(Severity::error) == 0 &&
-         !(warnings_fail && report.count(Severity::warning) > 0);
+// The document of one program is as it always was; several have one around them.
+bool is_one_file(const CheckCommand& options) {
+  std::error_code unknown;
+  return options.paths.empty() ||
+         (options.paths.size() == 1 && !fs::is_directory(options.paths.front(), unknown));
 }
 
-int check_file(const CheckOptions& options) {
+void print_findings(const CheckCommand& options, const std::vector<lint::CheckedFile>& checked) {
+  if (options.json) {
+    if (!is_one_file(options)) {
+      std::cout << lint::json_of(checked);
+    } else if (!checked.empty()) {
+      std::cout << lint::json_of(checked.front());
+    }
+    return;
+  }
+  for (const lint::CheckedFile& each : checked) std::cout << lint::text_of(each);
+  if (!checked.empty() || !is_one_file(options)) std::cout << lint::summary_of(checked);
+}
+
+int check_files(const CheckCommand& options) {
   if (options.list) return list_checks();
-  if (options.file.empty())
-    return refuse("missing-option"_id, "no program", "name the file to check");
-  auto disabled = disabled_checks(options.disabled);
-  if (!disabled) return refuse(disabled.error());
-  const auto nc = open_nc(options.file, options.dialect);
-  if (!nc) return refuse(nc.error());
-
-  lint::CheckOptions check;
-  check.disabled = *std::move(disabled);
-  check.run = options_for(options.file);
-  check.run.search_path.insert(check.run.search_path.end(), options.search.begin(),
-                               options.search.end());
-  check.run.block_delete = options.block_delete;
-  const auto known = known_setup_of(options.setup_words);
-  if (!known) return refuse(known.error());
-  if (known->machine) check.machine = &*known->machine;
-  check.setup = known->setup;
-  check.run.tools = known->tools;
-  if (options.inch_machine) check.run.machine_unit = parser::LengthUnit::inch;
-  if (!options.tools.empty()) {
-    auto tools = parser::read_tool_table(options.tools, check.run.machine_unit);
-    if (!tools) return refuse(tools.error());
-    check.run.tools = *std::move(tools);
+  ProgramChecker checker(options.settings, options.no_settings, [&](const std::string& note) {
+    if (!options.quiet) std::cerr << "note: " << note << '\n';
+  });
+  const std::vector<std::string> programs = programs_of(options, checker);
+  if (options.paths.empty() && programs.empty() && checker.troubles().empty()) {
+    return refuse("missing-option"_id, "no program", "name the files and folders to check");
   }
-  if (!options.quiet) {
-    if (!nc->reason.empty()) {
-      std::cerr << "note: read as " << name_of(nc->program.dialect) << " (" << nc->reason << ")\n";
+  std::vector<lint::CheckedFile> checked;
+  for (const std::string& program : programs) {
+    if (auto each = checker.check(program, programs.size() == 1)) {
+      checked.push_back(*std::move(each));
     }
-    if (!known->machine) std::cerr << "note: no --machine: travels and axes are not checked\n";
   }
-
-  const lint::CheckReport report = lint::check_program(nc->program, check);
-  const lint::SourceLines lines = lint::source_lines(nc->program, report.findings);
-  const bool passed = passes(report, options.fail_on);
+  if (options.write_baseline) {
+    for (const std::string& file : checker.write_baselines(checked)) {
+      if (!options.quiet) std::cerr << "note: baseline " << file << " written\n";
+    }
+  } else {
+    checker.apply_baselines(checked);
+  }
+  for (lint::CheckedFile& each : checked) {
+    each.passed = options.write_baseline || checker.passes(each);
+  }
+  const bool passed = std::ranges::all_of(checked, [](const auto& each) { return each.passed; });
   if (!options.sarif.empty()) {
-    const auto written = write_whole_file(
-        options.sarif, lint::sarif_of(report, lines, {fs::current_path(), FRUSTUM_VERSION}));
+    const auto written =
+        write_whole_file(options.sarif, lint::sarif_of(checked, {.folder = fs::current_path(),
+                                                                 .version = FRUSTUM_VERSION,
+                                                                 .documents = documents_uri(),
+                                                                 .troubles = checker.troubles()}));
     if (!written) return refuse(written.error());
   }
-  if (options.json) {
-    std::cout << lint::json_of(report,
-                               {options.file, name_of(nc->program.dialect),
-                                known->machine ? known->machine->name() : std::string(), passed});
-  } else {
-    std::cout << lint::text_of(report, lines);
-  }
+  print_findings(options, checked);
+  if (!checker.troubles().empty()) return refuse(checker.troubles());
   return passed ? kDone : kOutOfTolerance;
 }
 
 }  // namespace
 
 void add_check(Command& program) {
-  auto o = std::make_shared<CheckOptions>();
+  auto o = std::make_shared<CheckCommand>();
   Command command = program.command(
-      "check", "Find what will go wrong with an NC program, without cutting anything");
-  command.option("file", o->file, "NC program");
-  add_setup_options(command, o->setup_words);
+      "check", "Find what will go wrong with NC programs, without cutting anything");
+  CheckSettings& settings = o->settings;
+  command.option("file", o->paths,
+                 "NC programs, folders with programs, - for the standard input (default: the "
+                 "program of --job)");
+  add_setup_options(command, settings.setup_words);
+  add_control_options(command, settings.setup_words);
   command
-      .option("--dialect", o->dialect,
+      .option("--dialect", settings.dialect,
               "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised)")
       .one_of({"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
   command.option(
-      "--tools", o->tools,
+      "--tools", settings.tools,
       "LinuxCNC tool table: lengths and diameters; G43, M6 and M61 take its tools alone");
-  command.flag("--inch-machine", o->inch_machine,
+  command.flag("--inch-machine", settings.inch_machine,
                "The tool table and parameters such as #5221 count in inches (default: mm)");
   command
-      .option("--search,--search-path", o->search,
+      .option("--search,--search-path", settings.search,
               "Folder with subprograms, repeated (that of the program comes first)")
       .existing_folder();
-  command.flag("--block-delete", o->block_delete, "Leave out blocks that begin with /");
-  command.option("--disable", o->disabled, "Leave out a check, by its id; repeated");
-  command.option("--fail-on", o->fail_on, "What makes the exit code 1: error (default), warning")
-      .one_of({"error", "warning"});
+  command.flag("--block-delete", settings.block_delete, "Leave out blocks that begin with /");
+  command.option("--disable", settings.disabled, "Leave out a check, by its id; repeated");
+  command
+      .option("--fail-on", settings.fail_on,
+              "What makes the exit code 1: error (default), warning or note, and what is above")
+      .one_of({"error", "warning", "note"});
+  command
+      .option("--most-repeats", settings.most_repeats,
+              "Blocks that loops and repeats run again before the check ends (default 1000000)")
+      .holds(positive_number());
+  command.option("--baseline", settings.baseline,
+                 "File with findings that are known and do not count");
+  command.flag("--write-baseline", o->write_baseline,
+               "Write the findings to the baseline instead of reporting them as new");
+  command.flag("--no-config", o->no_settings, "Do not look for .frustum.toml");
   command.flag("--json", o->json, "Print the findings as one JSON document");
   command.option("--sarif", o->sarif, "Write the findings as SARIF 2.1.0 too");
   command.flag("--list", o->list, "List the checks with their ids and end");
   command.flag("--quiet", o->quiet, "No notes on stderr");
   command.footer(
-      "Example: frustum check cone.nc --machine iwf-bc --fail-on warning\n"
-      "Exit code 1 when a finding is at or above the severity of --fail-on; docs/check.md has all "
-      "checks.");
-  command.runs([o] { return check_file(*o); });
+      "Example: frustum check parts/ --machine iwf-bc --fail-on warning\n"
+      "Exit code 0: clean; 1: a finding at or above the severity of --fail-on; 2: a file, the "
+      "settings or the output are in trouble. docs/check.md has all checks.");
+  command.runs([o] { return check_files(*o); });
 }
 
 }  // namespace frustum::app

@@ -102,6 +102,7 @@ bool Command::was_given(const std::string& name) const { return app_->count(name
 
 int run_command_line(const ProgramText& text, const std::vector<AddsCommand>& commands, int argc,
                      char** argv) {
+  open_standard_streams();
   CLI::App app{text.description, text.name};
   app.set_version_flag("--version", text.version);
   int exit_code = kDone;
@@ -111,12 +112,12 @@ int run_command_line(const ProgramText& text, const std::vector<AddsCommand>& co
   try {  // exceptions are internal faults: user input is answered with diagnostics
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kDone : kBadInput;
+    return output_lost(app.exit(problem) == 0 ? kDone : kBadInput);
   } catch (const std::exception& fault) {
     std::cerr << text.name << ": internal fault: " << fault.what() << '\n';
     return kInternalFault;
   }
-  return exit_code;
+  return output_lost(exit_code);
 }
 
 }  // namespace frustum::app

@@ -73,6 +73,9 @@ void add_error_options(Command& command, ErrorWords& words);
 // The options by which a command takes a machine and its set-up: --machine, --job, --tool-length,
 // --offset.
 void add_setup_options(Command& command, SetupWords& words);
+// And those by which it takes the control's start and habits: --start, --builder-word,
+// --decimal-point.
+void add_control_options(Command& command, SetupWords& words);
 // How a command shows its results: --export FILE, which may be repeated, --json, --quiet.
 struct ResultOptions {
   std::vector<std::string> exports{};

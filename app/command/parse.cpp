@@ -4,6 +4,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
 #include "parser/tool_table.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 struct ParseOptions {
   std::string file{};
+  SetupWords setup_words{};
   std::string dialect{};  // recognised when not given
   bool canon = false;
   bool quiet = false;
@@ -32,7 +34,10 @@ int parse_file(const ParseOptions& options) {
   const auto print = [&](parser::Motion&& motion) {
     if (options.canon) std::cout << parser::to_json_line(motion) << '\n';
   };
+  const auto known = known_setup_of(options.setup_words);
+  if (!known) return refuse(known.error());
   parser::InterpreterOptions run = options_for(options.file);
+  known->tell(run);
   run.block_delete = options.block_delete;
   // Diameters are the job's to know.
   run.contours_without_diameter = true;
@@ -43,6 +48,7 @@ int parse_file(const ParseOptions& options) {
     auto tools = parser::read_tool_table(options.tools, run.machine_unit);
     if (!tools) return refuse(tools.error());
     run.tools = *std::move(tools);
+    run.tools_are_all = true;
   }
   const auto summary = parser::interpret(nc->program, print, run);
   if (summary) return kDone;
@@ -57,7 +63,7 @@ int parse_file(const ParseOptions& options) {
 void add_parse(Command& program) {
   auto options = std::make_shared<ParseOptions>();
   Command command = program.command("parse", "Check an NC program and print its canonical motions");
-  command.option("file", options->file, "NC program").required();
+  command.option("file", options->file, "NC program, or - for the standard input").required();
   command
       .option("--dialect", options->dialect,
               "fanuc (or iso), linuxcnc, sinumerik, heidenhain or cldata (default: recognised "
@@ -76,6 +82,8 @@ void add_parse(Command& program) {
       .option("--search,--search-path", options->search_path,
               "Folder with subprograms, after the program's own; may be repeated")
       .existing_folder();
+  add_setup_options(command, options->setup_words);
+  add_control_options(command, options->setup_words);
   command.footer("Example: frustum parse cone.nc --canon");
   command.runs([options] { return parse_file(*options); });
 }

@@ -19,4 +19,17 @@ void add_setup_options(Command& command, SetupWords& words) {
       "G54=X,Y,Z (G59.1=, G54.1P1=): program origin in the table frame, mm, repeated (G54=0,0,0)");
 }
 
+void add_control_options(Command& command, SetupWords& words) {
+  command.option("--start", words.start,
+                 "X0,Y0,Z100: where the axes are before the program, in its coordinates, mm and "
+                 "degrees (default: the machine's home; without a machine not known)");
+  command.option("--builder-word", words.words,
+                 "An M or G word of the machine's builder that moves nothing, repeated");
+  command
+      .option("--decimal-point", words.decimal_point,
+              "How numbers without a point count: calculator (X10 is 10 mm) or increment (0.010 "
+              "mm) (default: as the machine file says, else calculator)")
+      .one_of({"calculator", "increment"});
+}
+
 }  // namespace frustum::app

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <system_error>
 
 #include "core/spelling.hpp"
+#include "lint/sarif_findings.hpp"
 
 namespace frustum::app {
 namespace fs = std::filesystem;
@@ -19,6 +21,17 @@ std::vector<fs::path> machine_folders() {
     folders.push_back(program.parent_path().parent_path() / FRUSTUM_INSTALLED_MACHINES);
   }
   return folders;
+}
+
+std::string documents_uri() {
+  std::error_code ignored;
+  if (std::string_view(FRUSTUM_DOCUMENTS_URI) != "") return FRUSTUM_DOCUMENTS_URI;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  for (const fs::path& folder : {program.parent_path().parent_path() / FRUSTUM_INSTALLED_DOCUMENTS,
+                                 fs::path(FRUSTUM_SOURCE_MACHINES).parent_path() / "docs"}) {
+    if (fs::is_regular_file(folder / "check.md", ignored)) return lint::file_uri(folder / "");
+  }
+  return {};
 }
 
 Result<fs::path> find_machine(const std::string& name, const fs::path& folder) {

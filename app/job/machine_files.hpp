@@ -22,4 +22,7 @@ namespace frustum::app {
 // The shipped machine files, by name.
 [[nodiscard]] std::vector<std::filesystem::path> shipped_machines();
 
+// URI of the folder with the documents (check.md), which ends with /; empty where there are none.
+[[nodiscard]] std::string documents_uri();
+
 }  // namespace frustum::app

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "app/job/job.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
 #include "core/spelling.hpp"
+#include "core/units.hpp"
+#include "kinematics/model/inverse.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::app {
@@ -100,7 +105,104 @@ std::optional<Diagnostic> add_offset(const std::string& text, kinematics::Setup&
   return std::nullopt;
 }
 
+// Positions without tool at which the words of an offset are zero.
+kinematics::AxisPositions positions_at(const std::optional<kinematics::Machine>& machine,
+                                       const Vec3& origin) {
+  if (machine) return kinematics::place_tip(*machine, origin, 0.0, kinematics::AxisPositions{});
+  kinematics::AxisPositions at;
+  for (std::size_t i = 0; i < parser::kLinearAxes.size(); ++i) {
+    at[parser::kLinearAxes.at(i)] = origin[static_cast<Eigen::Index>(i)];
+  }
+  return at;
+}
+
+// G54 is in force, no tool in the spindle.
+parser::AxisTarget home_of(const KnownSetup& known) {
+  parser::AxisTarget start;
+  const auto first = known.setup.work_offsets.find(1);
+  const kinematics::AxisPositions home = known.machine->home();
+  for (const kinematics::Joint& joint : known.machine->joints()) {
+    if (joint.rotary()) {
+      start[joint.letter] = home[joint.letter];
+    } else if (first != known.setup.work_offsets.end()) {
+      start[joint.letter] =
+          home[joint.letter] - positions_at(known.machine, first->second)[joint.letter];
+    }
+  }
+  return start;
+}
+
+// "X0,Y0,Z100" or "X=0,B=30": mm and degrees.
+std::optional<Diagnostic> read_start(const std::string& text, parser::AxisTarget& start) {
+  parser::AxisTarget given;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    std::erase_if(part, [](char c) { return c == ' ' || c == '='; });
+    const auto letter = std::find_if(
+        parser::kAxisLetters.begin(), parser::kAxisLetters.end(),
+        [&](parser::AxisLetter axis) { return !part.empty() && part[0] == to_char(axis); });
+    if (letter == parser::kAxisLetters.end()) {
+      return error("unknown-axis"_id, fmt::format("--start {}: '{}' is no axis", text, part),
+                   "for example --start X0,Y0,Z100,B30 (mm, degrees, of X Y Z A B C)");
+    }
+    if (given[*letter]) {
+      return error("given-twice"_id,
+                   fmt::format("--start {}: axis {} is given twice", text, to_char(*letter)));
+    }
+    const auto value = numbers_of(part.substr(1), 1, "--start");
+    if (!value) return value.error().front();
+    given[*letter] = value->front() * (is_rotary(*letter) ? kRadPerDeg : 1.0);
+  }
+  for (const parser::AxisLetter axis : parser::kAxisLetters) {
+    if (given[axis]) start[axis] = given[axis];
+  }
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> read_control(const SetupWords& words, KnownSetup& known) {
+  std::vector<std::string> names = words.words;
+  std::string point = words.decimal_point;
+  if (known.machine) {
+    const kinematics::ControllerWords& own = known.machine->controller();
+    names.insert(names.end(), own.words.begin(), own.words.end());
+    if (point.empty()) point = own.decimal_point;
+  }
+  for (const std::string& name : names) {
+    const auto word = parser::control_word(name);
+    if (!word) return word.error().front();
+    known.control.words.push_back(*word);
+  }
+  if (point.empty()) return std::nullopt;
+  const auto rule = parser::decimal_point_named(point);
+  if (!rule) {
+    return error("malformed-option"_id,
+                 fmt::format("decimal_point {}: calculator or increment is expected", point));
+  }
+  known.control.decimal_point = *rule;
+  known.decimal_point_is_known = true;
+  return std::nullopt;
+}
+
 }  // namespace
+
+void KnownSetup::tell(parser::InterpreterOptions& options) const {
+  options.start = start;
+  options.control = control;
+  options.tools = tools;
+  options.tools_are_all = false;
+  for (const auto& [number, tool] : setup.tools) {
+    const auto [at, fresh] = options.tools.try_emplace(number);
+    at->second.has_length = true;
+    at->second.offset.at(static_cast<std::size_t>(parser::AxisLetter::Z)) = tool.length;
+  }
+  for (const auto& [number, origin] : setup.work_offsets) {
+    if (number == 1 && first_offset_is_assumed) continue;
+    const kinematics::AxisPositions at = positions_at(machine, origin);
+    for (const parser::AxisLetter axis : parser::kLinearAxes) {
+      options.work_offsets[number].origin[axis] = at[axis];
+    }
+  }
+}
 
 Result<KnownSetup> known_setup_of(const SetupWords& words) {
   KnownSetup known;
@@ -113,6 +215,7 @@ Result<KnownSetup> known_setup_of(const SetupWords& words) {
   } else {
     // The table's own origin is what a program without a setup sheet means.
     known.setup.work_offsets[1] = Vec3::Zero();
+    known.first_offset_is_assumed = true;
   }
   for (const std::string& text : words.tool_lengths) {
     if (auto problem = add_tool_length(text, known.setup)) return *problem;
@@ -122,12 +225,21 @@ Result<KnownSetup> known_setup_of(const SetupWords& words) {
   }
   for (const std::string& text : words.offsets) {
     if (auto problem = add_offset(text, known.setup)) return *problem;
+    if (text.starts_with("G54=")) known.first_offset_is_assumed = false;
   }
   if (!words.machine.empty()) {
     auto loaded = load_machine(words.machine, ".");
     if (!loaded) return loaded.error();
     known.machine = *std::move(loaded);
   }
+  if (auto problem = read_control(words, known)) return *problem;
+  if (known.machine) known.home = known.start = home_of(known);
+  if (known.first_offset_is_assumed) {
+    for (const parser::AxisLetter axis : parser::kLinearAxes) known.start[axis].reset();
+  }
+  if (words.start.empty()) return known;
+  if (auto problem = read_start(words.start, known.start)) return *problem;
+  if (auto problem = read_start(words.start, known.home)) return *problem;
   return known;
 }
 

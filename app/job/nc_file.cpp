@@ -8,6 +8,11 @@
 #include "parser/program.hpp"
 
 namespace frustum::app {
+namespace {
+
+constexpr const char* kStandardInput = "<stdin>";  // as diagnostics name it
+
+}  // namespace
 
 Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,
                                                     const std::string& dialect_name,
@@ -31,7 +36,7 @@ Result<NcFile> open_nc(const std::string& file, const std::string& dialect_name)
     nc.program.dialect = found.dialect;
     nc.reason = found.reason;
   }
-  nc.program.file = file;
+  nc.program.file = file == "-" ? kStandardInput : file;
   nc.program.text = *std::move(text);
   return nc;
 }

@@ -22,6 +22,13 @@ constexpr int kTableWidth = 140;
 int refuse(const Diagnostics& diagnostics);
 int refuse(DiagnosticId id, const std::string& message, const std::string& hint = {});
 
+// Opens those of standard input, output and errors that the caller has closed, so that no file takes
+// their place; they stay unusable.
+void open_standard_streams();
+// The exit code of a command, or kBadInput, with the cause on stderr, where its standard output
+// could not be written.
+[[nodiscard]] int output_lost(int exit_code);
+
 // A bar on a terminal, lines in a log, nothing when quiet.
 [[nodiscard]] report::ProgressStyle progress_style(bool quiet);
 [[nodiscard]] bool stdout_is_terminal();

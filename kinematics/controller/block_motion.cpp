@@ -107,7 +107,10 @@ int BlockMotion::least_parts() const {
     rotary_travel = std::max(rotary_travel, std::abs(end_[letter] - start_[letter]));
   }
   const double linear_travel = (linear_positions(end_) - linear_positions(start_)).norm();
-  return 1 + static_cast<int>(rotary_travel / kRotaryPart + linear_travel / kLinearPart);
+  // No machine goes that far, but programs say so.
+  constexpr double kMostParts = 1e9;
+  const double parts = rotary_travel / kRotaryPart + linear_travel / kLinearPart;
+  return 1 + static_cast<int>(parts < kMostParts ? parts : kMostParts);
 }
 
 BlockMotion axes_motion(const AxisPositions& from, const AxisPositions& to) {

@@ -299,7 +299,7 @@ class Controller::State {
   void travel(BlockMotion motion, const Manner& manner) {
     // The end first: it is what the block says.
     if (!within_travel(motion.end())) return;
-    const int parts = motion.least_parts();
+    const int parts = options_.check_travel ? motion.least_parts() : 1;
     for (int i = 1; i < parts; ++i) {
       if (!within_travel(motion.at(static_cast<double>(i) / parts))) return;
     }

@@ -1,5 +1,6 @@
 #include "kinematics/errors/error_gain.hpp"
 
+#include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/joint_motion.hpp"
 
 namespace frustum::kinematics {

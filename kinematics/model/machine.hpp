@@ -66,6 +66,12 @@ struct ErrorAlias {
   std::string meaning{};
 };
 
+// How the machine's control reads programs, as far as its builder or its parameters decide it.
+struct ControllerWords {
+  std::vector<std::string> words{};  // of the builder, which move nothing: "M31"
+  std::string decimal_point{};       // "calculator" or "increment"; empty: not said
+};
+
 class Machine {
  public:
   [[nodiscard]] static Result<Machine> load(const std::filesystem::path& file);
@@ -84,6 +90,8 @@ class Machine {
   [[nodiscard]] RotationOrder rotation_order() const { return rotation_order_; }
   [[nodiscard]] RotaryErrorFrame rotary_error_frame() const { return rotary_error_frame_; }
   [[nodiscard]] const std::map<std::string, ErrorAlias>& aliases() const { return aliases_; }
+
+  [[nodiscard]] const ControllerWords& controller() const { return controller_; }
 
   // All joints: tool chain, then work chain.
   [[nodiscard]] std::vector<Joint> joints() const;
@@ -116,6 +124,7 @@ class Machine {
   RotaryErrorFrame rotary_error_frame_ = RotaryErrorFrame::stator;
   std::vector<AxisLetter> datum_;  // ISO 230-1 primary and secondary axis
   std::map<std::string, ErrorAlias> aliases_;
+  ControllerWords controller_;
 };
 
 }  // namespace frustum::kinematics

@@ -47,7 +47,9 @@ class MachineReader {
     const auto structure = parse_structure(machine.structure_);
     if (!structure) {
       // Without a structure the rest has no meaning, but its keys are known.
-      for (const char* key : {"datum", "spindle", "table", "axis", "alias"}) (void)root.has(key);
+      for (const char* key : {"datum", "spindle", "table", "axis", "alias", "controller"}) {
+        (void)root.has(key);
+      }
       // One that is missing or no text has been reported.
       if (!machine.structure_.empty() || !has_error(document.finish())) {
         root.fail("structure", structure.error().front());
@@ -79,6 +81,7 @@ class MachineReader {
     check_space(root, machine);
     read_datum(root, machine);
     read_aliases(root, machine);
+    read_controller(root, machine);
     if (Diagnostics problems = document.finish(); has_error(problems)) return problems;
     return machine;
   }
@@ -179,6 +182,16 @@ class MachineReader {
         (machine.datum_.size() == 2 && machine.datum_[0] == machine.datum_[1])) {
       root.fail("datum", "reference-axes"_id, "expected at most two different axes");
       machine.datum_.clear();
+    }
+  }
+
+  static void read_controller(const TomlTable& root, Machine& machine) {
+    const auto table = root.table_if("controller");
+    if (!table) return;
+    machine.controller_.words = table->texts_or("words", {});
+    const std::vector<std::string> points{"calculator", "increment"};
+    if (table->has("decimal_point")) {
+      machine.controller_.decimal_point = points.at(table->choice_or("decimal_point", points, 0));
     }
   }
 

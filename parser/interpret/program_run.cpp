@@ -41,8 +41,9 @@ bool does_something(const Block& block) {
 ControlData data_before(const InterpreterOptions& options) {
   ControlData data;
   data.tools = options.tools;
-  data.tools_are_listed = std::any_of(options.tools.begin(), options.tools.end(),
-                                      [](const auto& tool) { return tool.second.has_length; });
+  data.tools_are_listed =
+      options.tools_are_all && std::any_of(options.tools.begin(), options.tools.end(),
+                                           [](const auto& tool) { return tool.second.has_length; });
   data.work_offsets = options.work_offsets;
   data.reference_points = options.reference_points;
   data.unit = options.machine_unit;

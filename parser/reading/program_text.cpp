@@ -1,18 +1,39 @@
 #include "parser/reading/program_text.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <utility>
 
 namespace frustum::parser {
 namespace {
 
 constexpr std::size_t kWindow = std::size_t{1} << 20U;
+constexpr const char* kStandardInput = "-";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 Diagnostic unreadable(const std::filesystem::path& file, std::string hint) {
   Diagnostic failure = error("file-unreadable"_id, "the file cannot be read", std::move(hint));
   failure.file = file.string();
   return failure;
+}
+
+// A pipe, which can be read only once, is kept in memory.
+constexpr std::size_t kLongestPipe = std::size_t{1} << 31U;
+
+Result<std::string> text_of_stream(std::FILE* stream, const std::filesystem::path& file) {
+  std::string text;
+  std::array<char, 1U << 16U> some{};
+  while (const std::size_t count = std::fread(some.data(), 1, some.size(), stream)) {
+    text.append(some.data(), count);
+    if (text.size() > kLongestPipe) {
+      return unreadable(file, "more than 2 GiB come through this pipe; write it to a file before");
+    }
+  }
+  if (std::ferror(stream) != 0) return unreadable(file, std::strerror(errno));
+  return text;
 }
 
 // Length of the line at the front of `text`, and of its end; no end in `text`: npos.
@@ -39,8 +60,20 @@ LineLength first_line(std::string_view text) {
 }  // namespace
 
 Result<ProgramText> ProgramText::open(const std::filesystem::path& file) {
+  const auto kept = [](Result<std::string> bytes) -> Result<ProgramText> {
+    if (!bytes) return bytes.error();
+    return ProgramText(*std::move(bytes));
+  };
+  if (file == kStandardInput) return kept(text_of_stream(stdin, "standard input"));
   std::error_code failed;
   if (std::filesystem::is_directory(file, failed)) return unreadable(file, "it is a folder");
+  if (std::filesystem::exists(file, failed) && !std::filesystem::is_regular_file(file, failed)) {
+    std::FILE* stream = std::fopen(file.c_str(), "rb");
+    if (stream == nullptr) return unreadable(file, std::strerror(errno));
+    auto bytes = text_of_stream(stream, file);
+    std::fclose(stream);
+    return kept(std::move(bytes));
+  }
   if (!std::ifstream(file, std::ios::binary)) {
     return unreadable(file, "check the path and permissions");
   }

@@ -4,7 +4,8 @@
 // Lines end with LF, CR LF or CR, in any mixture. A byte order mark at the start is left out.
 // Units  : offsets count bytes from the start of the text, lines from 1
 // Shape  : a ProgramText is shared by any number of LineReaders, each with its own window of 1 MiB
-// Errors : open() of a file that cannot be read; a file that cannot be read on ends there
+//          over a file; of a pipe, which can be read only once, the text is kept in memory
+// Errors : open() of a file or pipe that cannot be read; a file that cannot be read on ends there
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@ class ProgramText {
   ProgramText() = default;
   explicit ProgramText(std::string text)
       : text_(std::make_shared<const std::string>(std::move(text))) {}
+  // A file, a pipe, or "-" for the standard input.
   [[nodiscard]] static Result<ProgramText> open(const std::filesystem::path& file);
 
   // The first bytes, at most `count`: what recognising a dialect looks at.

@@ -25,12 +25,14 @@ struct Case {
   const char* says;
   std::string right;
   Dialect dialect = Dialect::fanuc;
+  bool point_is_open = false;  // nothing says how numbers without a point are read
 };
 
 class EachCheck : public testing::TestWithParam<Case> {};
 
 TEST_P(EachCheck, IsRaisedOnceAndOnlyIt) {
-  const CheckReport report = checked(GetParam().wrong, {}, GetParam().dialect);
+  const CheckReport report =
+      checked(GetParam().wrong, {}, GetParam().dialect, GetParam().point_is_open);
   const auto found = of(report, GetParam().id);
   ASSERT_EQ(found.size(), 1U) << ids(report);
   EXPECT_EQ(report.findings.size(), 1U) << ids(report);
@@ -39,13 +41,15 @@ TEST_P(EachCheck, IsRaisedOnceAndOnlyIt) {
 }
 
 TEST_P(EachCheck, IsSilentWhereTheProgramIsRight) {
-  EXPECT_EQ(ids(checked(GetParam().right, {}, GetParam().dialect)), "") << GetParam().right;
+  EXPECT_EQ(ids(checked(GetParam().right, {}, GetParam().dialect, GetParam().point_is_open)), "")
+      << GetParam().right;
 }
 
 TEST_P(EachCheck, CanBeLeftOut) {
   CheckOptions options;
   options.disabled = {*check_named(GetParam().id)};
-  EXPECT_EQ(ids(checked(GetParam().wrong, options, GetParam().dialect)), "");
+  EXPECT_EQ(ids(checked(GetParam().wrong, options, GetParam().dialect, GetParam().point_is_open)),
+            "");
 }
 
 const std::string kCut = "G1 Z-1 F200\n";
@@ -77,6 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"vacant-word", whole("IF [#101 EQ #0] THEN #102=#0\nG0 X1 Y#102\n"), 6,
              "parameter of Y is vacant", whole("IF [#101 EQ #0] THEN #102=1\nG0 X1 Y#102\n")},
         Case{"not-simulated", whole("G61\nG61\n"), 5, "G61 is known", whole("")},
+        Case{"builder-word", whole("M250\nM250\n"), 5, "M250 is a word of", whole("M1\n")},
+        Case{"assumed", "X0 Y0 Z50\nM30\n", 1, "G0 is in force", "G0 X0 Y0 Z50\nM30\n"},
+        Case{"decimal-point", "G0 X1. Z9.\nG0 X2. Y5\nG0 Y7\nM30\n", 2, "Y5 has no decimal point",
+             "G0 X1. Z9.\nG0 X2. Y5.\nG0 Y0\nM30\n", Dialect::fanuc, true},
+        Case{"unknown-suppression", whole("G0 X1 (frustum: ignore feed-slow)\n"), 5, "feed-slow",
+             whole("G1 Z-1 F2 (frustum: ignore feed-low)\n")},
+        Case{"unused-suppression", whole("(frustum: ignore feed-low)\nG1 Z-1 F200\n"), 5,
+             "no feed-low", whole("(frustum: ignore feed-low)\nG1 Z-1 F2\n")},
         Case{"feed-missing", whole("G1 Z-1\n"), 5, "without a feed", whole(kCut)},
         Case{"feed-high", whole("G1 Z-1 F90000\n"), 5, "90000 mm/min", whole(kCut)},
         Case{"feed-low", whole("G1 Z-1 F2\n"), 5, "2 mm/min", whole(kCut)},
@@ -138,7 +150,7 @@ TEST(Checks, AllHaveACaseHereOrOnAMachine) {
     }
   }
   for (const CheckInfo& info : all_checks()) {
-    EXPECT_TRUE(info.needs_machine || cased.contains(std::string(info.id))) << info.id;
+    EXPECT_TRUE(info.needs != Needs::nothing || cased.contains(std::string(info.id))) << info.id;
   }
 }
 
@@ -155,7 +167,10 @@ TEST(Checks, StandInTheDocument) {
   std::ifstream file(std::string(FRUSTUM_SOURCE_DIR) + "/docs/check.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const CheckInfo& info : all_checks()) {
-    const std::string row = "| `" + std::string(info.id) + "`" + (info.needs_machine ? " M" : "") +
+    const std::string row = "| `" + std::string(info.id) + "`" +
+                            (info.needs == Needs::machine ? " M"
+                             : info.needs == Needs::job   ? " J"
+                                                          : "") +
                             " | " + to_string(info.severity) + " |";
     EXPECT_NE(text.find(row), std::string::npos) << row;
   }

@@ -14,9 +14,11 @@
 namespace frustum::lint {
 
 [[nodiscard]] inline CheckReport checked(std::string_view text, const CheckOptions& options = {},
-                                         parser::Dialect dialect = parser::Dialect::fanuc) {
+                                         parser::Dialect dialect = parser::Dialect::fanuc,
+                                         bool ask_for_points = false) {
   CheckOptions quick = options;
   quick.most_turns = 1000;
+  quick.decimal_point_is_known = !ask_for_points;
   return check_program({"part.nc", dialect, parser::ProgramText(std::string(text))}, quick);
 }
 
@@ -31,6 +33,7 @@ namespace frustum::lint {
 [[nodiscard]] inline std::string ids(const CheckReport& report) {
   std::string text;
   for (const Finding& finding : report.findings) {
+    if (finding.suppressed != Suppressed::no) continue;
     text += std::to_string(finding.line) + ":" + std::string(info_of(finding.check).id) + " ";
   }
   return text;

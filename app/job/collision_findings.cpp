@@ -1,0 +1,58 @@
+#include "app/job/collision_findings.hpp"
+
+#include <utility>
+
+#include "app/job/job_report.hpp"
+#include "trials/trial.hpp"
+
+namespace frustum::app {
+namespace {
+
+lint::Check check_of(const stock::Collision& collision) {
+  switch (collision.kind) {
+    case stock::CollisionKind::rapid_through_material:
+      return lint::Check::rapid_in_material;
+    case stock::CollisionKind::feed_with_spindle_off:
+      return lint::Check::spindle_off;
+    case stock::CollisionKind::body_in_material:
+      break;
+  }
+  return lint::Check::body_in_material;
+}
+
+std::string remedy_of(const stock::Collision& collision) {
+  if (collision.kind == stock::CollisionKind::rapid_through_material) {
+    return "retract before the move, or cut there by feed";
+  }
+  return "a longer tool or a slimmer holder, or another way to the place";
+}
+
+}  // namespace
+
+Result<std::vector<lint::Finding>> collisions_of(Job job, std::string program,
+                                                 const std::string& file, parser::Dialect dialect) {
+  job.piece.program = std::move(program);
+  job.piece.program_file = file;
+  job.piece.dialect = dialect;
+  trials::TrialOptions options;
+  options.path_bound = job.path_bound;
+  options.measure = false;
+  const auto trial = run_trial(job.machine, {}, job.piece, job.cmm, options);
+  if (!trial) return trial.error();
+  std::vector<lint::Finding> findings;
+  for (const stock::Collision& collision : trial->collisions) {
+    const lint::Check check = check_of(collision);
+    // The check of the program itself finds these.
+    if (check == lint::Check::spindle_off) continue;
+    findings.push_back({.check = check,
+                        .severity = lint::info_of(check).severity,
+                        .file = file,
+                        .line = collision.source_line,
+                        .column = 1,
+                        .message = collision_text(collision),
+                        .hint = remedy_of(collision)});
+  }
+  return findings;
+}
+
+}  // namespace frustum::app
