@@ -33,6 +33,9 @@ constexpr std::uint64_t kMostErrors = 1'000;
 // What a motion on a machine costs, and each of the positions that are looked at, in blocks.
 constexpr std::uint64_t kCostOfMotion = 8;
 
+// A block of more motions than this, by the repeats of a cycle, counts like a loop.
+constexpr std::uint64_t kMotionsOfBlock = 1'000;
+
 // Blocks that run again, which a program may have without end.
 class Repeats {
  public:
@@ -49,6 +52,7 @@ class Repeats {
       jump = Jump{way.place, ++jumps_[FindingList::key_of(way.place)]};
     }
     runs_again_ = line <= way.farthest;
+    motions_ = 0;
     if (runs_again_) ++blocks_;
     way.line = line;
     way.farthest = std::max(way.farthest, line);
@@ -56,8 +60,10 @@ class Repeats {
     way.place.file = ahead.file;
     return jump;
   }
+  // Of a motion, beyond that of its block.
   void add_cost(std::uint64_t blocks) {
-    if (runs_again_) blocks_ += blocks;
+    const bool many = ++motions_ > kMotionsOfBlock;
+    if (many || runs_again_) blocks_ += blocks + (many ? 1 : 0);
   }
   [[nodiscard]] std::uint64_t blocks() const { return blocks_; }
 
@@ -83,6 +89,7 @@ class Repeats {
   std::size_t calls_ = 0;
   Way* last_ = nullptr;
   bool runs_again_ = false;
+  std::uint64_t motions_ = 0;  // of the block
   std::uint64_t blocks_ = 0;
 };
 
@@ -224,11 +231,9 @@ class ProgramCheck {
       check_tip_control(*move, state_, program_.dialect, findings_);
       short_segments_.see(*move);
     }
-    if (travel_) {
-      const std::uint64_t before = travel_->samples();
-      travel_->see(motion);
-      repeats_.add_cost(kCostOfMotion + travel_->samples() - before);
-    }
+    const std::uint64_t before = travel_ ? travel_->samples() : 0;
+    if (travel_) travel_->see(motion);
+    repeats_.add_cost(travel_ ? kCostOfMotion + travel_->samples() - before : 0);
     state_.follow(motion);
   }
 

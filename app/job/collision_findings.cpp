@@ -1,5 +1,6 @@
 #include "app/job/collision_findings.hpp"
 
+#include <span>
 #include <utility>
 
 #include "app/job/job_report.hpp"
@@ -37,7 +38,8 @@ Result<std::vector<lint::Finding>> collisions_of(Job job, std::string program,
   trials::TrialOptions options;
   options.path_bound = job.path_bound;
   options.measure = false;
-  const auto trial = run_trial(job.machine, {}, job.piece, job.cmm, options);
+  const auto trial = run_trial(job.machine, std::span<const kinematics::ErrorEntry>(), job.piece,
+                               job.cmm, options);
   if (!trial) return trial.error();
   std::vector<lint::Finding> findings;
   for (const stock::Collision& collision : trial->collisions) {

@@ -6,6 +6,7 @@
 #include "core/quantile.hpp"
 #include "core/random.hpp"
 #include "metrology/characteristic/measured_values.hpp"
+#include "metrology/characteristic/standard_uncertainty.hpp"
 #include "metrology/probing/cmm_errors.hpp"
 #include "metrology/uncertainty/non_negative_interval.hpp"
 #include "metrology/uncertainty/refit.hpp"

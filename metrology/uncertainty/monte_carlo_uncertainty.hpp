@@ -24,6 +24,7 @@
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
 #include "metrology/plan/monte_carlo_settings.hpp"
+#include "metrology/probing/cmm_model.hpp"
 
 namespace frustum::metrology {
 

@@ -102,7 +102,9 @@ TEST_F(CheckCommandSystem, RefusesWhatIsWrongWithTheCommand) {
   write("part.nc", kGood);
   for (const char* words :
        {"check no-such.nc", "check part.nc --machine no-such", "check",
-        "check part.nc --disable spindel-off", "check part.nc --fail-on note"}) {
+        "check part.nc --disable spindel-off", "check part.nc --fail-on nothing",
+        "check part.nc --start Q1", "check part.nc --start X1,X2", "check part.nc --most-repeats 0",
+        "check part.nc --write-baseline"}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.exit_code, 2) << words;
     EXPECT_FALSE(outcome.err.empty()) << words;
@@ -121,6 +123,62 @@ TEST_F(CheckCommandSystem, FindsSubprogramsInTheFoldersThatAreNamed) {
                              "     2 | G1 X5\n"),
             std::string::npos)
       << outcome.out;
+}
+
+TEST_F(CheckCommandSystem, Fault2_18_SeesTipControlOffFromTheMachinesHomeOn) {
+  write("part.nc", "T1 M6\nS1000 M3\nG43 H1\nG0 Z50\nG1 B30 X40 F500\nG0 Z60\nM5\nM30\n");
+  EXPECT_EQ(run("check part.nc").out.find("tip-control-off"), std::string::npos);
+  EXPECT_NE(run("check part.nc --machine iwf-bc").out.find("part.nc:5:1: warning: X and B cut"),
+            std::string::npos);
+}
+
+TEST_F(CheckCommandSystem, Fault2_13_TakesWhereTheAxesStart) {
+  write("part.nc", "G91\nG0 X10\nZ0.5\nM30\n");
+  EXPECT_EQ(run("parse part.nc --dialect fanuc --quiet").exit_code, 2);
+  const Outcome outcome =
+      run("parse part.nc --dialect fanuc --quiet --canon --start X1,Y2,Z=3,B30");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\"X\":11"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\"B\":30"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("\"A\""), std::string::npos) << "A stays unknown";
+  const Outcome home =
+      run("parse part.nc --dialect fanuc --quiet --canon --machine iwf-bc --offset G54=0,0,100");
+  EXPECT_EQ(home.exit_code, 0) << home.err;
+  EXPECT_NE(home.out.find("\"Z\":400.5"), std::string::npos) << home.out;
+  EXPECT_EQ(run("check part.nc --dialect fanuc").exit_code, 1);
+  EXPECT_EQ(run("check part.nc --dialect fanuc --start X1,Y2,Z3").exit_code, 0);
+}
+
+TEST_F(CheckCommandSystem, Fault2_12_WordsOfTheBuilderAreTheMachinesOrOfAnOption) {
+  write("part.nc", "G0 X1\nM250\nM30\n");
+  EXPECT_NE(run("check part.nc").out.find("[builder-word]"), std::string::npos);
+  EXPECT_EQ(run("check part.nc --builder-word M250").out.find("builder-word"), std::string::npos);
+  EXPECT_EQ(run("check part.nc --builder-word 250M").exit_code, 2);
+  write("mill.toml",
+        "name = \"mill\"\nstructure = \"t-(C)-Z-b-X-Y-w\"\n[axis.X]\ntravel = [-1, 1]\n"
+        "[axis.Y]\ntravel = [-1, 1]\n[axis.Z]\ntravel = [-1, 1]\n"
+        "[controller]\nwords = [\"M250\"]\ndecimal_point = \"increment\"\n");
+  const Outcome outcome = run("check part.nc --machine mill.toml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err << outcome.out;
+  EXPECT_EQ(outcome.out.find("builder-word"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CheckCommandSystem, Fault2_08_NumbersWithoutAPointAreReadAsTheOptionSays) {
+  write("part.nc", "G20\nG0 X0019685 Y1.\nM30\n");
+  EXPECT_NE(run("check part.nc --dialect fanuc").out.find("[decimal-point]"), std::string::npos);
+  const Outcome told =
+      run("parse part.nc --dialect fanuc --quiet --canon --decimal-point increment");
+  EXPECT_NE(told.out.find("\"X\":49.9999"), std::string::npos) << told.out;
+  EXPECT_EQ(
+      run("check part.nc --dialect fanuc --decimal-point increment").out.find("decimal-point"),
+      std::string::npos);
+}
+
+TEST_F(CheckCommandSystem, Fault2_17_Ends) {
+  write("part.ngc", "o1 do\no1 while [1]\nM2\n");
+  const Outcome outcome = run("check part.ngc --machine iwf-bc");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("[endless-loop]"), std::string::npos) << outcome.out;
 }
 
 TEST_F(CheckCommandSystem, ListsItsChecks) {

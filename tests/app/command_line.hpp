@@ -35,10 +35,13 @@ class CommandLine : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome run(const std::string& arguments) const {
+  Outcome run(const std::string& arguments) const { return shell("frustum " + arguments); }
+  // A line of the shell, in which frustum is the program.
+  Outcome shell(const std::string& line) const {
     const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string command = "cd '" + folder_.string() + "' && '" FRUSTUM_PROGRAM "' " +
-                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const std::string command = "cd '" + folder_.string() +
+                                "' && frustum() { '" FRUSTUM_PROGRAM "' \"$@\"; } && { " + line +
+                                "\n} >'" + out.string() + "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
   }

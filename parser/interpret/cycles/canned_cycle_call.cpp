@@ -25,6 +25,7 @@ namespace frustum::parser {
 namespace {
 
 constexpr int kMaxHoles = 99'999;
+constexpr double kMostMoves = 200'000;  // of one block
 
 bool needs_peck(MotionMode cycle) {
   return cycle == MotionMode::peck || cycle == MotionMode::peck_short;
@@ -220,7 +221,13 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
       point[axes.w] = depth;
       return point;
     };
-    drill(state, steps_at_hole(cycle.last, depths), movement.column, place, *feed, *feed);
+    const std::vector<CycleStep> steps = steps_at_hole(cycle.last, depths);
+    if (static_cast<double>(holes) * static_cast<double>(steps.size()) > kMostMoves) {
+      return fail(state, movement.column, "cycle-moves"_id,
+                  fmt::format("the cycle makes more than {} moves", kMostMoves),
+                  "give fewer repeats, or a larger Q");
+    }
+    drill(state, steps, movement.column, place, *feed, *feed);
   }
   return Done{};
 }
