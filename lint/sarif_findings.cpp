@@ -33,7 +33,7 @@ std::string uri_text(const std::string& path) {
   return uri;
 }
 
-constexpr const char* kFolder = "WORKING_FOLDER";
+constexpr const char* kWorkingFolder = "WORKING_FOLDER";
 
 // Below the folder its name there, else the whole path.
 Json location_of(const std::string& file, const fs::path& folder) {
@@ -41,7 +41,7 @@ Json location_of(const std::string& file, const fs::path& folder) {
   const fs::path relative = whole.lexically_relative(folder.lexically_normal());
   const bool below = !relative.empty() && *relative.begin() != "..";
   if (!below) return {{"uri", file_uri(whole)}};
-  return {{"uri", uri_text(relative.generic_string())}, {"uriBaseId", kFolder}};
+  return {{"uri", uri_text(relative.generic_string())}, {"uriBaseId", kWorkingFolder}};
 }
 
 Json rules(const SarifOptions& options) {
@@ -167,12 +167,13 @@ std::string sarif_of(std::span<const CheckedFile> checked, const SarifOptions& o
       results.push_back(result_of(each.report.findings[i], marks[i], each, artifacts));
     }
   }
-  const Json run{{"tool", {{"driver", driver(options)}}},
-                 {"invocations", Json::array({invocation_of(options)})},
-                 {"originalUriBaseIds", {{kFolder, {{"uri", file_uri(options.folder / "")}}}}},
-                 {"artifacts", artifacts.list()},
-                 {"columnKind", "utf16CodeUnits"},
-                 {"results", results}};
+  const Json run{
+      {"tool", {{"driver", driver(options)}}},
+      {"invocations", Json::array({invocation_of(options)})},
+      {"originalUriBaseIds", {{kWorkingFolder, {{"uri", file_uri(options.folder / "")}}}}},
+      {"artifacts", artifacts.list()},
+      {"columnKind", "utf16CodeUnits"},
+      {"results", results}};
   const Json sarif{{"$schema", kSchema}, {"version", "2.1.0"}, {"runs", Json::array({run})}};
   return sarif.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -11,13 +11,13 @@ namespace {
 
 using parser::Block;
 
-constexpr std::string_view kMark = "frustum:";
-constexpr std::string_view kLine = "ignore";
-constexpr std::string_view kFile = "ignore-file";
-constexpr std::string_view kBlanks = " \t,";
+constexpr std::string_view kCommentMark = "frustum:";
+constexpr std::string_view kIgnoreLine = "ignore";
+constexpr std::string_view kIgnoreFile = "ignore-file";
+constexpr std::string_view kIdBlanks = " \t,";
 
 std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = std::min(text.find_first_not_of(kBlanks), text.size());
+  const std::size_t first = std::min(text.find_first_not_of(kIdBlanks), text.size());
   text.remove_prefix(first);
   return text.substr(0, text.find_last_not_of(" \t\r") + 1);
 }
@@ -25,7 +25,7 @@ std::string_view without_blanks(std::string_view text) {
 // The first word, taken off the text.
 std::string_view take_word(std::string_view& text) {
   text = without_blanks(text);
-  const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
+  const std::size_t end = std::min(text.find_first_of(kIdBlanks), text.size());
   const std::string_view word = text.substr(0, end);
   text.remove_prefix(end);
   return word;
@@ -34,8 +34,10 @@ std::string_view take_word(std::string_view& text) {
 // Cheap, for the many lines that have none.
 bool may_have_mark(std::string_view line) {
   for (std::size_t at = line.find(':'); at != std::string_view::npos; at = line.find(':', at + 1)) {
-    if (at + 1 < kMark.size()) continue;
-    if (parser::lower_case(line.substr(at + 1 - kMark.size(), kMark.size())) == kMark) return true;
+    if (at + 1 < kCommentMark.size()) continue;
+    if (parser::lower_case(line.substr(at + 1 - kCommentMark.size(), kCommentMark.size())) ==
+        kCommentMark)
+      return true;
   }
   return false;
 }
@@ -43,23 +45,23 @@ bool may_have_mark(std::string_view line) {
 // What a comment says after the mark, in small letters.
 std::optional<std::string> said_in(std::string_view comment) {
   const std::string text = parser::lower_case(comment);
-  const std::size_t at = text.find(kMark);
+  const std::size_t at = text.find(kCommentMark);
   if (at == std::string::npos) return std::nullopt;
-  return text.substr(at + kMark.size());
+  return text.substr(at + kCommentMark.size());
 }
 
-void read_comment(std::string_view said, const parser::SourcePlace& place, std::uint32_t line,
-                  std::vector<Suppression>& found) {
+void read_suppression(std::string_view said, const parser::SourcePlace& place, std::uint32_t line,
+                      std::vector<Suppression>& found) {
   const std::size_t dashes = said.find("--");
   const std::string reason(
       dashes == std::string_view::npos ? "" : without_blanks(said.substr(dashes + 2)));
   said = said.substr(0, dashes);
   const std::string_view verb = take_word(said);
-  if (verb != kLine && verb != kFile) {
+  if (verb != kIgnoreLine && verb != kIgnoreFile) {
     found.push_back({place, line, std::string(verb), std::nullopt, reason});
     return;
   }
-  const std::uint32_t covered = verb == kFile ? 0 : line;
+  const std::uint32_t covered = verb == kIgnoreFile ? 0 : line;
   const std::size_t before = found.size();
   for (auto id = take_word(said); !id.empty(); id = take_word(said)) {
     found.push_back({place, covered, std::string(id), check_named(id), reason});
@@ -95,11 +97,11 @@ std::vector<Suppression> suppressions_of(const parser::Program& program) {
     if (!marked) continue;
     if (!block) {
       const std::string said = *said_in(text);
-      read_comment(said.substr(0, said.find(')')), {line, 1, nullptr}, line, found);
+      read_suppression(said.substr(0, said.find(')')), {line, 1, nullptr}, line, found);
     } else {
       for (const parser::Comment& comment : block->comments) {
         const auto said = said_in(comment.text);
-        if (said) read_comment(*said, {line, comment.column, nullptr}, line, found);
+        if (said) read_suppression(*said, {line, comment.column, nullptr}, line, found);
       }
     }
     if (acts) waiting = found.size();

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFileName = ".frustum.toml";
 
-void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
+void add_to(std::vector<std::string>& list, const std::vector<std::string>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 void take_if_empty(std::string& value, const std::string& other) {
@@ -134,14 +134,14 @@ CheckSettings joined(CheckSettings own, const CheckSettings& file) {
   words.tool_diameters.insert(words.tool_diameters.begin(), others.tool_diameters.begin(),
                               others.tool_diameters.end());
   words.offsets.insert(words.offsets.begin(), others.offsets.begin(), others.offsets.end());
-  append(words.words, others.words);
+  add_to(words.words, others.words);
   take_if_empty(own.dialect, file.dialect);
   take_if_empty(own.fail_on, file.fail_on);
   take_if_empty(own.tools, file.tools);
   take_if_empty(own.baseline, file.baseline);
   take_if_empty(own.most_repeats, file.most_repeats);
-  append(own.search, file.search);
-  append(own.disabled, file.disabled);
+  add_to(own.search, file.search);
+  add_to(own.disabled, file.disabled);
   own.inch_machine = own.inch_machine || file.inch_machine;
   own.block_delete = own.block_delete || file.block_delete;
   own.endings = file.endings;

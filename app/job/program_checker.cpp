@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kInput = "-";
 
-fs::path folder_of(const std::string& file) {
+fs::path program_folder(const std::string& file) {
   const fs::path folder = file == kInput ? fs::path() : fs::path(file).parent_path();
   return folder.empty() ? fs::path(".") : folder;
 }
@@ -118,7 +118,7 @@ std::vector<std::string> ProgramChecker::programs_of(const std::string& path) {
     return {};
   }
   std::erase_if(*programs, [&](const std::string& file) {
-    const CheckSettings* own = settings_in(folder_of(file));
+    const CheckSettings* own = settings_in(program_folder(file));
     return own != nullptr && is_excluded(file, own->exclude, own->file.parent_path());
   });
   if (programs->empty()) note_("there is no program in " + path);
@@ -163,7 +163,7 @@ void ProgramChecker::look_into_stock(const Shared& shared, const NcFile& nc,
 }
 
 std::optional<lint::CheckedFile> ProgramChecker::check(const std::string& file, bool alone) {
-  const Shared* shared = shared_in(folder_of(file));
+  const Shared* shared = shared_in(program_folder(file));
   if (shared == nullptr) return std::nullopt;
   std::error_code unlike;
   const bool of_job = shared->job && fs::equivalent(file, shared->job->piece.program_file, unlike);
@@ -192,7 +192,7 @@ std::optional<lint::CheckedFile> ProgramChecker::check(const std::string& file, 
 void ProgramChecker::apply_baselines(std::vector<lint::CheckedFile>& checked) {
   std::map<std::string, std::optional<lint::Baseline>> baselines;
   for (lint::CheckedFile& each : checked) {
-    const Shared* shared = shared_in(folder_of(each.file));
+    const Shared* shared = shared_in(program_folder(each.file));
     if (shared == nullptr || shared->settings.baseline.empty()) continue;
     const std::string& file = shared->settings.baseline;
     const auto [at, fresh] = baselines.try_emplace(file);
@@ -218,7 +218,7 @@ std::vector<std::string> ProgramChecker::write_baselines(
     const std::vector<lint::CheckedFile>& checked) {
   std::map<std::string, std::vector<lint::CheckedFile>> of_baselines;
   for (const lint::CheckedFile& each : checked) {
-    const Shared* shared = shared_in(folder_of(each.file));
+    const Shared* shared = shared_in(program_folder(each.file));
     if (shared != nullptr && !shared->settings.baseline.empty()) {
       of_baselines[shared->settings.baseline].push_back(each);
     }
@@ -243,7 +243,7 @@ std::vector<std::string> ProgramChecker::write_baselines(
 }
 
 bool ProgramChecker::passes(const lint::CheckedFile& checked) {
-  const CheckSettings* settings = settings_in(folder_of(checked.file));
+  const CheckSettings* settings = settings_in(program_folder(checked.file));
   const Severity level = level_of(settings == nullptr ? "" : settings->fail_on);
   return std::ranges::none_of(checked.report.findings, [level](const lint::Finding& finding) {
     return finding.suppressed == lint::Suppressed::no && finding.severity >= level;

@@ -22,8 +22,8 @@ constexpr int kTableWidth = 140;
 int refuse(const Diagnostics& diagnostics);
 int refuse(DiagnosticId id, const std::string& message, const std::string& hint = {});
 
-// Opens those of standard input, output and errors that the caller has closed, so that no file takes
-// their place; they stay unusable.
+// Opens those of standard input, output and errors that the caller has closed, so that no file
+// takes their place; they stay unusable.
 void open_standard_streams();
 // The exit code of a command, or kBadInput, with the cause on stderr, where its standard output
 // could not be written.

@@ -14,8 +14,8 @@ TipCurve TipCurve::arc(const parser::ArcFeed& arc, const Vec3& start, const Vec3
     return r - curve.normal * curve.normal.dot(r);
   };
   const Vec3 a = spoke(start), b = spoke(end);
-  // From its centre there is no arc: the axes are not where the program has them, after a block that
-  // could not be run.
+  // From its centre there is no arc: the axes are not where the program has them, after a block
+  // that could not be run.
   constexpr double kNoRadius = 1e-9;  // mm
   if (a.norm() < kNoRadius) return curve;
   const double sign = arc.turns > 0 ? 1.0 : -1.0;

@@ -98,12 +98,6 @@ TEST(Dialect, IsRecognisedBehindAByteOrderMarkAndByWordsWithNumbers) {
   EXPECT_EQ(reason("; X=5\n#<x>=5\n"), "nothing says otherwise");
 }
 
-TEST(Dialect, Fault2_19_IsNotRecognisedByWordsOfSentences) {
-  const auto reason = [](std::string_view text) { return recognise_dialect(text, "a.md").reason; };
-  EXPECT_EQ(reason("# Parts\n\nSet X=5, then run all of them.\n"), "nothing says otherwise");
-  EXPECT_EQ(reason("N10 G0 X=5 Y=R1\n"), "line 1: X=");
-  EXPECT_EQ(reason("IF R1==1 GOTOF LABEL\n"), "line 1: GOTOF");
-}
 TEST(Dialect, IsNotRecognisedByWordsOfComments) {
   EXPECT_EQ(recognise_dialect("(TRAORI, GOTO/1,2,3)\nG0 X0 ; TRAORI\n", "a.nc").reason,
             "nothing says otherwise");
