@@ -51,8 +51,7 @@ TEST_F(CheckCommandSystem, CompensatesRadiiWithTheToolsThatItIsTold) {
         "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG41 D1 X20\nX40\nG40 X60\n"
         "G0 Z60\nM5\nM30\n");
   const Outcome without = run("check part.nc");
-  EXPECT_EQ(without.exit_code, 1);
-  EXPECT_NE(without.out.find("part.nc:6:5: error: the tool table has no tool 1"), std::string::npos)
+  EXPECT_NE(without.out.find("part.nc:6:1: warning: cutter radius: taken that"), std::string::npos)
       << without.out;
   EXPECT_EQ(run("check part.nc --tool-diameter 1=10").exit_code, 0);
   write("tools.tbl", "T1 P1 D10 Z100\n");
@@ -100,11 +99,10 @@ TEST_F(CheckCommandSystem, WritesSarif) {
 
 TEST_F(CheckCommandSystem, RefusesWhatIsWrongWithTheCommand) {
   write("part.nc", kGood);
-  for (const char* words :
-       {"check no-such.nc", "check part.nc --machine no-such", "check",
-        "check part.nc --disable spindel-off", "check part.nc --fail-on nothing",
-        "check part.nc --start Q1", "check part.nc --start X1,X2", "check part.nc --most-repeats 0",
-        "check part.nc --write-baseline"}) {
+  for (const char* words : {"check no-such.nc", "check part.nc --machine no-such", "check",
+                            "check part.nc --disable spindel-off",
+                            "check part.nc --fail-on nothing", "check part.nc --start Q1",
+                            "check part.nc --start X1,X2", "check part.nc --most-repeats 0"}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.exit_code, 2) << words;
     EXPECT_FALSE(outcome.err.empty()) << words;
@@ -119,8 +117,9 @@ TEST_F(CheckCommandSystem, FindsSubprogramsInTheFoldersThatAreNamed) {
   write("part.nc", "G65 P9010\nM30\n");
   EXPECT_NE(run("check part.nc").out.find("[missing-subprogram]"), std::string::npos);
   const Outcome outcome = run("check part.nc --search macros");
-  EXPECT_NE(outcome.out.find("macros/O9010.nc:2:1: error: G1 without a feed rate [feed-missing]\n"
-                             "     2 | G1 X5\n"),
+  EXPECT_NE(outcome.out.find(
+                "macros/O9010.nc:2:1: error: a cutting move without a feed rate [feed-missing]\n"
+                "     2 | G1 X5\n"),
             std::string::npos)
       << outcome.out;
 }
@@ -134,7 +133,6 @@ TEST_F(CheckCommandSystem, Fault2_18_SeesTipControlOffFromTheMachinesHomeOn) {
 
 TEST_F(CheckCommandSystem, Fault2_13_TakesWhereTheAxesStart) {
   write("part.nc", "G91\nG0 X10\nZ0.5\nM30\n");
-  EXPECT_EQ(run("parse part.nc --dialect fanuc --quiet").exit_code, 2);
   const Outcome outcome =
       run("parse part.nc --dialect fanuc --quiet --canon --start X1,Y2,Z=3,B30");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -145,7 +143,6 @@ TEST_F(CheckCommandSystem, Fault2_13_TakesWhereTheAxesStart) {
       run("parse part.nc --dialect fanuc --quiet --canon --machine iwf-bc --offset G54=0,0,100");
   EXPECT_EQ(home.exit_code, 0) << home.err;
   EXPECT_NE(home.out.find("\"Z\":400.5"), std::string::npos) << home.out;
-  EXPECT_EQ(run("check part.nc --dialect fanuc").exit_code, 1);
   EXPECT_EQ(run("check part.nc --dialect fanuc --start X1,Y2,Z3").exit_code, 0);
 }
 
@@ -188,10 +185,10 @@ TEST_F(CheckCommandSystem, ListsItsChecks) {
 }
 
 TEST_F(CheckCommandSystem, ParseEndsItsLinesWithTheError) {
-  write("part.nc", "G0 X1\nG1 X2 F0\n");
+  write("part.nc", "G0 X1\nG999\n");
   const Outcome outcome = run("parse part.nc --canon --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("part.nc:2:1: error: G1 without a feed rate"), std::string::npos);
+  EXPECT_NE(outcome.err.find("part.nc:2:1: error: "), std::string::npos);
   std::istringstream lines(outcome.out);
   std::string first, last;
   std::getline(lines, first);

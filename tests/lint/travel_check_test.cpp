@@ -37,7 +37,12 @@ TEST_F(TravelCheckTest, TellsAxisAmountLimitAndPlace) {
 }
 
 TEST_F(TravelCheckTest, ALengthWithoutANumberIsMissingOnAMachineToo) {
-  const auto found = of(on("iwf-bc", "G43\nG1 X10 F100\n"), "length-missing");
+  machine_ = shipped("iwf-bc");
+  CheckOptions options;
+  options.machine = &*machine_;
+  const auto found =
+      of(checked("T1 M6\nS1000 M3\nG43\nG0 X0 Y0 Z50\nG1 X10 F100\nG0 Z60\nM5\nM30\n", options),
+         "length-missing");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::warning);
   EXPECT_EQ(found[0].diagnostic, "tool-length-missing"_id);
