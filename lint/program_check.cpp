@@ -264,7 +264,6 @@ class ProgramCheck {
       return;
     }
     if (event.grade == parser::EventGrade::assumed) {
-      if (event.name == "feed") return;  // feed-missing says so
       findings_.raise(Check::assumed, FindingList::key_of(event.name), place, [&] {
         return Words{fmt::format("{}: taken that {}", event.name, event.text), ""};
       });
