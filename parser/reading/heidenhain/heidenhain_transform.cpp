@@ -98,7 +98,7 @@ class TransformReader {
     const std::uint32_t place = in_.column();
     if (resets) {
       add_number(block_, 'P', 1.0, column, "SCL");
-    } else if (in_.take_name("SCL")) {
+    } else if (in_.letters() == "SCL") {
       add_value(draft_, 'P', "SCL", place, "SCL");
     } else {
       return in_.fail("value-missing"_id, place, "TRANS SCALE has no SCL",
