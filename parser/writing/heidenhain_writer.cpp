@@ -204,8 +204,10 @@ class KlartextBlock {
           word.spelled == nullptr && implied_.find(word.letter) != std::string_view::npos;
       if (&word == statement_ || implied) continue;
       text_.add(element_text(word));
+      const Word* const next = &word == &block_.words.back() ? nullptr : &word + 1;
       while (word.letter == 'M' && operand_of_m != block_.comments.end() &&
-             operand_of_m->event == fmt::format("M{:g}", word.number)) {
+             operand_of_m->event == fmt::format("M{:g}", word.number) &&
+             (next == nullptr || operand_of_m->column < next->column)) {
         text_.add(operand_of_m->text);
         operand_of_m = std::find_if(operand_of_m + 1, block_.comments.end(), is_operand_of_m);
       }
@@ -216,7 +218,8 @@ class KlartextBlock {
   [[nodiscard]] std::string element_text(const Word& word) const {
     if (word.letter == kNamedWord) return std::string(named_word(word));
     if (word.letter == kTangential) return "";
-    if (word.letter == 'd') return name_.starts_with("PLANE") ? "TURN" : "FMAX";
+    const bool parameter = word.spelled != nullptr && word.spelled[0] == 'Q';
+    if (word.letter == 'd' && !parameter) return name_.starts_with("PLANE") ? "TURN" : "FMAX";
     if (word.letter == 'm') return "MOVE";
     // The axes that are mirrored have no numbers.
     if (name_ == "CYCL DEF 8.1") return std::string(1, word.letter);

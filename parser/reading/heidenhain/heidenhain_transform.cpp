@@ -60,7 +60,6 @@ class TransformReader {
       return end_statement(draft_);
     }
     (void)in_.take_name("AXIS");
-    code("CYCL DEF 8", column);
     while (!in_.at_end() && in_.peek() != ';') {
       const std::uint32_t place = in_.column();
       const std::string axes = in_.letters();
@@ -70,6 +69,7 @@ class TransformReader {
       }
       for (const char axis : axes) add_number(block_, axis, 0.0, place);
     }
+    code("CYCL DEF 8", column);
     end_statement(draft_);
   }
 
