@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using trials::Parameter;
 
-void append(Diagnostics& all, const Diagnostics& more) {
+void append_all(Diagnostics& all, const Diagnostics& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -32,7 +32,7 @@ std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folde
   if (!table.has("job")) return std::nullopt;
   auto job = load_job(job_file, {}, true);
   if (!job) {
-    append(problems, job.error());
+    append_all(problems, job.error());
     return std::nullopt;
   }
   StudyPart part{name, *std::move(job), {}};
@@ -40,7 +40,7 @@ std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folde
     if (auto measured = read_measured_part(folder / file, part.job.piece.plan)) {
       part.measured.push_back(*std::move(measured));
     } else {
-      append(problems, measured.error());
+      append_all(problems, measured.error());
     }
   }
   return part;
@@ -200,7 +200,7 @@ Result<Study> load_study(const fs::path& file) {
   if (const auto table = root.table_if("compare"))
     study.others = read_others(*table, study.machine());
   Diagnostics all = document->finish();
-  append(all, parts.problems);
+  append_all(all, parts.problems);
   if (has_error(all)) return all;
   return study;
 }
