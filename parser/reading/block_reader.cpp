@@ -64,7 +64,10 @@ bool opens_parameter_lines(std::string_view line, Dialect dialect) {
   // Three digits: the cycles whose parameters are Q.
   const std::size_t digit = std::min(line.find_first_of("0123456789"), line.size());
   const std::size_t end = std::min(line.find_first_not_of("0123456789", digit), line.size());
-  return end - digit == 3 && line.find('=') == std::string_view::npos;
+  // CYCL DEF, not CYCL CALL POS X+100.
+  const std::size_t word = line.substr(0, digit).find_last_not_of(" \t");
+  const bool defines = word != std::string_view::npos && upper(line[word]) == 'F';
+  return defines && end - digit == 3 && line.find('=') == std::string_view::npos;
 }
 
 bool is_parameter_line(std::string_view line) {
