@@ -59,8 +59,7 @@ std::string comment_text(const Comment& comment) {
   if (comment.event == nullptr) return ";" + comment.text;
   const std::string_view event = comment.event;
   if (is_retract(comment)) return "";  // a parameter of the cycle
-  if (comment.of_builder && event.size() == 1)
-    return comment.event + comment.text;
+  if (comment.of_builder && event.size() == 1) return comment.event + comment.text;
   if (is_in(kSettings, event)) return fmt::format("{}={}", event, comment.text);
   if (is_in(kOpenTexts, event)) return fmt::format("{} {}", event, comment.text);
   return call_text(event == "message" ? "MSG" : event, comment.text);

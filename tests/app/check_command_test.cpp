@@ -51,8 +51,7 @@ TEST_F(CheckCommandSystem, CompensatesRadiiWithTheToolsThatItIsTold) {
         "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG41 D1 X20\nX40\nG40 X60\n"
         "G0 Z60\nM5\nM30\n");
   const Outcome without = run("check part.nc");
-  EXPECT_NE(without.out.find("part.nc:6:"), std::string::npos)
-      << without.out;
+  EXPECT_NE(without.out.find("part.nc:6:"), std::string::npos) << without.out;
   EXPECT_EQ(run("check part.nc --tool-diameter 1=10").exit_code, 0);
   write("tools.tbl", "T1 P1 D10 Z100\n");
   EXPECT_EQ(run("check part.nc --tools tools.tbl").exit_code, 0);
