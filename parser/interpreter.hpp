@@ -67,7 +67,7 @@ struct InterpreterOptions {
   std::vector<std::filesystem::path> search_path{};
   // A program that runs more blocks than this, by repeats within repeats, is taken for a mistake.
   std::uint64_t max_blocks = 100'000'000;
-  // So is one that runs more than this without giving a motion or an event.
+  // So is one that runs more than this without moving an axis.
   std::uint64_t max_idle_blocks = 2'000'000;
   // Looks on: called before each block that is run or passed over; false ends the run there.
   std::function<bool(const BlockAhead&)> watch{};

@@ -132,11 +132,11 @@ ProgramRun::Failure ProgramRun::count_block(const Block& block) {
     return at(block, 1, "endless-loop"_id,
               fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
   }
-  if (executor_.state().output.motions != motions_) {
-    motions_ = executor_.state().output.motions;
-    blocks_at_motion_ = blocks_;
+  if (executor_.state().output.moves != moves_) {
+    moves_ = executor_.state().output.moves;
+    blocks_at_move_ = blocks_;
   }
-  if (blocks_ - blocks_at_motion_ <= options_.max_idle_blocks) return std::nullopt;
+  if (blocks_ - blocks_at_move_ <= options_.max_idle_blocks) return std::nullopt;
   return at(block, 1, "endless-loop"_id,
             fmt::format("more than {} blocks have run without a motion", options_.max_idle_blocks),
             kRemedy);

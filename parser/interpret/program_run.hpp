@@ -93,8 +93,8 @@ class ProgramRun {
   std::vector<CallFrame> frames_{};
   std::uint64_t blocks_ = 0;
   // Motions so far, and the blocks before the last of them.
-  std::uint64_t motions_ = 0;
-  std::uint64_t blocks_at_motion_ = 0;
+  std::uint64_t moves_ = 0;
+  std::uint64_t blocks_at_move_ = 0;
   // Where the O subs are that have been defined, on the way or by a call.
   std::set<std::pair<const LoadedProgram*, std::uint64_t>> defined_{};
   bool statement_ran_ = false;  // since the main program began, or began again by M99

@@ -146,6 +146,11 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   depths.bottom = *cycle.bottom + (cycle.bottom_is_step ? depths.level : 0.0);
   depths.clear =
       state.modes.retract_to_initial ? std::max(cycle.initial, depths.level) : depths.level;
+  if (state.modes.retract_to_initial && cycle.initial < depths.level &&
+      state.rules.dialect == Dialect::fanuc) {
+    assume(state, movement.column, "initial level",
+           "the tool stays at R where the initial level of G98 is below it");
+  }
   depths.feed_out = state.rules.cycles.feed_out_to_clearance ? depths.clear : depths.level;
   depths.peck = cycle.peck.value_or(0.0);
   depths.dwell = cycle.dwell.value_or(0.0);

@@ -1,15 +1,22 @@
 #include "parser/interpret/filters/motion_filters.hpp"
 
 #include <utility>
+#include <variant>
 
 namespace frustum::parser {
 namespace {
+
+bool moves_axes(const Command& command) {
+  return std::holds_alternative<Traverse>(command) || std::holds_alternative<HomeReturn>(command) ||
+         std::holds_alternative<LinearFeed>(command) || std::holds_alternative<ArcFeed>(command) ||
+         std::holds_alternative<Probe>(command);
+}
 
 void place_and_send(InterpreterState& state, const MotionSink& sink, Motion&& motion) {
   const ModalState& modes = state.modes;
   if (!modes.programmed_frame.is_identity()) modes.programmed_frame.place(motion.command);
   if (!modes.offset_frame.is_identity()) modes.offset_frame.place(motion.command);
-  ++state.output.motions;
+  if (moves_axes(motion.command)) ++state.output.moves;
   sink(std::move(motion));
 }
 

@@ -59,7 +59,7 @@ struct ContourExit {
 // Where the motions go.
 struct Output {
   MotionSink take{};
-  std::uint64_t motions = 0;            // that have gone out
+  std::uint64_t moves = 0;              // of axes, that have gone out
   std::optional<Diagnostic> failure{};  // of a motion that could not be made
   std::map<int, std::array<std::optional<double>, 3>>
       programmed_offsets{};                          // as the motions have them

@@ -243,6 +243,15 @@ TEST(Interpreter, TellsALoopThatDoesNotEnd) {
   EXPECT_TRUE(complaints(loop, options).empty());
 }
 
+// Dwells, stops and remarks are no way out of a loop.
+TEST(Interpreter, TellsALoopThatOnlyWaits) {
+  InterpreterOptions options;
+  options.max_idle_blocks = 1000;
+  const auto told = complaints("G0 X0\nWHILE[1 EQ 1]DO1\nG4 X1.\nM0\nEND1\n", options);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("more than 1000 blocks have run without a motion"), std::string::npos);
+}
+
 TEST(Interpreter, CountsTheBlocksItRan) {
   const auto program = parse_program("%\nG0 X1\n\nX2\nM30\nX3\n%\n", "part.nc");
   ASSERT_TRUE(program);
