@@ -33,7 +33,8 @@ struct PlaneAxes {
 // "I and J": the words that give the centre in the plane.
 [[nodiscard]] const char* centre_words(Plane plane);
 
-// How far the words of an arc may disagree: what a post-processor's rounding leaves on a large radius.
+// How far the words of an arc may disagree: what a post-processor's rounding leaves on a large
+// radius.
 struct ArcTolerance {
   // Of the radii at start and end: always, and in proportion to the radius up to the largest.
   double absolute = 0.01;  // mm

@@ -59,7 +59,8 @@ enum class Plane : std::uint8_t { xy, zx, yz };
 enum class SpindleDirection : std::uint8_t { off, clockwise, counterclockwise };
 
 struct Feed {
-  // Above zero; zero where the program gives none and the control has one of its own. mm/min (deg/min for purely rotary moves); 1/min with inverse_time; mm with per_revolution.
+  // Above zero; zero where the program gives none and the control has one of its own. mm/min
+  // (deg/min for purely rotary moves); 1/min with inverse_time; mm with per_revolution.
   double value = 0.0;
   FeedMode mode = FeedMode::per_minute;
   // Threads: the axes follow the angle of the spindle from its mark on; with per_revolution.
@@ -172,10 +173,10 @@ enum class StopKind : std::uint8_t { program_stop, optional_stop, program_end };
 struct Stop {
   StopKind kind = StopKind::program_end;
 };
-// How much an event says of the simulation's truth. known: a comment, or a word that changes nothing
-// which is simulated. builder: a word that only the machine's builder knows, passed over. assumed:
-// the program depends on something that a control decides by its parameters; the text says which
-// way it was taken.
+// How much an event says of the simulation's truth. known: a comment, or a word that changes
+// nothing which is simulated. builder: a word that only the machine's builder knows, passed over.
+// assumed: the program depends on something that a control decides by its parameters; the text says
+// which way it was taken.
 enum class EventGrade : std::uint8_t { known, builder, assumed };
 // A comment or a known word that is not simulated; never silence.
 struct Event {

@@ -1,9 +1,9 @@
 // Splines of the plane as straight lines and arcs that join without a corner.
 //
 // Model    : a rational B-spline of control points with weights, order k (degree k - 1), knots
-//            clamped at both ends, uniform where none are given; k points of weight 1 are a Bezier curve. Each part
-//            of it is replaced by two arcs with its ends and its tangents there (a biarc), in
-//            halves until they are near enough
+//            clamped at both ends, uniform where none are given; k points of weight 1 are a Bezier
+//            curve. Each part of it is replaced by two arcs with its ends and its tangents there
+//            (a biarc), in halves until they are near enough
 // Units    : mm
 // Shape    : at least `order` points, order >= 2, weights above zero; as many knots as points and
 //            the order together, none below the one before it, or none at all

@@ -64,8 +64,8 @@ class PlainReader {
     return true;
   }
 
-  // Without a sign. Up to 15 digits are a whole number without loss, which one division by a power of
-  // ten rounds as the decimal number is.
+  // Without a sign. Up to 15 digits are a whole number without loss, which one division by a power
+  // of ten rounds as the decimal number is.
   bool read_number(Word& word) {
     const char* const start = text_.data() + place_;
     const char* const end = text_.data() + text_.size();
