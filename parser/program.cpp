@@ -31,6 +31,9 @@ Diagnostic too_many_errors(const Program& program) {
   return more;
 }
 
+// All that follows is not for milling either.
+bool is_of_another_machine(const Diagnostic& failure) { return failure.id == "not-milling"_id; }
+
 // Reads from where the cursor is to the end of the text; `take` gets each block. What is wrong, but
 // no more of it than kMaxSyntaxErrors.
 template <typename Take>
@@ -41,8 +44,7 @@ Diagnostics read_to_end(const Program& program, BlockCursor& cursor, const Take&
     auto block = cursor.next();
     if (!block) {
       failures.push_back(std::move(block).error().front());
-      // All that follows is of another kind of machine.
-      if (failures.back().id == "not-milling"_id) return {failures.back()};
+      if (is_of_another_machine(failures.back())) return {failures.back()};
       continue;
     }
     if (*block == nullptr) return failures;

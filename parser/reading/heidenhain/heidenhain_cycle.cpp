@@ -424,10 +424,7 @@ class CycleReader {
       const std::uint32_t place = in_.column();
       const std::string name = in_.name();
       // The cycle's name, in the language of the control.
-      if (name.empty() && block_.words.size() == 1) {
-        in_.take(in_.peek());
-        continue;
-      }
+      if (name.empty() && block_.words.size() == 1 && in_.take(in_.peek())) continue;
       if (name.empty()) return in_.fail_unexpected(std::string(cycle.form));
       if (!in_.take('=')) continue;
       const auto known =

@@ -59,13 +59,13 @@ bool read_variable(ExpressionReader& reader, const std::string& /*name*/, std::u
   return true;
 }
 
-template <Dialect dialect>
-ExpressionRules rules_for() {
+ExpressionRules rules_for(Dialect dialect) {
   const ExpressionMistake open_at_end{"bracket-not-closed"_id, "the bracket is not closed",
                                       "close it with ]", true};
   return {
       .spelling = expressions_of(dialect),
-      .read_variable = read_variable<dialect>,
+      .read_variable = dialect == Dialect::linuxcnc ? read_variable<Dialect::linuxcnc>
+                                                    : read_variable<Dialect::fanuc>,
       .no_operand = {"value-missing"_id, "a number is missing before {found}",
                      "write a number, a parameter (#1), a function (SIN[30]) or an expression in "
                      "[ ]"},
@@ -105,8 +105,8 @@ std::string read_parameter_index(ExpressionReader& reader, Dialect dialect) {
 }
 
 const ExpressionRules& rs274_expressions(Dialect dialect) {
-  static const ExpressionRules kLinuxcnc = rules_for<Dialect::linuxcnc>();
-  static const ExpressionRules kFanuc = rules_for<Dialect::fanuc>();
+  static const ExpressionRules kLinuxcnc = rules_for(Dialect::linuxcnc);
+  static const ExpressionRules kFanuc = rules_for(Dialect::fanuc);
   return dialect == Dialect::linuxcnc ? kLinuxcnc : kFanuc;
 }
 

@@ -134,6 +134,8 @@ const std::vector<Extreme> kExtremes{
     {"SinumerikZeroByte", sinumerik, std::string("G0 \0X1", 6), "1:4: error: unexpected byte 0x00"},
     {"HeidenhainZeroByte", heidenhain, std::string("L \0X1", 5),
      "1:3: error: unexpected byte 0x00"},
+    {"HeidenhainZeroByteInACycle", heidenhain, std::string("CYCL DEF 200 C\0", 15),
+     "1:15: error: unexpected byte 0x00"},
     {"CldataZeroByte", cldata, std::string("GOTO \0X1", 8), "1:6: error: unexpected byte 0x00"},
     {"FanucLatinLetter", fanuc, "G0 X1 \xFC", "1:7: error: unexpected byte 0xFC"},
     {"SinumerikTornCharacter", sinumerik, "G0 \xC3", "1:4: error: unexpected byte 0xC3"},
