@@ -109,6 +109,20 @@ Outcome move_tip_in_machine_coordinates(InterpreterState& state, const BlockWord
   return Done{};
 }
 
+// A rapid or feed move of the axes that `end` has, in machine coordinates.
+Outcome send_axes_to(InterpreterState& state, const BlockWords& words, const Movement& movement,
+                     const AxisTarget& end) {
+  if (movement.motion == MotionMode::traverse) {
+    emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::machine});
+  } else {
+    const auto feed = feed_for(state, words, movement,
+                               end[AxisLetter::X] || end[AxisLetter::Y] || end[AxisLetter::Z]);
+    if (!feed) return feed.error();
+    emit(state, movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t point) {
@@ -226,14 +240,7 @@ Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& w
            "SUPA, G53 and G153 keep the tool's length (MN_G53_TOOLCORR = 0)");
     return move_tip_in_machine_coordinates(state, words, movement, end, named);
   }
-  if (movement.motion == MotionMode::traverse) {
-    emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::machine});
-  } else {
-    const auto feed = feed_for(state, words, movement,
-                               end[AxisLetter::X] || end[AxisLetter::Y] || end[AxisLetter::Z]);
-    if (!feed) return feed.error();
-    emit(state, movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
-  }
+  if (auto done = send_axes_to(state, words, movement, end); !done) return done;
   AxisTarget axes = axes_before;
   for (const AxisLetter axis : kAxisLetters) {
     if (end[axis]) axes[axis] = end[axis];
@@ -280,13 +287,7 @@ Outcome step_axes(InterpreterState& state, const BlockWords& words, const Moveme
     }
     end[axis] = axes[axis] = *axes[axis] + step;
   }
-  if (movement.motion == MotionMode::traverse) {
-    emit(state, movement.column, Traverse{end, std::nullopt, Coordinates::machine});
-  } else {
-    const auto feed = feed_for(state, words, movement, !(named & kLinearWords).empty());
-    if (!feed) return feed.error();
-    emit(state, movement.column, LinearFeed{end, std::nullopt, Coordinates::machine, *feed});
-  }
+  if (auto done = send_axes_to(state, words, movement, end); !done) return done;
   leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
   arrive(state, axes);
   return Done{};
