@@ -86,35 +86,36 @@ Outcome set_frames(InterpreterState& state, MotionFilters& filters, const BlockW
   return set_hole_cycle(state, words);
 }
 
-Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Block& block) {
+Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWords& words,
+                       const Block& block) {
   state.at_work.block = &block;
   state.at_work.moved = false;
   if (const Word* macro = macro_word(state, block)) {
     if (auto done = report_comments(state, block); !done) return std::move(done).error();
     return call_macro(state, block, *macro);
   }
-  auto words = read_words(block, state.parameters, state.rules, state.control);
-  if (!words) return std::move(words).error();
-  const LengthUnit unit = words->value_or(CodeGroup::unit, state.modes.unit);
-  if (!words->without_point().empty()) count_without_points(state, *words, unit);
-  const auto movement = movement_of(state, *words);
+  if (auto failure = words.read(block, state.parameters, state.rules, state.control)) {
+    return *std::move(failure);
+  }
+  const LengthUnit unit = words.value_or(CodeGroup::unit, state.modes.unit);
+  if (!words.without_point().empty()) count_without_points(state, words, unit);
+  const auto movement = movement_of(state, words);
   if (!movement) return movement.error();
-  const auto after_move = words_after_move(state, *words, *movement);
+  const auto after_move = words_after_move(state, words, *movement);
   if (!after_move) return after_move.error();
-  const auto idle = check_claims(state, *words, *movement);
+  const auto idle = check_claims(state, words, *movement);
   if (!idle) return idle.error();
 
-  if (auto done = check_radius_compensation(state, filters, *words, *movement); !done) {
+  if (auto done = check_radius_compensation(state, filters, words, *movement); !done) {
     return std::move(done).error();
   }
-  if (auto done = check_approach(state, filters, *words); !done) return std::move(done).error();
-  if (auto done = insert_corner(state, filters, *words); !done) return std::move(done).error();
-  if (auto done = look_for_corner(state, filters, *words); !done) return std::move(done).error();
+  if (auto done = check_approach(state, filters, words); !done) return std::move(done).error();
+  if (auto done = insert_corner(state, filters, words); !done) return std::move(done).error();
+  if (auto done = look_for_corner(state, filters, words); !done) return std::move(done).error();
   if (auto done = report_comments(state, block); !done) return std::move(done).error();
-  if (const GivenCode& raised = words->operator[](CodeGroup::raised_error);
-      raised.code != nullptr) {
+  if (const GivenCode& raised = words[CodeGroup::raised_error]; raised.code != nullptr) {
     return fail(state, raised.column, "program-alarm"_id,
-                fmt::format("the program stops with {}", words->text_of('E')),
+                fmt::format("the program stops with {}", words.text_of('E')),
                 "look at the conditions before this block");
   }
   if (auto done = set_parameters(state, block); !done) return std::move(done).error();
@@ -126,39 +127,39 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, const Bl
                                  [letter](const DwellWord& word) { return word.letter == letter; });
   };
   if (!of_dwell('F')) {
-    if (auto done = set_feed(state, *words); !done) return std::move(done).error();
+    if (auto done = set_feed(state, words); !done) return std::move(done).error();
   }
   state.modes.unit = unit;
   if (state.rules.parameters_count_at_once) state.data.unit = unit;
   state.modes.diameter =
-      words->value_or(CodeGroup::diameter,
-                      state.modes.diameter ? DiameterWord::diameter : DiameterWord::radius) ==
+      words.value_or(CodeGroup::diameter,
+                     state.modes.diameter ? DiameterWord::diameter : DiameterWord::radius) ==
       DiameterWord::diameter;
-  const auto speed = set_speed(state, *words, !of_dwell('S'));
+  const auto speed = set_speed(state, words, !of_dwell('S'));
   if (!speed) return speed.error();
-  if (auto done = keep_modes(state, *words); !done) return std::move(done).error();
-  if (auto done = set_tool(state, *words); !done) return std::move(done).error();
-  set_spindle_and_coolant(state, *words, *speed);
-  report_events(state, *words, *idle);
+  if (auto done = keep_modes(state, words); !done) return std::move(done).error();
+  if (auto done = set_tool(state, words); !done) return std::move(done).error();
+  set_spindle_and_coolant(state, words, *speed);
+  report_events(state, words, *idle);
   if (dwells) {
-    if (auto done = dwell(state, *words); !done) return std::move(done).error();
+    if (auto done = dwell(state, words); !done) return std::move(done).error();
   }
-  if (auto done = set_frames(state, filters, *words); !done) return std::move(done).error();
-  if (auto done = make_move(state, *words, *movement); !done) return std::move(done).error();
-  if (auto done = ask_for_corner(state, filters, *words); !done) return std::move(done).error();
+  if (auto done = set_frames(state, filters, words); !done) return std::move(done).error();
+  if (auto done = make_move(state, words, *movement); !done) return std::move(done).error();
+  if (auto done = ask_for_corner(state, filters, words); !done) return std::move(done).error();
   if (filters.passes_corners && !state.rules.inserts_corners && state.rules.corner_words.empty()) {
-    if (auto done = keep_corner(state, filters, *words); !done) return std::move(done).error();
+    if (auto done = keep_corner(state, filters, words); !done) return std::move(done).error();
   }
-  if (auto done = approach_or_leave_contour(state, filters, *words); !done) {
+  if (auto done = approach_or_leave_contour(state, filters, words); !done) {
     return std::move(done).error();
   }
-  auto drilled = state.rules.dialect == Dialect::sinumerik ? call_drilling_cycle(state, *words)
-                                                           : call_hole_cycle(state, *words);
+  auto drilled = state.rules.dialect == Dialect::sinumerik ? call_drilling_cycle(state, words)
+                                                           : call_hole_cycle(state, words);
   if (!drilled) return std::move(drilled).error();
   if (*after_move) {
     if (auto done = set_after_move(state, **after_move); !done) return std::move(done).error();
   }
-  return finish(state, filters, *words);
+  return finish(state, filters, words);
 }
 
 }  // namespace
@@ -170,7 +171,7 @@ BlockExecutor::BlockExecutor(Dialect dialect, const AxisTarget& start, ControlDa
 }
 
 Result<Flow> BlockExecutor::execute(const Block& block) {
-  auto flow = carry_out(state_, filters_, block);
+  auto flow = carry_out(state_, filters_, words_, block);
   auto failure = std::exchange(state_.output.failure, std::nullopt);
   // What has been made before a mistake counts.
   if (!flow || failure) settle();

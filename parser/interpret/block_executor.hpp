@@ -13,6 +13,7 @@
 #include "core/result.hpp"
 #include "parser/interpret/block_flow.hpp"
 #include "parser/interpret/filters/motion_filters.hpp"
+#include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 #include "parser/motion.hpp"
 
@@ -33,6 +34,7 @@ class BlockExecutor {
  private:
   InterpreterState state_;
   MotionFilters filters_;
+  BlockWords words_{};  // of the block at work
 };
 
 // After a block that could not be carried out: the axes that it names are where it says, as far as

@@ -9,7 +9,8 @@ BlockCursor::BlockCursor(const Program& program)
       file_(program.file),
       dialect_(program.dialect),
       lines_(program.text),
-      read_(reader_of(program.dialect)) {}
+      read_(reader_of(program.dialect)),
+      read_plain_(plain_reader_of(program.dialect)) {}
 
 void BlockCursor::go_to(TextPlace place) {
   if (!kept_) return lines_.go_to(place);
@@ -74,6 +75,11 @@ Result<const Block*> BlockCursor::next() {
     block_place_ = lines_.place();
     std::vector<std::uint32_t> line_starts;
     const std::string_view text = next_text(line_starts);
+    is_plain_ = read_plain_ != nullptr && read_plain_(plain_block_, text, block_place_.line);
+    if (is_plain_) {
+      if (plain_block_.empty()) continue;
+      return &plain_block_;
+    }
     auto block = read_(text, block_place_.line);
     if (!block) {
       Diagnostics failures = std::move(block).error();

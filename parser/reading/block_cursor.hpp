@@ -33,7 +33,7 @@ class BlockCursor {
   // The next block that is not blank, valid until the next call; null at the end of the text.
   [[nodiscard]] Result<const Block*> next();
   // The block that next() has read from the text, to keep.
-  [[nodiscard]] Block take() { return std::move(block_); }
+  [[nodiscard]] Block take() { return std::move(is_plain_ ? plain_block_ : block_); }
 
  private:
   // The text of one block, lines that continue it joined by line feeds.
@@ -52,9 +52,12 @@ class BlockCursor {
   Dialect dialect_;
   LineReader lines_;
   BlockReader read_;
+  PlainBlockReader read_plain_;
   std::string joined_{};
   TextPlace block_place_{};
   Block block_{};
+  Block plain_block_{};    // of the plain reader alone
+  bool is_plain_ = false;  // the last block
 };
 
 }  // namespace frustum::parser

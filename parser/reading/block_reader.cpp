@@ -5,9 +5,11 @@
 
 #include "parser/language/letter_case.hpp"
 #include "parser/reading/cldata/cldata_record.hpp"
+#include "parser/reading/heidenhain/plain_line.hpp"
 #include "parser/reading/rs274/grammar.hpp"
 #include "parser/reading/rs274/macro_reader.hpp"
 #include "parser/reading/rs274/o_word_reader.hpp"
+#include "parser/reading/rs274/plain_block.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -38,6 +40,23 @@ BlockReader reader_of(Dialect dialect) {
       return cldata_reader();
   }
   return [](std::string_view text, std::uint32_t line) { return parse_block(text, line); };
+}
+
+PlainBlockReader plain_reader_of(Dialect dialect) {
+  switch (dialect) {
+    case Dialect::sinumerik:
+      return read_plain_sinumerik_block;
+    case Dialect::heidenhain:
+      return read_plain_line;
+    case Dialect::cldata:
+      return nullptr;
+    case Dialect::fanuc:
+    case Dialect::linuxcnc:
+      break;
+  }
+  return [](Block& block, std::string_view text, std::uint32_t line) {
+    return read_plain_block(block, text, line);
+  };
 }
 
 std::size_t continuation_mark(std::string_view line, Dialect dialect) {

@@ -21,6 +21,12 @@ namespace frustum::parser {
 using BlockReader = std::function<Result<Block>(std::string_view text, std::uint32_t line)>;
 [[nodiscard]] BlockReader reader_of(Dialect dialect);
 
+// Reads blocks that are words with plain numbers alone, as most of a long program is, one after the
+// other into `block`, so that its memory is used again; false: the text is for the reader.
+using PlainBlockReader = bool (*)(Block& block, std::string_view text, std::uint32_t line);
+// Null where the dialect has none.
+[[nodiscard]] PlainBlockReader plain_reader_of(Dialect dialect);
+
 // Where the mark is that continues the line on the next one; npos when it ends here.
 [[nodiscard]] std::size_t continuation_mark(std::string_view line, Dialect dialect);
 
@@ -29,6 +35,8 @@ using BlockReader = std::function<Result<Block>(std::string_view text, std::uint
 [[nodiscard]] bool opens_parameter_lines(std::string_view line, Dialect dialect);
 [[nodiscard]] bool is_parameter_line(std::string_view line);
 
+[[nodiscard]] bool read_plain_sinumerik_block(Block& block, std::string_view text,
+                                              std::uint32_t line);
 [[nodiscard]] Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line);
 [[nodiscard]] BlockReader heidenhain_reader();
 [[nodiscard]] BlockReader cldata_reader();

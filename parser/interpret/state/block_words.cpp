@@ -11,10 +11,6 @@
 namespace frustum::parser {
 namespace {
 
-std::uint64_t bit_of(CodeGroup group) {
-  return std::uint64_t{1} << static_cast<std::size_t>(group);
-}
-
 constexpr double kLargestValue = 1e15;
 
 Diagnostic at(const Block& block, std::uint32_t column, DiagnosticId id, std::string message,
@@ -100,8 +96,8 @@ std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
   for (const CodeGroup group : {CodeGroup::spindle, CodeGroup::coolant, CodeGroup::feed_mode,
                                 CodeGroup::tool_tip, CodeGroup::rotary_path}) {
     const auto slot = static_cast<std::size_t>(group);
-    if ((groups_ & bit_of(group)) == 0 || !is_meant(codes_[slot])) continue;
-    others().codes_[slot] = std::exchange(codes_[slot], {});
+    if (!has(group) || !is_meant(codes_[slot])) continue;
+    others().codes_[slot] = codes_[slot];
     groups_ &= ~bit_of(group);
     others().groups_ |= bit_of(group);
   }
@@ -141,17 +137,24 @@ Diagnostic symbol_in_word(const Block& block, const Parameters& parameters, cons
 
 }  // namespace
 
-Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
-                              const DialectRules& rules, const ControlSettings& control) {
-  const ExpressionContext context{block.steps, block.names, parameters};
-  // In its place from the start: it is large.
-  Result<BlockWords> result{BlockWords{}};
-  BlockWords& words = *result;
-  words.block_ = &block;
+void BlockWords::clear() {
+  given_ = {};
+  without_point_ = {};
+  groups_ = 0;
+  events_.clear();
+  vacant_.clear();
+  builder_.clear();
+}
+
+std::optional<Diagnostic> BlockWords::read(const Block& block, const Parameters& parameters,
+                                           const DialectRules& rules,
+                                           const ControlSettings& control) {
+  clear();
+  block_ = &block;
   for (const Word& word : block.words) {
     double number = word.number;
     if (!word.expression.empty()) {
-      auto computed = evaluate(context, word.expression);
+      auto computed = evaluate({block.steps, block.names, parameters}, word.expression);
       if (!computed) {
         const Diagnostic& failure = computed.error().front();
         return at(block, static_cast<std::uint32_t>(failure.column), failure.id, failure.message,
@@ -167,59 +170,66 @@ Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
             "tools that are in no table and of places before the first move are the machine's");
       }
       if (is_vacant(number)) {
-        words.vacant_.push_back({nullptr, word.column});
+        vacant_.push_back({nullptr, word.column});
         continue;
       }
     }
-    const bool named = word.letter == kNamedWord;
-    if (word.letter != 'G' && word.letter != 'M' && !named) {
-      if (words.has(word.letter)) {
-        return at(block, word.column, "word-twice"_id,
-                  fmt::format("{} is given twice in a block", words.name_of(word.letter)),
-                  "leave one of them out, or write two blocks");
-      }
-      if (is_symbol(number) && (word.letter != 'T' || is_unknown(number))) {
-        return symbol_in_word(block, parameters, word, number, words.name_of(word.letter));
-      }
-      // Beyond this sums and squares of positions would leave the range of numbers.
-      if (!(std::abs(number) <= kLargestValue) && !is_symbol(number)) {
-        return at(block, word.column, "out-of-range"_id,
-                  words.name_of(word.letter) + " is too large",
-                  "the values of words go up to 1e15");
-      }
-      words.given_.add(word.letter);
-      const bool plain = !word.decimal_point && number != 0.0 && word.expression.empty();
-      if (plain) words.without_point_.add(word.letter);
-      words.values_[BlockWords::slot(word.letter)] = {number, word.column, word.decimal_point,
-                                                      word.measure};
-      continue;
-    }
-    const Code* code = named ? &code_at(number) : find_code(rules.dialect, word.letter, number);
-    if (code == nullptr) {
-      const auto of_builder =
-          named ? std::nullopt : word_of_builder(rules, control, word.letter, number);
-      if (!of_builder) return unknown_code(block, rules.dialect, word, number);
-      words.builder_.push_back({*of_builder, word.column});
-      continue;
-    }
-    if (code->event) words.events_.push_back({code, word.column});
-    if (code->group == CodeGroup::event) continue;
-    GivenCode& place = words.codes_[static_cast<std::size_t>(code->group)];
-    if (place.code != nullptr && rules.last_motion_counts && code->group == CodeGroup::motion) {
-      place = {code, word.column};
-      continue;
-    }
-    if (place.code != nullptr) {
-      return at(block, word.column, "word-twice"_id,
-                place.code == code ? fmt::format("{} is given twice in a block", code->name())
-                                   : fmt::format("{} and {} contradict each other in a block",
-                                                 place.code->name(), code->name()),
-                "leave one of them out, or write two blocks");
-    }
-    place = {code, word.column};
-    words.groups_ |= bit_of(code->group);
+    const bool is_code = word.letter == 'G' || word.letter == 'M' || word.letter == kNamedWord;
+    auto failure =
+        is_code ? add_code(word, number, rules, control) : add_value(word, number, parameters);
+    if (failure) return failure;
   }
-  return result;
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> BlockWords::add_value(const Word& word, double number,
+                                                const Parameters& parameters) {
+  if (has(word.letter)) {
+    return at(*block_, word.column, "word-twice"_id,
+              fmt::format("{} is given twice in a block", name_of(word.letter)),
+              "leave one of them out, or write two blocks");
+  }
+  if (is_symbol(number) && (word.letter != 'T' || is_unknown(number))) {
+    return symbol_in_word(*block_, parameters, word, number, name_of(word.letter));
+  }
+  // Beyond this sums and squares of positions would leave the range of numbers.
+  if (!(std::abs(number) <= kLargestValue) && !is_symbol(number)) {
+    return at(*block_, word.column, "out-of-range"_id, name_of(word.letter) + " is too large",
+              "the values of words go up to 1e15");
+  }
+  given_.add(word.letter);
+  const bool plain = !word.decimal_point && number != 0.0 && word.expression.empty();
+  if (plain) without_point_.add(word.letter);
+  values_[slot(word.letter)] = {number, word.column, word.decimal_point, word.measure};
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> BlockWords::add_code(const Word& word, double number,
+                                               const DialectRules& rules,
+                                               const ControlSettings& control) {
+  const bool named = word.letter == kNamedWord;
+  const Code* code = named ? &code_at(number) : find_code(rules.dialect, word.letter, number);
+  if (code == nullptr) {
+    const auto of_builder =
+        named ? std::nullopt : word_of_builder(rules, control, word.letter, number);
+    if (!of_builder) return unknown_code(*block_, rules.dialect, word, number);
+    builder_.push_back({*of_builder, word.column});
+    return std::nullopt;
+  }
+  if (code->event) events_.push_back({code, word.column});
+  if (code->group == CodeGroup::event) return std::nullopt;
+  GivenCode& place = codes_[static_cast<std::size_t>(code->group)];
+  const bool replaces = rules.last_motion_counts && code->group == CodeGroup::motion;
+  if (has(code->group) && !replaces) {
+    return at(*block_, word.column, "word-twice"_id,
+              place.code == code ? fmt::format("{} is given twice in a block", code->name())
+                                 : fmt::format("{} and {} contradict each other in a block",
+                                               place.code->name(), code->name()),
+              "leave one of them out, or write two blocks");
+  }
+  place = {code, word.column};
+  groups_ |= bit_of(code->group);
+  return std::nullopt;
 }
 
 }  // namespace frustum::parser

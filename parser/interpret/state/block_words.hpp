@@ -40,19 +40,29 @@ struct BuilderWord {
 
 class BlockWords {
  public:
+  // From now on the words of `block`, to which they refer, instead of those before. What is wrong,
+  // else nothing. One object does for all blocks: what has no bit below is not looked at, and so
+  // need not be cleared.
+  [[nodiscard]] std::optional<Diagnostic> read(const Block& block, const Parameters& parameters,
+                                               const DialectRules& rules,
+                                               const ControlSettings& control);
   [[nodiscard]] LetterSet given() const { return given_; }
   [[nodiscard]] bool has(char letter) const { return given_.has(letter); }
   // The word of that letter; zero when not given.
-  [[nodiscard]] const GivenWord& operator[](char letter) const { return values_[slot(letter)]; }
-  [[nodiscard]] bool has(CodeGroup group) const { return (*this)[group].code != nullptr; }
+  [[nodiscard]] const GivenWord& operator[](char letter) const {
+    return has(letter) ? values_[slot(letter)] : kNoWord;
+  }
+  [[nodiscard]] bool has(CodeGroup group) const { return (groups_ & bit_of(group)) != 0; }
+  // The code of that group; null when not given.
   [[nodiscard]] const GivenCode& operator[](CodeGroup group) const {
-    return codes_[static_cast<std::size_t>(group)];
+    return has(group) ? codes_[static_cast<std::size_t>(group)] : kNoCode;
   }
   // What the group's word sets, or `otherwise` when the block has none of the group.
   template <typename Value>
   [[nodiscard]] Value value_or(CodeGroup group, Value otherwise) const {
-    const Code* code = (*this)[group].code;
-    return code == nullptr || code->event ? otherwise : static_cast<Value>(code->value);
+    if (!has(group)) return otherwise;
+    const Code* code = codes_[static_cast<std::size_t>(group)].code;
+    return code->event ? otherwise : static_cast<Value>(code->value);
   }
   // The groups that the block has a code of, a bit each.
   [[nodiscard]] std::uint64_t groups() const { return groups_; }
@@ -76,9 +86,19 @@ class BlockWords {
   [[nodiscard]] std::string name_of(char letter) const;
 
  private:
-  friend Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
-                                       const DialectRules& rules, const ControlSettings& control);
   static constexpr std::size_t slot(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+  static constexpr std::uint64_t bit_of(CodeGroup group) {
+    return std::uint64_t{1} << static_cast<std::size_t>(group);
+  }
+  static constexpr GivenWord kNoWord{};
+  static constexpr GivenCode kNoCode{};
+
+  void clear();
+  [[nodiscard]] std::optional<Diagnostic> add_value(const Word& word, double number,
+                                                    const Parameters& parameters);
+  [[nodiscard]] std::optional<Diagnostic> add_code(const Word& word, double number,
+                                                   const DialectRules& rules,
+                                                   const ControlSettings& control);
 
   const Block* block_ = nullptr;
   std::array<GivenWord, 'z' - 'A' + 1> values_{};
@@ -91,10 +111,5 @@ class BlockWords {
   std::vector<BuilderWord> builder_{};
   LetterSet without_point_{};
 };
-
-// The words refer to the block.
-[[nodiscard]] Result<BlockWords> read_words(const Block& block, const Parameters& parameters,
-                                            const DialectRules& rules,
-                                            const ControlSettings& control);
 
 }  // namespace frustum::parser

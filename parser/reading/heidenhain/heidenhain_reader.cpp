@@ -11,7 +11,6 @@
 #include "parser/language/letter_case.hpp"
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
-#include "parser/reading/heidenhain/plain_line.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -208,7 +207,6 @@ class HeidenhainReader {
 BlockReader heidenhain_reader() {
   return [program = std::string()](std::string_view text,
                                    std::uint32_t line) mutable -> Result<Block> {
-    if (auto plain = read_plain_line(text, line)) return *std::move(plain);
     return HeidenhainReader(text, line, program)();
   };
 }

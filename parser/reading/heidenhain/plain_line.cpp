@@ -4,6 +4,7 @@
 
 #include "parser/dialects/code_table.hpp"
 #include "parser/language/letter_case.hpp"
+#include "parser/reading/plain_number.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -33,9 +34,11 @@ class PlainLineReader {
   PlainLineReader(std::string_view text, Block& block) : text_(text), block_(block) {}
 
   bool read() {
+    block_.number.reset();
+    block_.words.clear();
+    block_.words.reserve(kWordsOfAPlainLine);
     if (!read_number_of_line()) return false;
     if (upper(peek()) != 'L') return false;
-    block_.words.reserve(kWordsOfAPlainLine);
     add(kNamedWord, place_, rows().line);
     ++place_;
     // A blank ends the word, which else is another one: LN, LP, LBL.
@@ -100,17 +103,12 @@ class PlainLineReader {
   bool read_value(char letter, std::size_t column) {
     const bool negative = at_place() == '-';
     if (negative || at_place() == '+') ++place_;
-    const std::size_t start = place_;
-    while (is_decimal(at_place())) ++place_;
-    if (at_place() == '.') {
-      ++place_;
-      while (is_decimal(at_place())) ++place_;
-    }
-    double number = 0.0;
-    const auto read = std::from_chars(text_.data() + start, text_.data() + place_, number);
-    if (read.ec != std::errc{} || at_place() == ',') return false;
+    const auto number = read_plain_number(text_.data() + place_, text_.data() + text_.size());
+    if (!number) return false;
+    place_ = static_cast<std::size_t>(number->end - text_.data());
+    if (at_place() == ',') return false;
     // The sum turns -0 into 0.
-    add(letter, column, (negative ? -number : number) + 0.0);
+    add(letter, column, (negative ? -number->value : number->value) + 0.0);
     return true;
   }
 
@@ -141,11 +139,9 @@ class PlainLineReader {
 
 }  // namespace
 
-std::optional<Block> read_plain_line(std::string_view text, std::uint32_t line) {
-  std::optional<Block> block(std::in_place);
-  block->line = line;
-  if (!PlainLineReader(text, *block).read()) block.reset();
-  return block;
+bool read_plain_line(Block& block, std::string_view text, std::uint32_t line) {
+  block.line = line;
+  return PlainLineReader(text, block).read();
 }
 
 }  // namespace frustum::parser

@@ -7,14 +7,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "parser/language/block.hpp"
 
 namespace frustum::parser {
 
-// Nothing where the line is anything else.
-[[nodiscard]] std::optional<Block> read_plain_line(std::string_view text, std::uint32_t line);
+// Whether the text is such a line; then it is read into `block`, which may be the plain line before
+// it. Nothing but the line, the number and the words is set.
+[[nodiscard]] bool read_plain_line(Block& block, std::string_view text, std::uint32_t line);
 
 }  // namespace frustum::parser

@@ -11,7 +11,6 @@
 #include "parser/reading/comment_text.hpp"
 #include "parser/reading/line_scanner.hpp"
 #include "parser/reading/rs274/grammar.hpp"
-#include "parser/reading/rs274/plain_block.hpp"
 #include "parser/reading/rs274/rs274_values.hpp"
 
 namespace frustum::parser {
@@ -272,7 +271,6 @@ std::size_t second_block(std::string_view text) {
 }  // namespace
 
 Result<Block> read_fanuc_block(std::string_view text, std::uint32_t line) {
-  if (auto plain = read_plain_block(text, line)) return *std::move(plain);
   if (const std::size_t second = second_block(text); second != std::string_view::npos) {
     Diagnostic twice =
         error("statement-not-alone"_id, "a second block after ;", "start a line for each block");

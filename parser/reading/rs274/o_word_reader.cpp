@@ -11,7 +11,6 @@
 #include "parser/reading/line_scanner.hpp"
 #include "parser/reading/rs274/blank_free_text.hpp"
 #include "parser/reading/rs274/grammar.hpp"
-#include "parser/reading/rs274/plain_block.hpp"
 #include "parser/reading/rs274/rs274_values.hpp"
 
 namespace frustum::parser {
@@ -143,7 +142,6 @@ class OWordReader {
 namespace {
 
 Result<Block> read_line(std::string_view text, std::uint32_t line) {
-  if (auto plain = read_plain_block(text, line)) return *std::move(plain);
   if (text.find('o') != std::string_view::npos || text.find('O') != std::string_view::npos) {
     if (auto statement = OWordReader(text, line)()) return *std::move(statement);
   }

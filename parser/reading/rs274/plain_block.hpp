@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "parser/language/block.hpp"
@@ -17,8 +16,10 @@ namespace frustum::parser {
 
 constexpr LetterSet kLettersOfRs274{"ABCDEFGHIJKLMPQRSTUVWXYZ"};
 
-// Words of other letters are not plain.
-[[nodiscard]] std::optional<Block> read_plain_block(std::string_view text, std::uint32_t line,
-                                                    LetterSet letters = kLettersOfRs274);
+// Whether the text is a plain block; then it is read into `block`, which may be the plain block
+// before it. Nothing but the line, the number, the mark / and the words is set. Words of other
+// letters are not plain.
+[[nodiscard]] bool read_plain_block(Block& block, std::string_view text, std::uint32_t line,
+                                    LetterSet letters = kLettersOfRs274);
 
 }  // namespace frustum::parser

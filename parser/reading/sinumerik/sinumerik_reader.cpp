@@ -249,14 +249,15 @@ class SinumerikReader {
 
 }  // namespace
 
+bool read_plain_sinumerik_block(Block& block, std::string_view text, std::uint32_t line) {
+  return read_plain_block(block, text, line, kPlainLetters) &&
+         block.number.value_or(0) <= kMaxBlockNumber &&
+         std::ranges::none_of(block.words, [](const Word& word) {
+           return word.letter == 'G' && (word.number == 25.0 || word.number == 26.0);
+         });
+}
+
 Result<Block> read_sinumerik_block(std::string_view text, std::uint32_t line) {
-  if (auto plain = read_plain_block(text, line, kPlainLetters)) {
-    const bool simple = plain->number.value_or(0) <= kMaxBlockNumber &&
-                        std::ranges::none_of(plain->words, [](const Word& word) {
-                          return word.letter == 'G' && (word.number == 25.0 || word.number == 26.0);
-                        });
-    if (simple) return *std::move(plain);
-  }
   return SinumerikReader(text, line)();
 }
 
