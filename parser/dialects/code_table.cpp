@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,10 @@ class DialectCodes {
     }
     for (std::size_t i = 0; i < codes_.size(); ++i) {
       const Code& code = codes_[i];
-      if (code.letter == kNamedWord) continue;
+      if (code.letter == kNamedWord) {
+        named_.emplace(code.word, i);
+        continue;
+      }
       index(code.letter).at(static_cast<std::size_t>(code.tenths)) =
           static_cast<std::uint16_t>(i + 1);
     }
@@ -45,6 +49,10 @@ class DialectCodes {
     const std::uint16_t position = (letter == 'G' ? g_ : m_)[static_cast<std::size_t>(tenths)];
     return position == 0 ? nullptr : &codes_[position - 1U];
   }
+  [[nodiscard]] const Code* find(std::string_view word) const {
+    const auto found = named_.find(word);
+    return found == named_.end() ? nullptr : &codes_[found->second];
+  }
 
  private:
   using Index = std::array<std::uint16_t, kTenthsEnd>;  // 1 + row, 0 for none
@@ -53,6 +61,7 @@ class DialectCodes {
   std::vector<Code> codes_{};
   Index g_{};
   Index m_{};
+  std::unordered_map<std::string_view, std::size_t> named_{};  // their rows
 };
 
 const DialectCodes& codes_of(Dialect dialect) {
@@ -84,10 +93,7 @@ const Code* find_code(Dialect dialect, char letter, double number) {
 }
 
 const Code* find_code(Dialect dialect, std::string_view word) {
-  for (const Code& code : codes_of(dialect).all()) {
-    if (code.letter == kNamedWord && code.word == word) return &code;
-  }
-  return nullptr;
+  return codes_of(dialect).find(word);
 }
 
 double row_of(const Code& code) {

@@ -67,12 +67,11 @@ std::size_t continuation_mark(std::string_view line, Dialect dialect) {
   }
   if (dialect != Dialect::cldata) return std::string_view::npos;
   // A $ continues the statement, also before a comment; $$ begins one.
-  if (is_text_record(line)) return std::string_view::npos;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] != '$') continue;
-    return line.substr(i).starts_with("$$") ? std::string_view::npos : i;
+  const std::size_t mark = line.find('$');
+  if (mark == std::string_view::npos || line.substr(mark).starts_with("$$")) {
+    return std::string_view::npos;
   }
-  return std::string_view::npos;
+  return is_text_record(line) ? std::string_view::npos : mark;
 }
 
 bool opens_parameter_lines(std::string_view line, Dialect dialect) {

@@ -1,8 +1,7 @@
 #include "parser/reading/cldata/cldata_place.hpp"
 
-#include <charconv>
-
 #include "parser/language/letter_case.hpp"
+#include "parser/reading/plain_number.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -30,13 +29,10 @@ class PlaceScanner {
     const bool negative = take('-');
     if (!negative) take('+');
     skip_blanks();
-    const char first = place_ < text_.size() ? text_[place_] : '\0';
-    if (first != '.' && (first < '0' || first > '9')) return false;
-    const char* const end = text_.data() + text_.size();
-    const auto read = std::from_chars(text_.data() + place_, end, value, std::chars_format::fixed);
-    if (read.ec != std::errc{}) return false;
-    place_ = static_cast<std::size_t>(read.ptr - text_.data());
-    value = (negative ? -value : value) + 0.0;
+    const auto number = read_plain_number(text_.data() + place_, text_.data() + text_.size());
+    if (!number) return false;
+    place_ = static_cast<std::size_t>(number->end - text_.data());
+    value = (negative ? -number->value : number->value) + 0.0;
     return true;
   }
 
