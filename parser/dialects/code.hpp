@@ -89,7 +89,8 @@ enum class NonModal : std::uint8_t {
   shift,           // G52
   shift_off,
   shift_suspend,
-  shift_resume
+  shift_resume,
+  probing_cycle  // TCH PROBE: the probe or the tool is measured
 };
 [[nodiscard]] constexpr bool is_pole(NonModal word) {
   return word >= NonModal::pole && word <= NonModal::pole_from_pole;

@@ -128,6 +128,8 @@ struct DialectRules {
   bool last_motion_counts = false;
   // Before the first motion word G0 is in force.
   bool starts_with_rapid = false;
+  // A step of an axis that nothing has placed counts from zero, as an assumption.
+  bool steps_may_begin = false;
   // H and D are words of their own: the number of the length in force, and of the next radius.
   bool offset_numbers_stand_alone = false;
   // The words count from where the program was before the length changed: it adds to the moves.

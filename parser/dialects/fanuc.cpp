@@ -144,6 +144,7 @@ constexpr DialectRules kFanucRules{
     .unknown_m_words_are_builders = true,
     .last_motion_counts = true,
     .starts_with_rapid = true,
+    .steps_may_begin = true,
     .offset_numbers_stand_alone = true,
     .length_adds_to_moves = true,
     .local_shift_is_apart = true,

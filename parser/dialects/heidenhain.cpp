@@ -79,6 +79,7 @@ constexpr std::array kHeidenhainCodes{
     named("M140 MB MAX", non_modal, NonModal::retract_tool, LetterSet("f")),
     named("M140", non_modal, NonModal::retract_tool, LetterSet("zf")),
     named("FN 14", raised_error, 0, LetterSet("E")),
+    named("TCH PROBE", non_modal, NonModal::probing_cycle),
     named("DWELL", non_modal, NonModal::dwell, LetterSet("P")),
     named("PLANE SPATIAL", tilted_plane, TiltWord::spatial, LetterSet("ABCdm")),
     named("PLANE PROJECTED", tilted_plane, TiltWord::projected, LetterSet("IJKdm")),
@@ -92,6 +93,7 @@ constexpr std::array kHeidenhainCodes{
     named("PATHCTRL AXIS", orientation_path, OrientationPath::rotary_axes),
     named("PATHCTRL VECTOR", orientation_path, OrientationPath::great_circle),
     modal('M', 910, non_modal, NonModal::machine_coordinates),
+    modal('M', 920, non_modal, NonModal::machine_coordinates),
     modal('M', 1260, rotary_path, RotaryPath::shortest),
     modal('M', 1270, rotary_path, RotaryPath::as_programmed),
     modal('M', 1280, tool_tip, TipWord::on),
@@ -133,7 +135,7 @@ constexpr std::array kHeidenhainCodes{
 
 // What would change the part and is not simulated.
 constexpr std::array kHeidenhainRefusedCodes{
-    RefusedCode{'M', 920, 939, "use M91, the machine's own coordinates"},
+    RefusedCode{'M', 930, 939, "use M91, the machine's own coordinates"},
     RefusedCode{'M', 950, 969, "write the path out as L and C blocks"},
     RefusedCode{'M', 1040, 1049, "set the datum by CYCL DEF 247"},
     RefusedCode{'M', 1140, 1159, "give the path of the tool tip with M128 instead"},
@@ -148,7 +150,6 @@ constexpr std::array kHeidenhainRefusedWords{
     RefusedWord{"FCT", "write the contour with its end points, as L and C blocks"},
     RefusedWord{"FPOL", "write the contour with its end points, as L and C blocks"},
     RefusedWord{"FSELECT", "write the contour with its end points, as L and C blocks"},
-    RefusedWord{"TCH", "what a probe finds is not the program's to know: leave it out"},
     RefusedWord{"PATTERN", "call the cycle by CYCL CALL POS or M99 at each hole"},
     RefusedWord{"POLARKIN", "write the path in X and Y"},
     RefusedWord{"SQL", "set what it would read by FN 0: Q1 = +5"},
@@ -181,7 +182,7 @@ constexpr std::array kHeidenhainLetters{
 constexpr std::array kBehindMove{50, 60, 90, 1270, 1290, 1370};
 constexpr std::array kHeidenhainDwell{DwellWord{'P', DwellUnit::seconds}};
 
-constexpr std::array<std::string_view, 2> kHeidenhainFiles{"{}.h", "{}.H"};
+constexpr std::array<std::string_view, 3> kHeidenhainFiles{"{}.h", "{}.H", "{}.nc"};
 
 constexpr DialectRules kHeidenhainRules{
     .dialect = Dialect::heidenhain,
@@ -201,10 +202,11 @@ constexpr DialectRules kHeidenhainRules{
     .inserts_corners = true,
     .always_claimed = LetterSet("FSTj"),
     .unknown_m_words_are_builders = true,
+    .steps_may_begin = true,
     .feed_may_be_missing = true,
     .letters = kHeidenhainLetters,
     .known_letters = "X Y Z A B C F FT M R",
-    .parameters = {.local_names = "QL"},
+    .parameters = {.local_names = "QL", .conditions_may_be_unknown = true},
     .polar_words = LetterSet("pq"),
     .polar = {.about_pole = true, .radius = "PR", .angle = "PA", .pole = "CC"},
     .arcs_lead_on = true,

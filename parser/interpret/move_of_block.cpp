@@ -73,6 +73,8 @@ constexpr std::array kNonModalMoves{
     NonModalMove{NonModal::pole_from_pole, kSetPoleInPlane},
     NonModalMove{NonModal::start,
                  [](auto& state, auto& words, const auto&) { return set_start(state, words); }},
+    NonModalMove{NonModal::probing_cycle,
+                 [](auto& state, auto& words, const auto&) { return pass_probing(state, words); }},
     NonModalMove{NonModal::shift_to_place, kShiftWords},
     NonModalMove{NonModal::shift, kShiftWords},
     NonModalMove{NonModal::shift_off, kShiftWords},

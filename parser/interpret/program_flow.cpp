@@ -42,9 +42,15 @@ Result<double> ProgramRun::value_of(const Block& block, ExpressionRange range) {
 }
 
 Result<bool> ProgramRun::holds(const Block& block, const FlowStatement& flow) {
-  const auto value = value_of(block, flow.condition);
+  const ParameterRules& rules = rules_.parameters;
+  auto value = parser::value_of(executor_.state(), block, flow.condition);
+  if (value && is_unknown(*value) && rules.conditions_may_be_unknown) {
+    value = kVacant;
+  } else {
+    value = value_of(block, flow.condition);
+  }
   if (!value) return value.error();
-  if (is_vacant(*value) && rules_.parameters.values_may_be_unknown) {
+  if (is_vacant(*value) && (rules.values_may_be_unknown || rules.conditions_may_be_unknown)) {
     assume(executor_.state(), flow.column, "condition",
            fmt::format("on line {}, of a value that only the machine knows: taken as not met",
                        block.line));
@@ -244,7 +250,12 @@ ProgramRun::Failure ProgramRun::go_to_label(const Block& block, const std::strin
               "the jump names a block or label of this program");
   }
   frame().cursor.go_to(*target);
-  frame().parts.clear();
+  // A jump within a repeated part does not end its repeats.
+  std::vector<RepeatedPart>& parts = frame().parts;
+  while (!parts.empty() &&
+         (target->offset < parts.back().begin.offset || target->offset >= parts.back().end)) {
+    parts.pop_back();
+  }
   return std::nullopt;
 }
 

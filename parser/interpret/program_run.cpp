@@ -110,18 +110,26 @@ ProgramRun::Failure ProgramRun::run_next() {
   statement_ran_ = statement_ran_ || block.flow.has_value();
   const std::size_t calls = frames_.size();
   auto failure = block.flow ? follow_statement(block) : execute(block);
-  if (executor_.state().system.signals_read) tell_signals(block);
+  tell_what_was_read(block);
   if (!failure || !goes_on(*failure)) return failure;
   // A subprogram that has been left took its block with it.
   if (frames_.size() == calls) pass_over(executor_.state(), block);
   return std::nullopt;
 }
 
-void ProgramRun::tell_signals(const Block& block) {
+void ProgramRun::tell_what_was_read(const Block& block) {
   InterpreterState& state = executor_.state();
-  state.system.signals_read = false;
+  SystemParameters& system = state.system;
+  if (!system.signals_read && !system.place_read) return;
   state.at_work.block = &block;
-  assume(state, 1, "signals", "the inputs that #1000 to #1035 read are off");
+  if (std::exchange(system.signals_read, false)) {
+    assume(state, 1, "signals", "the inputs that #1000 to #1035 read are off");
+  }
+  if (std::exchange(system.place_read, false)) {
+    assume(state, 1, "place",
+           "where an axis is that the operator moves: at zero, or where the program has left it, "
+           "with nothing added by datum and tool");
+  }
 }
 
 ProgramRun::Failure ProgramRun::count_block(const Block& block) {

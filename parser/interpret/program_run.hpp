@@ -30,8 +30,8 @@ class ProgramRun {
   using Failure = std::optional<Diagnostic>;
 
   [[nodiscard]] Failure run_next();
-  // The program has read signals of the machine.
-  void tell_signals(const Block& block);
+  // The program has read what nobody but the machine knows.
+  void tell_what_was_read(const Block& block);
   // Tells a program that does not end.
   [[nodiscard]] Failure count_block(const Block& block);
   [[nodiscard]] bool goes_on(const Diagnostic& failure) const;

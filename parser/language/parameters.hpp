@@ -36,6 +36,8 @@ struct ParameterRules {
   // What only the machine knows is read all the same, as a vacant value that makes all that is
   // computed from it vacant; what needs the value is an error (LinuxCNC).
   bool values_may_be_unknown = false;
+  // A condition of what only the machine knows does not hold, as an assumption.
+  bool conditions_may_be_unknown = false;
   // From this number on they are the controller's own: one that it does not keep cannot be read. 0:
   // none are.
   int first_system = 0;

@@ -92,7 +92,9 @@ bool is_parameter_line(std::string_view line) {
   line = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
   if (line.empty() || upper(line[0]) != 'Q') return false;
   const std::size_t end = line.find_first_not_of("0123456789", 1);
-  if (end == 1 || end == std::string_view::npos) return false;
+  // Cycles of three digits have none below Q200.
+  constexpr std::size_t kThreeDigits = 4;
+  if (end == std::string_view::npos || end < kThreeDigits || line[1] < '2') return false;
   const std::size_t sign = line.find_first_not_of(" \t", end);
   return sign != std::string_view::npos && line[sign] == '=';
 }

@@ -15,6 +15,7 @@
 #include "core/units.hpp"
 #include "parser/interpret/cycles/canned_cycle.hpp"
 #include "parser/interpret/cycles/canned_cycle_call.hpp"
+#include "parser/interpret/cycles/cycle_parameters.hpp"
 #include "parser/interpret/cycles/deep_hole.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
@@ -214,8 +215,14 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
 }
 
 Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
+  if (words[CodeGroup::hole_cycle].code == nullptr) return Done{};
+  if (auto done = define_hole_cycle(state, words); !done) return done;
+  if (state.modes.hole_cycle.top) set_cycle_parameters(state, words, true);
+  return Done{};
+}
+
+Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::hole_cycle];
-  if (code.code == nullptr) return Done{};
   HoleCycle& cycle = state.modes.hole_cycle;
   const auto word = static_cast<HoleWord>(code.code->value);
   cycle.start.reset();

@@ -15,6 +15,8 @@
 namespace frustum::parser {
 
 [[nodiscard]] Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words);
+// Of a block that has one.
+[[nodiscard]] Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words);
 void set_called_program(InterpreterState& state, std::string name);
 // The words name the top of the hole; the tool comes from where it is, over the hole and down.
 [[nodiscard]] Outcome make_hole(InterpreterState& state, const BlockWords& words,

@@ -12,6 +12,7 @@
 
 #include "core/units.hpp"
 #include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/cycles/cycle_parameters.hpp"
 #include "parser/interpret/cycles/hole_call.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
@@ -53,10 +54,16 @@ Outcome check_hole_call(InterpreterState& state, const GivenCode& code) {
 }
 
 // The height of the surface; of 1 and 2 the tool is `clear` above it.
-Result<double> surface_of_holes(const InterpreterState& state, const GivenCode& code) {
+Result<double> surface_of_holes(InterpreterState& state, const GivenCode& code) {
   const HoleCycle& cycle = state.modes.hole_cycle;
   if (cycle.top) return *cycle.top;
   if (state.position[AxisLetter::Z]) return *state.position[AxisLetter::Z] - cycle.clear;
+  if (const auto& height = state.position.height_before_tool()) {
+    assume(state, code.column, "height of the hole",
+           "the tip is as high as before the tool change: only the setup knows the lengths of the "
+           "tools");
+    return *height - cycle.clear;
+  }
   return fail(state, code.column, state.position.unknown_id(AxisLetter::Z),
               fmt::format("the height of the hole is not known: {}",
                           state.position.why_unknown(AxisLetter::Z)),
@@ -153,6 +160,8 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
            "builder's");
   }
   if (cycle.at_moves && !state.at_work.moved) return Done{};
+  if (call == HoleCall::ring || call == HoleCall::grid) set_cycle_parameters(state, words, false);
+  if (auto done = renew_cycle(state); !done) return done;
   if (auto done = check_hole_call(state, cause); !done) return done;
   if (call == HoleCall::ring || call == HoleCall::grid) return call_pattern(state, words);
   const auto from = point_of_hole(state.position.target());

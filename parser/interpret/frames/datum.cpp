@@ -159,21 +159,25 @@ Outcome replace_datum(InterpreterState& state, std::uint32_t column) {
 }
 
 AxisTarget axis_positions(const InterpreterState& state) {
-  AxisTarget axes = state.modes.offset_frame.from_words(
-      state.modes.programmed_frame.from_words(state.position.target()));
+  return axis_positions(state.modes, state.position);
+}
+
+AxisTarget axis_positions(const ModalState& modes, const ProgramPosition& position) {
+  AxisTarget axes =
+      modes.offset_frame.from_words(modes.programmed_frame.from_words(position.target()));
   for (const AxisLetter axis : kAxisLetters) {
-    const auto more = added(state.modes, axis);
-    if (axes[axis] && more && follows_words(state.modes, axis)) {
+    const auto more = added(modes, axis);
+    if (axes[axis] && more && follows_words(modes, axis)) {
       *axes[axis] += *more;
     } else {
       axes[axis].reset();
     }
   }
-  for (std::size_t i = 0; i < state.modes.loose.size(); ++i) {
-    if (state.modes.loose.at(i)) axes[static_cast<AxisLetter>(3 + i)].reset();
+  for (std::size_t i = 0; i < modes.loose.size(); ++i) {
+    if (modes.loose.at(i)) axes[static_cast<AxisLetter>(3 + i)].reset();
   }
   for (const AxisLetter axis : kAxisLetters) {
-    if (!axes[axis]) axes[axis] = state.position.standing(axis);
+    if (!axes[axis]) axes[axis] = position.standing(axis);
   }
   return axes;
 }

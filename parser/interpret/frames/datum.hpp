@@ -24,6 +24,7 @@ void place_datum(InterpreterState& state, const WorkOffset& datum);
 // The data of the work offset in force have changed.
 [[nodiscard]] Outcome replace_datum(InterpreterState& state, std::uint32_t column);
 [[nodiscard]] AxisTarget axis_positions(const InterpreterState& state);
+[[nodiscard]] AxisTarget axis_positions(const ModalState& modes, const ProgramPosition& position);
 [[nodiscard]] std::string why_axis_unknown(const InterpreterState& state, AxisLetter axis);
 [[nodiscard]] DiagnosticId axis_unknown_id(const InterpreterState& state, AxisLetter axis);
 // `axes`: where they are.

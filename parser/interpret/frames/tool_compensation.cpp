@@ -15,6 +15,13 @@
 namespace frustum::parser {
 namespace {
 
+// The tip of a tool that the program has not called is guided: guide_uncalled_tool() takes one.
+bool guides_any_tool(const InterpreterState& state) {
+  const Dialect dialect = state.rules.dialect;
+  return state.modes.compensation.tip &&
+         (dialect == Dialect::heidenhain || dialect == Dialect::cldata);
+}
+
 constexpr std::size_t kLengthAxis = 2;  // Z
 
 constexpr int kMaxOffsetNumber = 9999;
@@ -176,7 +183,7 @@ Result<Compensation> compensation_after(InterpreterState& state, const BlockWord
     state.modes.tool_edge = 1;
   }
   if (state.rules.tool_brings_length) {
-    next.length = next.length && state.modes.tool != 0;
+    next.length = next.length && (state.modes.tool != 0 || guides_any_tool(state));
     const int edge = state.modes.tool_edge - 1;
     next.offset_number = next.length ? kEdgeOffsets * edge + state.modes.tool : 0;
   }
@@ -234,6 +241,8 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
   const auto height = state.position[AxisLetter::Z] && !state.position.programmed(AxisLetter::Z)
                           ? state.position[AxisLetter::Z]
                           : state.position.programmed(AxisLetter::Z);
+  const auto above = state.position[AxisLetter::Z] ? state.position[AxisLetter::Z]
+                                                   : state.position.height_before_tool();
   const CompensationChange reported_before = compensation_change(before.compensation);
   const CompensationChange reported_after = compensation_change(next);
   const bool tip_before = reported_before.mode == LengthCompensation::tool_centre_point;
@@ -250,6 +259,9 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
     const bool shifted = height != state.position[AxisLetter::Z];
     if (state.rules.length_adds_to_moves && height && shifted && !tip_after) {
       state.position.keep_programmed(AxisLetter::Z, *height);
+    }
+    if (state.rules.tool_brings_length && above && !state.position[AxisLetter::Z]) {
+      state.position.keep_height_before_tool(*above);
     }
   }
   return Done{};
@@ -283,9 +295,8 @@ Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
 
 void guide_uncalled_tool(InterpreterState& state, std::uint32_t column) {
   Compensation& compensation = state.modes.compensation;
-  const bool missing = compensation.tip && !compensation.length;
+  if (compensation.length || !guides_any_tool(state)) return;
   const bool klartext = state.rules.dialect == Dialect::heidenhain;
-  if (!missing || (!klartext && state.rules.dialect != Dialect::cldata)) return;
   assume(state, column, klartext ? "TOOL CALL" : "LOADTL",
          "no tool is called before the tool tilts: the one that the job has");
   compensation.length = true;

@@ -36,6 +36,18 @@ std::string_view absolute_words(Dialect dialect) {
   return dialect == Dialect::heidenhain ? "without I" : "in absolute coordinates (G90)";
 }
 
+// A step along an axis that a shift or a turn has moved says nothing about where zero was before.
+bool may_begin(const InterpreterState& state, AxisLetter axis) {
+  if (state.rules.starts_with_rapid) return true;
+  if (state.modes.tilted || is_rotary(axis)) return false;
+  ProgrammedFrame frame = state.modes.programmed_frame;
+  const auto along = static_cast<Eigen::Index>(axis);
+  for (Eigen::Index other = 0; other < frame.shift.size(); ++other) {
+    if (other != along) frame.shift[other] = 0.0;
+  }
+  return frame.is_identity();
+}
+
 }  // namespace
 
 Outcome set_start(InterpreterState& state, const BlockWords& words) {
@@ -77,8 +89,8 @@ Outcome set_target(InterpreterState& state, const BlockWords& words, AxisLetter 
     state.position.set(axis, *programmed + value);
     return Done{};
   }
-  if (state.rules.starts_with_rapid && state.position.never_known(axis) &&
-      !state.position.standing(axis)) {
+  if (state.rules.steps_may_begin && state.position.never_known(axis) &&
+      !state.position.standing(axis) && may_begin(state, axis)) {
     assume(state, words[letter].column, "start",
            fmt::format("{} counts from zero: nothing says where the axes are at the start",
                        words.text_of(letter)));

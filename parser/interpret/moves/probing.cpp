@@ -1,5 +1,9 @@
 #include "parser/interpret/moves/probing.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
+
 #include "core/units.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
@@ -14,6 +18,13 @@ namespace {
 
 constexpr int kProbed = 5061;    // the place, nine axes
 constexpr int kProbeMet = 5070;  // 1 when the probe met the part
+
+// What the cycles of Klartext measure: from the first to the last Q.
+struct Results {
+  int first;
+  int last;
+};
+constexpr Results kResults[] = {{115, 119}, {141, 149}, {150, 199}, {950, 999}};
 
 }  // namespace
 
@@ -44,6 +55,19 @@ Outcome probe(InterpreterState& state, const BlockWords& words, const Movement& 
       state.parameters.set(index, *value / (is_rotary(axis) ? kRadPerDeg : unit_scale(state)));
   }
   if (state.rules.dialect == Dialect::linuxcnc) state.parameters.set(kProbeMet, 0.0);
+  return Done{};
+}
+
+Outcome pass_probing(InterpreterState& state, const BlockWords& words) {
+  assume(state, words[CodeGroup::non_modal].column, "TCH PROBE",
+         "the probe finds part, datum and tool where the setup has them");
+  for (const Results& results : kResults) {
+    for (int number = results.first; number <= results.last; ++number) {
+      const std::string name = fmt::format("Q{}", number);
+      state.parameters.set(name, state.parameters.unknown_value(name));
+    }
+  }
+  forget(state, kLinearWords, PositionLoss::probing_cycle);
   return Done{};
 }
 

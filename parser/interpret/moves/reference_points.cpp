@@ -17,6 +17,8 @@
 namespace frustum::parser {
 namespace {
 
+constexpr int kOtherDatum = 920;  // M92, ten times its number
+
 void leave_program_coordinates(InterpreterState& state, LetterSet axes, PositionLoss loss) {
   // With the tool-centre-point control on, X Y Z are of the tip, which any axis may carry along.
   forget(state, state.modes.tool_centre_point() ? axes | kLinearWords : axes, loss);
@@ -219,6 +221,11 @@ Outcome keep_point(InterpreterState& state, std::size_t point, std::uint32_t col
 
 Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& words,
                                     const Movement& movement) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  if (code.code->letter == 'M' && code.code->tenths == kOtherDatum) {
+    assume(state, code.column, "M92",
+           "counted from the machine's zero point, as M91: the builder may have set another");
+  }
   const AxisTarget axes_before = axis_positions(state);
   AxisTarget end;
   LetterSet named;
@@ -260,14 +267,17 @@ bool steps_by_axes(const InterpreterState& state, const BlockWords& words) {
       unknown.add(letter);
     }
   }
-  if (unknown.empty() || modes.distance != DistanceMode::incremental) return false;
+  if (unknown.empty()) return false;
   if (modes.tool_centre_point() || modes.tilted || modes.polar || modes.tool_side) return false;
   const AxisTarget axes = axis_positions(state);
   for (const AxisLetter axis : kAxisLetters) {
     const char letter = to_char(axis);
     if (!words.has(letter)) continue;
     const bool turned = modes.programmed_frame.mixes(axis) || modes.offset_frame.mixes(axis);
-    if (turned || words[letter].measure != Measure::modal || !axes[axis]) return false;
+    const bool step =
+        words[letter].measure == Measure::incremental ||
+        (words[letter].measure == Measure::modal && modes.distance == DistanceMode::incremental);
+    if (turned || !step || !axes[axis]) return false;
   }
   return true;
 }

@@ -203,11 +203,12 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   }
   int turns = 1;
   if (state.rules.arcs_turn_about_pole && words[kPolarAngle].measure == Measure::incremental) {
-    constexpr double kDegreesRound = 360.0;
+    constexpr double kHalfTurn = 180.0;  // both ways round end at the same place
     const double angle = words[kPolarAngle].value;
-    if (angle != 0.0 && std::fmod(angle, kDegreesRound) == 0.0) {
+    if (angle != 0.0 && std::fmod(angle, kHalfTurn) == 0.0) {
       if ((angle < 0.0) != arc_words.clockwise) {
-        assume(state, words[kPolarAngle].column, "CP", "DR says which way round a whole turn goes");
+        assume(state, words[kPolarAngle].column, "CP",
+               "DR says which way round a whole or a half turn goes");
       }
     } else if (auto done = check_turned_angle(state, words, arc_words); !done) {
       return done;

@@ -15,9 +15,11 @@
 // Errors: none
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "parser/language/block.hpp"
 #include "parser/language/modes.hpp"
 #include "parser/motion.hpp"
 
@@ -25,6 +27,7 @@ namespace frustum::parser {
 
 // A feed that the tool call has (AUTO); MAX is 99999.
 constexpr double kFeedOfToolCall = -1.0;
+constexpr double kFastestFeed = 99'999.0;
 
 // Pecks that shrink from one to the next: what follows from them is in cycles/deep_hole.hpp.
 struct DeepHole {
@@ -66,7 +69,8 @@ struct HoleCycle {
   Vec3 off_wall = Vec3::Zero();  // of 202, before the tool goes back
   std::optional<Vec3> start{};   // where the tool was then
   std::optional<DeepHole> deep{};
-  std::string program{};  // a call runs this program file instead (CYCL DEF 12)
+  std::shared_ptr<const Block> definition{};  // of Klartext, from 200 on: cycle_parameters.hpp
+  std::string program{};                      // a call runs this program file instead (CYCL DEF 12)
 };
 
 }  // namespace frustum::parser

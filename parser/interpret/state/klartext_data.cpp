@@ -1,6 +1,10 @@
 // What Klartext reads of the control: $ID270[1,3] for FN 18: SYSREAD ID270 NR1 IDX3, always in mm
 // and degrees, and the preassigned parameters Q108 to Q114.
 //
+// Where an axis is that nothing has placed is the operator's, who moves it by hand, and what a
+// datum or a tool adds is the setup's. Both are taken as zero, which place_read says: an axis is
+// then at zero, or where a move in machine coordinates has left it.
+//
 // Source: Heidenhain TNC 426/430 Technical Manual, FN 18 SYSREAD; TNC7 (81762x-17), System data;
 //         TNC 620 (73498x-02), Preassigned Q parameters
 #include <array>
@@ -9,6 +13,7 @@
 #include <cstdlib>
 
 #include "core/units.hpp"
+#include "parser/interpret/frames/datum.hpp"
 #include "parser/interpret/state/system_parameters.hpp"
 
 namespace frustum::parser {
@@ -21,11 +26,18 @@ constexpr double kToolAxisZ = 2.0;
 double minus_if(bool on) { return on ? -1.0 : 0.0; }
 
 // X Y Z A B C are 1 to 6.
-Value of_axis(const AxisTarget& values, int index) {
+Value of_axis(const SystemParameters& of, int index, bool of_machine) {
   if (index < 1 || index > static_cast<int>(kAxisLetters.size())) return std::nullopt;
   const AxisLetter axis = kAxisLetters.at(static_cast<std::size_t>(index - 1));
-  if (!values[axis]) return std::nullopt;
-  return is_rotary(axis) ? *values[axis] * kDegPerRad : *values[axis];
+  const double unit = is_rotary(axis) ? kDegPerRad : 1.0;
+  const AxisTarget axes = axis_positions(of.state, of.position);
+  const AxisTarget& exact = of_machine ? axes : of.position.target();
+  if (exact[axis]) return *exact[axis] * unit;
+  if (of.state.tilted || !of.state.programmed_frame.is_identity()) return std::nullopt;
+  Value place = of_machine ? of.position[axis] : axes[axis];
+  if (!place && of.position.never_known(axis)) place = 0.0;
+  if (place) of.place_read = true;
+  return place ? Value(*place * unit) : std::nullopt;
 }
 
 // 0 M3, 1 M4; which of them M5 came after is not kept.
@@ -65,8 +77,10 @@ Value system_data(const SystemParameters& of, int group, int number, int index) 
       return modes.programmed_frame.scale;
     case 21006:
       return minus_if(modes.tilted);
+    case 24001:
+      return of_axis(of, index, true);
     case 27001:
-      return of_axis(of.position.target(), index);
+      return of_axis(of, index, false);
     case 28001:
       return minus_if(modes.compensation.tip);
     default:

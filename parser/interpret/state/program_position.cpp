@@ -13,6 +13,7 @@ constexpr std::array kLossTexts{"",
                                 "the tool vector",
                                 "the change of the tilted plane",
                                 "the turn of the frame",
+                                "the cycle of the probe",
                                 kMistake};
 
 }  // namespace
@@ -21,6 +22,7 @@ void ProgramPosition::forget(AxisLetter axis, PositionLoss loss, std::uint32_t l
   // An axis that was not known before keeps its first cause: that is where the remedy belongs.
   axes_[axis].reset();
   programmed_[axis].reset();
+  if (axis == AxisLetter::Z) height_before_tool_.reset();
   if (!target_[axis]) return;
   target_[axis].reset();
   causes_.at(static_cast<std::size_t>(axis)) = {loss, line};

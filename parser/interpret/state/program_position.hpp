@@ -29,7 +29,8 @@ enum class PositionLoss : std::uint8_t {
   tool_vector,  // I J K moved the rotary axes
   tilted_plane,
   turned_frame,  // G68
-  mistake,       // a block that could not be run
+  probing_cycle,
+  mistake,  // a block that could not be run
 };
 
 // What why_unknown() calls a block that could not be run.
@@ -49,7 +50,13 @@ class ProgramPosition {
     target_[axis] = value;
     axes_[axis].reset();
     programmed_[axis].reset();
+    if (axis == AxisLetter::Z) height_before_tool_.reset();
   }
+  // Where Z was before a change of tools whose lengths only the setup knows.
+  [[nodiscard]] const std::optional<double>& height_before_tool() const {
+    return height_before_tool_;
+  }
+  void keep_height_before_tool(double height) { height_before_tool_ = height; }
   // Where the program was along an axis before a tool length shifted it, which steps go on from.
   [[nodiscard]] const std::optional<double>& programmed(AxisLetter axis) const {
     return programmed_[axis];
@@ -77,6 +84,7 @@ class ProgramPosition {
   AxisTarget target_{};
   AxisTarget axes_{};
   AxisTarget programmed_{};
+  std::optional<double> height_before_tool_{};
   std::array<Cause, kAxisLetters.size()> causes_{};
 };
 

@@ -38,6 +38,8 @@ class SystemParameters final : public KeptParameters {
   int call_level = 0;
   // A signal of the machine has been read, which are all taken to be off.
   mutable bool signals_read = false;
+  // So has the place of an axis that the program does not know (klartext_data.cpp).
+  mutable bool place_read = false;
 };
 
 // Of Klartext: the preassigned Q parameters and what FN 18 reads (klartext_data.cpp).

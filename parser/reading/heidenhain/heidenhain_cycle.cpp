@@ -158,7 +158,8 @@ class CycleReader {
   explicit CycleReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
 
   void read_cycle(std::uint32_t column) {
-    const bool defines = in_.take_name("DEF");
+    const bool runs_on = in_.next_name().starts_with("DEF");  // CYCL DEF9.1
+    const bool defines = runs_on && in_.take_bytes("DEF");
     if (!defines && in_.take_name("CALL")) return read_call(column);
     // Of simulators; no control has it.
     if (!defines && in_.take_name("END")) {
@@ -173,7 +174,10 @@ class CycleReader {
                       "write CYCL DEF 200 and its parameters, or CYCL CALL");
     }
     const double cycle = std::floor(number->value + 1e-6);
-    const int part = static_cast<int>(std::lround((number->value - cycle) * 10.0));
+    int part = static_cast<int>(std::lround((number->value - cycle) * 10.0));
+    if (!number->decimal_point && in_.take('.')) {  // CYCL DEF 9 .1
+      part = static_cast<int>(in_.whole_number().value_or(0.0));
+    }
     if (cycle == 9.0) return read_dwell_cycle(part, column);
     if (cycle == 1.0 || cycle == 2.0) return read_old_cycle(cycle, part, column);
     for (const PassedCycle& passed : kPassedCycles) {

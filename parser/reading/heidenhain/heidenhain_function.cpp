@@ -1,9 +1,13 @@
-// FUNCTION of Klartext: TCPM, MODE, DWELL.
+// FUNCTION of Klartext: TCPM, MODE, DWELL; the cycles of the probe.
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
+#include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
@@ -113,6 +117,28 @@ class FunctionReader {
 
 void read_heidenhain_function(BlockDraft& draft, std::uint32_t column) {
   FunctionReader(draft).read_function(column);
+}
+
+// TCH PROBE 411 and its parameters. Those below 400 put what they measure into any parameter.
+void read_heidenhain_probing(BlockDraft& draft, std::uint32_t column) {
+  constexpr double kFirstCycle = 400.0;
+  LineScanner& in = draft.in;
+  const auto number = in.take_name("PROBE") ? in.number() : std::nullopt;
+  if (!number || number->value < kFirstCycle) {
+    return in.fail("not-supported"_id, column, "TCH PROBE is not simulated",
+                   "what a probe finds is not the program's to know: leave it out");
+  }
+  add_code(draft.block, *find_code(Dialect::heidenhain, "TCH PROBE"), column);
+  std::string text = shortest_decimal(number->value);
+  while (!in.at_end()) {
+    if (in.peek() == ';') {
+      draft.read_comment();
+      continue;
+    }
+    const std::string part = in.text_to(";");
+    if (!part.empty()) text += " " + part;
+  }
+  draft.add_event("TCH PROBE", column, std::move(text));
 }
 
 }  // namespace frustum::parser

@@ -20,9 +20,9 @@ constexpr std::string_view kLineHint =
 
 constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
 // By their first words.
-constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL",  "BEGIN", "END",
-                                 "BLK", "STOP", "FN",    "LBL",      "CALL",  "M3",    "Q1",
-                                 "RND", "CHF",  "APPR",  "DEP",      "TRANS", "PRESET"};
+constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL",  "BEGIN",  "END",
+                                 "BLK", "STOP", "FN",    "LBL",      "CALL",  "M3",     "Q1",
+                                 "RND", "CHF",  "APPR",  "DEP",      "TRANS", "PRESET", "TCH"};
 // Statements that change nothing that is simulated.
 constexpr std::array kPassedStatements{"SEL TABLE", "CONTOUR DEF", "SEL CONTOUR", "SECTION"};
 // Words whose number may follow without a blank: LBL1, FN0:, RND5.
@@ -42,19 +42,26 @@ class HeidenhainReader {
   }
 
   Result<Block> operator()() {
-    if (const auto digits = in_.digits(); !digits.empty()) {
-      std::uint32_t number = 0;
-      std::from_chars(digits.data(), digits.data() + digits.size(), number);
-      if (digits.size() > 8)
-        in_.fail("number-too-large"_id, 1, "the line number is too large", "it has up to 8 digits");
-      block_.number = number;
+    read_line_number();
+    if (in_.take('/')) {
+      block_.deletable = true;
+      if (!block_.number) read_line_number();
     }
-    if (in_.take('/')) block_.deletable = true;
     if (!in_.at_end()) read_statement();
     return draft_.finish();
   }
 
  private:
+  void read_line_number() {
+    const auto digits = in_.digits();
+    if (digits.empty()) return;
+    std::uint32_t number = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (digits.size() > 8)
+      in_.fail("number-too-large"_id, 1, "the line number is too large", "it has up to 8 digits");
+    block_.number = number;
+  }
+
   void read_statement() {
     const std::uint32_t column = in_.column();
     const char first = in_.peek();
@@ -91,10 +98,17 @@ class HeidenhainReader {
     if (name == "PLANE") return read_heidenhain_plane(draft_, column);
     if (name == "FUNCTION") return read_heidenhain_function(draft_, column);
     if (name == "CYCL" || name == "CYCLE") return read_heidenhain_cycle(draft_, column);
+    if (name == "TCH") return read_heidenhain_probing(draft_, column);
     if (name == "BEGIN" || name == "END") return read_frame_of_program(name, column);
     if (name == "BLK" && in_.take_name("FORM"))
       return note(draft_, "BLK FORM", column, in_.text_to(";"));
     if (name == "STOP") {
+      // The stop before the end of the program is nothing of its own.
+      const std::string next = in_.next_name();
+      if (next == "M2" || next == "M02" || next == "M30") {
+        draft_.add_event("STOP", column, "");
+        return read_heidenhain_elements(draft_, "STOP");
+      }
       add_code(block_, *find_code(Dialect::heidenhain, "STOP"), column);
       return read_heidenhain_elements(draft_, "STOP");
     }
@@ -202,12 +216,35 @@ class HeidenhainReader {
   std::string& program_;  // of BEGIN PGM
 };
 
+// Simulators have remarks in brackets at the end of a line, where no value is computed: the column
+// of one, or 0.
+std::size_t remark_in(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(" \t\r");
+  if (last == std::string_view::npos || text[last] != ')') return 0;
+  const std::size_t open = text.find('(');
+  if (open == std::string_view::npos || text.find_first_of("=;\"~") != std::string_view::npos) {
+    return 0;
+  }
+  const std::size_t before = open == 0 ? open : text.find_last_not_of(" \t", open - 1);
+  const bool apart = open > 0 && (text[open - 1] == ' ' || text[open - 1] == '\t');
+  const bool alone = text.find('(', open + 1) == std::string_view::npos && text.find(')') == last;
+  return apart && alone && before != std::string_view::npos ? open + 1 : 0;
+}
+
 }  // namespace
 
 BlockReader heidenhain_reader() {
   return [program = std::string()](std::string_view text,
                                    std::uint32_t line) mutable -> Result<Block> {
-    return HeidenhainReader(text, line, program)();
+    const std::size_t column = remark_in(text);
+    if (column == 0) return HeidenhainReader(text, line, program)();
+    auto block = HeidenhainReader(text.substr(0, column - 1), line, program)();
+    if (block) {
+      std::string remark(text.substr(column, text.rfind(')') - column));
+      block->comments.push_back(
+          {static_cast<std::uint32_t>(column), false, std::move(remark), nullptr});
+    }
+    return block;
   };
 }
 

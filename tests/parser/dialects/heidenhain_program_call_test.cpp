@@ -99,8 +99,8 @@ TEST_F(HeidenhainProgramCall, IsMadeByACycleAtEachCall) {
 TEST_F(HeidenhainProgramCall, MistakesNameTheFile) {
   write("syntax.h", "L X+1 FMAX\nL X+? FMAX\nEND PGM SYNTAX MM\n");
   EXPECT_EQ(complaint("CALL PGM SYNTAX\n"), "syntax.h:2:3: error: X has no number");
-  write("words.h", "L X+1 M92\nEND PGM WORDS MM\n");
-  EXPECT_EQ(complaint("CALL PGM WORDS\n"), "words.h:1:7: error: M92 is not simulated");
+  write("words.h", "L X+1 M96\nEND PGM WORDS MM\n");
+  EXPECT_EQ(complaint("CALL PGM WORDS\n"), "words.h:1:7: error: M96 is not simulated");
   write("open.h", "L X+1 FMAX\n");
   EXPECT_EQ(complaint("CALL PGM OPEN\n"), "open.h:1:1: error: subprogram OPEN has no END PGM");
   write("label.h", "L X+1 FMAX\nCALL LBL 1\nLBL 1\nEND PGM LABEL MM\n");

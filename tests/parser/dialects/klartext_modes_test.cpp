@@ -186,8 +186,8 @@ TEST(KlartextHints, SpeakKlartext) {
                      "CYCL DEF 8.1 X\n"),
       "4:1: error: CYCL DEF 8 within a turned or scaled frame (hint: end them before (CYCL DEF "
       "10.1 ROT+0, 11.1 SCL 1), mirror, and begin them again)");
-  EXPECT_EQ(mode_complaint("L IX+5 FMAX\n"),
-            "1:3: error: IX5 is incremental, but X has not been programmed yet (hint: program X "
+  EXPECT_EQ(mode_complaint("CYCL DEF 7.1 X+1\nL IX+5 FMAX\n"),
+            "2:3: error: IX5 is incremental, but X has not been programmed yet (hint: program X "
             "once without I first)");
 }
 

@@ -448,7 +448,7 @@ TEST(KlartextErrors, SayWhereWhatAndTheRemedy) {
       {"CYCL DEF 200 Q200=2 Q201=-5 Q206=9 Q203=0\nCYCL CALL\n",
        "2:1: error: the place of the hole is not known: X has not been programmed yet"},
       {"CYCL DEF 208 Q200=2\n", "1:1: error: CYCL DEF 208 is not simulated"},
-      {"L X+1 M92 FMAX\n", "1:7: error: M92 is not simulated"},
+      {"L X+1 M96 FMAX\n", "1:7: error: M96 is not simulated"},
       {"FN 14: ERROR = 1042\n", "1:1: error: the program stops with ERROR=1042"},
       {"FN 14: 3\n", "1:8: error: FN 14 has no ERROR ="},
       {"FN 18: SYSREAD Q1 = ID 20\n", "1:26: error: FN 18 has no NR"},
