@@ -10,7 +10,8 @@
 namespace frustum::parser {
 namespace {
 
-constexpr std::size_t kWindow = std::size_t{1} << 20U;
+// Small enough for the processor's own memory.
+constexpr std::size_t kWindow = std::size_t{1} << 18U;
 constexpr const char* kStandardInput = "-";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -111,7 +112,6 @@ void LineReader::go_to(TextPlace place) {
       file_.clear();
       file_.seekg(static_cast<std::streamoff>(place.offset));
       file_ended_ = false;
-      buffer_.clear();
       window_ = {};
       in_window_ = 0;
     }
@@ -127,14 +127,14 @@ void LineReader::go_to(TextPlace place) {
 
 bool LineReader::refill() {
   if (file_ended_) return false;
-  buffer_.erase(0, in_window_);
+  const std::size_t kept = rest().size();
+  if (kept > 0) std::memmove(buffer_.data(), rest().data(), kept);
   in_window_ = 0;
-  const std::size_t kept = buffer_.size();
-  buffer_.resize(kept + kWindow);
+  // It stays as large as it is, so that what is read over is not cleared before.
+  if (buffer_.size() < kept + kWindow) buffer_.resize(kept + kWindow);
   file_.read(buffer_.data() + kept, static_cast<std::streamsize>(kWindow));
   const auto read = static_cast<std::size_t>(file_.gcount());
-  buffer_.resize(kept + read);
-  window_ = buffer_;
+  window_ = std::string_view(buffer_).substr(0, kept + read);
   file_ended_ = read < kWindow;
   return read > 0;
 }

@@ -3,8 +3,8 @@
 //
 // Lines end with LF, CR LF or CR, in any mixture. A byte order mark at the start is left out.
 // Units  : offsets count bytes from the start of the text, lines from 1
-// Shape  : a ProgramText is shared by any number of LineReaders, each with its own window of 1 MiB
-//          over a file; of a pipe, which can be read only once, the text is kept in memory
+// Shape  : a ProgramText is shared by any number of LineReaders, each with its own window over a
+//          file; of a pipe, which can be read only once, the text is kept in memory
 // Errors : open() of a file or pipe that cannot be read; a file that cannot be read on ends there
 #pragma once
 
@@ -63,7 +63,7 @@ class LineReader {
 
   ProgramText text_;
   std::ifstream file_{};
-  std::string buffer_{};       // of a file
+  std::string buffer_{};       // of a file; the window is its front
   std::string_view window_{};  // of the buffer, or the whole text
   std::size_t in_window_ = 0;  // where `place_` is in the window
   bool file_ended_ = true;
