@@ -173,6 +173,7 @@ ContourApproach::Failure ContourApproach::take(Motion&& motion, const Sink& next
     give_up();
     return failure;
   }
+  arrived_ = approach_->contour;
   give_up();
   next(std::move(motion));
   return std::nullopt;

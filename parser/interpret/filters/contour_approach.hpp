@@ -16,6 +16,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostic.hpp"
@@ -77,6 +78,8 @@ class ContourApproach {
   [[nodiscard]] const std::optional<Feed>& last_feed() const { return last_feed_; }
   void begin(const Approach& approach) { approach_ = approach; }
   void give_up();
+  // Where the contour begins, once an approach has led there: the next motion goes on from it.
+  [[nodiscard]] std::optional<AxisTarget> take_arrival() { return std::exchange(arrived_, {}); }
   // `beside` takes what needs no compensation any more, `next` the contour.
   [[nodiscard]] Failure take(Motion&& motion, const Sink& next, const Sink& beside,
                              RadiusCompensation& radius);
@@ -87,6 +90,7 @@ class ContourApproach {
   std::optional<Approach> approach_{};
   std::vector<Motion> waiting_{};
   std::optional<Feed> last_feed_{};
+  std::optional<AxisTarget> arrived_{};
 };
 
 }  // namespace frustum::parser

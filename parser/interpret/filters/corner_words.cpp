@@ -22,11 +22,10 @@ constexpr std::array kBesideMoves{CodeGroup::motion, CodeGroup::feed_source, Cod
 Outcome check_between(const InterpreterState& state, const MotionFilters& filters,
                       const BlockWords& words) {
   const auto side = words.value_or(CodeGroup::radius_compensation, RadiusWord::off);
-  const bool same_side =
-      filters.radius.is_on()
-          ? side == (filters.radius.setting().side == ToolSide::left ? RadiusWord::left
-                                                                     : RadiusWord::right)
-          : side == RadiusWord::off;
+  const auto& on = state.modes.tool_side;  // also of a contour whose tool has no diameter
+  const bool same_side = side == (!on                     ? RadiusWord::off
+                                  : *on == ToolSide::left ? RadiusWord::left
+                                                          : RadiusWord::right);
   for (std::size_t group = 0; group < kCodeGroups; ++group) {
     const GivenCode& other = words[static_cast<CodeGroup>(group)];
     const bool repeated =

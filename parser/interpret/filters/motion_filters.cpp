@@ -34,6 +34,7 @@ MotionFilters::MotionFilters(InterpreterState& state, const MotionSink& sink)
         keep_failure(state.output, radius.take(std::move(motion), to_sink));
       }),
       to_corners([this, &state](Motion&& motion) {
+        if (const auto contour = approach.take_arrival()) corners.start(*contour);
         keep_failure(state.output, corners.take(std::move(motion), to_radius));
       }) {
   pass_corners(state, state.rules.inserts_corners);

@@ -88,6 +88,12 @@ Plane plane_of_arc(const InterpreterState& state, const BlockWords& words) {
   return words.has('X') ? Plane::zx : Plane::yz;
 }
 
+// Polar places of Klartext are in the plane of their pole.
+Plane plane_of_line(const InterpreterState& state, const BlockWords& words) {
+  const bool polar = state.rules.arcs_turn_about_pole && words.first_of(LetterSet("pq")) != 0;
+  return polar && state.modes.pole ? state.modes.pole->plane : state.modes.plane;
+}
+
 // The plane of one block.
 class PlaneOfBlock {
  public:
@@ -108,6 +114,7 @@ class PlaneOfBlock {
 Outcome move_straight(InterpreterState& state, const BlockWords& words, const Movement& movement) {
   if (steps_by_axes(state, words)) return step_axes(state, words, movement);
   const AxisTarget before = state.position.target();
+  const PlaneOfBlock plane(state.modes, plane_of_line(state, words));
   if (auto done = check_tool_length(state, movement); !done) return done;
   if (auto done = set_targets(state, words); !done) return done;
   if (auto done = set_tool_axis(state, words); !done) return done;

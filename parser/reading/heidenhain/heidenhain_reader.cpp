@@ -103,9 +103,10 @@ class HeidenhainReader {
     if (name == "BLK" && in_.take_name("FORM"))
       return note(draft_, "BLK FORM", column, in_.text_to(";"));
     if (name == "STOP") {
-      // The stop before the end of the program is nothing of its own.
+      // A stop beside an M word that stops is nothing of its own.
+      constexpr std::array kStops{"M0", "M00", "M1", "M01", "M2", "M02", "M30"};
       const std::string next = in_.next_name();
-      if (next == "M2" || next == "M02" || next == "M30") {
+      if (std::find(kStops.begin(), kStops.end(), next) != kStops.end()) {
         draft_.add_event("STOP", column, "");
         return read_heidenhain_elements(draft_, "STOP");
       }

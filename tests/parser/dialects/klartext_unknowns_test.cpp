@@ -199,10 +199,45 @@ TEST(KlartextSpellings, OfTheWorld) {
   const auto stops = all_of<Stop>(motions("STOP M2\n", {}, Dialect::heidenhain));
   ASSERT_EQ(stops.size(), 1U);
   EXPECT_EQ(stops.front().kind, StopKind::program_end);
+  const auto halts = all_of<Stop>(motions("STOP M0\n", {}, Dialect::heidenhain));
+  ASSERT_EQ(halts.size(), 1U);
+  EXPECT_EQ(halts.front().kind, StopKind::program_stop);
   // Brackets of a formula are none.
   EXPECT_EQ(taken_run("Q1 = 2 * ( 1 + 2 )\nL X+Q1 FMAX\n").moves, (TakenMoves{"X6"}));
   EXPECT_EQ(taken_run("CYCL DEF 332.0 TUNING\nQ1 = 5\nL X+Q1 FMAX\n").moves, (TakenMoves{"X5"}));
   EXPECT_EQ(taken_complaint("(A REMARK) X\nL X+1 ( FMAX\n"), "2:7: error: unexpected '('");
+}
+
+// From (20, 10) to (50, 10) and up: the rounding of 5 mm begins at (45, 10), though the tool was
+// elsewhere and higher before the approach.
+TEST(KlartextCorners, OfTheFirstMoveAfterAnApproach) {
+  const std::string contour = "L X+50\nRND R5\nL Y+50\nL X+0 Y+60 R0\n";
+  for (const std::string before : {"Z-5 R0 FMAX\nAPPR LT X+20 Y+10 LEN5 RL F200\n",
+                                   "Z+2 R0 FMAX\nAPPR LT X+20 Y+10 Z-5 LEN5 RL F200\n"}) {
+    const auto all = motions("TOOL CALL 1 Z S1\nL X+0 Y+0 " + before + contour,
+                             {.contours_without_diameter = true}, Dialect::heidenhain);
+    const auto arc = last_of<ArcFeed>(all);
+    EXPECT_NEAR(arc.center[0], 45.0, 1e-9);
+    EXPECT_NEAR(arc.center[1], 15.0, 1e-9);
+    EXPECT_NEAR(*arc.end[X], 50.0, 1e-9);
+    EXPECT_NEAR(*arc.end[Y], 15.0, 1e-9);
+    EXPECT_EQ(arc.turns, 1);
+  }
+}
+
+TEST(KlartextCorners, TheSideMayBeWrittenAgain) {
+  const std::string text =
+      "TOOL CALL 1 Z S1\nL X+0 Y+0 Z-5 R0 FMAX\nL X+10 RL F200\nL X+50 RL\nRND R5\nL Y+50 RL\n"
+      "L X+0 Y+60 R0\n";
+  const auto all = motions(text, {.contours_without_diameter = true}, Dialect::heidenhain);
+  EXPECT_NEAR(*last_of<ArcFeed>(all).end[X], 50.0, 1e-9);
+}
+
+// 25 from the pole at X75 Z0, towards X-: angles count from Z+ to X+.
+TEST(KlartextPoles, LinesAreInThePlaneOfThePole) {
+  const TakenRun run =
+      taken_run("L X+50 Y+7 Z+20 FMAX\nCC X+75 Z+0\nLP PR+25 PA-90 F100\nLP PA+0 Y+8\nL X+1 Y+2\n");
+  EXPECT_EQ(run.moves, (TakenMoves{"X50 Y7 Z20", "X50 Y7 Z0", "X75 Y8 Z25", "X1 Y2 Z25"}));
 }
 
 }  // namespace
