@@ -214,7 +214,7 @@ class CycleReader {
     const std::uint32_t place = in_.column();
     if (in_.take_name("POS")) {
       add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL POS"), column);
-      return read_heidenhain_axes(draft_, "CYCL CALL POS");
+      return read_heidenhain_call_at(draft_, "CYCL CALL POS", column);
     }
     if (in_.take_name("PAT")) {
       return in_.fail("not-supported"_id, place, "CYCL CALL PAT is not simulated",

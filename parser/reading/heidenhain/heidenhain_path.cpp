@@ -158,6 +158,17 @@ class PathReader {
     block_.words.front().number = row_of(*find_code(Dialect::heidenhain, "L A+Q120 B+Q121 C+Q122"));
   }
 
+  // CYCL CALL POS X+50 Y+50 Z+0 FMAX M3: the way to the hole is by rapid.
+  void read_call_at(const std::string& statement, std::uint32_t column) {
+    read_elements(statement, {.axes = true, .feed = true});
+    const auto is_feed = [](const Word& word) { return word.letter == 'F' || word.letter == 't'; };
+    if (in_.failed() || std::erase_if(block_.words, is_feed) == 0) return;
+    draft_.add_event(
+        "CYCL CALL POS", column,
+        "the way to the hole is by rapid, not by the feed of the call, which is for it alone");
+    block_.comments.back().assumed = true;
+  }
+
   void read_elements(const std::string& statement, const Path& path) {
     while (!in_.at_end()) {
       if (in_.peek() == ';') {
@@ -394,6 +405,10 @@ void read_heidenhain_elements(BlockDraft& draft, const std::string& statement) {
 }
 void read_heidenhain_axes(BlockDraft& draft, const std::string& statement) {
   PathReader(draft).read_elements(statement, {.axes = true});
+}
+void read_heidenhain_call_at(BlockDraft& draft, const std::string& statement,
+                             std::uint32_t column) {
+  PathReader(draft).read_call_at(statement, column);
 }
 void read_heidenhain_pole(BlockDraft& draft, std::uint32_t column) {
   PathReader(draft).read_pole(column);

@@ -19,6 +19,7 @@ void read_heidenhain_path(BlockDraft& draft, const std::string& statement, std::
 void read_heidenhain_link(BlockDraft& draft, const std::string& statement, std::uint32_t column);
 void read_heidenhain_elements(BlockDraft& draft, const std::string& statement);
 void read_heidenhain_axes(BlockDraft& draft, const std::string& statement);
+void read_heidenhain_call_at(BlockDraft& draft, const std::string& statement, std::uint32_t column);
 void read_heidenhain_pole(BlockDraft& draft, std::uint32_t column);
 // RND R5 F100, CHF 2
 void read_heidenhain_corner(BlockDraft& draft, const std::string& statement, std::uint32_t column);

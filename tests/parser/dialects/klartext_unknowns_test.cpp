@@ -173,6 +173,17 @@ TEST(KlartextCycleParameters, CountAsTheyAreAtTheCall) {
             "5:21");
 }
 
+TEST(KlartextCycleCalls, AtAPlaceMayHaveAFeedAndMWords) {
+  const std::string at = "CYCL CALL POS X+10 Y+20 Z+3 ";
+  const TakenMoves moves{"X0 Y0 Z2", "X0 Y0 Z5", "X10 Y20 Z5", "X10 Y20 Z-2", "X10 Y20 Z5"};
+  const TakenRun rapid = taken_run(std::string(kDrilling200) + at + "R0 FMAX M8\n");
+  EXPECT_EQ(rapid.moves, moves);
+  EXPECT_TRUE(rapid.assumptions.empty());
+  const TakenRun fed = taken_run(std::string(kDrilling200) + at + "F500 M8\nL X+1 F50\n");
+  EXPECT_EQ(TakenMoves(fed.moves.begin(), fed.moves.end() - 1), moves);
+  EXPECT_EQ(fed.assumptions, (TakenMoves{"CYCL CALL POS"}));
+}
+
 TEST(KlartextRepeats, JumpsWithinThemDoNotEndThem) {
   // Twice more, though each turn jumps over a block.
   EXPECT_EQ(taken_run("L X+0 FMAX\nLBL 1\nFN 9: IF +1 EQU +1 GOTO LBL 2\nL X+99 FMAX\nLBL 2\n"
