@@ -124,6 +124,8 @@ struct DialectRules {
   LetterSet idle_at_zero{};
   // M words that are in no table are of the machine's builder.
   bool unknown_m_words_are_builders = false;
+  // M7 and M8 may be in one block.
+  bool mist_beside_flood = false;
   // Of several words of the motion group in a block the last one counts.
   bool last_motion_counts = false;
   // Before the first motion word G0 is in force.

@@ -328,6 +328,8 @@ constexpr DialectRules kSinumerikRules{
     .first_motion = MotionMode::linear,
     .always_claimed = LetterSet("FSTD"),
     .unknown_m_words_are_builders = true,
+    .mist_beside_flood = true,
+    .feed_may_be_missing = true,
     .corner_words = LetterSet("rhimfl"),
     .letters = kSinumerikLetters,
     .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP I1 J1 K1",

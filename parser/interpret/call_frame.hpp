@@ -85,6 +85,7 @@ struct CallFrame {
   GivenArguments arguments{};  // for the head of the program
   // What gives its value back to which variable of the caller (VAR).
   std::vector<std::pair<std::string, std::string>> given_back{};
+  std::vector<std::pair<std::string, std::string>> given_back_arrays{};
   std::vector<CountedLoop> loops{};
   std::vector<RepeatedPart> parts{};
   // Those at work in this program, innermost last. Moves of a macro called by one of them call

@@ -1,6 +1,7 @@
 // Subprograms by name: their calls, arguments and ends.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "parser/interpret/cycles/hole_call.hpp"
@@ -12,6 +13,7 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::size_t kMaxArguments = 30;
+constexpr double kMostElements = 1e6;  // more than any array has
 constexpr const char* kEndOfLabel = "LBL 0";
 
 std::string unlabelled(std::string_view kind, const std::string& label) {
@@ -120,6 +122,10 @@ ProgramRun::Failure ProgramRun::receive(const Block& block) {
   if (flow.keeps_modes && frame().runs_left > 0) keep_modes_for_call(executor_.state());
   for (std::size_t i = 0; i < flow.parameters.size(); ++i) {
     const FormalParameter& parameter = flow.parameters[i];
+    if (!parameter.sizes.empty()) {
+      if (auto failure = receive_array(block, i)) return failure;
+      continue;
+    }
     double value = i < given.size() ? given[i] : kVacant;
     if (is_vacant(value) && !parameter.otherwise.empty()) {
       const auto otherwise = value_of(block, parameter.otherwise);
@@ -138,6 +144,36 @@ ProgramRun::Failure ProgramRun::receive(const Block& block) {
     }
     frame().given_back.emplace_back(name, variable);
   }
+  return std::nullopt;
+}
+
+// PROC NAME(VAR REAL FIELD[3]): an array of the call.
+ProgramRun::Failure ProgramRun::receive_array(const Block& block, std::size_t index) {
+  const FlowStatement& flow = *block.flow;
+  const FormalParameter& parameter = flow.parameters[index];
+  const std::string& name = block.names[parameter.name];
+  const std::vector<std::string>& given = frame().arguments.variables;
+  std::vector<std::size_t> sizes;
+  for (const ExpressionRange& size : parameter.sizes) {
+    const auto value = size.empty() ? Result<double>(0.0) : value_of(block, size);
+    if (!value) return value.error().front();
+    sizes.push_back(*value > 0.0 ? static_cast<std::size_t>(std::min(*value, kMostElements)) : 0);
+  }
+  const std::string variable = index < given.size() ? given[index] : "";
+  if (variable.empty() || !executor_.state().parameters.take_array(variable, name, sizes)) {
+    return at(block, flow.column, "call-arguments"_id,
+              fmt::format("{} takes an array as {}, and the call gives none of that size",
+                          frame().name, name),
+              "give the name of an array of DEF with the same sizes");
+  }
+  if (!parameter.gives_back) return std::nullopt;
+  for (const auto& [other, to] : frame().given_back_arrays) {
+    if (to != variable) continue;
+    return at(block, flow.column, "call-arguments"_id,
+              fmt::format("{} and {} of {} are one array of the call", other, name, frame().name),
+              "give two arrays");
+  }
+  frame().given_back_arrays.emplace_back(name, variable);
   return std::nullopt;
 }
 

@@ -218,6 +218,9 @@ void ProgramRun::return_from_call() {
     const auto value = executor_.state().parameters.read(name);
     results.push_back(value ? *value : 0.0);
   }
+  for (const auto& [name, variable] : done.given_back_arrays) {
+    executor_.state().parameters.give_array_back(name, variable);
+  }
   if (done.has_locals) executor_.state().parameters.leave();
   for (std::size_t i = 0; i < results.size(); ++i) {
     executor_.state().parameters.set(done.given_back[i].second, results[i]);

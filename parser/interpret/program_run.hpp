@@ -60,6 +60,7 @@ class ProgramRun {
   [[nodiscard]] Failure call_program(const Block& block, const std::string& name,
                                      GivenArguments arguments, std::uint64_t count);
   [[nodiscard]] Failure receive(const Block& block);
+  [[nodiscard]] Failure receive_array(const Block& block, std::size_t index);
   [[nodiscard]] Failure choose(const Block& block);
   [[nodiscard]] Failure jump(const Block& block);
   [[nodiscard]] Failure go_to_label(const Block& block, const std::string& label, Search search);

@@ -92,6 +92,8 @@ struct FormalParameter {
   VariableKind kind = VariableKind::real;
   ExpressionRange otherwise{};  // what it is when the call gives none; 0 without
   bool gives_back = false;      // VAR: a variable of the call has its value afterwards
+  // Of an array, one a dimension; an empty one takes any size.
+  std::vector<ExpressionRange> sizes{};
 };
 
 struct FlowStatement {

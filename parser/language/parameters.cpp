@@ -163,6 +163,24 @@ void Parameters::define_array(std::string_view name, VariableKind kind,
       std::string(name), Array{kind, std::move(dimensions), std::vector<double>(count, value)});
 }
 
+bool Parameters::take_array(std::string_view from, std::string_view name,
+                            std::span<const std::size_t> sizes) {
+  const auto& caller = locals_[locals_.size() - 2].arrays;
+  const auto found = caller.find(from);
+  if (found == caller.end() || found->second.dimensions.size() != sizes.size()) return false;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (sizes[i] != 0 && sizes[i] != found->second.dimensions[i]) return false;
+  }
+  locals_.back().arrays.insert_or_assign(std::string(name), found->second);
+  return true;
+}
+
+void Parameters::give_array_back(std::string_view name, std::string_view to) {
+  const auto found = locals_.back().arrays.find(name);
+  if (found == locals_.back().arrays.end()) return;
+  locals_[locals_.size() - 2].arrays.insert_or_assign(std::string(to), found->second);
+}
+
 std::size_t Parameters::size_of(std::string_view name) const {
   const Array* array = array_of(name);
   return array == nullptr ? 0 : array->values.size();

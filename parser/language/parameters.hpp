@@ -104,6 +104,11 @@ class Parameters {
                                             std::span<const double> indices) const;
   // Whether the array has that place.
   [[nodiscard]] bool set_element(std::string_view name, std::size_t place, double value);
+  // An array of the caller, under another name, and back; false when it is not there, has another
+  // number of indices, or other sizes than those given (0: any).
+  [[nodiscard]] bool take_array(std::string_view from, std::string_view name,
+                                std::span<const std::size_t> sizes);
+  void give_array_back(std::string_view name, std::string_view to);
   // How many elements it has; 0 when there is no such array.
   [[nodiscard]] std::size_t size_of(std::string_view name) const;
   // The name of a system variable with its indices: $TC_DP6[1,1].

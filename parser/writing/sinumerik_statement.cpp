@@ -79,6 +79,11 @@ class StatementWriter {
       parameters += fmt::format("{}{}{} {}", parameters.empty() ? "" : ",",
                                 parameter.gives_back ? "VAR " : "", sinumerik_type(parameter.kind),
                                 block_.names[parameter.name]);
+      for (std::size_t i = 0; i < parameter.sizes.size(); ++i) {
+        parameters += i == 0 ? "[" : ",";
+        if (!parameter.sizes[i].empty()) parameters += text(parameter.sizes[i], sum);
+      }
+      if (!parameter.sizes.empty()) parameters += "]";
       if (!parameter.otherwise.empty()) parameters += "=" + text(parameter.otherwise, sum);
     }
     return fmt::format("PROC {}({}){}", flow_.label, parameters, flow_.keeps_modes ? " SAVE" : "");

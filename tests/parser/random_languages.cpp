@@ -148,6 +148,8 @@ const Language kSinumerik{
               "FIELD[1,`e]=SET(`e,2,`e)",
               "FIELD[0]=REP(`e)",
               "PROC SLOT(VAR REAL WIDTH, STRING[200] NAME)",
+              "PROC SLOT(VAR REAL FIELD[3], INT TABLE[,`d])",
+              "CYCLE84(R1,0,`e,,`u,,3,,1,0,500,500,3,2,0,1,`u,1)",
               "$TC_DP6[1,1]=`e",
               "$P_UIFR[1,X,TR]=`n",
               "$P_PFRAME=CTRANS(X,`n,Y,`e):CROT(Z,`e):CMIRROR(X)",

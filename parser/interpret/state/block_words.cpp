@@ -135,6 +135,13 @@ Diagnostic symbol_in_word(const Block& block, const Parameters& parameters, cons
             "give a number");
 }
 
+// M7, which is an event only, and M8: two coolants that run at once.
+bool mist_and_flood(const Code& one, const Code& other) {
+  if (one.group != CodeGroup::coolant || other.group != CodeGroup::coolant) return false;
+  const Code& flood = one.event ? other : one;
+  return one.event != other.event && static_cast<CoolantWord>(flood.value) == CoolantWord::flood;
+}
+
 }  // namespace
 
 void BlockWords::clear() {
@@ -219,6 +226,10 @@ std::optional<Diagnostic> BlockWords::add_code(const Word& word, double number,
   if (code->event) events_.push_back({code, word.column});
   if (code->group == CodeGroup::event) return std::nullopt;
   GivenCode& place = codes_[static_cast<std::size_t>(code->group)];
+  if (has(code->group) && rules.mist_beside_flood && mist_and_flood(*place.code, *code)) {
+    if (place.code->event) place = {code, word.column};
+    return std::nullopt;
+  }
   const bool replaces = rules.last_motion_counts && code->group == CodeGroup::motion;
   if (has(code->group) && !replaces) {
     return at(*block_, word.column, "word-twice"_id,

@@ -64,6 +64,19 @@ void read_dimensions(BlockDraft& draft) {
   if (!in.failed()) draft.block.assignments.back().indices = std::move(sizes);
 }
 
+// PROC SLOT(VAR REAL FIELD[3], REAL TABLE[,2]): after the bracket.
+std::vector<ExpressionRange> read_formal_sizes(BlockDraft& draft) {
+  LineScanner& in = draft.in;
+  std::vector<ExpressionRange> sizes;
+  do {
+    const bool open = in.peek() == ',' || in.peek() == ']';
+    sizes.push_back(open ? ExpressionRange{} : draft.read_expression(ExpressionLevel::sum));
+  } while (sizes.size() < kMaxIndices && in.take(','));
+  if (!in.take(']'))
+    in.fail("bracket-not-closed"_id, in.column(), "the index is not closed", "close it with ]");
+  return sizes;
+}
+
 bool stands_alone(BlockDraft& draft, std::uint32_t column, bool behind_label = true) {
   if (behind_label && draft.labelled()) return true;
   if (!draft.begun()) return true;
@@ -138,12 +151,9 @@ void read_sinumerik_procedure(BlockDraft& draft, std::uint32_t column) {
       const bool gives_back = in.take_name("VAR");
       const auto kind = read_type(in);
       const std::string name = read_variable_name(in);
-      if (!in.failed() && in.peek() == '[') {
-        in.fail("not-supported"_id, in.column(), fmt::format("{} is an array", name),
-                "give its elements, or use R parameters: R[10+R1]");
-      }
       if (in.failed()) return;
-      FormalParameter parameter{draft.add_name(name), *kind, {}, gives_back};
+      FormalParameter parameter{draft.add_name(name), *kind, {}, gives_back, {}};
+      if (in.take('[')) parameter.sizes = read_formal_sizes(draft);
       if (in.take('=')) parameter.otherwise = draft.read_expression(ExpressionLevel::sum);
       flow.parameters.push_back(parameter);
     } while (in.take(','));
