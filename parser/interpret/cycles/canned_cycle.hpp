@@ -48,7 +48,7 @@ enum class CycleAction : std::uint8_t {
   feed,
   dwell,
   stop_spindle,
-  start_spindle,    // as it turned before
+  start_spindle,    // as it turned before, perhaps with another speed
   reverse_spindle,  // against that
   orient_spindle,
   wait  // for the operator

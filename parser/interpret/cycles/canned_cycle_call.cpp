@@ -274,6 +274,7 @@ void drill(InterpreterState& state, const std::vector<CycleStep>& steps, std::ui
         turn(SpindleDirection::off);
         break;
       case CycleAction::start_spindle:
+        if (step.value > 0.0) state.modes.spindle_speed = step.value;
         turn(turned);
         break;
       case CycleAction::reverse_spindle:

@@ -114,10 +114,52 @@ Result<DrillingCycle> drilling_heights(const InterpreterState& state, const Bloc
   return cycle;
 }
 
-Outcome set_pecks(const InterpreterState& state, const BlockWords& words, DrillingCycle& cycle) {
+// _AMODE of CYCLE83, digit by digit from the right: the depth, DTB, DTS, DTD, the first depth, DAM,
+// _DIS1, FRF. Those up to the fourth are what drilling_modes() and drilling_dwell() know.
+struct PeckModes {
+  char first = 'K';           // FDEP, or Q: FDPR
+  bool percent = false;       // DAM
+  bool feed_percent = false;  // FRF
+  bool turns_above = false;   // DTS
+  bool turns_below = false;   // _DTD
+};
+constexpr double kAll = 100.0;  // per cent
+
+Result<PeckModes> peck_modes(const InterpreterState& state, const BlockWords& words) {
+  const int mode = static_cast<int>(std::round(words['i'].value));
+  const auto digit = [mode](int tens) { return mode / tens % 10; };
+  constexpr int kDwellAbove = 100;
+  constexpr int kDwellBelow = 1'000;
+  constexpr int kFirstDepth = 10'000;
+  constexpr int kDegression = 100'000;
+  constexpr int kNear = 1'000'000;
+  constexpr int kFeed = 10'000'000;
+  PeckModes modes;
+  const bool relative =
+      digit(kFirstDepth) == 1 || (digit(kFirstDepth) == 0 && words['Q'].value > 0.0);
+  modes.first = relative ? 'Q' : 'K';
+  modes.turns_above = digit(kDwellAbove) == 2;
+  modes.turns_below = digit(kDwellBelow) == 2;
+  modes.percent = digit(kDegression) == 2;
+  modes.feed_percent = digit(kFeed) == 1;
+  if (digit(kFirstDepth) > 2 || digit(kDegression) > 2 || digit(kNear) > 1 || digit(kFeed) > 1) {
+    return fail(state, words['i'].column, "not-simulated"_id,
+                fmt::format("{} is not simulated", words.text_of('i')),
+                "known are 0 to 2 in its fifth and sixth digit, 0 and 1 in the two before");
+  }
+  return modes;
+}
+
+Outcome set_pecks(InterpreterState& state, const BlockWords& words, DrillingCycle& cycle) {
   const GivenCode& code = words[CodeGroup::drilling_cycle];
   const double scale = unit_scale(state);
-  const char first = words['Q'].value > 0.0 ? 'Q' : 'K';
+  const auto modes = peck_modes(state, words);
+  if (!modes) return modes.error();
+  if (modes->percent || modes->feed_percent) {
+    assume(state, words['i'].column, "CYCLE83 _AMODE",
+           "2 in the sixth digit of _AMODE makes DAM percents, 1 in the eighth FRF");
+  }
+  const char first = modes->first;
   cycle.first =
       first == 'Q' ? words['Q'].value * scale : cycle.reference - words['K'].value * scale;
   const double total = cycle.reference - cycle.bottom;
@@ -128,7 +170,8 @@ Outcome set_pecks(const InterpreterState& state, const BlockWords& words, Drilli
   }
   const double amount = words['r'].value;
   cycle.degression = amount > 0.0 ? amount * scale : amount;
-  if (amount <= -1.0) {
+  if (modes->percent) cycle.degression = amount == kAll ? 0.0 : -amount / kAll;
+  if (amount <= -1.0 || (modes->percent && !(amount > 0.0 && amount <= kAll))) {
     return fail(state, words['r'].column, "out-of-range"_id,
                 fmt::format("{} is no factor", words.text_of('r')),
                 "DAM is an amount, or below zero a factor down to -1");
@@ -137,14 +180,18 @@ Outcome set_pecks(const InterpreterState& state, const BlockWords& words, Drilli
   const auto clears = whole(state, words, 'e', 0, 1);
   if (!clears) return clears.error();
   cycle.clears = *clears == 1;
-  cycle.dwell_above = words['W'].value;
+  const auto above = drilling_dwell(state, words, 'W', modes->turns_above);
+  if (!above) return above.error();
+  cycle.dwell_above = *above;
   cycle.dwell_below = cycle.dwell;
   if (words['t'].value != 0.0) {
-    const auto bottom = drilling_dwell(state, words, 't', false);
+    const auto bottom = drilling_dwell(state, words, 't', modes->turns_below);
     if (!bottom) return bottom.error();
     cycle.dwell = *bottom;
   }
-  if (words['f'].value != 0.0) cycle.first_feed = words['f'].value;
+  if (words['f'].value != 0.0) {
+    cycle.first_feed = words['f'].value / (modes->feed_percent ? kAll : 1.0);
+  }
   if (!(cycle.first_feed > 0.0 && cycle.first_feed <= 1.0)) {
     return fail(state, words['f'].column, "out-of-range"_id,
                 fmt::format("{} is out of range", words.text_of('f')),
@@ -168,11 +215,52 @@ Result<std::optional<SpindleDirection>> drilling_direction(const InterpreterStat
   return std::optional(kDirections.at(static_cast<std::size_t>(*word - 3)));
 }
 
+// PIT by _PTAB: in the unit of the program, mm, threads an inch, inches.
+double lead_of(const InterpreterState& state, double value, int unit) {
+  switch (unit) {
+    case 1:
+      return value;
+    case 2:
+      return value == 0.0 ? 0.0 : kMmPerInch / value;
+    case 3:
+      return value * kMmPerInch;
+    default:
+      return value * unit_scale(state);
+  }
+}
+
+// _VARI 1 breaks the chip by _VRT after each _DAM, 2 leaves the hole.
+Outcome set_tap_strokes(const InterpreterState& state, const BlockWords& words,
+                        DrillingCycle& cycle) {
+  const double scale = unit_scale(state);
+  // Exact stops, feed forward, jerk.
+  if (const auto technology = whole(state, words, 'r', 0, 99999); !technology) {
+    return technology.error();
+  }
+  const auto strokes = whole(state, words, 't', 0, 2);
+  if (!strokes) return strokes.error();
+  if (*strokes == 0) return Done{};
+  cycle.clears = *strokes == 2;
+  cycle.first = words['Q'].value != 0.0 ? words['Q'].value * scale : std::abs(cycle.bottom);
+  cycle.degression = cycle.first;
+  if (words['v'].value > 0.0) cycle.chip = words['v'].value * scale;
+  if (cycle.first > cycle.reference - cycle.bottom) {
+    return fail(state, words.has('Q') ? words['Q'].column : words['t'].column, "cycle-depth"_id,
+                "the first depth of CYCLE84 is not within the hole",
+                "give _DAM, how deep each stroke goes");
+  }
+  if (!pecks(cycle).empty()) return Done{};
+  return fail(state, words['Q'].column, "cycle-pecks"_id,
+              fmt::format("the cycle makes more than {} pecks", kMostPecks), "give a larger _DAM");
+}
+
 Outcome set_tap(const InterpreterState& state, const BlockWords& words, DrillingCycle& cycle) {
   const GivenCode& code = words[CodeGroup::drilling_cycle];
   const bool by_size = words['m'].value != 0.0;
-  const auto metric =
-      by_size ? metric_lead(words['m'].value) : std::optional(words['k'].value * unit_scale(state));
+  const auto unit = whole(state, words, 'f', 0, 3);
+  if (!unit) return unit.error();
+  const auto metric = by_size ? metric_lead(words['m'].value)
+                              : std::optional(lead_of(state, words['k'].value, *unit));
   if (!metric) {
     return fail(state, words['m'].column, "cycle-lead"_id,
                 fmt::format("{} is no metric thread", words.text_of('m')),
@@ -189,10 +277,10 @@ Outcome set_tap(const InterpreterState& state, const BlockWords& words, Drilling
     return fail(state, words.has('s') ? words['s'].column : code.column, "cycle-speed-missing"_id,
                 code.code->name() + " has no spindle speed", "give SST, in revolutions per minute");
   }
-  return Done{};
+  return set_tap_strokes(state, words, cycle);
 }
 
-Result<DrillingCycle> drilling_cycle_of(const InterpreterState& state, const BlockWords& words) {
+Result<DrillingCycle> drilling_cycle_of(InterpreterState& state, const BlockWords& words) {
   auto cycle = drilling_heights(state, words);
   if (!cycle) return cycle;
   const double scale = unit_scale(state);
@@ -228,6 +316,7 @@ Result<DrillingCycle> drilling_cycle_of(const InterpreterState& state, const Blo
 }
 
 Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uint32_t column) {
+  if (cycle.fault) return *cycle.fault;
   const PlaneAxes axes = axes_of(state.modes.plane);
   const auto w = static_cast<AxisLetter>(axes.w);
   const Movement movement{NonModal::none, MotionMode::linear, column};
@@ -254,7 +343,11 @@ Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uin
     return fail(state, column, "cycle-inverse-time"_id, "a cycle in G93",
                 "give the feed per minute, in G94");
   }
-  if (!own_feeds && !state.modes.feed) {
+  const bool of_control =
+      state.control.feed_before_first_word && !state.modes.feed_was_given && !own_feeds;
+  if (of_control) {
+    assume(state, column, "feed", "a cycle before the first F: the control has a feed of its own");
+  } else if (!own_feeds && !state.modes.feed) {
     return fail(state, column, "feed-missing"_id, "a cycle without a feed rate",
                 "give F before, above zero");
   }
@@ -331,9 +424,10 @@ Outcome call_drilling_cycle(InterpreterState& state, const BlockWords& words) {
     return drill_here(state, cycle, 1);
   }
   const auto cycle = drilling_cycle_of(state, words);
-  if (!cycle) return cycle.error();
+  if (!cycle && !modal) return cycle.error();
   if (!modal) return drill_here(state, *cycle, code.column);
-  state.modes.drilling = *cycle;
+  state.modes.drilling = cycle ? *cycle : DrillingCycle{};
+  if (!cycle) state.modes.drilling->fault = cycle.error().front();
   return Done{};
 }
 

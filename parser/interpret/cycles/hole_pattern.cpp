@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -33,6 +34,48 @@ void turn_row(InterpreterState& state, std::uint32_t column, std::vector<Vec2>& 
   if ((places.back() - tool).norm() < (places.front() - tool).norm()) {
     std::reverse(places.begin(), places.end());
   }
+}
+
+struct Grid {
+  Vec2 reference = Vec2::Zero();
+  Vec2 along = Vec2::UnitX();
+  Vec2 across = Vec2::UnitY();
+  Vec2 spacing = Vec2::Zero();
+  std::array<int, 2> count{};
+};
+
+// To and fro along the axis with the smaller spacing, from the corner that is nearest to the tool.
+std::vector<Vec2> grid_places(InterpreterState& state, std::uint32_t column, const Grid& grid) {
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  const auto& u = state.position[static_cast<AxisLetter>(axes.u)];
+  const auto& v = state.position[static_cast<AxisLetter>(axes.v)];
+  Vec2 tool = grid.reference;
+  if (u && v) {
+    tool = Vec2(*u, *v);
+  } else {
+    assume(state, column, "hole-order", "a grid of holes begins with its first one");
+  }
+  const Vec2 from = tool - grid.reference;
+  const Vec2 seen(from.dot(grid.along), from.dot(grid.across));
+  const std::size_t inner = grid.spacing.x() <= grid.spacing.y() ? 0 : 1;
+  const std::size_t outer = 1 - inner;
+  // Whether the tool is on the far side of the middle.
+  const auto far = [&](std::size_t axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    return (grid.count.at(axis) - 1) * grid.spacing[i] / 2.0 < seen[i];
+  };
+  std::vector<Vec2> places;
+  for (int row = 0; row < grid.count.at(outer); ++row) {
+    for (int i = 0; i < grid.count.at(inner); ++i) {
+      const bool back = far(inner) != (row % 2 == 1);
+      std::array<int, 2> place{};
+      place.at(inner) = back ? grid.count.at(inner) - 1 - i : i;
+      place.at(outer) = far(outer) ? grid.count.at(outer) - 1 - row : row;
+      places.emplace_back(grid.reference + place[0] * grid.spacing.x() * grid.along +
+                          place[1] * grid.spacing.y() * grid.across);
+    }
+  }
+  return places;
 }
 
 }  // namespace
@@ -69,23 +112,14 @@ Result<std::vector<Vec2>> pattern_places(InterpreterState& state, const BlockWor
   }
   const Vec2 along = direction_of(angle);
   const Vec2 across(-along.y(), along.x());
-  const bool grid = kind == PatternWord::grid;
-  const double first = grid ? 0.0 : words['f'].value;
-  const double step = words[grid ? 'f' : 'd'].value;
-  for (int row = 0; row < *rows; ++row) {
-    for (int i = 0; i < *count; ++i) {
-      const int place = row % 2 == 0 ? i : *count - 1 - i;
-      places.emplace_back(
-          reference + scale * ((first + place * step) * along + row * words['d'].value * across));
-    }
+  if (kind == PatternWord::grid) {
+    const Vec2 spacing = scale * Vec2(words['f'].value, words['d'].value).cwiseAbs();
+    return grid_places(state, code.column, {reference, along, across, spacing, {*count, *rows}});
   }
-  if (places.empty()) return places;
-  if (grid) {
-    assume(state, code.column, "hole-order",
-           "a grid of holes is drilled from its reference point on, row by row, to and fro");
-  } else {
-    turn_row(state, code.column, places);
+  for (int i = 0; i < *count; ++i) {
+    places.emplace_back(reference + scale * (words['f'].value + i * words['d'].value) * along);
   }
+  if (!places.empty()) turn_row(state, code.column, places);
   return places;
 }
 

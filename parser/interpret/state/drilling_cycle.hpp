@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "core/diagnostic.hpp"
 #include "parser/dialects/code.hpp"
 #include "parser/motion.hpp"
 
@@ -14,6 +15,8 @@ namespace frustum::parser {
 
 struct DrillingCycle {
   DrillingWord kind = DrillingWord::drill;
+  // What is wrong with a call by MCALL: only a hole finds it.
+  std::optional<Diagnostic> fault{};
   double reference = 0.0;  // RFP
   double level = 0.0;      // RFP + SDIS: where feeding begins
   double bottom = 0.0;

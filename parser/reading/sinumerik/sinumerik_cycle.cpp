@@ -60,7 +60,12 @@ constexpr std::array kOfTapping{kBack,
                                 CycleParameter{'E', "POSS="},
                                 CycleParameter{'s', "SST="},
                                 CycleParameter{'l', "SST1="},
-                                kAxis};
+                                kAxis,
+                                CycleParameter{'f', "_PTAB="},
+                                CycleParameter{'r', "_TECHNO="},
+                                CycleParameter{'t', "_VARI="},
+                                CycleParameter{'Q', "_DAM="},
+                                CycleParameter{'v', "_VRT="}};
 constexpr std::array kOfReaming{kBack,
                                 kReference,
                                 kClearance,

@@ -92,8 +92,20 @@ TEST(SinumerikCycles, Peck) {
             "R2 F-10@200 D0.5 R2 D0.2 R-8.5 F-16@200 D0.5 R2 D0.2 R-14.5 F-20@200 D2 R40");
   EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,20,,10,4,0,0,1,0,3,0,2.5)"),
             "R2 F-10@200 F-7.5@200 F-16@200 F-13.5@200 F-20@200 R40");
-  // A fiftieth of a hole deeper than 30 mm.
-  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,50,,30,0,0,0,1,1)"), "R2 F-30@200 R2 R-29 F-50@200 R40");
+  // Back to 0.6 above a depth of up to 30 mm, to a fiftieth of a deeper one.
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,50,,30,0,0,0,1,1)"), "R2 F-30@200 R2 R-29.4 F-50@200 R40");
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,100,,50,0,0,0,1,1)"),
+            "R2 F-50@200 R2 R-49 F-75@200 R2 R-73.5 F-100@200 R40");
+}
+
+TEST(SinumerikCycles, PeckByTheModesOfTheCall) {
+  // DAM and FRF per cent; 8, then half of it, then the least of 3, the last 5 shared.
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,20,,8,50,0,0.5,40,1,0,3,1.4,0,1.6,0,1,11211111)"),
+            "CYCLE83 _AMODE R2 F-8@80 R2 D0.5 R-6.4 F-12@200 R2 D0.5 R-10.4 F-15@200 R2 D0.5 "
+            "R-13.4 F-17.5@200 R2 D0.5 R-15.9 F-20@200 R40");
+  // The first depth absolute beside a relative one; dwells in turns, 1000 a minute.
+  EXPECT_EQ(cycle_steps("CYCLE83(40,0,2,,20,-12,5,0,50,100,1,1,0,0,0,25,1,0,1,22221)"),
+            "R2 F-12@200 D3 R2 D6 R-11 F-20@200 D1.5 R40");
 }
 
 std::vector<double> strokes(double total, double first, double degression, double least = 0.0) {
@@ -113,12 +125,14 @@ std::vector<double> strokes(double total, double first, double degression, doubl
 
 TEST(SinumerikCycles, StrokesBecomeShorter) {
   using Strokes = std::vector<double>;
-  EXPECT_EQ(strokes(100, 20, 0), (Strokes{20, 20, 20, 20, 20}));
-  EXPECT_EQ(strokes(50, 20, 0), (Strokes{20, 20, 10}));
+  EXPECT_EQ(strokes(100, 20, 0), (Strokes{20, 20, 20, 20, 10, 10}));
+  EXPECT_EQ(strokes(50, 20, 0), (Strokes{20, 15, 15}));
   // 20, 15, 10, then 5 while more than 10 are left; the last two share.
   EXPECT_EQ(strokes(68, 20, 5), (Strokes{20, 15, 10, 5, 5, 5, 4, 4}));
   EXPECT_EQ(strokes(20, 20, 5), (Strokes{20}));
-  EXPECT_EQ(strokes(42, 16, -0.5, 6), (Strokes{16, 8, 6, 6, 6}));
+  // 15 would leave 2: the amount is left.
+  EXPECT_EQ(strokes(37, 20, 5), (Strokes{20, 12, 5}));
+  EXPECT_EQ(strokes(42, 16, -0.5, 6), (Strokes{16, 8, 6, 6, 3, 3}));
 }
 
 RC_GTEST_PROP(SinumerikCycleLaws, PecksEndAtTheBottom, ()) {
@@ -145,6 +159,32 @@ TEST(SinumerikCycles, Tap) {
   // Left-handed by the sign of the lead; off afterwards without SDAC.
   EXPECT_EQ(cycle_steps("CYCLE84(40,10,2,-15,,,,,-1.25,,300)"),
             "R12 M4/300 F-15@1.25s M3/300 F12@1.25s R40 M5/1000");
+  // 20 threads an inch.
+  EXPECT_EQ(cycle_steps("CYCLE84(40,10,2,-15,,,3,,20,0,300,300,3,2)"),
+            "R12 M3/300 F-15@1.27s M4/300 F12@1.27s R40 M3/1000");
+}
+
+TEST(SinumerikCycles, TapInStrokes) {
+  // 5, then the last 7 shared; back by 1, or out of the hole.
+  EXPECT_EQ(cycle_steps("CYCLE84(40,0,2,-12,,,3,,1,0,300,600,3,0,0,1,5,1)"),
+            "R2 M3/300 F-5@1s M4/600 F-4@1s M3/300 F-8.5@1s M4/600 F-7.5@1s M3/300 F-12@1s M4/600 "
+            "F2@1s R40 M3/1000");
+  EXPECT_EQ(cycle_steps("CYCLE84(40,0,2,-12,,,3,,1,0,300,600,3,0,0,2,5,1)"),
+            "R2 M3/300 F-5@1s M4/600 F2@1s M3/300 F-4@1s F-8.5@1s M4/600 F2@1s M3/300 F-7.5@1s "
+            "F-12@1s M4/600 F2@1s R40 M3/1000");
+}
+
+TEST(SinumerikCycles, WithoutAnyFeedIsTheControls) {
+  const auto all = run_cycle("G0 X0 Y0 Z9\nCYCLE81(5,0,2,-5)\n");
+  EXPECT_EQ(last_of<LinearFeed>(all).feed.value, 0.0);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "feed");
+  EXPECT_EQ(all_of<Event>(all).at(0).grade, EventGrade::assumed);
+}
+
+TEST(SinumerikCycles, OfAModalCallAreLookedAtWhereAHoleIs) {
+  EXPECT_TRUE(
+      complaints("F9 G0 X0 Y0\nMCALL CYCLE81(5,10,2,-5)\nMCALL\nG0 X1\n", {}, Dialect::sinumerik)
+          .empty());
 }
 
 TEST(SinumerikCycles, Bore) {
@@ -232,7 +272,15 @@ TEST(SinumerikCycles, TellMistakes) {
       {"CYCLE82(5,0,2,-5,,-3)\n", "1:19: error: a dwell in revolutions with no spindle speed"},
       {"CYCLE81(5,0,2,-5)\n",
        "1:1: error: the place of the hole is not known: X has not been programmed yet"},
-      {"G0 X0 Y0\nCYCLE81(5,0,2,-5)\n", "2:1: error: a cycle without a feed rate"},
+      {"F0 G0 X0 Y0\nCYCLE81(5,0,2,-5)\n", "2:1: error: a cycle without a feed rate"},
+      {"F9 G0 X0 Y0\nMCALL CYCLE81(5,10,2,-5)\nX1\n",
+       "2:15: error: RTP (5 mm) is below RFP (10 mm)"},
+      {"CYCLE83(5,0,2,-5,,,1,0,0,0,1,0,0,0,0,0,0,0,1,3000000)\n",
+       "1:46: error: _AMODE=3000000 is not simulated"},
+      {"CYCLE83(5,0,2,-5,,,1,101,0,0,1,0,0,0,0,0,0,0,1,200000)\n",
+       "1:22: error: DAM=101 is no factor"},
+      {"CYCLE84(5,0,2,-5,,,3,6,,,100,,,,,1,9)\n",
+       "1:36: error: the first depth of CYCLE84 is not within the hole"},
       {"G0 X0 Y0 G93\nCYCLE81(5,0,2,-5) F5\n", "2:1: error: a cycle in G93"},
       {"F9 G0 X0 Y0\nMCALL CYCLE81(5,0,2,-5)\nG0 SUPA D0 X1\n",
        "3:1: error: the place of the hole is not known: X is not known since the move in machine "

@@ -126,6 +126,23 @@ TEST(SinumerikExpressions, Fault2_10_SquareAndBound) {
   EXPECT_EQ(x_after("G0 X='H1F'+'B101'\n"), 36.0);
 }
 
+TEST(SinumerikArrays, AreGivenToPrograms) {
+  // VAR gives the array back, without it the program has its own; sizes may be open.
+  const std::string call = "DEF REAL FIELD[3]\nFIELD[1]=4\nDOUBLE(FIELD)\nG0 X=FIELD[1]\nM30\n";
+  const std::string body = "FIELD2[1]=2*FIELD2[1]\nRET\n";
+  const auto run = [&](const std::string& head) { return call + head + body; };
+  EXPECT_EQ(x_after(run("%_N_DOUBLE_SPF\nPROC DOUBLE(VAR REAL FIELD2[3])\n")), 8.0);
+  EXPECT_EQ(x_after(run("%_N_DOUBLE_SPF\nPROC DOUBLE(VAR REAL FIELD2[])\n")), 8.0);
+  EXPECT_EQ(x_after(run("%_N_DOUBLE_SPF\nPROC DOUBLE(REAL FIELD2[3])\n")), 4.0);
+  EXPECT_EQ(ids_of(run("%_N_DOUBLE_SPF\nPROC DOUBLE(VAR REAL FIELD2[4])\n")),
+            std::vector<std::string>{"call-arguments"});
+  EXPECT_EQ(ids_of(run("%_N_DOUBLE_SPF\nPROC DOUBLE(VAR REAL FIELD2[3,1])\n")),
+            std::vector<std::string>{"call-arguments"});
+  EXPECT_EQ(ids_of("DEF REAL FIELD[3]\nBOTH(FIELD,FIELD)\nM30\n%_N_BOTH_SPF\n"
+                   "PROC BOTH(VAR REAL ONE[3], VAR REAL TWO[3])\nRET\n"),
+            std::vector<std::string>{"call-arguments"});
+}
+
 TEST(SinumerikArrays, Fault2_10_HoldNumbers) {
   EXPECT_EQ(x_after("DEF REAL A[3]\nA[1]=4\nG0 X=A[1]+A[2]\n"), 4.0);
   EXPECT_EQ(x_after("DEF INT FIELD[2,3]\nFIELD[1,0]=SET(1.4,2,3)\n"
@@ -271,6 +288,40 @@ TEST(SinumerikPatterns, DrillRowsCirclesAndGrids) {
   const auto grid = holes_of("CYCLE801(10,20,0,5,7,2,2)");
   ASSERT_EQ(grid.size(), 4U);
   EXPECT_NEAR((grid[2] - Vec2(15, 27)).norm(), 0.0, 1e-9);
+}
+
+TEST(SinumerikPatterns, DrillGridsFromTheNearestCorner) {
+  // The tool is at 0 0. Columns, since they are closer than rows, from the far corner.
+  const auto grid = holes_of("CYCLE801(-30,-20,0,30,10,2,3)");
+  const std::vector<Vec2> expected{{0, 0}, {0, -10}, {0, -20}, {-30, -20}, {-30, -10}, {-30, 0}};
+  ASSERT_EQ(grid.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR((grid[i] - expected[i]).norm(), 0.0, 1e-9) << i;
+  }
+  // Turned by 90 degrees: rows go along Y.
+  const auto turned = holes_of("CYCLE801(5,5,90,10,20,2,2)");
+  ASSERT_EQ(turned.size(), 4U);
+  EXPECT_NEAR((turned[0] - Vec2(5, 5)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((turned[1] - Vec2(5, 15)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((turned[2] - Vec2(-15, 15)).norm(), 0.0, 1e-9);
+}
+
+TEST(SinumerikWords, TwoCoolantsRunAtOnce) {
+  EXPECT_TRUE(all_of<CoolantChange>(run_words("M7 M8\n")).at(0).flood);
+  EXPECT_TRUE(all_of<CoolantChange>(run_words("M8 M7\n")).at(0).flood);
+  EXPECT_EQ(ids_of("M8 M9\n"), std::vector<std::string>{"word-twice"});
+  EXPECT_EQ(ids_of("M7 M9\n"), std::vector<std::string>{"word-twice"});
+}
+
+TEST(SinumerikWords, CuttingMoveBeforeTheFirstFeedHasThatOfTheControl) {
+  const auto all = run_words("G0 X0\nG1 X5\nX6 F100\n");
+  EXPECT_EQ(all_of<LinearFeed>(all).at(0).feed.value, 0.0);
+  EXPECT_EQ(all_of<LinearFeed>(all).at(1).feed.value, 100.0);
+  EXPECT_EQ(grade_of(all, "feed"), EventGrade::assumed);
+  InterpreterOptions strict;
+  strict.control.feed_before_first_word = false;
+  EXPECT_EQ(complaint_ids("G1 X5\n", strict, Dialect::sinumerik),
+            std::vector<std::string>{"feed-missing"});
 }
 
 TEST(SinumerikPrograms, OfLathesAreRefusedWithOneSentence) {
