@@ -92,7 +92,17 @@ ProgramRun::Failure ProgramRun::run_next() {
   if (*next == nullptr) return run_off(nullptr);
   const Block& block = **next;
   const bool next_program = block.program && !rules_.runs_into_programs;
-  if (frame().opened && (block.tape_mark || next_program)) return run_off(&block);
+  // Sinumerik's programs begin with their names; % alone ends none.
+  const bool bare_mark = block.tape_mark && !block.flow && rules_.subprograms_are_programs;
+  const bool ends = (block.tape_mark && !bare_mark) || next_program;
+  if (frame().opened && ends) return run_off(&block);
+  if (frame().opened && bare_mark) {
+    executor_.settle();
+    SourcePlace place = block.place_of(1);
+    place.file = frame().program->place_file();
+    sink_(Motion{std::move(place),
+                 Event{"%", "within a program it is passed over", EventGrade::assumed}});
+  }
   if (!frame().opened && does_something(block)) {
     frame().opened = true;
     if (frames_.size() == 1) frame().entry = frame().cursor.block_place();

@@ -29,6 +29,13 @@ std::string complaint_of(std::string_view text) {
   return lines[0].substr(0, lines[0].find(" (hint: "));
 }
 
+TEST(SinumerikPrograms, GoOnBehindAPercentSignWithoutAName) {
+  const auto all = motions("%_N_PART_MPF\n%\nG0 X1\nM30\n%\n", {}, Dialect::sinumerik);
+  EXPECT_EQ(last_of<Traverse>(all).end[AxisLetter::X], 1.0);
+  EXPECT_EQ(all_of<Event>(all).back().name, "%");
+  EXPECT_EQ(all_of<Event>(all).back().grade, EventGrade::assumed);
+}
+
 TEST(SinumerikProgram, CallsTheProgramsBehindIt) {
   EXPECT_EQ(x_of_program("%_N_MAIN_MPF\nL10\nG0 X1\nSLOT P2\nM30\n%_N_L10_SPF\nG0 X10\nM17\n"
                          "%_N_SLOT_SPF\nPROC SLOT\nG0 X20\nRET\n"),
