@@ -48,6 +48,7 @@ enum class CodeGroup : std::uint8_t {
   hole_call,
   drilling_cycle,
   hole_pattern,
+  bolt_holes,
   corner,
   approach,
   raised_error,
@@ -96,7 +97,16 @@ enum class NonModal : std::uint8_t {
   return word >= NonModal::pole && word <= NonModal::pole_from_pole;
 }
 // G65 and G66 are read by themselves, since their letters are arguments.
-enum class SubprogramWord : std::uint8_t { none, call, leave, macro, end_modal };
+// Of Haas: a call of blocks of the same program (M97), a jump where a signal is off (M96).
+enum class SubprogramWord : std::uint8_t {
+  none,
+  call,
+  call_blocks,
+  jump_by_signal,
+  leave,
+  macro,
+  end_modal
+};
 // From length_only on they leave the tool-tip switch as it is.
 enum class LengthWord : std::uint8_t {
   off,
@@ -172,6 +182,8 @@ enum class DrillingWord : std::uint8_t {
 };
 // Places at which the drilling cycle in force is called: hole_pattern.hpp.
 enum class PatternWord : std::uint8_t { row, circle, grid };
+// Places at which a canned cycle drills beside where the tool is (Haas).
+enum class BoltWord : std::uint8_t { circle, arc, line };
 // The programmable frame: the first four replace it, the others go on within it.
 enum class FrameWord : std::uint8_t {
   shift,

@@ -86,6 +86,8 @@ struct DialectRules {
   Dialect dialect = Dialect::fanuc;
   // Its own codes and those it shares (shared_codes.hpp).
   std::array<std::span<const Code>, 5> codes{};
+  // What a word is in a block that has I and L.
+  std::span<const Code> codes_beside_l{};
   std::span<const RefusedCode> refused_codes{};
   std::span<const RefusedWord> refused_words{};
   // What only a lathe has: the program is none of a mill.
@@ -141,6 +143,8 @@ struct DialectRules {
   // An arc with neither centre nor radius is a straight move; beside a radius the centre words do
   // not count.
   bool arcs_may_lack_centre = false;
+  // Whether I J K are steps or the centre itself, the first arc shows.
+  bool first_arc_shows_centre = false;
   // A cutting move before the first F goes on, with a feed that is not known (0).
   bool feed_may_be_missing = false;
   // Words of a move that round or break the corner at its end; cycles have parameters under their

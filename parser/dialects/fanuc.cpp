@@ -58,6 +58,16 @@ constexpr std::array kFanucCodes{
     modal('G', 670, subprogram, SubprogramWord::end_modal),
     modal('G', 760, motion, MotionMode::fine_bore),
     modal('M', 990, subprogram, SubprogramWord::leave, LetterSet("P")),
+    // Haas, where they have P.
+    modal('M', 960, subprogram, SubprogramWord::jump_by_signal, LetterSet("PQ")),
+    modal('M', 970, subprogram, SubprogramWord::call_blocks, kCallWords),
+};
+
+// Haas: holes on a circle, an arc and a line. G70 and G71 are units without I and L.
+constexpr std::array kFanucCodesBesideL{
+    modal('G', 700, bolt_holes, BoltWord::circle),
+    modal('G', 710, bolt_holes, BoltWord::arc),
+    modal('G', 720, bolt_holes, BoltWord::line),
 };
 
 constexpr std::array kFanucDataWords{
@@ -92,6 +102,12 @@ constexpr std::array kFanucRefusedCodes{
         "where the tool points is the machine's to know: give the frame by G68.2 X Y Z I J K"},
     RefusedCode{'G', 681, 689,
                 "write the positions out, or use G68.2 X Y Z I J K for a tilted plane"},
+    // Haas: pockets and engraving.
+    RefusedCode{'G', 120, 120, "write the pocket out as G2 and G1 blocks"},
+    RefusedCode{'G', 130, 130, "write the pocket out as G3 and G1 blocks"},
+    RefusedCode{'G', 1500, 1500, "write the pocket out as G1 to G3 blocks"},
+    RefusedCode{'G', 470, 470,
+                "write the letters out as G1 to G3 blocks: their shape is the control's"},
     RefusedCode{'G', 271, 279, "check the reference point by G27"},
     RefusedCode{'G', 291, 299, "go back by G29 or G0 blocks"},
     RefusedCode{'G', 750, 759, "write the cycle out as G0 and G1 blocks"},
@@ -132,6 +148,7 @@ constexpr std::array<std::string_view, 7> kFanucFiles{"{}",     "{}.nc",  "{}.NC
 constexpr DialectRules kFanucRules{
     .dialect = Dialect::fanuc,
     .codes = {kFanucCodes, kMachineCodes, kIsoCodes, kRs274Codes},
+    .codes_beside_l = kFanucCodesBesideL,
     .refused_codes = kFanucRefusedCodes,
     .vector_letters = "IJK",
     .vector_spelling = "I J K",
@@ -149,10 +166,17 @@ constexpr DialectRules kFanucRules{
     .length_adds_to_moves = true,
     .local_shift_is_apart = true,
     .arcs_may_lack_centre = true,
+    .first_arc_shows_centre = true,
     .feed_may_be_missing = true,
     .letters = kFanucLetters,
     .known_letters = "A B C F G H I J K L M N O P Q R S T U X Y Z",
-    .parameters = {.locals = 33, .unset_is_vacant = true, .first_system = 1000},
+    .parameters = {.locals = 33,
+                   .unset_is_vacant = true,
+                   .first_system = 1000,
+                   .last_system = 97'999,  // #98000 on are common ones (30i)
+                   .first_stored = 500,
+                   .last_stored = 999,
+                   .last = 999'999},
     .cycles = {.tool_shift_by_q = true,
                .words_keep_their_mode = true,
                .cancel_brings_motion_back = true},

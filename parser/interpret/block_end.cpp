@@ -78,8 +78,19 @@ Result<Flow> finish(InterpreterState& state, MotionFilters& filters, const Block
   if (word == SubprogramWord::end_modal) return Flow{EndModalCall{}};
   if (word == SubprogramWord::none) return Flow{NextBlock{state.at_work.moved}};
 
+  const bool blocks = word == SubprogramWord::call_blocks;
+  if ((blocks || word == SubprogramWord::jump_by_signal) && !words.has('P')) {
+    emit(state, subprogram.column, Event{subprogram.code->name(), {}, EventGrade::builder});
+    return Flow{NextBlock{state.at_work.moved}};
+  }
+  if (word == SubprogramWord::jump_by_signal) {
+    return fail(state, subprogram.column, "not-simulated"_id,
+                subprogram.code->name() + " P is not simulated",
+                "whether it jumps is for a signal of the machine: leave it out");
+  }
   auto call = called_program(state, words);
   if (!call) return call.error();
+  call->blocks = blocks;
   return Flow{*std::move(call)};
 }
 

@@ -37,8 +37,9 @@ struct CallSubprogram {
   std::uint32_t count = 1;
   std::uint32_t column = 0;
   std::optional<std::vector<double>>
-      arguments{};     // of a macro: #1, #2, ...; vacant where not given
-  bool modal = false;  // G66: not now, but after each block that moves
+      arguments{};      // of a macro: #1, #2, ...; vacant where not given
+  bool modal = false;   // G66: not now, but after each block that moves
+  bool blocks = false;  // M97: `program` is the number of a block
 };
 struct EndModalCall {};  // G67
 using Flow =

@@ -19,8 +19,6 @@
 namespace frustum::parser {
 namespace {
 
-constexpr int kFirstSystemVariable = 1000;
-
 // What a setting of a system variable does.
 enum class VariableUse : std::uint8_t { alarm, message, event, clock };
 
@@ -33,7 +31,7 @@ struct SystemVariable {
 constexpr std::array kVariables{
     SystemVariable{1000, 1135, VariableUse::event},  // signals to the machine
     SystemVariable{3000, 3000, VariableUse::alarm},
-    SystemVariable{3001, 3002, VariableUse::clock},
+    SystemVariable{3001, 3002, VariableUse::event},  // timers
     SystemVariable{3003, 3005, VariableUse::event},  // single block, feed hold, settings
     SystemVariable{3006, 3006, VariableUse::message},
     SystemVariable{3007, 3007, VariableUse::clock},
@@ -44,7 +42,7 @@ constexpr std::array kVariables{
 // Whether the variable is the control's: what it does is done, and nothing is stored.
 Result<bool> set_system_variable(InterpreterState& state, std::uint32_t column, int index,
                                  double value) {
-  if (state.rules.dialect != Dialect::fanuc || index < kFirstSystemVariable) return false;
+  if (!state.rules.parameters.is_system(index)) return false;
   const auto known =
       std::find_if(kVariables.begin(), kVariables.end(), [index](const SystemVariable& variable) {
         return index >= variable.first && index <= variable.last;
@@ -57,7 +55,9 @@ Result<bool> set_system_variable(InterpreterState& state, std::uint32_t column, 
   const std::string text = state.at_work.block->comments.empty()
                                ? std::string{}
                                : state.at_work.block->comments.front().text;
-  const std::string number = is_vacant(value) ? "0" : shortest_decimal(value);
+  const std::string number = is_vacant(value)   ? "0"
+                             : is_symbol(value) ? state.parameters.text_of(value)
+                                                : shortest_decimal(value);
   switch (known->use) {
     case VariableUse::alarm:
       return fail(
@@ -81,13 +81,14 @@ Result<bool> set_system_variable(InterpreterState& state, std::uint32_t column, 
 }
 
 Outcome set_numbered(InterpreterState& state, std::uint32_t column, int index, double value) {
-  const bool unknown = is_vacant(value) && state.parameters.rules().values_may_be_unknown;
+  const bool unknown =
+      is_unknown(value) || (is_vacant(value) && state.parameters.rules().values_may_be_unknown);
   if (unknown && read_parameter(state.data, state.rules.dialect, index)) {
     return fail(state, column, "unknown-parameter"_id,
                 fmt::format("#{} is set to a value that only the machine knows", index),
                 "set it to a value of the program");
   }
-  const auto written = is_vacant(value)
+  const auto written = is_vacant(value) || is_unknown(value)
                            ? ParameterWrite::not_kept
                            : write_parameter(state.data, state.rules.dialect, index, value);
   if (written == ParameterWrite::read_only) {

@@ -84,6 +84,25 @@ Result<std::uint64_t> ProgramRun::count_of(const Block& block, ExpressionRange r
   return static_cast<std::uint64_t>(std::max(0.0, nearest));
 }
 
+// IF [#5401 GT 60] THEN #3000=1: what only the machine knows raises no alarm.
+std::optional<ProgramRun::Failure> ProgramRun::pass_alarm(const Block& block) {
+  constexpr double kAlarm = 3000.0;
+  InterpreterState& state = executor_.state();
+  if (rules_.dialect != Dialect::fanuc || !block.words.empty() || block.assignments.size() != 1 ||
+      block.assignments.front().name) {
+    return std::nullopt;
+  }
+  const auto target = parser::value_of(state, block, block.assignments.front().index);
+  if (!target || *target != kAlarm) return std::nullopt;
+  const auto value = parser::value_of(state, block, block.flow->condition);
+  if (!value || !is_unknown(*value)) return std::nullopt;
+  state.at_work.block = &block;
+  assume(
+      state, block.flow->column, "alarm",
+      fmt::format("{} is such that the program raises no alarm", state.parameters.text_of(*value)));
+  return ProgramRun::Failure{};
+}
+
 ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
   if (auto done = report_comments(executor_.state(), block); !done) {
     return in_this_file(std::move(done).error().front());
@@ -110,6 +129,7 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
     case FlowKind::choice:
       return choose(block);
     case FlowKind::only_if: {
+      if (const auto passed = pass_alarm(block)) return *passed;
       const auto condition = holds(block, flow);
       if (!condition) return condition.error().front();
       return *condition ? execute(block) : std::nullopt;

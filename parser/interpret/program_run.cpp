@@ -11,6 +11,7 @@
 #include "parser/interpret/macro_call.hpp"
 #include "parser/interpret/saved_modes.hpp"
 #include "parser/language/letter_case.hpp"
+#include "parser/program_files.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -120,26 +121,23 @@ ProgramRun::Failure ProgramRun::run_next() {
   statement_ran_ = statement_ran_ || block.flow.has_value();
   const std::size_t calls = frames_.size();
   auto failure = block.flow ? follow_statement(block) : execute(block);
-  tell_what_was_read(block);
+  tell_assumed_values(block);
   if (!failure || !goes_on(*failure)) return failure;
   // A subprogram that has been left took its block with it.
   if (frames_.size() == calls) pass_over(executor_.state(), block);
   return std::nullopt;
 }
 
-void ProgramRun::tell_what_was_read(const Block& block) {
+void ProgramRun::tell_assumed_values(const Block& block) {
   InterpreterState& state = executor_.state();
-  SystemParameters& system = state.system;
-  if (!system.signals_read && !system.place_read) return;
+  const auto stored = state.parameters.take_stored_read();
+  if (state.system.assumed.empty() && !stored) return;
   state.at_work.block = &block;
-  if (std::exchange(system.signals_read, false)) {
-    assume(state, 1, "signals", "the inputs that #1000 to #1035 read are off");
-  }
-  if (std::exchange(system.place_read, false)) {
-    assume(state, 1, "place",
-           "where an axis is that the operator moves: at zero, or where the program has left it, "
-           "with nothing added by datum and tool");
-  }
+  for (const AssumedValue* value : state.system.assumed) assume(state, 1, value->name, value->text);
+  state.system.assumed.clear();
+  if (!stored) return;
+  assume(state, 1, "stored variables",
+         fmt::format("#{}, which the program does not set, is vacant on the machine too", *stored));
 }
 
 ProgramRun::Failure ProgramRun::count_block(const Block& block) {
@@ -354,6 +352,7 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
 }
 
 ProgramRun::Failure ProgramRun::follow(const Block& block, CallSubprogram call) {
+  if (call.blocks) return call_blocks(block, call);
   if (!call.modal) return call_numbered(block, std::move(call), false);
   frame().modal_macros.push_back({std::move(call)});
   return std::nullopt;
@@ -374,6 +373,22 @@ ProgramRun::Failure ProgramRun::follow(const Block& block, const CallFile& call)
   return std::nullopt;
 }
 
+// M97: from a block of the program at work to its M99.
+ProgramRun::Failure ProgramRun::call_blocks(const Block& block, const CallSubprogram& call) {
+  const std::string label = fmt::format("N{}", call.program);
+  const auto target = find_label(label, Search::forward_then_backward);
+  if (!target) {
+    return at(block, call.column, "missing-label"_id, fmt::format("there is no {} to call", label),
+              "P of M97 names a block of this program");
+  }
+  if (call.count == 0) return std::nullopt;
+  CallFrame next{frame().program, BlockCursor(frame().program->program()),
+                 label,           "M99",
+                 *target,         {target->line, 1},
+                 call.count};
+  return push_call(block, call.column, std::move(next));
+}
+
 ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram call,
                                               bool by_modal) {
   std::shared_ptr<LoadedProgram> holder = frame().program;
@@ -386,6 +401,11 @@ ProgramRun::Failure ProgramRun::call_numbered(const Block& block, CallSubprogram
   const std::string name = fmt::format("O{}", call.program);
   if (!has(call.program)) {
     holder = file_of(name);
+    if (holder == nullptr) {
+      auto numbered = file_of_number(block, call.column, call.program);
+      if (!numbered) return std::move(numbered).error().front();
+      holder = *std::move(numbered);
+    }
     if (holder == nullptr || !has(call.program)) {
       return at(block, call.column, "missing-subprogram"_id,
                 fmt::format("subprogram {} does not exist", name),
@@ -436,6 +456,35 @@ std::shared_ptr<LoadedProgram> ProgramRun::file_of(const std::string& name) {
     }
   }
   return nullptr;
+}
+
+// The one file of the first folder that has any which begin with the number; null for none.
+Result<std::shared_ptr<LoadedProgram>> ProgramRun::file_of_number(const Block& block,
+                                                                  std::uint32_t column,
+                                                                  std::uint32_t number) {
+  const std::string name = fmt::format("O{}", number);
+  if (rules_.dialect != Dialect::fanuc) return std::shared_ptr<LoadedProgram>{};
+  for (const auto& folder : options_.search_path) {
+    const auto files = files_of_program(folder, number);
+    if (files.empty()) continue;
+    if (files.size() > 1) {
+      return at(block, column, "missing-subprogram"_id,
+                fmt::format("{} and {} both begin with {}", files[0].filename().string(),
+                            files[1].filename().string(), name),
+                fmt::format("name the one that is meant {}.nc", name));
+    }
+    auto program = open_program(files.front(), rules_.dialect);
+    if (!program) continue;
+    executor_.state().at_work.block = &block;
+    assume(
+        executor_.state(), column, name,
+        fmt::format("it is {}, which begins with that number", files.front().filename().string()));
+    auto& place = files_[name];
+    place = std::make_shared<LoadedProgram>(*std::move(program),
+                                            LoadedProgram::Role::file_of_subprogram);
+    return place;
+  }
+  return std::shared_ptr<LoadedProgram>{};
 }
 
 std::shared_ptr<LoadedProgram> ProgramRun::program_with(const std::string& name) {

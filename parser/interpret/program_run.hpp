@@ -30,8 +30,8 @@ class ProgramRun {
   using Failure = std::optional<Diagnostic>;
 
   [[nodiscard]] Failure run_next();
-  // The program has read what nobody but the machine knows.
-  void tell_what_was_read(const Block& block);
+  // What the block has read that is assumed.
+  void tell_assumed_values(const Block& block);
   // Tells a program that does not end.
   [[nodiscard]] Failure count_block(const Block& block);
   [[nodiscard]] bool goes_on(const Diagnostic& failure) const;
@@ -48,6 +48,7 @@ class ProgramRun {
   [[nodiscard]] Failure follow(const Block& block, CallSubprogram call);
   [[nodiscard]] Failure follow(const Block& block, const CallFile& call);
   [[nodiscard]] Failure follow(const Block& block, const EndModalCall& end);
+  [[nodiscard]] Failure call_blocks(const Block& block, const CallSubprogram& call);
   [[nodiscard]] Failure call_numbered(const Block& block, CallSubprogram call, bool by_modal);
   [[nodiscard]] Failure repeat_main_program(const Block& block, const LeaveSubprogram& leave);
 
@@ -74,12 +75,17 @@ class ProgramRun {
   [[nodiscard]] Diagnostic in_main(Diagnostic diagnostic) const;
   [[nodiscard]] Diagnostic in_this_file(Diagnostic diagnostic) const;
   [[nodiscard]] Result<double> value_of(const Block& block, ExpressionRange range);
+  // Done with an alarm whose condition only the machine knows.
+  [[nodiscard]] std::optional<Failure> pass_alarm(const Block& block);
   [[nodiscard]] Result<bool> holds(const Block& block, const FlowStatement& flow);
   [[nodiscard]] Result<std::string> label_of(const Block& block, const FlowStatement& flow);
   [[nodiscard]] Result<std::uint64_t> count_of(const Block& block, ExpressionRange range);
   // The program that has the subprogram `name`: the one at work, the main one, a file of its own.
   [[nodiscard]] std::shared_ptr<LoadedProgram> program_with(const std::string& name);
   [[nodiscard]] std::shared_ptr<LoadedProgram> file_of(const std::string& name);
+  [[nodiscard]] Result<std::shared_ptr<LoadedProgram>> file_of_number(const Block& block,
+                                                                      std::uint32_t column,
+                                                                      std::uint32_t number);
   [[nodiscard]] Failure push_call(const Block& block, std::uint32_t column, CallFrame frame);
   [[nodiscard]] CallFrame& frame() { return frames_.back(); }
   [[nodiscard]] Diagnostic at(const Block& block, std::uint32_t column, DiagnosticId id,

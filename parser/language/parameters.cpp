@@ -57,12 +57,8 @@ Result<double> Parameters::read(double number) const {
   const Numbered& all = numbered(*index);
   const auto found = all.find(*index);
   if (found == all.end()) {
-    if (rules_.first_system != 0 && *index >= rules_.first_system) {
-      return error("unknown-parameter"_id, fmt::format("system variable #{} is not known", *index),
-                   "positions are known once they are programmed; leave clocks, signals and "
-                   "screens out of the "
-                   "simulated program");
-    }
+    if (rules_.is_system(*index)) return unknown_value(fmt::format("#{}", *index));
+    if (*index >= rules_.first_stored && *index <= rules_.last_stored) stored_read_ = *index;
     if (rules_.unset_is_zero) return 0.0;
     if (rules_.unset_is_vacant) return kVacant;
     return error("parameter-unset"_id, fmt::format("parameter #{} has no value", *index),

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/result.hpp"
@@ -38,14 +39,22 @@ struct ParameterRules {
   bool values_may_be_unknown = false;
   // A condition of what only the machine knows does not hold, as an assumption.
   bool conditions_may_be_unknown = false;
-  // From this number on they are the controller's own: one that it does not keep cannot be read. 0:
-  // none are.
+  // From the first number to the last they are the controller's own: the values of those that it
+  // does not keep only the machine knows. 0: none are.
   int first_system = 0;
+  int last_system = kMaxParameterNumber;
+  // Numbers from the first to the last keep what they were set to when the power is off. 0: none.
+  int first_stored = 0;
+  int last_stored = 0;
   char prefix = '#';  // how numbers are spelled
   int first = 1;
   int last = kMaxParameterNumber;
   // R5 names the number 5; other names are set only when they were defined (Sinumerik).
   bool names_are_defined = false;
+
+  [[nodiscard]] constexpr bool is_system(int number) const {
+    return first_system != 0 && number >= first_system && number <= last_system;
+  }
 };
 
 // The parameters that a controller keeps itself; no value for what it does not keep, NaN for what
@@ -83,6 +92,10 @@ class Parameters {
 
   [[nodiscard]] Result<double> read(double number) const;
   [[nodiscard]] Result<double> read(std::string_view name) const;
+  // One that the machine has stored, maybe, was read before the program set it.
+  [[nodiscard]] std::optional<int> take_stored_read() const {
+    return std::exchange(stored_read_, std::nullopt);
+  }
   [[nodiscard]] bool has(std::string_view name) const;
   // Whether there is a parameter of that number; where numbers are vacant until set, a set one.
   [[nodiscard]] bool has(double number) const;
@@ -166,6 +179,7 @@ class Parameters {
   // Texts and names that values stand for. Reading an expression may add one.
   mutable std::map<std::string, std::size_t, std::less<>> symbol_numbers_{};
   mutable std::vector<const std::string*> symbols_{};
+  mutable std::optional<int> stored_read_{};
   Numbered numbered_{};
   Named named_{};
   std::vector<Locals> locals_{

@@ -12,6 +12,7 @@
 
 #include "core/constants.hpp"
 #include "parser/arc.hpp"
+#include "parser/interpret/cycles/bolt_holes.hpp"
 #include "parser/interpret/cycles/canned_cycle.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
@@ -77,9 +78,11 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
       state.rules.dialect == Dialect::fanuc && words.has('P') && !words['P'].decimal_point;
   read('P', cycle.dwell, milliseconds ? 1.0 / kMillisecondsPerSecond : 1.0);
   const PlaneAxes axes = axes_of(state.modes.plane);
-  read("IJK"[axes.u], cycle.shift_u, unit_scale(state));
-  read("IJK"[axes.v], cycle.shift_v, unit_scale(state));
-  read("IJK"[3 - axes.u - axes.v], cycle.back, unit_scale(state));
+  if (!words.has(CodeGroup::bolt_holes)) {
+    read("IJK"[axes.u], cycle.shift_u, unit_scale(state));
+    read("IJK"[axes.v], cycle.shift_v, unit_scale(state));
+    read("IJK"[3 - axes.u - axes.v], cycle.back, unit_scale(state));
+  }
 
   const auto missing = [&](char letter, std::string what) {
     return fail(state, movement.column, "cycle-word-missing"_id,
@@ -175,8 +178,12 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
                             depths.level),
                 "give R above the bottom");
   }
-  int holes = 1;
+  const auto bolts = bolt_places(state, words);
+  if (!bolts) return bolts.error();
+  const bool on_pattern = words.has(CodeGroup::bolt_holes);
+  int holes = on_pattern ? static_cast<int>(bolts->size()) : 1;
   for (const char letter : {'L', 'K'}) {
+    if (on_pattern) break;
     const bool repeats = letter == 'L' || state.rules.dialect == Dialect::fanuc;
     if (!repeats || !words.has(letter)) continue;
     const auto given = whole(state, words, letter, 0, kMaxHoles);
@@ -198,15 +205,24 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
                               ? depths.clear
                               : std::max(*state.position[w], depths.level));
   }
+  Vec2 middle = Vec2::Zero();
   for (int hole = 0; hole < holes; ++hole) {
-    if (auto done = set_polar_target(state, words); !done) return done;
-    if (auto done = set_place_in_plane(state, words); !done) return done;
+    if (hole == 0 || !on_pattern) {
+      if (auto done = set_polar_target(state, words); !done) return done;
+      if (auto done = set_place_in_plane(state, words); !done) return done;
+    }
     for (const AxisLetter axis : {u, v}) {
       if (state.position[axis]) continue;
       return fail(
           state, movement.column, state.position.unknown_id(axis),
           fmt::format("the place of the hole is not known: {}", state.position.why_unknown(axis)),
           fmt::format("give {} on this block", to_char(axis)));
+    }
+    if (on_pattern) {
+      if (hole == 0) middle = {*state.position[u], *state.position[v]};
+      const Vec2 bolt = middle + bolts->at(static_cast<std::size_t>(hole));
+      state.position.set(u, bolt.x());
+      state.position.set(v, bolt.y());
     }
     rapid(movement.column);
     if (*state.position[w] != depths.level && !depths.from_level) {

@@ -33,6 +33,22 @@ Diagnostic unknown_code(const Block& block, Dialect dialect, const Word& word, d
             "near it are " + codes_near(dialect, word.letter, number));
 }
 
+// A word whose meaning may depend on I and L in its block.
+const Code* code_of(const Block& block, const DialectRules& rules, char letter, double number) {
+  const auto beside =
+      std::find_if(rules.codes_beside_l.begin(), rules.codes_beside_l.end(), [&](const Code& code) {
+        return code.letter == letter && std::abs(number * 10.0 - code.tenths) < 1e-3;
+      });
+  if (beside != rules.codes_beside_l.end()) {
+    const auto has = [&](char wanted) {
+      return std::any_of(block.words.begin(), block.words.end(),
+                         [wanted](const Word& word) { return word.letter == wanted; });
+    };
+    if (has('I') && has('L')) return &*beside;
+  }
+  return find_code(rules.dialect, letter, number);
+}
+
 // A word that only the builder of the machine knows.
 std::optional<ControlWord> word_of_builder(const DialectRules& rules,
                                            const ControlSettings& control, char letter,
@@ -215,7 +231,7 @@ std::optional<Diagnostic> BlockWords::add_code(const Word& word, double number,
                                                const DialectRules& rules,
                                                const ControlSettings& control) {
   const bool named = word.letter == kNamedWord;
-  const Code* code = named ? &code_at(number) : find_code(rules.dialect, word.letter, number);
+  const Code* code = named ? &code_at(number) : code_of(*block_, rules, word.letter, number);
   if (code == nullptr) {
     const auto of_builder =
         named ? std::nullopt : word_of_builder(rules, control, word.letter, number);

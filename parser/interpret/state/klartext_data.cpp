@@ -2,7 +2,7 @@
 // and degrees, and the preassigned parameters Q108 to Q114.
 //
 // Where an axis is that nothing has placed is the operator's, who moves it by hand, and what a
-// datum or a tool adds is the setup's. Both are taken as zero, which place_read says: an axis is
+// datum or a tool adds is the setup's. Both are taken as zero, which an assumption says: an axis is
 // then at zero, or where a move in machine coordinates has left it.
 //
 // Source: Heidenhain TNC 426/430 Technical Manual, FN 18 SYSREAD; TNC7 (81762x-17), System data;
@@ -18,6 +18,10 @@
 
 namespace frustum::parser {
 namespace {
+
+constexpr AssumedValue kPlace{"place",
+                              "where an axis is that the operator moves: at zero, or where the "
+                              "program has left it, with nothing added by datum and tool"};
 
 using Value = std::optional<double>;
 
@@ -36,7 +40,7 @@ Value of_axis(const SystemParameters& of, int index, bool of_machine) {
   if (of.state.tilted || !of.state.programmed_frame.is_identity()) return std::nullopt;
   Value place = of_machine ? of.position[axis] : axes[axis];
   if (!place && of.position.never_known(axis)) place = 0.0;
-  if (place) of.place_read = true;
+  if (place) of.assumed.push_back(&kPlace);
   return place ? Value(*place * unit) : std::nullopt;
 }
 

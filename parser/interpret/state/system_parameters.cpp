@@ -153,6 +153,15 @@ constexpr std::array<std::string_view, 26> kKeptNames{"_line",
                                                       "_abs_u",
                                                       "_abs_v"};
 
+// G54 to G59; of others G54.1.
+Value work_offset_of(const ModalState& state) {
+  return state.work_offset <= 6 ? 53.0 + state.work_offset : 54.1;
+}
+
+constexpr int kMotionWord = 4001;
+// The group of G54 on Mitsubishi and Haas; on Fanuc that of G66, which #4014 goes before.
+constexpr int kWorkOffsetElsewhere = 4012;
+
 // #4001 to #4130: the word of each group that is in force.
 struct ModalVariable {
   int index;
@@ -161,9 +170,11 @@ struct ModalVariable {
 constexpr std::array kModal{
     ModalVariable{4001,
                   [](const ModalState& state) -> Value {
-                    const bool known = state.motion >= MotionMode::traverse &&
-                                       state.motion <= MotionMode::arc_counterclockwise;
-                    return known ? Value(motion_word(state.motion) / 10.0) : std::nullopt;
+                    const MotionMode mode = state.cycle ? state.before_cycle : state.motion;
+                    if (mode == MotionMode::none) return 0.0;
+                    const bool known =
+                        mode >= MotionMode::traverse && mode <= MotionMode::arc_counterclockwise;
+                    return known ? Value(motion_word(mode) / 10.0) : std::nullopt;
                   }},
     ModalVariable{
         4002,
@@ -181,6 +192,11 @@ constexpr std::array kModal{
                   [](const ModalState& state) -> Value {
                     return state.unit == LengthUnit::millimetre ? 21.0 : 20.0;
                   }},
+    ModalVariable{4007,
+                  [](const ModalState& state) -> Value {
+                    if (!state.tool_side) return 40.0;
+                    return *state.tool_side == ToolSide::left ? 41.0 : 42.0;
+                  }},
     ModalVariable{4008,
                   [](const ModalState& state) -> Value {
                     const Compensation& kept = state.compensation;
@@ -197,12 +213,10 @@ constexpr std::array kModal{
                   [](const ModalState& state) -> Value {
                     return state.programmed_frame.scale == 1.0 ? 50.0 : 51.0;
                   }},
+    ModalVariable{kWorkOffsetElsewhere, work_offset_of},
     ModalVariable{
         4013, [](const ModalState& state) -> Value { return state.surface_speed ? 96.0 : 97.0; }},
-    ModalVariable{4014,
-                  [](const ModalState& state) -> Value {
-                    return state.work_offset <= 6 ? 53.0 + state.work_offset : 54.1;
-                  }},
+    ModalVariable{4014, work_offset_of},
     ModalVariable{4016,
                   [](const ModalState& state) -> Value {
                     return state.tilted || state.programmed_frame.turns() ? 68.0 : 69.0;
@@ -212,6 +226,8 @@ constexpr std::array kModal{
                   [](const ModalState& state) -> Value {
                     return state.programmed_frame.is_mirrored() ? 51.1 : 50.1;
                   }},
+    ModalVariable{4107,
+                  [](const ModalState& state) -> Value { return state.radius_number.value_or(0); }},
     ModalVariable{
         4109,
         [](const ModalState& state) -> Value { return state.feed ? state.feed->as_written : 0.0; }},
@@ -220,6 +236,13 @@ constexpr std::array kModal{
     ModalVariable{4119, [](const ModalState& state) -> Value { return state.spindle_speed; }},
     ModalVariable{4120,
                   [](const ModalState& state) -> Value { return state.selected_tool.value_or(0); }},
+    ModalVariable{4130,
+                  [](const ModalState& state) -> Value {
+                    constexpr int kBeforeExtended = 100;
+                    return state.work_offset > kBeforeExtended
+                               ? Value(state.work_offset - kBeforeExtended)
+                               : Value(0.0);
+                  }},
 };
 
 Value modal_variable(const ModalState& state, int index) {
@@ -265,6 +288,11 @@ constexpr int kAxesOfParameters = 6;
 constexpr int kFirstSignal = 1000;  // inputs, one by one and all together
 constexpr int kLastSignal = 1035;
 
+constexpr AssumedValue kSignals{"signals", "the inputs that #1000 to #1035 read are off"};
+constexpr AssumedValue kFirstMotion{"first motion", "G0 is in force before the first motion word"};
+constexpr AssumedValue kGroupOfWorkOffset{
+    "#4012", "the work offset in force, as Mitsubishi and Haas have it (Fanuc: #4014)"};
+
 }  // namespace
 
 Value SystemParameters::number(int index) const {
@@ -279,9 +307,14 @@ Value SystemParameters::number(int index) const {
     if (now >= 0 && now < kAxesOfParameters && !state.compensation.length) {
       return position_of(*this, kAxisLetters.at(static_cast<std::size_t>(now)));
     }
-    if (const Value mode = modal_variable(state, index)) return mode;
+    if (const Value mode = modal_variable(state, index)) {
+      if (index == kWorkOffsetElsewhere) assumed.push_back(&kGroupOfWorkOffset);
+      const bool before = state.motion == MotionMode::none;
+      if (index == kMotionWord && before) assumed.push_back(&kFirstMotion);
+      return mode;
+    }
     if (index >= kFirstSignal && index <= kLastSignal) {
-      signals_read = true;
+      assumed.push_back(&kSignals);
       return 0.0;
     }
   }

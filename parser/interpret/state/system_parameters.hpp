@@ -2,7 +2,7 @@
 //
 //   LinuxCNC   #<_x>, #<_feed>, #<_motion_mode>, ..., #5420 to #5425
 //   Fanuc #5001 to #5006 (end of the last block), #5041 to #5046 (the same without tool length),
-//              #4001 to #4120 (modes)
+//              #4001 to #4130 (modes), #1000 to #1035 (inputs)
 // and the data of control_data.hpp.
 //
 // Units : positions in the program's own unit (mm or inch) and degrees, feeds per minute in it
@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "parser/dialect.hpp"
 #include "parser/interpret/state/modal_state.hpp"
@@ -19,6 +20,12 @@
 #include "parser/language/parameters.hpp"
 
 namespace frustum::parser {
+
+// A value that the control or the machine decides, and how it is taken.
+struct AssumedValue {
+  std::string_view name{};
+  std::string_view text{};
+};
 
 class SystemParameters final : public KeptParameters {
  public:
@@ -36,10 +43,8 @@ class SystemParameters final : public KeptParameters {
   const ProgramPosition& position;
   const ControlData& data;
   int call_level = 0;
-  // A signal of the machine has been read, which are all taken to be off.
-  mutable bool signals_read = false;
-  // So has the place of an axis that the program does not know (klartext_data.cpp).
-  mutable bool place_read = false;
+  // What has been read of values that are assumed.
+  mutable std::vector<const AssumedValue*> assumed{};
 };
 
 // Of Klartext: the preassigned Q parameters and what FN 18 reads (klartext_data.cpp).

@@ -1,7 +1,9 @@
 // The bores of Fanuc that shift the tool.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "core/decimal.hpp"
 #include "tests/parser/running.hpp"
@@ -49,6 +51,31 @@ TEST(FanucCycle, BackBoreEntersBesideTheHoleAndCutsUp) {
             "on; rapid 0 0 9; rapid 5 6 9; off; orient_spindle; rapid 7 6 9; rapid 7 6 -20; "
             "rapid 5 6 -20; on; feed 5 6 -12; dwell 0; off; orient_spindle; rapid 7 6 -12; "
             "rapid 7 6 9; rapid 5 6 9; on; ");
+}
+
+// G70, G71 and G72 of Haas, whose I J K are none of the cycle's.
+TEST(FanucCycle, DrillsOnACircleAnArcAndALine) {
+  const auto holes = [](std::string_view text) {
+    std::vector<std::array<double, 2>> found;
+    for (const LinearFeed& down : all_of<LinearFeed>(motions(text))) {
+      found.push_back({*down.end[X], *down.end[Y]});
+    }
+    return found;
+  };
+  const auto expect = [](const std::vector<std::array<double, 2>>& found,
+                         const std::vector<std::array<double, 2>>& wanted) {
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i][0], wanted[i][0], 1e-9) << i;
+      EXPECT_NEAR(found[i][1], wanted[i][1], 1e-9) << i;
+    }
+  };
+  const std::string start = "G0 X10 Y20 Z9\nG81 R2 Z-9 F50 L0\n";
+  expect(holes(start + "G70 I5. J90. L4\nG80\n"), {{10, 25}, {5, 20}, {10, 15}, {15, 20}});
+  expect(holes(start + "G71 I5. J0 K-90. L2\nG80\n"), {{15, 20}, {10, 15}});
+  expect(holes(start + "G72 I5. J90. L3\nG80\n"), {{10, 20}, {10, 25}, {10, 30}});
+  expect(holes("G0 X10 Y20 Z9\nG99 G81 R2 Z-9 F50 X0 Y0 G70 I2. L2\nX7\nG80\n"),
+         {{2, 0}, {-2, 0}, {7, 0}});
 }
 
 // A row of holes: R and Z keep the meaning of the block that gave them.

@@ -288,6 +288,36 @@ TEST(FanucWords, SignalsOfTheMachineAreOff) {
   EXPECT_EQ(assumed(all), Names{"signals"});
 }
 
+// What only the machine knows may be kept and passed on, as long as no move depends on it.
+TEST(FanucWords, ValuesOfTheMachineAreKept) {
+  const auto all = motions("#3001=0\n#500=#5021\n#1=#500+1\nG65 P9 A#3011\nM30\nO9\nG0 X1\nM99\n");
+  EXPECT_EQ(last_of<Traverse>(all).end[X], 1.0);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "#3001");
+}
+
+TEST(FanucWords, LimitsOfTheMachineRaiseNoAlarm) {
+  const auto all = motions("IF [#5405 GE 6000] THEN #3000=15 (TOOL LIFE EXPIRED)\nG0 X1\n");
+  EXPECT_EQ(last_of<Traverse>(all).end[X], 1.0);
+  EXPECT_EQ(assumed(all), Names{"alarm"});
+}
+
+TEST(FanucWords, ModesAreRead) {
+  const auto x_of = [](std::string_view text) { return *last_of<Traverse>(motions(text)).end[X]; };
+  EXPECT_EQ(x_of("G55\nG0 X#4012\n"), 55.0);
+  EXPECT_EQ(assumed(motions("G55\nG0 X#4012\n")), Names{"#4012"});
+  EXPECT_EQ(x_of("G55\nG0 X#4014\n"), 55.0);
+  EXPECT_EQ(x_of("G54.1 P3\nG0 X#4130\n"), 3.0);
+  EXPECT_EQ(x_of("#1=#4001\nG0 X[#1+1]\n"), 1.0);
+  EXPECT_EQ(x_of("G1 F9 X0 Y0 Z9\nG81 Z1 R2\n#1=#4001\nG0 X#1\n"), 1.0);
+  EXPECT_EQ(x_of("#1=#4007\nG0 X#1\n"), 40.0);
+}
+
+TEST(FanucWords, StoredVariablesAreVacant) {
+  EXPECT_EQ(assumed(motions("#1=#600\nG0 X[1+#1]\n")), Names{"stored variables"});
+  EXPECT_TRUE(assumed(motions("#600=2\n#1=#600+#101\nG0 X#1\n")).empty());
+  EXPECT_EQ(last_of<Traverse>(motions("#901001=2\nG0 X#901001\n")).end[X], 2.0);
+}
+
 TEST(FanucWords, ToolMayNameItsOffset) {
   const auto all = motions("T1.1 M6\n");
   EXPECT_EQ(last_of<ToolChange>(all).tool, 1);

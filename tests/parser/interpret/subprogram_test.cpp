@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <random>
+
 #include "tests/parser/running.hpp"
 
 namespace frustum::parser {
@@ -23,6 +27,54 @@ TEST(Subprogram, RepeatsAsOftenAsLSays) {
   EXPECT_EQ(x_of_subprogram("G0 X0\nM98 P2 L3\nM30\nO2\nG91 X1\nG90\nM99\n"),
             (std::vector<double>{0, 1, 2, 3}));
   EXPECT_EQ(x_of_subprogram("G0 X0\nM98 P2 L0\nM30\nO2\nX1\nM99\n"), (std::vector<double>{0}));
+}
+
+// M97 of Haas; without P it is a word of the builder.
+TEST(Subprogram, MayBeBlocksOfTheSameProgram) {
+  EXPECT_EQ(x_of_subprogram("G0 X1\nM97 P50 L2\nX9\nM30\nN50 G91 X1\nG90\nM99\n"),
+            (std::vector<double>{1, 2, 3, 9}));
+  EXPECT_EQ(x_of_subprogram("G0 X1\nM97\nX9\nM30\nN50 X5\nM99\n"), (std::vector<double>{1, 9}));
+}
+
+class FolderOfPrograms : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              fmt::format("frustum_programs_{}", std::random_device{}());
+    std::filesystem::create_directories(folder_);
+    options_.search_path = {folder_};
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void write(const std::string& name, std::string_view text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  std::filesystem::path folder_{};
+  InterpreterOptions options_{};
+};
+
+TEST_F(FolderOfPrograms, AreFoundByTheirNumbers) {
+  write("slot.nc", "%\n\n(SLOT)\nO77 (SLOT)\nG0 X5\nM99\n%\n");
+  write("other.nc", "O78\nG0 X6\nM99\n");
+  write("notes.md", "O77\n");
+  const auto all = motions("M98 P77\nM30\n", options_);
+  EXPECT_EQ(last_of<Traverse>(all).end[AxisLetter::X], 5.0);
+  const auto events = all_of<Event>(all);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events[0].name, "O77");
+  EXPECT_EQ(events[0].grade, EventGrade::assumed);
+  EXPECT_EQ(complaint_ids("M98 P79\nM30\n", options_),
+            std::vector<std::string>{"missing-subprogram"});
+}
+
+TEST_F(FolderOfPrograms, MustNotShareANumber) {
+  write("a.nc", "O77\nM99\n");
+  write("b.nc", "O0077\nM99\n");
+  const auto found = complaints("M98 P77\nM30\n", options_);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].find("a.nc and b.nc both begin with O77"), std::string::npos) << found[0];
+  write("O77.nc", "O77\nG0 X1\nM99\n");
+  EXPECT_TRUE(complaints("M98 P77\nM30\n", options_).empty());
 }
 
 TEST(Subprogram, RepeatsByTheUpperDigitsOfP) {
