@@ -74,6 +74,8 @@ Outcome set_frames(InterpreterState& state, MotionFilters& filters, const BlockW
                      state.modes.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
       RetractWord::initial;
   state.modes.arc_distance = words.value_or(CodeGroup::arc_distance, state.modes.arc_distance);
+  state.modes.centres_are_known =
+      state.modes.centres_are_known || words.has(CodeGroup::arc_distance);
   if (auto done = set_radius_compensation(state, filters, words); !done) return done;
   if (auto done = set_compensation(state, words); !done) return done;
   if (auto done = set_work_offset(state, words); !done) return done;

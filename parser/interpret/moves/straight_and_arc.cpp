@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "parser/arc.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
@@ -60,6 +61,27 @@ Vec3 spatial(const AxisTarget& target, const Vec3& otherwise) {
 // Neither centre nor radius.
 bool lacks_centre(const BlockWords& words, PlaneAxes axes) {
   return !words.has('R') && !words.has("IJK"[axes.u]) && !words.has("IJK"[axes.v]);
+}
+
+// I J K are the centre itself on some controls. The first arc of a program shows it where its radii
+// agree so, and by far not as steps from the start.
+Result<Arc> arc_of_iso(InterpreterState& state, const Movement& movement, const ArcWords& words) {
+  constexpr double kFar = 0.1;  // mm
+  auto arc = arc_of(words);
+  if (words.radius || std::exchange(state.modes.centres_are_known, true) || arc) return arc;
+  // A full circle closes about any centre.
+  if ((words.end - words.start).norm() < kFar) return arc;
+  ArcWords lenient = words;
+  lenient.tolerance = {.absolute = kFar, .relative = 0.0, .largest = kFar};
+  ArcWords itself = words;
+  itself.centre_is_absolute = true;
+  itself.tolerance = {.relative = 0.0, .largest = itself.tolerance.absolute};
+  auto otherwise = arc_of(itself);
+  if (arc_of(lenient) || !otherwise) return arc;
+  state.modes.arc_distance = DistanceMode::absolute;
+  assume(state, movement.column, "arc centres",
+         "I J K are the centre itself, as the radii of the first arc agree only so");
+  return otherwise;
 }
 
 // Behind G40 the tool stays beside the contour until a move in the plane.
@@ -198,7 +220,8 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   }
   if (words.has('R')) arc_words.radius = words['R'].value * unit_scale(state);
 
-  auto arc = arc_of(arc_words);
+  auto arc = state.rules.first_arc_shows_centre ? arc_of_iso(state, movement, arc_words)
+                                                : arc_of(arc_words);
   if (!arc) {
     const LetterSet shape = words.given() & LetterSet(words.has('R') ? "R" : "IJK");
     const std::uint32_t column =

@@ -107,6 +107,7 @@ struct ModalState {
   bool diameter = false;  // G7: X words are twice the position
   DistanceMode distance = DistanceMode::absolute;
   DistanceMode arc_distance = DistanceMode::incremental;
+  bool centres_are_known = false;  // G90.1, G91.1 or an arc has been
   FeedMode feed_mode = FeedMode::per_minute;
   std::optional<FeedWord> feed{};
   bool feed_was_given = false;  // by any F, also F0

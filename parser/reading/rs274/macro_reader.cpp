@@ -25,6 +25,8 @@ constexpr std::array kOutputs{OutputStatement{"POPEN", false}, OutputStatement{"
                               OutputStatement{"DPRNT", true}, OutputStatement{"BPRNT", true},
                               OutputStatement{"SETVN", true}};
 
+constexpr std::string_view kShortWhile = "WH";
+
 // The words around a statement (N, /, comments, what THEN does) are read by the grammar of blocks,
 // with the statement blanked out so that columns stay what they are.
 class MacroReader {
@@ -38,7 +40,7 @@ class MacroReader {
   Result<Block> operator()() {
     flow_.column = in_.column();
     const std::string keyword = in_.letters();
-    if (keyword == "WHILE") {
+    if (keyword == "WHILE" || keyword == kShortWhile) {
       read_while();
     } else if (keyword == "DO") {
       flow_.kind = FlowKind::loop;
@@ -243,6 +245,10 @@ std::size_t statement_start(std::string_view text) {
   const bool letter_behind =
       place + 2 < text.size() && std::isalpha(static_cast<unsigned char>(text[place + 2])) != 0;
   if (begins_with("IF") && !letter_behind) return place;
+  if (begins_with(kShortWhile)) {
+    const std::size_t behind = text.find_first_not_of(' ', place + kShortWhile.size());
+    if (behind != std::string_view::npos && text[behind] == '[') return place;
+  }
   for (const std::string_view keyword : {"WHILE", "GOTO", "END", "DO"}) {
     if (begins_with(keyword)) return place;
   }

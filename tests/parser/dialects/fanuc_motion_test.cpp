@@ -66,5 +66,23 @@ TEST(FanucThread, FollowsTheSpindleByTheLeadF) {
   EXPECT_DOUBLE_EQ(*cuts[2].end[Z], -25.4);
 }
 
+// NUM and other ISO controls have the centre itself in G90; the first arc tells.
+TEST(FanucMotion, FirstArcShowsCentresThatAreNoSteps) {
+  const auto all = motions("G0 X10 Y0 Z0\nG3 X0 Y10 I0 J0 F100\nG3 X-10 Y0 I0 J0\n");
+  const auto arcs = all_of<ArcFeed>(all);
+  ASSERT_EQ(arcs.size(), 2U);
+  for (const ArcFeed& arc : arcs) EXPECT_NEAR(arc.center.head<2>().norm(), 0.0, 1e-12);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "arc centres");
+  // Not after an arc whose centre was a step, nor after G91.1, nor where the radii nearly agree.
+  EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 X0 Y10 I-10 J0 F100\nG3 X-10 Y0 I2 J0\n"),
+            std::vector<std::string>{"arc-radius"});
+  EXPECT_EQ(complaint_ids("G91.1\nG0 X10 Y0\nG3 X0 Y10 I5 J5 F100\n"),
+            std::vector<std::string>{"arc-radius"});
+  EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 X-10 Y0 I-10.02 J0 F100\n"),
+            std::vector<std::string>{"arc-radius"});
+  EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 I0 J0 F100\n"),
+            std::vector<std::string>{"arc-centre-is-start"});
+}
+
 }  // namespace
 }  // namespace frustum::parser

@@ -24,6 +24,12 @@ TEST(Macro, LoopsWhileItsConditionHolds) {
       (std::vector<double>{0, 1, 10, 11}));
 }
 
+TEST(Macro, LoopsByTheFirstTwoLettersOfWhile) {
+  EXPECT_EQ(
+      x_of_macro("#1=0\nWH[#1LT2]DO1\nG0X#1\n#1=#1+1\nEND1\nWH [#1LT3] DO1\nG0X9\n#1=3\nEND1\n"),
+      (std::vector<double>{0, 1, 9}));
+}
+
 TEST(Macro, JumpsForwardAndBack) {
   EXPECT_EQ(x_of_macro("G0 X1\nGOTO 20\nG0 X2\nN20 G0 X3\n"), (std::vector<double>{1, 3}));
   EXPECT_EQ(x_of_macro("#1=0\nN0010 #1=#1+1\nG0 X#1\nIF [#1 LT 3] GOTO 10\nG0 X9\n"),
