@@ -19,7 +19,7 @@
 namespace frustum::parser {
 namespace {
 
-constexpr AssumedValue kPlace{"place",
+constexpr AssumedValue kOperatorsPlace{"place",
                               "where an axis is that the operator moves: at zero, or where the "
                               "program has left it, with nothing added by datum and tool"};
 
@@ -40,7 +40,7 @@ Value of_axis(const SystemParameters& of, int index, bool of_machine) {
   if (of.state.tilted || !of.state.programmed_frame.is_identity()) return std::nullopt;
   Value place = of_machine ? of.position[axis] : axes[axis];
   if (!place && of.position.never_known(axis)) place = 0.0;
-  if (place) of.assumed.push_back(&kPlace);
+  if (place) of.assumed.push_back(&kOperatorsPlace);
   return place ? Value(*place * unit) : std::nullopt;
 }
 
