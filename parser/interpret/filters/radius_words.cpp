@@ -81,8 +81,13 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   const bool has_d = words.has('D') && code.code->arguments.has('D');
   const bool of_linuxcnc = state.rules.dialect == Dialect::linuxcnc;
   int number = state.modes.tool;
-  if (has_d) {
-    const auto given = whole(state, words, 'D', 0, kMaxToolNumber);
+  const bool has_h = h_is_of_radius(state, words);
+  if (has_h) {
+    assume(state, words['H'].column, "radius number",
+           fmt::format("H beside {} is the number of the radius, and not of a length", name));
+  }
+  if (has_d || has_h) {
+    const auto given = whole(state, words, has_h ? 'H' : 'D', 0, kMaxToolNumber);
     if (!given) return given.error();
     // D0 of LinuxCNC is the tool in the spindle.
     if (*given != 0 || !of_linuxcnc) number = *given;
@@ -139,6 +144,8 @@ bool goes_along_contour(InterpreterState& state, const BlockWords& words) {
   int number = state.modes.tool;
   if (words.has('D') && code.code->arguments.has('D')) {
     number = static_cast<int>(words['D'].value);
+  } else if (h_is_of_radius(state, words)) {
+    number = static_cast<int>(words['H'].value);
   } else if (state.rules.radius.source == RadiusSource::last_d) {
     number = state.modes.radius_number.value_or(-1);
   }

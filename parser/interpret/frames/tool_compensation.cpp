@@ -167,7 +167,7 @@ Result<Compensation> compensation_after(InterpreterState& state, const BlockWord
     }
   }
   if (length.code == nullptr && next.length && words.has('H') &&
-      state.rules.offset_numbers_stand_alone) {
+      state.rules.offset_numbers_stand_alone && !h_is_of_radius(state, words)) {
     next.offset_number = state.modes.length_number.value_or(0);
     const auto offset = listed_offset(state, words, next.offset_number);
     if (!offset) return offset.error();
@@ -196,7 +196,7 @@ Result<Compensation> compensation_after(InterpreterState& state, const BlockWord
 // H and D, which stay in force.
 Outcome set_offset_numbers(InterpreterState& state, const BlockWords& words) {
   for (const char letter : {'H', 'D'}) {
-    if (!words.has(letter)) continue;
+    if (!words.has(letter) || (letter == 'H' && h_is_of_radius(state, words))) continue;
     const auto number = whole(state, words, letter, 0, kMaxOffsetNumber);
     if (!number) return number.error();
     (letter == 'H' ? state.modes.length_number : state.modes.radius_number) = *number;
@@ -212,6 +212,12 @@ Outcome check_tool_exists(const InterpreterState& state, int tool, std::uint32_t
   return fail(state, column, "tool-missing"_id,
               fmt::format("tool {} is not in the tool table", tool),
               fmt::format("add a line T{} to the tool table", tool));
+}
+
+bool h_is_of_radius(const InterpreterState& state, const BlockWords& words) {
+  const auto side = words.value_or(CodeGroup::radius_compensation, RadiusWord::off);
+  return state.rules.offset_numbers_stand_alone && side != RadiusWord::off && words.has('H') &&
+         !words.has('D') && !words.has(CodeGroup::length_compensation);
 }
 
 bool guides_tip(const InterpreterState& state, const BlockWords& words) {

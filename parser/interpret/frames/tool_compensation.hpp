@@ -15,6 +15,8 @@ namespace frustum::parser {
 // In LinuxCNC the tool table has all the tools there are; T0 is no tool.
 [[nodiscard]] Outcome check_tool_exists(const InterpreterState& state, int tool,
                                         std::uint32_t column);
+// G41 H of older Fanuc controls, and of others by a parameter (OFH): H is the number of the radius.
+[[nodiscard]] bool h_is_of_radius(const InterpreterState& state, const BlockWords& words);
 [[nodiscard]] bool guides_tip(const InterpreterState& state, const BlockWords& words);
 [[nodiscard]] Outcome change_compensation(InterpreterState& state, const BlockWords& words,
                                           const Compensation& next);

@@ -19,9 +19,10 @@
 namespace frustum::parser {
 namespace {
 
-constexpr AssumedValue kOperatorsPlace{"place",
-                              "where an axis is that the operator moves: at zero, or where the "
-                              "program has left it, with nothing added by datum and tool"};
+constexpr AssumedValue kOperatorsPlace{
+    "place",
+    "where an axis is that the operator moves: at zero, or where the "
+    "program has left it, with nothing added by datum and tool"};
 
 using Value = std::optional<double>;
 

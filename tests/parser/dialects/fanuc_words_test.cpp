@@ -312,6 +312,13 @@ TEST(FanucWords, ModesAreRead) {
   EXPECT_EQ(x_of("#1=#4007\nG0 X#1\n"), 40.0);
 }
 
+TEST(FanucWords, RadiusMayHaveItsNumberInH) {
+  const auto all = motions("G21 T1 M6\nG0 X0 Y0\nG43 H3 Z9\nG1 G42 H19 Y10 F9\nX9\nG40 X20\n");
+  EXPECT_EQ(all_of<CompensationChange>(all).size(), 1U);
+  EXPECT_EQ(last_of<CompensationChange>(all).offset_number, 3);
+  EXPECT_EQ(last_of<LinearFeed>(all).end[Z], 9.0);
+}
+
 TEST(FanucWords, StoredVariablesAreVacant) {
   EXPECT_EQ(assumed(motions("#1=#600\nG0 X[1+#1]\n")), Names{"stored variables"});
   EXPECT_TRUE(assumed(motions("#600=2\n#1=#600+#101\nG0 X#1\n")).empty());
