@@ -24,6 +24,11 @@ Result<CallSubprogram> called_program(const InterpreterState& state, const Block
     return fail(state, code.column, "word-missing"_id, code.code->name() + " without P",
                 fmt::format("name the subprogram, for example {} P2000", code.code->name()));
   }
+  if (words.has('H') && state.rules.offset_numbers_stand_alone) {
+    return fail(state, words['H'].column, "word-ambiguous"_id,
+                fmt::format("{} beside {}", words.text_of('H'), code.code->name()),
+                "it is a length, or the block where the subprogram begins: give a length before");
+  }
   const auto program = whole(state, words, 'P', 1, kMaxProgramNumber);
   if (!program) return program.error();
   call.program = static_cast<std::uint32_t>(*program);

@@ -97,6 +97,7 @@ constexpr FanucMistake kMacros[] = {
     {"#5221=#5021\n", "1:1: error: #5221 is set to a value that only the machine knows"},
     {"IF[#3020GT1]GOTO1\nN1\n",
      "1:1: error: what comes next depends on #3020, which only the machine knows"},
+    {"M98 P1 H50\nM30\nO1\nM99\n", "1:8: error: H50 beside M98"},
     {"M96 P1 Q8\n", "1:1: error: M96 P is not simulated"},
     {"M97 P7\nM30\n", "1:5: error: there is no N7 to call"},
     {"M97 P7\nM30\nN7 G0 X1\n", "3:1: error: subprogram N7 has no M99"},
