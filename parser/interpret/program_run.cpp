@@ -121,10 +121,12 @@ ProgramRun::Failure ProgramRun::run_next() {
   statement_ran_ = statement_ran_ || block.flow.has_value();
   const std::size_t calls = frames_.size();
   auto failure = block.flow ? follow_statement(block) : execute(block);
-  tell_assumed_values(block);
+  // A call moves the blocks of its callers, and a subprogram that has been left took its own with
+  // it: what such a statement has read is told at the next block.
+  const bool stays = frames_.size() == calls;
+  if (stays) tell_assumed_values(block);
   if (!failure || !goes_on(*failure)) return failure;
-  // A subprogram that has been left took its block with it.
-  if (frames_.size() == calls) pass_over(executor_.state(), block);
+  if (stays) pass_over(executor_.state(), block);
   return std::nullopt;
 }
 
@@ -165,6 +167,7 @@ bool ProgramRun::goes_on(const Diagnostic& failure) const {
 ProgramRun::Failure ProgramRun::execute(const Block& block) {
   auto flow = executor_.execute(block);
   if (!flow) return in_this_file(std::move(flow).error().front());
+  tell_assumed_values(block);  // before the block may go with its frame
   const bool calls_or_leaves = std::holds_alternative<CallSubprogram>(*flow) ||
                                std::holds_alternative<CallFile>(*flow) ||
                                std::holds_alternative<LeaveSubprogram>(*flow);

@@ -325,6 +325,18 @@ TEST(FanucWords, StoredVariablesAreVacant) {
   EXPECT_EQ(last_of<Traverse>(motions("#901001=2\nG0 X#901001\n")).end[X], 2.0);
 }
 
+// The block of a call that is read as the program runs goes when the call begins.
+TEST(FanucWords, SignalsThatACallReadsAreToldBeforeIt) {
+  const Program program{"part.nc", Dialect::fanuc,
+                        ProgramText("G0 X0\nG65 P9000 A#1000\nM30\nO9000\nG0 X[5+#1]\nM99\n")};
+  const auto all = motions_of(program);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(last_of<Traverse>(*all).end[X], 5.0);
+  EXPECT_EQ(assumed(*all), Names{"signals"});
+  ASSERT_EQ(all->size(), 4U);
+  EXPECT_EQ(all->at(1).place.line, 2U);
+}
+
 TEST(FanucWords, ToolMayNameItsOffset) {
   const auto all = motions("T1.1 M6\n");
   EXPECT_EQ(last_of<ToolChange>(all).tool, 1);
