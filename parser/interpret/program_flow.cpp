@@ -164,6 +164,11 @@ ProgramRun::Failure ProgramRun::follow_statement(const Block& block) {
     case FlowKind::otherwise:
       frame().cursor.go_to(map[here.end].behind);
       return std::nullopt;
+    case FlowKind::end_branch:
+      if (&map[here.begin] != &here) return std::nullopt;
+      executor_.state().at_work.block = &block;
+      assume(executor_.state(), flow.column, "ENDIF", "of a jump, IF .. GOTOF, it closes nothing");
+      return std::nullopt;
     case FlowKind::loop:
       return enter_loop(block, here);
     case FlowKind::end_loop:

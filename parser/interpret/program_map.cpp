@@ -67,6 +67,7 @@ bool closes(FlowKind kind) {
 ProgramMap::ProgramMap(const Program& program) {
   BlockCursor cursor(program);
   std::size_t programs = 0;
+  std::size_t work = 0;
   bool begun = false;
   while (true) {
     const auto block = cursor.next();
@@ -80,10 +81,13 @@ ProgramMap::ProgramMap(const Program& program) {
     const TextPlace place = cursor.block_place();
     if ((*block)->program)
       programs_.emplace(*(*block)->program, Numbered{place, (*block)->program_column});
+    if (!(*block)->words.empty() || !(*block)->assignments.empty()) ++work;
     if (const auto& flow = (*block)->flow) {
       if (flow->kind == FlowKind::program) ++programs;
       landmarks_.push_back(
           {place, cursor.place(), flow->kind, flow->turns, flow->column, flow->label, programs});
+      landmarks_.back().work_before = work;
+      landmarks_.back().jumps_if = flow->kind == FlowKind::jump && !flow->condition.empty();
       if (!flow->block_label.empty()) {
         landmarks_.push_back({place, cursor.place(), FlowKind::label, flow->turns,
                               flow->block_label_column, flow->block_label, programs});
@@ -106,6 +110,20 @@ void ProgramMap::add_fault(const Program& program, Landmark& landmark, Diagnosti
 const Diagnostic* ProgramMap::fault_of(const Landmark& landmark, bool any) const {
   if (any) return faults_.empty() ? nullptr : &faults_.front();
   return landmark.fault ? &faults_[*landmark.fault] : nullptr;
+}
+
+// ENDIF directly behind IF .. GOTOF, or behind other ENDIFs that are: nothing is left out by it,
+// whatever it is taken to close.
+bool ProgramMap::ends_a_jump(std::size_t index) const {
+  const Landmark& here = landmarks_[index];
+  if (here.kind != FlowKind::end_branch) return false;
+  for (std::size_t i = index; i-- > 0;) {
+    const Landmark& before = landmarks_[i];
+    if (before.work_before != here.work_before) return false;
+    if (before.jumps_if) return true;
+    if (before.kind != FlowKind::end_branch) return false;
+  }
+  return false;
 }
 
 void ProgramMap::pair(const Program& program) {
@@ -165,6 +183,9 @@ void ProgramMap::pair(const Program& program) {
       return begin.kind == *opener &&
              (begin.label == here.label || (here.label.empty() && !inner_only));
     });
+    if (statement == open.rend() && program.dialect == Dialect::sinumerik && ends_a_jump(i)) {
+      continue;
+    }
     if (statement == open.rend()) {
       add_fault(program, here, "flow-unpaired"_id,
                 fmt::format("there is no {}{} to which this belongs", wording(*opener).begin,

@@ -37,6 +37,9 @@ struct Landmark {
   std::size_t begin = 0;
   std::size_t next = 0;
   std::size_t end = 0;
+  // How many blocks before it have words or settings, and whether it is a jump behind a condition.
+  std::size_t work_before = 0;
+  bool jumps_if = false;
   // Of those that are wrong: of its program's faults.
   std::optional<std::size_t> fault{};
 };
@@ -69,6 +72,7 @@ class ProgramMap {
 
  private:
   void pair(const Program& program);
+  [[nodiscard]] bool ends_a_jump(std::size_t index) const;
   void add_fault(const Program& program, Landmark& landmark, DiagnosticId id, std::string message,
                  std::string hint);
 

@@ -16,6 +16,26 @@ std::vector<double> x_of_sinumerik(std::string_view text) {
   return places;
 }
 
+TEST(SinumerikFlow, EndifOfAJumpClosesNothing) {
+  const auto x_of = [](std::string_view text) {
+    return *last_of<Traverse>(motions(text, {}, Dialect::sinumerik)).end[AxisLetter::X];
+  };
+  EXPECT_EQ(x_of("IF R1>0 GOTOF THERE\n;no work\nENDIF\nG0 X1\nTHERE: M30\n"), 1.0);
+  EXPECT_EQ(x_of("R1=1\nG0 X5\nIF R1>0 GOTOF THERE\nENDIF\nG0 X1\nTHERE: M30\n"), 5.0);
+  const std::string nested = "IF R2==0\nIF R1>0 GOTOF THERE\nENDIF\nENDIF\nG0 X1\nTHERE: M30\n";
+  EXPECT_EQ(x_of(nested), 1.0);
+  EXPECT_EQ(x_of("R2=1\n" + nested), 1.0);
+  const auto told = all_of<Event>(motions(nested, {}, Dialect::sinumerik));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].grade, EventGrade::assumed);
+  // With work between it would matter what it closes.
+  EXPECT_EQ(
+      complaint_ids("IF R1>0 GOTOF THERE\nG0 X1\nENDIF\nTHERE: M30\n", {}, Dialect::sinumerik),
+      std::vector<std::string>{"flow-unpaired"});
+  EXPECT_EQ(complaint_ids("IF R1>0\nG0 X1\nENDIF\nENDIF\n", {}, Dialect::sinumerik),
+            std::vector<std::string>{"flow-unpaired"});
+}
+
 TEST(SinumerikFlow, Branches) {
   const char* text = "IF (R1>1) AND NOT (R1==3)\nG0 X1\nELSE\nG0 X2\nENDIF\nG0 X9\n";
   EXPECT_EQ(x_of_sinumerik(std::string("R1=2\n") + text), (std::vector<double>{1, 9}));
