@@ -34,8 +34,9 @@ constexpr std::array kNames{
     CycleName{"REAM", "CYCLE/BORE", false},
 };
 // Said of the tool or the control, not of the path; the first two with a number.
-constexpr std::array<std::string_view, 9> kRemarks{"CAM",   "ORIENT", "DIAMTR", "TLANGL", "OPTION",
-                                                   "FLOAT", "RIGID",  "MANUAL", "NOMORE"};
+constexpr std::array<std::string_view, 11> kRemarks{"CAM",    "ORIENT", "DIAMTR", "TLANGL",
+                                                    "OPTION", "FLOAT",  "RIGID",  "MANUAL",
+                                                    "NOMORE", "DRAG",   "NODRAG"};
 
 class CycleReader {
  public:
@@ -151,9 +152,28 @@ class CycleReader {
     if (slot == kSlots.end())
       return fail("unknown-word"_id, part.column, part.word + " has no meaning in CYCLE");
     this->*slot->value = number_behind(part);
+    if (slot->value == &CycleReader::step_) take_further_steps();
     // RTRCTO,20,MANUAL
     if (part.word == "RTRCTO" && place_ < given_.size() && given_[place_].word == "MANUAL") {
       ++place_;
+    }
+  }
+
+  // STEP,5,5: of each peck. Beside words alone (CYCLE/DEEP,9,INCR,5,100,MMPM,3) the number before a
+  // unit is the feed.
+  void take_further_steps() {
+    const bool worded = std::any_of(given_.begin(), given_.end(), [](const CldataArgument& part) {
+      return part.word == "DEPTH" || part.word == "FEDTO";
+    });
+    while (!in_.failed() && place_ < given_.size() && given_[place_].is_number()) {
+      const bool feed = !worded && place_ + 1 < given_.size() &&
+                        cldata_feed_unit(given_[place_ + 1].word, inches_);
+      if (feed) return;
+      const CldataArgument& further = given_[place_++];
+      if (further.number == step_->number) continue;
+      in_.fail("not-supported"_id, further.column,
+               "CYCLE with a step of its own for each peck is not simulated",
+               "give one STEP, or write the cycle out as GOTO records");
     }
   }
 

@@ -41,10 +41,11 @@ struct Pending {
   bool drills = false;   // a cycle is on, with a feed of its own
   CldataModes modes{};
   CldataArcs arcs{};
-  std::optional<Vec3> at{};    // the last place, as written
-  std::optional<Vec3> axis{};  // the last tool vector
-  std::string frame{};         // of MSYS
-  bool refused = false;        // what is no program for milling is reported once
+  std::optional<Vec3> at{};     // the last place, as written
+  std::optional<Vec3> axis{};   // the last tool vector
+  std::string frame{};          // of MSYS
+  bool refused = false;         // what is no program for milling is reported once
+  bool remark_goes_on = false;  // $$-> CSYS / 1.0, 0.0, $
 };
 
 class CldataReader {
@@ -56,9 +57,14 @@ class CldataReader {
 
   Result<Block> operator()() {
     if (pending_.refused) return std::move(block_);
+    const bool of_remark = std::exchange(pending_.remark_goes_on, false) && begins_with_number();
     if (const auto place = read_cldata_place(in_.text())) {
       read_place(*place);
-    } else if (!remarks_.take_comment() && !in_.at_end()) {
+    } else if (of_remark) {
+      block_.comments.push_back({in_.column(), true, remarks_.numbers_of_remark(), nullptr});
+    } else if (remarks_.take_comment()) {
+      pending_.remark_goes_on = !in_.failed() && block_.comments.back().text.ends_with('$');
+    } else if (!in_.at_end()) {
       read_record();
     }
     return in_.finish(std::move(block_));
@@ -69,6 +75,11 @@ class CldataReader {
     std::string_view word;
     void (CldataReader::*read)();
   };
+
+  bool begins_with_number() {
+    const char first = in_.peek();
+    return (first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.';
+  }
 
   // A)GOTO/...
   void take_label() {
@@ -86,10 +97,7 @@ class CldataReader {
     take_label();
     record_.column = in_.column();
     // Creo writes further places on lines of their own.
-    const char first = in_.peek();
-    const bool number =
-        (first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.';
-    if (number && pending_.goes_on) {
+    if (pending_.goes_on && begins_with_number()) {
       record_.word = "GOTO";
       record_.arguments = read_cldata_arguments(in_);
       return read_rest();

@@ -1,5 +1,6 @@
 #include "parser/reading/cldata/cldata_remarks.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -26,6 +27,13 @@ bool CldataRemarks::take_comment() {
   }
   block_.comments.push_back({column, true, in_.text_to(), nullptr});
   return true;
+}
+
+std::string CldataRemarks::numbers_of_remark() {
+  std::string text(in_.bytes_to());
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
 }
 
 bool CldataRemarks::take_text() {

@@ -20,6 +20,8 @@ class CldataRemarks {
 
   // $$ remark
   bool take_comment();
+  // Of a record that goes on with a remark before it: $$-> CSYS / 1.0, 0.0, $
+  [[nodiscard]] std::string numbers_of_remark();
   // PARTNO FLANGE, PPRINT/DONE
   bool take_text();
   // Records that change nothing which is simulated. `frame` is that of the MSYS before.

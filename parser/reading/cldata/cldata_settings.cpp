@@ -147,6 +147,18 @@ class SettingReader {
     modes_.axis = {given[2], given[6], given[10]};
     note("CSYS");
   }
+  // MCS of CAMplete: where the frame of an operation is, by its axes and its origin.
+  void read_machining_frame() {
+    constexpr std::size_t kNumbers = 12;
+    if (!are_cldata_numbers(in_, record_, {kNumbers}, "give the 12 numbers of the frame")) return;
+    for (std::size_t i = 0; i < kNumbers; ++i) {
+      const double unmoved = i == 0 || i == 4 || i == 8 ? 1.0 : 0.0;
+      if (record_.arguments[i].number == unmoved) continue;
+      return in_.fail("not-supported"_id, record_.column, "MCS that is not the frame of the part",
+                      "let the CAM system write the path in the coordinates of the part");
+    }
+    note("MCS");
+  }
   void read_transform() {
     modes_.world = !record_.arguments.empty() && record_.arguments.front().word == "WORLD";
     if (modes_.world) return note("TRNTYP");
@@ -224,6 +236,7 @@ std::span<const SettingReader::Handler> SettingReader::handlers() {
       Handler{"TLAXIS", &SettingReader::read_axis},
       Handler{"TRNTYP", &SettingReader::read_transform},
       Handler{"CSYS", &SettingReader::read_frame},
+      Handler{"MCS", &SettingReader::read_machining_frame},
       Handler{"COOLNT", &SettingReader::read_coolant},
       Handler{"DELAY", &SettingReader::read_delay},
       Handler{"DWELL", &SettingReader::read_delay},

@@ -214,6 +214,7 @@ TEST(CldataOfCam, DeepHolesWithoutAStepAreOnePeck) {
 }
 
 TEST(CldataOfCam, OptionsOfCyclesAreEventsAndDwellsMayBeTurns) {
+  EXPECT_EQ(ids_of("LOADTL/1\nCYCLE/BORE,NODRAG,ORIENT,45.0,RAPTO,3,FEDTO,-12,MMPM,100\n"), Ids{});
   const std::string start = "SPINDL/300,RPM,CLW\nLOADTL/1\nRAPID\nGOTO/0,0,9\n";
   const auto events = events_of(
       start + "CYCLE/DRILL,DEPTH,5,CAM,2,MMPM,9,CLEAR,3,DWELL,REV,10,ORIENT,90\nGOTO/0,0,0\n",
@@ -287,6 +288,52 @@ TEST(CldataOfCam, WhatRunsElsewhereIsRefused) {
 }
 
 // What the reader adds is not written, and is added again.
+// The frame of a sequence, as a remark over three lines.
+TEST(CldataOfCam, RemarksOfCreoGoOnWithNumbers) {
+  const std::string remark =
+      "$$-> CSYS / 1.0000000000, 0.0000000000, 0.0000000000, 0.0000000000,  $\n"
+      "            0.0000000000, 1.0000000000, 0.0000000000, 0.0000000000,  $\n"
+      "            0.0000000000, 0.0000000000, 1.0000000000, 0.0000000000\n";
+  const auto all = run_cl("UNITS / MM\nLOADTL / 1\n" + remark +
+                          "RAPID\nGOTO / 1.0, 2.0, 3.0\n$$-> SETSTART / 0.0, $\n 0.0\n"
+                          "RAPID\nGOTO / 4.0, 5.0, 6.0\n");
+  const auto moves = all_of<Traverse>(all);
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_EQ(place_of(moves[0].end), Vec3(1, 2, 3));
+  EXPECT_EQ(place_of(moves[1].end), Vec3(4, 5, 6));
+  // Further places of Creo are no remarks.
+  const auto places = all_of<LinearFeed>(run_cl("FEDRAT/100,MMPM\nGOTO/1,2,3\n4,5,6\n"));
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_EQ(place_of(places[1].end), Vec3(4, 5, 6));
+  EXPECT_FALSE(ids_of("$$ REMARK\n1.0, 2.0\n").empty());
+}
+
+TEST(CldataOfCam, StepsThatDifferFromPeckToPeckAreRefused) {
+  const auto bottoms = [](const std::string& cycle) {
+    std::vector<double> depths;
+    for (const LinearFeed& feed :
+         all_of<LinearFeed>(run_cl("LOADTL/1\nRAPID\nGOTO/0,0,50\n" + cycle + "\nGOTO/0,0,0\n"))) {
+      depths.push_back(*feed.end[Z]);
+    }
+    return depths;
+  };
+  using Depths = std::vector<double>;
+  // From the clearance of 3 down.
+  EXPECT_EQ(bottoms("CYCLE/DRILL,DEEP,STEP,5,5,RAPTO,3,FEDTO,-9,MMPM,100"), (Depths{-2, -7, -9}));
+  EXPECT_EQ(bottoms("CYCLE/DEEP,9,INCR,5,100,MMPM,3"), (Depths{-2, -7, -9}));
+  for (const char* cycle : {"CYCLE/DRILL,DEEP,STEP,5,2,1,RAPTO,3,FEDTO,-9,MMPM,100",
+                            "CYCLE/BRKCHP,DEPTH,9,STEP,5,2,MMPM,100,CLEAR,3"}) {
+    EXPECT_EQ(ids_of(std::string("LOADTL/1\n") + cycle + "\nGOTO/0,0,0\n"), Ids{"not-supported"})
+        << cycle;
+  }
+}
+
+TEST(CldataOfCam, TheFrameOfAMachiningSetupIsThatOfThePart) {
+  EXPECT_EQ(ids_of("MCS/1, 0, 0, $\n0, 1, 0, $\n0, 0, 1, $\n0, 0, 0\n"), Ids{});
+  EXPECT_EQ(ids_of("MCS/0,1,0,-1,0,0,0,0,1,0,0,0\n"), Ids{"not-supported"});
+  EXPECT_EQ(ids_of("MCS/1,0,0,0,1,0,0,0,1,0,0,5\n"), Ids{"not-supported"});
+}
+
 TEST(CldataOfCam, IsReadBackAsItWasRead) {
   const std::string text =
       "CYCLE/TAP,5,1\nCYCLE/DEEP,DEPTH,5,CLEAR,1\nCYCLE/OFF\nGOTO/1,2,3\n" + std::string(kTilted) +
