@@ -33,15 +33,20 @@ struct DiffOptions {
 
 constexpr const char* kKinds[] = {"none", "tip", "axis", "feed", "tool", "missing", "extra"};
 
-// Tools that the programs call and that have no length yet.
+// Tools and lengths that the programs call and that the set-up does not have.
 std::set<int> unmeasured_tools(const kinematics::Setup& setup,
                                std::initializer_list<std::span<const parser::Motion>> programs) {
   std::set<int> tools;
   for (const auto& motions : programs) {
     for (const parser::Motion& motion : motions) {
-      const auto* change = std::get_if<parser::ToolChange>(&motion.command);
-      if (change != nullptr && change->tool > 0 && !setup.tools.contains(change->tool))
-        tools.insert(change->tool);
+      int number = -1;
+      if (const auto* change = std::get_if<parser::ToolChange>(&motion.command)) {
+        if (change->tool > 0) number = change->tool;
+      } else if (const auto* length = std::get_if<parser::CompensationChange>(&motion.command)) {
+        const bool off = length->mode == parser::LengthCompensation::off || length->length;
+        if (!off) number = length->offset_number;
+      }
+      if (number >= 0 && !setup.tools.contains(number)) tools.insert(number);
     }
   }
   return tools;

@@ -44,6 +44,10 @@ post::PlanOptions plan_options(const PostOptions& options, const parser::NcSpell
   plan.arcs = options.arcs == "none"         ? post::ArcForm::none
               : spelling.circle_centre_block ? post::ArcForm::flat
                                              : post::ArcForm::all;
+  plan.length = !spelling.compensation_by_tool     ? post::LengthForm::by_number
+                : spelling.no_compensation.empty() ? post::LengthForm::always_by_tool
+                                                   : post::LengthForm::by_tool;
+  plan.zero_is_spindle = spelling.zero_is_spindle;
   plan.great_circle = !spelling.orientation_paths[1].empty();
   plan.tolerance = Mm{options.tolerance};
   plan.angle_tolerance = Rad{options.angle_tolerance * 1e-3};

@@ -33,7 +33,7 @@ constexpr NcSpelling kFanucWords{
     .after_machine_coordinates = "",
     .machine_coordinates_compensated = false,
     .circle_centre_block = false,
-    .full_turns = "P#",
+    .full_turns = "",
     .turns_beyond = 0,
     .feed_modes = {"G94", "G93", "G95"},
     .feed_words = {"F", "F", "F"},
@@ -43,6 +43,7 @@ constexpr NcSpelling kFanucWords{
     .tool_vectors = "G43.5 H#",
     .leave_tool_centre_point = "",
     .compensation_by_tool = false,
+    .zero_is_spindle = false,
     .orientation_paths = {},
     .rotary_paths = {},
     .tool_change = "T# M6",
@@ -59,12 +60,14 @@ constexpr NcSpelling kFanucWords{
 constexpr NcSpelling linuxcnc_words() {
   NcSpelling s = kFanucWords;
   s.title = "LinuxCNC";
+  s.zero_is_spindle = true;
   s.extension = ".ngc";
   s.header = "%\n($)";
   s.modes = "G21 G90 G91.1 G17 G40 G49 G80 G94";
   s.upper_comments = false;
   s.thread = "G33";
   s.lead = "K";
+  s.full_turns = "P#";
   s.tool_vector = {};
   s.tool_vectors = "";
   s.tool_centre_point = "G43 H#\nM428";
@@ -149,6 +152,7 @@ constexpr NcSpelling kHeidenhainWords{
     .tool_vectors = "",
     .leave_tool_centre_point = "FUNCTION RESET TCPM",
     .compensation_by_tool = true,
+    .zero_is_spindle = false,
     .orientation_paths = {"FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
                           "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR"},
     .rotary_paths = {"M127", "M126"},

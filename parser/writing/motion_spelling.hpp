@@ -47,7 +47,7 @@ struct NcSpelling {
   bool machine_coordinates_compensated;  // the tool length must be off for them
   // CC X.. Y.. before C, else I J K from the start; such arcs are flat, in X and Y, of one turn.
   bool circle_centre_block;
-  std::string_view full_turns;  // of arcs of more than one turn; empty: none
+  std::string_view full_turns;  // of arcs of more than one turn; empty: each turn is a block
   int turns_beyond;             // the number written is the turns less this
 
   // Feeds: words that switch the mode, and how the value is written in it.
@@ -58,6 +58,7 @@ struct NcSpelling {
   std::string_view no_compensation, length, tool_centre_point, tool_vectors;
   std::string_view leave_tool_centre_point;
   bool compensation_by_tool;  // the length is that of the tool in the spindle
+  bool zero_is_spindle;       // H0 is
   std::array<std::string_view, 2> orientation_paths;  // rotary axes linear, great circle
   std::array<std::string_view, 4> rotary_paths;       // as programmed, shortest, in one direction
   std::string_view tool_change, tool_change_with_speed;

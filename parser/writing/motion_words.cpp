@@ -38,6 +38,14 @@ std::string MotionWords::text_of(AxisLetter letter, double value) const {
                            : coordinate(value, options_.length_decimals);
 }
 
+AxisTarget MotionWords::at() const {
+  AxisTarget places;
+  for (const AxisLetter letter : kAxisLetters) {
+    if (const auto& known = known_.at(index_of(letter))) places[letter] = known->value;
+  }
+  return places;
+}
+
 std::string MotionWords::axis(AxisLetter letter, double value, bool always) {
   const std::string number = text_of(letter, value);
   std::optional<Known>& known = known_.at(index_of(letter));

@@ -49,6 +49,8 @@ class MotionWords {
   // Of the axes and of the tool vector.
   void forget();
   [[nodiscard]] bool knows(AxisLetter letter) const { return known_[index_of(letter)].has_value(); }
+  // Where the axes are, as far as it is known.
+  [[nodiscard]] AxisTarget at() const;
   // X12.5, or nothing when the axis is there already.
   [[nodiscard]] std::string axis(AxisLetter letter, double value, bool always);
   [[nodiscard]] std::string vector(const std::optional<UnitVec3>& tool_axis);

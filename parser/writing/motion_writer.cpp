@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "parser/arc.hpp"
+#include "parser/writing/arc_turns.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/motion_spelling.hpp"
 #include "parser/writing/motion_words.hpp"
@@ -115,11 +116,7 @@ class MotionWriter {
       return;
     }
     const int turns = std::abs(arc.turns);
-    if (turns > 1 && spelling_.full_turns.empty()) {
-      refusals_.add("an arc of more than one turn",
-                    "linearise arcs, or write the turns one by one");
-      return;
-    }
+    if (turns > 1 && spelling_.full_turns.empty()) return write_turns(arc);
     if (spelling_.circle_centre_block && !words_.flat_in_xy(arc)) {
       refusals_.add("an arc that is not flat in X and Y", "linearise arcs");
       return;
@@ -154,6 +151,15 @@ class MotionWriter {
     if (spelling_.circle_centre_block) block.add(arc.turns > 0 ? "DR+" : "DR-");
     block.add(words_.feed(arc.feed));
     out_.line(block.take());
+  }
+
+  void write_turns(const ArcFeed& arc) {
+    const std::vector<ArcFeed> turns = single_turns(arc, words_.at());
+    if (turns.empty()) {
+      refusals_.add("a helix of which an axis starts where it is not known",
+                    "name all of its axes in the move before");
+    }
+    for (const ArcFeed& turn : turns) write(turn);
   }
 
   void straight(const AxisTarget& end, const std::optional<UnitVec3>& tool_axis,
@@ -224,6 +230,11 @@ class MotionWriter {
       refusals_.add(fmt::format("the length of tool {} with tool {} in the spindle",
                                 change.offset_number, tool_),
                     "take the length offset of the tool in the spindle");
+      return;
+    }
+    if (change.offset_number >= kEdgeOffsets && !spelling_.compensation_by_tool) {
+      refusals_.add("the length of a further edge of a tool",
+                    "take the length of the tool itself: D1");
       return;
     }
     if (change.tool_vectors && spelling_.tool_vector[0].empty()) {

@@ -28,12 +28,18 @@ bool apart(const PathMatch& match, const DifferenceLimits& limits) {
 // The first match that is apart, or that another tool makes.
 Found first_apart(const ToolPath& reference, const ToolPath& other,
                   const std::vector<PathMatch>& matches, const DifferenceLimits& limits) {
+  const auto another_tool = [&](const PathMatch& m) {
+    return reference.blocks[m.reference.block].tool != other.blocks[m.other.block].tool;
+  };
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const PathMatch& m = matches[i];
     if (m.tip_distance() > limits.tip) return {DifferenceKind::tip, i};
     if (m.axis_angle() > limits.axis) return {DifferenceKind::axis, i};
-    const int tool = reference.blocks[m.reference.block].tool;
-    if (tool != other.blocks[m.other.block].tool) return {DifferenceKind::tool, i};
+    // Where a tool begins at which another one ended, both are the nearest.
+    const bool last = i + 1 == matches.size();
+    if (another_tool(m) && (last || another_tool(matches[i + 1]))) {
+      return {DifferenceKind::tool, i};
+    }
   }
   return {};
 }

@@ -30,12 +30,31 @@ kinematics::ToolPath path_of(const kinematics::Machine& machine, const ComparedP
       .path;
 }
 
+// Some programs leave the retract for a tool change to it, and some call no tool at all.
+void complete(ComparedProgram& program) {
+  constexpr int kUncalled = -1;  // no program has such a tool
+  program.setup.tools[kUncalled] = {};
+  parser::HomeReturn up;
+  up.axes.at(static_cast<std::size_t>(parser::AxisLetter::Z)) = true;
+  std::vector<parser::Motion> motions{{{}, parser::ToolChange{kUncalled}}};
+  motions.reserve(program.motions.size() + 1);
+  for (parser::Motion& motion : program.motions) {
+    if (auto* change = std::get_if<parser::ToolChange>(&motion.command)) {
+      motions.push_back({motion.place, up});
+      if (change->tool == 0) change->tool = kUncalled;
+    }
+    motions.push_back(std::move(motion));
+  }
+  program.motions = std::move(motions);
+}
+
 }  // namespace
 
 Result<ProgramComparison> compare_programs(const kinematics::Machine& machine,
-                                           const ComparedProgram& first,
-                                           const ComparedProgram& second,
+                                           ComparedProgram first, ComparedProgram second,
                                            const DifferenceLimits& limits) {
+  complete(first);
+  complete(second);
   const auto first_commanded = commanded(machine, first);
   if (!first_commanded) return first_commanded.error();
   const auto second_commanded = commanded(machine, second);

@@ -4,7 +4,9 @@
 // Model    : both programs are executed on the machine without errors; tip, tool axis and the time
 //            that each segment takes are compared along the path
 //            (kinematics/path/path_comparison.hpp), so that block division, dialect and the way a
-//            pose is written play no part. Only feed moves count; travels are not looked at
+//            pose is written play no part. Only feed moves count; travels are not looked at.
+//            Z goes home for each tool change in both: machines do so, written or not. Before the
+//            first call a tool without length is in the spindle
 // Units    : mm, rad, s; frame: table
 // Errors   : what the controller refuses in either program, with file and NC line; programs that
 //            both have no feed moves
@@ -55,8 +57,8 @@ struct ProgramComparison {
 };
 
 [[nodiscard]] Result<ProgramComparison> compare_programs(const kinematics::Machine& machine,
-                                                         const ComparedProgram& first,
-                                                         const ComparedProgram& second,
+                                                         ComparedProgram first,
+                                                         ComparedProgram second,
                                                          const DifferenceLimits& limits = {});
 
 }  // namespace frustum::post

@@ -8,6 +8,18 @@
 #include "post/planning/pose_run.hpp"
 
 namespace frustum::post {
+namespace {
+
+// Some controls allow more between the radii at start and end than others; as chords all read it.
+bool is_round(const parser::ArcFeed& arc, const Vec3& start, const Vec3& end) {
+  constexpr double kRound = 0.01;  // mm: what the strictest allows
+  const Vec3 normal = normal_of(arc.plane);
+  const double growth =
+      normal.cross(end - arc.center).norm() - normal.cross(start - arc.center).norm();
+  return std::abs(growth) <= kRound;
+}
+
+}  // namespace
 
 using kinematics::AxisPositions;
 using kinematics::kRotaryAxes;
@@ -50,9 +62,9 @@ AxisTarget BlockOutput::given_letters(const PlannedBlock& block, bool whole) con
 
 // Words of the output that bring the axes to q.
 AxisTarget BlockOutput::words_at(const AxisPositions& q, const AxisTarget& letters) const {
-  const kinematics::ControllerState& program = state_.controller;
-  const Vec3 linear = state_.tip_output() ? Vec3(program.tip_at(q) - program.origin())
-                                          : Vec3(linear_positions(q) - program.axis_shift());
+  const CompensationChange& by = state_.applied;
+  const Vec3 linear = state_.tip_output() ? state_.tip_words_at(q, by)
+                                          : Vec3(linear_positions(q) - state_.axis_shift(by));
   AxisTarget words;
   for (const AxisLetter letter : kinematics::kLinearAxes) {
     if (letters[letter]) words[letter] = linear[static_cast<Eigen::Index>(letter)];
@@ -72,9 +84,9 @@ std::optional<ArcImage> BlockOutput::arc_image(const PlannedBlock& block,
   if (block.arc == nullptr || state_.options.arcs == ArcForm::none) return {};
   const AxisPositions& q = state_.q;
   if (rotary_travel(q, rotary_.end()) > kNoTravel) return {};
-  const kinematics::ControllerState& program = state_.controller;
+  if (!is_round(*block.arc, start, with_words(start, block.end))) return {};
   Mat3 out_from_in = table_from_in;
-  Vec3 start_out = program.tip_at(q) - program.origin();
+  Vec3 start_out = state_.tip_words_at(q, wanted);
   if (tip_control(wanted)) {
     const Vec3 axis = kinematics::nominal_pose(state_.machine, q, 0.0).rotation.col(2);
     // rad: the cosine of the tilt is one within rounding.
@@ -83,7 +95,7 @@ std::optional<ArcImage> BlockOutput::arc_image(const PlannedBlock& block,
     if (axis.cross(normal).norm() > kUpright) return {};
   } else {
     out_from_in = kinematics::linear_axis_directions(state_.machine, q).inverse() * table_from_in;
-    start_out = linear_positions(q) - program.axis_shift();
+    start_out = linear_positions(q) - state_.axis_shift(wanted);
   }
   auto image = image_of(*block.arc, out_from_in, start, start_out);
   if (image && state_.options.arcs == ArcForm::flat) {

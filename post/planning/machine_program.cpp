@@ -95,6 +95,7 @@ class Planner {
     stop_spindle();
     state_.retract();
     state_.compensate({});
+    state_.tool = change.tool;
     state_.emit(change);
   }
   void follow(const parser::CompensationChange& change) {
@@ -183,7 +184,7 @@ class Planner {
       to[letter] = *end[letter];
       if (parser::is_rotary(letter)) rotary_.set(letter, to[letter]);
     }
-    if (!state_.within_travel(to)) return;
+    if (!state_.within_travel(to) || !has_feed(feed)) return;
     if (!state_.modes().compensates() || state_.tip_output()) state_.compensate({});
     if (feed == nullptr) {
       state_.emit(parser::Traverse{end, std::nullopt, Coordinates::machine});
@@ -209,7 +210,7 @@ class Planner {
       return;
     }
     const CompensationChange wanted = output_compensation();
-    if (!state_.length_known(tip_words == tip_control(wanted))) return;
+    if (!state_.length_known(wanted, block.arc == nullptr ? &block.end : nullptr)) return;
     if (tip_words) {
       move_tip(block, wanted);
     } else {
@@ -219,11 +220,18 @@ class Planner {
 
   // What the output needs switched on for a block under the program's own compensation.
   [[nodiscard]] CompensationChange output_compensation() const {
-    if (!state_.modes().compensates()) return {};
+    const LengthForm form = state_.options.length;
+    const bool by_tool = form != LengthForm::by_number;
+    if (by_tool && state_.tool == 0) return {};  // an empty spindle has no length
+    if (!state_.modes().compensates()) {
+      if (form != LengthForm::always_by_tool) return {};
+      return {.mode = LengthCompensation::length, .offset_number = state_.tool};
+    }
     CompensationChange wanted = state_.modes().compensation;
     wanted.mode = state_.options.output == OutputForm::axes ? LengthCompensation::length
                                                             : LengthCompensation::tool_centre_point;
     wanted.tool_vectors = state_.options.output == OutputForm::vectors;
+    if (by_tool) wanted.offset_number = state_.tool;
     return wanted;
   }
 
@@ -303,8 +311,16 @@ class Planner {
     split(whole, motion.end(), 0);
   }
 
+  // None is a rapid's.
+  bool has_feed(const Feed* feed) {
+    if (feed == nullptr || feed->value > 0.0) return true;
+    state_.fail("feed-missing"_id, "a cutting move before the first F",
+                "give its feed: controls refuse it, or take one of their own");
+    return false;
+  }
+
   double minutes_for(const PlannedBlock& block, const BlockMotion& motion) {
-    if (block.feed == nullptr) return 0.0;
+    if (block.feed == nullptr || !has_feed(block.feed)) return 0.0;
     const auto minutes =
         minutes_of(*block.feed, motion.feed_length(), state_.modes().spindle.speed);
     if (minutes) return *minutes;

@@ -11,7 +11,8 @@
 //            carry inverse time, all else the feed of the tip.
 // Units    : mm, rad
 // Errors   : poses out of reach or travel, axes the machine lacks, tools and work offsets that the
-//            setup lacks where axis positions depend on them; each with the source line
+//            setup lacks where axis positions depend on them, cutting moves without a feed; each
+//            with the source line
 // Accuracy : tip within `tolerance` of the programmed path at equal fractions of the block, tool
 //            axis within `angle_tolerance`
 #pragma once
@@ -31,10 +32,15 @@ namespace frustum::post {
 enum class OutputForm : std::uint8_t { axes, tip, vectors };
 // Which arcs stay arcs: none; flat ones in X and Y of at most a turn; all.
 enum class ArcForm : std::uint8_t { none, flat, all };
+// Whose length the reader counts: that of the number which the program gives, that of the tool in
+// the spindle where it is switched on, or always that.
+enum class LengthForm : std::uint8_t { by_number, by_tool, always_by_tool };
 
 struct PlanOptions {
   OutputForm output = OutputForm::tip;
   ArcForm arcs = ArcForm::all;
+  LengthForm length = LengthForm::by_number;
+  bool zero_is_spindle = false;  // number 0 is that of the tool in the spindle, else no length
   // The reader follows great circles where the program asks for them; else they become short
   // blocks.
   bool great_circle = false;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kinematics/model/inverse.hpp"
@@ -71,10 +73,44 @@ bool PlanState::known_offset(int number) {
   return false;
 }
 
-bool PlanState::length_known(bool same_words) {
-  const int number = modes().compensation.offset_number;
-  if (!modes().compensates() || setup.tools.contains(number)) return true;
-  if (same_words) {
+Vec3 PlanState::axis_shift(const CompensationChange& by) const {
+  const double its = controller.length_of(by).value_or(0.0);
+  return linear_positions(
+      kinematics::place_tip(machine, controller.origin(), its, AxisPositions{}));
+}
+
+Vec3 PlanState::tip_words_at(const AxisPositions& at, const CompensationChange& by) const {
+  const double its = controller.length_of(by).value_or(0.0);
+  return kinematics::nominal_pose(machine, at, its).translation - controller.origin();
+}
+
+bool PlanState::length_moves(const parser::AxisTarget& words) const {
+  const auto at = [&](double length) {
+    return linear_positions(
+        kinematics::place_tip(machine, controller.origin(), length, AxisPositions{}));
+  };
+  const Vec3 along = at(1.0) - at(0.0);
+  return std::ranges::any_of(kinematics::kLinearAxes, [&](AxisLetter letter) {
+    return words[letter] && std::abs(along[static_cast<Eigen::Index>(letter)]) > kNoTravel;
+  });
+}
+
+bool PlanState::length_known(const CompensationChange& wanted, const AxisTarget* straight) {
+  const CompensationChange& own = modes().compensation;
+  const auto missing = [&](const CompensationChange& by) {
+    return by.mode != parser::LengthCompensation::off && !setup.tools.contains(by.offset_number);
+  };
+  // Whose length it is nobody says; a control may know where it is that of the spindle.
+  const bool by_spindle = options.length != LengthForm::by_number || options.zero_is_spindle;
+  const bool unnamed =
+      modes().compensates() && own.offset_number == 0 && (tool != 0 || !by_spindle);
+  if (!missing(own) && !missing(wanted) && !unnamed) return true;
+  if (straight != nullptr && !tip_words() && !tip_control(wanted) && !length_moves(*straight)) {
+    return true;
+  }
+  const int number = missing(own) ? own.offset_number : wanted.offset_number;
+  const bool same_length = !unnamed && missing(own) && own.offset_number == wanted.offset_number;
+  if (same_length && tip_words() == tip_control(wanted)) {
     if (!lengths_missing_) {
       out.warnings.push_back(placed(warning(
           "unknown-tool-length"_id,

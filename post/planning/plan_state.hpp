@@ -36,6 +36,7 @@ class PlanState {
   kinematics::ControllerState controller;  // of the program
   kinematics::AxisPositions q;             // where the axes are
   parser::CompensationChange applied{};    // of the output
+  int tool = 0;                            // in the spindle
   bool retracted = false;                  // Z is at its home
   bool moved = false;
   MachineProgram out{};
@@ -47,6 +48,11 @@ class PlanState {
   // X Y Z words of the program name the tip.
   [[nodiscard]] bool tip_words() const { return modes().tip_control() || modes().plane; }
   [[nodiscard]] double length() const { return controller.tool_length(); }
+  // Words of the output under `by`, whose length may be another than the program's: what to take
+  // from axis positions, and where the tip is.
+  [[nodiscard]] Vec3 axis_shift(const parser::CompensationChange& by) const;
+  [[nodiscard]] Vec3 tip_words_at(const kinematics::AxisPositions& q,
+                                  const parser::CompensationChange& by) const;
   // Travels of X Y Z cannot be checked.
   [[nodiscard]] bool lengths_missing() const { return lengths_missing_; }
 
@@ -60,8 +66,9 @@ class PlanState {
   // --- checks: false, and the problem is noted ---
   bool present(parser::AxisLetter letter);
   bool known_offset(int number);
-  // Axis positions depend on the tool's length, tip coordinates do not.
-  bool length_known(bool same_words);
+  // Axis positions depend on the tool's length, tip coordinates do not. `straight`: the words of a
+  // block that is written with them alone.
+  bool length_known(const parser::CompensationChange& wanted, const parser::AxisTarget* straight);
   bool within_travel(const kinematics::AxisPositions& q);
   bool way_within_travel(const kinematics::BlockMotion& motion);
   [[nodiscard]] bool rotary_within_travel(const kinematics::AxisPositions& q) const;
@@ -70,6 +77,7 @@ class PlanState {
   void fail(Diagnostic problem);
 
  private:
+  [[nodiscard]] bool length_moves(const parser::AxisTarget& words) const;
   [[nodiscard]] std::vector<std::string> violations(const kinematics::AxisPositions& q) const;
   [[nodiscard]] Diagnostic placed(Diagnostic diagnostic) const;
 

@@ -171,7 +171,9 @@ class RandomProgram {
     if (pick(2) == 0 && !klartext) *at_[w] += random(5.0);
     arc.center[axes.w] = 0.0;
     arc.end = at_;
-    arc.turns = (pick(2) == 0 ? 1 : -1) * (klartext ? 1 : 1 + pick(3));
+    // Of Fanuc each turn is a block of its own.
+    const bool by_turns = klartext || dialect_ == Dialect::fanuc;
+    arc.turns = (pick(2) == 0 ? 1 : -1) * (by_turns ? 1 : 1 + pick(3));
     arc.tool_axis = last_axis_;
     arc.feed = feed();
     add(arc);
@@ -325,6 +327,43 @@ TEST(NcWriter, SaysWhatADialectHasNoWordsFor) {
   EXPECT_EQ(linuxcnc.error().front().message, "LinuxCNC has no words for tool vectors");
   EXPECT_EQ(linuxcnc.error().front().line, 12);
   EXPECT_FALSE(write_nc(vectors, Dialect::cldata));
+}
+
+// A quarter and two turns more, by 4 mm a turn.
+TEST(NcWriter, WritesEachTurnOfAHelixWhereTheDialectHasNoWordForThem) {
+  AxisTarget start, end;
+  start[AxisLetter::X] = 10.0;
+  start[AxisLetter::Y] = 0.0;
+  start[AxisLetter::Z] = 0.0;
+  end[AxisLetter::X] = 0.0;
+  end[AxisLetter::Y] = 10.0;
+  end[AxisLetter::Z] = -9.0;
+  const auto lines = [&](const Feed& feed, Dialect dialect) {
+    const std::vector<Motion> motions{
+        {{1, 1}, Traverse{start, std::nullopt, Coordinates::program}},
+        {{2, 1}, ArcFeed{end, Vec3::Zero(), Plane::xy, 3, std::nullopt, feed}}};
+    const auto written = write_nc(motions, dialect, {});
+    std::vector<std::string> arcs;
+    if (!written) return arcs;
+    std::istringstream text(written->text);
+    for (std::string line; std::getline(text, line);) {
+      if (line.find("G3") != std::string::npos || line.find("I-10.") != std::string::npos) {
+        arcs.push_back(line);
+      }
+    }
+    return arcs;
+  };
+  using Lines = std::vector<std::string>;
+  const Feed feed{100.0, FeedMode::per_minute};
+  EXPECT_EQ(lines(feed, Dialect::fanuc),
+            (Lines{"G3 X10. Y0. Z-4. I-10. J0. F100", "G3 X10. Y0. Z-8. I-10. J0.",
+                   "G3 X0. Y10. Z-9. I-10. J0."}));
+  EXPECT_EQ(lines(feed, Dialect::linuxcnc), Lines{"G3 X0. Y10. Z-9. I-10. J0. P3 F100"});
+  // Nine minutes, of which each turn takes four.
+  const auto timed = lines({1.0 / 9.0, FeedMode::inverse_time}, Dialect::fanuc);
+  ASSERT_EQ(timed.size(), 3U);
+  EXPECT_NE(timed[1].find("F0.25"), std::string::npos) << timed[1];
+  EXPECT_NE(timed[2].find("F1"), std::string::npos) << timed[2];
 }
 
 TEST(NcWriter, WritesThreadsWhereTheDialectHasThemAndNoProbing) {

@@ -1,0 +1,149 @@
+// Programs as people write them, posted for a control that counts tool lengths otherwise: they read
+// back and move the tool alike.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "parser/writing/motion_spelling.hpp"
+#include "parser/writing/motion_writer.hpp"
+#include "post/comparing/program_difference.hpp"
+#include "post/planning/machine_program.hpp"
+#include "tests/kinematics/machines.hpp"
+#include "tests/parser/writing/read_back.hpp"
+
+namespace frustum::post {
+namespace {
+
+using kinematics::Setup;
+using kinematics::shipped;
+using parser::Dialect;
+using parser::first_of;
+using parser::Motion;
+
+// Tools of 100 mm and 120 mm.
+Setup two_tools() {
+  Setup setup;
+  setup.work_offsets[1] = Vec3::Zero();
+  setup.tools[1] = {100.0, 0.0, 20.0};
+  setup.tools[2] = {120.0, 0.0, 20.0};
+  return setup;
+}
+
+PlanOptions options_of(Dialect dialect) {
+  PlanOptions options{.output = OutputForm::axes};
+  if (dialect == Dialect::heidenhain) {
+    options.arcs = ArcForm::flat;
+    options.length = LengthForm::always_by_tool;
+  } else if (dialect == Dialect::sinumerik) {
+    options.length = LengthForm::by_tool;
+  }
+  return options;
+}
+
+// The text, or what is wrong.
+std::string posted(const std::vector<Motion>& motions, Dialect to,
+                   const Setup& setup = two_tools()) {
+  const auto plan = plan_for_machine(shipped("three-axis"), setup, motions, options_of(to));
+  if (!plan) return first_of(plan.error());
+  const auto written = parser::write_nc(plan->motions, to, {.name = "P"});
+  return written ? written->text : first_of(written.error());
+}
+
+bool has_line(const std::string& text, const std::string& line) {
+  return text.find(" " + line + "\n") != std::string::npos ||
+         text.find("\n" + line + "\n") != std::string::npos;
+}
+
+void expect_alike(const std::string& program, Dialect from) {
+  const auto motions = motions_in(program, from);
+  for (const Dialect to : parser::written_dialects()) {
+    const std::string text = posted(motions, to);
+    SCOPED_TRACE(text);
+    const auto found = compare_programs(shipped("three-axis"), {"first", motions, two_tools()},
+                                        {"second", motions_in(text, to), two_tools()});
+    ASSERT_TRUE(found) << first_of(found.error());
+    EXPECT_TRUE(found->same()) << found->first.likely_cause << " " << found->first.tip;
+  }
+}
+
+// No move in X and Y asks for the length.
+TEST(PostedPrograms, MoveInXAndYBeforeTheLengthIsOn) {
+  const std::string program =
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG0 X10 Y20\nG43 H1 Z5\nG1 Z-1 F100\nX30\nG0 Z50\nM30\n";
+  expect_alike(program, Dialect::linuxcnc);
+  kinematics::Setup setup = two_tools();
+  setup.tools.clear();
+  const std::string text =
+      posted(motions_in("G21 G90 G54\nT1 M6\nG0 X10 Y20\nM30\n", Dialect::linuxcnc),
+             Dialect::heidenhain, setup);
+  EXPECT_TRUE(has_line(text, "L X+10 Y+20 R0 FMAX")) << text;
+}
+
+// The spindle's end goes to Z50, so that the tip of 100 mm is at -50.
+TEST(PostedPrograms, WithoutAnyLengthNameTheTipWhereItIsAlwaysOn) {
+  const std::string program =
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG0 X10 Y20 Z60\nG1 Z50 F100\nX30\nM30\n";
+  expect_alike(program, Dialect::linuxcnc);
+  const std::string text = posted(motions_in(program, Dialect::linuxcnc), Dialect::heidenhain);
+  EXPECT_TRUE(has_line(text, "L Z-50 F100")) << text;
+  const std::string same = posted(motions_in(program, Dialect::linuxcnc), Dialect::sinumerik);
+  EXPECT_TRUE(has_line(same, "G1 Z50 F100")) << same;
+}
+
+// Z5 with 100 mm counted is Z-15 with the 120 mm of tool 2.
+TEST(PostedPrograms, KeepTheLengthOfAnotherToolInTheirPlaces) {
+  const std::string program =
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG43 H1 G0 X0 Y0 Z5\nG1 Z-1 F100\nG0 Z5\nT2 M6\n"
+      "S1000 M3\nG0 X40\nG1 X60\nG43 H2 G0 Z5\nG1 Z-2\nM30\n";
+  expect_alike(program, Dialect::linuxcnc);
+  for (const Dialect to : {Dialect::sinumerik, Dialect::heidenhain}) {
+    const std::string text = posted(motions_in(program, Dialect::linuxcnc), to);
+    EXPECT_NE(text.find("Z-15"), std::string::npos) << text;
+  }
+}
+
+// A length with nothing in the spindle is in the places: 5 + 100.
+TEST(PostedPrograms, HaveNoLengthWithAnEmptySpindle) {
+  const std::string program = "G21 G90 G54\nG43 H1 G0 X0 Y0 Z5\nG1 Z-1 F100\nX10\nM30\n";
+  expect_alike(program, Dialect::linuxcnc);
+  const std::string text = posted(motions_in(program, Dialect::linuxcnc), Dialect::heidenhain);
+  EXPECT_NE(text.find("Z+105"), std::string::npos) << text;
+}
+
+// The retract for a tool change is left to it in one, written in the other.
+TEST(PostedPrograms, RetractForAToolChange) {
+  expect_alike(
+      "BEGIN PGM C MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 R0 FMAX M3\nL Z+5 FMAX\nL Z-1 F100\n"
+      "TOOL CALL 2 Z S1000\nL X+10 R0 FMAX M3\nL Z+3 F100\nEND PGM C MM\n",
+      Dialect::heidenhain);
+}
+
+TEST(PostedPrograms, HaveAFeed) {
+  for (const char* move : {"G1 X10\n", "G53 G1 X10\n"}) {
+    const auto motions =
+        motions_in(std::string("G21 G90 G54\nT1 M6\nG0 X0 Y0\n") + move + "M30\n", Dialect::fanuc);
+    for (const Dialect to : parser::written_dialects()) {
+      EXPECT_NE(posted(motions, to).find("before the first F"), std::string::npos)
+          << posted(motions, to);
+    }
+  }
+}
+
+// LinuxCNC takes 0.1 % of the radius.
+TEST(PostedPrograms, CutArcsThatOthersRefuseIntoChords) {
+  expect_alike(
+      "G21 G90 G54\nT1 M6\nG43 H1 G0 X0 Y0 Z0\nG1 X100 F500\nG3 X-99.95 Y0 I-100 J0\nM30\n",
+      Dialect::linuxcnc);
+}
+
+// Both tools are at one place when the second begins.
+TEST(PostedPrograms, MayBeginWithAToolWhereTheLastOneEnded) {
+  expect_alike(
+      "G21 G90 G54\nT1 M6\nG43 H1 G0 X0 Y0 Z2\nG1 Z-5 F500\nX50\nX0\nZ2\nG49 T2 M6\n"
+      "G0 X0 Y0\nG43 H2 Z2\nG1 Z-5\nX-50\nM30\n",
+      Dialect::linuxcnc);
+}
+
+}  // namespace
+}  // namespace frustum::post
