@@ -16,6 +16,7 @@ namespace {
 
 // CAM systems write four to six decimals.
 constexpr double kSamePlace = 0.01;    // mm
+constexpr double kRounding = 2e-4;     // of places with four decimals, in the file's unit
 constexpr double kAlongAnAxis = 1e-5;  // of a unit vector
 constexpr double kUnitLength = 1e-3;   // of an axis, written with few decimals
 constexpr double kSameTurns = 0.02;    // of TIMES, PITCH or ANGLE and of the end
@@ -47,10 +48,14 @@ Vec3 CldataArcs::Circle::arm(const Vec3& point) const {
   return from_centre - axis * from_centre.dot(axis);
 }
 
-double CldataArcs::Circle::turn(const Vec3& from, const Vec3& to) const {
+double CldataArcs::Circle::shorter_turn(const Vec3& from, const Vec3& to) const {
   const Vec3 a = arm(from);
   const Vec3 b = arm(to);
-  const double turns = std::atan2(axis.dot(a.cross(b)), a.dot(b)) / (2.0 * std::numbers::pi);
+  return std::atan2(axis.dot(a.cross(b)), a.dot(b)) / (2.0 * std::numbers::pi);
+}
+
+double CldataArcs::Circle::turn(const Vec3& from, const Vec3& to) const {
+  const double turns = shorter_turn(from, to);
   return turns > kNoTurn ? turns : turns + 1.0;
 }
 
@@ -168,7 +173,12 @@ std::optional<CldataArc> CldataArcs::to(LineScanner& in, const Vec3& end, std::u
       circle_.reset();
       return std::nullopt;
     }
-  } else if (turn > 1.0 - kNoTurn && !circle_->closes) {
+  } else if (!circle_->closes && (to - from).norm() <= kRounding) {
+    if (flat && to != from && circle_->shorter_turn(*at, end) > 0.0) {
+      arc.step = true;
+      circle_.reset();
+      return arc;
+    }
     in.fail("arc-turns"_id, column, "the arc ends where it starts: a full turn, or none?",
             fmt::format("add TIMES,1 to the CIRCLE on line {}, or leave it out", circle_->line));
     return std::nullopt;

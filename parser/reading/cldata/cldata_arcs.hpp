@@ -33,6 +33,7 @@ struct CldataArc {
   Vec3 axis = Vec3::UnitZ();
   int turns = 1;
   bool times_started = false;  // TIMES was taken for the turns that are started
+  bool step = false;           // its end is as near ahead of its start as two neighbouring decimals
 
   // The plane of X, Y and Z that it is in.
   [[nodiscard]] std::optional<Plane> plane() const;
@@ -74,7 +75,8 @@ class CldataArcs {
 
     // From the centre, across the axis.
     [[nodiscard]] Vec3 arm(const Vec3& point) const;
-    // Full turns between two points, above 0 and up to 1.
+    // Full turns between two points, from -0.5 to 0.5, and above 0 and up to 1.
+    [[nodiscard]] double shorter_turn(const Vec3& from, const Vec3& to) const;
     [[nodiscard]] double turn(const Vec3& from, const Vec3& to) const;
   };
   struct Direction {

@@ -104,6 +104,7 @@ class CldataReader {
     }
     record_.word = in_.name();
     if (record_.word.empty()) return in_.fail_unexpected("a record is a word, / and its arguments");
+    if (takes_mode_of_set()) return read_rest();
     if (remarks_.take_text() || is_no_program() || remarks_.take_note(pending_.frame) ||
         remarks_.take_turn_of_nothing()) {
       return;
@@ -132,6 +133,18 @@ class CldataReader {
       return add_post_word(remarks_.rest_of_record());
     }
     read_rest();
+  }
+
+  // SET/MODE,INCR is MODE/INCR.
+  bool takes_mode_of_set() {
+    const std::uint32_t behind_word = in_.column();
+    if (record_.word == "SET" && in_.take('/') && in_.take_name("MODE") && in_.take(',')) {
+      record_.word = "MODE";
+      record_.arguments = read_cldata_arguments(in_);
+      return true;
+    }
+    in_.go_to(behind_word);
+    return false;
   }
 
   // What is written for the APT processor, for a lathe or for wire erosion.
@@ -350,7 +363,9 @@ class CldataReader {
     pending_.goes_on = true;
     const bool rapid = std::exchange(pending_.rapid, false);
     if (!rapid) need_feed();
-    if (arc) {
+    if (arc && arc->step) {
+      remarks_.assumed("CIRCLE step", "its end is just ahead of its start: a step, no full turn");
+    } else if (arc) {
       add_position(arc->code(), place);
       if (arc->times_started) {
         remarks_.assumed("CIRCLE TIMES", "it counts the turns that are started");

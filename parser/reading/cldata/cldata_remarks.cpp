@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "parser/reading/cldata/cldata_inserted.hpp"
 #include "parser/reading/cldata/cldata_words.hpp"
 
 namespace frustum::parser {
@@ -43,7 +44,18 @@ bool CldataRemarks::take_text() {
   in_.take('/');
   const bool message = std::string_view(text) == "PPRINT";
   add(message ? "message" : text, in_.text_to());
+  if (std::string_view(text) == "INSERT") check_inserted();
   return true;
+}
+
+void CldataRemarks::check_inserted() {
+  const std::string& text = block_.comments.back().text;
+  const Inserted what = what_is_inserted(text);
+  block_.comments.back().of_builder = what == Inserted::builder_code;
+  if (what != Inserted::block) return;
+  in_.fail("not-supported"_id, record_.column,
+           "INSERT hands a block to the control, which is not simulated",
+           "say what the block does by records of CLDATA");
 }
 
 bool CldataRemarks::take_note(std::string& frame) {

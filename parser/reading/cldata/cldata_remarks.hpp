@@ -36,6 +36,7 @@ class CldataRemarks {
 
  private:
   void add(const char* event, std::string text);
+  void check_inserted();
   bool note(const char* event);
   bool note_frame(std::string& before);
 

@@ -170,6 +170,22 @@ TEST(CldataOfCam, NxTurnsClockwiseAboutTheAxis) {
   EXPECT_EQ(turns("CIRCLE/5,23,70,0,0,1"), 1);       // SolidWorks CAM
 }
 
+// With four decimals a short arc of a large radius may end beside its start.
+TEST(CldataOfCam, AnArcThatEndsJustAheadOfItsStartIsAStep) {
+  const auto arc = [](const std::string& radius, const std::string& end) {
+    return "LOADTL/1\nFEDRAT/5\nGOTO/0,-" + radius + ",0\nCIRCLE/0,0,0,0,0,1," + radius +
+           ",.06,.5,30,0\nGOTO/" + end + ",-" + radius + ",0\n";
+  };
+  const auto path = run_cl(arc("100", "-.0001"));
+  EXPECT_TRUE(all_of<ArcFeed>(path).empty());
+  EXPECT_EQ(place_of(last_of<LinearFeed>(path).end), Vec3(-.0001, -100, 0));
+  EXPECT_EQ(names_assumed(arc("100", "-.0001")), std::vector<std::string>{"CIRCLE step"});
+  // Back to the start, or just behind it: nearly a full turn, or none.
+  EXPECT_EQ(ids_of(arc("100", "0")), Ids{"arc-turns"});
+  EXPECT_EQ(ids_of(arc("100", ".0001")), Ids{"arc-turns"});
+  EXPECT_EQ(ids_of(arc("1", ".0001")), Ids{"arc-turns"});
+}
+
 TEST(CldataOfCam, AMissingFeedIsAnAssumption) {
   const std::string path = "LOADTL/1\nRAPID\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0\n";
   EXPECT_EQ(names_assumed(path), std::vector<std::string>{"FEDRAT"});
@@ -238,6 +254,28 @@ TEST(CldataOfCam, WordsOfPostProcessorsAreTheBuilders) {
        {"GOAROUND/1", "ROTPOS/5", "ANYWHERE/1,2,3", "SPINDLE/ON", "FEDRTA/5"}) {
     EXPECT_EQ(ids_of(std::string(record) + "\n"), Ids{"unknown-word"}) << record;
   }
+}
+
+TEST(CldataOfCam, BlocksThatAreInsertedAreRefused) {
+  for (const char* text :
+       {"/G0 Z-50", " G0Z-50", "/N10 G91 G28 Z0", "/X5.", "/M6", "/M8 Z5", "/T3", "/#100=5", "/M3",
+        "/G1 Z[#5]", "/(UP) g53 z0", "/L Z+50 R0 FMAX", "/TRANS X5", "/CYCL DEF 7.0"}) {
+    EXPECT_EQ(ids_of("INSERT" + std::string(text) + "\n"), Ids{"not-supported"}) << text;
+  }
+  for (const char* text : {"STOCK SIZE X40. Y20. Z4.", "[HOLDER=G40] 4MM MILL", "20MM X 60DEG",
+                           "(G0 Z-50)", "; G0 Z-50", "GRIND 5", "M6X1 TAP"}) {
+    EXPECT_EQ(events_of("INSERT/" + std::string(text) + "\n", EventGrade::known),
+              std::vector<std::string>{"INSERT|" + std::string(text)});
+  }
+  EXPECT_EQ(events_of("INSERT/N5 M108\n", EventGrade::builder),
+            std::vector<std::string>{"INSERT|N5 M108"});
+}
+
+TEST(CldataOfCam, SetModeIsMode) {
+  EXPECT_EQ(ids_of("SET/MODE,INCR\n"), ids_of("MODE/INCR\n"));
+  EXPECT_EQ(ids_of("SET/MODE,INCR\n"), Ids{"not-supported"});
+  EXPECT_EQ(events_of("SET/MODE,ABSOL\nSET/OFSETL,3\n", EventGrade::known),
+            (std::vector<std::string>{"MODE|ABSOL", "SET|OFSETL,3"}));
 }
 
 TEST(CldataOfCam, TurnsByNothingAreEvents) {
