@@ -40,16 +40,20 @@ bool is_utf8(std::string_view bytes) {
 std::string utf8_of(std::string_view bytes) {
   const bool ascii =
       std::all_of(bytes.begin(), bytes.end(), [](char c) { return code(c) < kAsciiEnd; });
-  if (ascii || is_utf8(bytes)) return std::string(bytes);
   std::string utf8;
-  for (const char c : bytes) {
-    if (code(c) < kAsciiEnd) {
-      utf8 += c;
-    } else {
-      utf8 += static_cast<char>(0xC0U | (code(c) >> 6U));
-      utf8 += static_cast<char>(kAsciiEnd | (code(c) & 0x3FU));
+  if (ascii || is_utf8(bytes)) {
+    utf8 = bytes;
+  } else {
+    for (const char c : bytes) {
+      if (code(c) < kAsciiEnd) {
+        utf8 += c;
+      } else {
+        utf8 += static_cast<char>(0xC0U | (code(c) >> 6U));
+        utf8 += static_cast<char>(kAsciiEnd | (code(c) & 0x3FU));
+      }
     }
   }
+  std::replace(utf8.begin(), utf8.end(), '\r', ' ');
   return utf8;
 }
 

@@ -37,12 +37,15 @@ Result<std::string> text_of_stream(std::FILE* stream, const std::filesystem::pat
   return text;
 }
 
+// Where an LF has to be by to end the lines, which no line of a program reaches to.
+constexpr std::size_t kLineFeedBy = std::size_t{1} << 16U;
+
 // Length of the line at the front of `text`, and of its end; no end in `text`: npos.
 struct LineLength {
   std::size_t line = 0;
   std::size_t with_end = std::string_view::npos;
 };
-LineLength first_line(std::string_view text) {
+LineLength first_line(std::string_view text, bool carriages_end) {
   const auto find = [](std::string_view in, char wanted) {
     const void* found = std::memchr(in.data(), wanted, in.size());
     return found == nullptr ? in.size()
@@ -50,12 +53,16 @@ LineLength first_line(std::string_view text) {
   };
   if (text.empty()) return {};
   const std::size_t feed = find(text, '\n');
-  const std::size_t carriage = find(text.substr(0, feed), '\r');
-  if (carriage + 1 < text.size() && carriage < feed) {
-    return {carriage, carriage + (carriage + 1 == feed ? 2U : 1U)};
+  if (carriages_end) {
+    const std::size_t carriage = find(text.substr(0, feed), '\r');
+    if (carriage + 1 < text.size() && carriage < feed) {
+      return {carriage, carriage + (carriage + 1 == feed ? 2U : 1U)};
+    }
   }
-  if (feed < text.size()) return {feed, feed + 1};
-  return {carriage, std::string_view::npos};
+  std::size_t line = feed;
+  while (line > 0 && text[line - 1] == '\r') --line;
+  if (feed < text.size()) return {line, feed + 1};
+  return {line, std::string_view::npos};
 }
 
 }  // namespace
@@ -99,6 +106,7 @@ LineReader::LineReader(ProgramText text) : text_(std::move(text)) {
     file_.open(text_.file_, std::ios::binary);
   }
   go_to({});
+  carriages_end_ = rest().substr(0, kLineFeedBy).find('\n') == std::string_view::npos;
 }
 
 void LineReader::go_to(TextPlace place) {
@@ -143,8 +151,10 @@ bool LineReader::at_end() { return rest().empty() && !refill(); }
 
 std::string_view LineReader::next() {
   if (after_feed_ && rest().starts_with('\r')) take(1);
-  LineLength length = first_line(rest());
-  while (length.with_end == std::string_view::npos && refill()) length = first_line(rest());
+  LineLength length = first_line(rest(), carriages_end_);
+  while (length.with_end == std::string_view::npos && refill()) {
+    length = first_line(rest(), carriages_end_);
+  }
   const std::string_view line = rest().substr(0, length.line);
   const std::size_t taken = std::min(length.with_end, rest().size());
   after_feed_ = taken > length.line && rest()[taken - 1] == '\n' && taken == length.line + 1;

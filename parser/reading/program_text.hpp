@@ -1,7 +1,9 @@
 // The text of a program: in memory, or in a file that need not fit there, which is why it is not
 // core/whole_file.hpp that reads it.
 //
-// Lines end with LF, CR LF or CR, in any mixture. A byte order mark at the start is left out.
+// Lines end with LF, CR LF or LF CR, in any mixture; in a text whose first 64 KiB have no LF they
+// end with CR. Any other CR is within its line, a blank there. A byte order mark at the start is
+// left out.
 // Units  : offsets count bytes from the start of the text, lines from 1
 // Shape  : a ProgramText is shared by any number of LineReaders, each with its own window over a
 //          file; of a pipe, which can be read only once, the text is kept in memory
@@ -67,7 +69,8 @@ class LineReader {
   std::string_view window_{};  // of the buffer, or the whole text
   std::size_t in_window_ = 0;  // where `place_` is in the window
   bool file_ended_ = true;
-  bool after_feed_ = false;  // the last line ended with LF: a CR now belongs to that end
+  bool carriages_end_ = false;  // a line of their own
+  bool after_feed_ = false;     // the last line ended with LF: a CR now belongs to that end
   TextPlace place_{};
 };
 

@@ -43,6 +43,14 @@ TEST(Program, ReadsMixedLineEndsAndALastLineWithoutOne) {
   EXPECT_EQ(canon("G0 X1\r\nX2\nX3\r\n\nX4"), canon("G0 X1\nX2\nX3\n\nX4\n"));
 }
 
+TEST(Program, TakesACarriageReturnWithinALineForABlank) {
+  EXPECT_EQ(canon("G0 X1\r\r\nX2 (lost\rmark)\nX3 ; 32 LOC\r FLUTE 60\nX4\rY5\n"),
+            canon("G0 X1\nX2 (lost mark)\nX3 ; 32 LOC  FLUTE 60\nX4 Y5\n"));
+  // No LF anywhere near the beginning: an old Macintosh.
+  const std::string remark = "; " + std::string(70'000, '-');
+  EXPECT_EQ(canon(remark + "\rG0 X1\rX2\nX3\r"), canon(remark + "\nG0 X1\nX2\nX3\n"));
+}
+
 TEST(Program, SkipsAByteOrderMark) { EXPECT_EQ(canon("\xEF\xBB\xBFG0 X1\n"), canon("G0 X1\n")); }
 
 TEST(Program, ReadsTheSameWithoutBlanksInLowerCaseAndWithTabs) {
