@@ -23,6 +23,10 @@ target_compile_options(
   frustum_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off
                           $<$<BOOL:${FRUSTUM_WARNINGS_AS_ERRORS}>:-Werror>)
 
+# GCC collects its garbage from half a gibibyte on only: every seventh second of a build went there.
+target_compile_options(
+  frustum_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+
 # Sources that are compiled together see each other's helpers: a local of the same name is no mistake then, and
 # a nameless namespace no longer belongs to the main file.
 if(FRUSTUM_UNITY)
