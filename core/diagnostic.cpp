@@ -4,6 +4,8 @@
 #include <ostream>
 #include <utility>
 
+#include "core/printable_text.hpp"
+
 namespace frustum {
 
 Diagnostic error(DiagnosticId id, std::string message, std::string hint) {
@@ -55,7 +57,7 @@ bool has_error(const Diagnostics& diagnostics) {
 }
 
 void print(std::ostream& out, const Diagnostics& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics) out << to_string(diagnostic) << '\n';
+  for (const Diagnostic& diagnostic : diagnostics) out << printable(to_string(diagnostic)) << '\n';
 }
 
 }  // namespace frustum
