@@ -55,24 +55,55 @@ Result<Baseline> Baseline::read(const fs::path& file) {
     if (!has_text(entry, "file") || !has_text(entry, "id") || !has_text(entry, "fingerprint")) {
       return no_baseline(file, "a finding has no file, id or fingerprint");
     }
-    baseline.entries_.emplace(entry["file"], entry["id"], entry["fingerprint"]);
+    const Json count = entry.value("count", Json(1U));
+    if (!count.is_number_unsigned()) {
+      return no_baseline(file, "the count of a finding is no whole number");
+    }
+    // Those of the first versions were numbered: "1a2b3c4d5e6f7081:2".
+    const std::string mark = entry["fingerprint"];
+    baseline.known_[{entry["file"], entry["id"], mark.substr(0, mark.find(':'))}] +=
+        count.get<std::uint64_t>();
   }
   return baseline;
 }
 
-std::string Baseline::text_of(std::span<const CheckedFile> checked, const fs::path& file) {
+std::vector<Baseline::Entry> Baseline::entries_of(const CheckedFile& checked,
+                                                  const fs::path& folder) {
+  std::vector<Entry> entries;
+  for (const Finding& finding : checked.report.findings) {
+    entries.emplace_back(name_in(folder, finding.file), info_of(finding.check).id,
+                         fingerprint_of(finding, checked.lines));
+  }
+  return entries;
+}
+
+std::string Baseline::text_of(std::span<const CheckedFile* const> checked, const fs::path& file) {
   const fs::path folder = folder_of(file);
+  Counts most;
+  for (const CheckedFile* each : checked) {
+    Counts counts;
+    const auto entries = entries_of(*each, folder);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const Finding& finding = each->report.findings[i];
+      if (finding.suppressed != Suppressed::by_comment) counts[entries[i]] += finding.places;
+    }
+    for (const auto& [entry, count] : counts) most[entry] = std::max(most[entry], count);
+  }
   Json findings = Json::array();
-  for (const CheckedFile& each : checked) {
-    const auto marks = fingerprints_of(each.report.findings, each.lines);
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-      const Finding& finding = each.report.findings[i];
-      if (finding.suppressed == Suppressed::by_comment) continue;
-      findings.push_back({{"file", name_in(folder, finding.file)},
-                          {"id", info_of(finding.check).id},
-                          {"fingerprint", marks[i]},
+  for (const CheckedFile* each : checked) {
+    const auto entries = entries_of(*each, folder);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const Finding& finding = each->report.findings[i];
+      const auto count = most.find(entries[i]);
+      if (finding.suppressed == Suppressed::by_comment || count == most.end()) continue;
+      const auto& [name, id, mark] = entries[i];
+      findings.push_back({{"file", name},
+                          {"id", id},
+                          {"fingerprint", mark},
+                          {"count", count->second},
                           {"line", finding.line},
                           {"message", finding.message}});
+      most.erase(count);  // written once, at the first
     }
   }
   const Json json{{kVersion, 1}, {"findings", findings}};
@@ -80,23 +111,28 @@ std::string Baseline::text_of(std::span<const CheckedFile> checked, const fs::pa
 }
 
 void Baseline::apply(CheckedFile& checked) {
-  const auto marks = fingerprints_of(checked.report.findings, checked.lines);
   files_.insert(name_in(folder_, checked.file));
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  Counts counts;
+  const auto entries = entries_of(checked, folder_);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     Finding& finding = checked.report.findings[i];
-    const Entry entry{name_in(folder_, finding.file), std::string(info_of(finding.check).id),
-                      marks[i]};
-    if (finding.suppressed != Suppressed::no || !entries_.contains(entry)) continue;
+    const auto known = known_.find(entries[i]);
+    if (finding.suppressed != Suppressed::no || known == known_.end()) continue;
+    const std::uint64_t with_it = counts[entries[i]] + finding.places;
+    if (with_it > known->second) continue;
+    counts[entries[i]] = with_it;
     finding.suppressed = Suppressed::by_baseline;
-    met_.insert(entry);
   }
+  for (const auto& [entry, count] : counts) met_[entry] = std::max(met_[entry], count);
 }
 
 std::size_t Baseline::gone() const {
-  return static_cast<std::size_t>(
-      std::count_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-        return files_.contains(std::get<0>(entry)) && !met_.contains(entry);
-      }));
+  std::uint64_t lines = 0;
+  for (const auto& [entry, count] : known_) {
+    const auto met = met_.find(entry);
+    if (files_.contains(std::get<0>(entry))) lines += count - (met == met_.end() ? 0 : met->second);
+  }
+  return static_cast<std::size_t>(lines);
 }
 
 }  // namespace frustum::lint

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
+
+#include "core/spelling.hpp"
 
 namespace frustum::lint {
 namespace {
@@ -17,6 +20,8 @@ constexpr std::array kChecks{
     CheckInfo{missing_label, "missing-label", kError, "A jump or repeat finds no label"},
     CheckInfo{recursion, "recursion", kError, "Subprograms call each other without end"},
     CheckInfo{endless_loop, "endless-loop", kError, "A loop does not come to its end"},
+    CheckInfo{too_many_errors, "too-many-errors", kError,
+              "So many blocks cannot be run that the checks end"},
     CheckInfo{unused_subprogram, "unused-subprogram", kWarning, "Nothing calls a subprogram"},
     CheckInfo{unused_label, "unused-label", kNote, "Nothing names a label"},
     CheckInfo{unreachable_code, "unreachable-code", kWarning,
@@ -105,6 +110,12 @@ constexpr bool in_order() {
 }
 static_assert(in_order());
 
+// What the text says of itself.
+constexpr std::array kWithoutCaller{
+    program_error, unused_label, unreachable_code, duplicate_number,
+    not_simulated, builder_word, decimal_point,    unknown_suppression,
+};
+
 }  // namespace
 
 std::span<const CheckInfo> all_checks() { return kChecks; }
@@ -116,6 +127,16 @@ std::optional<Check> check_named(std::string_view id) {
                                    [id](const CheckInfo& info) { return info.id == id; });
   if (found == kChecks.end()) return std::nullopt;
   return found->check;
+}
+
+std::string check_meant_by(const std::string& id) {
+  std::vector<std::string> known;
+  for (const CheckInfo& info : kChecks) known.emplace_back(info.id);
+  return suggestion(id, known);
+}
+
+bool needs_no_caller(Check check) {
+  return std::ranges::find(kWithoutCaller, check) != kWithoutCaller.end();
 }
 
 }  // namespace frustum::lint

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/diagnostic.hpp"
@@ -20,6 +21,7 @@ enum class Check : std::uint8_t {
   missing_label,
   recursion,
   endless_loop,
+  too_many_errors,
   unused_subprogram,
   unused_label,
   unreachable_code,
@@ -84,5 +86,9 @@ struct CheckInfo {
 [[nodiscard]] std::span<const CheckInfo> all_checks();
 [[nodiscard]] const CheckInfo& info_of(Check check);
 [[nodiscard]] std::optional<Check> check_named(std::string_view id);
+// "did you mean feed-low?", for an id that is none.
+[[nodiscard]] std::string check_meant_by(const std::string& id);
+// Whether it holds of a subprogram, whatever its callers have set.
+[[nodiscard]] bool needs_no_caller(Check check);
 
 }  // namespace frustum::lint

@@ -21,6 +21,7 @@ struct CheckedFile {
   bool passed = true;
   CheckReport report{};
   SourceLines lines{};
+  bool subprogram = false;  // checked as one: the rest is looked at through its callers
 };
 
 struct FindingCounts {

@@ -17,11 +17,14 @@ constexpr double kLowFeed = 3.0;          // mm/min
 constexpr double kHighFeedPerTurn = 5.0;  // mm
 constexpr double kShortSegment = 0.005;   // mm
 
+// "tool 7", "edge 2 of tool 7": whose the length of that offset number is.
+[[nodiscard]] std::string offset_name(int number, parser::Dialect dialect);
+
 void check_spindle(const CuttingMove& move, const MotionState& state, FindingList& findings);
 void check_tool(const CuttingMove& move, const MotionState& state, parser::Dialect dialect,
                 FindingList& findings);
 void check_length_number(const parser::Motion& motion, const MotionState& state,
-                         FindingList& findings);
+                         parser::Dialect dialect, FindingList& findings);
 void check_feed(const CuttingMove& move, FindingList& findings);
 
 // Counts the moves that are too short to be meant.
@@ -34,6 +37,7 @@ class ShortSegments {
   std::uint64_t count_ = 0;
   double shortest_ = kShortSegment;
   parser::SourcePlace first_{};
+  LineSet lines_{};
 };
 
 }  // namespace frustum::lint

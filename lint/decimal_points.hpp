@@ -21,6 +21,8 @@ class DecimalPoints {
   explicit DecimalPoints(bool looks) : looks_(looks) {}
 
   void see(const parser::BlockAhead& ahead);
+  // What the interpreter says of a word, whose letter is the first of the text.
+  void told(const parser::Event& event, const parser::SourcePlace& place);
   void finish(FindingList& findings) const;
 
  private:
@@ -28,12 +30,16 @@ class DecimalPoints {
     parser::SourcePlace place{};
     std::string text{};
     std::uint64_t count = 0;
+    LineSet lines{};
   };
+
+  static void report(char letter, const Bare& bare, const std::string& what, FindingList& findings);
 
   bool looks_;
   bool has_points_ = false;
   std::map<char, Bare> bare_{};  // the first of each letter
   std::map<char, Bare> long_{};
+  std::map<char, Bare> told_{};
 };
 
 }  // namespace frustum::lint

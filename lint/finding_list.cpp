@@ -6,6 +6,11 @@
 #include <tuple>
 
 namespace frustum::lint {
+namespace {
+
+constexpr FindingList::Key kOtherLine = 1'099'511'628'211;  // odd: lines stay unlike
+
+}  // namespace
 
 FindingList::Key FindingList::key_of(const parser::SourcePlace& place) {
   const Key file = place.file ? key_of(*place.file) : 0;
@@ -16,29 +21,36 @@ FindingList::Key FindingList::key_of(const std::string& text) {
   return std::hash<std::string>()(text);
 }
 
-bool FindingList::counted(Check check, Key key, bool taken) {
-  const auto known = index_.find({check, key, taken});
+bool FindingList::counted(const Place& at, Severity severity, const parser::SourcePlace& place) {
+  const auto known = index_.find(at);
   if (known != index_.end()) {
-    ++findings_[known->second].count;
+    Finding& finding = findings_[known->second];
+    ++finding.count;
+    if (lines_[known->second].insert(place)) ++finding.places;
     return true;
   }
-  if (places_[{check, taken}] < kMostPlaces) return false;
+  const auto& [check, key, taken] = at;
+  if (places_[{check, severity, taken}] < most_places_) return false;
   if (!taken) ++left_out_[check];
   return true;
 }
 
-void FindingList::add(Check check, Key key, const parser::SourcePlace& place, Words words,
-                      std::optional<Severity> severity, const Suppression* taken) {
-  ++places_[{check, taken != nullptr}];
-  index_.emplace(Place(check, key, taken != nullptr), findings_.size());
+void FindingList::add(const Place& at, Severity severity, const parser::SourcePlace& place,
+                      Words words, const Suppression* taken) {
+  const Check check = std::get<Check>(at);
+  ++places_[{check, severity, taken != nullptr}];
+  index_.emplace(at, findings_.size());
   findings_.push_back({.check = check,
-                       .severity = severity.value_or(info_of(check).severity),
+                       .severity = severity,
                        .file = place.file ? *place.file : file_,
                        .line = place.line,
                        .column = place.column,
                        .message = std::move(words.message),
                        .hint = std::move(words.hint),
+                       .places = words.places,
+                       .alike = std::move(words.alike),
                        .diagnostic = words.diagnostic});
+  lines_.emplace_back().insert(place);
   if (taken == nullptr) return;
   findings_.back().suppressed = Suppressed::by_comment;
   findings_.back().reason = taken->reason;
@@ -56,12 +68,20 @@ std::vector<Finding> FindingList::sorted() const {
 
 void FindingList::raise(Check check, const Diagnostic& said, const parser::SourcePlace& place,
                         std::optional<Severity> severity) {
+  const Key key = key_of(place) * kOtherLine ^ key_of(said.message);
   raise(
-      check, key_of(said.message), place,
+      check, key, place,
       [&] {
         return Words{said.message, said.hint, said.id};
       },
       severity);
+}
+
+void FindingList::raise_alike(Check check, const Diagnostic& said,
+                              const parser::SourcePlace& place) {
+  raise(check, key_of(said.message), place, [&] {
+    return Words{said.message, said.hint, said.id, said.message};
+  });
 }
 
 }  // namespace frustum::lint

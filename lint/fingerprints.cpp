@@ -39,15 +39,22 @@ std::uint64_t hash_of(std::string_view id, std::string_view line) {
 
 }  // namespace
 
+std::string fingerprint_of(const Finding& finding, const SourceLines& lines) {
+  std::string text = finding.alike;
+  if (text.empty()) {
+    const auto line = lines.find({finding.file, finding.line});
+    if (line != lines.end()) text = bare_line(line->second);
+  }
+  return fmt::format("{:016x}", hash_of(info_of(finding.check).id, text));
+}
+
 std::vector<std::string> fingerprints_of(std::span<const Finding> findings,
                                          const SourceLines& lines) {
   std::vector<std::string> marks;
-  std::map<std::pair<std::string, std::uint64_t>, int> seen;
+  std::map<std::pair<std::string, std::string>, int> seen;
   for (const Finding& finding : findings) {
-    const auto line = lines.find({finding.file, finding.line});
-    const std::string text = line == lines.end() ? std::string() : bare_line(line->second);
-    const std::uint64_t hash = hash_of(info_of(finding.check).id, text);
-    marks.push_back(fmt::format("{:016x}:{}", hash, ++seen[{finding.file, hash}]));
+    const std::string mark = fingerprint_of(finding, lines);
+    marks.push_back(fmt::format("{}:{}", mark, ++seen[{finding.file, mark}]));
   }
   return marks;
 }

@@ -1,7 +1,8 @@
 // Marks by which findings are known again when lines move.
 //
-// A mark is of the check, the file and the text of the line, without block number and blanks; what
-// has the same three is numbered in its order. The message is no part of it, nor a line number.
+// A mark is of the check and the text of the line, without block number and blanks; or, where a
+// finding stands for several lines, of what they have in common: M250, a feed. No line number is
+// part of it.
 // Units : none
 // Errors: none
 #pragma once
@@ -15,7 +16,9 @@
 
 namespace frustum::lint {
 
-// "1a2b3c4d5e6f7081:1", one for each finding: check and line alone, numbered within each file.
+// "1a2b3c4d5e6f7081"
+[[nodiscard]] std::string fingerprint_of(const Finding& finding, const SourceLines& lines);
+// "1a2b3c4d5e6f7081:1", one for each finding: those of a file that are alike are numbered.
 [[nodiscard]] std::vector<std::string> fingerprints_of(std::span<const Finding> findings,
                                                        const SourceLines& lines);
 

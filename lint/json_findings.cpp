@@ -29,6 +29,7 @@ Json finding_json(const Finding& finding) {
             {"message", finding.message},
             {"hint", finding.hint},
             {"count", finding.count},
+            {"places", finding.places},
             {"diagnostic", finding.diagnostic ? Json(finding.diagnostic->text()) : Json()}};
   if (finding.suppressed != Suppressed::no) {
     json["suppressed"] = finding.suppressed == Suppressed::by_comment ? "comment" : "baseline";
@@ -49,6 +50,7 @@ Json file_json(const CheckedFile& checked) {
             {"findings", Json::array()},
             {"suppressed", Json::array()},
             {"left_out", Json::object()}};
+  if (checked.subprogram) json["subprogram"] = true;
   for (const Finding& finding : report.findings) {
     json[finding.suppressed == Suppressed::no ? "findings" : "suppressed"].push_back(
         finding_json(finding));
@@ -59,17 +61,37 @@ Json file_json(const CheckedFile& checked) {
   return json;
 }
 
+void add_troubles(Json& json, const Diagnostics& troubles) {
+  if (troubles.empty()) return;
+  json["status"] = status_of(false);
+  json["troubles"] = Json::array();
+  for (const Diagnostic& trouble : troubles) {
+    json["troubles"].push_back({{"diagnostic", trouble.id.text()},
+                                {"severity", to_string(trouble.severity)},
+                                {"file", trouble.file.empty() ? Json() : Json(trouble.file)},
+                                {"line", trouble.line},
+                                {"column", trouble.column},
+                                {"message", trouble.message},
+                                {"hint", trouble.hint}});
+  }
+}
+
 }  // namespace
 
-std::string json_of(const CheckedFile& checked) { return text_of_json(file_json(checked)); }
+std::string json_of(const CheckedFile& checked, const Diagnostics& troubles) {
+  Json json = file_json(checked);
+  add_troubles(json, troubles);
+  return text_of_json(json);
+}
 
-std::string json_of(std::span<const CheckedFile> checked) {
+std::string json_of(std::span<const CheckedFile> checked, const Diagnostics& troubles) {
   const bool passed =
       std::ranges::all_of(checked, [](const CheckedFile& each) { return each.passed; });
   Json json{{"status", status_of(passed)},
             {"counts", counts_json(counts_of(checked))},
             {"files", Json::array()}};
   for (const CheckedFile& each : checked) json["files"].push_back(file_json(each));
+  add_troubles(json, troubles);
   return text_of_json(json);
 }
 

@@ -7,12 +7,15 @@
 #include <span>
 #include <string>
 
+#include "core/diagnostic.hpp"
 #include "lint/checked_file.hpp"
 
 namespace frustum::lint {
 
-[[nodiscard]] std::string json_of(const CheckedFile& checked);
+// `troubles`, where there are some: what could not be read; then the status is "fail".
+[[nodiscard]] std::string json_of(const CheckedFile& checked, const Diagnostics& troubles = {});
 // Of several programs: {"status", "counts", "files": [..]}.
-[[nodiscard]] std::string json_of(std::span<const CheckedFile> checked);
+[[nodiscard]] std::string json_of(std::span<const CheckedFile> checked,
+                                  const Diagnostics& troubles = {});
 
 }  // namespace frustum::lint

@@ -61,9 +61,10 @@ void ParameterReads::see(const parser::BlockAhead& ahead, FindingList& findings)
     parser::SourcePlace place = block.place_of(block.steps[i].column);
     place.file = ahead.file;
     findings.raise(Check::parameter_unset, static_cast<FindingList::Key>(*number), place, [&] {
-      return Words{fmt::format("#{} is read before the program sets it", *number),
-                   dialect_ == parser::Dialect::linuxcnc ? "it counts as 0; set it before"
-                                                         : "it is vacant; set it before"};
+      return Words{.message = fmt::format("#{} is read before the program sets it", *number),
+                   .hint = dialect_ == parser::Dialect::linuxcnc ? "it counts as 0; set it before"
+                                                                 : "it is vacant; set it before",
+                   .alike = fmt::format("#{}", *number)};
     });
   }
   for (const parser::Assignment& setting : block.assignments) {

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/spelling.hpp"
 #include "lint/arc_checks.hpp"
 #include "lint/cutting_checks.hpp"
 #include "lint/decimal_points.hpp"
@@ -29,6 +28,10 @@ using parser::SourcePlace;
 
 // Blocks that cannot be run, after which the rest of the program says little.
 constexpr std::uint64_t kMostErrors = 1'000;
+
+// A subprogram without what its callers give may go round and round.
+constexpr std::uint64_t kTurnsAlone = 1'000;
+constexpr std::uint64_t kRepeatsAlone = 100'000;
 
 // What a motion on a machine costs, and each of the positions that are looked at, in blocks.
 constexpr std::uint64_t kCostOfMotion = 8;
@@ -97,13 +100,21 @@ class ProgramCheck {
  public:
   ProgramCheck(const parser::Program& program, const CheckOptions& options)
       : program_(program),
-        findings_(program, options.disabled),
+        findings_(program, disabled_of(options), options.most_places),
         reads_(program.dialect),
         points_(program.dialect == parser::Dialect::fanuc && !options.decimal_point_is_known),
         options_(options),
-        run_(options.run) {
+        run_(options.run),
+        most_turns_(options.most_turns),
+        most_repeats_(options.most_repeats) {
     state_.position = options.home;
-    if (options.machine != nullptr) travel_.emplace(*options.machine, options.setup, findings_);
+    if (options.machine != nullptr && !options.subprogram) {
+      travel_.emplace(*options.machine, options.setup, program.dialect, findings_);
+    }
+    if (options.subprogram) {
+      most_turns_ = std::min(most_turns_, kTurnsAlone);
+      most_repeats_ = std::min(most_repeats_, kRepeatsAlone);
+    }
     run_.watch = [this](const parser::BlockAhead& ahead) { return see(ahead); };
     run_.go_on = [this](Diagnostic&& error) { return go_on(error); };
   }
@@ -112,7 +123,7 @@ class ProgramCheck {
     wrong_lines_ = check_structure(program_, findings_);
     const auto summary = parser::interpret(
         program_, [this](Motion&& motion) { see(motion); }, run_);
-    if (!summary) {
+    if (!summary && !broken_off_) {
       for (const Diagnostic& error : summary.error()) report(error);
     }
     short_segments_.finish(findings_);
@@ -121,12 +132,22 @@ class ProgramCheck {
     // The modes at the end say something only of a program that came there.
     if (state_.place.line == 0) state_.place = last_block_;
     if (summary && !broken_off_) check_end(state_, summary->state, program_.dialect, findings_);
-    if (summary && !broken_off_ && errors_ == 0 && options_.look_further) look_further();
+    if (summary && !broken_off_ && errors_ == 0 && options_.look_further && !options_.subprogram) {
+      look_further();
+    }
     judge_suppressions();
-    return {findings_.sorted(), findings_.left_out(), blocks_, motions_};
+    return {findings_.sorted(), findings_.left_out(), blocks_, motions_, std::move(opened_)};
   }
 
  private:
+  static std::set<Check> disabled_of(const CheckOptions& options) {
+    std::set<Check> disabled = options.disabled;
+    for (const CheckInfo& info : all_checks()) {
+      if (options.subprogram && !needs_no_caller(info.check)) disabled.insert(info.check);
+    }
+    return disabled;
+  }
+
   void look_further() {
     looked_further_ = true;
     for (Finding& found : options_.look_further()) {
@@ -141,13 +162,11 @@ class ProgramCheck {
   }
 
   void judge_suppressions() {
-    std::vector<std::string> known;
-    for (const CheckInfo& info : all_checks()) known.emplace_back(info.id);
     for (const Suppression& each : findings_.suppressions().all()) {
       const auto key = FindingList::key_of(each.place) * 64 + each.place.column;
       if (!each.check) {
         findings_.raise(Check::unknown_suppression, FindingList::key_of(each.id) ^ key, each.place,
-                        [&] { return words_of_unknown(each, known); });
+                        [&] { return words_of_unknown(each); });
       } else if (!each.used && could_be_used(*each.check)) {
         findings_.raise(Check::unused_suppression, FindingList::key_of(each.id) ^ key, each.place,
                         [&] {
@@ -157,12 +176,12 @@ class ProgramCheck {
       }
     }
   }
-  static Words words_of_unknown(const Suppression& comment, const std::vector<std::string>& known) {
+  static Words words_of_unknown(const Suppression& comment) {
     if (comment.id.empty()) {
       return {"the comment names no check", "frustum: ignore ID, one or several of --list"};
     }
     return {fmt::format("the comment suppresses '{}', which is no check", comment.id),
-            suggestion(comment.id, known)};
+            check_meant_by(comment.id)};
   }
   // Not, where it was not looked for.
   [[nodiscard]] bool could_be_used(Check check) const {
@@ -176,22 +195,26 @@ class ProgramCheck {
   bool see(const parser::BlockAhead& ahead) {
     ++blocks_;
     last_block_ = {ahead.block.line, 1, ahead.file};
+    if (ahead.file != nullptr && ahead.file != last_opened_) {
+      last_opened_ = ahead.file;
+      opened_.insert(*last_opened_);
+    }
     reads_.see(ahead, findings_);
     points_.see(ahead);
     const auto jump = repeats_.see(ahead);
-    if (jump && jump->count > options_.most_turns) {
+    if (jump && jump->count > most_turns_) {
       findings_.raise(Check::endless_loop, FindingList::key_of(jump->from), jump->from, [&] {
-        return Words{fmt::format("reached {} times: does this loop end?", options_.most_turns),
+        return Words{fmt::format("reached {} times: does this loop end?", most_turns_),
                      "look for a condition that never changes; the checks end here"};
       });
       broken_off_ = true;
-    } else if (repeats_.blocks() > options_.most_repeats) {
+    } else if (repeats_.blocks() > most_repeats_) {
       findings_.raise(
           Check::endless_loop, FindingList::key_of(last_block_), last_block_,
           [&] {
             return Words{
                 fmt::format("loops and repeats have run {} blocks again: the checks end here",
-                            options_.most_repeats),
+                            most_repeats_),
                 "a longer program is checked with a greater --most-repeats"};
           },
           Severity::warning);
@@ -204,12 +227,19 @@ class ProgramCheck {
     // Where the axes are is no longer sure.
     state_.position = {};
     report(error);
-    broken_off_ = ++errors_ > kMostErrors;
-    return !broken_off_;
+    if (++errors_ < kMostErrors) return true;
+    findings_.raise(Check::too_many_errors, 0, last_block_, [] {
+      return Words{fmt::format("{} blocks could not be run: the checks end here", kMostErrors),
+                   "mend what is above and check again; is it the right --dialect?"};
+    });
+    broken_off_ = true;
+    return false;
   }
 
   void report(const Diagnostic& error) {
     if (follows_from_an_earlier_one(error)) return;
+    // What a subprogram is given alone decides of its other mistakes.
+    if (options_.subprogram && error.id != "unknown-word"_id) return;
     const bool main_file = error.file == program_.file;
     if (main_file && wrong_lines_.contains(static_cast<std::uint32_t>(error.line))) return;
     SourcePlace place{static_cast<std::uint32_t>(error.line),
@@ -221,7 +251,7 @@ class ProgramCheck {
   void see(const Motion& motion) {
     ++motions_;
     if (const auto* event = std::get_if<parser::Event>(&motion.command)) see(*event, motion.place);
-    check_length_number(motion, state_, findings_);
+    check_length_number(motion, state_, program_.dialect, findings_);
     check_rotary_with_length(motion, state_, program_.dialect, findings_);
     if (const auto move = cutting_move(motion, state_)) {
       check_spindle(*move, state_, findings_);
@@ -243,29 +273,27 @@ class ProgramCheck {
         "comment", "message", "block_delete", "surface_speed",      "BEGIN PGM",
         "PARTNO",  "debug",   "structure",    "radius_compensation"};
     if (std::find(kTold.begin(), kTold.end(), event.name) != kTold.end()) return;
+    // The end of a subprogram is none of a main program.
+    if (options_.subprogram && event.name == "M99") return;
     // The first line of a cycle of Klartext; what the others say is simulated.
     if (event.name.starts_with("CYCL DEF") && event.name != "CYCL DEF 32") return;
     if (event.grade == parser::EventGrade::builder) {
       findings_.raise(Check::builder_word, FindingList::key_of(event.name), place, [&] {
-        return Words{fmt::format("{} is a word of the machine's builder, passed over", event.name),
-                     "name it under [controller] words of the machine, if it moves nothing"};
+        return Words{.message = fmt::format("{} is a word of the machine's builder, passed over",
+                                            event.name),
+                     .hint = "name it under [controller] words of the machine, if it moves nothing",
+                     .alike = event.name};
       });
       return;
     }
     if (event.name == "decimal point") {
-      if (options_.decimal_point_is_known || event.text.empty()) return;
-      // As DecimalPoints has it, so that both are one finding.
-      const auto key = static_cast<FindingList::Key>(event.text.front());
-      findings_.raise(Check::decimal_point, key, place, [&] {
-        return Words{event.text,
-                     "write the point, or say which by --decimal-point or [controller] "
-                     "decimal_point"};
-      });
+      if (!options_.decimal_point_is_known) points_.told(event, place);
       return;
     }
     if (event.grade == parser::EventGrade::assumed) {
       findings_.raise(Check::assumed, FindingList::key_of(event.name), place, [&] {
-        return Words{fmt::format("{}: taken that {}", event.name, event.text), ""};
+        return Words{.message = fmt::format("{}: taken that {}", event.name, event.text),
+                     .alike = event.name};
       });
       return;
     }
@@ -278,7 +306,8 @@ class ProgramCheck {
     }
     findings_.raise(Check::not_simulated, FindingList::key_of(event.name), place, [&] {
       const std::string text = event.text.empty() ? "" : fmt::format(" ({})", event.text);
-      return Words{fmt::format("{}{} is known and not simulated", event.name, text), ""};
+      return Words{.message = fmt::format("{}{} is known and not simulated", event.name, text),
+                   .alike = event.name};
     });
   }
 
@@ -291,9 +320,13 @@ class ProgramCheck {
   std::optional<TravelCheck> travel_{};
   const CheckOptions& options_;
   parser::InterpreterOptions run_;
+  std::uint64_t most_turns_;
+  std::uint64_t most_repeats_;
   Repeats repeats_{};
   WrongLines wrong_lines_{};
   SourcePlace last_block_{1, 1, nullptr};
+  std::set<std::string> opened_{};
+  std::shared_ptr<const std::string> last_opened_{};
   std::uint64_t errors_ = 0;
   std::uint64_t blocks_ = 0;
   std::uint64_t motions_ = 0;
@@ -308,6 +341,16 @@ std::size_t CheckReport::count(Severity severity) const {
       std::count_if(findings.begin(), findings.end(), [severity](const Finding& f) {
         return f.severity == severity && f.suppressed == Suppressed::no;
       }));
+}
+
+void CheckReport::cut_short() {
+  std::map<std::pair<Check, Severity>, std::size_t> listed;
+  std::erase_if(findings, [&](const Finding& finding) {
+    if (finding.suppressed != Suppressed::no) return false;
+    if (listed[{finding.check, finding.severity}]++ < kMostPlaces) return false;
+    ++left_out[finding.check];
+    return true;
+  });
 }
 
 CheckReport check_program(const parser::Program& program, const CheckOptions& options) {

@@ -5,7 +5,8 @@
 // controller. Repeats are counted, so that a program of any size gives a list that a person reads.
 //
 // Units : as of the checks
-// Shape : memory does not grow with the program, but for its labels and subprograms
+// Shape : memory does not grow with the program, but for its labels and subprograms, and a bit for
+//         each line that a finding comes from
 // Errors: none: what is wrong with the program is a finding
 #pragma once
 
@@ -31,6 +32,10 @@ struct CheckOptions {
   // Where the axes are before the program, also as far as that is only assumed.
   parser::AxisTarget home{};
   bool decimal_point_is_known = false;  // else words without a point are findings
+  // Of a subprogram alone: what depends on what its callers set is left out.
+  bool subprogram = false;
+  // Of a check and severity; a baseline has to see all.
+  std::size_t most_places = kMostPlaces;
   std::set<Check> disabled{};
   // A loop or jump that comes more often than this is taken for one that never ends.
   std::uint64_t most_turns = 300'000;
@@ -43,12 +48,15 @@ struct CheckOptions {
 
 struct CheckReport {
   std::vector<Finding> findings{};
-  // Findings of a check beyond kMostPlaces.
+  // Findings of a check beyond those that are listed.
   std::map<Check, std::uint64_t> left_out{};
-  std::uint64_t blocks = 0;   // that were run
-  std::uint64_t motions = 0;  // that they commanded
+  std::uint64_t blocks = 0;        // that were run
+  std::uint64_t motions = 0;       // that they commanded
+  std::set<std::string> opened{};  // files of subprograms that were run
 
   [[nodiscard]] std::size_t count(Severity severity) const;
+  // Lists no more than kMostPlaces of a check and severity, but for what is suppressed.
+  void cut_short();
 };
 
 [[nodiscard]] CheckReport check_program(const parser::Program& program,

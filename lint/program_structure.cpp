@@ -18,6 +18,7 @@ namespace {
 
 using parser::Block;
 using parser::BlockCursor;
+using parser::Dialect;
 using parser::FlowKind;
 using parser::Program;
 using parser::SourcePlace;
@@ -49,7 +50,7 @@ bool has_code(const Block& block, char letter, double number) {
 }
 
 bool is_end_of_klartext(const Block& block) {
-  static const parser::Code* const kEnd = find_code(parser::Dialect::heidenhain, "END PGM");
+  static const parser::Code* const kEnd = find_code(Dialect::heidenhain, "END PGM");
   return block.words.size() == 1 && block.words[0].letter == parser::kNamedWord &&
          block.words[0].number == row_of(*kEnd);
 }
@@ -96,13 +97,48 @@ class Structure {
     while (true) {
       const auto next = cursor.next();
       if (!next) {
-        tell_syntax(next.error().front(), findings);
+        // Where no run comes, nothing needs to be a block; a run that does tells it.
+        if (!ended_) tell_syntax(next.error().front(), findings);
+        begun_ = true;
         continue;
       }
       if (*next == nullptr) break;
+      // Nothing of LinuxCNC's is behind the closing %.
+      if (program_.dialect == Dialect::linuxcnc && (*next)->tape_mark && begun_) break;
+      follow_end(**next);
       see(**next);
     }
     close_segment();
+  }
+
+  // Whether the program has ended, so that what follows is read by nobody, up to the head of the
+  // next program or subprogram.
+  void follow_end(const Block& block) {
+    if (block.program || (block.flow && (block.flow->kind == FlowKind::program ||
+                                         block.flow->kind == FlowKind::subprogram))) {
+      ended_ = false;
+    } else if (block.tape_mark) {
+      ended_ = begun_;
+    }
+    if (program_.dialect == Dialect::heidenhain && is_end_of_klartext(block)) ended_ = true;
+    if (program_.dialect != Dialect::linuxcnc) return;
+    if (block.flow) open_statements_ += step_of(block.flow->kind);
+    const bool ends = has_code(block, 'M', 2) || has_code(block, 'M', 30);
+    if (ends && open_statements_ == 0 && !block.deletable) ended_ = true;
+  }
+  static int step_of(FlowKind kind) {
+    switch (kind) {
+      case FlowKind::branch:
+      case FlowKind::loop:
+      case FlowKind::subprogram:
+        return 1;
+      case FlowKind::end_branch:
+      case FlowKind::end_loop:
+      case FlowKind::end_sub:
+        return -1;
+      default:
+        return 0;
+    }
   }
 
   void tell_syntax(const Diagnostic& error, FindingList& findings) {
@@ -115,9 +151,10 @@ class Structure {
   void see(const Block& block) {
     const bool acts = !block.words.empty() || !block.assignments.empty();
     // END PGM stands after M30 in every program of Klartext.
-    if (program_.dialect == parser::Dialect::heidenhain && is_end_of_klartext(block)) return;
+    if (program_.dialect == Dialect::heidenhain && is_end_of_klartext(block)) return;
     if (block.program) define_program(block);
     if (block.flow) follow(block);
+    if (has_code(block, 'M', 99)) return_to(block);
     if (has_code(block, 'M', 98) || has_code(block, 'G', 65) || has_code(block, 'G', 66)) {
       call_by_number(block);
     }
@@ -131,6 +168,7 @@ class Structure {
       open_segment(block);
     }
     anything_ = anything_ || acts || block.program || block.flow;
+    begun_ = begun_ || anything_;
   }
 
   void define_program(const Block& block) {
@@ -147,6 +185,16 @@ class Structure {
     }
     called_.insert(*number);
     called_.insert(*number % kRepeatsFactor);
+  }
+
+  // M99 P20: the caller goes on at its N20, or the main program there.
+  void return_to(const Block& block) {
+    if (program_.dialect != Dialect::fanuc || !has_word(block, 'P')) return;
+    if (const auto number = plain_word(block, 'P')) {
+      numbers_jumped_to_.insert(*number);
+    } else {
+      computed_label_ = true;
+    }
   }
 
   void follow(const Block& block) {
@@ -192,6 +240,8 @@ class Structure {
 
   void open_segment(const Block& block) {
     for (const double code : {30.0, 2.0, 99.0}) {
+      // M99 of Klartext calls the cycle.
+      if (code == 99.0 && program_.dialect == Dialect::heidenhain) continue;
       if (!has_code(block, 'M', code)) continue;
       segment_.emplace();
       segment_->end = fmt::format("M{:g} on line {}", code, block.line);
@@ -267,6 +317,9 @@ class Structure {
 
   const Program& program_;
   bool anything_ = false;
+  bool begun_ = false;  // something stands before, be it wrong
+  bool ended_ = false;
+  int open_statements_ = 0;  // of LinuxCNC
   std::map<std::uint32_t, Definition> programs_{};
   std::map<std::string, Definition> subprograms_{};
   std::map<std::string, Definition> labels_{};

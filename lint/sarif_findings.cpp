@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "lint/check_help.hpp"
 #include "lint/fingerprints.hpp"
 
 namespace frustum::lint {
@@ -34,9 +35,11 @@ std::string uri_text(const std::string& path) {
 }
 
 constexpr const char* kWorkingFolder = "WORKING_FOLDER";
+constexpr const char* kStandardInput = "<stdin>";  // as findings name it
 
 // Below the folder its name there, else the whole path.
 Json location_of(const std::string& file, const fs::path& folder) {
+  if (file == kStandardInput) return {{"uri", "stdin:"}};
   const fs::path whole = (folder / file).lexically_normal();
   const fs::path relative = whole.lexically_relative(folder.lexically_normal());
   const bool below = !relative.empty() && *relative.begin() != "..";
@@ -47,9 +50,11 @@ Json location_of(const std::string& file, const fs::path& folder) {
 Json rules(const SarifOptions& options) {
   Json list = Json::array();
   for (const CheckInfo& info : all_checks()) {
+    const CheckHelp help = help_of(info.check);
     Json rule{{"id", info.id},
               {"shortDescription", {{"text", info.title}}},
-              {"fullDescription", {{"text", std::string(info.title) + "."}}},
+              {"fullDescription", {{"text", std::string(help.meaning)}}},
+              {"help", {{"text", std::string(help.remedy)}}},
               {"defaultConfiguration", {{"level", to_string(info.severity)}}}};
     if (!options.documents.empty()) rule["helpUri"] = options.documents + "check.md#the-checks";
     list.push_back(std::move(rule));
@@ -135,7 +140,7 @@ Json result_of(const Finding& finding, const std::string& fingerprint, const Che
               {"level", to_string(finding.severity)},
               {"message", {{"text", message_of(finding)}}},
               {"locations", Json::array({{{"physicalLocation", place}}})},
-              {"partialFingerprints", {{"checkAndLine/v2", fingerprint}}},
+              {"partialFingerprints", {{"checkAndLine/v3", fingerprint}}},
               {"occurrenceCount", finding.count}};
   result["suppressions"] = suppressions_json(finding);
   if (finding.diagnostic) result["properties"] = {{"diagnostic", finding.diagnostic->text()}};

@@ -14,6 +14,7 @@ using parser::Block;
 constexpr std::string_view kCommentMark = "frustum:";
 constexpr std::string_view kIgnoreLine = "ignore";
 constexpr std::string_view kIgnoreFile = "ignore-file";
+// Between the ids.
 constexpr std::string_view kIdBlanks = " \t,";
 
 std::string_view without_blanks(std::string_view text) {
@@ -52,10 +53,13 @@ std::optional<std::string> said_in(std::string_view comment) {
 
 void read_suppression(std::string_view said, const parser::SourcePlace& place, std::uint32_t line,
                       std::vector<Suppression>& found) {
-  const std::size_t dashes = said.find("--");
-  const std::string reason(
-      dashes == std::string_view::npos ? "" : without_blanks(said.substr(dashes + 2)));
-  said = said.substr(0, dashes);
+  const std::size_t end = std::min(said.find("--"), said.find(';'));
+  std::string reason;
+  if (end != std::string_view::npos) {
+    const std::size_t behind = said.find_first_not_of("-;", end);
+    if (behind != std::string_view::npos) reason = without_blanks(said.substr(behind));
+  }
+  said = said.substr(0, end);
   const std::string_view verb = take_word(said);
   if (verb != kIgnoreLine && verb != kIgnoreFile) {
     found.push_back({place, line, std::string(verb), std::nullopt, reason});
@@ -109,33 +113,47 @@ std::vector<Suppression> suppressions_of(const parser::Program& program) {
   return found;
 }
 
+Suppressions::OfFile::OfFile(std::vector<Suppression> found) : list(std::move(found)) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].check) by_line[{list[i].line, *list[i].check}].push_back(i);
+  }
+}
+
 Suppressions::Suppressions(const parser::Program& main)
     : dialect_(main.dialect), main_(suppressions_of(main)) {}
 
-std::vector<Suppression>& Suppressions::of_file(const parser::SourcePlace& place) {
+Suppressions::OfFile& Suppressions::of_file(const parser::SourcePlace& place) {
   if (place.file == nullptr) return main_;
   const auto [at, fresh] = others_.try_emplace(*place.file);
   if (!fresh) return at->second;
   if (auto program = parser::open_program(*place.file, dialect_)) {
-    at->second = suppressions_of(*program);
-    for (Suppression& each : at->second) each.place.file = place.file;
+    auto found = suppressions_of(*program);
+    for (Suppression& each : found) each.place.file = place.file;
+    at->second = OfFile(std::move(found));
   }
   return at->second;
 }
 
 const Suppression* Suppressions::taking(Check check, const parser::SourcePlace& place) {
-  Suppression* taken = nullptr;
-  for (Suppression& each : of_file(place)) {
-    if (each.check != check || (each.line != 0 && each.line != place.line)) continue;
-    each.used = true;
-    if (taken == nullptr) taken = &each;
+  OfFile& file = of_file(place);
+  if (file.list.empty()) return nullptr;
+  std::size_t first = file.list.size();
+  for (const std::uint32_t line : {0U, place.line}) {
+    const auto found = file.by_line.find({line, check});
+    if (found == file.by_line.end()) continue;
+    first = std::min(first, found->second.front());
+    // All of them at once.
+    if (file.list[found->second.front()].used) continue;
+    for (const std::size_t i : found->second) file.list[i].used = true;
   }
-  return taken;
+  return first == file.list.size() ? nullptr : &file.list[first];
 }
 
 std::vector<Suppression> Suppressions::all() const {
-  std::vector<Suppression> found = main_;
-  for (const auto& [file, of_it] : others_) found.insert(found.end(), of_it.begin(), of_it.end());
+  std::vector<Suppression> found = main_.list;
+  for (const auto& [name, file] : others_) {
+    found.insert(found.end(), file.list.begin(), file.list.end());
+  }
   return found;
 }
 

@@ -5,7 +5,7 @@
 //   (frustum: ignore-file not-simulated)       for the whole file, wherever it is
 //
 // A comment is one of the program's dialect; case does not count, commas between the ids may be
-// written. What is after -- is the reason.
+// written. What is after -- or ; is the reason.
 // Units : lines and columns from 1
 // Shape : a file is read once, the main program at the start and others when a check finds
 //         something in them
@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lint/check.hpp"
@@ -49,11 +50,19 @@ class Suppressions {
   [[nodiscard]] std::vector<Suppression> all() const;
 
  private:
-  [[nodiscard]] std::vector<Suppression>& of_file(const parser::SourcePlace& place);
+  struct OfFile {
+    OfFile() = default;
+    explicit OfFile(std::vector<Suppression> found);
+
+    std::vector<Suppression> list{};
+    std::map<std::pair<std::uint32_t, Check>, std::vector<std::size_t>> by_line{};
+  };
+
+  [[nodiscard]] OfFile& of_file(const parser::SourcePlace& place);
 
   parser::Dialect dialect_;
-  std::vector<Suppression> main_;
-  std::map<std::string, std::vector<Suppression>> others_{};
+  OfFile main_;
+  std::map<std::string, OfFile> others_{};
 };
 
 }  // namespace frustum::lint

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "core/printable_text.hpp"
+
 namespace frustum::lint {
 namespace {
 
@@ -32,7 +34,8 @@ Shown shown(std::string_view line, std::size_t column) {
   std::fill(result.caret.begin(), result.caret.end(), ' ');
   for (std::size_t i = first; i < end; ++i) {
     const char byte = line[i];
-    const bool control = static_cast<unsigned char>(byte) < 0x20U && byte != '\t';
+    const unsigned code = static_cast<unsigned char>(byte);
+    const bool control = (code < 0x20U && byte != '\t') || code == 0x7FU;
     result.line += control ? ' ' : byte;
     if (i < at && !continues_character(byte)) result.caret += byte == '\t' ? '\t' : ' ';
   }
@@ -52,8 +55,8 @@ std::string text_of(const CheckedFile& checked) {
   const auto out = std::back_inserter(text);
   for (const Finding& finding : checked.report.findings) {
     if (finding.suppressed != Suppressed::no) continue;
-    fmt::format_to(out, "{}:{}:{}: {}: {}", finding.file, finding.line, finding.column,
-                   to_string(finding.severity), finding.message);
+    fmt::format_to(out, "{}:{}:{}: {}: {}", printable(finding.file), finding.line, finding.column,
+                   to_string(finding.severity), printable(finding.message));
     if (finding.count > 1) fmt::format_to(out, " ({} times)", finding.count);
     fmt::format_to(out, " [{}]\n", info_of(finding.check).id);
     const auto line = checked.lines.find({finding.file, finding.line});
@@ -61,7 +64,7 @@ std::string text_of(const CheckedFile& checked) {
       const Shown part = shown(line->second, finding.column);
       fmt::format_to(out, "{:>6} | {}\n       | {}\n", finding.line, part.line, part.caret);
     }
-    if (!finding.hint.empty()) fmt::format_to(out, "       = {}\n", finding.hint);
+    if (!finding.hint.empty()) fmt::format_to(out, "       = {}\n", printable(finding.hint));
   }
   for (const auto& [check, count] : checked.report.left_out) {
     fmt::format_to(out, "note: {} more of [{}] are not listed\n", count, info_of(check).id);

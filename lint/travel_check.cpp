@@ -13,6 +13,7 @@
 #include "core/units.hpp"
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/model/inverse.hpp"
+#include "lint/cutting_checks.hpp"
 #include "lint/run_errors.hpp"
 
 namespace frustum::lint {
@@ -54,6 +55,7 @@ struct Excursion {
   SourcePlace worst{};
   double position = 0.0;  // the farthest
   std::uint64_t moves = 0;
+  LineSet lines{};
 };
 
 struct AxisWatch {
@@ -66,6 +68,7 @@ struct Haste {
   SourcePlace worst{};
   double speed = 0.0;
   std::uint64_t moves = 0;
+  LineSet lines{};
 };
 
 // What a program without a setup sheet means by G54.
@@ -78,9 +81,11 @@ kinematics::Setup with_first_offset(kinematics::Setup setup) {
 
 class TravelCheck::State {
  public:
-  State(const kinematics::Machine& machine, kinematics::Setup setup, FindingList& findings)
+  State(const kinematics::Machine& machine, kinematics::Setup setup, parser::Dialect dialect,
+        FindingList& findings)
       : machine_(machine),
         setup_(with_first_offset(std::move(setup))),
+        dialect_(dialect),
         findings_(findings),
         controller_(machine, setup_, [this](kinematics::CommandedStep&& step) { watch(step); },
                     {.check_travel = false, .feeds_need_tool = false}) {
@@ -120,7 +125,7 @@ class TravelCheck::State {
         check == Check::length_of_other_tool) {
       return;
     }
-    findings_.raise(check, diagnostic, place_);
+    findings_.raise_alike(check, diagnostic, place_);
   }
 
   // --- the setup, where it is not known ---------------------------------------------------------
@@ -135,8 +140,10 @@ class TravelCheck::State {
     if (!of_no_length_.contains(tool)) return;
     findings_.raise(
         Check::setup_assumed, FindingList::key_of(fmt::format("T{}", tool)), place_, [&] {
-          return Words{fmt::format("the length of tool {} is not known and taken as 0", tool),
-                       fmt::format("give --job, or --tool-length {}=MM", tool)};
+          return Words{.message = fmt::format("the length of {} is not known and taken as 0",
+                                              offset_name(tool, dialect_)),
+                       .hint = fmt::format("give --job, or --tool-length {}=MM", tool),
+                       .alike = fmt::format("T{}", tool)};
         });
   }
   void assume(const parser::WorkOffsetChange& change) { know_offset(change.number); }
@@ -167,9 +174,12 @@ class TravelCheck::State {
     const std::string name = parser::work_offset_name(number);
     findings_.raise(Check::setup_assumed, FindingList::key_of(name), place_, [&] {
       return Words{
-          fmt::format("work offset {} is not known: its origin is taken to be the table's", name),
-          number <= kJobOffsets ? fmt::format("give --job, or --offset {}=X,Y,Z", name)
-                                : "let the program place it (G10 L2), or use G54 to G59"};
+          .message = fmt::format("work offset {} is not known: its origin is taken to be the "
+                                 "table's",
+                                 name),
+          .hint = number <= kJobOffsets ? fmt::format("give --job, or --offset {}=X,Y,Z", name)
+                                        : "let the program place it (G10 L2), or use G54 to G59",
+          .alike = name};
     });
   }
 
@@ -237,8 +247,9 @@ class TravelCheck::State {
       end_excursion(axis, side);
       return;
     }
-    if (!excursion) excursion = Excursion{place_, place_, position, 0};
+    if (!excursion) excursion = Excursion{place_, place_, position, 0, {}};
     ++excursion->moves;
+    excursion->lines.insert(place_);
     const bool farther =
         side == 0 ? position < excursion->position : position > excursion->position;
     if (!farther) return;
@@ -265,7 +276,8 @@ class TravelCheck::State {
         message += fmt::format(" ({} moves; farthest on line {})", excursion->moves,
                                excursion->worst.line);
       }
-      return Words{std::move(message), remedy(joint)};
+      return Words{
+          .message = std::move(message), .hint = remedy(joint), .places = excursion->lines.size()};
     });
     excursion.reset();
   }
@@ -285,9 +297,12 @@ class TravelCheck::State {
     const double speed = most * parts / seconds;
     if (speed <= joint.dynamics.velocity * kSpeedMargin) return;
     auto& haste = hastes_[i];
-    if (!haste) haste = Haste{place_, place_, speed, 0};
+    if (!haste) haste = Haste{place_, place_, speed, 0, {}};
     ++haste->moves;
-    if (speed > haste->speed) haste = Haste{haste->first, place_, speed, haste->moves};
+    haste->lines.insert(place_);
+    if (speed <= haste->speed) return;
+    haste->worst = place_;
+    haste->speed = speed;
   }
   void tell_hastes() {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -297,19 +312,23 @@ class TravelCheck::State {
       const double per_minute = joint.rotary() ? kDegPerRad * 60.0 : 60.0;
       findings_.raise(
           Check::axis_too_slow, static_cast<FindingList::Key>(joint.letter), haste.worst, [&] {
-            return Words{fmt::format("the feed asks {} for {:.0f} {unit}/min, its greatest is "
-                                     "{:.0f} ({} {}, the first on line {})",
-                                     to_char(joint.letter), haste.speed * per_minute,
-                                     joint.dynamics.velocity * per_minute, haste.moves,
-                                     haste.moves == 1 ? "move" : "moves", haste.first.line,
-                                     fmt::arg("unit", unit_of(joint))),
-                         "the machine slows down there; lower F, or keep away from the pole"};
+            return Words{
+                .message = fmt::format("the feed asks {} for {:.0f} {unit}/min, its greatest is "
+                                       "{:.0f} ({} {}, the first on line {})",
+                                       to_char(joint.letter), haste.speed * per_minute,
+                                       joint.dynamics.velocity * per_minute, haste.moves,
+                                       haste.moves == 1 ? "move" : "moves", haste.first.line,
+                                       fmt::arg("unit", unit_of(joint))),
+                .hint = "the machine slows down there; lower F, or keep away from the pole",
+                .alike = std::string(1, to_char(joint.letter)),
+                .places = haste.lines.size()};
           });
     }
   }
 
   const kinematics::Machine& machine_;
   kinematics::Setup setup_;
+  parser::Dialect dialect_;
   FindingList& findings_;
   std::set<int> placed_{};        // work offsets
   std::set<int> of_no_length_{};  // tools
@@ -323,8 +342,8 @@ class TravelCheck::State {
 };
 
 TravelCheck::TravelCheck(const kinematics::Machine& machine, kinematics::Setup setup,
-                         FindingList& findings)
-    : state_(std::make_unique<State>(machine, std::move(setup), findings)) {}
+                         parser::Dialect dialect, FindingList& findings)
+    : state_(std::make_unique<State>(machine, std::move(setup), dialect, findings)) {}
 TravelCheck::~TravelCheck() = default;
 
 void TravelCheck::see(const parser::Motion& motion) { state_->see(motion); }

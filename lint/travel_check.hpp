@@ -19,6 +19,7 @@
 #include "kinematics/controller/setup.hpp"
 #include "kinematics/model/machine.hpp"
 #include "lint/finding_list.hpp"
+#include "parser/dialect.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::lint {
@@ -26,7 +27,8 @@ namespace frustum::lint {
 class TravelCheck {
  public:
   // The machine and the list must outlive the check.
-  TravelCheck(const kinematics::Machine& machine, kinematics::Setup setup, FindingList& findings);
+  TravelCheck(const kinematics::Machine& machine, kinematics::Setup setup, parser::Dialect dialect,
+              FindingList& findings);
   ~TravelCheck();
   TravelCheck(const TravelCheck&) = delete;
   TravelCheck& operator=(const TravelCheck&) = delete;

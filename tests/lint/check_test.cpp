@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "lint/check_help.hpp"
 #include "tests/lint/checking.hpp"
 
 namespace frustum::lint {
@@ -150,6 +151,8 @@ TEST(Checks, AllHaveACaseHereOrOnAMachine) {
     }
   }
   for (const CheckInfo& info : all_checks()) {
+    // That has a test of its own, for it comes after a thousand others.
+    if (info.check == Check::too_many_errors) continue;
     EXPECT_TRUE(info.needs != Needs::nothing || cased.contains(std::string(info.id))) << info.id;
   }
 }
@@ -190,6 +193,68 @@ TEST(Checks, AFloodIsCutShort) {
   const CheckReport report = checked(whole(body));
   EXPECT_EQ(of(report, "arc-radii").size(), kMostPlaces);
   EXPECT_EQ(report.left_out.at(Check::arc_radii), 400U);
+}
+
+TEST(Checks, EndWithAWordWhereTooManyBlocksCannotBeRun) {
+  std::string text = "G0 X1\n";
+  for (int i = 0; i < 1200; ++i) text += "G999\n";
+  const CheckReport report = checked(text + "G1 X2\nM30\n");
+  const auto found = of(report, "too-many-errors");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].line, 1001U);
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_NE(found[0].message.find("1000 blocks"), std::string::npos) << found[0].message;
+  EXPECT_TRUE(of(checked("G0 X1\nG999\nM30\n"), "too-many-errors").empty());
+}
+
+TEST(Checks, AnErrorIsListedBehindAFloodOfWarnings) {
+  std::string body = "F200\n";
+  for (int i = 0; i < 150; ++i) body += "G2 X20.008 Y0 I10 J0\nG0 X0\n";
+  bool error = false;
+  for (const Finding& finding : of(checked(whole(body + "G2 X20.5 Y0 I10 J0\n")), "arc-radii")) {
+    error = error || finding.severity == Severity::error;
+  }
+  EXPECT_TRUE(error);
+}
+
+TEST(Checks, AWordWithoutAPointIsOneFindingOnce) {
+  // Both the interpreter and the check of the text have something to say of it.
+  const auto found =
+      of(checked("G0 X0019685 Y1. Z9.\nM30\n", {}, Dialect::fanuc, true), "decimal-point");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].count, 1U);
+}
+
+TEST(Checks, AFurtherEdgeIsThatOfItsTool) {
+  const auto program = [](const std::string& body) {
+    return "S1000 M3\nG0 Z50\n" + body + "G0 Z60\nM5\nM30\n";
+  };
+  EXPECT_TRUE(
+      of(checked(program("T1 D2 M6\n"), {}, Dialect::sinumerik), "length-of-other-tool").empty());
+  const kinematics::Machine machine = shipped("iwf-bc");
+  CheckOptions options;
+  options.machine = &machine;
+  const auto assumed =
+      of(checked(program("T1 D2 M6\n"), options, Dialect::sinumerik), "setup-assumed");
+  ASSERT_FALSE(assumed.empty());
+  EXPECT_NE(assumed[0].message.find("edge 2 of tool 1"), std::string::npos) << assumed[0].message;
+}
+
+TEST(Checks, OfASubprogramAloneAreThoseThatNeedNoCaller) {
+  const std::string text = "O7\nG1 X5\nG999 Y#1\nM250\nM99\nG0 X1\n";
+  CheckOptions options;
+  options.subprogram = true;
+  EXPECT_EQ(ids(checked(text, options)), "3:program-error 4:builder-word 6:unreachable-code ");
+  options.subprogram = false;
+  EXPECT_NE(ids(checked(text, options)), "3:program-error 4:builder-word 6:unreachable-code ");
+}
+
+TEST(Checks, TellWhatTheyMeanAndWhatToDo) {
+  for (const CheckInfo& info : all_checks()) {
+    const CheckHelp help = help_of(info.check);
+    EXPECT_GT(help.meaning.size(), info.title.size()) << info.id;
+    EXPECT_TRUE(help.meaning.ends_with('.') && help.remedy.ends_with('.')) << info.id;
+  }
 }
 
 TEST(Checks, TellAllSyntaxErrorsOfTheTextOnce) {

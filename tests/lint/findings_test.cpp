@@ -76,6 +76,30 @@ TEST(JsonFindings, HaveTheKeysOfTheDocument) {
   EXPECT_FALSE(finding["hint"].get<std::string>().empty());
 }
 
+TEST(TextFindings, WriteControlCharactersOut) {
+  CheckedFile checked{.file = "a\nb.nc"};
+  checked.report.findings.push_back({.check = Check::feed_missing,
+                                     .file = "a\nb.nc",
+                                     .line = 1,
+                                     .column = 1,
+                                     .message = "id \x1B[2J"});
+  EXPECT_EQ(text_of(checked), "a\\x0Ab.nc:1:1: error: id \\x1B[2J [feed-missing]\n");
+}
+
+TEST(JsonFindings, TellWhatCouldNotBeRead) {
+  const json doc =
+      json::parse(json_of(std::span<const CheckedFile>(), {error("no-such"_id, "gone")}));
+  EXPECT_EQ(doc["status"], "fail");
+  EXPECT_TRUE(doc["files"].empty());
+  ASSERT_EQ(doc["troubles"].size(), 1U);
+  EXPECT_EQ(doc["troubles"][0]["diagnostic"], "no-such");
+  EXPECT_EQ(doc["troubles"][0]["message"], "gone");
+  CheckedFile fine = written("G0 X1\nM30\n");
+  fine.passed = true;
+  EXPECT_EQ(json::parse(json_of(fine, {error("no-such"_id, "gone")}))["status"], "fail");
+  EXPECT_FALSE(json::parse(json_of(fine)).contains("troubles"));
+}
+
 TEST(JsonFindings, StayJsonWhateverTheBytes) {
   const CheckedFile checked = written("G0 X1\nG0 \xFF\n(\xC0\x80 G999\nM30\n");
   EXPECT_TRUE(json::accept(json_of(checked)));
@@ -92,7 +116,8 @@ const std::map<std::string, Rule> kRules{
     {"run",
      {{"tool"}, {"invocations", "originalUriBaseIds", "artifacts", "columnKind", "results"}}},
     {"driver", {{"name"}, {"version", "semanticVersion", "informationUri", "rules"}}},
-    {"rule", {{"id"}, {"shortDescription", "fullDescription", "defaultConfiguration", "helpUri"}}},
+    {"rule",
+     {{"id"}, {"shortDescription", "fullDescription", "help", "defaultConfiguration", "helpUri"}}},
     {"invocation", {{"executionSuccessful"}, {"workingDirectory", "toolExecutionNotifications"}}},
     {"artifact", {{}, {"location", "roles"}}},
     {"artifactLocation", {{}, {"uri", "uriBaseId", "index"}}},
@@ -138,6 +163,9 @@ TEST(SarifFindings, Fault2_19_HaveWhatTheSchemaRequiresAndNothingElse) {
   for (const json& rule : driver["rules"]) {
     expect_object(rule, "rule");
     EXPECT_EQ(rule["helpUri"], "https://docs.test/check.md#the-checks");
+    EXPECT_FALSE(rule["help"]["text"].get<std::string>().empty());
+    EXPECT_GT(rule["fullDescription"]["text"].get<std::string>().size(),
+              rule["shortDescription"]["text"].get<std::string>().size() + 1);
   }
   ASSERT_EQ(run["artifacts"].size(), 1U);
   expect_object(run["artifacts"][0], "artifact");
@@ -180,6 +208,11 @@ TEST(SarifFindings, NameFilesElsewhereByTheirWholePath) {
   EXPECT_EQ(
       doc["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"],
       "file:///jobs/up.nc");
+}
+
+TEST(SarifFindings, NameTheStandardInputAsSuch) {
+  CheckedFile checked{.file = "<stdin>"};
+  EXPECT_EQ(sarif(checked)["runs"][0]["artifacts"][0]["location"]["uri"], "stdin:");
 }
 
 TEST(SarifFindings, SayWhatCouldNotBeRead) {

@@ -34,6 +34,25 @@ TEST(Suppressions, OnTheLineOrAboveIt) {
   EXPECT_EQ(found[2].place.line, 2U);
 }
 
+TEST(Suppressions, AReasonMayFollowASemicolon) {
+  const auto found = read("G1 X1 F2 (frustum: ignore feed-low; because)\n");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].check, Check::feed_low);
+  EXPECT_EQ(found[0].reason, "because");
+}
+
+// Each finding looks at the comments of its own line alone: all with all took minutes.
+TEST(Suppressions, ManyAreFoundAtOnce) {
+  std::string text;
+  for (int i = 0; i < 100'000; ++i) text += "G0 X1 (frustum: ignore feed-low)\n";
+  Suppressions suppressions({"part.nc", Dialect::fanuc, parser::ProgramText(text), nullptr});
+  std::size_t taken = 0;
+  for (std::uint32_t line = 1; line <= 100'000; ++line) {
+    taken += suppressions.taking(Check::feed_low, {line, 1, nullptr}) != nullptr ? 1 : 0;
+  }
+  EXPECT_EQ(taken, 100'000U);
+}
+
 TEST(Suppressions, OfAFileHaveNoLine) {
   const auto found = read("G0 X1\n(frustum: ignore-file feed-low -- slow on purpose)\n");
   ASSERT_EQ(found.size(), 1U);
