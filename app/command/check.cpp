@@ -1,15 +1,20 @@
 // frustum check: holds NC programs against what goes wrong at the machine.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
-#include <utility>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/job/program_checker.hpp"
+#include "app/job/program_files.hpp"
 #include "app/view/console.hpp"
+#include "core/printable_text.hpp"
 #include "core/whole_file.hpp"
 #include "lint/json_findings.hpp"
 #include "lint/sarif_findings.hpp"
@@ -19,6 +24,8 @@ namespace frustum::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kOutput = "-";
 
 struct CheckCommand {
   std::vector<std::string> paths{};
@@ -42,22 +49,6 @@ int list_checks() {
   return kDone;
 }
 
-// The programs of all paths, each once.
-std::vector<std::string> programs_of(const CheckCommand& options, ProgramChecker& checker) {
-  std::vector<std::string> programs;
-  for (const std::string& path : options.paths) {
-    for (std::string& program : checker.programs_of(path)) {
-      if (std::ranges::find(programs, program) == programs.end()) {
-        programs.push_back(std::move(program));
-      }
-    }
-  }
-  if (options.paths.empty()) {
-    if (auto program = checker.program_of_job()) programs.push_back(*std::move(program));
-  }
-  return programs;
-}
-
 // The document of one program is as it always was; several have one around them.
 bool is_one_file(const CheckCommand& options) {
   std::error_code unknown;
@@ -65,54 +56,78 @@ bool is_one_file(const CheckCommand& options) {
          (options.paths.size() == 1 && !fs::is_directory(options.paths.front(), unknown));
 }
 
-void print_findings(const CheckCommand& options, const std::vector<lint::CheckedFile>& checked) {
+void print_findings(const CheckCommand& options, const std::vector<lint::CheckedFile>& checked,
+                    const Diagnostics& troubles) {
   if (options.json) {
-    if (!is_one_file(options)) {
-      std::cout << lint::json_of(checked);
-    } else if (!checked.empty()) {
-      std::cout << lint::json_of(checked.front());
-    }
+    const bool one = is_one_file(options) && !checked.empty();
+    std::cout << (one ? lint::json_of(checked.front(), troubles)
+                      : lint::json_of(checked, troubles));
     return;
   }
   for (const lint::CheckedFile& each : checked) std::cout << lint::text_of(each);
   if (!checked.empty() || !is_one_file(options)) std::cout << lint::summary_of(checked);
 }
 
+// What would be written over one another, or over what is read.
+Diagnostics overwritten(const CheckCommand& options, ProgramChecker& checker,
+                        const std::vector<ProgramToCheck>& programs) {
+  Diagnostics wrong;
+  const auto refuse_it = [&wrong](const std::string& option, const std::string& file) {
+    wrong.push_back(error("output-overwrites-input"_id,
+                          fmt::format("{} {} would overwrite what is read", option, file),
+                          "choose another file"));
+  };
+  const bool sarif = !options.sarif.empty() && options.sarif != kOutput;
+  if (sarif && checker.reads(options.sarif, programs)) refuse_it("--sarif", options.sarif);
+  for (const std::string& file : checker.baselines_of(programs)) {
+    if (options.write_baseline && checker.reads(file, programs)) refuse_it("--baseline", file);
+    if (sarif && is_same_file(options.sarif, file)) refuse_it("--sarif", options.sarif);
+  }
+  return wrong;
+}
+
 int check_files(const CheckCommand& options) {
   if (options.list) return list_checks();
+  const bool sarif_alone = options.sarif == kOutput;
+  if (sarif_alone && options.json) {
+    return refuse("option-conflict"_id, "--json and --sarif - both take the standard output",
+                  "name a file for one of them");
+  }
   ProgramChecker checker(options.settings, options.no_settings, [&](const std::string& note) {
-    if (!options.quiet) std::cerr << "note: " << note << '\n';
+    if (!options.quiet) std::cerr << "note: " << printable(note) << '\n';
   });
-  const std::vector<std::string> programs = programs_of(options, checker);
+  const auto programs = checker.programs_of(options.paths);
   if (options.paths.empty() && programs.empty() && checker.troubles().empty()) {
     return refuse("missing-option"_id, "no program", "name the files and folders to check");
   }
-  std::vector<lint::CheckedFile> checked;
-  for (const std::string& program : programs) {
-    if (auto each = checker.check(program, programs.size() == 1)) {
-      checked.push_back(*std::move(each));
-    }
+  if (const auto wrong = overwritten(options, checker, programs); !wrong.empty()) {
+    return refuse(wrong);
   }
+  std::vector<lint::CheckedFile> checked = checker.check(programs);
   if (options.write_baseline) {
     for (const std::string& file : checker.write_baselines(checked)) {
-      if (!options.quiet) std::cerr << "note: baseline " << file << " written\n";
+      if (!options.quiet) std::cerr << "note: baseline " << printable(file) << " written\n";
     }
   } else {
     checker.apply_baselines(checked);
   }
   for (lint::CheckedFile& each : checked) {
     each.passed = options.write_baseline || checker.passes(each);
+    each.report.cut_short();
   }
   const bool passed = std::ranges::all_of(checked, [](const auto& each) { return each.passed; });
   if (!options.sarif.empty()) {
-    const auto written =
-        write_whole_file(options.sarif, lint::sarif_of(checked, {.folder = fs::current_path(),
-                                                                 .version = FRUSTUM_VERSION,
-                                                                 .documents = documents_uri(),
-                                                                 .troubles = checker.troubles()}));
-    if (!written) return refuse(written.error());
+    const std::string sarif = lint::sarif_of(checked, {.folder = fs::current_path(),
+                                                       .version = FRUSTUM_VERSION,
+                                                       .documents = documents_uri(),
+                                                       .troubles = checker.troubles()});
+    if (sarif_alone) {
+      std::cout << sarif;
+    } else if (const auto written = write_whole_file(options.sarif, sarif); !written) {
+      return refuse(written.error());
+    }
   }
-  print_findings(options, checked);
+  if (!sarif_alone) print_findings(options, checked, checker.troubles());
   if (!checker.troubles().empty()) return refuse(checker.troubles());
   return passed ? kDone : kOutOfTolerance;
 }
@@ -151,14 +166,15 @@ void add_check(Command& program) {
   command
       .option("--most-repeats", settings.most_repeats,
               "Blocks that loops and repeats run again before the check ends (default 1000000)")
-      .holds(positive_number());
+      .within(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max());
   command.option("--baseline", settings.baseline,
                  "File with findings that are known and do not count");
   command.flag("--write-baseline", o->write_baseline,
                "Write the findings to the baseline instead of reporting them as new");
   command.flag("--no-config", o->no_settings, "Do not look for .frustum.toml");
   command.flag("--json", o->json, "Print the findings as one JSON document");
-  command.option("--sarif", o->sarif, "Write the findings as SARIF 2.1.0 too");
+  command.option("--sarif", o->sarif,
+                 "Write the findings as SARIF 2.1.0 too; - for the standard output instead");
   command.flag("--list", o->list, "List the checks with their ids and end");
   command.flag("--quiet", o->quiet, "No notes on stderr");
   command.footer(

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "app/job/machine_files.hpp"
-#include "core/spelling.hpp"
 #include "core/toml_document.hpp"
 #include "parser/dialect.hpp"
 
@@ -28,6 +28,23 @@ std::string path_of(const TomlTable& root, const char* key) {
   return root.text_or(key, "").empty() ? std::string() : root.file_path(key).string();
 }
 
+struct WordsOfKey {
+  const char* key;
+  std::vector<std::string> SetupWords::*list;
+};
+constexpr std::array kWordsOfKeys{
+    WordsOfKey{"tool_length", &SetupWords::tool_lengths},
+    WordsOfKey{"tool_diameter", &SetupWords::tool_diameters},
+    WordsOfKey{"offset", &SetupWords::offsets},
+};
+
+// Words are judged one by one, where the file has them.
+void judge(const TomlTable& table, const std::string& key, const SetupWords& alone) {
+  const auto known = known_setup_of(alone);
+  if (known) return;
+  for (const Diagnostic& wrong : known.error()) table.fail(key, wrong);
+}
+
 SetupWords setup_words_of(const TomlTable& root) {
   SetupWords words;
   if (const std::string name = root.text_or("machine", ""); !name.empty()) {
@@ -43,8 +60,24 @@ SetupWords setup_words_of(const TomlTable& root) {
   words.tool_diameters = root.texts_or("tool_diameter", {});
   words.offsets = root.texts_or("offset", {});
   words.start = root.text_or("start", "");
+  for (const WordsOfKey& key : kWordsOfKeys) {
+    for (const std::string& text : words.*key.list) {
+      SetupWords alone;
+      (alone.*key.list).push_back(text);
+      judge(root, key.key, alone);
+    }
+  }
+  if (SetupWords alone; !words.start.empty()) {
+    alone.start = words.start;
+    judge(root, "start", alone);
+  }
   if (const auto controller = root.table_if("controller")) {
     words.words = controller->texts_or("words", {});
+    for (const std::string& text : words.words) {
+      SetupWords alone;
+      alone.words.push_back(text);
+      judge(*controller, "words", alone);
+    }
     words.decimal_point = controller->text_or("decimal_point", "");
     const std::vector<std::string> points{"calculator", "increment"};
     if (controller->has("decimal_point")) (void)controller->choice("decimal_point", points);
@@ -60,9 +93,7 @@ std::string one_of(const TomlTable& root, const char* key, const std::vector<std
 }  // namespace
 
 Result<std::set<lint::Check>> checks_named(const std::vector<std::string>& ids,
-                                           const std::string& key) {
-  std::vector<std::string> known;
-  for (const lint::CheckInfo& info : lint::all_checks()) known.emplace_back(info.id);
+                                           const std::string& option) {
   std::set<lint::Check> checks;
   Diagnostics unknown;
   for (const std::string& id : ids) {
@@ -70,9 +101,10 @@ Result<std::set<lint::Check>> checks_named(const std::vector<std::string>& ids,
       checks.insert(*check);
       continue;
     }
-    unknown.push_back(error("unknown-check"_id,
-                            fmt::format("{} {}: there is no such check", key, id),
-                            suggestion(id, known)));
+    unknown.push_back(
+        error("unknown-check"_id,
+              fmt::format("{}{}{}: there is no such check", option, option.empty() ? "" : " ", id),
+              lint::check_meant_by(id)));
   }
   if (!unknown.empty()) return unknown;
   return checks;
@@ -88,17 +120,24 @@ Result<CheckSettings> read_check_settings(const fs::path& file) {
   settings.dialect =
       one_of(root, "dialect", {"fanuc", "iso", "linuxcnc", "sinumerik", "heidenhain", "cldata"});
   for (const std::string& folder : root.texts_or("search", {})) {
-    settings.search.push_back((root.folder() / folder).string());
+    const fs::path whole = root.folder() / folder;
+    std::error_code unknown;
+    if (!fs::is_directory(whole, unknown)) {
+      root.fail("search", "missing-folder"_id, fmt::format("there is no folder {}", folder),
+                "folders are named from that of the settings");
+    }
+    settings.search.push_back(whole.string());
   }
   settings.disabled = root.texts_or("disable", {});
-  if (const auto checks = checks_named(settings.disabled, "disable"); !checks) {
+  if (const auto checks = checks_named(settings.disabled); !checks) {
     for (const Diagnostic& unknown : checks.error()) root.fail("disable", unknown);
   }
   settings.fail_on = one_of(root, "fail_on", {"error", "warning", "note"});
   settings.tools = path_of(root, "tools");
   settings.baseline = path_of(root, "baseline");
   if (root.has("most_repeats")) {
-    settings.most_repeats = std::to_string(root.integer("most_repeats", Bound::positive));
+    settings.most_repeats =
+        static_cast<std::uint64_t>(root.integer("most_repeats", Bound::positive));
   }
   settings.inch_machine = root.boolean_or("inch_machine", false);
   settings.block_delete = root.boolean_or("block_delete", false);
@@ -139,7 +178,7 @@ CheckSettings joined(CheckSettings own, const CheckSettings& file) {
   take_if_empty(own.fail_on, file.fail_on);
   take_if_empty(own.tools, file.tools);
   take_if_empty(own.baseline, file.baseline);
-  take_if_empty(own.most_repeats, file.most_repeats);
+  if (!own.most_repeats) own.most_repeats = file.most_repeats;
   add_to(own.search, file.search);
   add_to(own.disabled, file.disabled);
   own.inch_machine = own.inch_machine || file.inch_machine;

@@ -26,10 +26,10 @@ struct CheckSettings {
   std::string dialect{};  // recognised when not given
   std::vector<std::string> search{};
   std::vector<std::string> disabled{};
-  std::string fail_on{};       // empty: error
-  std::string tools{};         // a tool table
-  std::string baseline{};      // empty: none
-  std::string most_repeats{};  // empty: the check's own
+  std::string fail_on{};                        // empty: error
+  std::string tools{};                          // a tool table
+  std::string baseline{};                       // empty: none
+  std::optional<std::uint64_t> most_repeats{};  // none: the check's own
   bool inch_machine = false;
   bool block_delete = false;
   // Of files in folders.
@@ -44,7 +44,8 @@ struct CheckSettings {
 // What the command line says, and where it says nothing what the file does.
 [[nodiscard]] CheckSettings joined(CheckSettings command_line, const CheckSettings& file);
 
+// `option`: what messages begin with ("--disable").
 [[nodiscard]] Result<std::set<lint::Check>> checks_named(const std::vector<std::string>& ids,
-                                                         const std::string& key);
+                                                         const std::string& option = {});
 
 }  // namespace frustum::app

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "app/job/collision_findings.hpp"
 #include "app/job/program_files.hpp"
 #include "core/whole_file.hpp"
 #include "lint/program_check.hpp"
+#include "lint/subprogram_text.hpp"
 
 namespace frustum::app {
 namespace {
@@ -107,22 +109,78 @@ const CheckSettings* ProgramChecker::settings_in(const fs::path& folder) {
   return shared == nullptr ? nullptr : &shared->settings;
 }
 
-std::vector<std::string> ProgramChecker::programs_of(const std::string& path) {
+std::vector<ProgramToCheck> ProgramChecker::programs_of_path(const std::string& path) {
   std::error_code ignored;
-  if (path == kInput || !fs::is_directory(path, ignored)) return {path};
+  if (path == kInput || !fs::is_directory(path, ignored)) return {{path, false}};
   const CheckSettings* settings = settings_in(path);
   if (settings == nullptr) return {};
-  auto programs = programs_in(path, settings->endings);
-  if (!programs) {
-    trouble(programs.error());
-    return {};
+  const auto found = programs_in(
+      path, {.endings = settings->endings, .excluded = [this](const fs::path& file) {
+               const CheckSettings* own = settings_in(program_folder(file.string()));
+               return own != nullptr && (is_excluded(file, own->exclude, own->file.parent_path()) ||
+                                         is_same_file(file.string(), own->tools));
+             }});
+  trouble(found.troubles);
+  if (found.files.empty() && found.excluded > 0) {
+    note_(fmt::format("there is no program in {} but what the settings exclude", path));
+  } else if (found.files.empty() && found.troubles.empty()) {
+    Diagnostic none = error("no-program"_id, "there is no program in this folder",
+                            "endings in .frustum.toml names further endings of programs");
+    none.file = path;
+    trouble({none});
   }
-  std::erase_if(*programs, [&](const std::string& file) {
-    const CheckSettings* own = settings_in(program_folder(file));
-    return own != nullptr && is_excluded(file, own->exclude, own->file.parent_path());
-  });
-  if (programs->empty()) note_("there is no program in " + path);
-  return *std::move(programs);
+  std::vector<ProgramToCheck> programs;
+  for (const std::string& file : found.files) programs.push_back({file, true});
+  return programs;
+}
+
+std::vector<ProgramToCheck> ProgramChecker::programs_of(const std::vector<std::string>& paths) {
+  std::vector<ProgramToCheck> programs;
+  std::map<std::string, std::size_t> known;
+  for (const std::string& path : paths) {
+    for (ProgramToCheck& program : programs_of_path(path)) {
+      const auto [at, fresh] = known.try_emplace(whole_name(program.file), programs.size());
+      if (fresh) {
+        programs.push_back(std::move(program));
+      } else if (!program.of_folder) {
+        programs[at->second].of_folder = false;
+      }
+    }
+  }
+  if (!paths.empty()) return programs;
+  if (auto program = program_of_job()) programs.push_back({*std::move(program), false});
+  return programs;
+}
+
+std::vector<lint::CheckedFile> ProgramChecker::check(const std::vector<ProgramToCheck>& programs) {
+  const bool alone = programs.size() == 1;
+  std::vector<std::optional<lint::CheckedFile>> found;
+  std::map<std::string, std::set<std::size_t>> callers;  // of each file that was opened
+  for (const ProgramToCheck& program : programs) {
+    found.push_back(check(program, alone, false));
+    if (!found.back()) continue;
+    for (const std::string& opened : found.back()->report.opened) {
+      callers[whole_name(opened)].insert(found.size() - 1);
+    }
+  }
+  std::vector<lint::CheckedFile> checked;
+  std::size_t subprograms = 0;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (!found[i]) continue;
+    const auto of = callers.find(whole_name(programs[i].file));
+    const bool called = of != callers.end() && (of->second.size() > 1 || !of->second.contains(i));
+    if (called && programs[i].of_folder && !found[i]->subprogram) {
+      found[i] = check(programs[i], alone, true);
+    }
+    if (!found[i]) continue;
+    subprograms += found[i]->subprogram ? 1 : 0;
+    checked.push_back(*std::move(found[i]));
+  }
+  if (subprograms > 0) {
+    note_(fmt::format("{} {} checked by what holds without a caller", subprograms,
+                      subprograms == 1 ? "subprogram is" : "subprograms are"));
+  }
+  return checked;
 }
 
 lint::CheckOptions ProgramChecker::options_of(const Shared& shared, const std::string& file) const {
@@ -141,7 +199,10 @@ lint::CheckOptions ProgramChecker::options_of(const Shared& shared, const std::s
   options.setup = shared.known.setup;
   options.home = shared.known.home;
   options.decimal_point_is_known = shared.known.decimal_point_is_known;
-  if (!settings.most_repeats.empty()) options.most_repeats = std::stoull(settings.most_repeats);
+  if (settings.most_repeats) options.most_repeats = *settings.most_repeats;
+  if (!settings.baseline.empty()) {
+    options.most_places = std::numeric_limits<std::size_t>::max();
+  }
   return options;
 }
 
@@ -162,7 +223,9 @@ void ProgramChecker::look_into_stock(const Shared& shared, const NcFile& nc,
   };
 }
 
-std::optional<lint::CheckedFile> ProgramChecker::check(const std::string& file, bool alone) {
+std::optional<lint::CheckedFile> ProgramChecker::check(const ProgramToCheck& program, bool alone,
+                                                       bool subprogram) {
+  const std::string& file = program.file;
   const Shared* shared = shared_in(program_folder(file));
   if (shared == nullptr) return std::nullopt;
   std::error_code unlike;
@@ -179,6 +242,7 @@ std::optional<lint::CheckedFile> ProgramChecker::check(const std::string& file, 
   }
   if (alone && !shared->known.machine) note_("no --machine: travels and axes are not checked");
   lint::CheckOptions options = options_of(*shared, file);
+  options.subprogram = subprogram || (program.of_folder && lint::is_subprogram(nc->program));
   if (shared->job && (alone || of_job)) look_into_stock(*shared, *nc, file, options);
   lint::CheckedFile checked;
   checked.file = nc->program.file;
@@ -186,6 +250,7 @@ std::optional<lint::CheckedFile> ProgramChecker::check(const std::string& file, 
   if (shared->known.machine) checked.machine = shared->known.machine->name();
   checked.report = lint::check_program(nc->program, options);
   checked.lines = lint::source_lines(nc->program, checked.report.findings);
+  checked.subprogram = options.subprogram;
   return checked;
 }
 
@@ -216,11 +281,11 @@ void ProgramChecker::apply_baselines(std::vector<lint::CheckedFile>& checked) {
 
 std::vector<std::string> ProgramChecker::write_baselines(
     const std::vector<lint::CheckedFile>& checked) {
-  std::map<std::string, std::vector<lint::CheckedFile>> of_baselines;
+  std::map<std::string, std::vector<const lint::CheckedFile*>> of_baselines;
   for (const lint::CheckedFile& each : checked) {
     const Shared* shared = shared_in(program_folder(each.file));
     if (shared != nullptr && !shared->settings.baseline.empty()) {
-      of_baselines[shared->settings.baseline].push_back(each);
+      of_baselines[shared->settings.baseline].push_back(&each);
     }
   }
   if (of_baselines.empty() && !command_line_.baseline.empty()) {
@@ -247,6 +312,26 @@ bool ProgramChecker::passes(const lint::CheckedFile& checked) {
   const Severity level = level_of(settings == nullptr ? "" : settings->fail_on);
   return std::ranges::none_of(checked.report.findings, [level](const lint::Finding& finding) {
     return finding.suppressed == lint::Suppressed::no && finding.severity >= level;
+  });
+}
+
+std::set<std::string> ProgramChecker::baselines_of(const std::vector<ProgramToCheck>& programs) {
+  std::set<std::string> files;
+  if (!command_line_.baseline.empty()) files.insert(command_line_.baseline);
+  for (const ProgramToCheck& program : programs) {
+    const CheckSettings* settings = settings_in(program_folder(program.file));
+    if (settings != nullptr && !settings->baseline.empty()) files.insert(settings->baseline);
+  }
+  return files;
+}
+
+bool ProgramChecker::reads(const std::string& file, const std::vector<ProgramToCheck>& programs) {
+  const auto is_it = [&file](const std::string& read) { return is_same_file(file, read); };
+  return std::ranges::any_of(programs, [&](const ProgramToCheck& program) {
+    if (is_it(program.file)) return true;
+    const CheckSettings* own = settings_in(program_folder(program.file));
+    return own != nullptr && (is_it(own->file.string()) || is_it(own->tools) ||
+                              is_it(own->setup_words.job) || is_it(own->setup_words.machine));
   });
 }
 

@@ -1,7 +1,7 @@
 // Checks programs by their settings: what `frustum check` does with each file.
 //
-// Settings are looked for once a folder, machines and jobs are read once for all files that go by
-// the same settings.
+// Settings are looked for once a folder; machines and jobs are read for all files that go by the
+// same settings, and not for each.
 // Units : none
 // Errors: files, settings, machines and jobs that cannot be read, each reported once
 #pragma once
@@ -23,6 +23,11 @@
 
 namespace frustum::app {
 
+struct ProgramToCheck {
+  std::string file{};
+  bool of_folder = false;  // else it was named
+};
+
 class ProgramChecker {
  public:
   using Notes = std::function<void(const std::string&)>;
@@ -32,10 +37,11 @@ class ProgramChecker {
 
   // The settings of the files in this folder; null where they cannot be read.
   [[nodiscard]] const CheckSettings* settings_in(const std::filesystem::path& folder);
-  // Programs of a file or folder, after what settings exclude.
-  [[nodiscard]] std::vector<std::string> programs_of(const std::string& path);
-  // `alone`: the only one, of which the notes say how it is read.
-  [[nodiscard]] std::optional<lint::CheckedFile> check(const std::string& file, bool alone);
+  // The programs of files and folders, after what settings exclude, each once however it is named;
+  // without any that of the command line's job.
+  [[nodiscard]] std::vector<ProgramToCheck> programs_of(const std::vector<std::string>& paths);
+  // All of them; subprograms of folders by what holds without their callers.
+  [[nodiscard]] std::vector<lint::CheckedFile> check(const std::vector<ProgramToCheck>& programs);
   // Suppresses what baselines have.
   void apply_baselines(std::vector<lint::CheckedFile>& checked);
   // Writes those that the settings name instead; the names of the files.
@@ -43,8 +49,10 @@ class ProgramChecker {
       const std::vector<lint::CheckedFile>& checked);
   // Whether its findings are below the level of its settings.
   [[nodiscard]] bool passes(const lint::CheckedFile& checked);
-  // Of the command line's job.
-  [[nodiscard]] std::optional<std::string> program_of_job();
+  // Whether a file that is to be written is one that is read for these programs.
+  [[nodiscard]] bool reads(const std::string& file, const std::vector<ProgramToCheck>& programs);
+  // The baselines that they go by.
+  [[nodiscard]] std::set<std::string> baselines_of(const std::vector<ProgramToCheck>& programs);
 
   [[nodiscard]] const Diagnostics& troubles() const { return troubles_; }
 
@@ -59,6 +67,11 @@ class ProgramChecker {
     std::optional<lint::Baseline> baseline{};
   };
 
+  [[nodiscard]] std::vector<ProgramToCheck> programs_of_path(const std::string& path);
+  [[nodiscard]] std::optional<std::string> program_of_job();
+  // `alone`: the only one, of which the notes say how it is read.
+  [[nodiscard]] std::optional<lint::CheckedFile> check(const ProgramToCheck& program, bool alone,
+                                                       bool subprogram);
   [[nodiscard]] Shared* shared_in(const std::filesystem::path& folder);
   [[nodiscard]] std::unique_ptr<Shared> read_shared(const CheckSettings& settings);
   [[nodiscard]] lint::CheckOptions options_of(const Shared& shared, const std::string& file) const;

@@ -98,10 +98,11 @@ TEST_F(CheckCommandSystem, WritesSarif) {
 
 TEST_F(CheckCommandSystem, RefusesWhatIsWrongWithTheCommand) {
   write("part.nc", kGood);
-  for (const char* words : {"check no-such.nc", "check part.nc --machine no-such", "check",
-                            "check part.nc --disable spindel-off",
-                            "check part.nc --fail-on nothing", "check part.nc --start Q1",
-                            "check part.nc --start X1,X2", "check part.nc --most-repeats 0"}) {
+  for (const char* words :
+       {"check no-such.nc", "check part.nc --machine no-such", "check",
+        "check part.nc --disable spindel-off", "check part.nc --fail-on nothing",
+        "check part.nc --start Q1", "check part.nc --start X1,X2", "check part.nc --most-repeats 0",
+        "check part.nc --most-repeats .5", "check part.nc --most-repeats 1e6"}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.exit_code, 2) << words;
     EXPECT_FALSE(outcome.err.empty()) << words;
