@@ -269,7 +269,8 @@ TEST(Checks, TellAllSyntaxErrorsOfTheTextOnce) {
 }
 
 TEST(Checks, SayNothingOfPlacesThatAnErrorHasMadeUnknown) {
-  EXPECT_EQ(ids(checked(whole("G1 X#777 G999\nG2 X20 Y0 I10 J0 F200\n"))), "5:program-error ");
+  EXPECT_EQ(ids(checked(whole("G1 X#777 G999\nG2 X20 Y0 I10 J0 F200\n"))),
+            "5:assumed 5:program-error ");
 }
 
 TEST(Checks, AreMilderOnAxisMovesInInverseTime) {
