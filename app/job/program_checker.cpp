@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "app/job/collision_findings.hpp"
@@ -27,6 +28,26 @@ fs::path program_folder(const std::string& file) {
 Severity level_of(const std::string& name) {
   if (name == "note") return Severity::note;
   return name == "warning" ? Severity::warning : Severity::error;
+}
+
+// Findings of subprograms, by their places.
+using Told = std::set<std::tuple<std::string, lint::Check, std::uint32_t, std::uint32_t>>;
+
+Told told_of(const lint::CheckReport& report) {
+  Told told;
+  for (const lint::Finding& finding : report.findings) {
+    if (!report.opened.contains(finding.file)) continue;
+    told.emplace(whole_name(finding.file), finding.check, finding.line, finding.column);
+  }
+  return told;
+}
+
+// What the run of a caller has told already.
+void leave_out_told(lint::CheckedFile& subprogram, const Told& told) {
+  const std::string file = whole_name(subprogram.file);
+  std::erase_if(subprogram.report.findings, [&](const lint::Finding& finding) {
+    return told.contains({file, finding.check, finding.line, finding.column});
+  });
 }
 
 std::string text_of_program(const parser::ProgramText& text) {
@@ -163,6 +184,9 @@ std::vector<lint::CheckedFile> ProgramChecker::check(const std::vector<ProgramTo
       callers[whole_name(opened)].insert(found.size() - 1);
     }
   }
+  // Files are moved from one list to the other as they are finished.
+  std::vector<Told> reports;
+  for (const auto& each : found) reports.push_back(each ? told_of(each->report) : Told());
   std::vector<lint::CheckedFile> checked;
   std::size_t subprograms = 0;
   for (std::size_t i = 0; i < programs.size(); ++i) {
@@ -173,6 +197,11 @@ std::vector<lint::CheckedFile> ProgramChecker::check(const std::vector<ProgramTo
       found[i] = check(programs[i], alone, true);
     }
     if (!found[i]) continue;
+    if (called && found[i]->subprogram) {
+      for (const std::size_t caller : of->second) {
+        if (caller != i) leave_out_told(*found[i], reports[caller]);
+      }
+    }
     subprograms += found[i]->subprogram ? 1 : 0;
     checked.push_back(*std::move(found[i]));
   }

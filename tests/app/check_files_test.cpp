@@ -128,7 +128,7 @@ TEST_F(CheckFilesSystem, AFileIsCheckedOnceHoweverItIsSpelt) {
 TEST_F(CheckFilesSystem, SubprogramsOfAFolderAreCheckedThroughTheirCallers) {
   write("parts/main.nc",
         "T1 M6\nS1000 M3\nG43 H1\nG0 X0 Y0 Z50\nM98 P9010\nM98 P9020\nG0 Z60\nM5\nM30\n");
-  write("parts/O9010.nc", "O9010\nG1 X5 F200\nM99\n");
+  write("parts/O9010.nc", "O9010\nG1 X5 F200\nG999\nM99\n");
   write("parts/O9020.nc", "O9020\nG1 X6\nM99\nM30\n");  // by its text a program
   const Outcome outcome = run("check parts --fail-on warning --json");
   const json doc = json::parse(outcome.out);
@@ -136,6 +136,7 @@ TEST_F(CheckFilesSystem, SubprogramsOfAFolderAreCheckedThroughTheirCallers) {
   ASSERT_EQ(doc["files"].size(), 3U);
   EXPECT_EQ(doc["files"][0]["subprogram"], true);
   EXPECT_EQ(doc["files"][0]["findings"].size(), 0U) << doc;
+  EXPECT_EQ(doc["files"][2]["findings"].size(), 1U) << "G999, which a caller tells";
   EXPECT_EQ(doc["files"][1]["subprogram"], true);
   ASSERT_EQ(doc["files"][1]["findings"].size(), 1U) << doc;
   EXPECT_EQ(doc["files"][1]["findings"][0]["id"], "unreachable-code");
