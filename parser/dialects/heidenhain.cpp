@@ -10,6 +10,7 @@ namespace {
 using enum CodeGroup;
 
 constexpr LetterSet kHeidenhainHoleWords{"zuvVQwPfrW"};
+constexpr LetterSet kSurfaceNormal{"nos"};
 constexpr std::array kHeidenhainCodes{
     passed('M', 60),  // the change itself is TOOL CALL
     named("BEGIN PGM MM", unit, LengthUnit::millimetre),
@@ -19,8 +20,8 @@ constexpr std::array kHeidenhainCodes{
     named("L", motion, MotionMode::linear),
     named("L FMAX", motion, MotionMode::traverse),
     named("L A+Q120 B+Q121 C+Q122", non_modal, NonModal::align),
-    named("LN", motion, MotionMode::linear),
-    named("LN FMAX", motion, MotionMode::traverse),
+    named("LN", motion, MotionMode::linear, kSurfaceNormal),
+    named("LN FMAX", motion, MotionMode::traverse, kSurfaceNormal),
     named("CC", non_modal, NonModal::pole, LetterSet("XYZ")),
     named("C DR-", motion, MotionMode::arc_clockwise),
     named("C DR+", motion, MotionMode::arc_counterclockwise),

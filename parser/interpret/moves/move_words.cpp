@@ -48,6 +48,27 @@ bool may_begin(const InterpreterState& state, AxisLetter axis) {
   return frame.is_identity();
 }
 
+// NX NY NZ of LN: the tool goes off by DR along the surface normal, and with its tip guided it is
+// turned to the normal unless the block says otherwise.
+Outcome check_surface_normal(const InterpreterState& state, const BlockWords& words) {
+  const Code* motion = words[CodeGroup::motion].code;
+  const bool has_room = state.rules.dialect == Dialect::heidenhain && motion != nullptr;
+  const char first = has_room ? words.first_of(motion->arguments & LetterSet("nos")) : '\0';
+  if (first == 0) return Done{};
+  if (state.modes.tool_oversize != 0.0) {
+    return fail(state, words[first].column, "not-supported"_id,
+                words.text_of(first) + " with DR of TOOL CALL is not simulated",
+                "call the tool without DR; the control moves it by DR along the surface normal");
+  }
+  const LetterSet directions = kRotaryWords | LetterSet(state.rules.vector_letters);
+  if (state.modes.compensation.tip && words.first_of(directions) == 0) {
+    return fail(state, words[first].column, "not-supported"_id,
+                words.text_of(first) + " alone turns the tool, which is not simulated",
+                "give the tool's direction in the block, by TX TY TZ or by rotary words");
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Outcome set_start(InterpreterState& state, const BlockWords& words) {
@@ -144,6 +165,7 @@ Outcome set_targets(InterpreterState& state, const BlockWords& words) {
 Outcome set_tool_axis(InterpreterState& state, const BlockWords& words) {
   const char first = words.first_of(LetterSet(state.rules.vector_letters));
   if (auto done = check_orientation_reference(state, words); !done) return done;
+  if (auto done = check_surface_normal(state, words); !done) return done;
   // I J K that are idle.
   const bool guided = state.rules.vector_letters != "IJK" || state.modes.compensation.tip;
   if (first == 0 || !guided) return Done{};

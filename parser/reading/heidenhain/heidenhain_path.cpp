@@ -28,6 +28,8 @@ constexpr std::array kPolar{PolarElement{"PR", kPolarRadius, Measure::modal},
                             PolarElement{"IPA", kPolarAngle, Measure::incremental}};
 constexpr std::array kToolVector{Element{"TX", 'a', "TX"}, Element{"TY", 'b', "TY"},
                                  Element{"TZ", 'c', "TZ"}};
+constexpr std::array kSurfaceNormal{Element{"NX", 'n', "NX"}, Element{"NY", 'o', "NY"},
+                                    Element{"NZ", 's', "NZ"}};
 
 // What may follow an M word, as letters with or without a number, or as a word of its own.
 struct Operand {
@@ -216,10 +218,8 @@ class PathReader {
     if (const Element* element = find(kToolVector, name); path.vector && element != nullptr) {
       return add_value(draft_, element->letter, name, column, element->spelled);
     }
-    if (path.vector && (name == "NX" || name == "NY" || name == "NZ")) {
-      // The surface normal matters to oversized tools only, which TOOL CALL refuses.
-      (void)in_.signed_number(name, column);
-      return;
+    if (const Element* element = find(kSurfaceNormal, name); path.vector && element != nullptr) {
+      return add_value(draft_, element->letter, name, column, element->spelled);
     }
     if (path.sense && name == "DR" && (in_.peek() == '+' || in_.peek() == '-')) {
       if (sense_ != 0)

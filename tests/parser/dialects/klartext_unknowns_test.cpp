@@ -200,6 +200,17 @@ TEST(KlartextRepeats, JumpsWithinThemDoNotEndThem) {
       4U);
 }
 
+// They matter to a tool that is called larger than it is, or whose tip is guided.
+TEST(KlartextSurfaceNormals, ChangeNothingOtherwise) {
+  EXPECT_EQ(taken_run("TOOL CALL 1 Z S1 DR+0.2\nL X+1 FMAX\nTOOL CALL 1 Z DR+0\n"
+                      "LN X+2 NX+0.6 NY+0 NZ+0.8 FMAX\n")
+                .moves,
+            (TakenMoves{"X1", "X2"}));
+  const std::string guided = "TOOL CALL 1 Z S1\nM128\n";
+  EXPECT_EQ(taken_run(guided + "LN X+2 B+5 NX+0 NY+0 NZ+1 FMAX\n").moves.size(), 1U);
+  EXPECT_EQ(taken_run(guided + "LN X+2 NX+0 NY+0 NZ+1 TX+0 TY+0 TZ+1 FMAX\n").moves.size(), 1U);
+}
+
 TEST(KlartextSpellings, OfTheWorld) {
   EXPECT_EQ(taken_run("L X+1 FMAX   (A REMARK)\n/ 12 L X+2 FMAX\n/13 L X+3 FMAX\n").moves,
             (TakenMoves{"X1", "X2", "X3"}));
