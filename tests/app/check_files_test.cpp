@@ -1,4 +1,6 @@
 // frustum check in continuous integration: many files, settings, suppression, baseline.
+#include <unistd.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command_line.hpp"
@@ -114,8 +116,21 @@ TEST_F(CheckFilesSystem, TablesOfLinuxCncAreNoPrograms) {
   write("parts/tool.tbl", "T1 P1 D10 Z100\nT2 P2 D8 Z90\n");
   write("parts/tools.txt", "T1 P1 D10 Z100\nT2 P2 D8 Z90\n");
   write("parts/linuxcnc.var", "5161 0.0\n5162 0.0\n");
+  write("parts/mill.nc", "T1 P1 D10 Z100\nT2 P2 D8 Z90\n");
+  write(".frustum.toml", "tools = \"parts/mill.nc\"\n");
   const json doc = json::parse(run("check parts --json").out);
   ASSERT_EQ(doc["files"].size(), 1U) << doc;
+}
+
+TEST_F(CheckFilesSystem, AClosedFolderIsTrouble) {
+  if (geteuid() == 0) GTEST_SKIP() << "nothing is closed to root";
+  write("parts/a.nc", kFine);
+  write("parts/closed/b.nc", kWrong);
+  fs::permissions(folder_ / "parts/closed", fs::perms::none);
+  const Outcome outcome = run("check parts");
+  fs::permissions(folder_ / "parts/closed", fs::perms::owner_all);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(has(outcome.err, "parts/closed: error: the folder cannot be read")) << outcome.err;
 }
 
 TEST_F(CheckFilesSystem, AFileIsCheckedOnceHoweverItIsSpelt) {
