@@ -41,6 +41,33 @@ bool needs_dwell(MotionMode cycle) {
          cycle == MotionMode::bore_manual || cycle == MotionMode::bore_dwell;
 }
 
+// G81 of Fagor, which has no R.
+bool depth_is_by_i(const InterpreterState& state, const BlockWords& words,
+                   const CannedCycle& cycle) {
+  if (state.rules.dialect != Dialect::fanuc || cycle.last != MotionMode::drill) return false;
+  if (words.has('R') || words.has(CodeGroup::bolt_holes)) return false;
+  return cycle.depth_by_i || (!cycle.level && words.has('I'));
+}
+
+// I and J, which most cycles would leave aside.
+Outcome check_shift(const InterpreterState& state, const BlockWords& words,
+                    const CannedCycle& cycle) {
+  if (cycle.depth_by_i && words.has('K') && words['K'].value != 0.0) {
+    return fail(state, words['K'].column, "word-ambiguous"_id,
+                fmt::format("{} beside I in G81", words.text_of('K')),
+                "Fagor dwells and Fanuc repeats; write G82 with R, Z and P, or L");
+  }
+  if (words_shift_by_q(cycle.last) || words.has(CodeGroup::bolt_holes)) return Done{};
+  for (const char letter : {'I', 'J'}) {
+    if (!words.has(letter) || words[letter].value == 0.0) continue;
+    if (letter == 'I' && cycle.depth_by_i) continue;
+    return fail(state, words[letter].column, "word-unused"_id,
+                fmt::format("{} has no meaning in this cycle", words.text_of(letter)),
+                "give depths by R, Z and Q");
+  }
+  return Done{};
+}
+
 // Words that the block gives replace those in force.
 Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Movement& movement,
                   AxisLetter depth_axis) {
@@ -67,12 +94,21 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   const auto read = [&](char letter, std::optional<double>& value, double scale) {
     if (words.has(letter)) value = words[letter].value * scale;
   };
-  read('R', cycle.level, unit_scale(state));
-  read(depth_letter, cycle.bottom, unit_scale(state));
+  cycle.depth_by_i = depth_is_by_i(state, words, cycle);
+  if (auto done = check_shift(state, words, cycle); !done) return done;
+  const char level_letter = cycle.depth_by_i ? depth_letter : 'R';
+  const char bottom_letter = cycle.depth_by_i ? 'I' : depth_letter;
+  read(level_letter, cycle.level, unit_scale(state));
+  read(bottom_letter, cycle.bottom, unit_scale(state));
   const bool incremental = state.modes.distance == DistanceMode::incremental;
   const bool any_block = !state.rules.cycles.words_keep_their_mode;
-  if (any_block || words.has('R')) cycle.level_is_step = incremental;
-  if (any_block || words.has(depth_letter)) cycle.bottom_is_step = incremental;
+  if (any_block || words.has(level_letter)) cycle.level_is_step = incremental;
+  if (any_block || words.has(bottom_letter)) cycle.bottom_is_step = incremental;
+  if (cycle.depth_by_i) {
+    assume(
+        state, movement.column, "cycle with I",
+        fmt::format("{} is where feeding begins and I the bottom, as Fagor has it", depth_letter));
+  }
   read('Q', cycle.peck, unit_scale(state));
   const bool milliseconds =
       state.rules.dialect == Dialect::fanuc && words.has('P') && !words['P'].decimal_point;

@@ -68,6 +68,7 @@ struct CannedCycle {
   std::optional<double> shift_u{};
   std::optional<double> shift_v{};
   std::optional<double> back{};
+  bool depth_by_i = false;  // G81 of Fagor: Z is where feeding begins, I the bottom
 };
 
 // G16: what the words of the plane's axes have said last, as radius and angle.

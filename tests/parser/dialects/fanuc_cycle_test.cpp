@@ -53,6 +53,23 @@ TEST(FanucCycle, BackBoreEntersBesideTheHoleAndCutsUp) {
             "rapid 7 6 9; rapid 5 6 9; on; ");
 }
 
+// Z is where feeding begins, I the bottom; in G91 Z counts from where the tool was, I from there.
+TEST(FanucCycle, DrillOfFagorHasItsDepthInI) {
+  EXPECT_EQ(steps("G0 X0 Y0 Z9\nG99 G81 X5 Y6 Z2 I-8 F50\nX7\nG80\n"),
+            "rapid 0 0 9; cycle with I; rapid 5 6 9; rapid 5 6 2; feed 5 6 -8; rapid 5 6 2; "
+            "rapid 7 6 2; feed 7 6 -8; rapid 7 6 2; ");
+  EXPECT_EQ(steps("G0 X0 Y0 Z9\nG98 G91 G81 X5 Z-7 I-3 F50\nG80\n"),
+            "rapid 0 0 9; cycle with I; rapid 5 0 9; rapid 5 0 2; feed 5 0 -1; rapid 5 0 9; ");
+  for (const char* text : {"G81 X5 R2 Z-8 I-4", "G81 X5 Z2 I-8 J1", "G82 X5 Z2 I-8",
+                           "G83 X5 R2 Z-8 Q1 I3", "G84 X5 R2 Z-8 J3"}) {
+    EXPECT_EQ(complaint_ids("G0 X0 Y0 Z9 F50 M3 S9\n" + std::string(text) + "\n"),
+              std::vector<std::string>{"word-unused"})
+        << text;
+  }
+  EXPECT_EQ(complaint_ids("G0 X0 Y0 Z9 F50\nG81 X5 Z2 I-8 K5\n"),
+            std::vector<std::string>{"word-ambiguous"});
+}
+
 // G70, G71 and G72 of Haas, whose I J K are none of the cycle's.
 TEST(FanucCycle, DrillsOnACircleAnArcAndALine) {
   const auto holes = [](std::string_view text) {
