@@ -19,18 +19,30 @@ namespace {
 
 constexpr int kMaxTool = 99'999'999;
 
-// T1.1 of Fagor and others: the tool and its offset.
-Result<int> tool_number(InterpreterState& state, const BlockWords& words) {
+// The offset behind the point of T1.1. T10.10 has the value of T10.1: a number that is written
+// twice is meant.
+std::optional<int> offset_behind_point(double number) {
   constexpr double kMostTools = 1000.0;
+  constexpr double kNear = 1e-9;
+  if (number <= 0.0 || number >= kMostTools || number == std::floor(number)) return std::nullopt;
+  const double tool = std::floor(number);
+  const double offset_places = tool < 10.0 ? 10.0 : tool < 100.0 ? 100.0 : 1000.0;
+  if (std::abs(number - tool - tool / offset_places) < kNear) return static_cast<int>(tool);
+  const double tenths = (number - tool) * 10.0;
+  if (std::abs(tenths - std::round(tenths)) > kNear) return std::nullopt;
+  return static_cast<int>(std::round(tenths));
+}
+
+// T1.1 of Fagor and others: the tool and its offset, which is in force as by H and D.
+Result<int> tool_number(InterpreterState& state, const BlockWords& words) {
   const double number = words['T'].value;
-  const double tenths = number * 10.0;
-  const bool with_offset = state.rules.dialect == Dialect::fanuc && number > 0.0 &&
-                           number < kMostTools && number != std::floor(number) &&
-                           std::abs(tenths - std::round(tenths)) < 1e-9;
-  if (!with_offset) return whole(state, words, 'T', 0, kMaxTool);
+  const auto offset =
+      state.rules.dialect == Dialect::fanuc ? offset_behind_point(number) : std::nullopt;
+  if (!offset) return whole(state, words, 'T', 0, kMaxTool);
   assume(state, words['T'].column, "tool with offset",
          fmt::format("{}: tool {:g}, and behind the point its offset", words.text_of('T'),
                      std::floor(number)));
+  state.modes.length_number = state.modes.radius_number = *offset;
   return static_cast<int>(number);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boost/spirit/home/x3.hpp>
+#include <cctype>
 #include <functional>
 #include <utility>
 
@@ -67,6 +68,11 @@ class BlockBuilder {
     in_.go_to(column_of(begin));
     block_.number = in_.block_number();
     if (dialect_ == Dialect::linuxcnc) in_.skip_decimals();
+    if (!block_.number && is_macro() && std::isalpha(static_cast<unsigned char>(in_.peek())) != 0) {
+      block_.comments.push_back(
+          {column_of(begin) - 1, false, "without a number it is passed over", "N", false, true});
+      return begin;
+    }
     return block_.number ? end_of_reading() : nullptr;
   }
   Iterator read_program_number(Iterator begin) {

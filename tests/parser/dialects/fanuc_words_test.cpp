@@ -344,6 +344,27 @@ TEST(FanucWords, ToolMayNameItsOffset) {
   EXPECT_EQ(complaint_ids("T1701.1302 M6\n"), Names{"not-whole"});
 }
 
+TEST(FanucWords, OffsetBehindTheToolIsInForce) {
+  const auto offset_of = [](std::string_view text) {
+    return last_of<CompensationChange>(motions(text)).offset_number;
+  };
+  EXPECT_EQ(offset_of("T3.3 M6\nG43 G0 Z10\n"), 3);
+  EXPECT_EQ(offset_of("T5.2 M6\nG43 G0 Z10\n"), 2);
+  EXPECT_EQ(offset_of("T10.10 M6\nG43 G0 Z10\n"), 10);
+  EXPECT_EQ(offset_of("T11.11 M6\nG43 G0 Z10\n"), 11);
+  EXPECT_EQ(last_of<ToolChange>(motions("T11.11 M6\n")).tool, 11);
+  EXPECT_EQ(complaint_ids("T5.12 M6\n"), Names{"not-whole"});
+}
+
+TEST(FanucWords, BlockNumberWithoutDigitsIsPassedOver) {
+  const auto all = motions("N G0 X5\nN X6\nNX7\n");
+  EXPECT_EQ(*last_of<Traverse>(all).end[X], 7.0);
+  EXPECT_EQ(all_of<Traverse>(all).size(), 3U);
+  EXPECT_EQ(assumed(all), Names{"N"});
+  EXPECT_EQ(complaint_ids("N-1 X5\n"), Names{"value-missing"});
+  EXPECT_EQ(complaint_ids("N\n"), Names{"value-missing"});
+}
+
 TEST(FanucWords, UnitsByG70AndG71) {
   EXPECT_NEAR(*last_of<Traverse>(motions("G70 G0 X1.\n")).end[X], 25.4, 1e-12);
   EXPECT_EQ(*last_of<Traverse>(motions("G20\nG71\nG0 X1.\n")).end[X], 1.0);
