@@ -201,7 +201,7 @@ constexpr DialectRules kHeidenhainRules{
     .words_behind_move = kBehindMove,
     .arcs_turn_about_pole = true,
     .inserts_corners = true,
-    .always_claimed = LetterSet("FSTj"),
+    .always_claimed = LetterSet("FSTjU"),
     .unknown_m_words_are_builders = true,
     .steps_may_begin = true,
     .feed_may_be_missing = true,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "parser/interpret/frames/tool_compensation.hpp"
@@ -92,6 +93,23 @@ int tool_named(InterpreterState& state, const GivenWord& word) {
   return number;
 }
 
+// DL: the control takes the tool for longer than it is. Until Z is programmed again the axis is
+// where it was.
+Outcome lengthen_tool(InterpreterState& state, const BlockWords& words) {
+  const bool given = words.has('U') && state.rules.always_claimed.has('U');
+  if (!given && !words.has(CodeGroup::tool_change)) return Done{};
+  const double length = given ? words['U'].value * unit_scale(state) : 0.0;
+  if (length != 0.0 && state.modes.tilted) {
+    return fail(state, words['U'].column, "not-supported"_id,
+                words.text_of('U') + " in a tilted plane is not simulated",
+                "give the tool's true length in the job");
+  }
+  if (std::exchange(state.modes.tool_lengthening, length) != length) {
+    forget(state, LetterSet("Z"), PositionLoss::length_compensation);
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Outcome set_feed(InterpreterState& state, const BlockWords& words) {
@@ -136,6 +154,7 @@ Outcome set_tool(InterpreterState& state, const BlockWords& words) {
   if (words.has('j') && state.rules.always_claimed.has('j')) {
     state.modes.tool_oversize = words['j'].value * unit_scale(state);
   }
+  if (auto done = lengthen_tool(state, words); !done) return done;
   if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {
     if (!words.has('Q')) {
       return fail(state, change.column, "tool-missing"_id, change.code->name() + " without a tool",

@@ -15,6 +15,11 @@ bool moves_axes(const Command& command) {
 void place_and_send(InterpreterState& state, const MotionSink& sink, Motion&& motion) {
   const ModalState& modes = state.modes;
   if (!modes.programmed_frame.is_identity()) modes.programmed_frame.place(motion.command);
+  if (modes.tool_lengthening != 0.0) {
+    ProgrammedFrame above;
+    above.shift.z() = modes.tool_lengthening;
+    above.place(motion.command);
+  }
   if (!modes.offset_frame.is_identity()) modes.offset_frame.place(motion.command);
   if (moves_axes(motion.command)) ++state.output.moves;
   sink(std::move(motion));

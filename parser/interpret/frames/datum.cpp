@@ -38,7 +38,7 @@ std::optional<double> added(const ModalState& modes, AxisLetter axis) {
   if (is_rotary(axis)) return origin ? std::optional(0.0) : std::nullopt;
   const auto tool = modes.compensation.offset();
   if (!origin || !tool) return std::nullopt;
-  return *origin + (axis == AxisLetter::Z ? tool->at(kZ) : 0.0);
+  return *origin + (axis == AxisLetter::Z ? tool->at(kZ) + modes.tool_lengthening : 0.0);
 }
 
 // By how much the coordinate along an axis that does not move grows.

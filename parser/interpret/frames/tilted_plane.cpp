@@ -67,6 +67,11 @@ Outcome set_tilted_plane(InterpreterState& state, const BlockWords& words) {
   const GivenCode& tilt = words[CodeGroup::tilted_plane];
   if (tilt.code == nullptr) return Done{};
   const auto kind = static_cast<TiltWord>(tilt.code->value);
+  if (kind != TiltWord::off && state.modes.tool_lengthening != 0.0) {
+    return fail(state, tilt.column, "not-supported"_id,
+                "DL of TOOL CALL in a tilted plane is not simulated",
+                "give the tool's true length in the job");
+  }
   if (kind == TiltWord::turn) return turn_words(state, words);
   if (kind == TiltWord::feature || kind == TiltWord::feature_within)
     return set_feature(state, words);

@@ -279,6 +279,13 @@ Outcome set_compensation(InterpreterState& state, const BlockWords& words) {
   }
   const auto next = compensation_after(state, words);
   if (!next) return next.error();
+  if (next->tip && state.modes.tool_lengthening != 0.0) {
+    const GivenCode& tip = words[CodeGroup::tool_tip];
+    const GivenCode& cause = tip.code != nullptr ? tip : words[CodeGroup::tool_change];
+    return fail(state, std::max(cause.column, 1U), "not-supported"_id,
+                "DL of TOOL CALL with the tool-tip control is not simulated",
+                "give the tool's true length in the job");
+  }
   const CompensationChange before = compensation_change(state.modes.compensation);
   const CompensationChange after = compensation_change(*next);
   if (!(*next == state.modes.compensation)) {

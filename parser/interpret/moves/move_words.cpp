@@ -48,17 +48,18 @@ bool may_begin(const InterpreterState& state, AxisLetter axis) {
   return frame.is_identity();
 }
 
-// NX NY NZ of LN: the tool goes off by DR along the surface normal, and with its tip guided it is
+// NX NY NZ of LN: the tool goes off by DL and DR along the surface normal, and with its tip guided it is
 // turned to the normal unless the block says otherwise.
 Outcome check_surface_normal(const InterpreterState& state, const BlockWords& words) {
   const Code* motion = words[CodeGroup::motion].code;
   const bool has_room = state.rules.dialect == Dialect::heidenhain && motion != nullptr;
   const char first = has_room ? words.first_of(motion->arguments & LetterSet("nos")) : '\0';
   if (first == 0) return Done{};
-  if (state.modes.tool_oversize != 0.0) {
-    return fail(state, words[first].column, "not-supported"_id,
-                words.text_of(first) + " with DR of TOOL CALL is not simulated",
-                "call the tool without DR; the control moves it by DR along the surface normal");
+  if (state.modes.tool_oversize != 0.0 || state.modes.tool_lengthening != 0.0) {
+    return fail(
+        state, words[first].column, "not-supported"_id,
+        words.text_of(first) + " with DL or DR of TOOL CALL is not simulated",
+        "call the tool without them; the control moves it by them along the surface normal");
   }
   const LetterSet directions = kRotaryWords | LetterSet(state.rules.vector_letters);
   if (state.modes.compensation.tip && words.first_of(directions) == 0) {

@@ -126,6 +126,7 @@ struct ModalState {
   int tool = 0;                                        // in the spindle
   int tool_edge = 1;                                   // D of Sinumerik, above zero
   double tool_oversize = 0.0;                          // mm of its radius (DR of TOOL CALL)
+  double tool_lengthening = 0.0;                       // mm: the tip stays so much higher (DL)
   std::optional<FeedWord> tool_feed{};                 // of TOOL CALL, for F AUTO
   RotaryPath rotary_path = RotaryPath::as_programmed;  // M126
   std::array<RotaryPath, 3> announced_rotary_paths{};  // of A, B, C: the last ones in the motions

@@ -89,7 +89,8 @@ class ToolReader {
     }
     if (name == "S" || name == "F") return add_value(draft_, name[0], name, column, nullptr);
     if (name == "DR" && in_.peek_byte() != '2') return add_value(draft_, 'j', name, column, "DR");
-    if (name == "DL" || name == "DR") {
+    if (name == "DL") return add_value(draft_, 'U', name, column, "DL");
+    if (name == "DR") {
       if (in_.peek_byte() == '2') {
         name += '2';
         (void)in_.digits();

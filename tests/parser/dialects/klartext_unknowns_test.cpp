@@ -184,6 +184,25 @@ TEST(KlartextCycleCalls, AtAPlaceMayHaveAFeedAndMWords) {
   EXPECT_EQ(fed.assumptions, (TakenMoves{"CYCL CALL POS"}));
 }
 
+// The control takes the tool for 0.5 longer than it is: the spindle, and with it the tip, stays so
+// much higher.
+TEST(KlartextTools, DlKeepsTheTipAway) {
+  const std::string moves = "L X+1 Y+0 Z+2 FMAX\nCC X+1 Z+0\nC X+3 Z+0 DR+ F9\n";
+  const auto all = motions("TOOL CALL 1 Z S1 DL+0.5\n" + moves, {}, Dialect::heidenhain);
+  EXPECT_DOUBLE_EQ(*last_of<Traverse>(all).end[Z], 2.5);
+  EXPECT_DOUBLE_EQ(*last_of<ArcFeed>(all).end[Z], 0.5);
+  EXPECT_DOUBLE_EQ(last_of<ArcFeed>(all).center[2], 0.5);
+  // Only the words of the program: not machine coordinates, nor what the turn of a datum does.
+  EXPECT_EQ(
+      taken_run("TOOL CALL 1 Z S1 DL-0.5\nL Z-1 FMAX M91\nCYCL DEF 7.3 Z+10\nL Z+1 FMAX\n").moves,
+      (TakenMoves{"*Z-1", "Z10.5"}));
+  // Z stays where it is until it is programmed; the next call ends it.
+  EXPECT_EQ(taken_run("TOOL CALL 1 Z S1\nL X+1 Z+2 FMAX\nTOOL CALL DL+0.5\nL X+2 FMAX\n"
+                      "L Z+1 FMAX\nTOOL CALL 1 Z S1\nL Z+0 FMAX\n")
+                .moves,
+            (TakenMoves{"X1 Z2", "X2", "X2 Z1.5", "X2 Z0"}));
+}
+
 TEST(KlartextRepeats, JumpsWithinThemDoNotEndThem) {
   // Twice more, though each turn jumps over a block.
   EXPECT_EQ(taken_run("L X+0 FMAX\nLBL 1\nFN 9: IF +1 EQU +1 GOTO LBL 2\nL X+99 FMAX\nLBL 2\n"
