@@ -32,6 +32,7 @@ constexpr std::array kCldataCodes{
     named("CIRCLE-", motion, MotionMode::arc_clockwise),
     named("CIRCLE+", motion, MotionMode::arc_counterclockwise),
     named("CIRCLE/", motion, MotionMode::arc_about_axis),
+    named("NURBS", motion, MotionMode::cubic_in_space),
     named("plane XY", plane, Plane::xy),
     named("plane ZX", plane, Plane::zx),
     named("plane YZ", plane, Plane::yz),

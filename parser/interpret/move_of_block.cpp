@@ -12,6 +12,7 @@
 #include "parser/interpret/frames/tool_compensation.hpp"
 #include "parser/interpret/movement_of_block.hpp"
 #include "parser/interpret/moves/arc_through_point.hpp"
+#include "parser/interpret/moves/cubic_in_space.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/moves/pole.hpp"
 #include "parser/interpret/moves/probing.hpp"
@@ -93,6 +94,7 @@ constexpr std::array kModalMoves{
     ModalMove{MotionMode::arc_clockwise, MotionMode::arc_tangential, move_along_arc},
     ModalMove{MotionMode::arc_through, MotionMode::arc_through, move_through_point},
     ModalMove{MotionMode::arc_about_axis, MotionMode::arc_about_axis, move_about_axis},
+    ModalMove{MotionMode::cubic_in_space, MotionMode::cubic_in_space, move_along_cubic_in_space},
     ModalMove{MotionMode::cubic_spline, MotionMode::nurbs_by_knots, move_along_spline},
     ModalMove{MotionMode::thread, MotionMode::thread, move_along_thread},
     ModalMove{MotionMode::rigid_tap, MotionMode::rigid_tap, tap_rigidly},

@@ -80,6 +80,7 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     case MotionMode::nurbs_end:
     case MotionMode::nurbs_by_knots:
       return letters_of_spline(movement.motion);
+    case MotionMode::cubic_in_space:
     case MotionMode::arc_about_axis: {
       const LetterSet letters = kAxisWords | LetterSet("IJKPuvw");
       return guides_tip(state, words) ? letters | LetterSet(state.rules.vector_letters) : letters;

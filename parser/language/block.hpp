@@ -16,7 +16,8 @@
 //   p q      radius and angle of a polar position (@ ^, PR PA)
 //   s        a tilted plane goes on within the last one
 //   k        an arc goes on in the direction of the move before it (CT)
-//   u v w    a second shift of a tilted plane, along its own axes; the axis of an arc in space
+//   u v w    a second shift of a tilted plane, along its own axes; the axis of an arc in space;
+//            a control point of a cubic in space
 //   x y      a chamfer or a rounding between the move of the block and the next one (,C ,R)
 //   f r      the feed of a hole cycle, per minute and per revolution
 //   @        a word without a number (TRAORI, TOOL CALL): `number` is its row in the code table

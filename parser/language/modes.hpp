@@ -17,6 +17,7 @@ enum class MotionMode : std::uint8_t {
   arc_tangential,    // CT
   arc_through,       // CIP
   arc_about_axis,    // CIRCLE of CLDATA in no plane of the axes
+  cubic_in_space,    // a part of NURBS of CLDATA
   cubic_spline,      // G5
   quadratic_spline,  // G5.1
   nurbs,             // G5.2: a control point

@@ -89,6 +89,11 @@ class RecordWriter {
       const std::string arc = circle();
       return arc + "\nGOTO/" + take_position();
     }
+    if (name_ == "NURBS") {
+      const std::string ways = fmt::format("CNTRL/{}\nCNTRL/{}\n", numbers("IJK"), numbers("uvw"));
+      pen_.at = point();
+      return "NURBS/\nKNOT/1\n" + ways + "CNTRL/" + numbers("XYZ");
+    }
     if (name_.starts_with("UNITS/")) take_unit();
     if (name_ == "MULTAX/OFF") pen_.vector.clear();
     if (name_ == "GOHOME") pen_.at.reset();

@@ -21,11 +21,11 @@ namespace frustum::parser {
 namespace {
 
 const char* motion_name(MotionMode motion, Dialect dialect) {
-  constexpr std::array kNames{"", "G0", "G1",   "G2",   "G3",   "CT",  "CIP",
-                              "", "G5", "G5.1", "G5.2", "G5.3", "G6.2"};
+  constexpr std::array kNames{"", "G0", "G1", "G2",   "G3",   "CT",   "CIP",
+                              "", "",   "G5", "G5.1", "G5.2", "G5.3", "G6.2"};
   constexpr std::array kPlain{"",         "a rapid move", "a cutting move", "an arc",   "an arc",
                               "an arc",   "an arc",       "an arc",         "a spline", "a spline",
-                              "a spline", "a spline",     "a spline"};
+                              "a spline", "a spline",     "a spline",       "a spline"};
   if (is_cycle(motion)) return "a canned cycle";
   if (motion >= MotionMode::probe_towards) return "a probing move";
   const bool letters = dialect != Dialect::heidenhain && dialect != Dialect::cldata;

@@ -20,6 +20,10 @@ struct CldataPlace {
   std::array<double, 6> numbers{};
   std::array<std::uint32_t, 6> columns{};
 
+  // Without a vector, for a record at `column`.
+  [[nodiscard]] static CldataPlace at(const Vec3& point, std::uint32_t column) {
+    return {column, 3, {point.x(), point.y(), point.z()}, {column, column, column}};
+  }
   [[nodiscard]] Vec3 point() const { return {numbers[0], numbers[1], numbers[2]}; }
   [[nodiscard]] Vec3 vector() const { return {numbers[3], numbers[4], numbers[5]}; }
 };

@@ -18,6 +18,7 @@
 #include "parser/reading/block_reader.hpp"
 #include "parser/reading/cldata/cldata_arcs.hpp"
 #include "parser/reading/cldata/cldata_cycle.hpp"
+#include "parser/reading/cldata/cldata_nurbs.hpp"
 #include "parser/reading/cldata/cldata_place.hpp"
 #include "parser/reading/cldata/cldata_record.hpp"
 #include "parser/reading/cldata/cldata_remarks.hpp"
@@ -41,6 +42,7 @@ struct Pending {
   bool drills = false;   // a cycle is on, with a feed of its own
   CldataModes modes{};
   CldataArcs arcs{};
+  CldataNurbs nurbs{};
   std::optional<Vec3> at{};     // the last place, as written
   std::optional<Vec3> axis{};   // the last tool vector
   std::string frame{};          // of MSYS
@@ -193,6 +195,7 @@ class CldataReader {
     if (!place) {
       if (!leave_circle()) return;
       pending_.goes_on = false;
+      if (!pending_.nurbs.goes_on(in_, record_)) return;
     }
     for (const Handler& handler : handlers()) {
       if (record_.word == handler.word) return (this->*handler.read)();
@@ -249,6 +252,9 @@ class CldataReader {
         Handler{"GODLTA", &CldataReader::read_increment},
         Handler{"CIRCLE", &CldataReader::read_circle},
         Handler{"MOVARC", &CldataReader::read_circle},
+        Handler{"NURBS", &CldataReader::read_nurbs},
+        Handler{"KNOT", &CldataReader::read_knots},
+        Handler{"CNTRL", &CldataReader::read_control_point},
         Handler{"INDIRV", &CldataReader::read_direction},
         Handler{"INDIRP", &CldataReader::read_direction},
         Handler{"FROM", &CldataReader::read_start},
@@ -330,7 +336,8 @@ class CldataReader {
       add("MULTAX/ON");
     }
     // An arc goes on with the tool as it is.
-    if (tilts && code.starts_with("CIRCLE") && pending_.axis &&
+    const bool curves = code.starts_with("CIRCLE") || code == "NURBS";
+    if (tilts && curves && pending_.axis &&
         (place.vector() - *pending_.axis).norm() <= kSameVector) {
       place.count = kCoordinates;
     }
@@ -357,6 +364,7 @@ class CldataReader {
 
   void read_place(const CldataPlace& place) {
     record_.column = place.column;
+    if (!pending_.nurbs.goes_on(in_, record_)) return;
     const auto arc =
         pending_.arcs.to(in_, place.point(), place.column, pending_.at, pending_.modes.inches);
     if (in_.failed()) return;
@@ -416,6 +424,25 @@ class CldataReader {
     pending_.arcs.begin(in_, record_, block_.line);
   }
 
+  void read_nurbs() {
+    if (pending_.rapid) {
+      return in_.fail("word-misplaced"_id, record_.column, "a spline by rapid",
+                      "give its feed by FEDRAT");
+    }
+    pending_.nurbs.begin(in_, record_, block_.line, pending_.at);
+  }
+
+  void read_knots() { pending_.nurbs.add_knots(in_, record_); }
+
+  void read_control_point() {
+    const auto curve = pending_.nurbs.add_point(in_, record_);
+    if (!curve) return;
+    need_feed();
+    add_position("NURBS", CldataPlace::at(curve->end, record_.column));
+    add_curve(block_, *curve, record_.column);
+    remarks_.assumed("NURBS", "a cubic from where the tool is, clamped at both ends");
+  }
+
   void read_direction() { pending_.arcs.point_along(in_, record_); }
 
   void read_guided_arc() {
@@ -423,11 +450,7 @@ class CldataReader {
     pending_.goes_on = false;
     const auto arc = pending_.arcs.along_line(in_, record_.column, pending_.at);
     if (!arc) return;
-    CldataPlace place{record_.column, 3, {}, {}};
-    for (std::size_t i = 0; i < place.count; ++i) {
-      place.numbers.at(i) = arc->end[static_cast<Eigen::Index>(i)];
-      place.columns.at(i) = record_.column;
-    }
+    const CldataPlace place = CldataPlace::at(arc->end, record_.column);
     pending_.rapid = false;
     need_feed();
     add_position(arc->code(), place);

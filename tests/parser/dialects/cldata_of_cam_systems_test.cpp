@@ -186,6 +186,55 @@ TEST(CldataOfCam, AnArcThatEndsJustAheadOfItsStartIsAStep) {
   EXPECT_EQ(ids_of(arc("1", ".0001")), Ids{"arc-turns"});
 }
 
+// One part between knots is the curve of its four points: at the middle (0 + 3*2 + 3*4 + 6)/8 = 3
+// along X, 3*(8 + 8)/8 = 6 along Y, 3*(4 + 0)/8 = 1.5 along Z.
+TEST(CldataOfCam, NxSplinesAreCubicsFromWhereTheToolIs) {
+  const std::string start = "LOADTL/1\nFEDRAT/5\nGOTO/0,0,0\nNURBS/\n";
+  const auto path = run_cl(start + "KNOT/1.0\nCNTRL/2,8,4\nCNTRL/4,8,0\nCNTRL/6,0,0\nGOTO/9,0,0\n");
+  const auto lines = all_of<LinearFeed>(path);
+  ASSERT_GT(lines.size(), 100U);
+  double nearest = 1.0;
+  for (const LinearFeed& line : lines) {
+    nearest = std::min(nearest, (place_of(line.end) - Vec3(3, 6, 1.5)).norm());
+  }
+  EXPECT_LT(nearest, 0.05);
+  EXPECT_EQ(place_of(lines[lines.size() - 2].end), Vec3(6, 0, 0));
+  EXPECT_EQ(place_of(lines.back().end), Vec3(9, 0, 0));
+  EXPECT_EQ(names_assumed(start + "KNOT/1\nCNTRL/2,8,4\nCNTRL/4,8,0\nCNTRL/6,0,0\n"),
+            std::vector<std::string>{"NURBS"});
+}
+
+// x = u^3 + 6u on knots 0 0 0 0 1 3 3 3 3 has the points f(0,0,1), f(0,1,3), f(1,3,3), f(3,3,3) of
+// f(a,b,c) = abc + 2(a + b + c): 2, 8, 23, 45. Its part up to the knot 1 ends at 7.
+TEST(CldataOfCam, KnotsOfNxSplinesDivideThem) {
+  const auto lines = all_of<LinearFeed>(
+      run_cl("LOADTL/1\nFEDRAT/5\nGOTO/0,0,0\nNURBS/\nKNOT/1,3\nCNTRL/2,0,0\nCNTRL/8,0,0\n"
+             "PAINT/COLOR,3\nCNTRL/23,0,0\n$$ remark\nCNTRL/45,0,0\n"));
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const LinearFeed& line) {
+    return (place_of(line.end) - Vec3(7, 0, 0)).norm() < 1e-12;
+  }));
+  EXPECT_EQ(place_of(lines.back().end), Vec3(45, 0, 0));
+  // An even parameter: half of the way from the knot 1 to 3 is u = 2, x = 20.
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const LinearFeed& line) {
+    return (place_of(line.end) - Vec3(20, 0, 0)).norm() < 0.2;
+  }));
+}
+
+TEST(CldataOfCam, SplinesThatAreNotWholeAreRefused) {
+  const std::string start = "LOADTL/1\nFEDRAT/5\nGOTO/0,0,0\nNURBS/\n";
+  const std::string points = "CNTRL/1,0,0\nCNTRL/2,1,0\n";
+  EXPECT_EQ(ids_of(start + "KNOT/1\n" + points + "GOTO/9,0,0\n"), Ids{"spline-open"});
+  EXPECT_EQ(ids_of(start + "KNOT/1\n" + points + "FINI\n"), Ids{"spline-open"});
+  EXPECT_EQ(ids_of(start + "KNOT/1\n" + points + "CNTRL/3,0,0\nCNTRL/4,0,0\n"),
+            Ids{"spline-not-begun"});
+  EXPECT_EQ(ids_of("KNOT/1\n"), Ids{"spline-not-begun"});
+  EXPECT_EQ(ids_of("NURBS/\n"), Ids{"position-unknown"});
+  for (const char* knots : {"KNOT/.5,.5\n", "KNOT/0,1\n", "KNOT/1,.5\n"}) {
+    EXPECT_EQ(ids_of(start + knots), Ids{"spline-knots"}) << knots;
+  }
+  EXPECT_EQ(ids_of(start + "CNTRL/1,2,3\n"), Ids{"spline-knots"});
+}
+
 TEST(CldataOfCam, AMissingFeedIsAnAssumption) {
   const std::string path = "LOADTL/1\nRAPID\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0\n";
   EXPECT_EQ(names_assumed(path), std::vector<std::string>{"FEDRAT"});
@@ -377,6 +426,7 @@ TEST(CldataOfCam, IsReadBackAsItWasRead) {
       "CYCLE/TAP,5,1\nCYCLE/DEEP,DEPTH,5,CLEAR,1\nCYCLE/OFF\nGOTO/1,2,3\n" + std::string(kTilted) +
       "CIRCLE/100,0,-3,1,0,0\nGOTO/100,-5,-3,1,0,0\nCIRCLE/100,-5,0,0,-.6,.8\nGOTO/103,-5,0\n"
       "CIRCLE/98,-5,0,0,0,-1,5,.06,.5,12,1,TIMES,2\nGOTO/98,0,-1\n"
+      "NURBS/\nKNOT/.25,1\nCNTRL/98,1,0\nCNTRL/97,2.5,.3\nCNTRL/90,2,1\nCNTRL/85,.7,2\n"
       "CYCLE/INIT\nCYCLE/DEEP2,FEDTO,9,1STPECK,5,SUBPECK,2,MMPM,154,RAPTO,3,RTRCTO,25\n"
       "CYCLE/TAP,5,CAM,2,1\nCUTCOM/LEFT\nORIGIN/1,2,3\nWARMUP/7\nCYCLE/OFF\n";
   const auto program = parse_program(text, "part.apt", Dialect::cldata);
