@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "kinematics/controller/controller.hpp"
@@ -70,6 +71,29 @@ Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<Operatio
   return failure;
 }
 
+// Words of the machine's builder and what the interpreter took for granted, each once.
+Diagnostics doubts_of(const std::vector<parser::Motion>& motions) {
+  Diagnostics doubts;
+  std::set<std::string> told;
+  for (const parser::Motion& motion : motions) {
+    const auto* event = std::get_if<parser::Event>(&motion.command);
+    if (event == nullptr || event->grade == parser::EventGrade::known) continue;
+    if (!told.insert(event->name).second) continue;
+    Diagnostic doubt =
+        event->grade == parser::EventGrade::builder
+            ? warning(
+                  "builder-word"_id,
+                  fmt::format("{} is a word of the machine's builder, passed over", event->name),
+                  "name it under [controller] words of the machine, if it moves nothing")
+            : warning("assumed"_id, fmt::format("{}: taken that {}", event->name, event->text));
+    doubt.file = motion.place.file == nullptr ? std::string() : *motion.place.file;
+    doubt.line = static_cast<int>(motion.place.line);
+    doubt.column = static_cast<int>(motion.place.column);
+    doubts.push_back(std::move(doubt));
+  }
+  return doubts;
+}
+
 Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) {
   std::map<int, cutter::Cutter> tools;
   for (const auto& [number, spec] : piece.tools) {
@@ -107,6 +131,7 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
   const auto folder = std::filesystem::path(piece.program_file).parent_path();
   parser::InterpreterOptions interpreter;
   interpreter.tools = diameters_of(piece);
+  interpreter.control = machine.controller().settings();
   interpreter.search_path = {folder};
   auto motions = parser::motions_of(*program, interpreter);
   if (!motions) return motions.error();
@@ -115,7 +140,10 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
   if (!commanded) return in_file(commanded.error(), piece.program_file);
   CommandedPiece result{.motions = *std::move(motions), .program = *std::move(commanded)};
   result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
-  result.warnings = in_file(std::move(result.program.warnings), piece.program_file);
+  result.warnings = doubts_of(result.motions);
+  auto& warned = result.program.warnings;
+  result.warnings.insert(result.warnings.end(), warned.begin(), warned.end());
+  result.warnings = in_file(std::move(result.warnings), piece.program_file);
   return result;
 }
 

@@ -159,24 +159,23 @@ std::optional<Diagnostic> read_start(const std::string& text, parser::AxisTarget
   return std::nullopt;
 }
 
+// The machine's own settings, then what the words add to them.
 std::optional<Diagnostic> read_control(const SetupWords& words, KnownSetup& known) {
-  std::vector<std::string> names = words.words;
-  std::string point = words.decimal_point;
   if (known.machine) {
-    const kinematics::ControllerWords& own = known.machine->controller();
-    names.insert(names.end(), own.words.begin(), own.words.end());
-    if (point.empty()) point = own.decimal_point;
+    known.control = known.machine->controller().settings();
+    known.decimal_point_is_known = known.machine->controller().decimal_point.has_value();
   }
-  for (const std::string& name : names) {
+  for (const std::string& name : words.words) {
     const auto word = parser::control_word(name);
     if (!word) return word.error().front();
     known.control.words.push_back(*word);
   }
-  if (point.empty()) return std::nullopt;
-  const auto rule = parser::decimal_point_named(point);
+  if (words.decimal_point.empty()) return std::nullopt;
+  const auto rule = parser::decimal_point_named(words.decimal_point);
   if (!rule) {
-    return error("malformed-option"_id,
-                 fmt::format("decimal_point {}: calculator or increment is expected", point));
+    return error(
+        "malformed-option"_id,
+        fmt::format("decimal_point {}: calculator or increment is expected", words.decimal_point));
   }
   known.control.decimal_point = *rule;
   known.decimal_point_is_known = true;

@@ -7,6 +7,13 @@
 
 namespace frustum::kinematics {
 
+parser::ControlSettings ControllerWords::settings() const {
+  parser::ControlSettings settings;
+  settings.words = words;
+  settings.decimal_point = decimal_point.value_or(settings.decimal_point);
+  return settings;
+}
+
 std::vector<Joint> Machine::joints() const {
   std::vector<Joint> all = tool_chain_;
   all.insert(all.end(), work_chain_.begin(), work_chain_.end());

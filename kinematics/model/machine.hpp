@@ -24,6 +24,7 @@
 #include "core/result.hpp"
 #include "kinematics/model/axes.hpp"
 #include "kinematics/model/geometric_errors.hpp"
+#include "parser/control_settings.hpp"
 
 namespace frustum::kinematics {
 
@@ -68,8 +69,10 @@ struct ErrorAlias {
 
 // How the machine's control reads programs, as far as its builder or its parameters decide it.
 struct ControllerWords {
-  std::vector<std::string> words{};  // of the builder, which move nothing: "M31"
-  std::string decimal_point{};       // "calculator" or "increment"; empty: not said
+  std::vector<parser::ControlWord> words{};  // of the builder, which move nothing: M31
+  std::optional<parser::DecimalPoint> decimal_point{};
+
+  [[nodiscard]] parser::ControlSettings settings() const;
 };
 
 class Machine {

@@ -188,11 +188,19 @@ class MachineReader {
   static void read_controller(const TomlTable& root, Machine& machine) {
     const auto table = root.table_if("controller");
     if (!table) return;
-    machine.controller_.words = table->texts_or("words", {});
-    const std::vector<std::string> points{"calculator", "increment"};
-    if (table->has("decimal_point")) {
-      machine.controller_.decimal_point = points.at(table->choice_or("decimal_point", points, 0));
+    for (const std::string& text : table->texts_or("words", {})) {
+      if (const auto word = parser::control_word(text)) {
+        machine.controller_.words.push_back(*word);
+      } else {
+        table->fail("words", word.error().front());
+        return;
+      }
     }
+    if (!table->has("decimal_point")) return;
+    std::vector<std::string> rules;
+    for (const auto rule : parser::kDecimalPoints) rules.emplace_back(name_of(rule));
+    machine.controller_.decimal_point =
+        parser::kDecimalPoints.at(table->choice_or("decimal_point", rules, 0));
   }
 
   static void read_aliases(const TomlTable& root, Machine& machine) {

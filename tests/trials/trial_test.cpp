@@ -1,6 +1,10 @@
 #include "trials/trial.hpp"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "core/random.hpp"
 #include "tests/trials/cone_trial.hpp"
@@ -96,10 +100,12 @@ TEST(Trial, GivesTheSameBitsTwice) {
   }
 }
 
+kinematics::Machine three_axes() {
+  return *kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/three-axis.toml");
+}
+
 // A plate on the three-axis machine and a program of a few lines.
-Result<Trial> plate(const std::string& nc) {
-  const auto machine =
-      kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/three-axis.toml");
+programs::TestPiece plate_piece(const std::string& nc) {
   programs::TestPiece piece;
   piece.program = nc;
   piece.program_file = "plate.nc";
@@ -107,7 +113,58 @@ Result<Trial> plate(const std::string& nc) {
   piece.tools[1] = {.diameter = 10.0_mm, .length = 100.0_mm, .flute_length = 30.0_mm};
   piece.blank = stock::BoxShape{80.0, 60.0, 20.0};
   piece.blank_origin = Vec3(0, 0, -20);
-  return run_trial(*machine, kinematics::GeometricErrors{}, piece, {}, {.measure = false});
+  return piece;
+}
+
+Result<Trial> plate(const std::string& nc) {
+  return run_trial(three_axes(), kinematics::GeometricErrors{}, plate_piece(nc), {},
+                   {.measure = false});
+}
+
+constexpr const char* kDoubtful =
+    "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nM31\nM32\nM32\nG0 X30000 Y0 Z10.\nM30\n";
+
+TEST(Trial, WarnsOfEachWordOfTheBuilderAndOfWhatIsTakenForGranted) {
+  const auto commanded = command_piece(three_axes(), plate_piece(kDoubtful));
+  EXPECT_FALSE(commanded);  // X30000: 30 m
+  const auto near = command_piece(
+      three_axes(), plate_piece("G20 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nM31\nM32\nM32\nG0 X1 "
+                                "Y0. Z1.\nM30\n"));
+  ASSERT_TRUE(near) << to_string(near.error().front());
+  std::vector<std::string> told;
+  for (const Diagnostic& each : near->warnings) {
+    told.push_back(fmt::format("{}:{} {}", each.line, each.id.text(), each.message));
+    EXPECT_EQ(each.file, "plate.nc");
+  }
+  EXPECT_THAT(told, testing::ElementsAre(
+                        "5:builder-word M31 is a word of the machine's builder, passed over",
+                        "6:builder-word M32 is a word of the machine's builder, passed over",
+                        testing::StartsWith("8:assumed decimal point: taken that X1 counts")));
+}
+
+TEST(Trial, ReadsTheProgramAsTheControlOfTheMachineDoes) {
+  std::ifstream file(std::string(FRUSTUM_SOURCE_DIR) + "/machines/three-axis.toml");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::string control = "[controller]\nwords = [\"M31\"]\ndecimal_point = \"increment\"\n";
+  const auto machine = kinematics::Machine::read(text + control, "increments.toml");
+  ASSERT_TRUE(machine) << to_string(machine.error().front());
+  const auto commanded = command_piece(*machine, plate_piece(kDoubtful));
+  ASSERT_TRUE(commanded) << to_string(commanded.error().front());
+  ASSERT_EQ(commanded->warnings.size(), 1U) << to_string(commanded->warnings.back());
+  EXPECT_EQ(commanded->warnings[0].id, "builder-word"_id);
+  EXPECT_EQ(commanded->warnings[0].line, 6);
+  const auto& samples = kinematics::block_ends(commanded->program);
+  EXPECT_NEAR(samples.back().axes[AxisLetter::X], 30.0, 1e-9);
+  EXPECT_NEAR(samples.back().axes[AxisLetter::Z], 110.0, 1e-9);
+}
+
+TEST(Trial, NamesTheWordOfAMachineFileThatIsNone) {
+  const auto machine = kinematics::Machine::read(
+      "name = \"m\"\ntitle = \"m\"\nstructure = \"t-(C)-Z-b-Y-X-w\"\n"
+      "[controller]\nwords = [\"M31\", \"31\"]\n",
+      "m.toml");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(machine.error().front().key, "controller.words");
 }
 
 TEST(Trial, ReportsRapidsThroughMaterialWithTheirLine) {
