@@ -4,13 +4,16 @@
 // setup.table_from_workpiece places on the table; the NC program is in program coordinates.
 #pragma once
 
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cutter/body/cutter.hpp"
 #include "kinematics/controller/setup.hpp"
 #include "metrology/plan/inspection_plan.hpp"
+#include "parser/control_settings.hpp"
 #include "parser/dialect.hpp"
 #include "stock/solid/blank.hpp"
 
@@ -42,11 +45,19 @@ struct Placement {
   }
 };
 
+// How the control reads the program, beyond what the machine's file says.
+struct ProgramReading {
+  std::vector<std::filesystem::path> search_path{};  // subprograms, after the program's folder
+  bool block_delete = false;                         // blocks that begin with / are left out
+  std::optional<parser::ControlSettings> control{};  // in place of the machine's
+};
+
 struct TestPiece {
   std::string title{};
   std::string program{};       // NC text
   std::string program_file{};  // names it in diagnostics
   parser::Dialect dialect = parser::Dialect::fanuc;
+  ProgramReading reading{};
   Placement placement{};
   std::map<int, Vec3> work_offsets{};  // 1 = G54 ...: program origin in the table frame
   cutter::ToolList tools{};

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/path/travel.hpp"
+#include "parser/doubts.hpp"
 #include "parser/interpreter.hpp"
 #include "trials/cut_check.hpp"
 
@@ -71,27 +71,16 @@ Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<Operatio
   return failure;
 }
 
-// Words of the machine's builder and what the interpreter took for granted, each once.
-Diagnostics doubts_of(const std::vector<parser::Motion>& motions) {
-  Diagnostics doubts;
-  std::set<std::string> told;
-  for (const parser::Motion& motion : motions) {
-    const auto* event = std::get_if<parser::Event>(&motion.command);
-    if (event == nullptr || event->grade == parser::EventGrade::known) continue;
-    if (!told.insert(event->name).second) continue;
-    Diagnostic doubt =
-        event->grade == parser::EventGrade::builder
-            ? warning(
-                  "builder-word"_id,
-                  fmt::format("{} is a word of the machine's builder, passed over", event->name),
-                  "name it under [controller] words of the machine, if it moves nothing")
-            : warning("assumed"_id, fmt::format("{}: taken that {}", event->name, event->text));
-    doubt.file = motion.place.file == nullptr ? std::string() : *motion.place.file;
-    doubt.line = static_cast<int>(motion.place.line);
-    doubt.column = static_cast<int>(motion.place.column);
-    doubts.push_back(std::move(doubt));
-  }
-  return doubts;
+parser::InterpreterOptions reading_of(const Machine& machine, const TestPiece& piece) {
+  parser::InterpreterOptions options;
+  options.tools = diameters_of(piece);
+  options.control = piece.reading.control.value_or(machine.controller().settings());
+  options.block_delete = piece.reading.block_delete;
+  // Subprograms are beside the program.
+  options.search_path = {std::filesystem::path(piece.program_file).parent_path()};
+  options.search_path.insert(options.search_path.end(), piece.reading.search_path.begin(),
+                             piece.reading.search_path.end());
+  return options;
 }
 
 Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) {
@@ -127,12 +116,7 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
   begin(on_stage, Stage::parse);
   const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
   if (!program) return program.error();
-  // Subprograms are beside the program.
-  const auto folder = std::filesystem::path(piece.program_file).parent_path();
-  parser::InterpreterOptions interpreter;
-  interpreter.tools = diameters_of(piece);
-  interpreter.control = machine.controller().settings();
-  interpreter.search_path = {folder};
+  const auto interpreter = reading_of(machine, piece);
   auto motions = parser::motions_of(*program, interpreter);
   if (!motions) return motions.error();
   begin(on_stage, Stage::execute);
@@ -140,7 +124,7 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
   if (!commanded) return in_file(commanded.error(), piece.program_file);
   CommandedPiece result{.motions = *std::move(motions), .program = *std::move(commanded)};
   result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
-  result.warnings = doubts_of(result.motions);
+  result.warnings = parser::doubts_of(result.motions);
   auto& warned = result.program.warnings;
   result.warnings.insert(result.warnings.end(), warned.begin(), warned.end());
   result.warnings = in_file(std::move(result.warnings), piece.program_file);

@@ -12,6 +12,7 @@
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
+#include "parser/doubts.hpp"
 #include "post/comparing/program_difference.hpp"
 
 namespace frustum::app {
@@ -86,10 +87,12 @@ nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
 int diff(const DiffOptions& options) {
   auto setup_words = machine_setup_of(options.setup_words);
   if (!setup_words) return refuse(setup_words.error());
-  auto first = motions_of_file(options.first, options.first_dialect, setup_words->tools);
+  auto first = motions_of_file(options.first, options.first_dialect, *setup_words);
   if (!first) return refuse(first.error());
-  auto second = motions_of_file(options.second, options.second_dialect, setup_words->tools);
+  auto second = motions_of_file(options.second, options.second_dialect, *setup_words);
   if (!second) return refuse(second.error());
+  print(std::cerr, in_file(parser::doubts_of(*first), options.first));
+  print(std::cerr, in_file(parser::doubts_of(*second), options.second));
   for (const int tool : unmeasured_tools(setup_words->setup, {*first, *second})) {
     setup_words->setup.tools[tool].length = kAssumedLength;
     std::cerr << fmt::format(

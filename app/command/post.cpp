@@ -12,6 +12,7 @@
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
 #include "core/whole_file.hpp"
+#include "parser/doubts.hpp"
 #include "parser/writing/motion_spelling.hpp"
 #include "parser/writing/motion_writer.hpp"
 #include "post/planning/machine_program.hpp"
@@ -62,7 +63,7 @@ int post_process(const PostOptions& options) {
   }
   const auto setup_words = machine_setup_of(options.setup_words);
   if (!setup_words) return refuse(setup_words.error());
-  const auto motions = motions_of_file(options.file, options.dialect, setup_words->tools);
+  const auto motions = motions_of_file(options.file, options.dialect, *setup_words);
   if (!motions) return refuse(motions.error());
   const auto dialect = *parser::dialect_named(options.to);
   const auto plan = post::plan_for_machine(setup_words->machine, setup_words->setup, *motions,
@@ -76,7 +77,9 @@ int post_process(const PostOptions& options) {
   const auto written = write_whole_file(options.out, program->text);
   if (!written) return refuse(written.error());
 
-  const Diagnostics warnings = in_file(plan->warnings, options.file);
+  Diagnostics warnings = parser::doubts_of(*motions);
+  warnings.insert(warnings.end(), plan->warnings.begin(), plan->warnings.end());
+  warnings = in_file(std::move(warnings), options.file);
   if (options.json) {
     nlohmann::ordered_json written_doc{{"output", written->string()},
                                        {"dialect", parser::name_of(dialect)},

@@ -1,7 +1,6 @@
 #include "app/job/collision_findings.hpp"
 
 #include <span>
-#include <utility>
 
 #include "app/job/job_report.hpp"
 #include "trials/trial.hpp"
@@ -30,11 +29,7 @@ std::string remedy_of(const stock::Collision& collision) {
 
 }  // namespace
 
-Result<std::vector<lint::Finding>> collisions_of(Job job, std::string program,
-                                                 const std::string& file, parser::Dialect dialect) {
-  job.piece.program = std::move(program);
-  job.piece.program_file = file;
-  job.piece.dialect = dialect;
+Result<std::vector<lint::Finding>> collisions_of(const Job& job) {
   trials::TrialOptions options;
   options.path_bound = job.path_bound;
   options.measure = false;
@@ -48,7 +43,7 @@ Result<std::vector<lint::Finding>> collisions_of(Job job, std::string program,
     if (check == lint::Check::spindle_off) continue;
     findings.push_back({.check = check,
                         .severity = lint::info_of(check).severity,
-                        .file = file,
+                        .file = job.piece.program_file,
                         .line = collision.source_line,
                         .column = 1,
                         .message = collision_text(collision),

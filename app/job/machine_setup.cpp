@@ -247,7 +247,8 @@ Result<MachineSetup> machine_setup_of(const SetupWords& words) {
   if (!known) return known.error();
   if (!known->machine)
     return error("no-machine"_id, "no machine", "name one with --machine, or a job with --job");
-  return MachineSetup{*std::move(known->machine), std::move(known->setup), std::move(known->tools)};
+  return MachineSetup{*std::move(known->machine), std::move(known->setup), std::move(known->tools),
+                      std::move(known->control)};
 }
 
 }  // namespace frustum::app

@@ -51,6 +51,7 @@ struct MachineSetup {
   kinematics::Machine machine;
   kinematics::Setup setup{};
   parser::ToolTable tools{};
+  parser::ControlSettings control{};
 };
 [[nodiscard]] Result<MachineSetup> machine_setup_of(const SetupWords& words);
 

@@ -16,11 +16,12 @@ constexpr const char* kStandardInput = "<stdin>";  // as diagnostics name it
 
 Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,
                                                     const std::string& dialect_name,
-                                                    parser::ToolTable tools) {
+                                                    const MachineSetup& machine) {
   const auto nc = open_nc(file, dialect_name);
   if (!nc) return nc.error();
   parser::InterpreterOptions options = options_for(file);
-  options.tools = std::move(tools);
+  options.tools = machine.tools;
+  options.control = machine.control;
   return parser::motions_of(nc->program, options);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/job/machine_setup.hpp"
 #include "core/result.hpp"
 #include "parser/interpreter.hpp"
 
@@ -22,10 +23,11 @@ struct NcFile {
 // Subprograms are looked for beside the program.
 [[nodiscard]] parser::InterpreterOptions options_for(const std::string& file);
 
-// `dialect` as --dialect writes it; empty: recognised. Radius compensation counts with `tools`.
+// `dialect` as --dialect writes it; empty: recognised. Read as that machine's control does; radius
+// compensation counts with its tools.
 [[nodiscard]] Result<std::vector<parser::Motion>> motions_of_file(const std::string& file,
                                                                   const std::string& dialect,
-                                                                  parser::ToolTable tools);
+                                                                  const MachineSetup& machine);
 
 // A name that controllers take, from a file's: letters, digits and _.
 [[nodiscard]] std::string program_name(const std::filesystem::path& file);

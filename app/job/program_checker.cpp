@@ -235,19 +235,36 @@ lint::CheckOptions ProgramChecker::options_of(const Shared& shared, const std::s
   return options;
 }
 
+// The job with this program, read and set up as the checks read it.
+Job ProgramChecker::job_of(const Shared& shared, const NcFile& nc) {
+  Job job = *shared.job;
+  job.machine = *shared.known.machine;
+  programs::TestPiece& piece = job.piece;
+  piece.program = text_of_program(nc.program.text);
+  piece.program_file = nc.program.file;
+  piece.dialect = nc.program.dialect;
+  const auto& search = shared.settings.search;
+  piece.reading = {
+      {search.begin(), search.end()}, shared.settings.block_delete, shared.known.control};
+  piece.work_offsets = shared.known.setup.work_offsets;
+  for (auto& [number, tool] : piece.tools) {
+    const auto own = shared.known.setup.tools.find(number);
+    if (own != shared.known.setup.tools.end()) tool.length.value = own->second.length;
+  }
+  return job;
+}
+
 // A job is of one program: its own, or the only one that is checked by it.
 void ProgramChecker::look_into_stock(const Shared& shared, const NcFile& nc,
-                                     const std::string& file, lint::CheckOptions& options) {
+                                     lint::CheckOptions& options) {
   if (!shared.job || (options.disabled.contains(lint::Check::rapid_in_material) &&
                       options.disabled.contains(lint::Check::body_in_material))) {
     return;
   }
-  options.look_further = [this, &shared, &nc, file] {
-    auto found = collisions_of(*shared.job, text_of_program(nc.program.text), nc.program.file,
-                               nc.program.dialect);
+  options.look_further = [this, &shared, &nc] {
+    auto found = collisions_of(job_of(shared, nc));
     if (found) return *std::move(found);
-    note_(fmt::format("{}: collisions are not looked for: {}", file,
-                      to_string(found.error().front())));
+    trouble(found.error());
     return std::vector<lint::Finding>();
   };
 }
@@ -272,7 +289,7 @@ std::optional<lint::CheckedFile> ProgramChecker::check(const ProgramToCheck& pro
   if (alone && !shared->known.machine) note_("no --machine: travels and axes are not checked");
   lint::CheckOptions options = options_of(*shared, file);
   options.subprogram = subprogram || (program.of_folder && lint::is_subprogram(nc->program));
-  if (shared->job && (alone || of_job)) look_into_stock(*shared, *nc, file, options);
+  if (shared->job && (alone || of_job)) look_into_stock(*shared, *nc, options);
   lint::CheckedFile checked;
   checked.file = nc->program.file;
   checked.dialect = name_of(nc->program.dialect);

@@ -75,8 +75,8 @@ class ProgramChecker {
   [[nodiscard]] Shared* shared_in(const std::filesystem::path& folder);
   [[nodiscard]] std::unique_ptr<Shared> read_shared(const CheckSettings& settings);
   [[nodiscard]] lint::CheckOptions options_of(const Shared& shared, const std::string& file) const;
-  void look_into_stock(const Shared& shared, const NcFile& nc, const std::string& file,
-                       lint::CheckOptions& options);
+  void look_into_stock(const Shared& shared, const NcFile& nc, lint::CheckOptions& options);
+  [[nodiscard]] static Job job_of(const Shared& shared, const NcFile& nc);
   void trouble(const Diagnostics& diagnostics);
 
   CheckSettings command_line_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -76,9 +77,11 @@ class Controller::State {
     }
     AxisPositions end = q_;
     const AxisPositions home = machine_.home();
+    // G28 alone: those that there are.
+    const bool all = std::ranges::all_of(move.axes, std::identity{});
     for (const AxisLetter letter : kAxisLetters) {
-      if (move.axes[static_cast<std::size_t>(letter)] && present(letter))
-        end[letter] = home[letter];
+      if (!move.axes[static_cast<std::size_t>(letter)]) continue;
+      if (all ? machine_.joint(letter) != nullptr : present(letter)) end[letter] = home[letter];
     }
     if (problems_.empty()) travel(axes_motion(q_, end), {PathKind::rapid});
   }

@@ -166,6 +166,8 @@ struct DialectRules {
   char thread_lead = 'K';
   // A parameter that is written counts at once, not from the next change of work offset on.
   bool parameters_count_at_once = false;
+  // The word of the work offset in force brings what has been written to it.
+  bool offset_loads_again = false;
   // G10 in G91 adds to what is there.
   bool data_follow_distance_mode = false;
   // A new tilted plane begins without programmable frame.

@@ -348,6 +348,7 @@ constexpr DialectRules kSinumerikRules{
               .pole = "G111"},
     .leads_by_axis = true,
     .arcs_lead_on = true,
+    .offset_loads_again = true,
     .planes_end_frames = true,
     .subprograms_are_programs = true,
     .file_names = kFileNames,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -84,8 +86,11 @@ class Planner {
       return;
     }
     AxisTarget end;
+    // G28 alone: those that there are.
+    const bool all = std::ranges::all_of(home.axes, std::identity{});
     for (const AxisLetter letter : parser::kAxisLetters) {
-      if (home.axes.at(static_cast<std::size_t>(letter)) && state_.present(letter)) {
+      if (!home.axes.at(static_cast<std::size_t>(letter))) continue;
+      if (all ? state_.machine.joint(letter) != nullptr : state_.present(letter)) {
         end[letter] = state_.machine.home()[letter];
       }
     }

@@ -128,7 +128,8 @@ Outcome tell_origin(InterpreterState& state, int number, std::uint32_t column) {
 }
 
 Outcome select_work_offset(InterpreterState& state, int number, std::uint32_t column) {
-  const bool reload = number != state.modes.work_offset || state.rules.parameters_count_at_once;
+  const bool reload = number != state.modes.work_offset || state.rules.parameters_count_at_once ||
+                      state.rules.offset_loads_again;
   state.data.selected_offset = number;
   if (!reload) {
     emit(state, column, WorkOffsetChange{number});

@@ -195,6 +195,10 @@ TEST(SinumerikVariables, OfToolsAndOffsetsCount) {
       "$P_UIFR[1,X,TR]=7\n$P_UIFR[2]=CTRANS(X,3,Y,4):CROT(Z,90)\nG55\n"
       "G0 X1 Y0 Z0\n");
   EXPECT_EQ(all_of<WorkOffsetSetting>(shifted).at(0).origin.at(0), 3.0);
+  // Of the offset in force too, from its next word on.
+  const auto again = run_words("$P_UIFR[1,X,TR]=7\nG54\nG0 X1 Y0 Z0\n");
+  EXPECT_EQ(all_of<WorkOffsetSetting>(again).at(0).origin.at(0), 7.0);
+  EXPECT_TRUE(all_of<WorkOffsetSetting>(run_words("$P_UIFR[1,X,TR]=7\nG0 X1 Y0 Z0\n")).empty());
   EXPECT_EQ(x_after("$P_PFRAME=CTRANS(X,10):CMIRROR(X)\nG0 X1 Y0 Z0\n"), 9.0);
   EXPECT_EQ(ids_of("$TC_DP3[1,1]=5\n"), std::vector<std::string>{"not-simulated"});
   EXPECT_EQ(ids_of("$P_UIFR[1,X,TR]=$AA_IM[X]\n"), std::vector<std::string>{"unknown-value"});
