@@ -48,6 +48,10 @@ struct CycleRules {
   // Each block begins at the depth before the first hole: with G98 the move to the next hole goes
   // up there.
   bool start_from_initial = false;
+  // Below R the tool rises before it goes to the first hole, not above it.
+  bool rises_before_it_goes = false;
+  // When the operator has drawn the tool out of the hole of G88, it is at R.
+  bool hand_retract_ends_at_r = false;
 };
 
 // How polar positions are written.

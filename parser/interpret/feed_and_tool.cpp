@@ -114,7 +114,9 @@ Outcome lengthen_tool(InterpreterState& state, const BlockWords& words) {
 
 Outcome set_feed(InterpreterState& state, const BlockWords& words) {
   const auto mode = words.value_or(CodeGroup::feed_mode, state.modes.feed_mode);
-  if (mode != state.modes.feed_mode) state.modes.feed.reset();
+  // LinuxCNC: G94 and G95 end the feed, also of the same mode.
+  const bool again = state.rules.dialect == Dialect::linuxcnc && words.has(CodeGroup::feed_mode);
+  if (again || mode != state.modes.feed_mode) state.modes.feed.reset();
   state.modes.feed_mode = mode;
   if (const GivenCode& source = words[CodeGroup::feed_source]; source.code != nullptr) {
     if (!state.modes.tool_feed) {

@@ -58,6 +58,10 @@ std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& d) {
               {orient_spindle},        {rapid, d.bottom, true}, {rapid, d.clear, true},
               {rapid, d.clear},        {start_spindle}};
     case MotionMode::bore_manual:
+      if (d.out_by_hand) {
+        return {{feed, d.bottom}, {dwell, d.dwell}, {stop_spindle},  {wait},
+                {rapid, d.level}, {start_spindle},  {rapid, d.clear}};
+      }
       return {{feed, d.bottom}, {dwell, d.dwell}, {stop_spindle}, {wait}, {start_spindle}};
     case MotionMode::bore_dwell:
       return {{feed, d.bottom}, {dwell, d.dwell}, {feed, d.feed_out}, {rapid, d.clear}};

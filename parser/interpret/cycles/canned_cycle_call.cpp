@@ -198,6 +198,11 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     return fail(state, movement.column, "cycle-pecks"_id,
                 fmt::format("the cycle makes more than {} pecks", kMostPecks), "give a larger Q");
   }
+  depths.out_by_hand = state.rules.cycles.hand_retract_ends_at_r;
+  if (depths.out_by_hand && cycle.last == MotionMode::bore_manual) {
+    assume(state, movement.column, "G88",
+           "the tool is at R when the operator has drawn it out of the hole");
+  }
   depths.from_level = state.rules.cycles.tool_shift_by_q && cycle.last == MotionMode::bore_back;
   if (depths.from_level) {
     depths.clear = cycle.initial;
@@ -231,15 +236,14 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
          Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
   };
   const double height = state.rules.cycles.start_from_initial ? cycle.initial : *state.position[w];
-  if (holes > 0 && height < depths.level) {
+  if (state.rules.cycles.rises_before_it_goes && holes > 0 && height < depths.level) {
     state.position.set(w, depths.level);
     rapid(movement.column);
   }
   // With G99 it goes up to a higher R on the way.
   if (state.rules.cycles.start_from_initial) {
-    state.position.set(w, state.modes.retract_to_initial
-                              ? depths.clear
-                              : std::max(*state.position[w], depths.level));
+    state.position.set(w, std::max(*state.position[w],
+                                   state.modes.retract_to_initial ? depths.clear : depths.level));
   }
   Vec2 middle = Vec2::Zero();
   for (int hole = 0; hole < holes; ++hole) {

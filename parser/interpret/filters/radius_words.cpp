@@ -211,10 +211,13 @@ Outcome check_radius_compensation(const InterpreterState& state, const MotionFil
                   "it changes the corners of the path: write them out");
     }
   }
-  if (words.has('D') && state.rules.always_claimed.has('D')) {
+  const bool other_number = state.rules.offset_numbers_stand_alone && given.code == nullptr &&
+                            words['D'].value != state.modes.radius_number.value_or(-1);
+  if (words.has('D') && (state.rules.always_claimed.has('D') || other_number)) {
     return fail(state, words['D'].column, "radius-compensation"_id,
                 fmt::format("{} with radius compensation on", words.text_of('D')),
-                "choose the tool's edge before it is switched on");
+                other_number ? "end it by G40, and begin it again with the other number"
+                             : "choose the tool's edge before it is switched on");
   }
   if (words.value_or(CodeGroup::plane, state.modes.plane) != state.modes.plane) {
     return refuse(words[CodeGroup::plane]);

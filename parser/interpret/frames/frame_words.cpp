@@ -110,6 +110,11 @@ Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal h
       state.data.shift_counts = true;
       break;
     default:
+      if (state.rules.dialect == Dialect::fanuc && next.turns()) {
+        return fail(state, code.column, "frame-nested"_id,
+                    fmt::format("{} within a rotation by G68", code.code->name()),
+                    "end the rotation by G69, shift, and begin it again");
+      }
       if (state.rules.dialect == Dialect::heidenhain &&
           (next.turns() || next.is_mirrored() || next.scale != 1.0)) {
         return fail(state, code.column, "frame-nested"_id,

@@ -32,6 +32,7 @@ constexpr std::array kMovingVariables{
     MovingVariable{"$TC_DP13[", "give the tool's length in the job"},
     MovingVariable{"$TC_DP14[", "give the tool's length in the job"},
     MovingVariable{"$TC_CARR", "swivel with CYCLE800"},
+    MovingVariable{"$AA_OFF[", "write the overlaid motion into the moves"},
     MovingVariable{"$P_UIFR[", "write it as $P_UIFR[1,X,TR]=10"},
     MovingVariable{"$P_PFRAME", "use TRANS, ROT, SCALE and MIRROR"},
     MovingVariable{"$P_IFRAME", "use G54 to G57"},

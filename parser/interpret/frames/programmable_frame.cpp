@@ -96,8 +96,15 @@ Outcome change_program_frame(InterpreterState& state, const BlockWords& words) {
                   fmt::format("give the axes, for example {} X5", code.code->name()));
     }
     set_program_frame(state, {});
+    state.modes.shift_was_added = false;
     return Done{};
   }
+  if (word == FrameWord::shift && state.modes.shift_was_added) {
+    assume(state, code.column, "TRANS after ATRANS",
+           "TRANS replaces what ATRANS has added too (MD24000 off)");
+  }
+  state.modes.shift_was_added =
+      word == FrameWord::shift_within || (goes_on(word) && state.modes.shift_was_added);
   const auto frame = frame_of(state, words, word);
   if (!frame) return frame.error();
   set_program_frame(state, goes_on(word) ? state.modes.program_frame.with(*frame) : *frame);

@@ -70,6 +70,19 @@ TEST(FanucCycle, DrillOfFagorHasItsDepthInI) {
             std::vector<std::string>{"word-ambiguous"});
 }
 
+TEST(FanucCycle, LeavesTheHoleWhenTheOperatorHasDrawnTheToolBack) {
+  EXPECT_EQ(steps("S500 M3\nG0 X0 Y0 Z20\nG98 G88 X10 Y0 R2 Z-5 P1000 F50\nX20\nG80\nG0 X50\n"),
+            "on; rapid 0 0 20; G88; rapid 10 0 20; rapid 10 0 2; feed 10 0 -5; dwell 1; off; "
+            "rapid 10 0 2; on; rapid 10 0 20; rapid 20 0 20; rapid 20 0 2; feed 20 0 -5; dwell 1; "
+            "off; rapid 20 0 2; on; rapid 20 0 20; rapid 50 0 20; ");
+}
+
+TEST(FanucCycle, GoesToTheHoleAtTheHeightWhereTheToolIs) {
+  // From Z2 to a hole of R5: above the hole first, then up.
+  EXPECT_EQ(steps("G0 X0 Y0 Z2\nG99 G81 X50 R5 Z-5 F100\nG80\n"),
+            "rapid 0 0 2; rapid 50 0 2; rapid 50 0 5; feed 50 0 -5; rapid 50 0 5; ");
+}
+
 // G70, G71 and G72 of Haas, whose I J K are none of the cycle's.
 TEST(FanucCycle, DrillsOnACircleAnArcAndALine) {
   const auto holes = [](std::string_view text) {

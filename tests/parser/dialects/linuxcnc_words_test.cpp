@@ -54,6 +54,26 @@ TEST(LinuxCncWords, Fault2_03_RadiiOfAnArcMayDifferAsTheControlAllows) {
   EXPECT_EQ(linuxcnc_ids("G0 X0 Y0 Z0\nG2 X2 R0.9987 F100\n"), Ids{"arc-radius"});
 }
 
+TEST(LinuxCncWords, FeedModesEndTheFeedAlsoOfTheSameMode) {
+  EXPECT_EQ(linuxcnc_ids("F100\nG94 G1 X5\n"), Ids{"feed-missing"});
+  EXPECT_EQ(linuxcnc_ids("G95 G1 X5 F.1\nG95 X6\n"), Ids{"feed-missing"});
+  EXPECT_EQ(linuxcnc_ids("F50\nG94 G1 X5 F100\n"), Ids{});
+}
+
+TEST(LinuxCncWords, HolesAreReachedAboveTheToolAndTheInitialLevel) {
+  // The second cycle leaves at Z6, above the Z5 of the third one's beginning.
+  const auto rapids = all_of<Traverse>(run_linuxcnc(
+      "G0 X0 Y0 Z5\nF100 G98 G81 X2 Z-1 R2\nG91 G81 X1 Z-1 R1\nG90 G82 X4 Z-1 R1 P0\nG80\n"));
+  double last = 0.0;
+  for (const Traverse& rapid : rapids) {
+    if (rapid.end[X] == 4.0) {
+      EXPECT_EQ(rapid.end[Z], last);
+      break;
+    }
+    last = rapid.end[Z].value_or(-1.0);
+  }
+}
+
 TEST(LinuxCncWords, Fault2_04_H0AndD0AreTheToolInTheSpindle) {
   const auto changes =
       all_of<CompensationChange>(run_linuxcnc("T7 M6\nG43 H0\nG43 H8\n", mill_and_lathe_tool()));

@@ -44,6 +44,13 @@ TEST(SinumerikFrames, TransReplacesAndAtransGoesOn) {
   expect_frame_end("G700 TRANS X1\nG0 X1 Y0 Z0\n", 50.8, 0, 0);
   EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_in_frame("TRANS C10\nG0 C5\n")).end[C],
                    15 * std::numbers::pi / 180);
+  // Whether TRANS leaves what ATRANS added, machine data decide.
+  const auto assumed = [](std::string_view text) {
+    return all_of<Event>(run_in_frame(text)).size();
+  };
+  EXPECT_EQ(assumed("TRANS X10\nATRANS X5\nTRANS X20\n"), 1U);
+  EXPECT_EQ(assumed("TRANS X10\nATRANS X5\nTRANS\nTRANS X20\n"), 0U);
+  EXPECT_EQ(assumed("TRANS X10\nAROT Z5\nTRANS X20\n"), 0U);
   // An axis that is not named stays where it is, and the others need not be known.
   EXPECT_DOUBLE_EQ(*last_of<Traverse>(run_in_frame("G0 X4\nTRANS X10\nG0 Y1\n")).end[X], 4.0);
 }

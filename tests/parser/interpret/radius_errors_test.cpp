@@ -35,6 +35,16 @@ void expect(std::span<const RadiusMistake> mistakes) {
 
 using enum Dialect;
 
+TEST(RadiusErrors, OfAnotherNumberOnTheWay) {
+  constexpr RadiusMistake kMistakes[] = {
+      {fanuc, "G42 D1 F100\nG1 X20\nX40\nD1\nX50\nD2\nX60\nM30\n",
+       "6:1: error: D2 with radius compensation on"},
+      {fanuc, "G42 D1 F100\nG1 X20\nX40\nD0 X50\nX60\nM30\n",
+       "4:1: error: D0 with radius compensation on"},
+  };
+  expect(kMistakes);
+}
+
 TEST(RadiusErrors, OfTheContour) {
   constexpr RadiusMistake kMistakes[] = {
       {linuxcnc, "G41 D1 F100\nG1 X20\nX20 Y3\nX0\nM2\n",
