@@ -1,4 +1,5 @@
-// The numbers that most of a long program consists of: digits and a point, without sign or exponent.
+// The numbers that most of a long program consists of: digits and a point, without sign or
+// exponent.
 //
 // Units : none
 // Errors: none; nothing where there is no digit

@@ -104,6 +104,11 @@ kinematics::Machine three_axes() {
   return *kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/three-axis.toml");
 }
 
+std::string three_axes_text() {
+  std::ifstream file(std::string(FRUSTUM_SOURCE_DIR) + "/machines/three-axis.toml");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 // A plate on the three-axis machine and a program of a few lines.
 programs::TestPiece plate_piece(const std::string& nc) {
   programs::TestPiece piece;
@@ -143,10 +148,8 @@ TEST(Trial, WarnsOfEachWordOfTheBuilderAndOfWhatIsTakenForGranted) {
 }
 
 TEST(Trial, ReadsTheProgramAsTheControlOfTheMachineDoes) {
-  std::ifstream file(std::string(FRUSTUM_SOURCE_DIR) + "/machines/three-axis.toml");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
   const std::string control = "[controller]\nwords = [\"M31\"]\ndecimal_point = \"increment\"\n";
-  const auto machine = kinematics::Machine::read(text + control, "increments.toml");
+  const auto machine = kinematics::Machine::read(three_axes_text() + control, "increments.toml");
   ASSERT_TRUE(machine) << to_string(machine.error().front());
   const auto commanded = command_piece(*machine, plate_piece(kDoubtful));
   ASSERT_TRUE(commanded) << to_string(commanded.error().front());
@@ -160,9 +163,7 @@ TEST(Trial, ReadsTheProgramAsTheControlOfTheMachineDoes) {
 
 TEST(Trial, NamesTheWordOfAMachineFileThatIsNone) {
   const auto machine = kinematics::Machine::read(
-      "name = \"m\"\ntitle = \"m\"\nstructure = \"t-(C)-Z-b-Y-X-w\"\n"
-      "[controller]\nwords = [\"M31\", \"31\"]\n",
-      "m.toml");
+      three_axes_text() + "[controller]\nwords = [\"M31\", \"31\"]\n", "m.toml");
   ASSERT_FALSE(machine);
   EXPECT_EQ(machine.error().front().key, "controller.words");
 }

@@ -1,5 +1,6 @@
 // The Q parameters of a cycle of Klartext: CYCL DEF 200 sets Q200, Q201 and so on like any other
-// setting, and a call takes what they are then. Q201=-18 after CYCL DEF makes the next holes deeper.
+// setting, and a call takes what they are then. Q201=-18 after CYCL DEF makes the next holes
+// deeper.
 //
 // An event of the grade `assumed` says so. What a parameter was assigned from has no effect
 // afterwards.

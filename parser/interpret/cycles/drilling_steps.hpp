@@ -13,9 +13,9 @@
 // Units : mm, mm/min, seconds
 // Shape : pecks() below RFP, rising, the last one the whole depth
 // Errors: none; the words are checked by the caller
-// Source: SINUMERIK 840D, programming guide of the cycles, drilling cycles; the last two strokes, the
-//         way back to a depth and taps in several strokes as the control's own CYCLE83 and CYCLE84
-//         (V06.02.09) do them
+// Source: SINUMERIK 840D, programming guide of the cycles, drilling cycles; the last two strokes,
+//         the way back to a depth and taps in several strokes as the control's own CYCLE83 and
+//         CYCLE84 (V06.02.09) do them
 #pragma once
 
 #include <optional>
