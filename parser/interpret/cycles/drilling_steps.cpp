@@ -44,10 +44,6 @@ std::vector<CycleStep> peck_steps(const DrillingCycle& cycle) {
   return steps;
 }
 
-}  // namespace
-
-namespace {
-
 // The stroke after one of `planned`, which shrinks by the amount down to it: the last two share
 // what is left, or the last but one leaves the amount to the last.
 double next_by_amount(double& planned, double amount, double left) {
