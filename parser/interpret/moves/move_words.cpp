@@ -48,8 +48,8 @@ bool may_begin(const InterpreterState& state, AxisLetter axis) {
   return frame.is_identity();
 }
 
-// NX NY NZ of LN: the tool goes off by DL and DR along the surface normal, and with its tip guided it is
-// turned to the normal unless the block says otherwise.
+// NX NY NZ of LN: the tool goes off by DL and DR along the surface normal, and with its tip guided
+// it is turned to the normal unless the block says otherwise.
 Outcome check_surface_normal(const InterpreterState& state, const BlockWords& words) {
   const Code* motion = words[CodeGroup::motion].code;
   const bool has_room = state.rules.dialect == Dialect::heidenhain && motion != nullptr;
