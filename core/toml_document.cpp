@@ -25,16 +25,15 @@ Node convert(const toml::node& from) {
   if (const auto* table = from.as_table()) {
     Node::Table entries;
     for (const auto& [key, child] : *table) {
-      entries.entries.emplace_back(std::string(key.str()), convert(child));
+      entries.entries.push_back({std::string(key.str()), convert(child)});
       // A key's own place is what an editor should jump to.
-      entries.entries.back().second.line = static_cast<int>(key.source().begin.line);
-      entries.entries.back().second.column = static_cast<int>(key.source().begin.column);
+      entries.entries.back().node.line = static_cast<int>(key.source().begin.line);
+      entries.entries.back().node.column = static_cast<int>(key.source().begin.column);
     }
-    std::stable_sort(entries.entries.begin(), entries.entries.end(),
-                     [](const auto& a, const auto& b) {
-                       return std::tie(a.second.line, a.second.column) <
-                              std::tie(b.second.line, b.second.column);
-                     });
+    std::stable_sort(
+        entries.entries.begin(), entries.entries.end(), [](const auto& a, const auto& b) {
+          return std::tie(a.node.line, a.node.column) < std::tie(b.node.line, b.node.column);
+        });
     node.value = std::move(entries);
   } else if (const auto* array = from.as_array()) {
     Node::Array items;

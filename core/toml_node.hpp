@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,10 +16,12 @@
 namespace frustum {
 namespace toml_detail {
 
+struct Entry;
+
 struct Node {
   using Array = std::vector<Node>;
   struct Table {
-    std::vector<std::pair<std::string, Node>> entries;
+    std::vector<Entry> entries;
     mutable std::vector<std::string> asked;  // what readers asked for, known or not
     mutable bool opened = false;             // a reader looked inside
   };
@@ -30,6 +31,11 @@ struct Node {
 
   [[nodiscard]] const Table* table() const { return std::get_if<Table>(&value); }
   [[nodiscard]] const Array* array() const { return std::get_if<Array>(&value); }
+};
+
+struct Entry {
+  std::string name;
+  Node node;
 };
 
 struct State {
