@@ -10,7 +10,8 @@
 
 namespace frustum::parser {
 
-// A set of the letters A to Z and a to z.
+// A set of the letters A to Z and a to z. Characters before A and behind z are in no set, and adding
+// them changes nothing.
 class LetterSet {
  public:
   constexpr LetterSet() = default;
@@ -36,8 +37,10 @@ class LetterSet {
   constexpr void add(char letter) { bits_ |= bit(letter); }
 
  private:
+  static constexpr std::uint32_t kPlaces = 'z' - 'A' + 1;
   static constexpr std::uint64_t bit(char letter) {
-    return std::uint64_t{1} << static_cast<std::uint32_t>(letter - 'A');
+    const auto place = static_cast<std::uint32_t>(letter - 'A');
+    return place < kPlaces ? std::uint64_t{1} << place : 0;
   }
   static constexpr LetterSet of(std::uint64_t bits) {
     LetterSet set;

@@ -40,7 +40,7 @@ void set_cycle_parameters(InterpreterState& state, const BlockWords& words, bool
   }
   for (std::size_t i = 0; i < block.words.size(); ++i) {
     const Word& word = block.words[i];
-    if (defines && words.has(word.letter) && word.letter != kNamedWord) {
+    if (defines && words.has(word.letter)) {
       kept->words[i].expression = {};
       kept->words[i].number = words[word.letter].value;
     }
