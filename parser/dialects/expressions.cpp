@@ -160,7 +160,8 @@ constexpr ExpressionSpelling kSinumerik{.operators = kSinumerikOperators,
                                         .functions = kSinumerikFunctions,
                                         .negation = "NOT",
                                         .index_open = "R[",
-                                        .index_close = "]"};
+                                        .index_close = "]",
+                                        .exponent = "EX"};
 
 constexpr ExpressionSpelling kHeidenhain{.operators = kHeidenhainOperators,
                                          .functions = kHeidenhainFunctions,

@@ -18,6 +18,9 @@ constexpr std::string_view kNoCorners =
 constexpr std::string_view kNoCycles = "write the cycle out as G0 and G1 blocks";
 constexpr std::string_view kNoFlow = "write the blocks out in the order in which they run";
 constexpr std::string_view kNoThreads = "tap with CYCLE84, or leave threading out of the program";
+constexpr std::string_view kNoToolOffsets = "give the tool's true size in the job";
+constexpr std::string_view kNoApproach = "approach and leave the contour by G1, G2 and G3 blocks";
+constexpr std::string_view kNoContourApproach = "approach and leave the contour straight: NORM";
 constexpr LetterSet kPoleWords{"XYZpq"};
 constexpr LetterSet kDrillingWords{"zVuZdPKQrWfevmtwxeIJEkslghi"};
 constexpr int kFirstFurtherOffset = 5050;  // G505
@@ -135,6 +138,7 @@ constexpr std::array kSinumerikCodes{
     passed("RTLIOF"),
     passed("WALIMON"),
     passed("WALIMOF"),
+    passed("FIFOCTRL"),
     passed("STARTFIFO"),
     passed("STOPFIFO"),
     passed("SBLON"),
@@ -177,9 +181,9 @@ constexpr std::array kSinumerikRefusedCodes{
     RefusedCode{'G', 4510, 4510, "go round outer corners by an arc: G450"},
     RefusedCode{'G', 740, 759, "move to the positions with SUPA and D0"},
     RefusedCode{'G', 580, 599, "shift by TRANS and ATRANS"},
-    RefusedCode{'G', 1400, 1489, "approach and leave the contour by G1, G2 and G3 blocks"},
-    RefusedCode{'G', 2470, 2489, "approach and leave the contour by G1, G2 and G3 blocks"},
-    RefusedCode{'G', 3400, 3489, "approach and leave the contour by G1, G2 and G3 blocks"},
+    RefusedCode{'G', 1400, 1489, kNoApproach},
+    RefusedCode{'G', 2470, 2489, kNoApproach},
+    RefusedCode{'G', 3400, 3489, kNoApproach},
     RefusedCode{'G', 2910, 2919, "the program goes on in the ISO language: read it as fanuc"},
     RefusedCode{'G', 200, 219, "words of the ISO language need G291, or reading as fanuc"},
     RefusedCode{'G', 280, 289, "words of the ISO language need G291, or reading as fanuc"},
@@ -192,6 +196,7 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"ROTS", kNoFrames},
     RefusedWord{"AROTS", kNoFrames},
     RefusedWord{"TOFRAME", kNoFrames},
+    RefusedWord{"TOROT", kNoFrames},
     RefusedWord{"PAROT", kNoFrames},
     RefusedWord{"TRACYL", kNoTransformation},
     RefusedWord{"TRANSMIT", kNoTransformation},
@@ -212,10 +217,19 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"ANG", kNoCorners},
     RefusedWord{"AR", "give the arc by its centre I J K, or by CR="},
     RefusedWord{"DISC", "go round outer corners by an arc: G450 alone"},
-    RefusedWord{"DISR", "approach and leave the contour by G1, G2 and G3 blocks"},
+    RefusedWord{"DISR", kNoApproach},
+    RefusedWord{"DISCL", kNoApproach},
+    RefusedWord{"FAD", kNoApproach},
     RefusedWord{"OFFN", "program the path of the tool centre and use G40"},
-    RefusedWord{"DL", "give the tool's true size in the job"},
-    RefusedWord{"TOFFL", "give the tool's true size in the job"},
+    RefusedWord{"DL", kNoToolOffsets},
+    RefusedWord{"TOFF", kNoToolOffsets},
+    RefusedWord{"TOFFL", kNoToolOffsets},
+    RefusedWord{"TOFFR", kNoToolOffsets},
+    RefusedWord{"TOFFLR", kNoToolOffsets},
+    RefusedWord{"FB", "write the feed of the block by F, and the one before by F after it"},
+    RefusedWord{"FZ", "give the feed per minute or per revolution by F"},
+    RefusedWord{"SVC", "give the spindle speed in revolutions per minute by S"},
+    RefusedWord{"FXS", "move to the position by G1"},
     RefusedWord{"MEAS", "leave probing out of the simulated program"},
     RefusedWord{"MEAW", "leave probing out of the simulated program"},
     RefusedWord{"CYCLE840", kNoCycles},
@@ -266,7 +280,9 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"ORIEULER", "give directions by A3= B3= C3="},
     RefusedWord{"ORIRPY", "give directions by A3= B3= C3="},
     RefusedWord{"GOTOS", "write a loop: LOOP and ENDLOOP"},
-    RefusedWord{"KONT", "approach and leave the contour straight: NORM"},
+    RefusedWord{"KONT", kNoContourApproach},
+    RefusedWord{"KONTC", kNoContourApproach},
+    RefusedWord{"KONTT", kNoContourApproach},
     RefusedWord{"SF", "write threads of one start, which begin at the spindle's mark"},
 };
 

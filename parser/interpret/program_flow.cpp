@@ -234,12 +234,8 @@ std::optional<TextPlace> ProgramRun::find_label(std::string_view label, Search s
   };
   constexpr auto kEnd = std::numeric_limits<std::uint64_t>::max();
   if (!number) {
-    const Landmark* target = frame().program->map().target(label, here);
-    if (target == nullptr) return std::nullopt;
-    const bool behind = target->place.offset > here.offset;
-    if ((search == Search::forward && !behind) || (search == Search::backward && behind))
-      return std::nullopt;
-    return target->place;
+    const Landmark* target = frame().program->map().target(label, here, search);
+    return target == nullptr ? std::nullopt : std::optional(target->place);
   }
   if (search == Search::forward) return found_in(frame().cursor.place(), kEnd);
   // A block may jump to itself.
@@ -262,6 +258,14 @@ ProgramRun::Failure ProgramRun::jump(const Block& block) {
   return go_to_label(block, *label, flow.search);
 }
 
+// Of labels that are there twice.
+void ProgramRun::report_choice(const Block& block, const std::string& label) {
+  if (!frame().program->map().is_there_twice(label, frame().cursor.block_place())) return;
+  executor_.state().at_work.block = &block;
+  assume(executor_.state(), block.flow->column, "label",
+         fmt::format("{} is there twice: the nearest one where the search goes counts", label));
+}
+
 ProgramRun::Failure ProgramRun::go_to_label(const Block& block, const std::string& label,
                                             Search search) {
   const FlowStatement& flow = *block.flow;
@@ -269,6 +273,7 @@ ProgramRun::Failure ProgramRun::go_to_label(const Block& block, const std::strin
     return frame().program->map().faults().front();
   }
   const auto target = find_label(label, search);
+  report_choice(block, label);
   if (!target && flow.may_be_missing) return std::nullopt;
   if (!target) {
     return at(block, flow.column, "missing-label"_id, fmt::format("there is no {} to go to", label),

@@ -119,6 +119,7 @@ ProgramRun::Failure ProgramRun::repeat(const Block& block) {
   const auto count = count_of(block, flow.condition);
   if (!count) return count.error().front();
   const auto begin = find_label(flow.label, flow.search);
+  report_choice(block, flow.label);
   if (begin && !frame().program->map().faults().empty() && rules_.subprograms_are_programs) {
     return frame().program->map().faults().front();
   }

@@ -154,8 +154,11 @@ void ProgramMap::pair(const Program& program) {
       if (!fresh && !again) twice(here, landmarks_[first->second]);
     } else if ((here.kind == FlowKind::subprogram || here.kind == FlowKind::label) &&
                here.label != kEndLabel) {
-      const auto [first, fresh] = labels_.emplace(std::pair(here.program, here.label), i);
-      if (!fresh) twice(here, landmarks_[first->second]);
+      auto& known = labels_[std::pair(here.program, here.label)];
+      known.push_back(i);
+      const bool may_be_twice =
+          program.dialect == Dialect::sinumerik && here.kind == FlowKind::label;
+      if (known.size() > 1 && !may_be_twice) twice(here, landmarks_[known.front()]);
       targets_.emplace(here.label, i);
     }
     // `while` after the body of a `do` of the same label is its end.
@@ -245,9 +248,35 @@ const Landmark* ProgramMap::head(std::string_view name) const {
   return found == heads_.end() ? nullptr : &landmarks_[found->second];
 }
 
-const Landmark* ProgramMap::target(std::string_view label, TextPlace from) const {
+const Landmark* ProgramMap::target(std::string_view label, TextPlace from, Search search) const {
   const auto found = labels_.find(std::pair(program_at(from), std::string(label)));
-  return found == labels_.end() ? nullptr : &landmarks_[found->second];
+  if (found == labels_.end()) return nullptr;
+  const Landmark* ahead = nullptr;
+  const Landmark* before = nullptr;
+  for (const std::size_t index : found->second) {
+    const Landmark& candidate = landmarks_[index];
+    if (candidate.place.offset <= from.offset) {
+      before = &candidate;
+    } else if (ahead == nullptr) {
+      ahead = &candidate;
+    }
+  }
+  switch (search) {
+    case Search::forward:
+      return ahead;
+    case Search::backward:
+      return before;
+    case Search::forward_then_backward:
+      return ahead != nullptr ? ahead : before;
+    case Search::from_start:
+      break;
+  }
+  return &landmarks_[found->second.front()];
+}
+
+bool ProgramMap::is_there_twice(std::string_view label, TextPlace from) const {
+  const auto found = labels_.find(std::pair(program_at(from), std::string(label)));
+  return found != labels_.end() && found->second.size() > 1;
 }
 
 const Landmark* ProgramMap::end_label(TextPlace from, std::uint64_t to) const {

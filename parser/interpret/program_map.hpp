@@ -6,7 +6,7 @@
 // Shape : one read of the whole text
 // Errors: faults(): an end without its beginning, a beginning without its end, else after else,
 //         break outside a loop, a subprogram within another or of the same name, a label that is
-//         there twice. Blocks with a syntax error are passed over; they are reported when they are
+//         there twice (but of Sinumerik). Blocks with a syntax error are passed over; they are reported when they are
 //         run
 #pragma once
 
@@ -57,8 +57,10 @@ class ProgramMap {
   [[nodiscard]] const Landmark& at(TextPlace place) const;
   // The subprogram or label of that name; null when there is none.
   [[nodiscard]] const Landmark* target(std::string_view label) const;
-  // The same, a label being one of the program that `from` is in.
-  [[nodiscard]] const Landmark* target(std::string_view label, TextPlace from) const;
+  // The same, a label being one of the program that `from` is in: of those that are there twice the
+  // nearest one that `search` comes to.
+  [[nodiscard]] const Landmark* target(std::string_view label, TextPlace from, Search search) const;
+  [[nodiscard]] bool is_there_twice(std::string_view label, TextPlace from) const;
   // What begins the program of that name within the file; null when there is none.
   [[nodiscard]] const Landmark* head(std::string_view name) const;
   // The first ENDLABEL between two places of a program; null when there is none.
@@ -82,7 +84,7 @@ class ProgramMap {
   std::map<std::string, std::size_t, std::less<>> targets_{};
   std::map<std::string, std::size_t, std::less<>> heads_{};
   // The labels of each program where a file has several.
-  std::map<std::pair<std::size_t, std::string>, std::size_t> labels_{};
+  std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> labels_{};
   std::map<std::uint32_t, Numbered> programs_{};
   Diagnostics faults_{};
 };

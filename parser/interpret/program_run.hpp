@@ -70,6 +70,7 @@ class ProgramRun {
   [[nodiscard]] std::optional<std::uint64_t> end_of_part(const FlowStatement& flow,
                                                          TextPlace begin);
   [[nodiscard]] std::optional<TextPlace> find_label(std::string_view label, Search search);
+  void report_choice(const Block& block, const std::string& label);
 
   [[nodiscard]] Failure execute(const Block& block);
   [[nodiscard]] Diagnostic in_main(Diagnostic diagnostic) const;

@@ -60,6 +60,7 @@ struct ExpressionSpelling {
   std::string_view name_open{}, name_close{};
   std::string_view index_open{}, index_close{};
   std::string_view plain_index{};
+  std::string_view exponent{};  // 1.5EX-3
 };
 
 }  // namespace frustum::parser

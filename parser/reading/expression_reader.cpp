@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace frustum::parser {
@@ -123,7 +126,7 @@ void ExpressionReader::append_unsigned() {
     append(spelling_.in_brackets, column);
     return close_bracket(column, "the expression");
   }
-  if (const auto number = in_.number()) return push_number(number->value, column);
+  if (const auto number = in_.number()) return push_number(number->value * power_of_ten(), column);
   const std::string name = spelling_.words_run_together ? std::string() : in_.name();
   if (append_function(name, column)) return;
   if (in_.failed() || rules_.read_variable(*this, name, column)) return;
@@ -132,6 +135,24 @@ void ExpressionReader::append_unsigned() {
   found_nothing_ = depth_ == 0;
   const bool ends = depth_ > 0 && in_.at_end();
   report(in_, ends ? rules_.no_operand_at_end : rules_.no_operand, opening_, name);
+}
+
+double ExpressionReader::power_of_ten() {
+  if (spelling_.exponent.empty()) return 1.0;
+  const std::uint32_t start = in_.column();
+  if (in_.take_bytes(spelling_.exponent)) {
+    const bool negative = in_.take('-');
+    if (!negative) in_.take('+');
+    const auto digits = in_.digits();
+    constexpr std::size_t kMostDigits = 3;
+    int power = 0;
+    if (!digits.empty() && digits.size() <= kMostDigits) {
+      std::from_chars(digits.data(), digits.data() + digits.size(), power);
+      return std::pow(10.0, negative ? -power : power);
+    }
+  }
+  in_.go_to(start);
+  return 1.0;
 }
 
 bool ExpressionReader::append_function(const std::string& name, std::uint32_t column) {

@@ -79,6 +79,7 @@ class ExpressionReader {
   void append_level(ExpressionLevel level);
   void append_operand();
   void append_unsigned();
+  [[nodiscard]] double power_of_ten();  // of a number that is read
   bool append_function(const std::string& name, std::uint32_t column);
   void append_arguments(const ExpressionFunction& function);
   void append_divisor(const ExpressionFunction& function);

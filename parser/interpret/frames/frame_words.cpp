@@ -329,7 +329,7 @@ Outcome check_programmed_frame(const InterpreterState& state, const Movement& mo
   if (!state.modes.programmed_frame.turns() && !state.modes.offset_frame.turns()) return Done{};
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
     const bool mixed =
-        state.modes.programmed_frame.mixes(axis) || state.modes.offset_frame.mixes(axis);
+        state.modes.programmed_frame.blends(axis) || state.modes.offset_frame.mixes(axis);
     if (state.position[axis] || !mixed) continue;
     return fail(state, movement.column, state.position.unknown_id(axis),
                 fmt::format("a move in a turned frame, but {}", state.position.why_unknown(axis)),

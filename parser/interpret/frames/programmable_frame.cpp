@@ -24,13 +24,13 @@ Result<ProgramFrame> scaling_of(const InterpreterState& state, const BlockWords&
   const GivenCode& code = words[CodeGroup::program_frame];
   std::optional<double> factor;
   for (const char axis : {'X', 'Y', 'Z'}) {
-    const bool same = words.has(axis) && (!factor || *factor == words[axis].value);
-    if (!same) {
+    const double given = words.has(axis) ? words[axis].value : 1.0;
+    if (factor && *factor != given) {
       return fail(state, words.has(axis) ? words[axis].column : code.column, "scaling-uneven"_id,
                   fmt::format("{} scales the axes in different ways", code.code->name()),
                   "circles would be none: give X, Y and Z the same factor");
     }
-    factor = words[axis].value;
+    factor = given;
   }
   if (!(*factor > 0.0)) {
     return fail(state, words['X'].column, "scaling-factor"_id,

@@ -18,8 +18,7 @@ constexpr std::string_view kRotaryLetters = "ABC";
 
 constexpr double kTurnInDegrees = 360.0;
 
-Result<RotaryPath> rotary_path_of(const InterpreterState& state, const BlockWords& words,
-                                  char letter) {
+RotaryPath rotary_path_of(InterpreterState& state, const BlockWords& words, char letter) {
   const GivenWord& word = words[letter];
   switch (word.measure) {
     case Measure::shortest:
@@ -45,11 +44,11 @@ Result<RotaryPath> rotary_path_of(const InterpreterState& state, const BlockWord
   if (std::abs(word.value) < kTurnInDegrees) {
     return word.value > 0.0 ? RotaryPath::positive : RotaryPath::negative;
   }
-  return fail(
-      state, word.column, "rotary-step"_id,
-      fmt::format("{} is a step of a full turn or more, from a place known but for full turns",
-                  words.text_of(letter)),
-      fmt::format("write smaller steps, or place {0} before by {0}=AC(0)", letter));
+  assume(
+      state, word.column, "rotary-step",
+      fmt::format("a step of a full turn or more: {} has made no full turns beside its last word",
+                  letter));
+  return RotaryPath::as_programmed;
 }
 
 }  // namespace
@@ -80,10 +79,9 @@ Outcome announce_rotary_paths(InterpreterState& state, const BlockWords& words,
   std::array<std::optional<RotaryPath>, 3> paths{};
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!words.has(kRotaryLetters[i])) continue;
-    const auto path = rotary_path_of(state, words, kRotaryLetters[i]);
-    if (!path) return path.error();
-    state.modes.loose.at(i) = *path != RotaryPath::as_programmed;
-    if (*path != state.modes.announced_rotary_paths.at(i)) paths.at(i) = *path;
+    const RotaryPath path = rotary_path_of(state, words, kRotaryLetters[i]);
+    state.modes.loose.at(i) = path != RotaryPath::as_programmed;
+    if (path != state.modes.announced_rotary_paths.at(i)) paths.at(i) = path;
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!paths.at(i)) continue;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "parser/arc.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/arc_chords.hpp"
@@ -82,6 +83,25 @@ Result<Arc> arc_of_iso(InterpreterState& state, const Movement& movement, const 
   assume(state, movement.column, "arc centres",
          "I J K are the centre itself, as the radii of the first arc agree only so");
   return otherwise;
+}
+
+// Full turns are before the way to the end. TURN=1.5 of some posts has a half where the way to the
+// end is half a turn.
+bool is_share(InterpreterState& state, const BlockWords& words, const ArcWords& given,
+              const Arc& arc) {
+  constexpr double kSame = 1e-3;  // of a turn
+  const double share = words['e'].value - std::floor(words['e'].value);
+  if (share == 0.0 || words['e'].value < 0.0 || words['e'].value > kMaxHelixTurns) return false;
+  const PlaneAxes axes = axes_of(given.plane);
+  const auto heading = [&](const Vec3& point) {
+    return std::atan2(point[axes.v] - arc.centre[axes.v], point[axes.u] - arc.centre[axes.u]);
+  };
+  const double turned = (heading(arc.end) - heading(given.start)) / kTurn;
+  const double swept = given.clockwise ? -turned : turned;
+  if (std::abs(swept - std::floor(swept) - share) > kSame) return false;
+  assume(state, words['e'].column, "TURN",
+         "the part of a turn is the way to the end, which comes after the whole turns");
+  return true;
 }
 
 // Behind G40 the tool stays beside the contour until a move in the plane.
@@ -255,7 +275,9 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
     if (!given) return given.error();
     turns = *given;
   }
-  if (words.has('e')) {
+  if (words.has('e') && is_share(state, words, arc_words, *arc)) {
+    turns += static_cast<int>(words['e'].value);
+  } else if (words.has('e')) {
     const auto more = whole(state, words, 'e', 0, kMaxHelixTurns);
     if (!more) return more.error();
     turns += *more;

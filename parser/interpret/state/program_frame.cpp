@@ -1,5 +1,7 @@
 #include "parser/interpret/state/program_frame.hpp"
 
+#include <cmath>
+
 namespace frustum::parser {
 namespace {
 
@@ -28,10 +30,16 @@ ProgramFrame ProgramFrame::shift(const Vec3& origin, const std::array<double, 3>
 }
 
 ProgramFrame ProgramFrame::turn(const Vec3& angles) {
+  // Of a right angle, an axis goes on along another one exactly.
+  constexpr double kRounding = 1e-15;
   ProgramFrame frame;
   frame.linear = rotation_about(Vec3::UnitZ(), angles[2]) *
                  rotation_about(Vec3::UnitY(), angles[1]) *
                  rotation_about(Vec3::UnitX(), angles[0]);
+  frame.linear = frame.linear.unaryExpr([](double part) {
+    const double nearest = std::round(part);
+    return std::abs(part - nearest) < kRounding ? nearest + 0.0 : part;
+  });
   return frame;
 }
 

@@ -41,6 +41,17 @@ bool ProgrammedFrame::mixes(AxisLetter axis) const {
   return false;
 }
 
+bool ProgrammedFrame::blends(AxisLetter axis) const {
+  const auto i = static_cast<Eigen::Index>(axis);
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index other = 0; other < 3; ++other) {
+      const bool both = turn.rotation(row, i) != 0.0 && turn.rotation(row, other) != 0.0;
+      if (other != i && both) return true;
+    }
+  }
+  return false;
+}
+
 bool ProgrammedFrame::is_identity() const {
   return shift.isZero(0.0) && turn.translation.isZero(0.0) &&
          rotary_shift == std::array<double, 3>{} && !turns() && scale == 1.0 && !is_mirrored();

@@ -33,6 +33,8 @@ struct ProgrammedFrame {
 
   // Whether the turn mixes the coordinate with another one.
   [[nodiscard]] bool mixes(AxisLetter axis) const;
+  // Whether an axis of the machine goes by that one and another one.
+  [[nodiscard]] bool blends(AxisLetter axis) const;
   // Both leave out what the turn mixes with a coordinate that is not known.
   [[nodiscard]] AxisTarget from_words(const AxisTarget& words) const;
   [[nodiscard]] AxisTarget to_words(const AxisTarget& place) const;

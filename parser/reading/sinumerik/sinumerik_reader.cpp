@@ -136,6 +136,7 @@ class SinumerikReader {
       in_.go_to(start);
     }
     if (letter == 'H') return read_auxiliary(draft_, "H", column);
+    if (read_parallel_axis(draft_, letter, column)) return;
     Word word;
     word.letter = letter;
     word.column = column;

@@ -13,10 +13,18 @@ namespace frustum::parser {
 namespace {
 
 // Settings that change nothing that is simulated: SPOS=30, ACC[X]=50.
-constexpr std::array<const char*, 24> kSettings{
-    "SPOS",    "SPOSA", "ADIS",     "ADISPOS", "LIMS", "OVR",     "OVRRAP",  "ACC",
-    "CTOL",    "OTOL",  "STOLF",    "ATOL",    "FD",   "JERKLIM", "VELOLIM", "FGREF",
-    "ACCLIMA", "OVRA",  "FIFOCTRL", "SCC",     "FL",   "FPR",     "TOLFRC",  "CUTMOD"};
+constexpr std::array<const char*, 23> kSettings{
+    "SPOS",    "SPOSA", "ADIS",  "ADISPOS", "LIMS", "OVR",     "OVRRAP",  "ACC",
+    "CTOL",    "OTOL",  "STOLF", "ATOL",    "FD",   "JERKLIM", "VELOLIM", "FGREF",
+    "ACCLIMA", "OVRA",  "SCC",   "FL",      "FPR",  "TOLFRC",  "CUTMOD"};
+
+// Settings that change nothing at zero, where they are switched off or what they are anyway.
+constexpr std::array<const char*, 9> kIdleAtZero{"OFFN",   "DL",   "TOFF",  "TOFFL", "TOFFR",
+                                                 "TOFFLR", "DISC", "TCARR", "FXS"};
+
+// Axes beside X, Y and Z, of a quill or a second slide: at zero they are where they were when the
+// work offset was taken.
+constexpr std::array<const char*, 3> kParallelAxes{"U", "V", "W"};
 
 // Statements that take anything in brackets and change nothing that is simulated.
 constexpr std::array<const char*, 37> kEvents{
@@ -83,6 +91,37 @@ void read_setting(BlockDraft& draft, const char* name, std::uint32_t column) {
   draft.add_event(name, column, std::string(text.substr(0, text.find_last_not_of(kBlanks) + 1)));
 }
 
+// Takes a plain number that is zero.
+bool is_zero(LineScanner& in) {
+  const std::uint32_t start = in.column();
+  if (!in.take('-')) in.take('+');
+  const auto number = in.number();
+  // No word or operator goes on from it.
+  const char next = in.peek();
+  const bool more = next == '+' || next == '-' || next == '*' || next == '/' || next == '(';
+  if (number && number->value == 0.0 && !more) return true;
+  in.go_to(start);
+  return false;
+}
+
+// OFFN=0, TOFFL[1]=0: an event; otherwise what refuses the word reports it.
+bool read_idle_setting(BlockDraft& draft, const std::string& name, std::uint32_t column) {
+  LineScanner& in = draft.in;
+  const char* idle = found_in(kIdleAtZero, name);
+  if (idle == nullptr) return false;
+  const std::uint32_t start = in.column();
+  if (in.take('[')) {
+    (void)in.text_to("]");
+    in.take(']');
+  }
+  if (in.take('=') && is_zero(in)) {
+    draft.add_event(idle, column, "0");
+    return true;
+  }
+  in.go_to(start);
+  return false;
+}
+
 // NAME(...), kept as text.
 void read_event(BlockDraft& draft, const char* name, std::uint32_t column, bool message) {
   LineScanner& in = draft.in;
@@ -113,7 +152,24 @@ void read_event(BlockDraft& draft, const char* name, std::uint32_t column, bool 
 
 }  // namespace
 
+bool read_parallel_axis(BlockDraft& draft, char letter, std::uint32_t column) {
+  const char* axis = found_in(kParallelAxes, std::string_view(&letter, 1));
+  if (axis == nullptr) return false;
+  const std::uint32_t start = draft.in.column();
+  draft.in.take('=');
+  if (is_zero(draft.in)) {
+    draft.add_event(axis, column, "the axis at zero is where the work offset was taken");
+    draft.block.comments.back().assumed = true;
+    return true;
+  }
+  draft.in.go_to(start);
+  draft.in.fail("not-simulated"_id, column, fmt::format("{} moves an axis beside X Y Z", letter),
+                fmt::format("move the tool by X Y Z, and leave {} at zero", letter));
+  return true;
+}
+
 bool read_sinumerik_setting(BlockDraft& draft, const std::string& name, std::uint32_t column) {
+  if (read_idle_setting(draft, name, column)) return true;
   if (name == "MSG") {
     read_event(draft, "message", column, true);
     return true;

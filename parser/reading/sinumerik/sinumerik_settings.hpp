@@ -14,6 +14,8 @@ namespace frustum::parser {
 // The setting or event of that name; false when there is none.
 [[nodiscard]] bool read_sinumerik_setting(BlockDraft& draft, const std::string& name,
                                           std::uint32_t column);
+// U0, V=0, W0: the letter is read; false when it is none of these.
+[[nodiscard]] bool read_parallel_axis(BlockDraft& draft, char letter, std::uint32_t column);
 // WIDTH=5, FIELD[1]=5; the name is read.
 void read_variable_setting(BlockDraft& draft, const std::string& name, std::uint32_t column);
 // Of a setting or definition, after its =: one value, or SET(1,2,3), REP(0), (1,2,3).

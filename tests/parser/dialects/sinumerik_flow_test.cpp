@@ -16,6 +16,18 @@ std::vector<double> x_of_sinumerik(std::string_view text) {
   return places;
 }
 
+TEST(SinumerikFlow, OfLabelsThatAreThereTwiceTheNearestOneCounts) {
+  const std::string twice =
+      "IF R1==1 GOTOF AA\nG0 X1\nAA: G0 X2\nIF R1==0 GOTOF AA\nG0 X3\nAA: G0 X4\n"
+      "R2=R2+1\nIF R2==1 GOTOB AA\n";
+  EXPECT_EQ(x_of_sinumerik(twice), (std::vector<double>{1, 2, 4, 4}));
+  EXPECT_EQ(x_of_sinumerik("R1=1\n" + twice), (std::vector<double>{2, 3, 4, 4}));
+  const auto told = all_of<Event>(motions(twice, {}, Dialect::sinumerik));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].name, "label");
+  EXPECT_EQ(told[0].grade, EventGrade::assumed);
+}
+
 TEST(SinumerikFlow, EndifOfAJumpClosesNothing) {
   const auto x_of = [](std::string_view text) {
     return *last_of<Traverse>(motions(text, {}, Dialect::sinumerik)).end[AxisLetter::X];

@@ -64,6 +64,22 @@ TEST(SinumerikFrames, RotTurnsAboutZThenYThenX) {
   expect_frame_end("ROT X90 Z90\nG0 X0 Y1 Z0\n", 0, 0, 1);
 }
 
+TEST(SinumerikFrames, OfFactorsThatAreLeftOutAreOne) {
+  expect_frame_end("SCALE X1 Y1\nG0 X1 Y2 Z3\n", 1, 2, 3);
+  expect_frame_end("TRANS X4\nR1=1\nASCALE X=R1\nG0 X1 Y2 Z3\n", 5, 2, 3);
+}
+
+// X then moves Z of the machine alone, and Z its X, whose place need not be known.
+TEST(SinumerikFrames, OfRightAnglesMoveOneAxisByAnother) {
+  const auto moves = all_of<Traverse>(run_in_frame("ROT Y-90\nG0 X100 Y2\nZ-7\n"));
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_FALSE(moves[0].end[X].has_value());
+  EXPECT_EQ(moves[0].end[Y], 2.0);
+  EXPECT_EQ(moves[0].end[Z], 100.0);
+  EXPECT_EQ(moves[1].end[X], 7.0);
+  EXPECT_EQ(moves[1].end[Z], 100.0);
+}
+
 TEST(SinumerikFrames, OrderMatters) {
   expect_frame_end("TRANS X10\nAROT Z90\nG0 X1 Y0 Z0\n", 10, 1, 0);
   expect_frame_end("ROT Z90\nATRANS X10\nG0 X1 Y0 Z0\n", 0, 11, 0);

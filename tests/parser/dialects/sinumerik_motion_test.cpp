@@ -59,6 +59,14 @@ TEST(SinumerikRotary, StepsGoOnFromWhereTheAxisIs) {
                    620 * kRadPerDeg);
 }
 
+TEST(SinumerikRotary, FullTurnsCountFromTheLastWord) {
+  const auto moves = run_sinumerik("G0 X0 C=DC(10)\nG91 G1 C-360.1 F100\n");
+  EXPECT_NEAR(*last_of<LinearFeed>(moves).end[C], -350.1 * kRadPerDeg, 1e-12);
+  EXPECT_EQ(all_of<RotaryPathChange>(moves).back().path, RotaryPath::as_programmed);
+  ASSERT_EQ(all_of<Event>(moves).size(), 1U);
+  EXPECT_EQ(all_of<Event>(moves)[0].grade, EventGrade::assumed);
+}
+
 TEST(SinumerikOrientation, OfTheMachineIsThatOfTheWordsWhileNoFrameTurnsThem) {
   const std::string head = "T1 D1 M6\nTRAORI\nG0 X0 Y0 Z0\n";
   const std::string vector = "G1 X5 A3=0.6 B3=0 C3=0.8 F100\n";
@@ -269,6 +277,20 @@ RC_GTEST_PROP(SinumerikArcLaws, ArcsThroughAPointStayOnTheirCircle, ()) {
   RC_ASSERT((last - end).norm() < 1e-9);
   RC_ASSERT(std::abs(turned - to_end) < 1e-5);
   RC_ASSERT(all_of<Event>(all).at(0).name == "CIP");
+}
+
+TEST(SinumerikArcs, MayHaveTheShareOfTheirLastTurnInTheirNumber) {
+  const auto turns = [](std::string_view arc) {
+    return last_of<ArcFeed>(run_sinumerik("G1 X10 Y0 Z0 F100\n" + std::string(arc))).turns;
+  };
+  EXPECT_EQ(turns("G2 X-10 Y0 Z-1 I-10 J0 TURN=.5\n"), -1);
+  EXPECT_EQ(turns("G3 X0 Y-10 Z-1 I-10 J0 TURN=2.75\n"), 3);
+  EXPECT_EQ(turns("G3 X10 Y0 Z-1 I-10 J0 TURN=1\n"), 2);
+  const auto ids = [](std::string_view arc) {
+    return complaint_ids("G1 X10 Y0 Z0 F100\n" + std::string(arc), {}, Dialect::sinumerik);
+  };
+  EXPECT_EQ(ids("G2 X-10 Y0 Z-1 I-10 J0 TURN=.25\n"), std::vector<std::string>{"not-whole"});
+  EXPECT_EQ(ids("G2 X-10 Y0 Z-1 I-10 J0 TURN=-.5\n"), std::vector<std::string>{"not-whole"});
 }
 
 TEST(SinumerikArcs, InSpaceShareTheTimeOfTheirBlock) {

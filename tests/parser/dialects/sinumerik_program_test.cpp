@@ -194,7 +194,8 @@ TEST(SinumerikProgram, TellsMistakes) {
       {"CASE R1 OF 1 G0\n", "1:14: error: a value of CASE has no jump"},
       {"CASE R1 OF 0 GOTOF NOWHERE\n", "1:1: error: there is no NOWHERE to go to"},
       {"%_N_AB_MPF\nG0 X1\nM30\n%_N_CC_SPF\nRET\n%_N_CC_SPF\nCC\n", "none"},
-      {"AA:\nGOTOF BB\nAA:\nBB:\n", "3:1: error: AA is already on line 1"},
+      {"AA:\nGOTOF CC\nAA:\nBB:\n", "2:1: error: there is no CC to go to"},
+      {"G0 X1\nAA:\nGOTOF AA\n", "3:1: error: there is no AA to go to"},
   };
   for (const Mistake& mistake : mistakes) {
     EXPECT_EQ(complaint_of(mistake.text), mistake.complaint) << mistake.text;

@@ -110,6 +110,34 @@ TEST(SinumerikWords, Fault2_10_OfTheBuilderAreEvents) {
   EXPECT_EQ(grade_of(all, "H"), EventGrade::builder);
 }
 
+TEST(SinumerikWords, OfATruerToolAndOtherFeedsAreRefusedUnlessTheyAreZero) {
+  for (const char* word :
+       {"TOFF[Z]=1", "TOFFL=0.1", "TOFFR=0.1", "TOFFLR=0.2", "OFFN=2", "DL=1", "DISC=0.5",
+        "TCARR=1", "FXS[X]=1", "FB=100", "FZ=0.1", "SVC=100", "OFFN=0+R1"}) {
+    EXPECT_EQ(ids_of(std::string("G0 X1 ") + word + "\n"),
+              std::vector<std::string>{"not-supported"})
+        << word;
+  }
+  const auto idle = run_words("G0 X1 OFFN=0 DL=0 TOFFL[2]=0. DISC=0\nTCARR=0\n");
+  EXPECT_EQ(texts_of(idle, "TOFFL"), std::vector<std::string>{"0"});
+  EXPECT_EQ(all_of<Event>(idle).size(), 5U);
+}
+
+TEST(SinumerikWords, OfAParallelAxisStayAtZero) {
+  const auto rests = run_words("G0 X1 Z5 W0\nV=0 X2 W0.0\n");
+  EXPECT_EQ(*last_of<Traverse>(rests).end[X], 2.0);
+  EXPECT_EQ(grade_of(rests, "W"), EventGrade::assumed);
+  EXPECT_EQ(grade_of(rests, "V"), EventGrade::assumed);
+  EXPECT_EQ(ids_of("G0 X1 W5\n"), std::vector<std::string>{"not-simulated"});
+  EXPECT_EQ(ids_of("G0 X1 W=0+R1\n"), std::vector<std::string>{"not-simulated"});
+}
+
+TEST(SinumerikExpressions, HaveNumbersWithAnExponent) {
+  EXPECT_DOUBLE_EQ(x_after("G0 X=1.5EX2\n"), 150.0);
+  EXPECT_DOUBLE_EQ(x_after("R1=-2EX-3\nG0 X=R1*1EX+3\n"), -2.0);
+  EXPECT_EQ(ids_of("G0 X=2EX\n"), std::vector<std::string>{"unknown-word"});
+}
+
 TEST(SinumerikWords, Fault2_10_SwitchTheTransformationOffHoweverTheyAreSpelled) {
   for (const char* off : {"TRAFOOF", "TRAFOOF()", "TRAOOF"}) {
     const auto all = run_words(std::string("T1 D1 M6\nTRAORI(1)\n") + off + "\n");
