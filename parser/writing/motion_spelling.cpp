@@ -22,8 +22,10 @@ constexpr NcSpelling kFanucWords{
     .counterclockwise = "G3",
     .with_vector = "",
     .traverse_feed = "",
-    .thread = "",
-    .lead = "",
+    .thread = "G33",
+    .lead = "F",
+    .lead_by = LeadBy::one_axis,
+    .rigid_tap = "",
     .modal = true,
     .planes = {"G17", "G18", "G19"},
     .tool_vector = {"I", "J", "K"},
@@ -37,6 +39,7 @@ constexpr NcSpelling kFanucWords{
     .turns_beyond = 0,
     .feed_modes = {"G94", "G93", "G95"},
     .feed_words = {"F", "F", "F"},
+    .feed_mode_blocks = false,
     .no_compensation = "G49",
     .length = "G43 H#",
     .tool_centre_point = "G43.4 H#",
@@ -65,8 +68,9 @@ constexpr NcSpelling linuxcnc_words() {
   s.header = "%\n($)";
   s.modes = "G21 G90 G91.1 G17 G40 G49 G80 G94";
   s.upper_comments = false;
-  s.thread = "G33";
   s.lead = "K";
+  s.lead_by = LeadBy::way;
+  s.rigid_tap = "G33.1";
   s.full_turns = "P#";
   s.tool_vector = {};
   s.tool_vectors = "";
@@ -93,6 +97,8 @@ constexpr NcSpelling sinumerik_words() {
   s.whole_numbers = WholeNumbers::without_point;
   s.tool_vector = {"A3=", "B3=", "C3="};
   s.vectors_on_arcs = true;
+  s.lead = "IJK";
+  s.lead_by = LeadBy::longest_axis;
   s.home_return = "";
   s.before_machine_coordinates = "SUPA";
   s.machine_coordinates_compensated = true;
@@ -133,6 +139,8 @@ constexpr NcSpelling kHeidenhainWords{
     .traverse_feed = "R0 FMAX",
     .thread = "",
     .lead = "",
+    .lead_by = LeadBy::way,
+    .rigid_tap = "",
     .modal = false,
     .planes = {},
     .tool_vector = {"TX", "TY", "TZ"},
@@ -146,6 +154,8 @@ constexpr NcSpelling kHeidenhainWords{
     .turns_beyond = 0,
     .feed_modes = {"M137", "", "M136"},
     .feed_words = {"F", "FT", "F"},
+    // M137 counts when the move of its block is done, F before.
+    .feed_mode_blocks = true,
     .no_compensation = "",
     .length = "",
     .tool_centre_point = "",  // the orientation path says it

@@ -8,12 +8,17 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "parser/dialect.hpp"
 #include "parser/writing/number_text.hpp"
 
 namespace frustum::parser {
+
+// What the lead of a thread counts along: its way; its axis, of which it has one; its longest axis,
+// for each of which there is a letter.
+enum class LeadBy : std::uint8_t { way, one_axis, longest_axis };
 
 struct NcSpelling {
   std::string_view title;      // of the controller
@@ -38,6 +43,8 @@ struct NcSpelling {
   std::string_view traverse_feed;  // is where F would
   // Synchronised with the spindle, and the letter of the way of a revolution; empty: none.
   std::string_view thread, lead;
+  LeadBy lead_by;
+  std::string_view rigid_tap;  // to the bottom and back, the spindle reversing; empty: none
   bool modal;
   std::array<std::string_view, 3> planes;       // XY ZX YZ
   std::array<std::string_view, 3> tool_vector;  // components; empty: none
@@ -53,6 +60,7 @@ struct NcSpelling {
   // Feeds: words that switch the mode, and how the value is written in it.
   std::array<std::string_view, 3> feed_modes;  // per minute, inverse time, per revolution
   std::array<std::string_view, 3> feed_words;  // `FT`: seconds
+  bool feed_mode_blocks;                       // the mode is a block of its own
 
   // States.
   std::string_view no_compensation, length, tool_centre_point, tool_vectors;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -44,6 +45,14 @@ AxisTarget MotionWords::at() const {
     if (const auto& known = known_.at(index_of(letter))) places[letter] = known->value;
   }
   return places;
+}
+
+void MotionWords::stay(const AxisTarget& at) {
+  for (const AxisLetter letter : kAxisLetters) {
+    auto& known = known_.at(index_of(letter));
+    known.reset();
+    if (at[letter]) known = Known{text_of(letter, *at[letter]), *at[letter]};
+  }
 }
 
 std::string MotionWords::axis(AxisLetter letter, double value, bool always) {
@@ -91,12 +100,45 @@ bool MotionWords::flat_in_xy(const ArcFeed& arc) const {
   });
 }
 
+std::string MotionWords::lead(const Feed& feed, const AxisTarget& end) {
+  feed_text_.clear();  // a lead is of its block alone
+  Vec3 way = Vec3::Zero();
+  int axes = 0;
+  bool known = true;
+  for (const AxisLetter letter : kLinearAxes) {
+    const auto& from = known_.at(index_of(letter));
+    if (!end[letter] || (from && from->text == text_of(letter, *end[letter]))) continue;
+    ++axes;
+    known = known && from;
+    way[static_cast<Eigen::Index>(letter)] = from ? *end[letter] - from->value : 1.0;
+  }
+  Eigen::Index longest = 0;
+  way.cwiseAbs().maxCoeff(&longest);
+  double value = feed.value;
+  std::string_view letter = spelling_.lead;
+  if (spelling_.lead_by == LeadBy::longest_axis) {
+    letter = letter.substr(static_cast<std::size_t>(longest), 1);
+    if (axes > 1) value *= std::abs(way[longest]) / way.norm();
+  }
+  if (axes > 1 && (spelling_.lead_by == LeadBy::one_axis ||
+                   (spelling_.lead_by == LeadBy::longest_axis && !known))) {
+    refusals_.add("this thread along several axes", "cut it along one axis");
+    return {};
+  }
+  return std::string(letter) + significant(value, options_.feed_digits);
+}
+
+std::string MotionWords::feed_mode_block(const Feed& feed) {
+  if (!spelling_.feed_mode_blocks || feed.synchronised || feed.mode == feed_mode_) return {};
+  const std::string_view word = spelling_.feed_modes.at(index_of(feed.mode));
+  if (word.empty()) return {};
+  feed_mode_ = feed.mode;
+  feed_text_.clear();
+  return std::string(word);
+}
+
 std::string MotionWords::feed(const Feed& feed) {
   const auto value = [this](double number) { return significant(number, options_.feed_digits); };
-  if (feed.synchronised) {  // of this block alone
-    feed_text_.clear();
-    return std::string(spelling_.lead) + value(feed.value);
-  }
   const std::string_view word = spelling_.feed_words.at(index_of(feed.mode));
   if (word.empty()) {
     refusals_.add(feed.mode == FeedMode::inverse_time ? "inverse time feed" : "feed per revolution",

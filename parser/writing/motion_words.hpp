@@ -51,6 +51,7 @@ class MotionWords {
   [[nodiscard]] bool knows(AxisLetter letter) const { return known_[index_of(letter)].has_value(); }
   // Where the axes are, as far as it is known.
   [[nodiscard]] AxisTarget at() const;
+  void stay(const AxisTarget& at);  // the axes are back where they were
   // X12.5, or nothing when the axis is there already.
   [[nodiscard]] std::string axis(AxisLetter letter, double value, bool always);
   [[nodiscard]] std::string vector(const std::optional<UnitVec3>& tool_axis);
@@ -58,8 +59,12 @@ class MotionWords {
   [[nodiscard]] std::string centre(const ArcFeed& arc, const PlaneAxes& axes) const;
   // Whether the arc moves no axis but X and Y.
   [[nodiscard]] bool flat_in_xy(const ArcFeed& arc) const;
+  // What changes the mode, where it needs a block of its own before the move.
+  [[nodiscard]] std::string feed_mode_block(const Feed& feed);
   // F500, with the words that change the mode before it.
   [[nodiscard]] std::string feed(const Feed& feed);
+  // The lead of a thread that goes on to `end`; nothing, and refused, where it has no word.
+  [[nodiscard]] std::string lead(const Feed& feed, const AxisTarget& end);
   void restate_feed() { feed_text_.clear(); }
 
  private:

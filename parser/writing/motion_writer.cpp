@@ -38,6 +38,7 @@ class MotionWriter {
       }
       rest_ = motions.subspan(i + 1);
       write(motions[i]);
+      i += std::exchange(said_, 0);
       if (remark != nullptr) write(*std::exchange(remark, nullptr));
     }
     begin({});
@@ -81,7 +82,53 @@ class MotionWriter {
     straight(move.end, move.tool_axis, move.coordinates, nullptr);
   }
   void write(const LinearFeed& move) {
+    if (move.feed.synchronised && !threads(move)) return;
     straight(move.end, move.tool_axis, move.coordinates, &move.feed);
+  }
+
+  // Whether there are words for it; notes how it is spelt.
+  bool threads(const LinearFeed& move) {
+    thread_word_ = spelling_.thread;
+    if (!spelling_.rigid_tap.empty() && taps_rigidly(move)) {
+      thread_word_ = spelling_.rigid_tap;
+      said_ = 3;
+    }
+    const bool torn = spelling_.rigid_tap.empty() && reverses_next();
+    if (!thread_word_.empty() && !torn) return true;
+    refusals_.add(torn ? "a tap that comes back as the spindle reverses"
+                       : "a move synchronised with the spindle",
+                  "write threads with the control's cycles");
+    return false;
+  }
+
+  // The spindle reverses where the thread ends, before anything else moves.
+  [[nodiscard]] bool reverses_next() const {
+    for (const Motion& motion : rest_) {
+      if (const auto* spindle = std::get_if<SpindleChange>(&motion.command)) {
+        if (spindle->direction == turning_) return false;
+        if (spindle->direction != SpindleDirection::off) return true;
+      } else if (!std::holds_alternative<Dwell>(motion.command) &&
+                 !std::holds_alternative<Event>(motion.command)) {
+        return false;
+      }
+    }
+    return false;
+  }
+
+  // The spindle reverses, the tap comes back to where it is now, and the spindle turns as before.
+  [[nodiscard]] bool taps_rigidly(const LinearFeed& down) const {
+    if (rest_.size() < 3) return false;
+    const auto* reversed = std::get_if<SpindleChange>(&rest_[0].command);
+    const auto* up = std::get_if<LinearFeed>(&rest_[1].command);
+    const auto* turned = std::get_if<SpindleChange>(&rest_[2].command);
+    if (reversed == nullptr || up == nullptr || turned == nullptr) return false;
+    if (!reverses_next() || turned->direction != turning_) return false;
+    if (reversed->speed != speed_ || turned->speed != speed_) return false;
+    if (!up->feed.synchronised || up->feed.value != down.feed.value) return false;
+    const AxisTarget start = words_.at();
+    return std::ranges::all_of(kAxisLetters, [&](AxisLetter letter) {
+      return up->end[letter] == (start[letter] ? start[letter] : down.end[letter]);
+    });
   }
 
   void write(const Probe& /*probe*/) {
@@ -127,6 +174,7 @@ class MotionWriter {
       }
       plane_ = arc.plane;
     }
+    out_.lines(words_.feed_mode_block(arc.feed));
     motion_word_ = arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise;
     SpacedText block(motion_word_);
     const std::string centre = words_.centre(arc, axes);
@@ -171,6 +219,9 @@ class MotionWriter {
     if (!machine && length_cannot_be_off()) return;
     if (machine || (tool_axis.has_value() != vectors_)) forget_positions();
     vectors_ = tool_axis.has_value();
+    const bool thread = feed != nullptr && feed->synchronised;
+    const std::string lead = thread ? words_.lead(*feed, end) : std::string();
+    const AxisTarget start = words_.at();
     SpacedText positions;
     for (const AxisLetter letter : kAxisLetters) {
       if (!end[letter] || (vectors_ && is_rotary(letter))) continue;
@@ -185,27 +236,24 @@ class MotionWriter {
     }
 
     std::string_view motion = feed == nullptr ? spelling_.traverse : spelling_.linear;
-    if (feed != nullptr && feed->synchronised) {
-      motion = spelling_.thread;
-      if (motion.empty()) {
-        refusals_.add("a move synchronised with the spindle",
-                      "write threads with the control's cycles");
-        return;
-      }
-    }
+    if (thread) motion = thread_word_;
     if (tool_axis && !spelling_.with_vector.empty()) motion = spelling_.with_vector;
+    if (feed != nullptr) out_.lines(words_.feed_mode_block(*feed));
     SpacedText block;
     if (machine) block.add(spelling_.before_machine_coordinates);
     if (!spelling_.modal || machine || motion != motion_word_) block.add(motion);
     if (options_.restate_feed && feed != nullptr && motion != motion_word_) words_.restate_feed();
     motion_word_ = motion;
     block.add(positions.take());
-    block.add(feed != nullptr ? words_.feed(*feed) : std::string(spelling_.traverse_feed));
+    block.add(feed == nullptr ? std::string(spelling_.traverse_feed)
+              : thread        ? lead
+                              : words_.feed(*feed));
     if (machine) {
       block.add(spelling_.after_machine_coordinates);
       forget_positions();
     }
     out_.line(block.take());
+    if (said_ > 0) words_.stay(start);
     if (switched) spell(compensation_);
   }
 
@@ -320,6 +368,7 @@ class MotionWriter {
 
   void write(const SpindleChange& change) {
     SpacedText block;
+    turning_ = change.direction;
     const bool turns = change.direction != SpindleDirection::off;
     if (turns && change.speed != speed_) {
       block.add(filled(spelling_.speed, '#', significant(change.speed, options_.feed_digits)));
@@ -384,6 +433,9 @@ class MotionWriter {
   OrientationPath orientation_ = OrientationPath::rotary_axes;
   int tool_ = 0;
   double speed_ = -1.0;
+  SpindleDirection turning_ = SpindleDirection::off;
+  std::string_view thread_word_{};
+  std::size_t said_ = 0;  // motions after the one at work that its block says, too
 
   Refusals refusals_;
   MotionWords words_;

@@ -12,6 +12,7 @@
 #include "kinematics/model/inverse.hpp"
 #include "post/planning/block_feed.hpp"
 #include "post/planning/block_output.hpp"
+#include "post/planning/fitting_form.hpp"
 #include "post/planning/path_tolerance.hpp"
 #include "post/planning/plan_state.hpp"
 #include "post/planning/rotary_choice.hpp"
@@ -41,7 +42,9 @@ class Planner {
  public:
   Planner(const Machine& machine, const kinematics::Setup& setup, std::span<const Motion> motions,
           const PlanOptions& options)
-      : program_(motions), state_(machine, setup, options) {}
+      : program_(motions),
+        options_(with_fitting_form(machine, motions, options)),
+        state_(machine, setup, options_) {}
 
   Result<MachineProgram> plan() {
     for (at_ = 0; at_ < program_.size() && state_.problems.empty(); ++at_) {
@@ -102,6 +105,8 @@ class Planner {
     state_.compensate({});
     state_.tool = change.tool;
     state_.emit(change);
+    kept_z_ = last_z_;
+    lower_to_.reset();
   }
   void follow(const parser::CompensationChange& change) {
     if (change.length) {
@@ -199,10 +204,56 @@ class Planner {
     state_.q = to;
     state_.moved = true;
     const auto& z = end[AxisLetter::Z];
+    if (z) last_z_ = kept_z_ = lower_to_ = std::nullopt;
     if (z) state_.retracted = *z >= state_.machine.home()[AxisLetter::Z] - kNoTravel;
   }
 
+  // A rapid in X and Y after a tool change still has the Z from before it, which the program need
+  // not have said again: it is made with Z at home, where the change left it. Z follows where it is
+  // said, or before the tool is fed.
   void go(const PlannedBlock& block) {
+    const std::optional<double> z = block.end[AxisLetter::Z];
+    const bool kept = kept_z_ && z == kept_z_ && state_.retracted && !state_.tip_words();
+    PlannedBlock beside = block;
+    beside.end[AxisLetter::Z].reset();
+    if (kept && block.feed == nullptr && moves(beside.end)) {
+      lower_to_ = *z + state_.controller.axis_shift().z();
+      go_there(beside, true);
+      state_.retracted = true;
+      return;
+    }
+    if (lower_to_ && block.feed != nullptr) lower(*lower_to_);
+    lower_to_.reset();
+    kept_z_.reset();
+    if (z) last_z_ = z;
+    if (state_.problems.empty()) go_there(block);
+  }
+
+  // Z alone, by rapid.
+  void lower(double z) {
+    AxisPositions to = state_.q;
+    to[AxisLetter::Z] = z;
+    PlannedBlock down;
+    down.end[AxisLetter::Z] = 0.0;
+    const CompensationChange wanted = output_compensation();
+    if (!state_.within_travel(to) || !state_.length_known(wanted, &down.end)) return;
+    state_.compensate(wanted);
+    output_.write({down, kinematics::axes_motion(state_.q, to)}, to, {});
+  }
+
+  // Whether these words move an axis.
+  [[nodiscard]] bool moves(const AxisTarget& end) const {
+    const Vec3 words = linear_positions(state_.q) - state_.controller.axis_shift();
+    return std::ranges::any_of(parser::kAxisLetters, [&](AxisLetter letter) {
+      if (!end[letter]) return false;
+      const double at =
+          parser::is_rotary(letter) ? state_.q[letter] : words[static_cast<Eigen::Index>(letter)];
+      return std::abs(*end[letter] - at) > kNoTravel;
+    });
+  }
+
+  // `beside`: a rapid that leaves Z where it is.
+  void go_there(const PlannedBlock& block, bool beside = false) {
     for (const AxisLetter letter : parser::kAxisLetters) {
       if (block.end[letter] && !state_.present(letter)) return;
     }
@@ -214,13 +265,20 @@ class Planner {
                   "switch it on before");
       return;
     }
-    const CompensationChange wanted = output_compensation();
+    const CompensationChange wanted =
+        beside && needs_no_length(block.end) ? state_.applied : output_compensation();
     if (!state_.length_known(wanted, block.arc == nullptr ? &block.end : nullptr)) return;
     if (tip_words) {
       move_tip(block, wanted);
     } else {
       move_words(block, wanted);
     }
+  }
+
+  // Nor may it be on where it is that of another tool, whose place some controls go to at once.
+  [[nodiscard]] bool needs_no_length(const AxisTarget& end) const {
+    return state_.options.length != LengthForm::always_by_tool && !tip_control(state_.applied) &&
+           state_.options.output == OutputForm::axes && !state_.length_moves(end);
   }
 
   // What the output needs switched on for a block under the program's own compensation.
@@ -397,7 +455,11 @@ class Planner {
   }
 
   std::span<const Motion> program_;
+  PlanOptions options_;
   std::size_t at_ = 0;
+  std::optional<double> last_z_{};    // word of the program
+  std::optional<double> kept_z_{};    // that from before the tool change, while Z is at its home
+  std::optional<double> lower_to_{};  // position of Z that the program means meanwhile
   PlanState state_;
   RotaryChoice rotary_{state_};
   BlockOutput output_{state_, rotary_};

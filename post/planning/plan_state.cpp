@@ -100,10 +100,10 @@ bool PlanState::length_known(const CompensationChange& wanted, const AxisTarget*
   const auto missing = [&](const CompensationChange& by) {
     return by.mode != parser::LengthCompensation::off && !setup.tools.contains(by.offset_number);
   };
-  // Whose length it is nobody says; a control may know where it is that of the spindle.
-  const bool by_spindle = options.length != LengthForm::by_number || options.zero_is_spindle;
-  const bool unnamed =
-      modes().compensates() && own.offset_number == 0 && (tool != 0 || !by_spindle);
+  // Whose length it is nobody says: of the tool in the spindle, which no program need have called.
+  const bool spindle_says =
+      tool == 0 && options.zero_is_spindle && options.length == LengthForm::by_number;
+  const bool unnamed = modes().compensates() && own.offset_number == 0 && !spindle_says;
   if (!missing(own) && !missing(wanted) && !unnamed) return true;
   if (straight != nullptr && !tip_words() && !tip_control(wanted) && !length_moves(*straight)) {
     return true;
@@ -124,7 +124,9 @@ bool PlanState::length_known(const CompensationChange& wanted, const AxisTarget*
   fail(number == 0 ? "tool-length-missing"_id : "unknown-tool-length"_id,
        number == 0 ? std::string("tool length compensation without an H word")
                    : fmt::format("axis positions need the length of tool {}", number),
-       fmt::format("give it with --tool-length {}=LENGTH, or a job with --job", number));
+       number == 0
+           ? std::string("call the tool and give its number: T1 M6, G43 H1")
+           : fmt::format("give it with --tool-length {}=LENGTH, or a job with --job", number));
   return false;
 }
 

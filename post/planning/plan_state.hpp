@@ -53,6 +53,8 @@ class PlanState {
   [[nodiscard]] Vec3 axis_shift(const parser::CompensationChange& by) const;
   [[nodiscard]] Vec3 tip_words_at(const kinematics::AxisPositions& q,
                                   const parser::CompensationChange& by) const;
+  // Whether these words are the tool's length apart from those without.
+  [[nodiscard]] bool length_moves(const parser::AxisTarget& words) const;
   // Travels of X Y Z cannot be checked.
   [[nodiscard]] bool lengths_missing() const { return lengths_missing_; }
 
@@ -77,7 +79,6 @@ class PlanState {
   void fail(Diagnostic problem);
 
  private:
-  [[nodiscard]] bool length_moves(const parser::AxisTarget& words) const;
   [[nodiscard]] std::vector<std::string> violations(const kinematics::AxisPositions& q) const;
   [[nodiscard]] Diagnostic placed(Diagnostic diagnostic) const;
 

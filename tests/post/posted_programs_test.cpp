@@ -37,6 +37,8 @@ PlanOptions options_of(Dialect dialect) {
     options.length = LengthForm::always_by_tool;
   } else if (dialect == Dialect::sinumerik) {
     options.length = LengthForm::by_tool;
+  } else if (dialect == Dialect::linuxcnc) {
+    options.zero_is_spindle = true;
   }
   return options;
 }
@@ -103,12 +105,67 @@ TEST(PostedPrograms, KeepTheLengthOfAnotherToolInTheirPlaces) {
   }
 }
 
+// The old Z would be a rapid askew to a height of the tool before.
+TEST(PostedPrograms, StayUpAfterAToolChangeUntilZIsSaid) {
+  const std::string head =
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG0 X10 Y10\nG43 H1 Z50\nG1 Z-1 F100\nG0 Z50\nT2 M6\n"
+      "S1000 M3\nG0 X80 Y80\n";
+  const std::string program = head + "G43 H2 Z50\nG1 Z-2\nM30\n";
+  expect_alike(program, Dialect::fanuc);
+  const auto text_of = [](const std::string& text) {
+    return posted(motions_in(text, Dialect::fanuc), Dialect::fanuc);
+  };
+  EXPECT_NE(text_of(program).find("\nX80. Y80.\nG43 H2\nX80. Y80. Z50.\nG1 Z-2.\n"),
+            std::string::npos)
+      << text_of(program);
+  // Fed from the old Z, with and without a new length.
+  expect_alike(head + "G1 Z-2\nM30\n", Dialect::fanuc);
+  expect_alike(head + "G43 H2\nG1 Z-2\nM30\n", Dialect::fanuc);
+  // Z is needed where the tool is fed, and where the program says it beside X and Y.
+  const std::string fed = text_of(head + "G1 X90\nM30\n");
+  EXPECT_NE(fed.find("\nX80. Y80.\nG43 H1\nZ50.\nG1 X90. Y80.\n"), std::string::npos) << fed;
+  const std::string said = text_of(head + "G43 H2 X90 Z40\nG1 Z0\nM30\n");
+  EXPECT_NE(said.find("\nX80. Y80.\nG43 H2\nX90. Y80. Z40.\n"), std::string::npos) << said;
+}
+
+// G43.4 and M428 are for programs that turn the tool or the work.
+TEST(PostedPrograms, ControlTheTipWhereAnAxisTurns) {
+  const auto text_of = [](const std::string& machine, const std::string& words) {
+    const auto motions = motions_in(
+        "G21 G90 G54\nT1 M6\nS1000 M3\n" + words + "G0 X10 Y20 Z60\nG1 Z50 F100\nX30\nM30\n",
+        Dialect::fanuc);
+    const auto plan = plan_for_machine(shipped(machine), two_tools(), motions, {});
+    if (!plan) return first_of(plan.error());
+    return write_nc(plan->motions, Dialect::fanuc)->text;
+  };
+  const std::string straight = text_of("iwf-bc", "G43 H1\n");
+  EXPECT_NE(straight.find("G43 H1\nX10. Y20. Z60.\n"), std::string::npos) << straight;
+  EXPECT_NE(text_of("three-axis", "G43.4 H1\n").find("G43 H1\nX10. Y20. Z60.\n"),
+            std::string::npos);
+  for (const char* words : {"G43.4 H1\n", "G43 H1 B0.\n"}) {
+    EXPECT_NE(text_of("iwf-bc", words).find("G43.4 H1\n"), std::string::npos) << words;
+  }
+}
+
 // A length with nothing in the spindle is in the places: 5 + 100.
 TEST(PostedPrograms, HaveNoLengthWithAnEmptySpindle) {
   const std::string program = "G21 G90 G54\nG43 H1 G0 X0 Y0 Z5\nG1 Z-1 F100\nX10\nM30\n";
   expect_alike(program, Dialect::linuxcnc);
   const std::string text = posted(motions_in(program, Dialect::linuxcnc), Dialect::heidenhain);
   EXPECT_NE(text.find("Z+105"), std::string::npos) << text;
+}
+
+// Whatever is in the spindle has a length, which no control but LinuxCNC takes without its number.
+TEST(PostedPrograms, NameTheToolWhoseLengthIsOn) {
+  const auto motions = motions_in(
+      "G21 G90 G54\nS1000 M3\nG0 X0 Y0\nG43 Z5\nG1 Z-1 F100\nX10\nM30\n", Dialect::fanuc);
+  for (const Dialect to : {Dialect::fanuc, Dialect::sinumerik, Dialect::heidenhain}) {
+    const std::string text = posted(motions, to);
+    EXPECT_NE(text.find("4:5: error: tool length compensation without an H word"),
+              std::string::npos)
+        << text;
+  }
+  EXPECT_NE(posted(motions, Dialect::linuxcnc).find("G43 H0"), std::string::npos);
 }
 
 // The retract for a tool change is left to it in one, written in the other.

@@ -83,7 +83,9 @@ Result<double> lead_along_way(const InterpreterState& state, const BlockWords& w
                          .empty();
   if (alone) return lead;
   const double longest = std::abs(way[static_cast<Eigen::Index>(along)]);
-  if (known && longest > 0.0 && longest >= way.cwiseAbs().maxCoeff()) {
+  // At 45 degrees either may be longer by what its place was rounded to; the leads are the same.
+  constexpr double kRounded = 1.0 - 1e-4;
+  if (known && longest > 0.0 && longest >= kRounded * way.cwiseAbs().maxCoeff()) {
     return lead * (way.norm() / longest);
   }
   return fail(state, words[letter].column, "thread-lead"_id,

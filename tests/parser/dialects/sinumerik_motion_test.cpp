@@ -339,6 +339,10 @@ TEST(SinumerikThreads, FollowTheSpindleByTheLeadOfTheLongerWay) {
   EXPECT_NEAR(
       last_of<LinearFeed>(run_sinumerik("G0 X0 Y0 Z0 S500 M3\nG33 X5 Z-20 K2\n")).feed.value,
       2 * std::hypot(5, 20) / 20, 1e-12);
+  // At 45 degrees, with places that are rounded.
+  EXPECT_NEAR(
+      last_of<LinearFeed>(run_sinumerik("G0 X0 Y0 Z0 S500 M3\nG33 X5.000001 Z-5 K2\n")).feed.value,
+      2 * std::sqrt(2.0), 1e-6);
 }
 
 }  // namespace

@@ -380,14 +380,81 @@ TEST(NcWriter, WritesThreadsWhereTheDialectHasThemAndNoProbing) {
   ASSERT_TRUE(written) << first_of(written.error());
   EXPECT_NE(written->text.find("G33 Z-5. K1.5\nZ-9. K1.5\nG1 Z-5. F500\n"), std::string::npos)
       << written->text;
-  const auto refused = write_nc(threads, Dialect::sinumerik);
+  for (const auto& [dialect, words] :
+       {std::pair{Dialect::fanuc, "G33 Z-5. F1.5\nZ-9. F1.5\nG1 Z-5. F500\n"},
+        std::pair{Dialect::sinumerik, "G33 Z-5 K1.5\nZ-9 K1.5\nG1 Z-5 F500\n"}}) {
+    const auto text = write_nc(threads, dialect);
+    ASSERT_TRUE(text) << first_of(text.error());
+    EXPECT_NE(text->text.find(words), std::string::npos) << text->text;
+  }
+  const auto refused = write_nc(threads, Dialect::heidenhain);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().front().message,
-            "Sinumerik has no words for a move synchronised with the spindle");
+            "Heidenhain has no words for a move synchronised with the spindle");
   const std::vector<Motion> probe{{{7, 1}, Probe{a, {}, feed}}};
   const auto probing = write_nc(probe, Dialect::linuxcnc);
   ASSERT_FALSE(probing);
   EXPECT_EQ(probing.error().front().line, 7);
+}
+
+// 1.5 mm a turn on a way of 3, 0, 4 mm: 1.2 mm of Z, which is the longest.
+TEST(NcWriter, GivesTheLeadOfAThreadAlongItsLongestAxis) {
+  AxisTarget start, end;
+  start[AxisLetter::X] = 7.0;
+  start[AxisLetter::Z] = 5.0;
+  end[AxisLetter::X] = 10.0;
+  end[AxisLetter::Z] = 1.0;
+  const Feed lead{1.5, FeedMode::per_revolution, true};
+  const std::vector<Motion> thread{{{1, 1}, Traverse{start, {}, Coordinates::program}},
+                                   {{2, 1}, LinearFeed{end, {}, Coordinates::program, lead}}};
+  const auto sinumerik = write_nc(thread, Dialect::sinumerik);
+  ASSERT_TRUE(sinumerik) << first_of(sinumerik.error());
+  EXPECT_NE(sinumerik->text.find("G33 X10 Z1 K1.2\n"), std::string::npos) << sinumerik->text;
+  EXPECT_FALSE(write_nc(thread, Dialect::fanuc));
+}
+
+// With words of their own, the tap would wait for the spindle twice, and be torn between.
+TEST(NcWriter, TapsRigidlyInOneBlockOrNotAtAll) {
+  const std::string taps = "G21 G90\nS500 M3\nG0 X1 Y2 Z3\nG33.1 Z-10 K1.5\nG0 X4\nG0 Z20\nM2\n";
+  const auto motions = motions_in(taps, Dialect::linuxcnc);
+  const auto written = write_nc(motions, Dialect::linuxcnc);
+  ASSERT_TRUE(written) << first_of(written.error());
+  EXPECT_NE(written->text.find("\nG0 X1. Y2. Z3.\nG33.1 Z-10. K1.5\n"), std::string::npos)
+      << written->text;
+  const auto taps_of = [](const std::vector<Motion>& all) {
+    return std::ranges::count_if(all, [](const Motion& motion) {
+      const auto* cut = std::get_if<LinearFeed>(&motion.command);
+      return cut != nullptr && cut->feed.synchronised;
+    });
+  };
+  EXPECT_EQ(taps_of(motions_in(written->text, Dialect::linuxcnc)), 2);
+  for (const Dialect dialect : {Dialect::fanuc, Dialect::sinumerik}) {
+    const auto torn = write_nc(motions, dialect);
+    ASSERT_FALSE(torn);
+    EXPECT_NE(torn.error().front().message.find("the spindle reverses"), std::string::npos);
+  }
+}
+
+// M137 counts when the move of its block is done, and F before.
+TEST(NcWriter, SwitchesTheFeedOfKlartextBeforeTheMove) {
+  std::vector<Motion> motions;
+  for (const Feed& feed : {Feed{100.0, FeedMode::per_minute}, Feed{0.5, FeedMode::per_revolution},
+                           Feed{200.0, FeedMode::per_minute}}) {
+    AxisTarget end;
+    end[AxisLetter::X] = feed.value;
+    motions.push_back({{1, 1}, LinearFeed{end, {}, Coordinates::program, feed}});
+  }
+  const auto written = write_nc(motions, Dialect::heidenhain);
+  ASSERT_TRUE(written) << first_of(written.error());
+  EXPECT_NE(written->text.find(" L X+100 F100\n2 M136\n3 L X+0.5 F0.5\n4 M137\n5 L X+200 F200\n"),
+            std::string::npos)
+      << written->text;
+  const auto read = motions_in(written->text, Dialect::heidenhain);
+  EXPECT_EQ(std::ranges::count_if(read,
+                                  [](const Motion& motion) {
+                                    return std::holds_alternative<LinearFeed>(motion.command);
+                                  }),
+            3);
 }
 
 TEST(NcWriter, KeepsCommentsReadable) {
