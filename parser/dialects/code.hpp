@@ -166,7 +166,8 @@ enum class HoleCall : std::uint8_t {
   at_moves,  // from now on where each move ends
   at_place,
   ring,
-  grid
+  grid,
+  points  // those of PATTERN DEF
 };
 // What is done at the hole where the tool is: drilling_cycle.hpp.
 enum class DrillingWord : std::uint8_t {
@@ -181,7 +182,7 @@ enum class DrillingWord : std::uint8_t {
   bore  // CYCLE89: feeds out
 };
 // Places at which the drilling cycle in force is called: hole_pattern.hpp.
-enum class PatternWord : std::uint8_t { row, circle, grid };
+enum class PatternWord : std::uint8_t { row, circle, grid, points };
 // Places at which a canned cycle drills beside where the tool is (Haas).
 enum class BoltWord : std::uint8_t { circle, arc, line };
 // The programmable frame: the first four replace it, the others go on within it.

@@ -48,7 +48,16 @@ Outcome set_after_move(InterpreterState& state, const BlockWords& words) {
   return Done{};
 }
 
-Result<std::optional<BlockWords>> words_after_move(const InterpreterState& state, BlockWords& words,
+// Of words that end another one the manuals do not say where in the block they do.
+void tell_assumed_place(InterpreterState& state, const BlockWords& behind) {
+  for (const CodeGroup group : {CodeGroup::rotary_path, CodeGroup::feed_mode}) {
+    const GivenCode& code = behind[group];
+    if (code.code == nullptr) continue;
+    assume(state, code.column, code.code->name(), "counts when the move of its block is done");
+  }
+}
+
+Result<std::optional<BlockWords>> words_after_move(InterpreterState& state, BlockWords& words,
                                                    const Movement& movement) {
   const bool goes_home =
       movement.non_modal == NonModal::home || movement.non_modal == NonModal::second_home;
@@ -56,6 +65,7 @@ Result<std::optional<BlockWords>> words_after_move(const InterpreterState& state
       movement.motion != MotionMode::none || goes_home || words.has(CodeGroup::hole_call);
   if (!moves || state.rules.words_behind_move.empty()) return std::optional<BlockWords>{};
   auto behind = words.set_aside(state.rules.words_behind_move);
+  if (behind) tell_assumed_place(state, *behind);
   if (behind && behind->has(CodeGroup::feed_mode) && words.has('F')) {
     const GivenCode& mode = (*behind)[CodeGroup::feed_mode];
     return fail(state, words['F'].column, "feed-mode-later"_id,

@@ -65,10 +65,10 @@ struct Word {
   const char* spelled = nullptr;  // "A3=" where the dialect's spelling is not the letter
 };
 
-// CTRANS(X,10,Y,20): a part of a frame.
+// CTRANS(X,10,Y,20): a part of a frame. POS1 (X+10 Y+20): an element of a pattern of points.
 struct FramePart {
   std::string name{};
-  std::string axes{};
+  std::string axes{};  // of a pattern the letters of point_pattern.hpp
   std::vector<ExpressionRange> values{};
 };
 
@@ -107,6 +107,7 @@ struct Block {
   std::vector<Word> words{};
   std::vector<Assignment> assignments{};
   std::vector<Comment> comments{};
+  std::vector<FramePart> pattern{};  // PATTERN DEF
   std::optional<FlowStatement> flow{};
   std::vector<ExpressionStep> steps{};
   std::vector<std::string> names{};

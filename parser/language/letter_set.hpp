@@ -10,8 +10,8 @@
 
 namespace frustum::parser {
 
-// A set of the letters A to Z and a to z. Characters before A and behind z are in no set, and adding
-// them changes nothing.
+// A set of the letters A to Z and a to z. Characters before A and behind z are in no set, and
+// adding them changes nothing.
 class LetterSet {
  public:
   constexpr LetterSet() = default;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parser/dialects/expressions.hpp"
+#include "parser/language/point_pattern.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/block_writer.hpp"
 #include "parser/writing/number_text.hpp"
@@ -48,6 +49,9 @@ constexpr std::array kSpellings{
     Spelling{"CYCL DEF 2.2", "CYCL DEF 2.2 DEPTH"},
     Spelling{"CYCL DEF 2.3", "CYCL DEF 2.3 DWELL"},
     Spelling{"CYCL DEF 2.4", "CYCL DEF 2.4 F"},
+    Spelling{"CYCL DEF 17.1", "CYCL DEF 17.1 SET UP"},
+    Spelling{"CYCL DEF 17.2", "CYCL DEF 17.2 DEPTH"},
+    Spelling{"CYCL DEF 17.3", "CYCL DEF 17.3 PITCH"},
 };
 // Known and not simulated: what is before and after their text.
 struct EventForm {
@@ -81,6 +85,7 @@ constexpr std::array kEvents{
     EventForm{"END PGM", ""},
     EventForm{"CYCL DEF 1", "CYCL DEF 1.0 "},
     EventForm{"CYCL DEF 2", "CYCL DEF 2.0 "},
+    EventForm{"CYCL DEF 17", "CYCL DEF 17.0 "},
     EventForm{"TOOL CALL VC", "S( ", " )"},
     EventForm{"CYCL DEF 12", "CYCL DEF 12.0 "},
     EventForm{"CYCL DEF 19", "CYCL DEF 19.0 "},
@@ -135,6 +140,7 @@ class KlartextBlock {
     find_statement();
     text_.add(name_);
     add_elements();
+    for (const FramePart& part : block_.pattern) text_.add(pattern_text(part));
     for (const Assignment& setting : block_.assignments) text_.add(setting_text(setting));
     for (const Comment& comment : block_.comments) {
       if (comment.event == nullptr || is_operand_of_m(comment)) continue;
@@ -228,6 +234,16 @@ class KlartextBlock {
     const bool bare = word.expression.empty() &&
                       std::string_view("FSMt").find(word.letter) != std::string_view::npos;
     return address_of(word) + (bare ? value : with_sign(value));
+  }
+
+  // POS1 (X+10 Y+20)
+  [[nodiscard]] std::string pattern_text(const FramePart& part) const {
+    std::string text;
+    for (std::size_t i = 0; i < part.axes.size(); ++i) {
+      text += fmt::format("{}{}{}", i == 0 ? "" : " ", pattern_word(part.axes[i]),
+                          with_sign(range_text(spelling(), block_, part.values[i], operand)));
+    }
+    return fmt::format("{} ({})", part.name, text);
   }
 
   [[nodiscard]] std::string setting_text(const Assignment& setting) const {

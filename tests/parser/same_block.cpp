@@ -17,6 +17,13 @@ class Comparison {
            all(a_.words, b_.words, [this](const Word& a, const Word& b) { return same(a, b); }) &&
            all(a_.assignments, b_.assignments,
                [this](const Assignment& a, const Assignment& b) { return same(a, b); }) &&
+           all(a_.pattern, b_.pattern,
+               [this](const FramePart& a, const FramePart& b) {
+                 return a.name == b.name && a.axes == b.axes &&
+                        all(a.values, b.values, [this](ExpressionRange one, ExpressionRange other) {
+                          return same(one, other);
+                        });
+               }) &&
            all(a_.comments, b_.comments,
                [](const Comment& a, const Comment& b) {
                  return a.text == b.text && a.to_line_end == b.to_line_end &&

@@ -17,6 +17,7 @@
 #include "parser/interpret/cycles/canned_cycle_call.hpp"
 #include "parser/interpret/cycles/cycle_parameters.hpp"
 #include "parser/interpret/cycles/deep_hole.hpp"
+#include "parser/interpret/cycles/point_pattern.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/state/block_words.hpp"
@@ -30,6 +31,8 @@ namespace {
 constexpr int kMaxBreaks = 99'999;
 
 constexpr double kSameAxis = 1e-9;  // the sine of the angle between two tool axes
+constexpr double kSameDepth =
+    1e-9;  // mm, rounding: what is left below a step is no step of its own
 
 MotionMode kind_of(HoleWord word, bool dwells) {
   switch (word) {
@@ -72,7 +75,71 @@ std::vector<CycleStep> steps_of_oriented_bore(const CycleDepths& depths) {
   return steps;
 }
 
-// The words of 1 and 2 come one a block; the first begins anew.
+// 209: the tool turns back at each step, by so much or out of the hole.
+std::vector<CycleStep> steps_of_tap(const CycleDepths& depths, double step, double back) {
+  using enum CycleAction;
+  std::vector<CycleStep> steps;
+  const auto turn_round = [&steps](CycleAction action) {
+    steps.push_back({stop_spindle});
+    steps.push_back({action});
+  };
+  for (int n = 1; depths.bottom + n * step < -kSameDepth; ++n) {
+    steps.push_back({feed, -n * step});
+    turn_round(reverse_spindle);
+    steps.push_back({feed, back > 0.0 ? std::min(back - n * step, depths.level) : depths.level});
+    turn_round(start_spindle);
+  }
+  steps.push_back({feed, depths.bottom});
+  turn_round(reverse_spindle);
+  steps.push_back({feed, depths.level});
+  turn_round(start_spindle);
+  steps.push_back({rapid, depths.clear});
+  return steps;
+}
+
+Outcome set_tap_steps(InterpreterState& state, const BlockWords& words) {
+  for (const char letter : {'E', 'H'}) {
+    if (words[letter].value >= 0.0) continue;
+    return fail(state, words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
+                "the steps of a tap have no sign");
+  }
+  HoleCycle& cycle = state.modes.hole_cycle;
+  cycle.tap_step = words['E'].value * unit_scale(state);
+  cycle.tap_back = words['H'].value * cycle.feed.value;
+  if (cycle.tap_step > 0.0 && cycle.depth > kMostPecks * cycle.tap_step) {
+    return fail(state, words['E'].column, "cycle-pecks"_id,
+                fmt::format("the cycle makes more than {} pecks", kMostPecks),
+                "give a larger step");
+  }
+  return Done{};
+}
+
+// What the manuals that could be had leave open.
+struct AssumedCycle {
+  std::string_view cycle;
+  std::string_view text;
+};
+constexpr std::array kAssumedCycles{
+    AssumedCycle{
+        "CYCL DEF 203",
+        "the tool breaks the chip Q213 times by Q256 before it clears the hole by the feed "
+        "Q208, and comes back by rapid to Q200 above the last depth"},
+    AssumedCycle{"CYCL DEF 205",
+                 "pecks shrink by Q212 down to Q205, and the stop above the last depth goes evenly "
+                 "from Q258 to Q259"},
+    AssumedCycle{"CYCL DEF 206", "the tap comes back by the feed that it went in with"},
+    AssumedCycle{"CYCL DEF 209",
+                 "at each Q257 the tap goes back by Q256 times the pitch, or out of the hole where "
+                 "that is 0"},
+    AssumedCycle{"CYCL DEF 240", "it drills to Q201 in one stroke and leaves by rapid"}};
+
+void tell_assumed_cycle(InterpreterState& state, const GivenCode& code) {
+  const auto* known = std::ranges::find(kAssumedCycles, code.code->word, &AssumedCycle::cycle);
+  if (known != kAssumedCycles.end()) assume(state, code.column, known->cycle, known->text);
+}
+
+// The words of 1, 2 and 17 come one a block; the first begins anew.
 Outcome set_old_cycle(InterpreterState& state, const BlockWords& words, HoleWord word) {
   HoleCycle& cycle = state.modes.hole_cycle;
   const double scale = unit_scale(state);
@@ -92,8 +159,9 @@ Outcome set_old_cycle(InterpreterState& state, const BlockWords& words, HoleWord
   }
   if (words.has('Q')) cycle.peck = std::abs(words['Q'].value) * scale;
   if (words.has('P')) cycle.dwell = words['P'].value;
-  if (words.has('f')) {
-    cycle.feed = {words['f'].value * feed_scale(state, FeedMode::per_minute), FeedMode::per_minute};
+  for (const auto& [letter, mode] :
+       {std::pair('f', FeedMode::per_minute), std::pair('r', FeedMode::per_revolution)}) {
+    if (words.has(letter)) cycle.feed = {words[letter].value * feed_scale(state, mode), mode};
   }
   return Done{};
 }
@@ -210,11 +278,13 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
   std::vector<CycleStep> steps =
       cycle.deep ? steps_at_deep_hole(*cycle.deep, cycle.level, depths.clear)
       : cycle.kind == MotionMode::fine_bore ? steps_of_oriented_bore(depths)
+      : cycle.tap_step > 0.0                ? steps_of_tap(depths, cycle.tap_step, cycle.tap_back)
                                             : steps_at_hole(cycle.kind, depths);
   drill(state, steps, column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
 }
 
 Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
+  if (!state.at_work.block->pattern.empty()) return set_point_pattern(state, words);
   if (words[CodeGroup::hole_cycle].code == nullptr) return Done{};
   if (auto done = define_hole_cycle(state, words); !done) return done;
   if (state.modes.hole_cycle.top) set_cycle_parameters(state, words, true);
@@ -298,8 +368,10 @@ Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words) {
                      (words.has('o') ? words['o'].value * scale : kOffWall);
     return Done{};
   }
+  if (from_surface) tell_assumed_cycle(state, code);
   if (word == HoleWord::deep || word == HoleWord::deep_pecks)
     return set_deep_hole(state, words, word);
+  if (from_surface && word == HoleWord::tap) return set_tap_steps(state, words);
   const bool steps = cycle.kind == MotionMode::peck || cycle.kind == MotionMode::peck_short;
   if (steps && cycle.level + cycle.depth > kMostPecks * cycle.peck) {
     return fail(state, words['Q'].column, "cycle-pecks"_id,

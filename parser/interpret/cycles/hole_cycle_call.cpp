@@ -1,5 +1,5 @@
-// Hole cycles where the tool is, at a place, and on rings and grids: CYCL CALL, M99, M89, CYCL DEF
-// 220 and 221 of Klartext.
+// Hole cycles where the tool is, at a place, at points, and on rings and grids: CYCL CALL, M99,
+// M89, CYCL CALL PAT, CYCL DEF 220 and 221 of Klartext.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ Result<std::vector<Vec2>> holes_of_pattern(const InterpreterState& state, const 
     for (int i = 0; i < *count; ++i) holes.push_back(origin + about(arm, start + i * step));
     return holes;
   }
-  const auto lines = whole(state, words, 'L', 1, kMostHoles);
+  const auto lines = whole(state, words, 'L', 1, kMostHoles / *count);
   if (!lines) return lines.error();
   for (int line = 0; line < *lines; ++line) {
     for (int i = 0; i < *count; ++i) {
@@ -110,6 +110,28 @@ Result<std::vector<Vec2>> holes_of_pattern(const InterpreterState& state, const 
     }
   }
   return holes;
+}
+
+// Where the tool is before it goes down to a hole. With X or Y unknown it goes over the hole first,
+// as high as it is.
+std::optional<Vec3> over_hole(InterpreterState& state, const std::optional<Vec3>& from,
+                              const Vec3& top, std::uint32_t column) {
+  if (from) return from;
+  const auto height = state.position[AxisLetter::Z];
+  if (!height) return std::nullopt;
+  const auto rapid = [&] {
+    emit(state, column,
+         Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
+  };
+  const double clear = top.z() + state.modes.hole_cycle.clear;
+  if (*height < clear) {
+    state.position.set(AxisLetter::Z, clear);
+    rapid();
+  }
+  state.position.set(AxisLetter::X, top.x());
+  state.position.set(AxisLetter::Y, top.y());
+  rapid();
+  return point_of_hole(state.position.target());
 }
 
 Outcome call_pattern(InterpreterState& state, const BlockWords& words) {
@@ -130,8 +152,36 @@ Outcome call_pattern(InterpreterState& state, const BlockWords& words) {
   const auto back = cycle.back;
   for (std::size_t i = 0; i < holes->size(); ++i) {
     if (low_between) cycle.back = i + 1 < holes->size() ? std::optional(cycle.clear) : back;
-    drill_from_top(state, Vec3((*holes)[i].x(), (*holes)[i].y(), *surface),
-                   point_of_hole(state.position.target()), false, code.column);
+    const Vec3 top((*holes)[i].x(), (*holes)[i].y(), *surface);
+    const auto from = over_hole(state, point_of_hole(state.position.target()), top, code.column);
+    drill_from_top(state, top, from, false, code.column);
+  }
+  return Done{};
+}
+
+// At each point, `from` being where the tool is.
+Outcome call_at_points(InterpreterState& state, const GivenCode& code) {
+  if (state.modes.point_pattern.empty()) {
+    return fail(state, code.column, "cycle-missing"_id, "CYCL CALL PAT without points",
+                "define them before, by PATTERN DEF; tables of points are not simulated");
+  }
+  const auto surface = surface_of_holes(state, code);
+  if (!surface) return surface.error();
+  assume(state, code.column, "CYCL CALL PAT",
+         "the points come in the order of their definition, lines to and fro, a frame round; the "
+         "tool goes between them as high as it was at the call, or as Q204 says where that is "
+         "higher");
+  HoleCycle& cycle = state.modes.hole_cycle;
+  const auto back = cycle.back;
+  const auto height = state.position[AxisLetter::Z];
+  const std::vector<Vec3>& points = state.modes.point_pattern;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double top = *surface + points[i].z();
+    const double between = std::max(back.value_or(cycle.clear), height.value_or(top) - top);
+    cycle.back = i + 1 < points.size() ? std::optional(between) : back;
+    const Vec3 point(points[i].x(), points[i].y(), top);
+    const auto from = over_hole(state, point_of_hole(state.position.target()), point, code.column);
+    drill_from_top(state, point, from, false, code.column);
   }
   return Done{};
 }
@@ -142,7 +192,13 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::hole_call];
   HoleCycle& cycle = state.modes.hole_cycle;
   const bool by_move = code.code == nullptr && cycle.at_moves && state.at_work.moved;
-  if ((code.code == nullptr && !by_move) || !cycle.program.empty()) return Done{};
+  if (code.code == nullptr && !by_move) return Done{};
+  if (!cycle.program.empty()) {
+    if (by_move || static_cast<HoleCall>(code.code->value) == HoleCall::here) return Done{};
+    return fail(state, code.column, "not-simulated"_id,
+                code.code->name() + " of a program (CYCL DEF 12) is not simulated",
+                "move to each place and call it by CYCL CALL or M99");
+  }
   const GivenCode& cause = by_move ? words[CodeGroup::motion] : code;
   const auto call = by_move ? HoleCall::at_moves : static_cast<HoleCall>(code.code->value);
   if (!cycle.on && call == HoleCall::at_moves) {
@@ -164,6 +220,7 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
   if (auto done = renew_cycle(state); !done) return done;
   if (auto done = check_hole_call(state, cause); !done) return done;
   if (call == HoleCall::ring || call == HoleCall::grid) return call_pattern(state, words);
+  if (call == HoleCall::points) return call_at_points(state, code);
   const auto from = point_of_hole(state.position.target());
   double above = 0.0;
   if (call == HoleCall::at_place) {
@@ -183,7 +240,7 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const auto surface = surface_of_holes(state, cause);
   if (!surface) return surface.error();
   const Vec3 top(*state.position[AxisLetter::X], *state.position[AxisLetter::Y], *surface + above);
-  drill_from_top(state, top, from, false, cause.column);
+  drill_from_top(state, top, over_hole(state, from, top, cause.column), false, cause.column);
   return Done{};
 }
 

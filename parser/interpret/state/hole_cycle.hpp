@@ -1,5 +1,5 @@
 // Hole cycles: defined once, done at each hole that the program names afterwards. CYCLE of CLDATA;
-// CYCL DEF 200 to 207, 240, 1 and 2 of Klartext, called by CYCL CALL or M99 where the tool is, by
+// CYCL DEF 200 to 207, 209, 240, 1, 2 and 17 of Klartext, called by CYCL CALL or M99 where the tool is, by
 // M89 where each move ends, by CYCL DEF 220 and 221 on a ring or a grid.
 //
 // The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v
@@ -66,6 +66,8 @@ struct HoleCycle {
   double dwell_above = 0.0;      // seconds
   bool at_moves = false;         // M89
   bool of_tool = false;          // 1, 2: heights count from where the tool is
+  double tap_step = 0.0;         // 209: so deep the chip is broken; 0: not at all
+  double tap_back = 0.0;         // how far it goes back then; 0: out of the hole
   Vec3 off_wall = Vec3::Zero();  // of 202, before the tool goes back
   std::optional<Vec3> start{};   // where the tool was then
   std::optional<DeepHole> deep{};

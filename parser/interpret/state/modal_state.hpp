@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "parser/interpret/state/control_data.hpp"
 #include "parser/interpret/state/drilling_cycle.hpp"
@@ -151,6 +152,7 @@ struct ModalState {
   std::optional<Heading> heading{};              // of the last move
   std::optional<CannedCycle> cycle{};
   HoleCycle hole_cycle{};
+  std::vector<Vec3> point_pattern{};        // PATTERN DEF: X, Y, and how much higher the surface is
   std::optional<DrillingCycle> drilling{};  // MCALL
   bool retract_to_initial = true;           // G98; G99: to R
   SpindleDirection spindle = SpindleDirection::off;

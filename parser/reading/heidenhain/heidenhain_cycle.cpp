@@ -4,154 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "core/decimal.hpp"
 #include "parser/dialects/code_table.hpp"
+#include "parser/reading/heidenhain/heidenhain_cycle_words.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
 namespace frustum::parser {
 namespace {
 
-// Feeds that are no numbers: hole_cycle.hpp.
-constexpr double kFastestFeed = 99'999.0;
-constexpr double kFeedOfTool = -1.0;
-
-struct CycleParameter {
-  const char* name;
-  char letter;  // hole_cycle.hpp
-  const char* spelled;
-  bool needed = false;
-};
-// The feed to a deepened start, which Q379 has to leave out.
-constexpr char kWithoutEffect = '-';
-struct ParameterCycle {
-  double number;
-  const char* code;
-  std::span<const CycleParameter> parameters;
-  std::string_view form;
-};
-constexpr std::array kPreset{CycleParameter{"Q339", 'P', "Q339=", true}};
-constexpr std::array kDrill{CycleParameter{"Q200", 'u', "Q200=", true},
-                            CycleParameter{"Q201", 'z', "Q201=", true},
-                            CycleParameter{"Q206", 'f', "Q206=", true},
-                            CycleParameter{"Q202", 'Q', "Q202="},
-                            CycleParameter{"Q210", 'w', "Q210="},
-                            CycleParameter{"Q203", 'V', "Q203=", true},
-                            CycleParameter{"Q204", 'v', "Q204="},
-                            CycleParameter{"Q211", 'P', "Q211="},
-                            CycleParameter{"Q395", 0, ""}};
-constexpr std::array kReam{
-    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
-    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
-    CycleParameter{"Q208", 'W', "Q208="},       CycleParameter{"Q203", 'V', "Q203=", true},
-    CycleParameter{"Q204", 'v', "Q204="}};
-constexpr std::array kDeep{
-    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
-    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q202", 'Q', "Q202=", true},
-    CycleParameter{"Q210", 'w', "Q210="},       CycleParameter{"Q203", 'V', "Q203=", true},
-    CycleParameter{"Q204", 'v', "Q204="},       CycleParameter{"Q212", 'D', "Q212="},
-    CycleParameter{"Q213", 'K', "Q213="},       CycleParameter{"Q205", 'L', "Q205="},
-    CycleParameter{"Q211", 'P', "Q211="},       CycleParameter{"Q208", 'W', "Q208="},
-    CycleParameter{"Q256", 'H', "Q256="},       CycleParameter{"Q395", 0, ""}};
-constexpr std::array kDeepPecks{CycleParameter{"Q200", 'u', "Q200=", true},
-                                CycleParameter{"Q201", 'z', "Q201=", true},
-                                CycleParameter{"Q206", 'f', "Q206=", true},
-                                CycleParameter{"Q202", 'Q', "Q202=", true},
-                                CycleParameter{"Q203", 'V', "Q203=", true},
-                                CycleParameter{"Q204", 'v', "Q204="},
-                                CycleParameter{"Q212", 'D', "Q212="},
-                                CycleParameter{"Q205", 'L', "Q205="},
-                                CycleParameter{"Q258", 'g', "Q258="},
-                                CycleParameter{"Q259", 'h', "Q259="},
-                                CycleParameter{"Q257", 'E', "Q257="},
-                                CycleParameter{"Q256", 'H', "Q256="},
-                                CycleParameter{"Q211", 'P', "Q211="},
-                                CycleParameter{"Q379", 0, ""},
-                                CycleParameter{"Q253", kWithoutEffect, ""},
-                                CycleParameter{"Q208", 'W', "Q208="},
-                                CycleParameter{"Q395", 0, ""}};
-constexpr std::array kTap{
-    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
-    CycleParameter{"Q239", 'r', "Q239=", true}, CycleParameter{"Q203", 'V', "Q203=", true},
-    CycleParameter{"Q204", 'v', "Q204="}};
-constexpr std::array kTapFloating{
-    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
-    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
-    CycleParameter{"Q203", 'V', "Q203=", true}, CycleParameter{"Q204", 'v', "Q204="}};
-constexpr std::array kBore{
-    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q201", 'z', "Q201=", true},
-    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
-    CycleParameter{"Q208", 'W', "Q208="},       CycleParameter{"Q203", 'V', "Q203=", true},
-    CycleParameter{"Q204", 'v', "Q204="},       CycleParameter{"Q214", 'n', "Q214="},
-    CycleParameter{"Q336", kWithoutEffect, ""}, CycleParameter{"Q357", 'o', "Q357="}};
-constexpr std::array kCentre{
-    CycleParameter{"Q200", 'u', "Q200=", true}, CycleParameter{"Q343", 0, ""},
-    CycleParameter{"Q201", 'z', "Q201=", true}, CycleParameter{"Q344", kWithoutEffect, ""},
-    CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
-    CycleParameter{"Q203", 'V', "Q203=", true}, CycleParameter{"Q204", 'v', "Q204="},
-    CycleParameter{"Q342", kWithoutEffect, ""}, CycleParameter{"Q253", kWithoutEffect, ""}};
-constexpr std::array kRing{
-    CycleParameter{"Q216", 'x', "Q216=", true}, CycleParameter{"Q217", 'y', "Q217=", true},
-    CycleParameter{"Q244", 'd', "Q244=", true}, CycleParameter{"Q245", 'a', "Q245="},
-    CycleParameter{"Q246", 'b', "Q246="},       CycleParameter{"Q247", 'c', "Q247="},
-    CycleParameter{"Q241", 'K', "Q241=", true}, CycleParameter{"Q200", 'u', "Q200="},
-    CycleParameter{"Q203", 'V', "Q203="},       CycleParameter{"Q204", 'v', "Q204="},
-    CycleParameter{"Q301", 'e', "Q301="},       CycleParameter{"Q365", 'l', "Q365="}};
-constexpr std::array kGrid{
-    CycleParameter{"Q225", 'x', "Q225=", true}, CycleParameter{"Q226", 'y', "Q226=", true},
-    CycleParameter{"Q237", 'a', "Q237="},       CycleParameter{"Q238", 'b', "Q238="},
-    CycleParameter{"Q242", 'K', "Q242=", true}, CycleParameter{"Q243", 'L', "Q243=", true},
-    CycleParameter{"Q224", 'c', "Q224="},       CycleParameter{"Q200", 'u', "Q200="},
-    CycleParameter{"Q203", 'V', "Q203="},       CycleParameter{"Q204", 'v', "Q204="},
-    CycleParameter{"Q301", 'e', "Q301="}};
-constexpr std::array kCycles{
-    ParameterCycle{247.0, "CYCL DEF 247", kPreset, "the preset's number is Q339"},
-    ParameterCycle{200.0, "CYCL DEF 200", kDrill,
-                   "it has Q200 Q201 Q206 Q202 Q210 Q203 Q204 Q211, for example Q200=+2"},
-    ParameterCycle{201.0, "CYCL DEF 201", kReam,
-                   "it has Q200 Q201 Q206 Q211 Q208 Q203 Q204, for example Q200=+2"},
-    ParameterCycle{203.0, "CYCL DEF 203", kDeep,
-                   "it has Q200 Q201 Q206 Q202 Q210 Q203 Q204 Q212 Q213 Q205 Q211 Q208 Q256, for "
-                   "example Q200=+2"},
-    ParameterCycle{205.0, "CYCL DEF 205", kDeepPecks,
-                   "it has Q200 Q201 Q206 Q202 Q203 Q204 Q212 Q205 Q258 Q259 Q257 Q256 Q211 Q379 "
-                   "Q253 Q208, for example Q200=+2"},
-    ParameterCycle{207.0, "CYCL DEF 207", kTap,
-                   "it has Q200 Q201 Q239 Q203 Q204, for example Q200=+2"},
-    ParameterCycle{206.0, "CYCL DEF 206", kTapFloating,
-                   "it has Q200 Q201 Q206 Q211 Q203 Q204, for example Q200=+2"},
-    ParameterCycle{202.0, "CYCL DEF 202", kBore,
-                   "it has Q200 Q201 Q206 Q211 Q208 Q203 Q204 Q214 Q336, for example Q200=+2"},
-    ParameterCycle{240.0, "CYCL DEF 240", kCentre,
-                   "it has Q200 Q343 Q201 Q344 Q206 Q211 Q203 Q204, for example Q200=+2"},
-    ParameterCycle{220.0, "CYCL DEF 220", kRing,
-                   "it has Q216 Q217 Q244 Q245 Q246 Q247 Q241 Q200 Q203 Q204 Q301 Q365, for "
-                   "example Q241=+8"},
-    ParameterCycle{221.0, "CYCL DEF 221", kGrid,
-                   "it has Q225 Q226 Q237 Q238 Q242 Q243 Q224 Q200 Q203 Q204 Q301, for example "
-                   "Q242=+6"}};
-// Cycles of older controls, whose parameters are in blocks of their own: 1.1 SET UP, 1.2 DEPTH.
-struct OldCycleParameter {
-  double cycle;
-  int part;
-  const char* code;
-  char letter;
-};
-constexpr std::array kOldCycles{
-    OldCycleParameter{1.0, 1, "CYCL DEF 1.1", 'u'}, OldCycleParameter{1.0, 2, "CYCL DEF 1.2", 'z'},
-    OldCycleParameter{1.0, 3, "CYCL DEF 1.3", 'Q'}, OldCycleParameter{1.0, 4, "CYCL DEF 1.4", 'P'},
-    OldCycleParameter{1.0, 5, "CYCL DEF 1.5", 'f'}, OldCycleParameter{2.0, 1, "CYCL DEF 2.1", 'u'},
-    OldCycleParameter{2.0, 2, "CYCL DEF 2.2", 'z'}, OldCycleParameter{2.0, 3, "CYCL DEF 2.3", 'P'},
-    OldCycleParameter{2.0, 4, "CYCL DEF 2.4", 'f'}};
-// Known and not simulated: tolerance, load and vibration of the machine.
-struct PassedCycle {
-  double number;
-  const char* event;
-};
-constexpr std::array kPassedCycles{
-    PassedCycle{32.0, "CYCL DEF 32"}, PassedCycle{239.0, "CYCL DEF 239"},
-    PassedCycle{332.0, "CYCL DEF 332"}, PassedCycle{392.0, "CYCL DEF 392"}};
+using namespace klartext_cycles;
 
 class CycleReader {
  public:
@@ -179,7 +41,7 @@ class CycleReader {
       part = static_cast<int>(in_.whole_number().value_or(0.0));
     }
     if (cycle == 9.0) return read_dwell_cycle(part, column);
-    if (cycle == 1.0 || cycle == 2.0) return read_old_cycle(cycle, part, column);
+    if (is_old_cycle(cycle)) return read_old_cycle(cycle, part, column);
     for (const PassedCycle& passed : kPassedCycles) {
       if (cycle == passed.number) return read_passed(passed.event, column);
     }
@@ -193,32 +55,23 @@ class CycleReader {
     for (const ParameterCycle& known : kCycles) {
       if (cycle == known.number) return read_parameters(known, column);
     }
-    struct Remedy {
-      double cycle;
-      const char* text;
-    };
-    constexpr std::array kRemedies{
-        Remedy{209.0, "use CYCL DEF 207, or write the cycle out as L blocks"}};
     if (cycle >= 800.0 && cycle < 900.0) {
       return in_.fail("not-milling"_id, column, fmt::format("CYCL DEF {} is one of turning", cycle),
                       "programs of lathes are not simulated");
     }
-    const auto* remedy = std::find_if(kRemedies.begin(), kRemedies.end(),
-                                      [&](const Remedy& r) { return r.cycle == cycle; });
     in_.fail("not-supported"_id, column, fmt::format("CYCL DEF {} is not simulated", cycle),
-             remedy == kRemedies.end() ? "write the cycle out as L blocks" : remedy->text);
+             "write the cycle out as L blocks");
   }
 
  private:
   void read_call(std::uint32_t column) {
-    const std::uint32_t place = in_.column();
     if (in_.take_name("POS")) {
       add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL POS"), column);
       return read_heidenhain_call_at(draft_, "CYCL CALL POS", column);
     }
     if (in_.take_name("PAT")) {
-      return in_.fail("not-supported"_id, place, "CYCL CALL PAT is not simulated",
-                      "call the cycle by CYCL CALL POS or M99 at each hole");
+      add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL PAT"), column);
+      return read_heidenhain_call_at(draft_, "CYCL CALL PAT", column);
     }
     add_code(block_, *find_code(Dialect::heidenhain, "CYCL CALL"), column);
     read_heidenhain_elements(draft_, "CYCL CALL");
@@ -241,7 +94,8 @@ class CycleReader {
   // CYCL DEF 1.1 SET UP -2; the words are in the language of the control.
   void read_old_cycle(double cycle, int part, std::uint32_t column) {
     if (part == 0) {
-      return note(draft_, cycle == 1.0 ? "CYCL DEF 1" : "CYCL DEF 2", column, in_.text_to(";"));
+      const char* event = cycle == 1.0 ? "CYCL DEF 1" : cycle == 2.0 ? "CYCL DEF 2" : "CYCL DEF 17";
+      return note(draft_, event, column, in_.text_to(";"));
     }
     const auto* known = std::find_if(
         kOldCycles.begin(), kOldCycles.end(),

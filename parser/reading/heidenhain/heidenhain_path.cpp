@@ -160,13 +160,14 @@ class PathReader {
     block_.words.front().number = row_of(*find_code(Dialect::heidenhain, "L A+Q120 B+Q121 C+Q122"));
   }
 
-  // CYCL CALL POS X+50 Y+50 Z+0 FMAX M3: the way to the hole is by rapid.
+  // CYCL CALL POS X+50 Y+50 Z+0 FMAX M3, CYCL CALL PAT FMAX: the way to a hole is by rapid.
   void read_call_at(const std::string& statement, std::uint32_t column) {
-    read_elements(statement, {.axes = true, .feed = true});
+    const bool at_place = statement == "CYCL CALL POS";
+    read_elements(statement, {.axes = at_place, .feed = true});
     const auto is_feed = [](const Word& word) { return word.letter == 'F' || word.letter == 't'; };
     if (in_.failed() || std::erase_if(block_.words, is_feed) == 0) return;
     draft_.add_event(
-        "CYCL CALL POS", column,
+        at_place ? "CYCL CALL POS" : "CYCL CALL PAT", column,
         "the way to the hole is by rapid, not by the feed of the call, which is for it alone");
     block_.comments.back().assumed = true;
   }

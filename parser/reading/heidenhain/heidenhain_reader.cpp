@@ -20,9 +20,10 @@ constexpr std::string_view kLineHint =
 
 constexpr std::array kPaths{"L", "LN", "C", "CR", "CT", "LP", "CP", "CTP"};
 // By their first words.
-constexpr std::array kStatements{"CC",  "TOOL", "PLANE", "FUNCTION", "CYCL",  "BEGIN",  "END",
-                                 "BLK", "STOP", "FN",    "LBL",      "CALL",  "M3",     "Q1",
-                                 "RND", "CHF",  "APPR",  "DEP",      "TRANS", "PRESET", "TCH"};
+constexpr std::array kStatements{"CC",    "TOOL",   "PLANE", "FUNCTION", "CYCL", "BEGIN",
+                                 "END",   "BLK",    "STOP",  "FN",       "LBL",  "CALL",
+                                 "M3",    "Q1",     "RND",   "CHF",      "APPR", "DEP",
+                                 "TRANS", "PRESET", "TCH",   "PATTERN"};
 // Statements that change nothing that is simulated.
 constexpr std::array kPassedStatements{"SEL TABLE", "CONTOUR DEF", "SEL CONTOUR", "SECTION"};
 // Words whose number may follow without a blank: LBL1, FN0:, RND5.
@@ -98,6 +99,7 @@ class HeidenhainReader {
     if (name == "PLANE") return read_heidenhain_plane(draft_, column);
     if (name == "FUNCTION") return read_heidenhain_function(draft_, column);
     if (name == "CYCL" || name == "CYCLE") return read_heidenhain_cycle(draft_, column);
+    if (name == "PATTERN") return read_heidenhain_pattern(draft_, column);
     if (name == "TCH") return read_heidenhain_probing(draft_, column);
     if (name == "BEGIN" || name == "END") return read_frame_of_program(name, column);
     if (name == "BLK" && in_.take_name("FORM"))
@@ -223,7 +225,8 @@ std::size_t remark_in(std::string_view text) {
   const std::size_t last = text.find_last_not_of(" \t\r");
   if (last == std::string_view::npos || text[last] != ')') return 0;
   const std::size_t open = text.find('(');
-  if (open == std::string_view::npos || text.find_first_of("=;\"~") != std::string_view::npos) {
+  if (open == std::string_view::npos || text.find_first_of("=;\"~") != std::string_view::npos ||
+      text.find("PATTERN") < open) {
     return 0;
   }
   const std::size_t before = open == 0 ? open : text.find_last_not_of(" \t", open - 1);

@@ -33,6 +33,8 @@ void read_heidenhain_tool(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_plane(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_function(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_cycle(BlockDraft& draft, std::uint32_t column);
+// PATTERN DEF POS1 (X+10 Y+20 Z+0)
+void read_heidenhain_pattern(BlockDraft& draft, std::uint32_t column);
 void read_heidenhain_probing(BlockDraft& draft, std::uint32_t column);
 // TRANS DATUM AXIS X+5, PRESET SELECT #1
 void read_heidenhain_transform(BlockDraft& draft, const std::string& statement,

@@ -104,7 +104,7 @@ TEST(KlartextOrder, TipControlAndTheShorterWayBeginBeforeTheMoveAndEndBehindIt) 
                   "L X+10 Y+0 Z+10 B+10 C+20 F100\nL B+0 C+0 F500 M129\nL X+0 Y+0 Z+10\n"),
             "TgSrGffgf");
   EXPECT_EQ(order("TOOL CALL 1 Z S100\nL X+0 Y+0 Z+10 B+1 FMAX M128\n"), "TgGr");
-  EXPECT_EQ(order("L C+10 FMAX M126\nL C+350 FMAX M127\nL C+10 FMAX\n"), "Prrpr");
+  EXPECT_EQ(order("L C+10 FMAX M126\nL C+350 FMAX M127\nL C+10 FMAX\n"), "Prerpr");
   // A vector in the block that ends the control is one still.
   EXPECT_EQ(order("TOOL CALL 1 Z S100\nM128\nLN X+1 Y+0 Z+0 TX+0 TY+0.6 TZ+0.8 F10 M129\n"),
             "TgGfg");
