@@ -114,6 +114,8 @@ class ProgramCheck {
     if (options.subprogram) {
       most_turns_ = std::min(most_turns_, kTurnsAlone);
       most_repeats_ = std::min(most_repeats_, kRepeatsAlone);
+      // The unit is its callers'.
+      if (!run_.control.unit) run_.control.unit = parser::LengthUnit::millimetre;
     }
     run_.watch = [this](const parser::BlockAhead& ahead) { return see(ahead); };
     run_.go_on = [this](Diagnostic&& error) { return go_on(error); };

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, kDecimalPoints.size()> kDecimalPointNames{"calculator",
                                                                                  "increment"};
+constexpr std::array<std::string_view, kStartUnits.size()> kStartUnitNames{"mm", "inch"};
 constexpr double kLargestCode = 99'999.0;
 
 }  // namespace
@@ -25,6 +26,17 @@ std::string_view name_of(DecimalPoint rule) {
 std::optional<DecimalPoint> decimal_point_named(std::string_view name) {
   for (const DecimalPoint rule : kDecimalPoints) {
     if (name_of(rule) == name) return rule;
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(LengthUnit unit) {
+  return kStartUnitNames.at(unit == LengthUnit::millimetre ? 0 : 1);
+}
+
+std::optional<LengthUnit> start_unit_named(std::string_view name) {
+  for (const LengthUnit unit : kStartUnits) {
+    if (name_of(unit) == name) return unit;
   }
   return std::nullopt;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "parser/language/modes.hpp"
 
 namespace frustum::parser {
 
@@ -21,6 +22,11 @@ enum class DecimalPoint : std::uint8_t { calculator, increment };
 inline constexpr std::array kDecimalPoints{DecimalPoint::calculator, DecimalPoint::increment};
 [[nodiscard]] std::string_view name_of(DecimalPoint rule);
 [[nodiscard]] std::optional<DecimalPoint> decimal_point_named(std::string_view name);
+
+// The unit of lengths before any word of the program gives one: "mm", "inch".
+inline constexpr std::array kStartUnits{LengthUnit::millimetre, LengthUnit::inch};
+[[nodiscard]] std::string_view name_of(LengthUnit unit);
+[[nodiscard]] std::optional<LengthUnit> start_unit_named(std::string_view name);
 
 // A G or M word, by ten times its number.
 struct ControlWord {
@@ -38,6 +44,7 @@ struct ControlSettings {
   // `known`. M words that nobody knows are events of the grade `builder` without.
   std::vector<ControlWord> words{};
   DecimalPoint decimal_point = DecimalPoint::calculator;
+  std::optional<LengthUnit> unit{};  // where it is not known, mm is an assumption
   // Before the first F the control has a feed of its own (Fanuc's parameter 1411), which is 0 in
   // the motions; else cutting without one is an error, as it always is where errors do not end the
   // run (InterpreterOptions::go_on).

@@ -30,6 +30,12 @@ void add_control_options(Command& command, SetupWords& words) {
               "How numbers without a point count: calculator (X10 is 10 mm) or increment (0.010 "
               "mm) (default: as the machine file says, else calculator)")
       .one_of({"calculator", "increment"});
+  command
+      .option(
+          "--units", words.units,
+          "The unit before G20 and G21: mm or inch (default: as the machine file says, else mm, "
+          "with a warning)")
+      .one_of({"mm", "inch"});
 }
 
 }  // namespace frustum::app

@@ -78,6 +78,9 @@ SetupWords setup_words_of(const TomlTable& root) {
       alone.words.push_back(text);
       judge(*controller, "words", alone);
     }
+    words.units = controller->text_or("units", "");
+    const std::vector<std::string> units{"mm", "inch"};
+    if (controller->has("units")) (void)controller->choice("units", units);
     words.decimal_point = controller->text_or("decimal_point", "");
     const std::vector<std::string> points{"calculator", "increment"};
     if (controller->has("decimal_point")) (void)controller->choice("decimal_point", points);
@@ -167,6 +170,7 @@ CheckSettings joined(CheckSettings own, const CheckSettings& file) {
   take_if_empty(words.job, others.job);
   take_if_empty(words.start, others.start);
   take_if_empty(words.decimal_point, others.decimal_point);
+  take_if_empty(words.units, others.units);
   // Later ones go before.
   words.tool_lengths.insert(words.tool_lengths.begin(), others.tool_lengths.begin(),
                             others.tool_lengths.end());

@@ -170,6 +170,14 @@ std::optional<Diagnostic> read_control(const SetupWords& words, KnownSetup& know
     if (!word) return word.error().front();
     known.control.words.push_back(*word);
   }
+  if (!words.units.empty()) {
+    const auto unit = parser::start_unit_named(words.units);
+    if (!unit) {
+      return error("malformed-option"_id,
+                   fmt::format("units {}: mm or inch is expected", words.units));
+    }
+    known.control.unit = *unit;
+  }
   if (words.decimal_point.empty()) return std::nullopt;
   const auto rule = parser::decimal_point_named(words.decimal_point);
   if (!rule) {

@@ -27,6 +27,7 @@ struct SetupWords {
   std::string start{};                        // "X0,Y0,Z100"; empty: the machine's home
   std::vector<std::string> words{};           // of the machine's builder: "M31"
   std::string decimal_point{};                // "calculator" or "increment"; empty: the machine's
+  std::string units{};                        // "mm" or "inch"; empty: the machine's
 };
 
 // What is known without a machine.

@@ -11,6 +11,7 @@ parser::ControlSettings ControllerWords::settings() const {
   parser::ControlSettings settings;
   settings.words = words;
   settings.decimal_point = decimal_point.value_or(settings.decimal_point);
+  settings.unit = units;
   return settings;
 }
 

@@ -71,6 +71,7 @@ struct ErrorAlias {
 struct ControllerWords {
   std::vector<parser::ControlWord> words{};  // of the builder, which move nothing: M31
   std::optional<parser::DecimalPoint> decimal_point{};
+  std::optional<parser::LengthUnit> units{};  // before G20 and G21
 
   [[nodiscard]] parser::ControlSettings settings() const;
 };

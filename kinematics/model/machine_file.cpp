@@ -196,6 +196,11 @@ class MachineReader {
         return;
       }
     }
+    if (table->has("units")) {
+      std::vector<std::string> units;
+      for (const auto unit : parser::kStartUnits) units.emplace_back(name_of(unit));
+      machine.controller_.units = parser::kStartUnits.at(table->choice_or("units", units, 0));
+    }
     if (!table->has("decimal_point")) return;
     std::vector<std::string> rules;
     for (const auto rule : parser::kDecimalPoints) rules.emplace_back(name_of(rule));

@@ -118,8 +118,16 @@ enum class LengthWord : std::uint8_t {
   dynamic,    // G43.1: the axis words are the tool's offset
   additional  // G43.2: added to the offset in force
 };
-// The last two have the diameter in D.
-enum class RadiusWord : std::uint8_t { off, left, right, left_by_diameter, right_by_diameter };
+// By diameter: in D. In space: to the side of a tool that may be tilted, where its radius is known.
+enum class RadiusWord : std::uint8_t {
+  off,
+  left,
+  right,
+  left_by_diameter,
+  right_by_diameter,
+  left_in_space,
+  right_in_space
+};
 enum class TipWord : std::uint8_t { off, on };
 enum class CoolantWord : std::uint8_t { off, flood };
 enum class DiameterWord : std::uint8_t { radius, diameter };

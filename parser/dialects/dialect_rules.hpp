@@ -107,6 +107,10 @@ struct DialectRules {
   // Machine coordinates still carry the tool length and the tool-tip control.
   bool machine_coordinates_keep_length = false;
   bool home_without_axes_is_all = false;
+  // M6 may come before any T: the tool that the operator has prepared.
+  bool first_tool_may_be_prepared = false;
+  // Before G20 or G21 the unit is what the control was left in: mm is taken, unless it is known.
+  bool unit_may_be_missing = false;
   // F beside G20 or G21 counts in the unit before the block.
   bool feed_precedes_unit = false;
   // Inches a minute that F1 of an inch program is.

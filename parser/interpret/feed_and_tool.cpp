@@ -44,6 +44,9 @@ Result<int> tool_number(InterpreterState& state, const BlockWords& words) {
          fmt::format("{}: tool {:g}, and behind the point its offset", words.text_of('T'),
                      std::floor(number)));
   state.modes.length_number = state.modes.radius_number = *offset;
+  if (state.modes.tool_order == ToolOrder::not_known) {
+    state.modes.tool_order = ToolOrder::behind_change;
+  }
   return static_cast<int>(number);
 }
 
@@ -110,6 +113,45 @@ Outcome lengthen_tool(InterpreterState& state, const BlockWords& words) {
   return Done{};
 }
 
+// T behind M6, in a block of its own: the tool of that change.
+bool comes_behind_change(const InterpreterState& state, const BlockWords& words) {
+  return words.has('T') && state.modes.tool_order == ToolOrder::behind_change;
+}
+
+// M6 with no tool prepared by the program, or with the T behind it.
+Outcome change_before_tool(InterpreterState& state, const GivenCode& change) {
+  if (state.modes.tool_order == ToolOrder::behind_change) return Done{};
+  if (!state.rules.first_tool_may_be_prepared) {
+    return fail(state, change.column, "tool-missing"_id, change.code->name() + " without a tool",
+                "give T on this block or before");
+  }
+  assume(
+      state, change.column, "tool before T",
+      fmt::format("{} before any T: the tool that the operator has prepared, unless the T behind "
+                  "it gives one with its offset (T1.1)",
+                  change.code->name()));
+  state.modes.tool_order = ToolOrder::not_known;
+  return Done{};
+}
+
+Outcome change_tool(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& change = words[CodeGroup::tool_change];
+  const std::uint32_t column = change.code != nullptr ? change.column : words['T'].column;
+  const bool waits = state.modes.tool_order == ToolOrder::behind_change && !words.has('T');
+  const bool known = state.modes.selected_tool && !waits;
+  if (!known) {
+    if (auto done = change_before_tool(state, change); !done) return done;
+  }
+  if (state.modes.spindle != SpindleDirection::off && change.code != nullptr) {
+    state.modes.spindle = SpindleDirection::off;
+    emit(state, column, SpindleChange{state.modes.spindle, state.modes.spindle_speed});
+  }
+  if (!known) return Done{};
+  state.modes.tool = state.data.tool = *state.modes.selected_tool;
+  emit(state, column, ToolChange{state.modes.tool});
+  return Done{};
+}
+
 }  // namespace
 
 Outcome set_feed(InterpreterState& state, const BlockWords& words) {
@@ -151,6 +193,9 @@ Outcome set_tool(InterpreterState& state, const BlockWords& words) {
     if (auto done = check_tool_exists(state, *tool, words['T'].column); !done) return done;
     state.modes.selected_tool = *tool;
   }
+  if (words.has('T') && state.modes.tool_order == ToolOrder::not_known) {
+    state.modes.tool_order = ToolOrder::before_change;
+  }
   const GivenCode& change = words[CodeGroup::tool_change];
   if (change.code != nullptr) state.modes.tool_oversize = 0.0;
   if (words.has('j') && state.rules.always_claimed.has('j')) {
@@ -168,17 +213,8 @@ Outcome set_tool(InterpreterState& state, const BlockWords& words) {
     if (auto done = check_tool_exists(state, *tool, words['Q'].column); !done) return done;
     state.modes.tool = state.data.tool = *tool;
     emit(state, change.column, ToolChange{state.modes.tool});
-  } else if (change.code != nullptr) {
-    if (!state.modes.selected_tool) {
-      return fail(state, change.column, "tool-missing"_id, change.code->name() + " without a tool",
-                  "give T on this block or before");
-    }
-    if (state.modes.spindle != SpindleDirection::off) {
-      state.modes.spindle = SpindleDirection::off;
-      emit(state, change.column, SpindleChange{state.modes.spindle, state.modes.spindle_speed});
-    }
-    state.modes.tool = state.data.tool = *state.modes.selected_tool;
-    emit(state, change.column, ToolChange{state.modes.tool});
+  } else if (change.code != nullptr || comes_behind_change(state, words)) {
+    return change_tool(state, words);
   }
   return Done{};
 }

@@ -26,6 +26,16 @@ LetterSet centre_letters(Plane plane) {
   return kLetters.at(static_cast<std::size_t>(plane));
 }
 
+// The pitch of a helix, beside its end.
+LetterSet pitch_letter(const InterpreterState& state, const BlockWords& words) {
+  constexpr std::array kLetters{LetterSet("K"), LetterSet("J"), LetterSet("I")};
+  const auto plane = static_cast<std::size_t>(words.value_or(CodeGroup::plane, state.modes.plane));
+  const LetterSet letter = kLetters.at(plane);
+  const bool given = state.rules.dialect == Dialect::fanuc && words[letter.first()].value != 0.0 &&
+                     words.has("ZYX"[plane]);
+  return given ? letter : LetterSet{};
+}
+
 LetterSet letters_of_spline(MotionMode mode) {
   switch (mode) {
     case MotionMode::cubic_spline:
@@ -95,7 +105,7 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise: {
       const LetterSet letters = kAxisWords | LetterSet("RPet") | corner_letters(state) |
-                                state.rules.polar_words |
+                                state.rules.polar_words | pitch_letter(state, words) |
                                 centre_letters(words.value_or(CodeGroup::plane, state.modes.plane));
       // Where I J K are the tool vector, an arc has them for its centre.
       const bool vectors = guides_tip(state, words) && state.rules.vector_letters != "IJK";

@@ -33,6 +33,7 @@ bool does_something(const Block& block) {
 ControlData data_before(const InterpreterOptions& options) {
   ControlData data;
   data.tools = options.tools;
+  data.tools_are_given = !options.tools.empty();
   data.tools_are_listed =
       options.tools_are_all && std::any_of(options.tools.begin(), options.tools.end(),
                                            [](const auto& tool) { return tool.second.has_length; });
@@ -53,6 +54,10 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
       executor_(program.dialect, options.start, data_before(options), sink),
       main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {
   executor_.state().control = options.control;
+  if (options.control.unit && rules_.unit_may_be_missing) {
+    executor_.state().modes.unit = executor_.state().data.unit = *options.control.unit;
+    executor_.state().modes.unit_is_known = true;
+  }
   if (options.go_on) executor_.state().control.feed_before_first_word = false;
 }
 

@@ -17,7 +17,7 @@ class CheckCommandSystem : public CommandLine {
 };
 
 const std::string kGood =
-    "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG0 Z60\nM5\nM30\n";
+    "G21 T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG0 Z60\nM5\nM30\n";
 
 TEST_F(CheckCommandSystem, PassesAProgramWithNothingWrong) {
   write("part.nc", kGood);
@@ -29,7 +29,7 @@ TEST_F(CheckCommandSystem, PassesAProgramWithNothingWrong) {
 }
 
 TEST_F(CheckCommandSystem, TellsPlaceMessageAndLineAsACompilerDoes) {
-  write("part.nc", "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X412 Y0 Z50\nG0 X0\nM5\nM30\n");
+  write("part.nc", "G21 T1 M6\nS1000 M3\nG54 G43 H1\nG0 X412 Y0 Z50\nG0 X0\nM5\nM30\n");
   const Outcome outcome = run("check part.nc --machine iwf-bc --tool-length 1=100");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(
@@ -48,7 +48,7 @@ TEST_F(CheckCommandSystem, LeavesTheMachineOutWithANote) {
 
 TEST_F(CheckCommandSystem, CompensatesRadiiWithTheToolsThatItIsTold) {
   write("part.nc",
-        "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG41 D1 X20\nX40\nG40 X60\n"
+        "G21 T1 M6\nS1000 M3\nG54 G43 H1\nG0 X0 Y0 Z50\nG1 Z10 F200\nG41 D1 X20\nX40\nG40 X60\n"
         "G0 Z60\nM5\nM30\n");
   const Outcome without = run("check part.nc");
   EXPECT_NE(without.out.find("part.nc:6:"), std::string::npos) << without.out;
@@ -69,14 +69,14 @@ TEST_F(CheckCommandSystem, RefusesASetupThatIsNone) {
 }
 
 TEST_F(CheckCommandSystem, FailsOnWarningsWhenTold) {
-  write("part.nc", "G0 X1\nG91\nM30\n");
+  write("part.nc", "G21 G0 X1\nG91\nM30\n");
   EXPECT_EQ(run("check part.nc").exit_code, 0);
   EXPECT_EQ(run("check part.nc --fail-on warning").exit_code, 1);
   EXPECT_EQ(run("check part.nc --fail-on warning --disable end-incremental").exit_code, 0);
 }
 
 TEST_F(CheckCommandSystem, PrintsOneJsonDocument) {
-  write("part.nc", "G0 X1\nG1 X2\nM30\n");
+  write("part.nc", "G21 G0 X1\nG1 X2\nM30\n");
   const Outcome outcome = run("check part.nc --json --machine iwf-bc");
   EXPECT_EQ(outcome.exit_code, 1);
   const json doc = json::parse(outcome.out);
@@ -87,7 +87,7 @@ TEST_F(CheckCommandSystem, PrintsOneJsonDocument) {
 }
 
 TEST_F(CheckCommandSystem, WritesSarif) {
-  write("part.nc", "G0 X1\nG1 X2\nM30\n");
+  write("part.nc", "G21 G0 X1\nG1 X2\nM30\n");
   EXPECT_EQ(run("check part.nc --sarif found.sarif").exit_code, 1);
   const json doc = json::parse(read(folder_ / "found.sarif"));
   EXPECT_EQ(doc["version"], "2.1.0");
@@ -124,7 +124,7 @@ TEST_F(CheckCommandSystem, FindsSubprogramsInTheFoldersThatAreNamed) {
 }
 
 TEST_F(CheckCommandSystem, Fault2_18_SeesTipControlOffFromTheMachinesHomeOn) {
-  write("part.nc", "T1 M6\nS1000 M3\nG43 H1\nG0 Z50\nG1 B30 X40 F500\nG0 Z60\nM5\nM30\n");
+  write("part.nc", "G21 T1 M6\nS1000 M3\nG43 H1\nG0 Z50\nG1 B30 X40 F500\nG0 Z60\nM5\nM30\n");
   EXPECT_EQ(run("check part.nc").out.find("tip-control-off"), std::string::npos);
   EXPECT_NE(run("check part.nc --machine iwf-bc").out.find("part.nc:5:1: warning: X and B cut"),
             std::string::npos);
@@ -146,7 +146,7 @@ TEST_F(CheckCommandSystem, Fault2_13_TakesWhereTheAxesStart) {
 }
 
 TEST_F(CheckCommandSystem, Fault2_12_WordsOfTheBuilderAreTheMachinesOrOfAnOption) {
-  write("part.nc", "G0 X1\nM250\nM30\n");
+  write("part.nc", "G21 G0 X1\nM250\nM30\n");
   EXPECT_NE(run("check part.nc").out.find("[builder-word]"), std::string::npos);
   EXPECT_EQ(run("check part.nc --builder-word M250").out.find("builder-word"), std::string::npos);
   EXPECT_EQ(run("check part.nc --builder-word 250M").exit_code, 2);
@@ -184,7 +184,7 @@ TEST_F(CheckCommandSystem, ListsItsChecks) {
 }
 
 TEST_F(CheckCommandSystem, ParseEndsItsLinesWithTheError) {
-  write("part.nc", "G0 X1\nG999\n");
+  write("part.nc", "G21 G0 X1\nG999\n");
   const Outcome outcome = run("parse part.nc --canon --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("part.nc:2:1: error: "), std::string::npos);

@@ -21,8 +21,8 @@ class CheckFilesSystem : public CommandLine {
   }
 };
 
-const std::string kFine = "G0 X1\nM30\n";
-const std::string kWrong = "G0 X1\nG999\nM30\n";
+const std::string kFine = "G21 G0 X1\nM30\n";
+const std::string kWrong = "G21 G0 X1\nG999\nM30\n";
 
 TEST_F(CheckFilesSystem, Fault2_19_TakesSeveralFiles) {
   write("a.nc", kFine);
@@ -142,7 +142,7 @@ TEST_F(CheckFilesSystem, AFileIsCheckedOnceHoweverItIsSpelt) {
 
 TEST_F(CheckFilesSystem, SubprogramsOfAFolderAreCheckedThroughTheirCallers) {
   write("parts/main.nc",
-        "T1 M6\nS1000 M3\nG43 H1\nG0 X0 Y0 Z50\nM98 P9010\nM98 P9020\nG0 Z60\nM5\nM30\n");
+        "G21 T1 M6\nS1000 M3\nG43 H1\nG0 X0 Y0 Z50\nM98 P9010\nM98 P9020\nG0 Z60\nM5\nM30\n");
   write("parts/O9010.nc", "O9010\nG1 X5 F200\nG999\nM99\n");
   write("parts/O9020.nc", "O9020\nG1 X6\nM99\nM30\n");  // by its text a program
   const Outcome outcome = run("check parts --fail-on warning --json");
@@ -219,8 +219,8 @@ TEST_F(CheckFilesSystem, WhatCannotBeReadIsTroubleAndTheRestIsChecked) {
 TEST_F(CheckFilesSystem, SettingsAreFoundUpwards) {
   write(".frustum.toml", "fail_on = \"warning\"\n");
   write("old/.frustum.toml", "disable = [\"end-incremental\"]\n");
-  write("new/deep/part.nc", "G0 X1\nG91\nM30\n");
-  write("old/part.nc", "G0 X1\nG91\nM30\n");
+  write("new/deep/part.nc", "G21 G0 X1\nG91\nM30\n");
+  write("old/part.nc", "G21 G0 X1\nG91\nM30\n");
   EXPECT_EQ(run("check new/deep/part.nc").exit_code, 1);
   EXPECT_TRUE(has(run("check new/deep/part.nc").err, "note: settings of "));
   EXPECT_EQ(run("check new/deep/part.nc --no-config").exit_code, 0);
@@ -235,7 +235,7 @@ TEST_F(CheckFilesSystem, SettingsHaveMachineWordsAndFolders) {
         "exclude = [\"old\", \"*_t.nc\"]\nendings = [\"prg\"]\nsearch = [\"macros\"]\n"
         "[controller]\nwords = [\"M250\"]\n");
   write("macros/O9010.nc", "O9010\nG0 X5\nM99\n");
-  write("parts/a.prg", "G0 X412\nM250\nG65 P9010\nM30\n");
+  write("parts/a.prg", "G21 G0 X412\nM250\nG65 P9010\nM30\n");
   write("parts/b_t.nc", kWrong);
   write("old/c.nc", kWrong);
   const json doc = json::parse(run("check parts old --json").out);
@@ -275,7 +275,7 @@ TEST_F(CheckFilesSystem, AWrongValueOfTheSettingsIsAnErrorWithItsPlace) {
 }
 
 TEST_F(CheckFilesSystem, CommentsSuppressAndCount) {
-  write("part.nc", "G0 X1\nG999 (frustum: ignore program-error -- the caller has one)\nM30\n");
+  write("part.nc", "G21 G0 X1\nG999 (frustum: ignore program-error -- the caller has one)\nM30\n");
   const Outcome outcome = run("check part.nc --quiet --disable not-simulated");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "0 errors, 0 warnings, 0 notes, 1 suppressed in ")) << outcome.out;
@@ -303,19 +303,19 @@ TEST_F(CheckFilesSystem, ABaselineTakesKnownFindingsAway) {
 }
 
 TEST_F(CheckFilesSystem, ABaselineDoesNotHideWhatIsNew) {
-  write("a.nc", "G0 X1\nG999\nM250\nM30\n");
+  write("a.nc", "G21 G0 X1\nG999\nM250\nM30\n");
   EXPECT_EQ(run("check a.nc --baseline known.json --write-baseline").exit_code, 0);
   const std::string known = "check a.nc --baseline known.json --fail-on note";
   EXPECT_EQ(run(known).exit_code, 0);
-  write("a.nc", "G0 X1\nG999\nG999 X50\nM250\nM30\n");
+  write("a.nc", "G21 G0 X1\nG999\nG999 X50\nM250\nM30\n");
   EXPECT_EQ(run(known).exit_code, 1);
-  write("a.nc", "G0 X1\nG999\nM250\nM250\nM30\n");
+  write("a.nc", "G21 G0 X1\nG999\nM250\nM250\nM30\n");
   EXPECT_EQ(run(known).exit_code, 1);
 }
 
 TEST_F(CheckFilesSystem, ABaselineSeesWhatIsNotListed) {
   const auto flood = [](int errors) {
-    std::string text = "G0 X1\n";
+    std::string text = "G21 G0 X1\n";
     for (int i = 0; i < errors; ++i) text += "G999\n";
     return text + "M30\n";
   };
@@ -338,7 +338,7 @@ TEST_F(CheckFilesSystem, RapidsThroughTheStockOfAJobAreFindings) {
         "blank = { shape = \"box\", size = [40, 40, 20] }\n"
         "tool.1 = { type = \"flat\", diameter = 10, length = 100, flute_length = 30 }\n"
         "setup = { origin = [0, 0, 0] }\n");
-  const std::string head = "T1 M6\nS1000 M3\nG54 G43 H1\nG0 X-40 Y0 Z50\nG0 Z-5\n";
+  const std::string head = "G21 T1 M6\nS1000 M3\nG54 G43 H1\nG0 X-40 Y0 Z50\nG0 Z-5\n";
   const std::string end = "G0 Z60\nM5\nM30\n";
   write("part.nc", head + "G0 X40\n" + end);
   const Outcome outcome = run("check --job job.toml");

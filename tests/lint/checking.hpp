@@ -18,6 +18,7 @@ namespace frustum::lint {
                                          bool ask_for_points = false) {
   CheckOptions quick = options;
   quick.most_turns = 1000;
+  if (!quick.run.control.unit) quick.run.control.unit = parser::LengthUnit::millimetre;
   quick.decimal_point_is_known = !ask_for_points;
   return check_program({"part.nc", dialect, parser::ProgramText(std::string(text))}, quick);
 }

@@ -19,7 +19,9 @@ const std::string kProgram = "G0 X1 Z9\n\tG999 (\xC3\xBC) Y1\nM30\n";
 
 CheckedFile written(const std::string& text, const std::string& file = "a b/part.nc") {
   const parser::Program program{file, parser::Dialect::fanuc, parser::ProgramText(text), nullptr};
-  CheckedFile checked{file, "fanuc", "", false, check_program(program, {}), {}};
+  CheckOptions options;
+  options.run.control.unit = parser::LengthUnit::millimetre;
+  CheckedFile checked{file, "fanuc", "", false, check_program(program, options), {}};
   checked.lines = source_lines(program, checked.report.findings);
   return checked;
 }

@@ -49,7 +49,8 @@ TEST(Limits, ALongProgramWithoutLoopsRunsToItsEnd) {
 TEST(Limits, SubprogramsThatComeOnceAreNoRepeats) {
   CheckOptions options;
   options.most_repeats = 10;
-  const std::string text = "G0 X0 Z5\nM98 P2\nM98 P1\nG0 X3\nM30\nO1\nG0 X1\nM99\nO2\nG0 X2\nM99\n";
+  const std::string text =
+      "G21 G0 X0 Z5\nM98 P2\nM98 P1\nG0 X3\nM30\nO1\nG0 X1\nM99\nO2\nG0 X2\nM99\n";
   EXPECT_EQ(ids(checked_as_shipped(text, options, Dialect::fanuc)), "");
 }
 

@@ -13,13 +13,19 @@
 
 namespace frustum::parser {
 
+// A control whose unit is known, so that the programs of tests need no G21.
+[[nodiscard]] inline InterpreterOptions in_millimetres(InterpreterOptions options) {
+  if (!options.control.unit) options.control.unit = LengthUnit::millimetre;
+  return options;
+}
+
 // Not to be confused with a pass: a program that fails gives no motions and a test failure.
 [[nodiscard]] inline std::vector<Motion> motions(std::string_view text,
                                                  const InterpreterOptions& options = {},
                                                  Dialect dialect = Dialect::fanuc) {
   auto motions =
       parse_program(text, "part.nc", dialect).and_then([&options](const Program& program) {
-        return motions_of(program, options);
+        return motions_of(program, in_millimetres(options));
       });
   if (motions) return *std::move(motions);
   for (const Diagnostic& diagnostic : motions.error()) ADD_FAILURE() << to_string(diagnostic);

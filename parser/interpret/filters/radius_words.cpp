@@ -62,6 +62,14 @@ Vec2 control_point(int orientation) {
   return {point[0], point[1]};
 }
 
+// No setup has given diameters, and neither has the program one of this number.
+bool diameter_is_unknown(const InterpreterState& state, int number) {
+  if (!state.rules.offset_numbers_stand_alone) return state.data.tools.empty();
+  if (state.data.tools_are_given) return false;
+  const auto tool = state.data.tools.find(number);
+  return tool == state.data.tools.end() || tool->second.diameter == 0.0;
+}
+
 Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::radius_compensation];
   const std::string name = code.code->name();
@@ -93,7 +101,7 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
     if (*given != 0 || !of_linuxcnc) number = *given;
     state.modes.radius_number = number;
   } else if (state.rules.radius.source == RadiusSource::last_d) {
-    if (!state.modes.radius_number && state.data.tools.empty()) return ToolEdge{};
+    if (!state.modes.radius_number && diameter_is_unknown(state, -1)) return ToolEdge{};
     if (!state.modes.radius_number) {
       return fail(state, code.column, "radius-number-missing"_id, name + " without D",
                   fmt::format("give the number of the offset, for example {} D1", name));
@@ -106,7 +114,7 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   }
   const std::uint32_t column = has_d ? words['D'].column : code.column;
   const auto tool = state.data.tools.find(number);
-  const bool unknown = state.rules.offset_numbers_stand_alone && state.data.tools.empty();
+  const bool unknown = state.rules.offset_numbers_stand_alone && diameter_is_unknown(state, number);
   if (unknown || (number == 0 && state.rules.offset_numbers_stand_alone)) return ToolEdge{};
   // No tool has no diameter.
   if (tool == state.data.tools.end() && number == 0 && of_linuxcnc) return ToolEdge{};
@@ -115,8 +123,8 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
                 fmt::format("the tool table has no tool {}", number),
                 "give the tool's diameter in the tool table");
   }
-  return ToolEdge{tool->second.diameter / 2.0 + state.modes.tool_oversize,
-                  tool->second.orientation};
+  const double diameter = tool->second.diameter + tool->second.diameter_wear;
+  return ToolEdge{diameter / 2.0 + state.modes.tool_oversize, tool->second.orientation};
 }
 
 // Whether a tool without diameter may follow a contour.
@@ -140,7 +148,7 @@ bool goes_along_contour(InterpreterState& state, const BlockWords& words) {
   const auto word = static_cast<RadiusWord>(code.code->value);
   const bool by_word =
       word == RadiusWord::left_by_diameter || word == RadiusWord::right_by_diameter;
-  if (!state.data.contours_without_diameter || by_word || !state.data.tools.empty()) return false;
+  if (!state.data.contours_without_diameter || by_word) return false;
   int number = state.modes.tool;
   if (words.has('D') && code.code->arguments.has('D')) {
     number = static_cast<int>(words['D'].value);
@@ -149,8 +157,10 @@ bool goes_along_contour(InterpreterState& state, const BlockWords& words) {
   } else if (state.rules.radius.source == RadiusSource::last_d) {
     number = state.modes.radius_number.value_or(-1);
   }
+  if (!diameter_is_unknown(state, number)) return false;
   if (number > 0) state.modes.radius_number = number;
-  state.modes.tool_side = word == RadiusWord::left ? ToolSide::left : ToolSide::right;
+  const bool left = word == RadiusWord::left || word == RadiusWord::left_in_space;
+  state.modes.tool_side = left ? ToolSide::left : ToolSide::right;
   assume(state, code.column, "contour-without-diameter",
          fmt::format("the diameter of tool {} is not known: the tool's centre goes along the "
                      "programmed contour",
@@ -241,9 +251,15 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   }
   const auto edge = edge_for(state, words);
   if (!edge) return edge.error();
+  const bool in_space = word == RadiusWord::left_in_space || word == RadiusWord::right_in_space;
+  if (in_space && edge->radius != 0.0) {
+    return fail(state, code.column, "not-simulated"_id, code.code->name() + " is not simulated",
+                "use G41 D or G42 D, in a plane");
+  }
   const double radius = edge->radius;
   if (radius == 0.0 && state.rules.offset_numbers_stand_alone) {
-    if (state.data.tools.empty()) {
+    const bool none = state.modes.radius_number == 0;
+    if (!none && diameter_is_unknown(state, state.modes.radius_number.value_or(-1))) {
       assume(state, code.column, "cutter radius",
              code.code->name() +
                  " with a radius that only the setup knows: the moves are those of "

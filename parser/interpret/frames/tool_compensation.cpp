@@ -80,6 +80,14 @@ Result<std::optional<ToolOffset>> listed_offset(const InterpreterState& state,
     offset.at(kLengthAxis) += tool->second.length_wear;
     return std::optional(offset);
   }
+  if (tool != state.data.tools.end() && tool->second.length_wear != 0.0) {
+    return fail(
+        state, words[CodeGroup::length_compensation].column, "unknown-tool-length"_id,
+        fmt::format("the wear of offset {}, {:.6g} mm, adds to a length that only the setup "
+                    "knows",
+                    number, tool->second.length_wear),
+        "give the length too, by G10 L10 P R");
+  }
   const bool none_given = words.has('H') && state.rules.offset_numbers_stand_alone;
   if (number == 0) {
     return state.data.tools_are_listed || none_given ? std::optional(ToolOffset{}) : std::nullopt;

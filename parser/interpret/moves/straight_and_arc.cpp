@@ -65,24 +65,68 @@ bool lacks_centre(const BlockWords& words, PlaneAxes axes) {
 }
 
 // I J K are the centre itself on some controls. The first arc of a program shows it where its radii
-// agree so, and by far not as steps from the start.
+// agree so, and by far not as steps from the start. Radii that nearly agree make a spiral.
 Result<Arc> arc_of_iso(InterpreterState& state, const Movement& movement, const ArcWords& words) {
-  constexpr double kFar = 0.1;  // mm
+  constexpr double kFar = 0.1;          // mm
+  constexpr double kSmallRadius = 1.0;  // mm: of a smaller arc it is too much
   auto arc = arc_of(words);
-  if (words.radius || std::exchange(state.modes.centres_are_known, true) || arc) return arc;
-  // A full circle closes about any centre.
-  if ((words.end - words.start).norm() < kFar) return arc;
+  if (words.radius) return arc;
+  const bool first = !std::exchange(state.modes.centres_are_known, true);
+  if (arc) return arc;
   ArcWords lenient = words;
   lenient.tolerance = {.absolute = kFar, .relative = 0.0, .largest = kFar};
-  ArcWords itself = words;
-  itself.centre_is_absolute = true;
-  itself.tolerance = {.relative = 0.0, .largest = itself.tolerance.absolute};
-  auto otherwise = arc_of(itself);
-  if (arc_of(lenient) || !otherwise) return arc;
-  state.modes.arc_distance = DistanceMode::absolute;
-  assume(state, movement.column, "arc centres",
-         "I J K are the centre itself, as the radii of the first arc agree only so");
-  return otherwise;
+  auto nearly = arc_of(lenient);
+  // A full circle closes about any centre.
+  if (first && (words.end - words.start).norm() >= kFar) {
+    ArcWords itself = words;
+    itself.centre_is_absolute = true;
+    itself.tolerance = {.relative = 0.0, .largest = itself.tolerance.absolute};
+    auto otherwise = arc_of(itself);
+    if (otherwise && nearly) return arc;
+    if (otherwise) {
+      state.modes.arc_distance = DistanceMode::absolute;
+      assume(state, movement.column, "arc centres",
+             "I J K are the centre itself, as the radii of the first arc agree only so");
+      return otherwise;
+    }
+  }
+  if (!nearly || (nearly->centre - words.start).norm() < kSmallRadius) return arc;
+  assume(state, movement.column, "arc radii",
+         fmt::format("the control takes radii of an arc that differ by up to {} mm for a spiral",
+                     kFar));
+  return nearly;
+}
+
+// K of a helix in G17: the pitch, which the end along Z repeats. Where they differ it is none.
+Outcome check_pitch(InterpreterState& state, const BlockWords& words, const ArcWords& arc,
+                    const Vec3& centre, int turns) {
+  constexpr double kRounding = 0.002;        // mm, of K in each turn
+  constexpr double kRoundingOfInches = 2.5;  // times as much
+  const PlaneAxes axes = axes_of(arc.plane);
+  const char letter = "IJK"[axes.w];
+  if (state.rules.dialect != Dialect::fanuc || words.has('R') || words[letter].value == 0.0) {
+    return Done{};
+  }
+  const auto angle_of = [&](const Vec3& point) {
+    const double angle = std::atan2(point[axes.v] - centre[axes.v], point[axes.u] - centre[axes.u]);
+    return arc.clockwise ? -angle : angle;
+  };
+  double angle = std::remainder(angle_of(arc.end) - angle_of(arc.start), kTurn);
+  if (angle <= 1e-9) angle += kTurn;
+  const double parts = angle / kTurn + (turns - 1);
+  const double rise = std::abs(arc.end[axes.w] - arc.start[axes.w]);
+  const double pitch = std::abs(words[letter].value) * unit_scale(state);
+  const double rounding =
+      kRounding * turns * (state.modes.unit == LengthUnit::millimetre ? 1.0 : kRoundingOfInches);
+  if (std::abs(rise - pitch * parts) > rounding) {
+    return fail(state, words[letter].column, "word-unused"_id,
+                fmt::format("{} has no meaning in this block", words.text_of(letter)),
+                fmt::format("the pitch of the helix is {:.6g} mm", rise / parts));
+  }
+  assume(state, words[letter].column, "pitch",
+         fmt::format("{} is the pitch of the helix, which agrees with its end",
+                     words.text_of(letter)));
+  return Done{};
 }
 
 // Full turns are before the way to the end. TURN=1.5 of some posts has a half where the way to the
@@ -282,6 +326,7 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
     if (!more) return more.error();
     turns += *more;
   }
+  if (auto done = check_pitch(state, words, arc_words, arc->centre, turns); !done) return done;
   const auto feed = feed_for(state, words, movement, true);
   if (!feed) return feed.error();
   const ArcFeed move{end_of(state, words),  arc->centre,

@@ -40,6 +40,7 @@ struct ControlData {
   WorkOffsets work_offsets{};
   std::array<AxisTarget, 2> reference_points{};  // of G28 and G30; absent: the machine's
   ToolTable tools{};
+  bool tools_are_given = false;   // of the setup, with their diameters
   bool tools_are_listed = false;  // there was a tool table: other tools do not exist
   std::array<double, kAxisLetters.size()> shift{};  // of G92, also while it does not count
   bool shift_counts = false;

@@ -101,12 +101,17 @@ struct ModalCorner {
   double feed = 0.0;
 };
 
+// What T means beside M6: the tool of the next change; or, after a change without one, that of the
+// change before.
+enum class ToolOrder : std::uint8_t { before_change, not_known, behind_change };
+
 struct ModalState {
   MotionMode motion = MotionMode::none;
   MotionMode before_cycle = MotionMode::none;  // the last motion that was no canned cycle
   Plane plane = Plane::xy;
   LengthUnit unit = LengthUnit::millimetre;
-  bool diameter = false;  // G7: X words are twice the position
+  bool unit_is_known = false;  // by a word of the program, the control's settings, or as assumed
+  bool diameter = false;       // G7: X words are twice the position
   DistanceMode distance = DistanceMode::absolute;
   DistanceMode arc_distance = DistanceMode::incremental;
   bool centres_are_known = false;  // G90.1, G91.1 or an arc has been
@@ -124,6 +129,7 @@ struct ModalState {
   WorkOffset datum{};
   ProgrammedFrame offset_frame{};
   std::optional<int> selected_tool{};
+  ToolOrder tool_order = ToolOrder::before_change;
   int tool = 0;                                        // in the spindle
   int tool_edge = 1;                                   // D of Sinumerik, above zero
   double tool_oversize = 0.0;                          // mm of its radius (DR of TOOL CALL)

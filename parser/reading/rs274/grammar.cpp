@@ -77,7 +77,7 @@ class BlockBuilder {
   }
   Iterator read_program_number(Iterator begin) {
     in_.go_to(column_of(begin));
-    if (in_.peek() < '0' || in_.peek() > '9') return nullptr;
+    if (in_.peek() < '0' || in_.peek() > '9') return aligns(begin) ? begin : nullptr;
     // The O is one byte or some blanks before its digits; its column was noted.
     if (block_.program) {
       in_.fail("word-twice"_id, opening_word_column_, "two O words in a block",
@@ -86,6 +86,18 @@ class BlockBuilder {
     block_.program = in_.block_number();
     block_.program_column = opening_word_column_;
     return end_of_reading();
+  }
+  // A colon that begins a block, without a number: the alignment character of ISO 6983.
+  bool aligns(Iterator begin) {
+    const bool leads = block_.words.empty() && block_.assignments.empty() &&
+                       block_.comments.empty() && !block_.program && !block_.number;
+    const char next = in_.peek();
+    const bool goes_on = next == '\0' || next == '(' || next == ';' ||
+                         std::isalpha(static_cast<unsigned char>(next)) != 0;
+    if (text_[opening_word_column_ - 1] != ':' || !leads || !goes_on) return false;
+    block_.comments.push_back(
+        {column_of(begin) - 1, false, "without a number it is passed over", ":", false, true});
+    return true;
   }
   // A plain number, by far the most common value, needs no expression.
   Iterator read_word_value(Iterator begin) {

@@ -93,7 +93,7 @@ TEST(Complaint19, KnownWordsThatAreNotSimulatedBecomeEvents) {
 }
 
 TEST(BadPrograms, KeepTheMotionsBeforeTheError) {
-  const auto program = parse_program("G0 X1\nX2\nX3 Q1\nX4\n", "part.nc");
+  const auto program = parse_program("G21 G0 X1\nX2\nX3 Q1\nX4\n", "part.nc");
   ASSERT_TRUE(program);
   int count = 0;
   const auto summary = interpret(*program, [&count](Motion&&) { ++count; });

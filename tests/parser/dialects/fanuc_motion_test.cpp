@@ -1,4 +1,4 @@
-// G27 to G33 of Fanuc: reference points, skips, threads.
+// Moves of Fanuc: reference points, skips, threads, arcs, radius compensation.
 #include <gtest/gtest.h>
 
 #include "tests/parser/running.hpp"
@@ -78,10 +78,61 @@ TEST(FanucMotion, FirstArcShowsCentresThatAreNoSteps) {
             std::vector<std::string>{"arc-radius"});
   EXPECT_EQ(complaint_ids("G91.1\nG0 X10 Y0\nG3 X0 Y10 I5 J5 F100\n"),
             std::vector<std::string>{"arc-radius"});
-  EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 X-10 Y0 I-10.02 J0 F100\n"),
+  EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 X-10 Y0 I-10.2 J0 F100\n"),
             std::vector<std::string>{"arc-radius"});
   EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 I0 J0 F100\n"),
             std::vector<std::string>{"arc-centre-is-start"});
+}
+
+// The start is 10.05 mm from the centre, the end 9.95 mm: 0.1 mm apart.
+TEST(FanucMotion, RadiiThatNearlyAgreeMakeASpiral) {
+  const auto all = motions("G0 X10 Y0 Z0\nG3 X-9.9 Y0 I-10 J0 F100\n");
+  EXPECT_EQ(last_of<ArcFeed>(all).end[X], -9.9);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "arc radii");
+  EXPECT_EQ(all_of<Event>(all).at(0).grade, EventGrade::assumed);
+  EXPECT_EQ(complaint_ids("G0 X10 Y0\nG3 X-9.8 Y0 I-10 J0 F100\n"),
+            std::vector<std::string>{"arc-radius"});
+  // Of a radius of 0.5 mm it is too much.
+  EXPECT_EQ(complaint_ids("G0 X0.5 Y0\nG3 X-0.45 Y0 I-0.5 J0 F100\n"),
+            std::vector<std::string>{"arc-radius"});
+}
+
+// Half a turn of a helix with the pitch 3 rises by 1.5 mm, one and a half by 4.5 mm.
+TEST(FanucMotion, HelixMayHaveItsPitchBesideItsEnd) {
+  const auto all = motions("G0 X5 Y0 Z0\nG3 X-5 Y0 Z1.5 I-5 J0 K3 F100\n");
+  EXPECT_EQ(last_of<ArcFeed>(all).end[Z], 1.5);
+  EXPECT_EQ(last_of<ArcFeed>(all).turns, 1);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "pitch");
+  EXPECT_EQ(last_of<ArcFeed>(motions("G0 X5 Y0 Z0\nG2 X-5 Y0 Z-4.5 I-5 J0 K3 P2 F100\n")).turns,
+            -2);
+  EXPECT_EQ(last_of<ArcFeed>(motions("G0 X5 Y0 Z0\nG3 X5 Y0 Z3 I-5 J0 K3 F100\n")).end[Z], 3.0);
+  EXPECT_EQ(last_of<ArcFeed>(motions("G19 G0 Y5 Z0 X0\nG3 Y-5 Z0 X1 J-5 K0 I2 F9\n")).end[X], 1.0);
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(complaint_ids("G0 X5 Y0 Z0\nG3 X-5 Y0 Z1.6 I-5 J0 K3 F100\n"), Ids{"word-unused"});
+  EXPECT_EQ(complaint_ids("G0 X5 Y0 Z0\nG3 X-5 Y0 I-5 J0 K3 F100\n"), Ids{"word-unused"});
+}
+
+// To the side of a tool that may be tilted: as G41 while nothing says how far.
+TEST(FanucMotion, CompensationInSpaceNeedsAToolWithoutDiameter) {
+  const char* text = "G0 X0 Y0\nG1 G41.2 D4 X10 F100\nY5\nG40 X0\n";
+  const auto all = motions(text);
+  EXPECT_EQ(all_of<LinearFeed>(all).at(0).end[X], 10.0);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "cutter radius");
+  InterpreterOptions options;
+  options.tools[4].diameter = 6.0;
+  EXPECT_EQ(complaint_ids(text, options), std::vector<std::string>{"not-simulated"});
+}
+
+// Radius 5 mm and its wear of 0.25 mm, to the left of a contour along Y.
+TEST(FanucMotion, WearOfTheRadiusCounts) {
+  const std::string contour = "G0 X0 Y0\nG1 G41 D1 X10 F100\nY5\nY10\nG40 X0\n";
+  const auto all = motions("G10 L12 P1 R5\nG10 L13 P1 R0.25\n" + contour);
+  EXPECT_NEAR(*all_of<LinearFeed>(all).at(1).end[X], 4.75, 1e-9);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "offset memory");
+  // A length alone leaves the radius open, which is told.
+  const auto open = motions("G10 L10 P1 R50\n" + contour);
+  EXPECT_EQ(all_of<LinearFeed>(open).at(1).end[X], 10.0);
+  EXPECT_EQ(all_of<Event>(open).at(0).name, "cutter radius");
 }
 
 }  // namespace

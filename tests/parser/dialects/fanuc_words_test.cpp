@@ -132,7 +132,7 @@ TEST(FanucWords, Fault2_07_PresetEndsTheShiftOfItsAxes) {
 }
 
 TEST(FanucWords, Fault2_08_NumbersWithoutAPointCountAsTheControlIsSet) {
-  const char* text = "G20 G0 X0019685 Y1.\nG21 G1 X1500 Y2.5 C90000 F200\nG4 X1500\nG4 P500\n";
+  const char* text = "G20 G0 X0019685 Y1. C0\nG21 G1 X1500 Y2.5 C90000 F200\nG4 X1500\nG4 P500\n";
   InterpreterOptions options;
   options.control.decimal_point = DecimalPoint::increment;
   const auto all = motions(text, options);
@@ -328,7 +328,7 @@ TEST(FanucWords, StoredVariablesAreVacant) {
 // The block of a call that is read as the program runs goes when the call begins.
 TEST(FanucWords, SignalsThatACallReadsAreToldBeforeIt) {
   const Program program{"part.nc", Dialect::fanuc,
-                        ProgramText("G0 X0\nG65 P9000 A#1000\nM30\nO9000\nG0 X[5+#1]\nM99\n")};
+                        ProgramText("G21 G0 X0\nG65 P9000 A#1000\nM30\nO9000\nG0 X[5+#1]\nM99\n")};
   const auto all = motions_of(program);
   ASSERT_TRUE(all);
   EXPECT_EQ(last_of<Traverse>(*all).end[X], 5.0);

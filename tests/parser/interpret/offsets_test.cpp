@@ -119,6 +119,12 @@ TEST(ToolLengths, OfTheSetupStayItsOwnBesideARadius) {
   EXPECT_EQ(last_of<CompensationChange>(motions("G10 L12 P3 R5\nG43 H3\n")).length, std::nullopt);
 }
 
+TEST(ToolLengths, OfTheSetupTakeNoWearFromTheProgram) {
+  EXPECT_EQ(complaint_ids("G10 L11 P3 R-0.5\nG0 G43 H3 Z5\n"),
+            std::vector<std::string>{"unknown-tool-length"});
+  EXPECT_TRUE(complaint_ids("G10 L11 P3 R0\nG0 G43 H3 Z5\n").empty());
+}
+
 TEST(ToolLengths, ThatAreKnownKeepZKnown) {
   const auto all = run_linuxcnc("G0 Z10\nG43.1 Z4\nG91 G0 Z1\nG43.2 Z2\nG0 Z1\nG49\nG0 Z1\n");
   EXPECT_EQ(all_of<CompensationChange>(all)[1].length, 6.0);

@@ -1,0 +1,96 @@
+// What a program in the manner of Fanuc leaves open, and how it is taken.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/parser/running.hpp"
+
+namespace frustum::parser {
+namespace {
+
+using enum AxisLetter;
+using Assumptions = std::vector<std::string>;
+
+// Their names, in order.
+Assumptions assumptions_of(const std::vector<Motion>& all) {
+  Assumptions names;
+  for (const Event& event : all_of<Event>(all)) {
+    if (event.grade == EventGrade::assumed) names.push_back(event.name);
+  }
+  return names;
+}
+
+TEST(FanucAssumptions, ColonWithoutANumberIsPassedOver) {
+  const auto all = motions(":O1001\n: (A PART)\n:G90 G0 X5\n");
+  EXPECT_EQ(assumptions_of(all), Assumptions{":"});
+  EXPECT_EQ(last_of<Traverse>(all).end[X], 5.0);
+  EXPECT_EQ(complaint_ids("#1=5:\n"), Assumptions{"name-missing"});
+  EXPECT_EQ(complaint_ids("G0 X1 : Y2\n"), Assumptions{"name-missing"});
+  EXPECT_EQ(complaint_ids(":[1]\n"), Assumptions{"name-missing"});
+}
+
+// Neither a rapid to zero nor a dwell depends on the unit; a feed does.
+TEST(FanucAssumptions, UnitIsAssumedWhereNothingGivesIt) {
+  const auto run = [](std::string_view text, InterpreterOptions options = {}) {
+    const Program program{"part.nc", Dialect::fanuc, ProgramText(std::string(text))};
+    auto all = motions_of(program, options);
+    EXPECT_TRUE(all) << text;
+    return all ? *std::move(all) : std::vector<Motion>{};
+  };
+  const auto line_of = [](const std::vector<Motion>& all) {
+    for (const Motion& motion : all) {
+      const auto* event = std::get_if<Event>(&motion.command);
+      if (event != nullptr && event->name == "units") return motion.place.line;
+    }
+    return 0U;
+  };
+  EXPECT_EQ(assumptions_of(run("G28 Z0\nG4 X1.\nG0 X5\nX9\n")), Assumptions{"units"});
+  EXPECT_EQ(line_of(run("G28 Z0\nG4 X1.\nG0 X5\nX9\n")), 3U);
+  EXPECT_EQ(line_of(run("G0 X0\nG1 X0 F100\n")), 2U);
+  for (const char* word : {"G20", "G21", "G70", "G71"}) {
+    EXPECT_EQ(line_of(run(std::string(word) + " G0 X5\n")), 0U) << word;
+  }
+  InterpreterOptions options;
+  options.control.unit = LengthUnit::inch;
+  const auto inches = run("G0 X1. Y2.\nG1 X2. F10\nG21 X3.\n", options);
+  EXPECT_TRUE(assumptions_of(inches).empty());
+  EXPECT_NEAR(*all_of<Traverse>(inches).at(0).end[X], 25.4, 1e-12);
+  EXPECT_NEAR(all_of<LinearFeed>(inches).at(0).feed.value, 254.0, 1e-12);
+  EXPECT_EQ(all_of<LinearFeed>(inches).at(1).end[X], 3.0);
+}
+
+// Nothing else turns an axis: C might be a chamfer.
+TEST(FanucAssumptions, FirstTurnOfCWithinACutIsTold) {
+  EXPECT_EQ(assumptions_of(motions("G0 X0 Y0\nG1 X10 C2. F100\nY10 C3.\n")), Assumptions{"axis C"});
+  EXPECT_TRUE(assumptions_of(motions("G0 X0 Y0 C0\nG1 X10 C2. F100\n")).empty());
+  EXPECT_TRUE(assumptions_of(motions("G0 X0 Y0\nG1 X10 B5 C2. F100\n")).empty());
+  EXPECT_TRUE(assumptions_of(motions("G0 X0 Y0\nG0 X10 C2.\n")).empty());
+}
+
+// M6 alone changes to what the operator has prepared; with the offset behind the point of the next
+// T, as Fagor has it, that T is the tool of the change.
+TEST(FanucAssumptions, ToolMayComeBehindItsChange) {
+  const auto prepared = motions("M6\nT1\nG0 X1\nM6\nT2\nM6\n");
+  auto changes = all_of<ToolChange>(prepared);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[0].tool, 1);
+  EXPECT_EQ(changes[1].tool, 2);
+  EXPECT_EQ(assumptions_of(prepared), Assumptions{"tool before T"});
+  const auto behind = motions("S9 M3\nM6\nT1.1\nG0 X1\nM3\nM6\nT9.9\nG0 X2\nT4.4 M6\n");
+  changes = all_of<ToolChange>(behind);
+  ASSERT_EQ(changes.size(), 3U);
+  EXPECT_EQ(changes[0].tool, 1);
+  EXPECT_EQ(changes[1].tool, 9);
+  EXPECT_EQ(changes[2].tool, 4);
+  std::vector<bool> turns;
+  for (const SpindleChange& change : all_of<SpindleChange>(behind)) {
+    turns.push_back(change.direction != SpindleDirection::off);
+  }
+  EXPECT_EQ(turns, (std::vector<bool>{true, false, true, false}));
+  EXPECT_EQ(assumptions_of(behind), (Assumptions{"tool before T", "tool with offset"}));
+}
+
+}  // namespace
+}  // namespace frustum::parser
