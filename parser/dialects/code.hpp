@@ -91,7 +91,11 @@ enum class NonModal : std::uint8_t {
   shift_off,
   shift_suspend,
   shift_resume,
-  probing_cycle  // TCH PROBE: the probe or the tool is measured
+  probing_cycle,       // TCH PROBE: the probe or the tool is measured
+  floating_tap,        // G63: a line of its block alone
+  to_reference_point,  // G74, and G75 to a point of the builder
+  to_fixed_point,
+  positioning  // POS[X]=: the axes go by themselves
 };
 [[nodiscard]] constexpr bool is_pole(NonModal word) {
   return word >= NonModal::pole && word <= NonModal::pole_from_pole;
@@ -183,6 +187,7 @@ enum class DrillingWord : std::uint8_t {
   drill_dwell,    // CYCLE82
   peck,           // CYCLE83
   tap,            // CYCLE84
+  floating_tap,   // CYCLE840: as the spindle turns at the hole
   ream,           // CYCLE85: in and out by feeds of its own
   bore_oriented,  // CYCLE86: the tool leaves the wall before it goes back
   bore_stop,      // CYCLE87: stops for the operator, CYCLE88 after a dwell

@@ -13,11 +13,8 @@ constexpr std::string_view kNoFrames = "write the positions out, in G54 to G57 o
 constexpr std::string_view kNoTransformation = "only TRAORI is simulated: write the path in X Y Z";
 constexpr std::string_view kNoLead = "give the tool vector by A3= B3= C3=";
 constexpr std::string_view kNoSplines = "write splines as short G1 blocks";
-constexpr std::string_view kNoCorners =
-    "write the corner, chamfer or rounding out as G1, G2 and G3";
 constexpr std::string_view kNoCycles = "write the cycle out as G0 and G1 blocks";
 constexpr std::string_view kNoFlow = "write the blocks out in the order in which they run";
-constexpr std::string_view kNoThreads = "tap with CYCLE84, or leave threading out of the program";
 constexpr std::string_view kNoToolOffsets = "give the tool's true size in the job";
 constexpr std::string_view kNoApproach = "approach and leave the contour by G1, G2 and G3 blocks";
 constexpr std::string_view kNoContourApproach = "approach and leave the contour straight: NORM";
@@ -67,6 +64,12 @@ constexpr std::array kSinumerikCodes{
     modal('G', 1110, non_modal, NonModal::pole_from_origin, kPoleWords),
     modal('G', 1120, non_modal, NonModal::pole_from_pole, kPoleWords),
     modal('G', 330, motion, MotionMode::thread),
+    modal('G', 3310, motion, MotionMode::tap_in),
+    modal('G', 3320, motion, MotionMode::tap_out),
+    modal('G', 630, non_modal, NonModal::floating_tap),
+    modal('G', 740, non_modal, NonModal::to_reference_point, kAxisWords),
+    modal('G', 750, non_modal, NonModal::to_fixed_point, kAxisWords),
+    named("POS", non_modal, NonModal::positioning),
     named("CT", motion, MotionMode::arc_tangential),
     named("CIP", motion, MotionMode::arc_through),
     named("MCALL", hole_call, 0),
@@ -77,6 +80,7 @@ constexpr std::array kSinumerikCodes{
     named("CYCLE82", drilling_cycle, DrillingWord::drill_dwell, kDrillingWords),
     named("CYCLE83", drilling_cycle, DrillingWord::peck, kDrillingWords),
     named("CYCLE84", drilling_cycle, DrillingWord::tap, kDrillingWords),
+    named("CYCLE840", drilling_cycle, DrillingWord::floating_tap, kDrillingWords),
     named("CYCLE85", drilling_cycle, DrillingWord::ream, kDrillingWords),
     named("CYCLE86", drilling_cycle, DrillingWord::bore_oriented, kDrillingWords),
     named("CYCLE87", drilling_cycle, DrillingWord::bore_stop, kDrillingWords),
@@ -176,10 +180,7 @@ constexpr std::array kSinumerikCodes{
 constexpr std::array kSinumerikRefusedCodes{
     RefusedCode{'G', 50, 59, "write splines as short G1 blocks"},
     RefusedCode{'G', 340, 359, "write a thread of constant lead: G33"},
-    RefusedCode{'G', 630, 639, kNoThreads},
-    RefusedCode{'G', 3310, 3329, kNoThreads},
     RefusedCode{'G', 4510, 4510, "go round outer corners by an arc: G450"},
-    RefusedCode{'G', 740, 759, "move to the positions with SUPA and D0"},
     RefusedCode{'G', 580, 599, "shift by TRANS and ATRANS"},
     RefusedCode{'G', 1400, 1489, kNoApproach},
     RefusedCode{'G', 2470, 2489, kNoApproach},
@@ -214,8 +215,6 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"POLY", kNoSplines},
     RefusedWord{"INVCW", kNoSplines},
     RefusedWord{"INVCCW", kNoSplines},
-    RefusedWord{"ANG", kNoCorners},
-    RefusedWord{"AR", "give the arc by its centre I J K, or by CR="},
     RefusedWord{"DISC", "go round outer corners by an arc: G450 alone"},
     RefusedWord{"DISR", kNoApproach},
     RefusedWord{"DISCL", kNoApproach},
@@ -232,7 +231,6 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"FXS", "move to the position by G1"},
     RefusedWord{"MEAS", "leave probing out of the simulated program"},
     RefusedWord{"MEAW", "leave probing out of the simulated program"},
-    RefusedWord{"CYCLE840", kNoCycles},
     RefusedWord{"CYCLE61", kNoCycles},
     RefusedWord{"CYCLE60", kNoCycles},
     RefusedWord{"CYCLE62", kNoCycles},
@@ -259,7 +257,6 @@ constexpr std::array kSinumerikRefusedWords{
     RefusedWord{"SLOT1", kNoCycles},
     RefusedWord{"SLOT2", kNoCycles},
     RefusedWord{"LONGHOLE", kNoCycles},
-    RefusedWord{"POS", "move the axis by G0 or G1"},
     RefusedWord{"POSA", "move the axis by G0 or G1"},
     RefusedWord{"POSP", "move the axis by G0 or G1"},
     RefusedWord{"MOV", "move the axis by G0 or G1"},
@@ -316,6 +313,8 @@ constexpr std::array kSinumerikLetters{
     LetterUse{'b', kNeedsTraori},
     LetterUse{'c', kNeedsTraori},
     LetterUse{'e', "TURN= belongs to G2 and G3"},
+    LetterUse{'n', "ANG= belongs to G0 and G1"},
+    LetterUse{'o', "AR= belongs to G2 and G3"},
     LetterUse{'p', kNeedsPolar},
     LetterUse{'q', kNeedsPolar},
     LetterUse{'u', kNeedsThrough},
@@ -348,7 +347,7 @@ constexpr DialectRules kSinumerikRules{
     .feed_may_be_missing = true,
     .corner_words = LetterSet("rhimfl"),
     .letters = kSinumerikLetters,
-    .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP I1 J1 K1",
+    .known_letters = "A B C D F G I J K M N R S T X Y Z A3 B3 C3 CR TURN AP RP AR ANG I1 J1 K1",
     .parameters = {.named_locals = true,
                    .unset_is_zero = true,
                    .prefix = 'R',

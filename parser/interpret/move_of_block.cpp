@@ -43,6 +43,12 @@ constexpr Move kSetPoleInPlane = [](InterpreterState& state, const BlockWords& w
                                     const Movement& movement) {
   return set_pole_in_plane(state, words, movement.non_modal);
 };
+constexpr Move kPosition = [](InterpreterState& state, const BlockWords& words,
+                              const Movement& movement) {
+  assume(state, movement.column, "POS", "axes that go by themselves go by rapid, as G0 does");
+  if (auto done = announce_rotary_paths(state, words, movement.column); !done) return done;
+  return move_straight(state, words, movement);
+};
 constexpr std::array kNonModalMoves{
     NonModalMove{NonModal::home,
                  [](auto& state, auto& words, const auto&) { return go_home(state, words, 1); }},
@@ -76,6 +82,14 @@ constexpr std::array kNonModalMoves{
                  [](auto& state, auto& words, const auto&) { return set_start(state, words); }},
     NonModalMove{NonModal::probing_cycle,
                  [](auto& state, auto& words, const auto&) { return pass_probing(state, words); }},
+    NonModalMove{NonModal::floating_tap, move_straight},
+    NonModalMove{NonModal::positioning, kPosition},
+    NonModalMove{
+        NonModal::to_reference_point,
+        [](auto& state, auto& words, const auto&) { return approach_point(state, words); }},
+    NonModalMove{
+        NonModal::to_fixed_point,
+        [](auto& state, auto& words, const auto&) { return approach_point(state, words); }},
     NonModalMove{NonModal::shift_to_place, kShiftWords},
     NonModalMove{NonModal::shift, kShiftWords},
     NonModalMove{NonModal::shift_off, kShiftWords},
@@ -98,6 +112,7 @@ constexpr std::array kModalMoves{
     ModalMove{MotionMode::cubic_spline, MotionMode::nurbs_by_knots, move_along_spline},
     ModalMove{MotionMode::thread, MotionMode::thread, move_along_thread},
     ModalMove{MotionMode::rigid_tap, MotionMode::rigid_tap, tap_rigidly},
+    ModalMove{MotionMode::tap_in, MotionMode::tap_out, tap_one_way},
     ModalMove{MotionMode::thread_cycle, MotionMode::thread_cycle, cut_thread},
     ModalMove{MotionMode::probe_towards, MotionMode::probe_away_if_any, probe},
     ModalMove{MotionMode::peck_short, MotionMode::fine_bore, run_cycle},

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "parser/interpret/frames/tool_compensation.hpp"
+#include "parser/interpret/moves/angle_words.hpp"
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 #include "parser/interpret/state/movement.hpp"
@@ -55,6 +56,12 @@ LetterSet corner_letters(const InterpreterState& state) {
   return state.rules.dialect == Dialect::fanuc ? LetterSet("xy") : LetterSet{};
 }
 
+LetterSet angle_letter(const InterpreterState& state, char letter) {
+  LetterSet letters;
+  if (state.rules.dialect == Dialect::sinumerik) letters.add(letter);
+  return letters;
+}
+
 LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
                        const Movement& movement) {
   switch (movement.motion) {
@@ -65,6 +72,9 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     case MotionMode::thread:
       if (state.rules.leads_by_axis) return kAxisWords | LetterSet("IJK");
       return state.rules.thread_lead == 'K' ? kAxisWords | LetterSet("K") : kAxisWords;
+    case MotionMode::tap_in:
+    case MotionMode::tap_out:
+      return kAxisWords | LetterSet("IJK");
     case MotionMode::rigid_tap:
       return kLinearWords | LetterSet("K");
     case MotionMode::thread_cycle:
@@ -80,6 +90,7 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
           guides_tip(state, words) && movement.non_modal != NonModal::machine_coordinates;
       LetterSet letters = kAxisWords | state.rules.polar_words;
       if (vectors) letters = letters | LetterSet(state.rules.vector_letters);
+      letters = letters | angle_letter(state, kHeading);
       if (movement.motion == MotionMode::linear)
         letters = letters | corner_letters(state) | LetterSet("t");
       return letters;
@@ -105,7 +116,8 @@ LetterSet motion_words(const InterpreterState& state, const BlockWords& words,
     case MotionMode::arc_clockwise:
     case MotionMode::arc_counterclockwise: {
       const LetterSet letters = kAxisWords | LetterSet("RPet") | corner_letters(state) |
-                                state.rules.polar_words | pitch_letter(state, words) |
+                                angle_letter(state, kOpening) | state.rules.polar_words |
+                                pitch_letter(state, words) |
                                 centre_letters(words.value_or(CodeGroup::plane, state.modes.plane));
       // Where I J K are the tool vector, an arc has them for its centre.
       const bool vectors = guides_tip(state, words) && state.rules.vector_letters != "IJK";
@@ -184,6 +196,16 @@ Result<Movement> in_machine_coordinates(const NonModalWord& used) {
   return Movement{used.word(), mode, column};
 }
 
+// A move of the block alone.
+Result<Movement> along_line(const NonModalWord& used) {
+  if (used.names_no_axis()) {
+    return used.without_axes(
+        fmt::format("give the end of the move, for example {} Z-10", used.name()));
+  }
+  const bool taps = used.word() == NonModal::floating_tap;
+  return Movement{used.word(), taps ? MotionMode::linear : MotionMode::traverse, used.given.column};
+}
+
 // The non-modal words whose axis words are a place to go to.
 struct PlaceWord {
   NonModal word;
@@ -194,6 +216,10 @@ constexpr std::array kPlaceWords{
     PlaceWord{NonModal::second_home, to_home},
     PlaceWord{NonModal::skip, to_end},
     PlaceWord{NonModal::check_home, to_end},
+    PlaceWord{NonModal::floating_tap, along_line},
+    PlaceWord{NonModal::positioning, along_line},
+    PlaceWord{NonModal::to_reference_point, to_home},
+    PlaceWord{NonModal::to_fixed_point, to_home},
     PlaceWord{NonModal::from_home, to_end},
     PlaceWord{NonModal::machine_coordinates, in_machine_coordinates},
 };

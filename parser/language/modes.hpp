@@ -26,6 +26,8 @@ enum class MotionMode : std::uint8_t {
   // Synchronised with the spindle, and probing: cycles/thread_moves.hpp, moves/probing.hpp.
   thread,
   rigid_tap,
+  tap_in,   // G331, a block for each way
+  tap_out,  // G332
   thread_cycle,
   probe_towards,
   probe_towards_if_any,

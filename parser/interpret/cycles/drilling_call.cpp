@@ -199,7 +199,13 @@ Outcome set_pecks(InterpreterState& state, const BlockWords& words, DrillingCycl
   }
   if (words['v'].value > 0.0) cycle.chip = words['v'].value * scale;
   if (words['w'].value > 0.0) cycle.near = words['w'].value * scale;
-  if (!pecks(cycle).empty()) return Done{};
+  const std::size_t strokes = pecks(cycle).size();
+  if (strokes > 1) {
+    assume(
+        state, code.column, "CYCLE83",
+        "the last strokes, and the way back by rapid, are those of the control's cycle V06.02.09");
+  }
+  if (strokes > 0) return Done{};
   return fail(state, code.column, "cycle-pecks"_id,
               fmt::format("the cycle makes more than {} pecks", kMostPecks),
               "give a larger first depth, or an amount of degression (DAM)");
@@ -280,6 +286,27 @@ Outcome set_tap(const InterpreterState& state, const BlockWords& words, Drilling
   return set_tap_strokes(state, words, cycle);
 }
 
+// CYCLE840: without a lead F is that of the tap.
+Outcome set_floating_tap(const InterpreterState& state, const BlockWords& words,
+                         DrillingCycle& cycle) {
+  const auto unit = whole(state, words, 'f', 0, 3);
+  if (!unit) return unit.error();
+  for (const char letter : {'s', 't', 'r'}) {
+    const auto number = whole(state, words, letter, 0, letter == 's' ? 4 : 99999);
+    if (!number) return number.error();
+  }
+  const auto lead = words['m'].value != 0.0
+                        ? metric_lead(words['m'].value)
+                        : std::optional(lead_of(state, words['k'].value, *unit));
+  if (!lead) {
+    return fail(state, words['m'].column, "cycle-lead"_id,
+                fmt::format("{} is no metric thread", words.text_of('m')),
+                "give M3 to M48 by its number, or the lead by PIT");
+  }
+  cycle.lead = std::abs(*lead);
+  return Done{};
+}
+
 Result<DrillingCycle> drilling_cycle_of(InterpreterState& state, const BlockWords& words) {
   auto cycle = drilling_heights(state, words);
   if (!cycle) return cycle;
@@ -290,6 +317,14 @@ Result<DrillingCycle> drilling_cycle_of(InterpreterState& state, const BlockWord
       return cycle;
     case DrillingWord::tap:
       if (auto done = set_tap(state, words, *cycle); !done) return std::move(done).error();
+      if (cycle->first > 0.0) {
+        assume(state, words['t'].column, "CYCLE84",
+               "its strokes are those of the control's cycle V06.02.09");
+      }
+      break;
+    case DrillingWord::floating_tap:
+      if (auto done = set_floating_tap(state, words, *cycle); !done) return std::move(done).error();
+      if (words['s'].value == 0.0) return cycle;
       break;
     case DrillingWord::ream:
       for (const char letter : {'f', 'r'}) {
@@ -315,8 +350,25 @@ Result<DrillingCycle> drilling_cycle_of(InterpreterState& state, const BlockWord
   return cycle;
 }
 
-Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uint32_t column) {
+bool is_tap(const DrillingCycle& cycle) {
+  return cycle.kind == DrillingWord::tap || cycle.kind == DrillingWord::floating_tap;
+}
+
+// A tap in a floating chuck turns as the spindle does at the hole.
+Outcome take_spindle(const InterpreterState& state, std::uint32_t column, DrillingCycle& cycle) {
+  if (cycle.kind != DrillingWord::floating_tap) return Done{};
+  if (state.modes.spindle == SpindleDirection::off || !(state.modes.spindle_speed > 0.0)) {
+    return fail(state, column, "thread-spindle-off"_id, "CYCLE840 while the spindle is at rest",
+                "start the spindle with S and M3 or M4 before");
+  }
+  cycle.speed = cycle.speed_back = state.modes.spindle_speed;
+  if (!cycle.direction) cycle.direction = state.modes.spindle;
+  return Done{};
+}
+
+Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t column) {
   if (cycle.fault) return *cycle.fault;
+  if (auto done = take_spindle(state, column, cycle); !done) return done;
   const PlaneAxes axes = axes_of(state.modes.plane);
   const auto w = static_cast<AxisLetter>(axes.w);
   const Movement movement{NonModal::none, MotionMode::linear, column};
@@ -338,7 +390,8 @@ Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uin
     return fail(state, column, "cycle-frame"_id, "a cycle where the depths are scaled or mirrored",
                 "end that before, by SCALE or MIRROR alone");
   }
-  const bool own_feeds = cycle.kind == DrillingWord::tap || (cycle.feed && cycle.feed_out);
+  const bool by_lead = is_tap(cycle) && cycle.lead != 0.0;
+  const bool own_feeds = by_lead || (cycle.feed && cycle.feed_out);
   if (!own_feeds && state.modes.feed_mode == FeedMode::inverse_time) {
     return fail(state, column, "cycle-inverse-time"_id, "a cycle in G93",
                 "give the feed per minute, in G94");
@@ -359,7 +412,7 @@ Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uin
     state.modes.spindle_speed = speed;
     emit(state, column, SpindleChange{direction, speed});
   };
-  if (cycle.kind == DrillingWord::tap) {
+  if (by_lead) {
     feed = feed_out = {std::abs(cycle.lead), FeedMode::per_revolution, true};
   }
   const double speed_before = state.modes.spindle_speed;
@@ -370,7 +423,7 @@ Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uin
   if (cycle.kind == DrillingWord::tap) {
     turn(cycle.lead > 0.0 ? SpindleDirection::clockwise : SpindleDirection::counterclockwise,
          cycle.speed);
-  } else if (cycle.direction && *cycle.direction != state.modes.spindle) {
+  } else if (!is_tap(cycle) && cycle.direction && *cycle.direction != state.modes.spindle) {
     turn(*cycle.direction, state.modes.spindle_speed);
   }
   Vec3 hole = Vec3::Zero();
@@ -387,7 +440,7 @@ Outcome drill_here(InterpreterState& state, const DrillingCycle& cycle, std::uin
     return point;
   };
   drill(state, steps_of(cycle), column, place, feed, feed_out);
-  if (cycle.kind == DrillingWord::tap) {
+  if (is_tap(cycle)) {
     turn(cycle.direction.value_or(SpindleDirection::off), speed_before);
   }
   return Done{};

@@ -122,7 +122,7 @@ std::vector<CycleStep> steps_of(const DrillingCycle& c) {
   const bool dwells = c.dwell > 0.0;
   std::vector<CycleStep> steps;
   if (c.kind == DrillingWord::peck) return peck_steps(c);
-  if (c.kind == DrillingWord::tap) return tap_steps(c);
+  if (c.kind == DrillingWord::tap || c.kind == DrillingWord::floating_tap) return tap_steps(c);
   steps.push_back({feed, c.bottom});
   if (dwells) steps.push_back({dwell, c.dwell});
   switch (c.kind) {

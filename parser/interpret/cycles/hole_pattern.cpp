@@ -30,6 +30,9 @@ void turn_row(InterpreterState& state, std::uint32_t column, std::vector<Vec2>& 
     assume(state, column, "hole-order", "a row of holes begins with its first one");
     return;
   }
+  if (places.size() > 1) {
+    assume(state, column, "HOLES1", "the row begins with the end that is nearer to the tool");
+  }
   const Vec2 tool(*u, *v);
   if ((places.back() - tool).norm() < (places.front() - tool).norm()) {
     std::reverse(places.begin(), places.end());
@@ -52,6 +55,8 @@ std::vector<Vec2> grid_places(InterpreterState& state, std::uint32_t column, con
   Vec2 tool = grid.reference;
   if (u && v) {
     tool = Vec2(*u, *v);
+    assume(state, column, "CYCLE801",
+           "the grid begins at the corner nearest to the tool, along its closer holes");
   } else {
     assume(state, column, "hole-order", "a grid of holes begins with its first one");
   }

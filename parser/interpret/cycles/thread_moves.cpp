@@ -224,6 +224,36 @@ Outcome tap_rigidly(InterpreterState& state, const BlockWords& words, const Move
   return Done{};
 }
 
+Outcome tap_one_way(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  const char letter = lead_letter(state, words);
+  const double signed_lead = words[letter].value * unit_scale(state);
+  if (signed_lead == 0.0) {
+    return fail(state, movement.column, "thread-lead"_id, fmt::format("a tap without {}", letter),
+                "give K along Z, the way of one revolution; below zero for a left-handed thread");
+  }
+  if (!(state.modes.spindle_speed > 0.0)) {
+    return fail(state, movement.column, "cycle-speed-missing"_id, "a tap without a spindle speed",
+                "give S before, above zero");
+  }
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  const AxisTarget before = state.position.target();
+  if (auto done = set_targets(state, words); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  const auto along_way = lead_along_way(state, words, std::abs(signed_lead), before);
+  if (!along_way) return along_way.error();
+  const bool right = (signed_lead > 0.0) == (movement.motion == MotionMode::tap_in);
+  const double speed = state.modes.spindle_speed;
+  emit(state, movement.column,
+       SpindleChange{right ? SpindleDirection::clockwise : SpindleDirection::counterclockwise,
+                     speed});
+  emit(state, movement.column,
+       LinearFeed{end_of(state, words), state.modes.tool_axis, Coordinates::program,
+                  synchronised(*along_way)});
+  state.modes.spindle = SpindleDirection::off;
+  emit(state, movement.column, SpindleChange{SpindleDirection::off, speed});
+  return Done{};
+}
+
 Outcome cut_thread(InterpreterState& state, const BlockWords& words, const Movement& movement) {
   if (auto done = check_tool_length(state, movement); !done) return done;
   auto cycle = threading_cycle(state, words, movement);

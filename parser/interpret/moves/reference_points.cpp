@@ -164,6 +164,15 @@ Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t po
   return Done{};
 }
 
+Outcome approach_point(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  if (static_cast<NonModal>(code.code->value) == NonModal::to_fixed_point) {
+    assume(state, code.column, "G75", "the fixed point is where the reference point is");
+  }
+  return_to_point(state, 1, words.given() & kAxisWords, code.column);
+  return Done{};
+}
+
 Outcome check_home(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::non_modal];
   if (auto done = set_targets(state, words); !done) return done;

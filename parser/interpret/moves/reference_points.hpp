@@ -17,6 +17,8 @@ namespace frustum::parser {
 // that the program knows is a place like any other; else it is the machine's.
 [[nodiscard]] Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t point);
 // G27: by rapid to where the words say, which the control holds against the reference point.
+// G74, G75: straight to it, whatever the values of the words.
+[[nodiscard]] Outcome approach_point(InterpreterState& state, const BlockWords& words);
 [[nodiscard]] Outcome check_home(InterpreterState& state, const BlockWords& words);
 // G29: the axes named go by rapid to the place that G28 or G30 went by, then to the end. Steps
 //      count from that place.

@@ -10,6 +10,7 @@
 #include "core/constants.hpp"
 #include "parser/arc.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
+#include "parser/interpret/moves/angle_words.hpp"
 #include "parser/interpret/moves/arc_chords.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/moves/polar_words.hpp"
@@ -203,6 +204,9 @@ Outcome move_straight(InterpreterState& state, const BlockWords& words, const Mo
   const PlaneOfBlock plane(state.modes, plane_of_line(state, words));
   if (auto done = check_tool_length(state, movement); !done) return done;
   if (auto done = set_targets(state, words); !done) return done;
+  if (words.has(kHeading) && state.rules.dialect == Dialect::sinumerik) {
+    if (auto done = end_at_angle(state, words, before); !done) return done;
+  }
   if (auto done = set_tool_axis(state, words); !done) return done;
   if (auto done = check_programmed_frame(state, movement); !done) return done;
   keep_heading(state, before);
@@ -283,6 +287,9 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
     }
   }
   if (words.has('R')) arc_words.radius = words['R'].value * unit_scale(state);
+  if (words.has(kOpening) && state.rules.dialect == Dialect::sinumerik) {
+    if (auto done = open_arc(state, words, arc_words); !done) return done;
+  }
 
   auto arc = state.rules.first_arc_shows_centre ? arc_of_iso(state, movement, arc_words)
                                                 : arc_of(arc_words);

@@ -137,10 +137,6 @@ class OWordReader {
   bool only_digits_ = false;
 };
 
-}  // namespace
-
-namespace {
-
 Result<Block> read_line(std::string_view text, std::uint32_t line) {
   if (text.find('o') != std::string_view::npos || text.find('O') != std::string_view::npos) {
     if (auto statement = OWordReader(text, line)()) return *std::move(statement);

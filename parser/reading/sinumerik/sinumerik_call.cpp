@@ -85,10 +85,6 @@ bool stands_alone(BlockDraft& draft, std::uint32_t column, bool behind_label = t
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 // _N_SLOT_SPF is the program SLOT.
 std::string program_named(std::string_view written) {
   std::string name = upper_case(written);

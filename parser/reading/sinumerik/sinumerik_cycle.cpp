@@ -66,6 +66,22 @@ constexpr std::array kOfTapping{kBack,
                                 CycleParameter{'t', "_VARI="},
                                 CycleParameter{'Q', "_DAM="},
                                 CycleParameter{'v', "_VRT="}};
+constexpr std::array kOfFloatingTap{kBack,
+                                    kReference,
+                                    kClearance,
+                                    kDepth,
+                                    kRelativeDepth,
+                                    kDwell,
+                                    CycleParameter{'s', "SDR="},
+                                    CycleParameter{'e', "SDAC="},
+                                    CycleParameter{'t', "ENC="},
+                                    CycleParameter{'m', "MPIT="},
+                                    CycleParameter{'k', "PIT="},
+                                    kAxis,
+                                    CycleParameter{'f', "_PTAB="},
+                                    CycleParameter{'r', "_TECHNO="},
+                                    kDisplay,
+                                    kAlternative};
 constexpr std::array kOfReaming{kBack,
                                 kReference,
                                 kClearance,
@@ -118,12 +134,19 @@ struct Cycle {
   std::span<const CycleParameter> parameters;
 };
 constexpr std::array kCycles{
-    Cycle{"CYCLE81", kOfDrilling},      Cycle{"CYCLE82", kOfDrilling},
-    Cycle{"CYCLE83", kOfPecking},       Cycle{"CYCLE84", kOfTapping},
-    Cycle{"CYCLE85", kOfReaming},       Cycle{"CYCLE86", kOfOrientedBoring},
-    Cycle{"CYCLE87", kOfStoppedBoring}, Cycle{"CYCLE88", kOfBoring},
-    Cycle{"CYCLE89", kOfDrilling},      Cycle{"HOLES1", kOfRow},
-    Cycle{"HOLES2", kOfCircle},         Cycle{"CYCLE801", kOfGrid},
+    Cycle{"CYCLE81", kOfDrilling},
+    Cycle{"CYCLE82", kOfDrilling},
+    Cycle{"CYCLE83", kOfPecking},
+    Cycle{"CYCLE84", kOfTapping},
+    Cycle{"CYCLE840", kOfFloatingTap},
+    Cycle{"CYCLE85", kOfReaming},
+    Cycle{"CYCLE86", kOfOrientedBoring},
+    Cycle{"CYCLE87", kOfStoppedBoring},
+    Cycle{"CYCLE88", kOfBoring},
+    Cycle{"CYCLE89", kOfDrilling},
+    Cycle{"HOLES1", kOfRow},
+    Cycle{"HOLES2", kOfCircle},
+    Cycle{"CYCLE801", kOfGrid},
 };
 const Cycle* cycle_of(std::string_view name) {
   const auto* found = std::find_if(kCycles.begin(), kCycles.end(),
@@ -184,7 +207,7 @@ void read_sinumerik_modal_call(BlockDraft& draft, std::uint32_t column) {
   add_code(draft.block, *find_code(Dialect::sinumerik, "MCALL"), column);
   const std::string name = in.next_name();
   if (name.empty() ||
-      (is_sinumerik_cycle(name) && name.starts_with("CYCLE8") && name.size() == 7)) {
+      (is_sinumerik_cycle(name) && name.starts_with("CYCLE8") && name != "CYCLE801")) {
     return;
   }
   in.fail("not-supported"_id, column, fmt::format("MCALL {} is not simulated", name),

@@ -34,7 +34,8 @@ constexpr std::array kAddresses{
     Address{"AP", 'q', "AP="},     Address{"RP", 'p', "RP="},     Address{"I1", 'u', "I1="},
     Address{"J1", 'v', "J1="},     Address{"K1", 'w', "K1="},     Address{"RND", 'r', "RND="},
     Address{"RNDM", 'm', "RNDM="}, Address{"CHF", 'h', "CHF="},   Address{"CHR", 'i', "CHR="},
-    Address{"FRC", 'f', "FRC="},   Address{"FRCM", 'l', "FRCM="}};
+    Address{"FRC", 'f', "FRC="},   Address{"FRCM", 'l', "FRCM="}, Address{"ANG", 'n', "ANG="},
+    Address{"AR", 'o', "AR="}};
 // Words of these letters with plain numbers need no more than their letter.
 constexpr LetterSet kPlainLetters{"ABCDFGIJKMSTXYZ"};
 
@@ -46,10 +47,25 @@ class SinumerikReader {
   Result<Block> operator()() {
     read_start();
     while (!in_.at_end()) read_element();
+    check_positioning();
     return draft_.finish();
   }
 
  private:
+  // What goes by itself is not part of the path of the block.
+  void check_positioning() {
+    const auto goes_alone = [](const Word& word) {
+      return word.spelled != nullptr && std::string_view(word.spelled) == "POS";
+    };
+    if (std::ranges::none_of(block_.words, goes_alone)) return;
+    for (const Word& word : block_.words) {
+      if (std::string_view("XYZABC").find(word.letter) == std::string_view::npos) continue;
+      if (goes_alone(word)) continue;
+      in_.fail("word-ambiguous"_id, word.column,
+               fmt::format("{} of the path beside POS", word.letter), "write two blocks");
+    }
+  }
+
   void read_start() {
     if (in_.take('%')) {
       return read_sinumerik_head(draft_);
@@ -180,6 +196,7 @@ class SinumerikReader {
     }
     if (read_address(name, column)) return;
     const char letter = name.front();
+    if (read_machine_axis(name, column)) return;
     if (letter == 'H') return read_auxiliary(draft_, "H", column);
     if (letter == 'M' || letter == 'S' || letter == 'T') {
       // S1=1000: of the first spindle, which is the one that is simulated.
@@ -205,6 +222,45 @@ class SinumerikReader {
     return true;
   }
 
+  // G74 X1=0: the value says nothing.
+  bool read_machine_axis(const std::string& name, std::uint32_t column) {
+    constexpr double kFixedPoints = 74.0;  // and 75
+    const bool approaches = std::ranges::any_of(block_.words, [](const Word& word) {
+      return word.letter == 'G' &&
+             (word.number == kFixedPoints || word.number == kFixedPoints + 1.0);
+    });
+    const bool axis = name.size() == 2 && name.back() == '1' &&
+                      std::string_view("XYZABC").find(name.front()) != std::string_view::npos;
+    return approaches && axis && in_.take('=') && read_axis_value(name, column);
+  }
+
+  bool read_axis_value(const std::string& name, std::uint32_t column) {
+    Word word;
+    word.letter = name.front();
+    word.column = column;
+    read_sinumerik_value(draft_, word, std::string(1, name.front()));
+    block_.words.push_back(word);
+    return true;
+  }
+
+  // POS[X]=5: after the name.
+  void read_positioning(std::uint32_t column) {
+    const bool begun = std::ranges::any_of(block_.words, [](const Word& word) {
+      return word.letter == kNamedWord && code_at(word.number).word == "POS";
+    });
+    if (!begun) add_code(block_, *find_code(Dialect::sinumerik, "POS"), column);
+    const bool bracket = in_.take('[');
+    const std::string axis = in_.name();
+    if (!bracket || axis.size() != 1 ||
+        std::string_view("XYZABC").find(axis) == std::string::npos || !in_.take(']') ||
+        !in_.take('=')) {
+      return in_.fail("not-supported"_id, column, "POS of another axis than X Y Z A B C",
+                      "write POS[X]=5, or move the axis by G0");
+    }
+    (void)read_axis_value(axis, column);
+    block_.words.back().spelled = "POS";
+  }
+
   void read_named(const std::string& name, std::uint32_t column) {
     if (read_address(name, column)) return;
     if (in_.peek() == ':') return read_sinumerik_label(draft_, name, column);
@@ -213,6 +269,7 @@ class SinumerikReader {
     if (name == "CYCLE800") return read_sinumerik_swivel(draft_, column);
     if (name == "MCALL") return read_sinumerik_modal_call(draft_, column);
     if (is_sinumerik_cycle(name)) return read_sinumerik_cycle(draft_, name, column);
+    if (name == "POS") return read_positioning(column);
     if (name == "PROC") return read_sinumerik_procedure(draft_, column);
     if (name == "DEF") return read_sinumerik_definition(draft_, column);
     if (name == "EXTERN") return draft_.add_event("EXTERN", column, in_.text_to(";"));

@@ -150,6 +150,54 @@ void read_event(BlockDraft& draft, const char* name, std::uint32_t column, bool 
   draft.add_event(name, column, std::move(text));
 }
 
+constexpr std::array<std::string_view, 6> kFrameParts{"CTRANS", "CFINE",   "CROT",
+                                                      "CSCALE", "CMIRROR", "CROTS"};
+
+// CTRANS(X,10,Y,20):CROT(Z,30); false when there is none.
+bool read_frame(BlockDraft& draft) {
+  LineScanner& in = draft.in;
+  const auto is_part = [&] {
+    return std::ranges::find(kFrameParts, in.next_name()) != kFrameParts.end();
+  };
+  if (!is_part()) return false;
+  std::vector<FramePart> parts;
+  do {
+    if (!is_part()) {
+      in.fail_unexpected("join CTRANS( ), CROT( ) and CMIRROR( ) by :");
+      return true;
+    }
+    FramePart part{in.name(), {}, {}};
+    if (!in.take('(')) {
+      in.fail("bracket-missing"_id, in.column(), "the opening bracket is missing",
+              "write CTRANS(X,10)");
+      return true;
+    }
+    while (!in.failed() && in.peek() != ')' && !in.at_end()) {
+      const std::uint32_t column = in.column();
+      const std::string axis = in.name();
+      if (axis.size() != 1) {
+        in.fail("name-missing"_id, column, part.name + " without an axis", "write CTRANS(X,10)");
+      }
+      part.axes += axis;
+      if (part.name == "CMIRROR") {
+        if (in.peek() == ',') in.take(',');
+        continue;
+      }
+      if (!in.take(',')) {
+        in.fail("value-missing"_id, in.column(), part.name + " without a value",
+                "write CTRANS(X,10)");
+        return true;
+      }
+      part.values.push_back(draft.read_expression(ExpressionLevel::sum));
+      in.take(',');
+    }
+    close_bracket(in, part.name);
+    parts.push_back(std::move(part));
+  } while (in.take(':'));
+  if (!in.failed()) draft.block.assignments.back().frame = std::move(parts);
+  return true;
+}
+
 }  // namespace
 
 bool read_parallel_axis(BlockDraft& draft, char letter, std::uint32_t column) {
@@ -203,58 +251,6 @@ bool read_sinumerik_setting(BlockDraft& draft, const std::string& name, std::uin
   if (name != "EXTERN") draft.block.comments.back().of_builder = true;
   return true;
 }
-
-namespace {
-
-constexpr std::array<std::string_view, 6> kFrameParts{"CTRANS", "CFINE",   "CROT",
-                                                      "CSCALE", "CMIRROR", "CROTS"};
-
-// CTRANS(X,10,Y,20):CROT(Z,30); false when there is none.
-bool read_frame(BlockDraft& draft) {
-  LineScanner& in = draft.in;
-  const auto is_part = [&] {
-    return std::ranges::find(kFrameParts, in.next_name()) != kFrameParts.end();
-  };
-  if (!is_part()) return false;
-  std::vector<FramePart> parts;
-  do {
-    if (!is_part()) {
-      in.fail_unexpected("join CTRANS( ), CROT( ) and CMIRROR( ) by :");
-      return true;
-    }
-    FramePart part{in.name(), {}, {}};
-    if (!in.take('(')) {
-      in.fail("bracket-missing"_id, in.column(), "the opening bracket is missing",
-              "write CTRANS(X,10)");
-      return true;
-    }
-    while (!in.failed() && in.peek() != ')' && !in.at_end()) {
-      const std::uint32_t column = in.column();
-      const std::string axis = in.name();
-      if (axis.size() != 1) {
-        in.fail("name-missing"_id, column, part.name + " without an axis", "write CTRANS(X,10)");
-      }
-      part.axes += axis;
-      if (part.name == "CMIRROR") {
-        if (in.peek() == ',') in.take(',');
-        continue;
-      }
-      if (!in.take(',')) {
-        in.fail("value-missing"_id, in.column(), part.name + " without a value",
-                "write CTRANS(X,10)");
-        return true;
-      }
-      part.values.push_back(draft.read_expression(ExpressionLevel::sum));
-      in.take(',');
-    }
-    close_bracket(in, part.name);
-    parts.push_back(std::move(part));
-  } while (in.take(':'));
-  if (!in.failed()) draft.block.assignments.back().frame = std::move(parts);
-  return true;
-}
-
-}  // namespace
 
 void read_setting_values(BlockDraft& draft) {
   LineScanner& in = draft.in;

@@ -45,6 +45,12 @@ struct Teller {
   }
 };
 
+// The event that says whose strokes these are.
+bool is_of_control(const Motion& motion) {
+  const auto* event = std::get_if<Event>(&motion.command);
+  return event != nullptr && (event->name == "CYCLE83" || event->name == "CYCLE84");
+}
+
 // What the hole's block does, from a tool at Z 50 over X 3 Y 4 with the spindle at 1000 and F 200:
 // R and F to a height with the feed, D seconds, spindle and stops.
 std::string cycle_steps(const std::string& call, const std::string& before = "",
@@ -52,10 +58,39 @@ std::string cycle_steps(const std::string& call, const std::string& before = "",
   std::string told;
   for (const Motion& motion :
        run_cycle("G0 X3 Y4 Z50 S1000 M3 F200\n" + before + "\nN9 " + call + "\n")) {
-    if (motion.place.line < 3) continue;
+    if (motion.place.line < 3 || is_of_control(motion)) continue;
     told += (told.empty() ? "" : " ") + std::visit(Teller{depth}, motion.command);
   }
   return told;
+}
+
+TEST(SinumerikCycles, TapInAFloatingChuckAsTheSpindleTurns) {
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,0,4,0,,1.5)"),
+            "R12 F-15@1.5s M4/1000 F12@1.5s R40 M3/1000");
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,4,5,0,6)"),
+            "R12 F-15@1s M4/1000 F12@1s R40 M5/1000");
+  // Without a lead by the feed in force.
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,,25,,0,,1)"), "R12 F-15@200 M4/1000 F12@200 R40 M3/1000");
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,,,,,-2)", "M4 S300"),
+            "R12 F-15@2s M3/300 F12@2s R40 M4/300");
+}
+
+TEST(SinumerikCycles, StrokesOfTheControlAreAssumed) {
+  const auto assumed = [](const std::string& call) {
+    std::vector<std::string> names;
+    for (const Event& event : all_of<Event>(run_cycle("G0 X3 Y4 Z50 S1000 M3 F200\n" + call))) {
+      if (event.grade == EventGrade::assumed) names.push_back(event.name);
+    }
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(assumed("CYCLE83(40,10,2,-15,,4,,2,0,0,1,1)\n"), Names{"CYCLE83"});
+  EXPECT_EQ(assumed("CYCLE83(40,10,2,-15,,-15,,2,0,0,1,1)\n"), Names{});
+  EXPECT_EQ(assumed("CYCLE84(40,10,2,-15,,0,3,6,,0,300,300)\n"), Names{});
+  EXPECT_EQ(assumed("CYCLE84(40,10,2,-15,,0,3,6,,0,300,300,0,0,0,1,5)\n"), Names{"CYCLE84"});
+  EXPECT_EQ(assumed("HOLES1(0,0,0,10,10,3)\n"), Names{"HOLES1"});
+  EXPECT_EQ(assumed("CYCLE801(0,0,0,10,10,3,3)\n"), Names{"CYCLE801"});
+  EXPECT_EQ(assumed("HOLES2(0,0,10,0,60,6)\n"), Names{});
 }
 
 TEST(SinumerikCycles, DrillAndGoBack) {
@@ -308,7 +343,8 @@ TEST(SinumerikCycles, TellMistakes) {
       {"MCALL L10\n", "1:1: error: MCALL L10 is not simulated"},
       {"MCALL HOLES1(0,0,0,10,5,3)\n", "1:1: error: MCALL HOLES1 is not simulated"},
       {"HOLES2(0,0,10,10,5)\n", "1:1: error: HOLES2 has no number of holes"},
-      {"CYCLE840(5,0,2,-5)\n", "1:1: error: CYCLE840 is not simulated"},
+      {"CYCLE840(5,0,2,-5)\n", "1:1: error: CYCLE840 while the spindle is at rest"},
+      {"CYCLE840(5,0,2,-5,,,0,3,0,7)\n", "1:27: error: MPIT=7 is no metric thread"},
       {"G0 X0 Y0 CYCLE81(5,0,2,-5)\n", "1:4: error: X0 has no meaning in this block"},
       {"CYCLE81(5,0,2,-5) CYCLE82(5,0,2,-5)\n", "1:19: error: CYCLE82 beside another cycle"},
   };
