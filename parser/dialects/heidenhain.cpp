@@ -63,6 +63,7 @@ constexpr std::array kHeidenhainCodes{
     named("CYCL DEF 202", hole_cycle, HoleWord::bore_oriented,
           kHeidenhainHoleWords | LetterSet("no")),
     named("CYCL DEF 240", hole_cycle, HoleWord::drill, kHeidenhainHoleWords),
+    named("CYCL DEF 241", hole_cycle, HoleWord::bore, kHeidenhainHoleWords),
     named("CYCL DEF 1.1", hole_cycle, HoleWord::old_peck, LetterSet("u")),
     named("CYCL DEF 1.2", hole_cycle, HoleWord::old_peck, LetterSet("z")),
     named("CYCL DEF 1.3", hole_cycle, HoleWord::old_peck, LetterSet("Q")),

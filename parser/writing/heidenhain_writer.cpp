@@ -299,7 +299,14 @@ class KlartextBlock {
   [[nodiscard]] std::string jump_text(const FlowStatement& flow) const {
     constexpr std::array kComparisons{Operation::equal, Operation::not_equal, Operation::greater,
                                       Operation::less};
-    const Operation comparison = steps_of(block_, flow.condition).back().operation;
+    const auto steps = steps_of(block_, flow.condition);
+    const Operation comparison = steps.back().operation;
+    if (steps.front().operation == Operation::exists) {
+      return fmt::format("FN 9: IF {} IS {} GOTO LBL {}",
+                         block_.names[static_cast<std::size_t>(steps.front().number)],
+                         comparison == Operation::equal ? "UNDEFINED" : "DEFINED",
+                         label_text(flow.label));
+    }
     const auto fn = 9 + (std::ranges::find(kComparisons, comparison) - kComparisons.begin());
     return fmt::format("FN {}: IF {} GOTO LBL {}", fn, fn_text(block_, flow.condition),
                        label_text(flow.label));

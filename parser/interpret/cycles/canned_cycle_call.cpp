@@ -310,8 +310,11 @@ void drill(InterpreterState& state, const std::vector<CycleStep>& steps, std::ui
         for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
           state.position.set(axis, point[static_cast<Eigen::Index>(axis)]);
         }
-        if (step.action == CycleAction::feed) {
-          Feed now = step.value > depth ? feed_out : feed;
+        const bool out = step.value > depth;
+        const bool by_rapid =
+            out && feed_out.mode == FeedMode::per_minute && feed_out.value >= kFastestFeed;  // FMAX
+        if (step.action == CycleAction::feed && !by_rapid) {
+          Feed now = out ? feed_out : feed;
           now.value *= step.share;
           emit(state, column,
                LinearFeed{state.position.target(), state.modes.tool_axis, Coordinates::program,

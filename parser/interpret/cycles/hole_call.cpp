@@ -132,6 +132,10 @@ constexpr std::array kAssumedCycles{
     AssumedCycle{"CYCL DEF 209",
                  "at each Q257 the tap goes back by Q256 times the pitch, or out of the hole where "
                  "that is 0"},
+    AssumedCycle{
+        "CYCL DEF 241",
+        "it goes from Q200 to the depth in one stroke by Q206 and back by Q208; the speeds "
+        "of the spindle on the way are not simulated"},
     AssumedCycle{"CYCL DEF 240", "it drills to Q201 in one stroke and leaves by rapid"}};
 
 void tell_assumed_cycle(InterpreterState& state, const GivenCode& code) {
@@ -310,6 +314,11 @@ Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const bool from_surface = words.has('V');
   const double depth = from_surface ? -words['z'].value : words['Z'].value;
   const bool pecks = from_surface && words['Q'].value > 0.0 && words['Q'].value < depth;
+  if (pecks && word == HoleWord::bore) {
+    return fail(state, words['Q'].column, "not-simulated"_id,
+                fmt::format("{} of {} is not simulated", words.text_of('Q'), code.code->name()),
+                "give the whole depth, or leave it out");
+  }
   cycle.kind = kind_of(pecks ? HoleWord::peck : word, words['P'].value > 0.0);
   cycle.on = true;
   cycle.depth = depth * scale;

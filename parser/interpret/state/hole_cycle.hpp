@@ -1,6 +1,7 @@
 // Hole cycles: defined once, done at each hole that the program names afterwards. CYCLE of CLDATA;
-// CYCL DEF 200 to 207, 209, 240, 1, 2 and 17 of Klartext, called by CYCL CALL or M99 where the tool is, by
-// M89 where each move ends, by CYCL DEF 220 and 221 on a ring or a grid.
+// CYCL DEF 200 to 207, 209, 240, 241, 1, 2 and 17 of Klartext, called by CYCL CALL or M99 where the
+// tool is, by M89 where each move ends, by CYCL DEF 220 and 221 on a ring or a grid, by CYCL CALL
+// PAT at the points of PATTERN DEF.
 //
 // The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v
 // how high it goes afterwards (I: as high as before the first hole), Q the peck, P the dwell in

@@ -301,7 +301,7 @@ class CycleReader {
         continue;
       }
       if (known->letter == kWithoutEffect) {
-        (void)in_.signed_number(name, place);
+        skip_value(name, place);
         continue;
       }
       // Of feeds: by rapid, or as the tool call has it.
@@ -328,6 +328,18 @@ class CycleReader {
                       fmt::format("{} has no {}", cycle.code, parameter.name),
                       std::string(cycle.form));
     }
+  }
+
+  // A number, a parameter, MAX or AUTO.
+  void skip_value(const std::string& name, std::uint32_t column) {
+    for (const char* word : {"MAX", "FMAX", "AUTO", "FAUTO"}) {
+      if (in_.take_name(word)) return;
+    }
+    const std::uint32_t place = in_.column();
+    const bool is_signed = in_.take('-') || in_.take('+');
+    if (is_q_parameter(in_.next_name())) return (void)in_.name();
+    if (is_signed) in_.go_to(place);
+    (void)in_.signed_number(name, column);
   }
 
   void read_dwell_cycle(int part, std::uint32_t column) {

@@ -95,6 +95,25 @@ constexpr std::array kCentre{
     CycleParameter{"Q206", 'f', "Q206=", true}, CycleParameter{"Q211", 'P', "Q211="},
     CycleParameter{"Q203", 'V', "Q203=", true}, CycleParameter{"Q204", 'v', "Q204="},
     CycleParameter{"Q342", kWithoutEffect, ""}, CycleParameter{"Q253", kWithoutEffect, ""}};
+constexpr std::array kSingleLip{CycleParameter{"Q200", 'u', "Q200=", true},
+                                CycleParameter{"Q201", 'z', "Q201=", true},
+                                CycleParameter{"Q206", 'f', "Q206=", true},
+                                CycleParameter{"Q211", 'P', "Q211="},
+                                CycleParameter{"Q203", 'V', "Q203=", true},
+                                CycleParameter{"Q204", 'v', "Q204="},
+                                CycleParameter{"Q379", 0, ""},
+                                CycleParameter{"Q253", kWithoutEffect, ""},
+                                CycleParameter{"Q208", 'W', "Q208="},
+                                CycleParameter{"Q426", kWithoutEffect, ""},
+                                CycleParameter{"Q427", kWithoutEffect, ""},
+                                CycleParameter{"Q428", kWithoutEffect, ""},
+                                CycleParameter{"Q429", kWithoutEffect, ""},
+                                CycleParameter{"Q430", kWithoutEffect, ""},
+                                CycleParameter{"Q435", 0, ""},
+                                CycleParameter{"Q401", kWithoutEffect, ""},
+                                CycleParameter{"Q202", 'Q', "Q202="},
+                                CycleParameter{"Q212", 0, ""},
+                                CycleParameter{"Q205", kWithoutEffect, ""}};
 constexpr std::array kRing{
     CycleParameter{"Q216", 'x', "Q216=", true}, CycleParameter{"Q217", 'y', "Q217=", true},
     CycleParameter{"Q244", 'd', "Q244=", true}, CycleParameter{"Q245", 'a', "Q245="},
@@ -131,6 +150,9 @@ constexpr std::array kCycles{
                    "it has Q200 Q201 Q206 Q211 Q208 Q203 Q204 Q214 Q336, for example Q200=+2"},
     ParameterCycle{240.0, "CYCL DEF 240", kCentre,
                    "it has Q200 Q343 Q201 Q344 Q206 Q211 Q203 Q204, for example Q200=+2"},
+    ParameterCycle{241.0, "CYCL DEF 241", kSingleLip,
+                   "it has Q200 Q201 Q206 Q211 Q203 Q204 Q253 Q208 Q426 to Q430, for example "
+                   "Q200=+2"},
     ParameterCycle{220.0, "CYCL DEF 220", kRing,
                    "it has Q216 Q217 Q244 Q245 Q246 Q247 Q241 Q200 Q203 Q204 Q301 Q365, for "
                    "example Q241=+8"},
@@ -160,13 +182,14 @@ constexpr bool is_old_cycle(double cycle) {
   return std::ranges::any_of(kOldCycles,
                              [cycle](const OldCycleParameter& p) { return p.cycle == cycle; });
 }
-// Known and not simulated: tolerance, load and vibration of the machine.
+// Known and not simulated: the spindle's angle, tolerance, load and vibration of the machine.
 struct PassedCycle {
   double number;
   const char* event;
 };
 constexpr std::array kPassedCycles{
-    PassedCycle{32.0, "CYCL DEF 32"}, PassedCycle{239.0, "CYCL DEF 239"},
-    PassedCycle{332.0, "CYCL DEF 332"}, PassedCycle{392.0, "CYCL DEF 392"}};
+    PassedCycle{13.0, "CYCL DEF 13"}, PassedCycle{32.0, "CYCL DEF 32"},
+    PassedCycle{239.0, "CYCL DEF 239"}, PassedCycle{332.0, "CYCL DEF 332"},
+    PassedCycle{392.0, "CYCL DEF 392"}};
 
 }  // namespace frustum::parser::klartext_cycles

@@ -23,6 +23,15 @@ constexpr std::array kPassedFn{PassedFn{15, "FN 15"}, PassedFn{16, "FN 16"}, Pas
 
 constexpr const char* kFnJump = "write FN 9: IF +Q1 EQU +Q3 GOTO LBL 5";
 
+// FN 9 to 12.
+struct FnComparison {
+  std::string_view word;
+  Operation operation;
+};
+constexpr std::array kFnComparisons{
+    FnComparison{"EQU", Operation::equal}, FnComparison{"NE", Operation::not_equal},
+    FnComparison{"GT", Operation::greater}, FnComparison{"LT", Operation::less}};
+
 class FlowReader {
  public:
   explicit FlowReader(BlockDraft& draft) : draft_(draft), in_(draft.in), block_(draft.block) {}
@@ -51,10 +60,9 @@ class FlowReader {
                       "known are FN 0 to FN 16");
     }
     const auto fn = static_cast<int>(number->value);
-    constexpr std::array kComparisons{Operation::equal, Operation::not_equal, Operation::greater,
-                                      Operation::less};
-    if (fn >= 9 && fn <= 12)
-      return read_fn_jump(kComparisons.at(static_cast<std::size_t>(fn - 9)), column);
+    if (fn >= 9 && fn <= 12) {
+      return read_fn_jump(kFnComparisons.at(static_cast<std::size_t>(fn - 9)).operation, column);
+    }
     if (fn == 14) return read_raised_error(column);
     if (fn == 17 && !sets_tool_data()) {
       return in_.fail(
@@ -265,17 +273,41 @@ class FlowReader {
     condition = draft_.read_expression(ExpressionLevel::operand);
     const std::uint32_t place = in_.column();
     const std::string word = in_.name();
-    if (word != "EQU" && word != "NE" && word != "GT" && word != "LT") {
-      return in_.fail("unknown-word"_id, place, "FN compares by EQU, NE, GT or LT", kFnJump);
+    if (word == "IS") {
+      read_whether_set(condition, place);
+    } else {
+      const auto known = std::ranges::find(kFnComparisons, word, &FnComparison::word);
+      if (known == kFnComparisons.end()) {
+        return in_.fail("unknown-word"_id, place, "FN compares by EQU, NE, GT or LT", kFnJump);
+      }
+      if (known->operation != comparison) {
+        return in_.fail("word-misplaced"_id, place,
+                        fmt::format("{} is not the comparison of this FN", word), kFnJump);
+      }
+      condition.count += draft_.read_expression(ExpressionLevel::operand).count;
+      push(comparison, place);
+      ++condition.count;
     }
-    condition.count += draft_.read_expression(ExpressionLevel::operand).count;
-    push(comparison, place);
-    ++condition.count;
     if (!in_.take_name("GOTO") || in_.letters() != "LBL") {
       return in_.fail("keyword-missing"_id, in_.column(), "FN has no GOTO LBL", kFnJump);
     }
     read_label_name();
     end_statement(draft_);
+  }
+
+  // Q1 IS DEFINED, Q1 IS UNDEFINED: compared with 0.
+  void read_whether_set(ExpressionRange& condition, std::uint32_t column) {
+    const std::string word = in_.name();
+    const bool parameter = condition.count == 1 &&
+                           block_.steps[condition.first].operation == Operation::named_parameter;
+    if (!parameter || (word != "DEFINED" && word != "UNDEFINED")) {
+      return in_.fail("unknown-word"_id, column, "IS asks whether a parameter is set",
+                      "write FN 9: IF Q1 IS UNDEFINED GOTO LBL 5");
+    }
+    block_.steps[condition.first].operation = Operation::exists;
+    block_.steps.push_back({Operation::number, column, 0.0});
+    push(word == "DEFINED" ? Operation::not_equal : Operation::equal, column);
+    condition.count += 2;
   }
 
   // 5 or "NAME".

@@ -25,7 +25,8 @@ constexpr std::array kStatements{"CC",    "TOOL",   "PLANE", "FUNCTION", "CYCL",
                                  "M3",    "Q1",     "RND",   "CHF",      "APPR", "DEP",
                                  "TRANS", "PRESET", "TCH",   "PATTERN"};
 // Statements that change nothing that is simulated.
-constexpr std::array kPassedStatements{"SEL TABLE", "CONTOUR DEF", "SEL CONTOUR", "SECTION"};
+constexpr std::array kPassedStatements{"SEL TABLE", "CONTOUR DEF", "SEL CONTOUR", "SECTION",
+                                       "MONITORING HEATMAP"};
 // Words whose number may follow without a blank: LBL1, FN0:, RND5.
 constexpr std::array<std::string_view, 5> kRunOn{"LBL", "FN", "RND", "CHF", "N"};
 
@@ -140,6 +141,7 @@ class HeidenhainReader {
       if (blank != std::string_view::npos && !in_.take_name(passed.substr(blank + 1))) continue;
       return note(draft_, passed.data(), column, in_.text_to(";"));
     }
+    if (name == "GLOBAL" && in_.take_name("DEF")) return read_global_definition(column);
     if (const auto remedy = remedy_for(Dialect::heidenhain, name); !remedy.empty()) {
       return in_.fail("not-supported"_id, column, name + " is not simulated", std::string(remedy));
     }
@@ -166,6 +168,27 @@ class HeidenhainReader {
     }
     in_.go_to(place);
     read_heidenhain_setting(draft_, name, column);
+  }
+
+  // GLOBAL DEF 100: values for cycles that ask for them by PREDEF, which none of ours does.
+  void read_global_definition(std::uint32_t column) {
+    constexpr double kPositioning = 125.0;  // heights between the holes of a pattern
+    const std::uint32_t place = in_.column();
+    const auto number = in_.number();
+    if (!number || number->value >= kPositioning) {
+      return in_.fail("not-supported"_id, place, "this GLOBAL DEF is not simulated",
+                      "leave it out, and give each cycle its own values");
+    }
+    in_.go_to(place);
+    std::string text;
+    while (!in_.at_end()) {
+      if (in_.peek() == ';') {
+        draft_.read_comment();
+      } else {
+        text += (text.empty() ? "" : " ") + in_.text_to(";");
+      }
+    }
+    draft_.add_event("GLOBAL DEF", column, std::move(text));
   }
 
   // N10 L X+5

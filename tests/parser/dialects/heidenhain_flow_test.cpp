@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         FlowMistake{"CALL LBL 1\nM30\nLBL 1\nL X+1 FMAX\n",
                     "3:1: error: subprogram 1 has no LBL 0"},
         FlowMistake{"FN 9: IF +1 EQU +1 GOTO LBL 3\n", "1:1: error: there is no 3 to go to"},
-        FlowMistake{"FN 9: IF +1 IS +1 GOTO LBL 3\n",
+        FlowMistake{"FN 9: IF +1 ISO +1 GOTO LBL 3\n",
                     "1:13: error: FN compares by EQU, NE, GT or LT"},
         FlowMistake{"FN 17: SYSWRITE ID 1\n", "1:1: error: FN 17 is not simulated"},
         FlowMistake{"FN 4: Q1 = +1 DIV +0\n", "1:15: error: division of 1 by zero"},

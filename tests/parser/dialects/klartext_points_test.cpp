@@ -161,5 +161,64 @@ TEST(KlartextTap, OfOlderControlsHasAPitch) {
   EXPECT_EQ(last_of<LinearFeed>(all).feed.mode, FeedMode::per_revolution);
 }
 
+TEST(KlartextSingleLip, GoesDownInOneStrokeAndBackByItsFeed) {
+  const std::string go = "TOOL CALL 1 Z S100\nL X+0 Y+0 Z+12 FMAX M3\nQ5 = 25\n";
+  const std::string cycle =
+      "CYCL DEF 241 Q200=2 Q201=-80 Q206=150 Q211=1 Q203=+10 Q204=20 Q379=0 Q253=MAX Q208=1000 "
+      "Q426=3 Q427=Q5 Q428=+500 Q429=8 Q430=9 Q435=0 ";
+  const auto all = run_points(go + cycle + "Q202=99999\nCYCL CALL\n");
+  const auto feeds = all_of<LinearFeed>(all);
+  ASSERT_EQ(feeds.size(), 2);
+  EXPECT_EQ(feeds[0].end[Z], -70);
+  EXPECT_EQ(feeds[0].feed.value, 150);
+  EXPECT_EQ(feeds[1].end[Z], 12);
+  EXPECT_EQ(feeds[1].feed.value, 1000);
+  const auto wrong = complaints("CYCL DEF 241 Q200=2 Q201=-80 Q206=150 Q203=+10 Q202=5\n", {},
+                                Dialect::heidenhain);
+  ASSERT_FALSE(wrong.empty());
+  EXPECT_TRUE(wrong.front().starts_with("1:48: error: Q202=5 of CYCL DEF 241 is not simulated"))
+      << wrong.front();
+}
+
+TEST(KlartextRetraction, IsByRapidWhereItsFeedIsTheFastest) {
+  const auto all = run_points(
+      "TOOL CALL 1 Z S100\nL X+0 Y+0 Z+2 FMAX\nCYCL DEF 201 Q200=2 Q201=-5 Q206=100 Q208=MAX "
+      "Q203=0 Q204=20\nCYCL CALL\n");
+  EXPECT_EQ(all_of<LinearFeed>(all).size(), 1);
+  EXPECT_LT((ends_at_points(all)[2] - Vec3(0, 0, 2)).norm(), 1e-9);
+}
+
+TEST(KlartextConditions, AskWhetherAParameterIsSet) {
+  const std::string jump = " GOTO LBL 1\nL X+1 FMAX\nLBL 1\nL X+2 FMAX\n";
+  const auto moves = [&](const std::string& text) {
+    return all_of<Traverse>(run_points(text + jump)).size();
+  };
+  EXPECT_EQ(moves("FN 9: IF Q1 IS UNDEFINED"), 1);
+  EXPECT_EQ(moves("FN 9: IF Q1 IS DEFINED"), 2);
+  EXPECT_EQ(moves("Q1 = 0\nFN 9: IF Q1 IS UNDEFINED"), 2);
+  EXPECT_EQ(moves("Q1 = 0\nFN 9: IF +Q1 IS DEFINED"), 1);
+  for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"FN 9: IF +5 IS DEFINED GOTO LBL 1\n", "1:13: error: IS asks whether"},
+           {"FN 9: IF Q1 IS THERE GOTO LBL 1\n", "1:13: error: IS asks whether"},
+           {"Q1 = 0\nFN 9: IF +Q1 NE +5 GOTO LBL 1\n",
+            "2:14: error: NE is not the comparison of this FN"}}) {
+    const auto wrong = complaints(text, {}, Dialect::heidenhain);
+    ASSERT_FALSE(wrong.empty()) << text;
+    EXPECT_TRUE(wrong.front().starts_with(expected)) << wrong.front();
+  }
+}
+
+TEST(KlartextWords, OfTheSpindleAndOfOtherCyclesMoveNothing) {
+  const auto all = run_points(
+      "GLOBAL DEF 100 GENERAL Q200=2 ~\n  Q204=50\nMONITORING HEATMAP SELECTED\nCYCL DEF 13.0 "
+      "ORIENTATION\nCYCL DEF 13.1 ANGLE 180\n");
+  const auto events = all_of<Event>(all);
+  ASSERT_EQ(events.size(), 4);
+  EXPECT_EQ(events[0].name, "GLOBAL DEF");
+  EXPECT_EQ(events[0].text, "100 GENERAL Q200=2 Q204=50");
+  EXPECT_EQ(events[3].name, "CYCL DEF 13");
+  EXPECT_FALSE(complaints("GLOBAL DEF 125 POSITIONING Q345=+1\n", {}, Dialect::heidenhain).empty());
+}
+
 }  // namespace
 }  // namespace frustum::parser

@@ -124,7 +124,7 @@ TEST(DeepHoleErrors, SayWhereWhatAndTheRemedy) {
       {"205 Q200=2 Q201=-9 Q206=9 Q203=0 Q202=1 Q213=1",
        "1:50: error: Q213 has no meaning in CYCL DEF 205"},
       {"202 Q200=2", "1:1: error: CYCL DEF 202 has no Q201"},
-      {"241 Q200=2", "1:1: error: CYCL DEF 241 is not simulated"},
+      {"208 Q200=2", "1:1: error: CYCL DEF 208 is not simulated"},
   };
   for (const WrongHole& wrong : mistakes) {
     const auto lines =
