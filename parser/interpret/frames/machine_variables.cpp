@@ -40,11 +40,13 @@ constexpr std::array kMovingVariables{
     MovingVariable{"$P_UBFR", "use TRANS, ROT, SCALE and MIRROR"},
     MovingVariable{"$P_CHBFR", "use TRANS, ROT, SCALE and MIRROR"},
     MovingVariable{"$P_NCBFR", "use TRANS, ROT, SCALE and MIRROR"},
-    MovingVariable{"$P_CYCFRAME", "use TRANS, ROT, SCALE and MIRROR"},
-    MovingVariable{"$P_SETFRAME", "use TRANS, ROT, SCALE and MIRROR"},
-    MovingVariable{"$P_WPFRAME", "use TRANS, ROT, SCALE and MIRROR"},
-    MovingVariable{"$P_TOOLFRAME", "use CYCLE800"},
-    MovingVariable{"$P_PARTFRAME", "use CYCLE800"},
+    MovingVariable{"$P_CYCFR", "use TRANS, ROT, SCALE and MIRROR"},
+    MovingVariable{"$P_SETFR", "use TRANS, ROT, SCALE and MIRROR"},
+    MovingVariable{"$P_EXTFR", "use TRANS, ROT, SCALE and MIRROR"},
+    MovingVariable{"$P_WPFR", "use TRANS, ROT, SCALE and MIRROR"},
+    MovingVariable{"$P_TOOLFR", "use CYCLE800"},
+    MovingVariable{"$P_PARTFR", "use CYCLE800"},
+    MovingVariable{"$P_TRAFR", "use TRANS, ROT, SCALE and MIRROR"},
 };
 
 // The indices of $NAME[1,X,TR].

@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "parser/dialects/code_table.hpp"
 #include "parser/language/letter_case.hpp"
 #include "parser/reading/sinumerik/sinumerik_values.hpp"
 
@@ -89,6 +90,14 @@ void read_setting(BlockDraft& draft, const char* name, std::uint32_t column) {
   (void)draft.read_expression(ExpressionLevel::sum);
   const auto text = in.text().substr(from - 1, in.column() - from);
   draft.add_event(name, column, std::string(text.substr(0, text.find_last_not_of(kBlanks) + 1)));
+}
+
+// G0, M6, SUPA: what comes next is no name of a macro.
+bool is_word(LineScanner& in) {
+  const std::string name = in.next_name();
+  const bool numbered =
+      name.size() > 1 && name.find_first_not_of("0123456789", 1) == std::string::npos;
+  return numbered || find_code(Dialect::sinumerik, name) != nullptr;
 }
 
 // Takes a plain number that is zero.
@@ -241,6 +250,10 @@ bool read_sinumerik_setting(BlockDraft& draft, const std::string& name, std::uin
   const char* open = found_in(kOpenEvents, name);
   if (open == nullptr) return false;
   const std::uint32_t start = draft.in.column();
+  if (name == "DEFINE" && is_word(draft.in)) {
+    draft.in.fail("not-supported"_id, start, "DEFINE gives a word of the control another meaning",
+                  "give the macro a name of its own");
+  }
   std::string text = draft.in.text_to(";");
   for (const char* moving : {"POS[", "MOV[", "POSA[", "SYNFCT", "PRESETON", "AFREE"}) {
     if (upper_case(text).find(moving) == std::string::npos) continue;

@@ -123,6 +123,17 @@ TEST(SinumerikWords, OfATruerToolAndOtherFeedsAreRefusedUnlessTheyAreZero) {
   EXPECT_EQ(all_of<Event>(idle).size(), 5U);
 }
 
+TEST(SinumerikWords, ThatMovePlacesUnseenAreRefused) {
+  for (const char* frame : {"$P_SETFR[X,TR]=5", "$P_EXTFR[X,TR]=5", "$P_WPFR[X,TR]=1"}) {
+    EXPECT_EQ(ids_of(std::string(frame) + "\n"), std::vector<std::string>{"not-simulated"})
+        << frame;
+  }
+  EXPECT_EQ(ids_of("$P_SETFR[X,TR]=0\n"), std::vector<std::string>{});
+  EXPECT_EQ(ids_of("DEFINE M6 AS L6\n"), std::vector<std::string>{"not-supported"});
+  EXPECT_EQ(ids_of("DEFINE SUPA AS G0\n"), std::vector<std::string>{"not-supported"});
+  EXPECT_EQ(ids_of("DEFINE DOOR AS $A_OUT[1]\n"), std::vector<std::string>{});
+}
+
 TEST(SinumerikWords, OfAParallelAxisStayAtZero) {
   const auto rests = run_words("G0 X1 Z5 W0\nV=0 X2 W0.0\n");
   EXPECT_EQ(*last_of<Traverse>(rests).end[X], 2.0);
