@@ -159,6 +159,8 @@ Value work_offset_of(const ModalState& state) {
 }
 
 constexpr int kMotionWord = 4001;
+constexpr int kUnit = 4006;
+constexpr int kTool = 4120;
 // The group of G54 on Mitsubishi and Haas; on Fanuc that of G66, which #4014 goes before.
 constexpr int kWorkOffsetElsewhere = 4012;
 
@@ -188,7 +190,7 @@ constexpr std::array kModal{
                     constexpr std::array kModes{94.0, 93.0, 95.0};
                     return kModes.at(static_cast<std::size_t>(state.feed_mode));
                   }},
-    ModalVariable{4006,
+    ModalVariable{kUnit,
                   [](const ModalState& state) -> Value {
                     return state.unit == LengthUnit::millimetre ? 21.0 : 20.0;
                   }},
@@ -234,7 +236,7 @@ constexpr std::array kModal{
     ModalVariable{
         4111, [](const ModalState& state) -> Value { return state.compensation.offset_number; }},
     ModalVariable{4119, [](const ModalState& state) -> Value { return state.spindle_speed; }},
-    ModalVariable{4120,
+    ModalVariable{kTool,
                   [](const ModalState& state) -> Value { return state.selected_tool.value_or(0); }},
     ModalVariable{4130,
                   [](const ModalState& state) -> Value {
@@ -290,6 +292,8 @@ constexpr int kLastSignal = 1035;
 
 constexpr AssumedValue kSignals{"signals", "the inputs that #1000 to #1035 read are off"};
 constexpr AssumedValue kFirstMotion{"first motion", "G0 is in force before the first motion word"};
+constexpr AssumedValue kStartUnit{"units", "lengths are in mm: no G20 or G21 comes before"};
+constexpr AssumedValue kNoTool{"#4120", "it is 0 before the first T"};
 constexpr AssumedValue kGroupOfWorkOffset{
     "#4012", "the work offset in force, as Mitsubishi and Haas have it (Fanuc: #4014)"};
 
@@ -311,6 +315,8 @@ Value SystemParameters::number(int index) const {
       if (index == kWorkOffsetElsewhere) assumed.push_back(&kGroupOfWorkOffset);
       const bool before = state.motion == MotionMode::none;
       if (index == kMotionWord && before) assumed.push_back(&kFirstMotion);
+      if (index == kUnit && !state.unit_is_known) assumed.push_back(&kStartUnit);
+      if (index == kTool && !state.selected_tool) assumed.push_back(&kNoTool);
       return mode;
     }
     if (index >= kFirstSignal && index <= kLastSignal) {

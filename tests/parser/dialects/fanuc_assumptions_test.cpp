@@ -52,6 +52,8 @@ TEST(FanucAssumptions, UnitIsAssumedWhereNothingGivesIt) {
   for (const char* word : {"G20", "G21", "G70", "G71"}) {
     EXPECT_EQ(line_of(run(std::string(word) + " G0 X5\n")), 0U) << word;
   }
+  EXPECT_EQ(line_of(run("G91\n#1=#4006\nG0 X0\n")), 2U);
+  EXPECT_EQ(line_of(run("G21\n#1=#4006\n")), 0U);
   InterpreterOptions options;
   options.control.unit = LengthUnit::inch;
   const auto inches = run("G0 X1. Y2.\nG1 X2. F10\nG21 X3.\n", options);
@@ -59,6 +61,11 @@ TEST(FanucAssumptions, UnitIsAssumedWhereNothingGivesIt) {
   EXPECT_NEAR(*all_of<Traverse>(inches).at(0).end[X], 25.4, 1e-12);
   EXPECT_NEAR(all_of<LinearFeed>(inches).at(0).feed.value, 254.0, 1e-12);
   EXPECT_EQ(all_of<LinearFeed>(inches).at(1).end[X], 3.0);
+}
+
+TEST(FanucAssumptions, ToolBeforeTheFirstTIsNone) {
+  EXPECT_EQ(assumptions_of(motions("G0 X#4120\n")), Assumptions{"#4120"});
+  EXPECT_TRUE(assumptions_of(motions("T3\nG0 X#4120\n")).empty());
 }
 
 // Nothing else turns an axis: C might be a chamfer.
