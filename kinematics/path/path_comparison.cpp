@@ -54,9 +54,11 @@ class Follower {
   PathPlace nearest(const ToolPose& pose, double ahead) {
     const Point6 wanted = weighed(pose, reach_);
     if (points_.size() < 2) return places_.front();
-    double best = std::numeric_limits<double>::infinity();
-    std::size_t best_segment = segment_;
-    double best_t = t_, walked = 0.0;
+    // Where a stroke begins and ends at one place, digits that were rounded off must not decide. A
+    // text has steps of 1e-6 mm; below 1e-5 two places are one.
+    constexpr double kSamePlace = 1e-5;
+    near_.clear();
+    double least = std::numeric_limits<double>::infinity(), walked = 0.0;
     for (std::size_t k = segment_; k + 1 < points_.size(); ++k) {
       const double from = k == segment_ ? t_ : 0.0;
       const Point6 along = points_[k + 1] - points_[k];
@@ -65,18 +67,19 @@ class Follower {
       const double foot =
           length > 0.0 ? (wanted - points_[k]).dot(along) / (length * length) : from;
       const double t = std::clamp(foot, from, std::max(from, limit));
-      const double distance = (points_[k] + t * along - wanted).norm();
-      // 1e-12: of equally near places, the earlier.
-      if (distance < best - 1e-12) {
-        best = distance;
-        best_segment = k;
-        best_t = t;
-      }
+      near_.push_back({k, t, (points_[k] + t * along - wanted).norm()});
+      least = std::min(least, near_.back().distance);
       walked += (1.0 - from) * length;
       if (walked > ahead) break;
     }
-    segment_ = best_segment;
-    t_ = best_t;
+    auto best = std::ranges::find_if(
+        near_, [&](const NearPlace& place) { return place.distance <= least + kSamePlace; });
+    // On while it becomes nearer; 1e-12: rounding of the distance.
+    for (auto next = best + 1; next != near_.end(); best = next++) {
+      if (next->distance > best->distance - 1e-12) break;
+    }
+    segment_ = best->segment;
+    t_ = best->t;
     return here();
   }
 
@@ -100,9 +103,17 @@ class Follower {
             .time = a.time + t_ * (b.time - a.time)};
   }
 
+  // Of a segment.
+  struct NearPlace {
+    std::size_t segment = 0;
+    double t = 0.0;
+    double distance = 0.0;
+  };
+
   const std::vector<PathPlace>& places_;
   double reach_;
   std::vector<Point6> points_;
+  std::vector<NearPlace> near_{};
   std::size_t segment_ = 0;
   double t_ = 0.0;
 };

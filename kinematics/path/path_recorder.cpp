@@ -141,7 +141,8 @@ void PathRecorder::give_to_time_law(Pending& pending, int parts) {
   if (motion.straight() || (feed_time > 0.0 && !law_.limits_any() && !options_.servo_lag)) {
     if (law_.add(minus(motion.end(), motion.start()), {}, feed_time, true))
       pending.ends.push_back(1.0);
-    return;
+    // A circle that ends where it begins takes its time, too: that of its parts.
+    if (motion.straight() || !pending.ends.empty()) return;
   }
   double u0 = 0.0;
   AxisPositions from = motion.start();

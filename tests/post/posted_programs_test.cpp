@@ -168,6 +168,22 @@ TEST(PostedPrograms, NameTheToolWhoseLengthIsOn) {
   EXPECT_NE(posted(motions, Dialect::linuxcnc).find("G43 H0"), std::string::npos);
 }
 
+// More than a turn is a full circle and the rest for Fanuc.
+TEST(PostedPrograms, TakeTheTimeOfFullCircles) {
+  expect_alike(
+      "BEGIN PGM C MM\nTOOL CALL 1 Z S1000\nL X+10 Y+0 R0 FMAX M3\nL Z+0 F500\nL X+5 F600\n"
+      "CC X+0 Y+0\nCP IPA+380 DR+\nL X+10\nEND PGM C MM\n",
+      Dialect::heidenhain);
+}
+
+// The second hole begins and ends at one place, nearer to the end by what was rounded off.
+TEST(PostedPrograms, DrillEachHoleAfterALongWay) {
+  expect_alike(
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG43 H1 G0 X0 Y0 Z2\nG1 Z-1 F100\nZ2\nG0 X50.0000004\nG1 Z-1\n"
+      "Z2\nG0 X60\nG1 Z-1\nZ2\nM30\n",
+      Dialect::linuxcnc);
+}
+
 // The retract for a tool change is left to it in one, written in the other.
 TEST(PostedPrograms, RetractForAToolChange) {
   expect_alike(
