@@ -27,6 +27,7 @@ class BaselineTest : public testing::Test {
     const std::string file = (file_.parent_path() / name).string();
     const parser::Program program{file, parser::Dialect::fanuc, parser::ProgramText(text), nullptr};
     CheckOptions options;
+    options.run.control.unit = parser::LengthUnit::millimetre;
     options.most_places = std::numeric_limits<std::size_t>::max();
     CheckedFile checked{file, "fanuc", "", true, check_program(program, options), {}};
     checked.lines = source_lines(program, checked.report.findings);

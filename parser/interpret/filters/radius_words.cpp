@@ -62,12 +62,13 @@ Vec2 control_point(int orientation) {
   return {point[0], point[1]};
 }
 
-// No setup has given diameters, and neither has the program one of this number.
+// No setup has given diameters, and of this number the program has set the length alone.
 bool diameter_is_unknown(const InterpreterState& state, int number) {
   if (!state.rules.offset_numbers_stand_alone) return state.data.tools.empty();
   if (state.data.tools_are_given) return false;
   const auto tool = state.data.tools.find(number);
-  return tool == state.data.tools.end() || tool->second.diameter == 0.0;
+  if (tool == state.data.tools.end()) return state.data.tools.empty();
+  return tool->second.diameter == 0.0;
 }
 
 Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {

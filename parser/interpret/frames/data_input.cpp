@@ -221,11 +221,6 @@ Outcome set_offset_memory(InterpreterState& state, const BlockWords& words, cons
                 : data.input == DataInput::length_wear ? tool.length_wear
                 : data.input == DataInput::radius      ? tool.diameter
                                                        : tool.diameter_wear;
-  if (of_radius && value != 0.0) {
-    assume(state, words['R'].column, "offset memory",
-           fmt::format("{} is a radius: the control's parameters may have it as a diameter",
-                       words.text_of('R')));
-  }
   set = (adds ? set : 0.0) + (of_radius ? 2.0 : 1.0) * value;
   if (length) tool.has_length = true;
   state.data.tools[*number] = tool;

@@ -128,7 +128,6 @@ TEST(FanucMotion, WearOfTheRadiusCounts) {
   const std::string contour = "G0 X0 Y0\nG1 G41 D1 X10 F100\nY5\nY10\nG40 X0\n";
   const auto all = motions("G10 L12 P1 R5\nG10 L13 P1 R0.25\n" + contour);
   EXPECT_NEAR(*all_of<LinearFeed>(all).at(1).end[X], 4.75, 1e-9);
-  EXPECT_EQ(all_of<Event>(all).at(0).name, "offset memory");
   // A length alone leaves the radius open, which is told.
   const auto open = motions("G10 L10 P1 R50\n" + contour);
   EXPECT_EQ(all_of<LinearFeed>(open).at(1).end[X], 10.0);
