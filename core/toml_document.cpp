@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <sstream>
 #include <tuple>
 
 #include "core/spelling.hpp"
@@ -74,6 +75,12 @@ Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::files
   }
   const Node* root = &state->root;
   return TomlDocument(TomlTable(std::move(state), root, ""));
+}
+
+std::string toml_text(std::string_view text) {
+  std::ostringstream out;
+  out << toml::value(text);
+  return out.str();
 }
 
 std::filesystem::path TomlDocument::folder() const { return file().parent_path(); }

@@ -125,4 +125,7 @@ class TomlDocument {
   TomlTable root_;
 };
 
+// As files hold it, in quotes: what reads back as the same text.
+[[nodiscard]] std::string toml_text(std::string_view text);
+
 }  // namespace frustum

@@ -73,7 +73,7 @@ Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<Operatio
 
 parser::InterpreterOptions reading_of(const Machine& machine, const TestPiece& piece) {
   parser::InterpreterOptions options;
-  options.tools = diameters_of(piece);
+  options.tools = called_tools_of(piece);
   options.control = piece.reading.control.value_or(machine.controller().settings());
   options.block_delete = piece.reading.block_delete;
   // Subprograms are beside the program.
@@ -175,12 +175,13 @@ std::string_view name_of(Stage stage) {
   return kNames[static_cast<std::size_t>(stage)];
 }
 
-parser::ToolTable diameters_of(const TestPiece& piece) {
+parser::ToolTable called_tools_of(const TestPiece& piece) {
   parser::ToolTable tools;
   for (const auto& [number, cutter] : piece.tools) {
     parser::Tool tool;
     tool.diameter = cutter.diameter.value;
     tool.has_length = false;
+    tool.remark = cutter.name;
     tools.emplace(number, tool);
   }
   return tools;

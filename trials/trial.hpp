@@ -65,8 +65,9 @@ struct TrialOptions {
   std::function<void(Stage)> on_stage{};
 };
 
-// The diameters that radius compensation counts with; the lengths are the setup's.
-[[nodiscard]] parser::ToolTable diameters_of(const programs::TestPiece& piece);
+// The tools as programs call them: names, and the diameters that radius compensation counts with.
+// The lengths are the setup's.
+[[nodiscard]] parser::ToolTable called_tools_of(const programs::TestPiece& piece);
 // What the controller knows of the piece: placement, offsets and tools.
 [[nodiscard]] kinematics::Setup setup_of(const programs::TestPiece& piece);
 

@@ -217,7 +217,7 @@ Result<KnownSetup> known_setup_of(const SetupWords& words) {
     auto job = load_job(words.job, {}, false);
     if (!job) return job.error();
     known.setup = trials::setup_of(job->piece);
-    known.tools = trials::diameters_of(job->piece);
+    known.tools = trials::called_tools_of(job->piece);
     known.machine = job->machine;
   } else {
     // The table's own origin is what a program without a setup sheet means.

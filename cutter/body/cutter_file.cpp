@@ -117,6 +117,7 @@ CutterSpec read_cutter(const TomlTable& table, const std::optional<CutterSpec>& 
       base ? table.choice_or("type", type_names(), static_cast<std::size_t>(spec.type))
            : table.choice("type", type_names());
   spec.type = static_cast<CutterType>(type);
+  spec.name = table.text_or("name", spec.name);
   for (const CutterKey& key : type_row(spec.type).keys) read_key(table, key, spec);
   for (const CutterKey& key : common_keys()) read_key(table, key, spec);
   return spec;
@@ -184,6 +185,7 @@ Result<ToolList> load_tool_library(const std::filesystem::path& file) {
 std::string cutter_text(const CutterSpec& spec) {
   const CutterTypeRow& row = type_row(spec.type);
   std::string text = fmt::format("{{ type = \"{}\"", row.name);
+  if (!spec.name.empty()) text += fmt::format(", name = {}", toml_text(spec.name));
   std::vector<std::string_view> written;
   const auto write = [&](std::span<const CutterKey> keys) {
     for (const CutterKey& key : keys) {

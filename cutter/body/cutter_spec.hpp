@@ -46,6 +46,7 @@ using CutterRow = std::array<double, 3>;
 
 struct CutterSpec {
   CutterType type = CutterType::flat;
+  std::string name{};  // that programs call it by; empty: by its number alone
   Mm diameter{};
   Mm length{};
   Mm flute_length{};  // 0: the whole length

@@ -13,7 +13,8 @@ Result<ToolList> cutters_of(const Result<parser::ToolTable>& table,
   for (const auto& [number, tool] : *table) {
     const double length = tool.offset.at(kZ);
     if (number == 0 || !(tool.diameter > 0.0) || !(length > 0.0)) continue;
-    tools.emplace(number, CutterSpec{.diameter = {tool.diameter}, .length = {length}});
+    tools.emplace(number,
+                  CutterSpec{.name = tool.remark, .diameter = {tool.diameter}, .length = {length}});
   }
   if (!tools.empty()) return tools;
   Diagnostic none =

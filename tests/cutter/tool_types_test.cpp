@@ -172,6 +172,7 @@ TEST(ToolTypes, TextReadsBackAsTheSameTool) {
     spec.holder = {{20.0, 30.0, 40.0}, {10.0, 50.0, 50.0}};
     spec.run_out = {0.004};
     spec.radius_error = {-0.003};
+    spec.name = "mill \"8.5\" Fräser";
     const std::string text = "tool.7 = " + cutter_text(spec) + "\n";
     const auto document = TomlDocument::parse(text, "library.toml");
     ASSERT_TRUE(document) << text;
@@ -338,6 +339,7 @@ TEST(ToolTable, ReadsWordsInAnyOrderAndRemarks) {
   ASSERT_EQ(tools->size(), 2U);
   EXPECT_EQ(tools->at(1).diameter.value, 12.5);
   EXPECT_EQ(tools->at(1).length.value, 100.25);
+  EXPECT_EQ(tools->at(1).name, "roughing; end mill");
   EXPECT_EQ(tools->at(2).length.value, 80.0);
   EXPECT_EQ(tools->at(2).type, CutterType::flat);
 }

@@ -179,6 +179,18 @@ TEST(Trial, ReportsRapidsThroughMaterialWithTheirLine) {
   EXPECT_NEAR(trial->collisions[0].depth, 5.0, 0.02);
 }
 
+TEST(Trial, CallsToolsByTheNamesThatTheJobGivesThem) {
+  programs::TestPiece named =
+      plate_piece("N1 G71 G90 G17 G54\nT=\"Drill 8.5\"\nM6\nS1000 M3\nD1\nG0 X0 Y0\nG0 Z10\nM30\n");
+  named.dialect = parser::Dialect::sinumerik;
+  const int number = named.tools.begin()->first;
+  EXPECT_FALSE(command_piece(three_axes(), named));  // tool 1001, which the job has not
+  named.tools.at(number).name = "DRILL 8.5";
+  const auto commanded = command_piece(three_axes(), named);
+  ASSERT_TRUE(commanded) << to_string(commanded.error().front());
+  EXPECT_TRUE(commanded->warnings.empty());
+}
+
 TEST(Trial, ReportsARapidThatOnlyShavesTheEdge) {
   // The cutter of radius 5 reaches 0.3 mm into the face at X = 40.
   const auto trial = plate(
