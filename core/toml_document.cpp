@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
 #include <tuple>
 
 #include "core/spelling.hpp"
@@ -78,9 +77,18 @@ Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::files
 }
 
 std::string toml_text(std::string_view text) {
-  std::ostringstream out;
-  out << toml::value(text);
-  return out.str();
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
 }
 
 std::filesystem::path TomlDocument::folder() const { return file().parent_path(); }

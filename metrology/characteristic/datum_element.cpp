@@ -38,10 +38,14 @@ Result<Association> associated(const FittedFeature& feature, Criterion criterion
 
 Result<Element> datum_element(const FittedFeature& feature, Criterion criterion,
                               const Constraints& constraints) {
-  // One touch has nothing to choose.
-  if (criterion == Criterion::least_squares || feature.planned->kind == FeatureKind::point) {
-    return feature.element;
-  }
+  // One touch has nothing to choose, a ball no direction. How a line or a circle runs along its
+  // surface is its scan path's.
+  const FeatureKind kind = feature.planned->kind;
+  const bool is_surface =
+      kind == FeatureKind::plane || kind == FeatureKind::cylinder || kind == FeatureKind::cone;
+  const bool as_fitted =
+      criterion == Criterion::least_squares && !(constraints.any() && is_surface);
+  if (as_fitted || kind == FeatureKind::point) return feature.element;
   auto association = associated(feature, criterion, constraints);
   if (!association) return std::move(association).error();
   return association->fit.element;

@@ -1,7 +1,7 @@
 // The ideal element that represents a measured feature by a criterion of the plan's choice.
 //
-// Model    : least_squares is the element that the feature was fitted with; others are associated
-//            with its points anew (association.hpp). outside_material knows the plan's normal of a
+// Model    : least_squares without constraints is the element that the feature was fitted with;
+//            others are associated with its points anew (association.hpp). outside_material knows the plan's normal of a
 //            plane or line and the side of a hole. Axes agree with the plan
 // Units    : mm, rad
 // Shape    : one feature
@@ -18,7 +18,6 @@
 
 namespace frustum::metrology {
 
-// `constraints` count for criteria other than least_squares.
 [[nodiscard]] Result<Association> associated(const FittedFeature& feature, Criterion criterion,
                                              const Constraints& constraints = {});
 [[nodiscard]] Result<Element> datum_element(const FittedFeature& feature, Criterion criterion,

@@ -61,8 +61,9 @@ Result<FoundDatum> found_datum(const DatumSystem& system, std::span<const Fitted
   for (std::size_t i = 0; i < names.size(); ++i) {
     const FittedFeature* feature = measured(features, names[i]);
     if (feature == nullptr) return missing(names[i]);
-    const auto element =
-        datum_element(*feature, system.criterion, precedence.constraints(*feature->planned));
+    const Constraints kept =
+        system.base ? Constraints{} : precedence.constraints(*feature->planned);
+    const auto element = datum_element(*feature, system.criterion, kept);
     if (!element) return element.error();
     precedence.add({feature->planned, *element}, i);
   }

@@ -6,7 +6,9 @@
 //            cone also along, at its planned radius; a sphere: all). The first direction is laid
 //            onto the planned one; the second, or the line from the first held place to a later
 //            one, is laid into the plane across the first. Then each datum in turn holds its place
-//            in the planned direction, as far as those before it have left that free. An axis
+//            in the planned direction, as far as those before it have left that free. Planes,
+//            cylinders and cones after the first are fitted with the direction that those before
+//            them give, as far as they do. An axis
 //            across a primary plane is held where it pierces that plane, all else at the middle of
 //            its points. Rotation about the first direction that no datum takes keeps workpiece Y
 //            (X where Y stands nearly upright) in the plane of both directions; other degrees left

@@ -62,6 +62,13 @@ const Evaluator& evaluator_of(CharacteristicKind kind) {
   return *found;
 }
 
+std::set<std::size_t> sections_of(const Toleranced& what) {
+  if (!what.planned.sections.empty()) return {what.planned.sections.front()};
+  std::set<std::size_t> all;
+  for (const MeasuredPoint& p : what.features.front()->points) all.insert(p.section);
+  return all;
+}
+
 bool is_plain(const PlannedCharacteristic& planned) {
   return planned.criterion == Criterion::least_squares && !planned.parameter && !planned.filter &&
          planned.harmonics == 0;

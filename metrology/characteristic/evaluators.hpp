@@ -11,6 +11,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,9 @@ struct Evaluator {
 
 // Least squares, without parameter, filter and harmonics.
 [[nodiscard]] bool is_plain(const PlannedCharacteristic& planned);
+
+// Those that it names, else all that were measured.
+[[nodiscard]] std::set<std::size_t> sections_of(const Toleranced& what);
 
 // form.cpp
 [[nodiscard]] Result<Evaluated> evaluate_roundness(const Toleranced& what);

@@ -44,7 +44,9 @@ Result<Fit<Element>> fit_touches(const PlannedFeature& planned, std::span<const 
 
 Result<Fit<Element>> fit_planned(const PlannedFeature& planned, std::span<const Vec3> centres) {
   if (planned.kind == FeatureKind::point) return fit_touches(planned, centres);
-  return fit_element(kElements.at(static_cast<std::size_t>(planned.kind)), centres);
+  FitOptions options;
+  options.expected = nominal_element(planned);
+  return fit_element(kElements.at(static_cast<std::size_t>(planned.kind)), centres, options);
 }
 
 std::vector<double> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -90,6 +92,9 @@ Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> f
   }
   const Element centre_element = agreeing(fit.element, planned.axis);
   const double sign = material_sign(planned);
+  // Residuals of a plane follow the normal that was fitted.
+  const bool turned = planned.kind == FeatureKind::plane &&
+                      axis_of(fit.element)->vec().dot(axis_of(centre_element)->vec()) < 0.0;
   FittedFeature feature{&planned, offset(centre_element, -sign * ball_radius),
                         {},       fit.form,
                         fit.rms,  std::move(fit.cofactor)};
@@ -106,7 +111,7 @@ Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> f
     feature.points.push_back({centres[i] - ball_radius * normal, normal,
                               planned.kind == FeatureKind::line
                                   ? (centres[i] - point_of(centre_element)).dot(line_normal)
-                                  : sign * fit.residuals[i],
+                                  : (turned ? -sign : sign) * fit.residuals[i],
                               sections[i]});
   }
   return feature;

@@ -1,5 +1,7 @@
 // Roundness, cylindricity, cone form and flatness by any criterion, parameter and filter; the
 // equivalent form of a cone.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,6 +10,7 @@
 #include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/gaussian_filter.hpp"
 #include "metrology/characteristic/harmonics.hpp"
+#include "metrology/fit/element_model.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
@@ -36,19 +39,48 @@ Result<std::vector<double>> round_deviations(const RoundProfile& profile,
   return std::move(circle->fit.residuals);
 }
 
-std::size_t first_section(const PlannedCharacteristic& planned) {
-  return planned.sections.empty() ? 0 : planned.sections.front();
+// An element through as many points as it has parameters leaves no form, whatever the part is like.
+std::optional<Diagnostic> without_redundancy(std::size_t parameters, std::size_t points,
+                                             std::string_view element) {
+  if (points > parameters) return std::nullopt;
+  return error(
+      "too-few-points"_id,
+      fmt::format("{} points have no form: a {} goes through all of them", points, element),
+      fmt::format("measure {} or more", parameters + 1));
 }
 
-}  // namespace
+// One section as it stands alone: the profile is what is plotted, its deviations the form.
+using SectionForm = Result<Evaluated> (*)(const Toleranced&, std::size_t section);
 
-Result<Evaluated> evaluate_roundness(const Toleranced& what) {
+// The worst section counts. How large the form of each may be is told of all of them together.
+Result<Evaluated> worst_section(const Toleranced& what, SectionForm form_of) {
+  Evaluated worst;
+  NonNegative all{{NonNegativeKind::peak_to_valley}, {}, {}};
+  for (const std::size_t section : sections_of(what)) {
+    auto form = form_of(what, section);
+    if (!form) return form;
+    const NonNegative& own = form->measurand;
+    all.rule.rows.push_back(own.parts.size());
+    all.parts.insert(all.parts.end(), own.parts.begin(), own.parts.end());
+    all.places.insert(all.places.end(), own.places.begin(), own.places.end());
+    if (worst.profile.angle.empty() || form->value > worst.value) worst = std::move(*form);
+  }
+  if (all.parts.empty()) return worst;
+  if (all.rule.rows.size() == 1) all.rule.rows.clear();
+  worst.measurand = std::move(all);
+  return worst;
+}
+
+Result<Evaluated> roundness_of(const Toleranced& what, std::size_t section) {
   const FittedFeature& feature = *what.features.front();
-  const std::size_t section = first_section(what.planned);
-  std::vector<Vec3> points = at_one_height(feature, section, *axis_of(feature.element));
-  auto profile = roundness(points, angle_frame(feature));
+  auto points = at_one_height(feature, section, *axis_of(feature.element));
+  if (!points) return std::move(points).error();
+  auto profile = roundness(*points, angle_frame(feature));
   if (!profile) return about_section(feature, section, std::move(profile).error());
-  auto deviations = round_deviations(*profile, points, what.planned);
+  if (auto few = without_redundancy(3, points->size(), "circle")) {
+    return about_section(feature, section, {*std::move(few)});
+  }
+  auto deviations = round_deviations(*profile, *points, what.planned);
   if (!deviations) return std::move(deviations).error();
   profile->deviation = std::move(*deviations);
   std::vector<double> outward = profile->deviation;
@@ -62,29 +94,48 @@ Result<Evaluated> evaluate_roundness(const Toleranced& what) {
     form.harmonics = std::move(*waves);
   }
   if (is_plain(what.planned)) {
-    form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, std::move(points)};
+    form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, *std::move(points)};
   }
   form.profile = std::move(*profile);
   return form;
 }
 
-Result<Evaluated> evaluate_equivalent_cone_form(const Toleranced& what) {
+Result<Evaluated> equivalent_form_of(const Toleranced& what, std::size_t section) {
   const FittedFeature& feature = *what.features.front();
-  const std::size_t section = first_section(what.planned);
-  std::vector<Vec3> points = feature.section(section);
-  auto profile = equivalent_cone_form(points, feature.planned->half_angle,
+  auto points = at_one_height(feature, section, *axis_of(feature.element));
+  if (!points) return std::move(points).error();
+  auto profile = equivalent_cone_form(*points, feature.planned->half_angle,
                                       -unit(feature.planned->axis), angle_frame(feature));
   if (!profile) return about_section(feature, section, std::move(profile).error());
+  if (auto few = without_redundancy(3, points->size(), "circle")) {
+    return about_section(feature, section, {*std::move(few)});
+  }
   Evaluated form;
   form.value = profile->peak_to_valley;
   form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
-  form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, std::move(points)};
+  form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, *std::move(points)};
   form.profile = std::move(*profile);
   return form;
 }
 
+}  // namespace
+
+Result<Evaluated> evaluate_roundness(const Toleranced& what) {
+  return worst_section(what, roundness_of);
+}
+
+Result<Evaluated> evaluate_equivalent_cone_form(const Toleranced& what) {
+  return worst_section(what, equivalent_form_of);
+}
+
 Result<Evaluated> evaluate_surface_form(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
+  const ElementKind kind = kind_of(feature.element);
+  if (auto few =
+          without_redundancy(parameters_of(kind).size(), feature.points.size(), name_of(kind))) {
+    few->message = fmt::format("feature '{}': {}", feature.planned->name, few->message);
+    return *std::move(few);
+  }
   std::vector<double> outward;
   if (what.planned.criterion == Criterion::least_squares) {
     for (const MeasuredPoint& p : feature.points) outward.push_back(p.deviation);

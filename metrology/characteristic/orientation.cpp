@@ -1,6 +1,7 @@
 // Parallelism, perpendicularity and angularity.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "metrology/characteristic/datum_element.hpp"
 #include "metrology/characteristic/evaluators.hpp"
@@ -68,11 +69,48 @@ Vec3 surface_normal(const PlannedFeature& line, const Vec3& direction) {
   return unit(line.normal - line.normal.dot(direction) * direction);
 }
 
+// Of the directions at the planned angle to the datum, the one along which the points are least
+// high.
+Vec3 least_high(const Wanted& want, const std::vector<Vec3>& points) {
+  constexpr int kStarts = 72;
+  constexpr double kStep = 2.0 * std::numbers::pi / kStarts;
+  const auto at = [&](double turn) -> Vec3 {
+    return rotation_about(want.datum, turn) * want.direction;
+  };
+  const auto height = [&](double turn) { return range_along(points, at(turn)); };
+  double best = 0.0;
+  double least = height(best);
+  for (int i = 1; i < kStarts; ++i) {
+    if (const double here = height(i * kStep); here < least) {
+      least = here;
+      best = i * kStep;
+    }
+  }
+  // Between two neighbours of the best the height falls to one lowest place: golden section.
+  constexpr double kGolden = 0.6180339887498949;
+  double low = best - kStep;
+  double high = best + kStep;
+  while (high - low > 1e-13) {
+    const double left = high - kGolden * (high - low);
+    const double right = low + kGolden * (high - low);
+    if (!(low < left && left < right && right < high)) break;
+    if (height(left) < height(right)) {
+      high = right;
+    } else {
+      low = left;
+    }
+  }
+  const double middle = 0.5 * (low + high);
+  return height(middle) < least ? at(middle) : at(best);
+}
+
 // What the points themselves need: planes for a plane, for a line on a surface and where the datum
 // leaves one direction free; a cylinder for an axis.
 Result<NonNegative> zone_of_points(const FittedFeature& feature, const Wanted& want) {
   if (feature.planned->kind == FeatureKind::plane) {
-    if (!want.across) return heights_along(want.direction, feature.all_points());
+    const std::vector<Vec3> points = feature.all_points();
+    if (want.freedom == Freedom::none) return heights_along(want.direction, points);
+    if (!want.across) return heights_along(least_high(want, points), points);
     Constraints keep;
     keep.perpendicular_to = unit(want.datum);
     const auto zone = associated(feature, Criterion::minimum_zone, keep);
@@ -190,8 +228,10 @@ Result<Evaluated> orientation_zone(const Toleranced& what) {
 Result<Evaluated> evaluate_orientation(const Toleranced& what) { return orientation_zone(what); }
 
 Result<Evaluated> evaluate_perpendicularity(const Toleranced& what) {
+  // How a line on a surface runs within it is its scan path's, not the part's.
   const bool of_elements = is_plain(what.planned) && what.planned.features.size() == 2 &&
-                           what.planned.datum_criterion == Criterion::least_squares;
+                           what.planned.datum_criterion == Criterion::least_squares &&
+                           what.features.front()->planned->kind != FeatureKind::line;
   return of_elements ? Result<Evaluated>(tilt_of_elements(what)) : orientation_zone(what);
 }
 

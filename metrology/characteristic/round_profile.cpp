@@ -1,5 +1,7 @@
 #include "metrology/characteristic/round_profile.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,26 +48,48 @@ Result<RoundProfile> equivalent_cone_form(std::span<const Vec3> points, double h
   return profile;
 }
 
-std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t section,
-                                const Vec3& along) {
+Result<std::vector<Vec3>> at_one_height(const FittedFeature& feature, std::size_t section,
+                                        const Vec3& along) {
+  constexpr double kHighest = 0.1;  // of the radius
   std::vector<Vec3> points = feature.section(section);
   const auto* cone = std::get_if<Cone>(&feature.element);
-  if (cone == nullptr) return points;
+  if (cone == nullptr && !std::holds_alternative<Cylinder>(feature.element)) return points;
+  const Vec3 axis = *axis_of(feature.element);
+  const double half_angle = cone == nullptr ? 0.0 : cone->half_angle;
   Vec3 centroid = Vec3::Zero();
   for (const Vec3& p : points) centroid += p / static_cast<double>(points.size());
+  double low = 0.0;
+  double high = 0.0;
+  double radius = 0.0;
   for (Vec3& p : points) {
-    const Vec3 w = p - cone->point;
-    const Vec3 lateral = (w - w.dot(cone->axis.vec()) * cone->axis.vec()).normalized();
+    const Vec3 w = p - point_of(feature.element);
+    const Vec3 lateral = w - w.dot(axis) * axis;
     const Vec3 generatrix =
-        std::cos(cone->half_angle) * cone->axis.vec() + std::sin(cone->half_angle) * lateral;
-    p += (centroid - p).dot(along) / generatrix.dot(along) * generatrix;
+        std::cos(half_angle) * axis + std::sin(half_angle) * lateral.normalized();
+    const double height = (p - centroid).dot(along);
+    low = std::min(low, height);
+    high = std::max(high, height);
+    radius = std::max(radius, lateral.norm());
+    p -= height / generatrix.dot(along) * generatrix;
+  }
+  if (high - low > kHighest * radius) {
+    return about_section(
+        feature, section,
+        {error(
+            "section-height"_id,
+            fmt::format("its points are {:.3g} mm apart along the axis, more than a tenth of the "
+                        "radius",
+                        high - low),
+            "measure sections across the axis; all points together have a cylindricity")});
   }
   return points;
 }
 
 Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
                                    const Vec3& along) {
-  auto circle = fit_circle(at_one_height(feature, section, along));
+  const auto points = at_one_height(feature, section, along);
+  if (!points) return points.error();
+  auto circle = fit_circle(*points);
   if (!circle) return about_section(feature, section, std::move(circle).error());
   return circle;
 }

@@ -29,8 +29,9 @@ struct AngleFrame {
   Vec3 zero = Vec3::UnitX();
 };
 
-// Radial deviations in the least-squares plane of the points from their least-squares circle. The
-// characteristic of a cone takes the points at_one_height first.
+// Radial deviations in the least-squares plane of the points from their least-squares circle.
+// Characteristics take the points at_one_height first: ISO 12181-1 asks for the section across the
+// feature's axis.
 [[nodiscard]] Result<RoundProfile> roundness(std::span<const Vec3> points,
                                              const AngleFrame& angles);
 
@@ -44,15 +45,16 @@ struct AngleFrame {
                                                         const UnitVec3& toward_apex,
                                                         const AngleFrame& angles);
 
-// The points of one section of a cone shifted along the generatrix into the plane perpendicular to
-// `along` through their centroid; other features' points as they are. Probed along the normal, the
-// points of a displaced or lobed cone are not at one height, and a circle through them would see
-// but cos^2 of the half angle of a displacement.
-[[nodiscard]] std::vector<Vec3> at_one_height(const FittedFeature& feature, std::size_t section,
-                                              const Vec3& along);
+// The points of one section of a cylinder or cone shifted along the generatrix into the plane
+// perpendicular to `along` through their centroid; a circle's as they are. The heights at which a
+// surface was touched say nothing of its roundness: a few points whose heights scatter would lay
+// the least-squares plane askew, and the points of a displaced or lobed cone, which are probed
+// along the normal, would see but cos^2 of the half angle of a displacement. Refused is what is
+// higher than a tenth of its radius, such as a helix: there is no section to speak of.
+[[nodiscard]] Result<std::vector<Vec3>> at_one_height(const FittedFeature& feature,
+                                                      std::size_t section, const Vec3& along);
 
-// Least-squares circle of a section's points, those of a cone at_one_height. Errors name the
-// section.
+// Least-squares circle of a section's points at_one_height. Errors name the section.
 [[nodiscard]] Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
                                                  const Vec3& along);
 

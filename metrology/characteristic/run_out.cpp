@@ -1,7 +1,6 @@
 // Circular and total run-out.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "metrology/characteristic/datum_element.hpp"
 #include "metrology/characteristic/evaluators.hpp"
@@ -45,9 +44,12 @@ class Turning {
     return profile;
   }
 
-  [[nodiscard]] std::vector<Vec3> section(std::size_t index) const {
+  // The height at which a cylinder is touched does not change what is read of it.
+  [[nodiscard]] Result<std::vector<Vec3>> section(std::size_t index) const {
     if (feature_.planned->kind == FeatureKind::plane) return feature_.section(index);
-    return at_one_height(feature_, index, axis_.axis);
+    auto points = at_one_height(feature_, index, axis_.axis);
+    if (!points || feature_.planned->kind == FeatureKind::cone) return points;
+    return feature_.section(index);
   }
 
  private:
@@ -55,13 +57,6 @@ class Turning {
   Line axis_;
   AngleFrame frame_{};
 };
-
-std::set<std::size_t> sections_of(const Toleranced& what) {
-  if (!what.planned.sections.empty()) return {what.planned.sections.front()};
-  std::set<std::size_t> all;
-  for (const MeasuredPoint& p : what.features.front()->points) all.insert(p.section);
-  return all;
-}
 
 Result<Evaluated> of_profile(const Toleranced& what, RoundProfile profile) {
   if (profile.deviation.size() < 2) {
@@ -108,10 +103,11 @@ Result<Evaluated> evaluate_run_out(const Toleranced& what) {
     worst = std::move(*whole);
   } else {
     for (const std::size_t section : sections_of(what)) {
-      const std::vector<Vec3> points = turning.section(section);
-      auto zone = of_profile(what, turning.read(points));
+      const auto points = turning.section(section);
+      if (!points) return points.error();
+      auto zone = of_profile(what, turning.read(*points));
       if (!zone) return about_section(feature, section, std::move(zone).error());
-      add(*zone, points);
+      add(*zone, *points);
       if (worst.profile.angle.empty() || zone->value > worst.value) worst = std::move(*zone);
     }
   }

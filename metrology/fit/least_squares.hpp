@@ -59,6 +59,9 @@ struct Fit {
 struct FitOptions {
   Constraints constraints{};
   std::vector<double> weights{};  // of the squares, one a point, none negative; empty: all 1
+  // Cylinders, cones, tori: where one is meant to be. Few points fit several of them, and then the
+  // one that is reached from here is meant.
+  std::optional<Element> expected{};
 };
 
 [[nodiscard]] Result<Fit<Line>> fit_line(std::span<const Vec3> points,

@@ -59,6 +59,25 @@ Constraints localised(Constraints constraints, const NormalisedPoints& local) {
   return constraints;
 }
 
+// Its point is moved along the axis to the middle of the points, where shift and tilt do not
+// correlate.
+Element localised(Element element, const NormalisedPoints& local) {
+  std::visit(
+      [&](auto& e) {
+        e.point = (e.point - local.centre) / local.scale;
+        if constexpr (requires { e.radius; }) e.radius /= local.scale;
+        if constexpr (requires { e.tube_radius; }) {
+          e.tube_radius /= local.scale;
+        } else if constexpr (requires { e.axis; }) {
+          const double along = -e.point.dot(e.axis.vec());
+          e.point += along * e.axis.vec();
+          if constexpr (requires { e.half_angle; }) e.radius += along * std::sin(e.half_angle);
+        }
+      },
+      element);
+  return element;
+}
+
 }  // namespace
 
 double NormalisedPoints::all_weights() const {
@@ -131,6 +150,7 @@ Result<NormalisedPoints> normalise(std::span<const Vec3> points, const Needed& n
   for (Vec3& p : local.points) p -= mean;
   local.centre += local.scale * mean;
   local.constraints = localised(options.constraints, local);
+  if (options.expected) local.expected = localised(*options.expected, local);
   return local;
 }
 

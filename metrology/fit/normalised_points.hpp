@@ -19,7 +19,8 @@ struct NormalisedPoints {
   std::vector<Vec3> points{};
   std::vector<double> weights{};  // of the largest; empty: all 1
   double largest_weight = 1.0;
-  Constraints constraints{};  // in the local frame
+  Constraints constraints{};  // in the local frame, as is
+  std::optional<Element> expected{};
   Vec3 centre = Vec3::Zero();
   double scale = 1.0;
 

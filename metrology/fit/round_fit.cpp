@@ -48,6 +48,23 @@ Constraints in_mm(Constraints keep, const NormalisedPoints& local) {
   return keep;
 }
 
+// Of few points: the minimum below the element that is expected, where its residuals are below a
+// thousandth of the part. Others may be lower, and mean nothing.
+std::optional<Minimum> expected_minimum(const NormalisedPoints& local, const PointBlocks& blocks,
+                                        const Wording& wording) {
+  constexpr std::size_t kFewToSpare = 3;
+  constexpr double kLow = 1e-3;
+  if (!local.expected ||
+      local.count() > parameters_of(kind_of(*local.expected)).size() + kFewToSpare) {
+    return std::nullopt;
+  }
+  GaussNewton solver(constrained(*local.expected, local.constraints), blocks, local.constraints);
+  solver.descend(100, kLastGain);
+  if (!(solver.cost() < kLow * kLow * static_cast<double>(blocks.count))) return std::nullopt;
+  auto found = settled(std::move(solver), blocks, local.constraints, wording);
+  return found ? std::optional(*std::move(found)) : std::nullopt;
+}
+
 }  // namespace
 
 Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
@@ -155,6 +172,7 @@ Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& word
   const AxialPoints points{local, principal, few, AxisSearch(few, principal)};
   const PointBlocks blocks = PointBlocks::of(local);
   auto direct = at_once(initial_estimates(points), local, blocks, principal.spread[2]);
+  if (auto meant = expected_minimum(local, blocks, wording)) return *std::move(meant);
   return direct ? settled(std::move(*direct), blocks, local.constraints, wording)
                 : best_minimum(all(points), local, blocks, wording);
 }

@@ -51,8 +51,8 @@ class DatumPrecedence {
 
   void add(const Datum& datum, std::size_t index);
 
-  // The constraint that an element at this point in the order has to keep; planned directions that
-  // are neither along nor across the first leave it free.
+  // The constraint that an element at this point in the order has to keep (ISO 5459); planned
+  // directions that are neither along nor across the first leave it free.
   [[nodiscard]] Constraints constraints(const PlannedFeature& planned) const;
 
   [[nodiscard]] FoundDatum found();

@@ -185,6 +185,9 @@ struct DatumSystem {
   std::vector<std::string> best_fit{};
   // Degrees that a best fit leaves as planned: of kDegreeNames.
   std::vector<std::string> locked{};
+  // criterion = "base": each datum is the element that its own points gave, without regard to those
+  // before it.
+  bool base = false;
 
   bool operator==(const DatumSystem&) const = default;
 };

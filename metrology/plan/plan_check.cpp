@@ -153,7 +153,7 @@ void check_best_fit(const InspectionPlan& plan, const PlanFault& fault) {
   if (!datum.primary.empty() || !datum.secondary.empty() || !datum.tertiary.empty()) {
     wrong("best_fit", "excludes primary, secondary and tertiary");
   }
-  if (datum.criterion != Criterion::least_squares) {
+  if (datum.criterion != Criterion::least_squares || datum.base) {
     wrong("criterion", "a best fit is one of least squares", "leave it out");
   }
   for (std::size_t i = 0; i < datum.best_fit.size(); ++i) {
@@ -176,7 +176,7 @@ void check_datum(const InspectionPlan& plan, const PlanFault& fault) {
   };
   if (datum.criterion != Criterion::least_squares &&
       datum.criterion != Criterion::outside_material) {
-    wrong("criterion", "a datum is associated by \"ls\" or \"om\"");
+    wrong("criterion", "a datum is associated by \"ls\", \"om\" or \"base\"");
   }
   for (const std::string& degree : datum.locked) {
     if (std::find(kDegreeNames.begin(), kDegreeNames.end(), degree) == kDegreeNames.end()) {

@@ -239,7 +239,8 @@ DatumSystem read_datum(const TomlTable& table) {
   datum.primary = best_fit ? table.text_or("primary", "") : table.text("primary");
   datum.secondary = table.text_or("secondary", "");
   datum.tertiary = table.text_or("tertiary", "");
-  datum.criterion = read_criterion(table, "criterion");
+  datum.base = table.text_or("criterion", "") == "base";
+  if (!datum.base) datum.criterion = read_criterion(table, "criterion");
   datum.locked = table.texts_or("locked", {});
   return datum;
 }

@@ -44,21 +44,6 @@ std::string tolerance(const PlannedCharacteristic& c) {
   return text.size() <= plain.size() + 2 ? text : plain;
 }
 
-std::string toml_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
 // "points = 12", or "pitch = 0.5", and "scan = true".
@@ -192,6 +177,7 @@ std::string text_of(const InspectionPlan& plan, const DatumSystem& datum) {
   line("secondary", datum.secondary, "origin: its axis pierced with the primary");
   line("tertiary", datum.tertiary,
        is(datum.tertiary, FeatureKind::plane) ? "Y: its trace in the primary" : "");
+  if (datum.base) out += "criterion = \"base\"\n";
   if (datum.criterion != Criterion::least_squares) {
     out += fmt::format("criterion = {}\n", toml_text(name_of(datum.criterion)));
   }

@@ -58,6 +58,16 @@ Element varied(Element element, ElementChange change, double by) {
   return element;
 }
 
+FittedFeature varied(const FittedFeature& feature, ElementChange change, double by) {
+  FittedFeature moved = feature;
+  moved.element = varied(feature.element, change, by);
+  for (MeasuredPoint& p : moved.points) {
+    const double back = residual(feature.element, p.point) - residual(moved.element, p.point);
+    p.point += back * outward_normal(moved.element, p.point);
+  }
+  return moved;
+}
+
 double step_of(ElementChange change) {
   // All is smooth over 10 mm and 1 rad: these are wrong by 1e-8, rounding adds 1e-9.
   using enum ElementChange;

@@ -23,6 +23,8 @@ enum class ElementChange { lift, shift_u, shift_v, tilt_u, tilt_v, radius, half_
 
 // The element with one parameter changed `by` so many mm or rad.
 [[nodiscard]] Element varied(Element element, ElementChange change, double by);
+// The feature with its element changed so, its points moved along with it.
+[[nodiscard]] FittedFeature varied(const FittedFeature& feature, ElementChange change, double by);
 // Half the step of a central difference in that parameter, mm or rad.
 [[nodiscard]] double step_of(ElementChange change);
 

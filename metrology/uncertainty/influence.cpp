@@ -242,7 +242,7 @@ Result<Influence::Motion> Influence::motion_of_datum() const {
     for (std::size_t k = 0; k < response.changes.size(); ++k) {
       const double step = step_of(response.changes[k]);
       const auto changed = [&](double by) {
-        features[f].element = varied(features_[f].element, response.changes[k], by);
+        features[f] = varied(features_[f], response.changes[k], by);
         return alignment_of(plan_, features);
       };
       const auto less = changed(-step);
@@ -253,7 +253,7 @@ Result<Influence::Motion> Influence::motion_of_datum() const {
           motion_between(*less, *more) / (2.0 * step) *
           response.weights.row(static_cast<Eigen::Index>(k));
     }
-    features[f].element = features_[f].element;
+    features[f] = features_[f];
   }
   return motion;
 }

@@ -53,7 +53,8 @@ TEST(CharacteristicPlan, ReadsBackEveryKey) {
   plan.characteristics.insert(plan.characteristics.end(), {round, straight, run_out, profile});
   for (const DatumSystem& datum :
        {*plan.datum, DatumSystem{"A", "", "", Criterion::outside_material},
-        DatumSystem{"", "", "", Criterion::least_squares, {"A", "C"}, {"RZ", "TX"}}}) {
+        DatumSystem{"", "", "", Criterion::least_squares, {"A", "C"}, {"RZ", "TX"}},
+        DatumSystem{"A", "C", "", Criterion::least_squares, {}, {}, true}}) {
     plan.datum = datum;
     const std::string text = to_toml(plan);
     const auto read = parse_plan(text);
@@ -263,7 +264,7 @@ TEST(CharacteristicPlan, TellsWhichDatumSystemsMakeSense) {
   EXPECT_EQ(datum_fault({"cone", "C", ""}),
             "datum.secondary: 'C' takes no degree of freedom that the datums before it left");
   EXPECT_EQ(datum_fault({"A", "C", "", Criterion::minimum_zone}),
-            "datum.criterion: a datum is associated by \"ls\" or \"om\"");
+            "datum.criterion: a datum is associated by \"ls\", \"om\" or \"base\"");
   DatumSystem fit;
   fit.best_fit = {"A", "B"};
   EXPECT_EQ(datum_fault(fit), "datum.best_fit: the plan has no feature 'B'");

@@ -6,6 +6,7 @@
 
 #include "measured_feature.hpp"
 #include "metrology/cmm.hpp"
+#include "metrology/fit/least_squares.hpp"
 #include "metrology/plan/nominal.hpp"
 #include "synthetic.hpp"
 
@@ -119,7 +120,7 @@ TEST(DatumSystem, TellsWhichDatumTakesWhat) {
 }
 
 TEST(DatumSystem, PlaneCylinderGrooveAsConstructedFromItsElements) {
-  // Primary normal; secondary axis pierced with that plane; tertiary plane's trace in it.
+  // A base alignment: primary normal; secondary axis pierced with that plane; tertiary plane's trace in it.
   const std::vector<PlannedFeature> planned = block();
   synthetic::Draws draws(62);
   for (int i = 0; i < 20; ++i) {
@@ -142,9 +143,43 @@ TEST(DatumSystem, PlaneCylinderGrooveAsConstructedFromItsElements) {
         frame(features[0].element, features[1].element, features[2].element) *
         frame(nominal_element(planned[0]), nominal_element(planned[3]), nominal_element(planned[2]))
             .inverse();
-    const auto found = found_datum({"top", "bore", "side"}, features);
+    DatumSystem system{"top", "bore", "side"};
+    system.base = true;
+    const auto found = found_datum(system, features);
     ASSERT_TRUE(found);
     EXPECT_LT(apart(found->workpiece_from_datum, expected), 1e-13);
+  }
+}
+
+TEST(DatumSystemLaws, LaterDatumsAreFittedWithTheDirectionsThatEarlierOnesGive) {
+  // Along the top's normal a bore is a circle and a side is a line.
+  const std::vector<PlannedFeature> planned = block();
+  synthetic::Draws draws(64);
+  for (int i = 0; i < 20; ++i) {
+    const auto rough = [&](const PlannedFeature& f) {
+      const Pose lies{rotation_about(draws.direction(), draws.between(-1e-3, 1e-3)),
+                      draws.place(0.1)};
+      return feature(f, lies, [&](const Vec3&) { return 0.02 * draws.gauss(); });
+    };
+    const std::vector<FittedFeature> features{rough(planned[0]), rough(planned[3]),
+                                              rough(planned[2])};
+    const auto found = found_datum({"top", "bore", "side"}, features);
+    ASSERT_TRUE(found);
+    const Pose datum_from_workpiece = found->workpiece_from_datum.inverse();
+    const auto seen_along = [&](const FittedFeature& f) {
+      std::vector<Vec3> points;
+      for (const MeasuredPoint& p : f.points) {
+        points.push_back(datum_from_workpiece.point(p.point));
+        points.back().z() = 0.0;
+      }
+      return points;
+    };
+    const auto circle = fit_circle_2d(seen_along(features[1]));
+    ASSERT_TRUE(circle);
+    EXPECT_LT((circle->element.point - Vec3(30, 30, 0)).norm(), 1e-9);
+    const auto side = fit_line_2d(seen_along(features[2]));
+    ASSERT_TRUE(side);
+    EXPECT_NEAR(side->element.axis.vec().x(), 0.0, 1e-12);
   }
 }
 

@@ -146,7 +146,9 @@ TEST(Propagation, GradientsInADatumSystemToo) {
   p.alignment = Alignment::datum;
   const auto m = evaluate(p, points);
   ASSERT_TRUE(m) << to_string(m.error().front());
-  EXPECT_LT(gradient_error(p, points_of(*m), 1), 1e-7);
+  // Pin and wall are fitted with the direction that the floor gives, off which they are a little:
+  // of second order.
+  EXPECT_LT(gradient_error(p, points_of(*m), 1), 1e-5);
 }
 
 TEST(Propagation, GradientsOfRoundFeaturesToo) {
