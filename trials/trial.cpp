@@ -105,6 +105,15 @@ Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) 
   return stock::Workpiece(*std::move(blank), *std::move(swept));
 }
 
+Diagnostics oversize_in(const Machine& machine, const GeometricErrors& errors,
+                        const kinematics::CommandedProgram& program) {
+  std::vector<kinematics::AxisPositions> places;
+  for (const kinematics::AxisSample& end : kinematics::block_ends(program)) {
+    places.push_back(end.axes);
+  }
+  return kinematics::oversize_errors(machine, errors, places);
+}
+
 void begin(const std::function<void(Stage)>& on_stage, Stage stage) {
   if (on_stage) on_stage(stage);
 }
@@ -134,6 +143,8 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
 Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
                         const TestPiece& piece, const CommandedPiece& commanded,
                         const metrology::CmmModel& cmm, const TrialOptions& options) {
+  const Diagnostics oversize = oversize_in(machine, errors, commanded.program);
+  if (has_error(oversize)) return oversize;
   auto travel = kinematics::travel(machine, setup_of(piece), commanded.program, errors,
                                    {.path_bound = options.path_bound,
                                     .time_law = options.time_law,
@@ -141,6 +152,7 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
   Trial trial;
   trial.operations = commanded.operations;
   trial.warnings = commanded.warnings;
+  trial.warnings.insert(trial.warnings.end(), oversize.begin(), oversize.end());
   if (travel.path.segments.empty()) {
     Diagnostic idle = warning("no-motion"_id, "the program moves no tool: the blank stays as it is",
                               "check that it is the right file");
@@ -229,7 +241,13 @@ Result<GeometricErrors> errors_for(const Machine& machine,
                                    const TestPiece& piece, const CommandedPiece& commanded) {
   const auto spans = error_spans(piece, commanded.operations);
   if (!spans) return spans.error();
-  return kinematics::resolve(machine, errors, *spans);
+  auto resolved = kinematics::resolve(machine, errors, *spans);
+  if (resolved || piece.error_span.empty()) return resolved;
+  Diagnostics problems = std::move(resolved).error();
+  for (Diagnostic& d : problems) {
+    if (d.id == "error-span"_id) d.message += fmt::format(" ('{}')", piece.error_span);
+  }
+  return problems;
 }
 
 std::optional<metrology::Touch> WorkpieceProbe::touch(const Vec3& start, const UnitVec3& direction,

@@ -114,7 +114,9 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
                  std::move(hint));
   };
   const UnitKind wanted = is_rotation(name.direction) ? UnitKind::angle : UnitKind::length;
-  if (shape.amount.kind != wanted) {
+  const bool nothing = shape.kind == ErrorShape::Kind::constant && shape.amount.value == 0.0 &&
+                       shape.amount.kind == UnitKind::none;
+  if (shape.amount.kind != wanted && !nothing) {
     return problem(fmt::format("expected {}", a_length_or_an_angle(wanted)),
                    wanted == UnitKind::angle ? "for example 30 urad" : "for example 10 um");
   }
@@ -190,6 +192,10 @@ class Resolver {
         refuse(entry, *problem);
         continue;
       }
+      if (const auto problem = vanishing_span(entry, written, joint)) {
+        refuse(entry, *problem);
+        continue;
+      }
       if (written.settle && settle && *settle != *written.settle) refuse_settle(entry, *named);
       if (written.settle) settle = written.settle;
       constant += written.amount.value;
@@ -221,6 +227,27 @@ class Resolver {
   }
 
  private:
+  // Steeper than any machine where the axis hardly moves: a shape over that is a mistake.
+  [[nodiscard]] std::optional<Diagnostic> vanishing_span(const ErrorEntry& entry,
+                                                         const ErrorShape& shape,
+                                                         const Joint& joint) const {
+    constexpr double kLeast = 1e-3;  // mm
+    constexpr double kLeastTurn = 1e-6;
+    using enum ErrorShape::Kind;
+    const auto given = spans_.find(joint.letter);
+    const bool spans = shape.kind == linear || shape.kind == polynomial || shape.kind == harmonic ||
+                       shape.kind == tent;
+    if (!spans || shape.span || given == spans_.end()) return std::nullopt;
+    const double width = given->second.width();
+    if (width == 0.0 || width >= (joint.rotary() ? kLeastTurn : kLeast)) return std::nullopt;
+    return error("error-span"_id,
+                 fmt::format("error {} = {}: {} travels only {:.2g} {} in the operation of "
+                             "[error_span]",
+                             entry.name, entry.written, to_char(joint.letter), width,
+                             joint.rotary() ? "rad" : "mm"),
+                 "write a span: over 0mm..200mm; or name another operation");
+  }
+
   struct LostMotion {
     const ErrorEntry* entry = nullptr;
     double distance = 0.0;

@@ -14,7 +14,7 @@ double value(const LinearTerm& term, AxisLetter axis, const AxisState& at) {
   return term.slope * (at.q[axis] - term.zero);
 }
 double value(const PolynomialTerm& term, AxisLetter axis, const AxisState& at) {
-  const double t = (at.q[axis] - term.middle) / term.reach;
+  const double t = std::clamp((at.q[axis] - term.middle) / term.reach, -1.0, 1.0);
   double sum = 0.0;
   for (auto c = term.coefficients.rbegin(); c != term.coefficients.rend(); ++c) sum = sum * t + *c;
   return sum;

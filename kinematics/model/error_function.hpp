@@ -36,7 +36,7 @@ struct LinearTerm {
 struct PolynomialTerm {
   std::vector<double> coefficients{};  // of 1, t, t^2, ...
   double middle = 0.0;
-  double reach = 1.0;  // t = (q - middle) / reach
+  double reach = 1.0;  // t = (q - middle) / reach, held at -1 and 1
 };
 struct HarmonicTerm {
   double amplitude = 0.0;
