@@ -45,6 +45,8 @@ struct ControlSettings {
   std::vector<ControlWord> words{};
   DecimalPoint decimal_point = DecimalPoint::calculator;
   std::optional<LengthUnit> unit{};  // where it is not known, mm is an assumption
+  // That run again, before they are taken for an endless loop.
+  std::optional<std::uint64_t> max_blocks{};
   // Before the first F the control has a feed of its own (Fanuc's parameter 1411), which is 0 in
   // the motions; else cutting without one is an error, as it always is where errors do not end the
   // run (InterpreterOptions::go_on).

@@ -78,6 +78,10 @@ SetupWords setup_words_of(const TomlTable& root) {
       alone.words.push_back(text);
       judge(*controller, "words", alone);
     }
+    if (controller->has("max_blocks")) {
+      words.max_blocks =
+          static_cast<std::uint64_t>(controller->integer("max_blocks", Bound::positive));
+    }
     words.units = controller->text_or("units", "");
     const std::vector<std::string> units{"mm", "inch"};
     if (controller->has("units")) (void)controller->choice("units", units);
@@ -171,6 +175,7 @@ CheckSettings joined(CheckSettings own, const CheckSettings& file) {
   take_if_empty(words.start, others.start);
   take_if_empty(words.decimal_point, others.decimal_point);
   take_if_empty(words.units, others.units);
+  if (!words.max_blocks) words.max_blocks = others.max_blocks;
   // Later ones go before.
   words.tool_lengths.insert(words.tool_lengths.begin(), others.tool_lengths.begin(),
                             others.tool_lengths.end());

@@ -170,6 +170,7 @@ std::optional<Diagnostic> read_control(const SetupWords& words, KnownSetup& know
     if (!word) return word.error().front();
     known.control.words.push_back(*word);
   }
+  if (words.max_blocks) known.control.max_blocks = words.max_blocks;
   if (!words.units.empty()) {
     const auto unit = parser::start_unit_named(words.units);
     if (!unit) {

@@ -26,6 +26,7 @@ struct SetupWords {
   std::vector<std::string> offsets{};         // "G54=-65,0,150"
   std::string start{};                        // "X0,Y0,Z100"; empty: the machine's home
   std::vector<std::string> words{};           // of the machine's builder: "M31"
+  std::optional<std::uint64_t> max_blocks{};  // that run again; absent: the machine's
   std::string decimal_point{};                // "calculator" or "increment"; empty: the machine's
   std::string units{};                        // "mm" or "inch"; empty: the machine's
 };

@@ -12,6 +12,7 @@ parser::ControlSettings ControllerWords::settings() const {
   settings.words = words;
   settings.decimal_point = decimal_point.value_or(settings.decimal_point);
   settings.unit = units;
+  settings.max_blocks = max_blocks;
   return settings;
 }
 

@@ -72,6 +72,7 @@ struct ControllerWords {
   std::vector<parser::ControlWord> words{};  // of the builder, which move nothing: M31
   std::optional<parser::DecimalPoint> decimal_point{};
   std::optional<parser::LengthUnit> units{};  // before G20 and G21
+  std::optional<std::uint64_t> max_blocks{};  // that run again
 
   [[nodiscard]] parser::ControlSettings settings() const;
 };

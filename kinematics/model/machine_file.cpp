@@ -201,6 +201,10 @@ class MachineReader {
       for (const auto unit : parser::kStartUnits) units.emplace_back(name_of(unit));
       machine.controller_.units = parser::kStartUnits.at(table->choice_or("units", units, 0));
     }
+    if (table->has("max_blocks")) {
+      machine.controller_.max_blocks =
+          static_cast<std::uint64_t>(table->integer("max_blocks", Bound::positive));
+    }
     if (!table->has("decimal_point")) return;
     std::vector<std::string> rules;
     for (const auto rule : parser::kDecimalPoints) rules.emplace_back(name_of(rule));

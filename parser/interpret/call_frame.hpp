@@ -29,6 +29,12 @@ class LoadedProgram {
   [[nodiscard]] const Program& program() const { return program_; }
   // What SourcePlace::file is in its blocks.
   [[nodiscard]] const std::shared_ptr<const std::string>& place_file() const { return place_file_; }
+  // How many lines farther this one is than all that have run.
+  std::uint64_t advance_to(std::uint32_t line) {
+    const std::uint64_t by = line > farthest_ ? line - farthest_ : 0;
+    farthest_ += static_cast<std::uint32_t>(by);
+    return by;
+  }
   [[nodiscard]] const ProgramMap& map() {
     if (!map_) map_.emplace(program_);
     return *map_;
@@ -43,6 +49,7 @@ class LoadedProgram {
   std::shared_ptr<const std::string> place_file_;
   std::optional<ProgramMap> map_{};
   std::optional<BlockNumbers> numbers_{};
+  std::uint32_t farthest_ = 0;
 };
 
 // A loop that counts.

@@ -141,10 +141,12 @@ void ProgramRun::tell_assumed_values(const Block& block) {
 ProgramRun::Failure ProgramRun::count_block(const Block& block) {
   constexpr const char* kRemedy =
       "look for repeats within repeats, for loops whose condition never changes, and for M99 in "
-      "the main program";
-  if (++blocks_ > options_.max_blocks) {
-    return at(block, 1, "endless-loop"_id,
-              fmt::format("more than {} blocks have run", options_.max_blocks), kRemedy);
+      "the main program; max_blocks of the control allows more";
+  lines_ += frame().program->advance_to(block.line);
+  const std::uint64_t most = options_.control.max_blocks.value_or(options_.max_blocks);
+  if (++blocks_ > most + lines_) {
+    return at(block, 1, "endless-loop"_id, fmt::format("more than {} blocks have run again", most),
+              kRemedy);
   }
   if (executor_.state().output.moves != moves_) {
     moves_ = executor_.state().output.moves;

@@ -100,6 +100,7 @@ class ProgramRun {
   std::map<std::string, std::shared_ptr<LoadedProgram>> files_{};
   std::vector<CallFrame> frames_{};
   std::uint64_t blocks_ = 0;
+  std::uint64_t lines_ = 0;  // of all files, as far as they have run
   // Motions so far, and the blocks before the last of them.
   std::uint64_t moves_ = 0;
   std::uint64_t blocks_at_move_ = 0;

@@ -243,6 +243,19 @@ TEST(Interpreter, TellsALoopThatDoesNotEnd) {
   EXPECT_TRUE(complaints(loop, options).empty());
 }
 
+TEST(Interpreter, TellsALoopThatMovesWithoutEnd) {
+  InterpreterOptions options;
+  options.control.max_blocks = 5000;
+  const char* loop = "G91 G0 X0 Y0\nN1 X1\nGOTO 1\n";
+  const auto told = complaints(loop, options);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("more than 5000 blocks have run again"), std::string::npos) << told[0];
+  // The lines of the file are no repeats.
+  std::string straight = "G0 X0\n";
+  for (int i = 0; i < 9000; ++i) straight += "X1\n";
+  EXPECT_TRUE(complaints(straight, options).empty());
+}
+
 // Dwells, stops and remarks are no way out of a loop.
 TEST(Interpreter, TellsALoopThatOnlyWaits) {
   InterpreterOptions options;
