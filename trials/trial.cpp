@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinematics/controller/controller.hpp"
+#include "kinematics/errors/error_size.hpp"
 #include "kinematics/path/travel.hpp"
 #include "parser/doubts.hpp"
 #include "parser/interpreter.hpp"
