@@ -1,8 +1,8 @@
 // The ideal element that represents a measured feature by a criterion of the plan's choice.
 //
 // Model    : least_squares without constraints is the element that the feature was fitted with;
-//            others are associated with its points anew (association.hpp). outside_material knows the plan's normal of a
-//            plane or line and the side of a hole. Axes agree with the plan
+//            others are associated with its points anew (association.hpp). outside_material knows
+//            the plan's normal of a plane or line and the side of a hole. Axes agree with the plan
 // Units    : mm, rad
 // Shape    : one feature
 // Errors   : those of the association, with the feature's name

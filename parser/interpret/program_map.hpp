@@ -6,8 +6,8 @@
 // Shape : one read of the whole text
 // Errors: faults(): an end without its beginning, a beginning without its end, else after else,
 //         break outside a loop, a subprogram within another or of the same name, a label that is
-//         there twice (but of Sinumerik). Blocks with a syntax error are passed over; they are reported when they are
-//         run
+//         there twice (but of Sinumerik). Blocks with a syntax error are passed over; they are
+//         reported when they are run
 #pragma once
 
 #include <cstddef>

@@ -120,7 +120,8 @@ TEST(DatumSystem, TellsWhichDatumTakesWhat) {
 }
 
 TEST(DatumSystem, PlaneCylinderGrooveAsConstructedFromItsElements) {
-  // A base alignment: primary normal; secondary axis pierced with that plane; tertiary plane's trace in it.
+  // A base alignment: primary normal; secondary axis pierced with that plane; tertiary plane's
+  // trace in it.
   const std::vector<PlannedFeature> planned = block();
   synthetic::Draws draws(62);
   for (int i = 0; i < 20; ++i) {

@@ -1,4 +1,5 @@
-// Moves synchronised with the spindle: G33, rigid tapping G33.1, G331 and G332, the threading cycle G76.
+// Moves synchronised with the spindle: G33, rigid tapping G33.1, G331 and G332, the threading cycle
+// G76.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint
@@ -14,7 +15,7 @@ namespace frustum::parser {
                                         const Movement& movement);
 [[nodiscard]] Outcome tap_rigidly(InterpreterState& state, const BlockWords& words,
                                   const Movement& movement);
-// G331, G332: the lead's sign and the way say how the spindle turns; it rests before and afterwards.
+// G331, G332: the lead's sign and the way say how the spindle turns; it rests before and after.
 [[nodiscard]] Outcome tap_one_way(InterpreterState& state, const BlockWords& words,
                                   const Movement& movement);
 [[nodiscard]] Outcome cut_thread(InterpreterState& state, const BlockWords& words,

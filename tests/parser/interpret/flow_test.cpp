@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "2:6: error: parameter #<gone> has no value"},
         Mistake{"o1 sub\no1 call\no1 endsub\no1 call\n",
                 "2:1: error: more than 32 subprograms within each other"},
-        Mistake{"o1 while [1]\no1 endwhile\n", "1:1: error: more than 1000 blocks have run"},
+        Mistake{"o1 while [1]\no1 endwhile\n", "1:1: error: more than 1000 blocks have run again"},
         Mistake{"M72\n", "1:1: error: there are no saved modes"}));
 
 TEST(Flow, TellsTheSyntaxErrorsOfTheRestTogether) {
