@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
+#include "metrology/characteristic/evaluators.hpp"
 #include "metrology/decision_rule.hpp"
-#include "metrology/uncertainty/influence.hpp"
+#include "metrology/uncertainty/linear_uncertainty.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
 
 namespace frustum::metrology {
@@ -34,16 +33,19 @@ std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
 
 Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeature> features,
                               const CmmModel& cmm) {
-  Influence influence(plan, features);
-  const PointUncertainty u = point_uncertainty(cmm);
-  // A characteristic that cannot be evaluated says why elsewhere.
-  const LineUncertainty line_uncertainty = [&](const PlannedCharacteristic& planned) {
-    const auto gradient = influence.of(planned);
-    return gradient && *gradient ? std::sqrt(variance(**gradient, influence.of_field(), u)) : 0.0;
-  };
-  auto measurement =
-      evaluated_values(plan, features, cmm, u.is_zero() ? LineUncertainty() : line_uncertainty);
+  auto measurement = evaluated_values(plan, features);
   if (!measurement) return measurement;
+  const PointUncertainty u = point_uncertainty(cmm);
+  if (!u.is_zero()) {
+    const auto uncertain = linear_uncertainty(plan, features, u);
+    if (!uncertain) return uncertain.error();
+    constexpr double kCoverage = 2.0;  // 95 % of a normal distribution
+    for (std::size_t i = 0; i < uncertain->standard.size(); ++i) {
+      CharacteristicResult& c = measurement->characteristics[i];
+      c.expanded_uncertainty = kCoverage * uncertain->standard[i] *
+                               evaluator_of(plan.characteristics[i].kind).per_internal;
+    }
+  }
   if (plan.monte_carlo && u.is_zero()) {
     measurement->diagnostics.push_back(
         warning("nothing-simulated"_id,

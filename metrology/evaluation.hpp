@@ -1,8 +1,8 @@
 // What both kinds of points take, those of the virtual CMM and real ones: characteristics of fitted
 // features, their uncertainties, verdicts.
 //
-// Model    : measured_values.hpp, influence.hpp, monte_carlo_uncertainty.hpp and decision_rule.hpp
-//            in turn
+// Model    : measured_values.hpp, linear_uncertainty.hpp, monte_carlo_uncertainty.hpp and
+//            decision_rule.hpp in turn
 // Units    : mm, rad
 // Shape    : all features of a plan
 // Errors   : those of datum_system.hpp and characteristic.hpp; a datum feature without points
@@ -14,6 +14,7 @@
 
 #include "core/result.hpp"
 #include "metrology/characteristic/measured_values.hpp"
+#include "metrology/probing/cmm_model.hpp"
 
 namespace frustum::metrology {
 

@@ -96,7 +96,10 @@ struct CharacteristicResult {
   std::vector<double> plot_deviation{};
   std::vector<LineProfile> profiles{};  // of characteristics that compare lines: first, second
   std::vector<Harmonic> harmonics{};    // of the plotted deviations, where the plan asks for them
-  NonNegative measurand{};  // what the value is the size of; kind none for values of either sign
+  // What the value is the size of, where its interval is found by that; kind none for values of
+  // either sign, and for others whose shape is not estimated.
+  NonNegative measurand{};
+  NonNegative spread{};  // the same of all that are not of either sign, for linear propagation
 };
 
 // In mm or rad, from the unit of a characteristic: "um", "mm", "deg", "urad". Any other text means

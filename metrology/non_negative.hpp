@@ -38,6 +38,10 @@ struct NonNegative {
   // mm, where on a surface they stand: near ones are alike. Empty where parts are few or those of
   // an element, which are taken as measured.
   std::vector<Vec3> places{};
+  // Of each place, the variance that its own points give it in any direction, in those of a point:
+  // 1 of a measured point, less of the centre of a section. Empty: parts of an element, which move
+  // with it alone.
+  std::vector<double> own{};
 
   [[nodiscard]] bool is_known() const { return rule.kind != NonNegativeKind::none; }
 };

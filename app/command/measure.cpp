@@ -11,9 +11,9 @@
 #include "app/job/job_report.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
-#include "metrology/characteristic/standard_uncertainty.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/points/point_file.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
 #include "trials/mesh_probe.hpp"
 
 namespace frustum::app {

@@ -10,8 +10,7 @@
 namespace frustum::metrology {
 
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
-                                      std::span<const FittedFeature> features, const CmmModel& cmm,
-                                      double line_uncertainty) {
+                                      std::span<const FittedFeature> features) {
   std::vector<const FittedFeature*> chosen;
   for (const std::string& name : planned.features) {
     const auto found = std::find_if(features.begin(), features.end(), [&](const FittedFeature& f) {
@@ -26,8 +25,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     chosen.push_back(&*found);
   }
   const Evaluator& evaluator = evaluator_of(planned.kind);
-  auto value =
-      evaluator.evaluate({planned, std::move(chosen), point_uncertainty(cmm), line_uncertainty});
+  auto value = evaluator.evaluate({planned, std::move(chosen)});
   if (!value) {
     Diagnostics failure = std::move(value).error();
     for (Diagnostic& d : failure) {
@@ -42,14 +40,13 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.value = value->value * evaluator.per_internal;
   if (value->nominal) result.nominal = *value->nominal * evaluator.per_internal;
   result.tolerance = planned.tolerance * evaluator.per_internal;
-  constexpr double kCoverage = 2.0;  // 95 % of a normal distribution
-  result.expanded_uncertainty = kCoverage * value->uncertainty * evaluator.per_internal;
   result.pass = std::abs(value->value - value->nominal.value_or(0.0)) <= planned.tolerance;
   result.plot_angle = std::move(value->profile.angle);
   result.plot_deviation = std::move(value->profile.deviation);
   result.profiles = std::move(value->lines);
   result.harmonics = std::move(value->harmonics);
-  result.measurand = std::move(value->measurand);
+  result.spread = std::move(value->measurand);
+  if (value->has_shape) result.measurand = result.spread;
   return result;
 }
 

@@ -16,18 +16,14 @@
 #include "metrology/characteristic/fitted_feature.hpp"
 #include "metrology/characteristic/round_profile.hpp"
 #include "metrology/measurement.hpp"
-#include "metrology/probing/cmm_model.hpp"
 
 namespace frustum::metrology {
 
 // `features` are all that were measured, in the frame in which the plan holds: that of its datum
 // system, or without one the workpiece's. Concentricity within one feature looks along its planned
-// axis (its own fitted axis runs through any two of its sections and would hide what is asked).
-// `line_uncertainty` is the standard uncertainty, mm or rad, of a characteristic that compares
-// lines: it depends on their frame, which is not known here.
+// axis (its own fitted axis runs through any two of its sections and would hide what is asked). How
+// far it can be trusted depends on frames and datum systems, too: uncertainty/.
 [[nodiscard]] Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
-                                                    std::span<const FittedFeature> features,
-                                                    const CmmModel& cmm,
-                                                    double line_uncertainty = 0.0);
+                                                    std::span<const FittedFeature> features);
 
 }  // namespace frustum::metrology

@@ -65,7 +65,7 @@ Result<Line> common_axis(std::span<const FittedFeature* const> datums, Criterion
     }
     const auto of_datum = median_line(*datum);
     if (!of_datum) return of_datum.error();
-    centres.insert(centres.end(), of_datum->begin(), of_datum->end());
+    centres.insert(centres.end(), of_datum->centres.begin(), of_datum->centres.end());
   }
   const auto line = fit_line(centres);
   if (!line) return line.error();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Evaluator zone_by(CharacteristicKind kind,
                             Result<Evaluated> (*evaluate)(const Toleranced&)) {
-  return {kind, evaluate, Gradient::none, "um", kUmPerMm};
+  return {kind, evaluate, "um", kUmPerMm};
 }
 
 // Where each characteristic is evaluated.
@@ -42,12 +42,12 @@ const auto& evaluators() {
       zone_by(line_profile, evaluate_line_profile),
       zone_by(surface_profile, evaluate_surface_profile),
       // Size
-      Evaluator{radius, evaluate_radius, Gradient::size, "mm", 1.0},
-      Evaluator{diameter, evaluate_diameter, Gradient::size, "mm", 1.0},
-      Evaluator{half_angle, evaluate_half_angle, Gradient::size, "deg", kDegPerRad},
+      Evaluator{radius, evaluate_radius, "mm", 1.0},
+      Evaluator{diameter, evaluate_diameter, "mm", 1.0},
+      Evaluator{half_angle, evaluate_half_angle, "deg", kDegPerRad},
       // Lines
-      Evaluator{line_distance, evaluate_lines, Gradient::lines, "um", kUmPerMm},
-      Evaluator{line_angle, evaluate_lines, Gradient::lines, "urad", kUradPerRad},
+      Evaluator{line_distance, evaluate_lines, "um", kUmPerMm},
+      Evaluator{line_angle, evaluate_lines, "urad", kUradPerRad},
   };
   return kAll;
 }

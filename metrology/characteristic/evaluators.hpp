@@ -1,5 +1,5 @@
-// One evaluator a characteristic: value, standard uncertainty and what the value is made of. The
-// table of evaluators.cpp says which; docs/characteristics.md defines them.
+// One evaluator a characteristic: its value and what that is made of. The table of evaluators.cpp
+// says which; docs/characteristics.md defines them.
 //
 // Model    : each evaluator is one family of tolerances: form.cpp, straightness.cpp,
 //            orientation.cpp, location.cpp, run_out.cpp, profile.cpp, size.cpp, lines.cpp
@@ -17,35 +17,28 @@
 
 #include "core/result.hpp"
 #include "metrology/characteristic/round_profile.hpp"
-#include "metrology/characteristic/standard_uncertainty.hpp"
 #include "metrology/measurement.hpp"
 
 namespace frustum::metrology {
 
 struct Evaluated {
-  double value = 0.0;        // mm or rad
-  double uncertainty = 0.0;  // standard
+  double value = 0.0;  // mm or rad
   std::optional<double> nominal{};
   RoundProfile profile{};
   std::vector<LineProfile> lines{};
   std::vector<Harmonic> harmonics{};
-  NonNegative measurand{};  // what the value is the size of; kind none where that is not known
+  NonNegative measurand{};  // what the value is the size of; kind none for values of either sign
+  bool has_shape = true;    // whether its interval is found from that
 };
 
 struct Toleranced {
   const PlannedCharacteristic& planned;
   std::vector<const FittedFeature*> features{};  // in the order in which it names them
-  PointUncertainty u{};
-  double line_uncertainty = 0.0;  // standard, of a characteristic that compares lines
 };
-
-// Whose gradient by the points influence.hpp knows: values that may have either sign.
-enum class Gradient { none, lines, size };
 
 struct Evaluator {
   CharacteristicKind kind{};
   Result<Evaluated> (*evaluate)(const Toleranced&) = nullptr;
-  Gradient gradient = Gradient::none;
   std::string_view unit{};    // of the result
   double per_internal = 1.0;  // such units in a mm or rad
 };

@@ -99,7 +99,7 @@ std::vector<Vec3> outline(const PlannedFeature& planned, const Element& element)
   return points;
 }
 
-Result<std::vector<Vec3>> median_line(const FittedFeature& feature) {
+Result<MedianLine> median_line(const FittedFeature& feature) {
   std::set<std::size_t> sections;
   for (const MeasuredPoint& p : feature.points) sections.insert(p.section);
   if (sections.size() < 2) {
@@ -108,13 +108,14 @@ Result<std::vector<Vec3>> median_line(const FittedFeature& feature) {
         fmt::format("'{}' has one section, a median line needs two or more", feature.planned->name),
         "measure more sections, or take criterion = \"ls\"");
   }
-  std::vector<Vec3> centres;
+  MedianLine line;
   for (const std::size_t section : sections) {
     const auto circle = section_circle(feature, section, *axis_of(feature.element));
     if (!circle) return circle.error();
-    centres.push_back(circle->element.point);
+    line.centres.push_back(circle->element.point);
+    line.own.push_back(centre_variance(*circle));
   }
-  return centres;
+  return line;
 }
 
 }  // namespace frustum::metrology

@@ -26,6 +26,11 @@ namespace frustum::metrology {
 // points.
 [[nodiscard]] std::vector<Vec3> outline(const PlannedFeature& planned, const Element& element);
 
-[[nodiscard]] Result<std::vector<Vec3>> median_line(const FittedFeature& feature);
+// The centres of the sections, and the variance of each across the axis in those of a point.
+struct MedianLine {
+  std::vector<Vec3> centres{};
+  std::vector<double> own{};
+};
+[[nodiscard]] Result<MedianLine> median_line(const FittedFeature& feature);
 
 }  // namespace frustum::metrology

@@ -49,6 +49,13 @@ std::optional<Diagnostic> without_redundancy(std::size_t parameters, std::size_t
       fmt::format("measure {} or more", parameters + 1));
 }
 
+// Peak to valley of deviations, each of a point of its own.
+NonNegative of_points(const std::vector<double>& deviations, std::vector<Vec3> places) {
+  NonNegative form{{NonNegativeKind::peak_to_valley}, deviations, std::move(places)};
+  form.own.assign(deviations.size(), 1.0);
+  return form;
+}
+
 // One section as it stands alone: the profile is what is plotted, its deviations the form.
 using SectionForm = Result<Evaluated> (*)(const Toleranced&, std::size_t section);
 
@@ -63,9 +70,9 @@ Result<Evaluated> worst_section(const Toleranced& what, SectionForm form_of) {
     all.rule.rows.push_back(own.parts.size());
     all.parts.insert(all.parts.end(), own.parts.begin(), own.parts.end());
     all.places.insert(all.places.end(), own.places.begin(), own.places.end());
+    all.own.insert(all.own.end(), own.own.begin(), own.own.end());
     if (worst.profile.angle.empty() || form->value > worst.value) worst = std::move(*form);
   }
-  if (all.parts.empty()) return worst;
   if (all.rule.rows.size() == 1) all.rule.rows.clear();
   worst.measurand = std::move(all);
   return worst;
@@ -87,15 +94,13 @@ Result<Evaluated> roundness_of(const Toleranced& what, std::size_t section) {
   for (double& d : outward) d *= material_sign(*feature.planned);
   Evaluated form;
   form.value = form_parameter(what.planned.parameter.value_or(FormParameter::t), outward);
-  form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
   if (what.planned.harmonics > 0) {
     auto waves = harmonics(profile->angle, profile->deviation, what.planned.harmonics);
     if (!waves) return std::move(waves).error();
     form.harmonics = std::move(*waves);
   }
-  if (is_plain(what.planned)) {
-    form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, *std::move(points)};
-  }
+  form.measurand = of_points(profile->deviation, *std::move(points));
+  form.has_shape = is_plain(what.planned);
   form.profile = std::move(*profile);
   return form;
 }
@@ -112,8 +117,7 @@ Result<Evaluated> equivalent_form_of(const Toleranced& what, std::size_t section
   }
   Evaluated form;
   form.value = profile->peak_to_valley;
-  form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
-  form.measurand = {{NonNegativeKind::peak_to_valley}, profile->deviation, *std::move(points)};
+  form.measurand = of_points(profile->deviation, *std::move(points));
   form.profile = std::move(*profile);
   return form;
 }
@@ -147,10 +151,8 @@ Result<Evaluated> evaluate_surface_form(const Toleranced& what) {
   }
   Evaluated form;
   form.value = form_parameter(what.planned.parameter.value_or(FormParameter::t), outward);
-  form.uncertainty = form_uncertainty(what.u, feature.planned->radius);
-  if (is_plain(what.planned)) {
-    form.measurand = {{NonNegativeKind::peak_to_valley}, outward, feature.all_points()};
-  }
+  form.measurand = of_points(outward, feature.all_points());
+  form.has_shape = is_plain(what.planned);
   if (feature.planned->kind == FeatureKind::plane) return form;
   const AngleFrame frame = angle_frame(feature);
   for (const MeasuredPoint& p : feature.points) {

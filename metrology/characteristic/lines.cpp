@@ -64,7 +64,6 @@ Result<Evaluated> evaluate_lines(const Toleranced& what) {
   out.value = what.planned.kind == CharacteristicKind::line_angle
                   ? b->turned - a->turned
                   : b->profile.fit_offset - a->profile.fit_offset;
-  out.uncertainty = what.line_uncertainty;
   out.nominal = 0.0;
   out.lines = {std::move(a->profile), std::move(b->profile)};
   return out;

@@ -80,19 +80,21 @@ NonNegative offsets(const Target& target, const std::vector<Vec3>& points) {
 struct Content {
   std::vector<Vec3> farthest{};
   std::vector<Vec3> all{};
-  bool is_measured = false;  // points of the surface itself
+  std::vector<double> own{};  // as NonNegative
+  bool is_measured = false;   // points of the surface itself
 };
 Result<Content> content(const FittedFeature& feature, Criterion criterion, const Target& target) {
   const FeatureKind kind = feature.planned->kind;
   const bool is_surface =
       kind == FeatureKind::plane || kind == FeatureKind::line || kind == FeatureKind::point;
   if (criterion == Criterion::minimum_zone && is_surface) {
-    return Content{feature.all_points(), feature.all_points(), true};
+    const std::vector<double> own(feature.points.size(), 1.0);
+    return Content{feature.all_points(), feature.all_points(), own, true};
   }
   if (criterion == Criterion::minimum_zone &&
       (kind == FeatureKind::cylinder || kind == FeatureKind::cone)) {
-    return median_line(feature).transform([](const std::vector<Vec3>& centres) {
-      return Content{centres, centres};
+    return median_line(feature).transform([](MedianLine&& line) {
+      return Content{line.centres, line.centres, std::move(line.own)};
     });
   }
   const auto element = datum_element(feature, criterion);
@@ -104,18 +106,14 @@ Result<Content> content(const FittedFeature& feature, Criterion criterion, const
   return Content{extremes(*feature.planned, *element, toward), outline(*feature.planned, *element)};
 }
 
-double half_length(const std::vector<Vec3>& points) {
-  return 0.5 * (points.back() - points.front()).norm();
-}
-
 Result<Evaluated> centred_on(const Target& target, const FittedFeature& feature,
                              const Toleranced& what) {
   auto within = content(feature, what.planned.criterion, target);
   if (!within) return std::move(within).error();
   Evaluated zone;
   zone.value = 2.0 * farthest(target, within->farthest);
-  zone.uncertainty = place_uncertainty(what.u, feature, half_length(within->farthest));
   zone.measurand = offsets(target, within->all);
+  zone.measurand.own = std::move(within->own);
   if (within->is_measured) zone.measurand.places = std::move(within->all);
   return zone;
 }
@@ -134,7 +132,7 @@ Result<Evaluated> concentricity_within(const Toleranced& what) {
   Evaluated zone;
   zone.measurand = length_of(2.0 * apart.cross(axis));
   zone.value = size_of(zone.measurand);
-  zone.uncertainty = concentricity_uncertainty(what.u, *first, *second, feature);
+  zone.measurand.own = {4.0 * (centre_variance(*first) + centre_variance(*second))};
   return zone;
 }
 
@@ -150,14 +148,15 @@ Result<Evaluated> concentricity_to_datum(const Toleranced& what) {
   }
   Evaluated zone;
   std::vector<Vec3> centres;
+  std::vector<double> own;
   for (const std::size_t section : sections) {
     const auto circle = section_circle(feature, section, axis.axis);
     if (!circle) return circle.error();
     centres.push_back(circle->element.point);
-    zone.uncertainty =
-        std::max(zone.uncertainty, concentricity_uncertainty(what.u, *circle, datum));
+    own.push_back(centre_variance(*circle));
   }
   zone.measurand = offsets(axis, centres);
+  zone.measurand.own = std::move(own);
   zone.value = size_of(zone.measurand);
   return zone;
 }
@@ -232,8 +231,6 @@ Result<Evaluated> symmetry_zone(const Toleranced& what) {
     end.point += (middle - end.point).dot(across) * across;
     const auto points = extremes(end, median, wanted - wanted.dot(normal) * normal);
     zone.value = std::max(zone.value, 2.0 * farthest(*target, points));
-    zone.uncertainty =
-        std::max(zone.uncertainty, place_uncertainty(what.u, *features[i], half_length(points)));
     const std::vector<Vec3> all = outline(end, median);
     ends.insert(ends.end(), all.begin(), all.end());
   }

@@ -46,8 +46,7 @@ std::vector<FittedFeature> named(const PlannedCharacteristic& planned, const Pos
 }  // namespace
 
 Result<Measurement> evaluated_values(const InspectionPlan& plan,
-                                     std::vector<FittedFeature> features, const CmmModel& cmm,
-                                     const LineUncertainty& line_uncertainty) {
+                                     std::vector<FittedFeature> features) {
   Measurement measurement;
   measurement.title = plan.title;
   if (uses_datum(plan)) {
@@ -65,14 +64,10 @@ Result<Measurement> evaluated_values(const InspectionPlan& plan,
   }
   Frames frames(plan, features);
   const auto result_of = [&](const PlannedCharacteristic& planned) -> Result<CharacteristicResult> {
-    const double uncertainty =
-        line_uncertainty && compares_lines(planned.kind) ? line_uncertainty(planned) : 0.0;
-    if (planned.frame.empty()) {
-      return evaluate(planned, in_datum, cmm, uncertainty);
-    }
+    if (planned.frame.empty()) return evaluate(planned, in_datum);
     const Result<Pose>& frame = frames.find(planned.frame);
     if (!frame) return frame.error();
-    return evaluate(planned, named(planned, frame->inverse(), features), cmm, uncertainty);
+    return evaluate(planned, named(planned, frame->inverse(), features));
   };
   Diagnostics failures;
   for (const PlannedCharacteristic& planned : plan.characteristics) {

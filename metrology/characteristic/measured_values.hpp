@@ -9,22 +9,15 @@
 // Source   : Bossoni 2010, appendix A.4
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
-#include "metrology/probing/cmm_model.hpp"
 
 namespace frustum::metrology {
 
-// Standard, mm or rad, of a characteristic that compares lines.
-using LineUncertainty = std::function<double(const PlannedCharacteristic&)>;
-
-// `features` are in the workpiece frame. Without simulated uncertainties and rules of decision.
+// `features` are in the workpiece frame. Without uncertainties and rules of decision.
 [[nodiscard]] Result<Measurement> evaluated_values(const InspectionPlan& plan,
-                                                   std::vector<FittedFeature> features,
-                                                   const CmmModel& cmm,
-                                                   const LineUncertainty& line_uncertainty = {});
+                                                   std::vector<FittedFeature> features);
 
 }  // namespace frustum::metrology

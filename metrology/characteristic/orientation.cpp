@@ -49,7 +49,8 @@ double range_along(const std::vector<Vec3>& points, const Vec3& direction) {
 }
 
 // How far the points are off the middle of the narrowest cylinder along that direction.
-NonNegative cylinder_around(const std::vector<Vec3>& points, const Vec3& direction) {
+NonNegative cylinder_around(const MedianLine& line, const Vec3& direction) {
+  const std::vector<Vec3>& points = line.centres;
   const auto [u, v] = tangents(unit(direction));
   std::vector<Eigen::Vector2d> across;
   for (const Vec3& p : points) {
@@ -57,7 +58,7 @@ NonNegative cylinder_around(const std::vector<Vec3>& points, const Vec3& directi
     across.emplace_back(w.dot(u), w.dot(v));
   }
   const Eigen::Vector2d centre = smallest_circle(across).centre;
-  NonNegative off{{NonNegativeKind::twice_largest}, {}, {}};
+  NonNegative off{{NonNegativeKind::twice_largest}, {}, {}, line.own};
   for (const Eigen::Vector2d& p : across) {
     const Vec3 apart = (p - centre).x() * u + (p - centre).y() * v;
     off.parts.insert(off.parts.end(), apart.begin(), apart.end());
@@ -106,7 +107,7 @@ Vec3 least_high(const Wanted& want, const std::vector<Vec3>& points) {
 
 // What the points themselves need: planes for a plane, for a line on a surface and where the datum
 // leaves one direction free; a cylinder for an axis.
-Result<NonNegative> zone_of_points(const FittedFeature& feature, const Wanted& want) {
+Result<NonNegative> zone_of_surface(const FittedFeature& feature, const Wanted& want) {
   if (feature.planned->kind == FeatureKind::plane) {
     const std::vector<Vec3> points = feature.all_points();
     if (want.freedom == Freedom::none) return heights_along(want.direction, points);
@@ -118,16 +119,25 @@ Result<NonNegative> zone_of_points(const FittedFeature& feature, const Wanted& w
     return NonNegative{
         {NonNegativeKind::peak_to_valley}, zone->fit.residuals, feature.all_points()};
   }
-  if (feature.planned->kind == FeatureKind::line) {
-    return heights_along(surface_normal(*feature.planned, want.direction), feature.all_points());
-  }
-  const auto centres = median_line(feature);
-  if (!centres) return centres.error();
-  if (want.freedom == Freedom::none) return cylinder_around(*centres, want.direction);
+  return heights_along(surface_normal(*feature.planned, want.direction), feature.all_points());
+}
+Result<NonNegative> zone_of_axis(const FittedFeature& feature, const Wanted& want) {
+  const auto line = median_line(feature);
+  if (!line) return line.error();
+  if (want.freedom == Freedom::none) return cylinder_around(*line, want.direction);
   const Vec3 across = want.datum - want.datum.dot(want.direction) * want.direction;
-  NonNegative heights = heights_along(across.normalized(), *centres);
+  NonNegative heights = heights_along(across.normalized(), line->centres);
   heights.places.clear();
+  heights.own = line->own;
   return heights;
+}
+Result<NonNegative> zone_of_points(const FittedFeature& feature, const Wanted& want) {
+  const FeatureKind kind = feature.planned->kind;
+  if (kind != FeatureKind::plane && kind != FeatureKind::line) return zone_of_axis(feature, want);
+  return zone_of_surface(feature, want).transform([](NonNegative&& heights) {
+    heights.own.assign(heights.parts.size(), 1.0);
+    return std::move(heights);
+  });
 }
 
 // What the associated element needs over its extent.
@@ -150,11 +160,6 @@ Evaluated zone_of_element(const PlannedFeature& planned, const Element& element,
   zone.measurand = length_of(planned.kind == FeatureKind::line ? rise : Vec3(run - rise));
   zone.value = size_of(zone.measurand);
   return zone;
-}
-
-double largest_extent(const PlannedFeature& planned, const Element& element) {
-  const std::vector<Vec3> points = extremes(planned, element, Vec3::UnitX());
-  return (points.back() - points.front()).norm();
 }
 
 // Length of the toleranced feature over which it may tilt.
@@ -189,7 +194,7 @@ Evaluated tilt_of_elements(const Toleranced& what) {
   // theirs are parallel.
   const double length = tilted_length(*toleranced.planned, unit(datum.planned->axis));
   const Vec3 tilt = length * (alike ? Vec3(a.dot(b), 0.0, 0.0) : Vec3(a.cross(b)));
-  Evaluated found{tilt.norm(), perpendicularity_uncertainty(what.u, toleranced, datum, length)};
+  Evaluated found{tilt.norm()};
   found.measurand = length_of(tilt);
   return found;
 }
@@ -218,8 +223,6 @@ Result<Evaluated> orientation_zone(const Toleranced& what) {
   } else {
     zone = zone_of_element(*feature.planned, *element, want);
   }
-  zone.uncertainty = perpendicularity_uncertainty(what.u, feature, *what.features.back(),
-                                                  largest_extent(*feature.planned, *element));
   return zone;
 }
 

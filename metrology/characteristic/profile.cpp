@@ -74,6 +74,7 @@ Result<Evaluated> profile_of_sections(const Toleranced& what) {
       worst.profile = plotted(feature, points, std::move(*found));
     }
   }
+  all.own.assign(all.parts.size(), 1.0);
   worst.measurand = std::move(all);
   return worst;
 }
@@ -87,6 +88,7 @@ Result<Evaluated> profile_of_surfaces(const Toleranced& what) {
   if (!found) return std::move(found).error();
   Evaluated zone;
   zone.measurand = {{NonNegativeKind::twice_largest_height}, *found, {}};
+  zone.measurand.own.assign(found->size(), 1.0);
   // Near points of different surfaces are not alike.
   if (surfaces.size() == 1) zone.measurand.places = surfaces.front().points;
   zone.value = size_of(zone.measurand);
@@ -97,25 +99,14 @@ Result<Evaluated> profile_of_surfaces(const Toleranced& what) {
   return zone;
 }
 
-// Every point counts by itself.
-Result<Evaluated> with_uncertainty(Result<Evaluated> profile, const Toleranced& what) {
-  if (!profile) return profile;
-  double reach = 0.0;
-  for (const MeasuredPoint& p : what.features.front()->points) {
-    reach = std::max(reach, p.point.norm());
-  }
-  profile->uncertainty = 2.0 * std::hypot(what.u.probing, what.u.scale * reach);
-  return profile;
-}
-
 }  // namespace
 
 Result<Evaluated> evaluate_line_profile(const Toleranced& what) {
-  return with_uncertainty(profile_of_sections(what), what);
+  return profile_of_sections(what);
 }
 
 Result<Evaluated> evaluate_surface_profile(const Toleranced& what) {
-  return with_uncertainty(profile_of_surfaces(what), what);
+  return profile_of_surfaces(what);
 }
 
 }  // namespace frustum::metrology

@@ -94,6 +94,10 @@ Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t sec
   return circle;
 }
 
+double centre_variance(const Fit<Circle>& circle) {
+  return std::max(circle.cofactor(0, 0), circle.cofactor(1, 1));
+}
+
 double angle_of(const Vec3& w, const AngleFrame& frame) {
   const double angle = std::atan2(w.dot(frame.axis.vec().cross(frame.zero)), w.dot(frame.zero));
   return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;

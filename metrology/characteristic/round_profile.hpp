@@ -58,6 +58,9 @@ struct AngleFrame {
 [[nodiscard]] Result<Fit<Circle>> section_circle(const FittedFeature& feature, std::size_t section,
                                                  const Vec3& along);
 
+// Of its centre within its plane, in those of a point.
+[[nodiscard]] double centre_variance(const Fit<Circle>& circle);
+
 // Angle of `w` about the axis of the frame, 0 to one turn.
 [[nodiscard]] double angle_of(const Vec3& w, const AngleFrame& frame);
 // About the planned axis of the feature, from its zero direction.

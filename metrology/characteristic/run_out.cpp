@@ -95,6 +95,7 @@ Result<Evaluated> evaluate_run_out(const Toleranced& what) {
     readings.rule.rows.push_back(points.size());
     readings.parts.insert(readings.parts.end(), parts.begin(), parts.end());
     readings.places.insert(readings.places.end(), points.begin(), points.end());
+    readings.own.resize(readings.parts.size(), 1.0);
   };
   if (what.planned.kind == CharacteristicKind::total_run_out) {
     auto whole = of_profile(what, turning.read(feature.all_points()));
@@ -112,9 +113,6 @@ Result<Evaluated> evaluate_run_out(const Toleranced& what) {
     }
   }
   worst.measurand = std::move(readings);
-  const double away = (point_of(feature.element) - axis->point).norm();
-  worst.uncertainty = std::hypot(form_uncertainty(what.u, feature.planned->radius),
-                                 place_uncertainty(what.u, *datums.front(), away));
   return worst;
 }
 

@@ -7,11 +7,9 @@ namespace {
 Evaluated size_of_element(const Toleranced& what, double factor) {
   const FittedFeature& feature = *what.features.front();
   double radius = 0.0;
-  double along = 0.0;
   if (const auto* cone = std::get_if<Cone>(&feature.element)) {
     // The section perpendicular to the measured axis through the nominal point.
-    along = (feature.planned->point - cone->point).dot(cone->axis.vec());
-    radius = cone->section_radius(along);
+    radius = cone->section_radius((feature.planned->point - cone->point).dot(cone->axis.vec()));
   } else if (const auto* cylinder = std::get_if<Cylinder>(&feature.element)) {
     radius = cylinder->radius;
   } else if (const auto* sphere = std::get_if<Sphere>(&feature.element)) {
@@ -19,8 +17,7 @@ Evaluated size_of_element(const Toleranced& what, double factor) {
   } else {
     radius = std::get<Circle>(feature.element).radius;
   }
-  return {factor * radius, factor * radius_uncertainty(what.u, feature, along),
-          factor * feature.planned->radius};
+  return {factor * radius, factor * feature.planned->radius};
 }
 
 }  // namespace
@@ -31,8 +28,7 @@ Result<Evaluated> evaluate_diameter(const Toleranced& what) { return size_of_ele
 
 Result<Evaluated> evaluate_half_angle(const Toleranced& what) {
   const FittedFeature& feature = *what.features.front();
-  return Evaluated{std::get<Cone>(feature.element).half_angle,
-                   half_angle_uncertainty(what.u, feature), feature.planned->half_angle};
+  return Evaluated{std::get<Cone>(feature.element).half_angle, feature.planned->half_angle};
 }
 
 }  // namespace frustum::metrology

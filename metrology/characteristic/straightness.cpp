@@ -108,7 +108,8 @@ Evaluated straightness_about_axis(const Toleranced& what) {
     const Vec3 across = from - from.dot(axis) * axis;
     off.parts.insert(off.parts.end(), across.begin(), across.end());
   }
-  Evaluated found{size_of(off), straightness_uncertainty(what.u)};
+  off.own.assign(off.places.size(), 1.0);
+  Evaluated found{size_of(off)};
   found.measurand = std::move(off);
   return found;
 }
@@ -137,10 +138,15 @@ Result<Evaluated> evaluate_straightness(const Toleranced& what) {
         "plan three sections or more with the same number of points");
   }
   Evaluated zone;
-  zone.uncertainty = straightness_uncertainty(what.u);
+  zone.has_shape = false;
+  NonNegative& all = zone.measurand;
+  all.rule.kind = NonNegativeKind::peak_to_valley;
   for (const PlanarProfile& profile : profiles) {
     const auto deviations = straightness_of(profile, what.planned);
     if (!deviations) return deviations.error();
+    all.rule.rows.push_back(deviations->size());
+    all.parts.insert(all.parts.end(), deviations->begin(), deviations->end());
+    all.own.resize(all.parts.size(), 1.0);
     zone.value = std::max(
         zone.value, form_parameter(what.planned.parameter.value_or(FormParameter::t), *deviations));
   }
@@ -148,23 +154,31 @@ Result<Evaluated> evaluate_straightness(const Toleranced& what) {
 }
 
 Result<Evaluated> evaluate_axis_straightness(const Toleranced& what) {
-  const auto centres = median_line(*what.features.front());
-  if (!centres) return centres.error();
-  if (centres->size() < 3) {
+  auto median = median_line(*what.features.front());
+  if (!median) return std::move(median).error();
+  const std::vector<Vec3>& centres = median->centres;
+  if (centres.size() < 3) {
     return error("too-few-points"_id,
                  fmt::format("'{}' has two sections, and two centres are always straight",
                              what.features.front()->planned->name),
                  "measure three sections or more");
   }
-  const double uncertainty = straightness_uncertainty(what.u);
-  if (centres->size() == 3 && what.planned.criterion == Criterion::minimum_zone) {
-    return Evaluated{lowest_height(*centres), uncertainty};
-  }
-  const auto line = associate(ElementKind::line, *centres, {.criterion = what.planned.criterion});
+  const bool narrowest = centres.size() == 3 && what.planned.criterion == Criterion::minimum_zone;
+  const Criterion criterion = narrowest ? Criterion::least_squares : what.planned.criterion;
+  const auto line = associate(ElementKind::line, centres, {.criterion = criterion});
   if (!line) return line.error();
-  double farthest = 0.0;
-  for (const Vec3& p : *centres) farthest = std::max(farthest, residual(line->fit.element, p));
-  return Evaluated{2.0 * farthest, uncertainty};
+  const Element& axis = line->fit.element;
+  Evaluated zone;
+  zone.has_shape = false;
+  zone.measurand.rule.kind = NonNegativeKind::twice_largest;
+  zone.measurand.own = std::move(median->own);
+  for (const Vec3& p : centres) {
+    const Vec3 w = p - point_of(axis);
+    const Vec3 across = w - w.dot(axis_of(axis)->vec()) * axis_of(axis)->vec();
+    zone.measurand.parts.insert(zone.measurand.parts.end(), across.begin(), across.end());
+  }
+  zone.value = narrowest ? lowest_height(centres) : size_of(zone.measurand);
+  return zone;
 }
 
 }  // namespace frustum::metrology

@@ -6,9 +6,9 @@
 #include "core/quantile.hpp"
 #include "core/random.hpp"
 #include "metrology/characteristic/measured_values.hpp"
-#include "metrology/characteristic/standard_uncertainty.hpp"
 #include "metrology/probing/cmm_errors.hpp"
 #include "metrology/uncertainty/non_negative_interval.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
 #include "metrology/uncertainty/refit.hpp"
 
 namespace frustum::metrology {
@@ -173,8 +173,9 @@ ErrorDraws error_draws(const CmmModel& cmm, std::uint64_t seed) {
   };
 }
 
-Result<Measurement> remeasured(const InspectionPlan& plan, std::span<const FittedFeature> features,
-                               const MeasuringErrors& errors) {
+Result<std::vector<FittedFeature>> remeasured_features(const InspectionPlan& plan,
+                                                       std::span<const FittedFeature> features,
+                                                       const MeasuringErrors& errors) {
   const double ball_radius = 0.5 * plan.probe.ball_diameter;
   std::vector<FittedFeature> moved;
   for (const FittedFeature& feature : features) {
@@ -189,7 +190,14 @@ Result<Measurement> remeasured(const InspectionPlan& plan, std::span<const Fitte
     if (!fit) return std::move(fit).error();
     moved.push_back(std::move(*fit));
   }
-  return evaluated_values(plan, std::move(moved), {});
+  return moved;
+}
+
+Result<Measurement> remeasured(const InspectionPlan& plan, std::span<const FittedFeature> features,
+                               const MeasuringErrors& errors) {
+  auto moved = remeasured_features(plan, features, errors);
+  if (!moved) return std::move(moved).error();
+  return evaluated_values(plan, *std::move(moved));
 }
 
 Result<std::vector<SimulatedUncertainty>> simulated_uncertainties(

@@ -39,8 +39,12 @@ using ErrorDraws = std::function<MeasuringErrors(std::uint32_t draw)>;
 // measurement that the seed of the model itself makes.
 [[nodiscard]] ErrorDraws error_draws(const CmmModel& cmm, std::uint64_t seed);
 
-// The measurement again with the errors of one draw. `features` as measured, in the workpiece
-// frame.
+// The features with the errors of one draw in their points, fitted again. `features` as measured,
+// in the workpiece frame.
+[[nodiscard]] Result<std::vector<FittedFeature>> remeasured_features(
+    const InspectionPlan& plan, std::span<const FittedFeature> features,
+    const MeasuringErrors& errors);
+// The measurement that they give.
 [[nodiscard]] Result<Measurement> remeasured(const InspectionPlan& plan,
                                              std::span<const FittedFeature> features,
                                              const MeasuringErrors& errors);

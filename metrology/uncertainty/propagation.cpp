@@ -4,9 +4,7 @@
 
 #include <algorithm>
 
-#include "metrology/characteristic/characteristic.hpp"
-#include "metrology/characteristic/datum_system.hpp"
-#include "metrology/uncertainty/influence.hpp"
+#include "metrology/uncertainty/linear_uncertainty.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -43,40 +41,27 @@ Result<Eigen::MatrixXd> covariance(const InspectionPlan& plan, const Measurement
   if (Diagnostics faults = check(plan); has_error(faults)) return faults;
   const auto features = refitted(plan, measurement);
   if (!features) return features.error();
-  const auto workpiece_from_datum = alignment_of(plan, *features);
-  if (!workpiece_from_datum) return workpiece_from_datum.error();
-  std::vector<FittedFeature> in_datum;
-  for (const FittedFeature& feature : *features) {
-    in_datum.push_back(transformed(workpiece_from_datum->inverse(), feature));
-  }
-  const PointUncertainty u = point_uncertainty(cmm);
-  Influence influence(plan, *features);
-  const auto count = static_cast<Eigen::Index>(measurement.characteristics.size());
-  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(count, influence.of_field().rows());
-  Eigen::VectorXd alone = Eigen::VectorXd::Zero(count);  // variances without gradient
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const std::string& name = measurement.characteristics[static_cast<std::size_t>(i)].name;
+  const auto found = linear_uncertainty(plan, *features, point_uncertainty(cmm));
+  if (!found) return found.error();
+  // As the results are in order, which need not be the plan's.
+  std::vector<Eigen::Index> rows;
+  for (const CharacteristicResult& c : measurement.characteristics) {
     const auto planned = std::find_if(plan.characteristics.begin(), plan.characteristics.end(),
-                                      [&](const auto& c) { return c.name == name; });
+                                      [&](const auto& p) { return p.name == c.name; });
     if (planned == plan.characteristics.end()) {
       return error("unknown-characteristic"_id,
-                   fmt::format("the plan has no characteristic '{}'", name), std::string(kRemedy));
+                   fmt::format("the plan has no characteristic '{}'", c.name),
+                   std::string(kRemedy));
     }
-    auto gradient = influence.of(*planned);
-    if (!gradient) return std::move(gradient).error();
-    if (gradient->has_value()) {
-      gradients.row(i) = **gradient;
-      continue;
-    }
-    const auto stated = evaluate(*planned, in_datum, cmm);
-    if (!stated) return stated.error();
-    const double standard = 0.5 * internal_value(stated->expanded_uncertainty, stated->unit);
-    alone[i] = standard * standard;
+    rows.push_back(planned - plan.characteristics.begin());
   }
-  const Eigen::MatrixXd by_field = gradients * influence.of_field();
-  Eigen::MatrixXd joint = u.probing * u.probing * gradients * gradients.transpose() +
-                          u.scale * u.scale * by_field * by_field.transpose();
-  joint.diagonal() += alone;
+  const Eigen::MatrixXd answers = found->answers(rows, Eigen::all);
+  Eigen::MatrixXd joint = answers * answers.transpose();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double standard = found->standard[static_cast<std::size_t>(rows[i])];
+    const auto k = static_cast<Eigen::Index>(i);
+    if (joint(k, k) == 0.0) joint(k, k) = standard * standard;
+  }
   return joint;
 }
 

@@ -5,6 +5,7 @@
 #include "measured_feature.hpp"
 #include "metrology/characteristic/characteristic.hpp"
 #include "metrology/fit/median_plane.hpp"
+#include "metrology/uncertainty/linear_uncertainty.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -26,7 +27,7 @@ PlannedCharacteristic concentricity(std::vector<std::string> features,
   return c;
 }
 double centre_value(const PlannedCharacteristic& c, const std::vector<FittedFeature>& features) {
-  const auto result = evaluate(c, features, {});
+  const auto result = evaluate(c, features);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
   return result ? 1e-3 * result->value : -1.0;
 }
@@ -105,13 +106,16 @@ TEST(Concentricity, OfTwoSectionsOfAFeatureLooksAlongItsPlannedAxis) {
 TEST(Concentricity, StatesTheUncertaintyOfTheSectionAndTheDatum) {
   const auto shaft = measured::cylinder("S", {0, 0, 0}, Vec3::UnitZ(), 10.0, {-10.0, 10.0});
   const auto collar = measured::cylinder("C", {0, 0, 40}, Vec3::UnitZ(), 20.0, {0.0, 5.0});
-  const std::vector<FittedFeature> features{feature(collar), feature(shaft)};
-  const auto result = evaluate(concentricity({"C", "S"}, {0}), features, {.e0_mm = 0.002});
-  ASSERT_TRUE(result);
+  InspectionPlan plan;
+  plan.features = {collar, shaft};
+  plan.characteristics = {concentricity({"C", "S"}, {0})};
+  const std::vector<FittedFeature> features{feature(plan.features[0]), feature(plan.features[1])};
+  const auto standard = linear_uncertainty(plan, features, {.probing = 0.001});
+  ASSERT_TRUE(standard);
   // 36 points tell a centre by 2/36 of their variance, 72 the axis by 2/72 and its tilt by 2/72
   // over 10^2.
   const double variance = 2.0 / 36 + 2.0 / 72 * (1.0 + 40.0 * 40.0 / 100.0);
-  EXPECT_NEAR(result->expanded_uncertainty, 2.0 * 2.0 * 1.0 * std::sqrt(variance), 1e-3);
+  EXPECT_NEAR(standard->standard[0], 2.0 * 0.001 * std::sqrt(variance), 1e-6);
 }
 
 // Section 1 of `S` gone, or all but two of its points.
@@ -134,7 +138,7 @@ TEST(MissingSection, IsToldWithItsFeature) {
     PlannedCharacteristic c = concentricity(std::move(names), std::move(sections));
     c.kind = kind;
     c.criterion = criterion;
-    const auto result = evaluate(c, std::vector<FittedFeature>{first, feature(bearing)}, {});
+    const auto result = evaluate(c, std::vector<FittedFeature>{first, feature(bearing)});
     EXPECT_FALSE(result) << name_of(kind);
     return result ? "" : result.error().front().message;
   };

@@ -28,7 +28,7 @@ double criterion_value(K kind, std::vector<std::string> names, Criterion criteri
   c.tolerance = 1.0;
   c.criterion = criterion;
   c.datum_criterion = datum_criterion;
-  const auto result = evaluate(c, features, {});
+  const auto result = evaluate(c, features);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
   return result ? 1e-3 * result->value : -1.0;
 }
@@ -67,11 +67,11 @@ TEST(ExtremeCharacteristic, ParametersAreToldAboutTheCircleOfTheCriterion) {
   c.tolerance = 1.0;
   c.criterion = Criterion::minimum_circumscribed;
   c.parameter = FormParameter::p;
-  const auto peak = evaluate(c, features, {});
+  const auto peak = evaluate(c, features);
   ASSERT_TRUE(peak);
   EXPECT_NEAR(peak->value, 0.0, 1e-6);  // nothing is outside of it
   c.parameter = FormParameter::v;
-  const auto valley = evaluate(c, features, {});
+  const auto valley = evaluate(c, features);
   ASSERT_TRUE(valley);
   EXPECT_NEAR(valley->value, 1e3 * kZone, 1e-6);
 }

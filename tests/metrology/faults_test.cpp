@@ -28,7 +28,7 @@ PlannedCharacteristic asked(K kind, std::vector<std::string> features,
 
 Result<CharacteristicResult> evaluated_of(const PlannedCharacteristic& planned,
                                           const FittedFeature& feature) {
-  return evaluate(planned, std::span(&feature, 1), {});
+  return evaluate(planned, std::span(&feature, 1));
 }
 
 std::string complaint(const Result<CharacteristicResult>& result) {
@@ -170,12 +170,12 @@ TEST(OrientationFaults, Fault2_51_HowALineRunsWithinItsFaceIsNoFaultOfTheFace) {
   PlannedFeature wall = measured::line("L", {30, 0, 20}, Vec3::UnitZ(), Vec3::UnitX());
   const FittedFeature askew = feature(wall, turned(Vec3::UnitX(), 2e-3, wall.point));
   const std::vector<FittedFeature> features{askew, feature(floor)};
-  const auto square = evaluate(asked(K::perpendicularity, {"L", "A"}), features, {});
+  const auto square = evaluate(asked(K::perpendicularity, {"L", "A"}), features);
   ASSERT_TRUE(square);
   EXPECT_LT(square->value, 1e-9);
   const std::vector<FittedFeature> leaning{feature(wall, turned(Vec3::UnitY(), 2e-3, wall.point)),
                                            feature(floor)};
-  EXPECT_NEAR(evaluate(asked(K::perpendicularity, {"L", "A"}), leaning, {})->value, 60.0, 1e-3);
+  EXPECT_NEAR(evaluate(asked(K::perpendicularity, {"L", "A"}), leaning)->value, 60.0, 1e-3);
 }
 
 TEST(FormFaults, Fault2_55_AsManyPointsAsParametersHaveNoForm) {
@@ -241,7 +241,7 @@ TEST(OrientationFaults, Fault2_57_TheZoneOfAnAngularityTurnsAboutItsDatum) {
         feature(ramp, {}, [&](const Vec3&) { return draws.between(-0.01, 0.01); });
     const std::vector<FittedFeature> features{face, feature(floor)};
     const double zone =
-        evaluate(asked(K::angularity, {"F", "A"}, Criterion::minimum_zone), features, {})->value;
+        evaluate(asked(K::angularity, {"F", "A"}, Criterion::minimum_zone), features)->value;
     // All azimuths, finely.
     double least = HUGE_VAL;
     for (int k = -40000; k <= 40000; ++k) {

@@ -1,6 +1,6 @@
 // Probes, temperatures and machines that are stated: what they add to uncertainties, linear and
 // simulated.
-#include "metrology/characteristic/standard_uncertainty.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

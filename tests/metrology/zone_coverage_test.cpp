@@ -107,7 +107,7 @@ struct Share {
 
 std::vector<Share> shares(const char* title, const InspectionPlan& plan,
                           const std::vector<FittedFeature>& part) {
-  const auto exact = evaluated_values(plan, part, {});
+  const auto exact = evaluated_values(plan, part);
   EXPECT_TRUE(exact) << to_string(exact.error().front());
   const ErrorDraws draws = error_draws(kZoneNoise, 4711);
   const std::uint32_t count = measurements();
@@ -150,7 +150,7 @@ TEST(ZoneMagnitude, IsAsLargeAsTheValue) {
     return Pose::translated({0.01, -0.02, 0.015}) *
            measured::turned(Vec3(0.6, 0.8, 0.1), f.name == "shaft" ? 2e-4 : 1e-3, f.point);
   });
-  const auto m = evaluated_values(plan, part, {});
+  const auto m = evaluated_values(plan, part);
   ASSERT_TRUE(m) << to_string(m.error().front());
   for (const CharacteristicResult& c : m->characteristics) {
     // A disc is given by 72 points of its rim.

@@ -14,7 +14,7 @@ using measured::turned;
 
 // um as reported, in mm.
 double value_of(const PlannedCharacteristic& planned, const std::vector<FittedFeature>& features) {
-  const auto result = evaluate(planned, features, {});
+  const auto result = evaluate(planned, features);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
   return result ? 1e-3 * result->value : -1.0;
 }
@@ -65,7 +65,7 @@ TEST(RunOut, OfATiltedCylinderGrowsAlongTheAxis) {
   EXPECT_NEAR(value_of(one, features), 8.0 * std::sin(tilt), kExactZone);
   // Each section is round: what turns is eccentricity, one undulation a revolution.
   one.harmonics = 3;
-  const auto result = evaluate(one, features, {});
+  const auto result = evaluate(one, features);
   ASSERT_TRUE(result);
   ASSERT_EQ(result->harmonics.size(), 3U);
   EXPECT_NEAR(result->harmonics[0].amplitude, 4.0 * std::sin(tilt), 1e-8);
@@ -290,7 +290,7 @@ TEST(Form, HasFourParameters) {
   }
   PlannedCharacteristic c = characteristic_of(K::roundness, {"C"});
   c.harmonics = 5;
-  const auto result = evaluate(c, features, {});
+  const auto result = evaluate(c, features);
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->harmonics[1].amplitude, 0.002, 1e-7);
   EXPECT_NEAR(result->harmonics[3].amplitude, 0.001, 1e-7);
@@ -325,7 +325,7 @@ TEST(Form, IsFilteredAsThePlanSays) {
   c.filter = ProfileFilter{0.0, 15.0, 0.0, 0.0};
   EXPECT_NEAR(value_of(c, features), 0.002, 1e-7);
   c.filter = ProfileFilter{500.0, 0.0, 0.0, 0.0};
-  const auto refused = evaluate(c, features, {});
+  const auto refused = evaluate(c, features);
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       refused.error().front().message,

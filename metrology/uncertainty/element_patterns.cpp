@@ -1,12 +1,15 @@
-#include "metrology/uncertainty/fit_response.hpp"
+#include "metrology/uncertainty/element_patterns.hpp"
 
-#include <Eigen/Core>
+#include <vector>
 
 #include "core/linear_algebra.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
 namespace {
+
+// Directions u, v are tangents(axis).
+enum class ElementChange { lift, shift_u, shift_v, tilt_u, tilt_v, radius, half_angle };
 
 std::vector<ElementChange> changes_of(const Element& element) {
   using enum ElementChange;
@@ -28,8 +31,7 @@ std::vector<ElementChange> changes_of(const Element& element) {
   return {};
 }
 
-}  // namespace
-
+// The element with one parameter changed `by` so many mm or rad.
 Element varied(Element element, ElementChange change, double by) {
   using enum ElementChange;
   std::visit(
@@ -58,42 +60,46 @@ Element varied(Element element, ElementChange change, double by) {
   return element;
 }
 
-FittedFeature varied(const FittedFeature& feature, ElementChange change, double by) {
-  FittedFeature moved = feature;
-  moved.element = varied(feature.element, change, by);
-  for (MeasuredPoint& p : moved.points) {
-    const double back = residual(feature.element, p.point) - residual(moved.element, p.point);
-    p.point += back * outward_normal(moved.element, p.point);
-  }
-  return moved;
-}
-
+// Half the step of a central difference in that parameter, mm or rad.
 double step_of(ElementChange change) {
   // All is smooth over 10 mm and 1 rad: these are wrong by 1e-8, rounding adds 1e-9.
   using enum ElementChange;
   return change == tilt_u || change == tilt_v || change == half_angle ? 1e-5 : 1e-3;
 }
 
-FitResponse fit_response(const FittedFeature& feature) {
-  FitResponse response{changes_of(feature.element), {}};
+// Offset and slope along the normal of its surface.
+Eigen::MatrixXd motions_of_line(const FittedFeature& feature) {
+  const Vec3 along = *axis_of(feature.element);
+  Eigen::MatrixXd motions(feature.points.size(), 2);
+  for (Eigen::Index i = 0; i < motions.rows(); ++i) {
+    const Vec3& p = feature.points[static_cast<std::size_t>(i)].point;
+    motions.row(i) << 1.0, (p - point_of(feature.element)).dot(along);
+  }
+  return motions;
+}
+
+}  // namespace
+
+Eigen::MatrixXd element_patterns(const FittedFeature& feature) {
+  if (feature.planned->kind == FeatureKind::line) {
+    return orthonormal_columns(motions_of_line(feature));
+  }
+  std::vector<ElementChange> changes = changes_of(feature.element);
   // One touch does not turn its plane.
-  if (feature.planned->kind == FeatureKind::point) response.changes = {ElementChange::lift};
-  Eigen::MatrixXd jacobian(feature.points.size(), response.changes.size());
-  for (Eigen::Index k = 0; k < jacobian.cols(); ++k) {
-    const ElementChange change = response.changes[static_cast<std::size_t>(k)];
+  if (feature.planned->kind == FeatureKind::point) changes = {ElementChange::lift};
+  Eigen::MatrixXd motions(feature.points.size(), changes.size());
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    const ElementChange change = changes[static_cast<std::size_t>(k)];
     const double step = step_of(change);
     const Element less = varied(feature.element, change, -step);
     const Element more = varied(feature.element, change, step);
-    for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+    for (Eigen::Index i = 0; i < motions.rows(); ++i) {
       const Vec3& p = feature.points[static_cast<std::size_t>(i)].point;
-      jacobian(i, k) = (residual(more, p) - residual(less, p)) / (2.0 * step);
+      motions(i, k) = (residual(less, p) - residual(more, p)) / (2.0 * step);
     }
   }
-  // A point in a hole that moves out of the material moves toward the axis.
-  response.weights =
-      -material_sign(*feature.planned) * SymmetricFactors(jacobian.transpose() * jacobian)
-                                             .solve(Eigen::MatrixXd(jacobian.transpose()));
-  return response;
+  // Out of the material of a hole is toward its axis.
+  return orthonormal_columns(material_sign(*feature.planned) * motions);
 }
 
 }  // namespace frustum::metrology

@@ -1,0 +1,48 @@
+// Standard uncertainties of all characteristics of a measurement by linear propagation: one
+// mechanism for every kind, with every datum and lever arm in it.
+//
+// Model    : the points of a feature err independently along their normals. What they do to its
+//            element goes by a few patterns, those of the element's own changes (a plane lifts and
+//            tilts, ...): orthonormal patterns of n points have independent coefficients of one
+//            point's variance. Each is laid over the measured points, either way, and everything is
+//            fitted and evaluated again, datum systems and frames too; so is each term of the
+//            machine's linear field. What is left of a point or of a section's centre beside its
+//            element is its own (NonNegative::own). A value of either sign has the variance of its
+//            responses; of a zone that of the part that makes it, in its direction where it is well
+//            above its uncertainty, in the worst one where it is not; of a peak to valley that of
+//            the difference of its ends. Elements that touch single points (om, mi, mc) answer to
+//            those alone, and to others when the errors are larger: what depends on one has the
+//            root mean square of 256 draws instead
+// Units    : mm, rad
+// Shape    : all characteristics of a plan, in its order
+// Errors   : those of the fits and evaluations
+// Accuracy : first order about the measured part (1e-7 of what each point does by itself,
+//            tests/metrology/propagation_test.cpp); on the safe side for forms, whose points share
+//            in the fit. The bias that noise gives to a value that cannot be negative is not part
+//            of it
+// Source   : JCGM 100:2008, section 5.1.2
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/result.hpp"
+#include "metrology/characteristic/fitted_feature.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
+
+namespace frustum::metrology {
+
+struct LinearUncertainty {
+  std::vector<double> standard{};
+  // What independent errors of one standard deviation do to the values of either sign: a row a
+  // characteristic, zeros for the others. The joint covariance is this times its transpose.
+  Eigen::MatrixXd answers{};
+};
+
+// `features` as measured, in the workpiece frame.
+[[nodiscard]] Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
+                                                           std::span<const FittedFeature> features,
+                                                           const PointUncertainty& u);
+
+}  // namespace frustum::metrology
