@@ -59,8 +59,8 @@ struct Fit {
 struct FitOptions {
   Constraints constraints{};
   std::vector<double> weights{};  // of the squares, one a point, none negative; empty: all 1
-  // Cylinders, cones, tori: where one is meant to be. Few points fit several of them, and then the
-  // one that is reached from here is meant.
+  // Cylinders, cones, tori: where one is meant to be. Few points fit several of them, narrow arcs
+  // one across them as well, and then the one that is reached from here is meant.
   std::optional<Element> expected{};
 };
 

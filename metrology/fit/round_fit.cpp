@@ -48,16 +48,23 @@ Constraints in_mm(Constraints keep, const NormalisedPoints& local) {
   return keep;
 }
 
-// Of few points: the minimum below the element that is expected, where its residuals are below a
-// thousandth of the part. Others may be lower, and mean nothing.
+// Few points fit several elements, and a narrow arc one across it as well: the lowest may mean
+// nothing.
+bool is_doubtful(const NormalisedPoints& local, const Result<Minimum>& lowest) {
+  constexpr std::size_t kFewToSpare = 3;
+  constexpr double kFarOff = 0.5;  // sine of the angle between the axes
+  if (!local.expected) return false;
+  const std::size_t parameters = parameters_of(kind_of(*local.expected)).size();
+  if (!lowest || local.count() <= parameters + kFewToSpare) return true;
+  const Vec3 expected = *axis_of(*local.expected);
+  return expected.cross(axis_of(lowest->element)->vec()).norm() > kFarOff;
+}
+
+// The minimum below the element that is expected, where its residuals are below a thousandth of the
+// part.
 std::optional<Minimum> expected_minimum(const NormalisedPoints& local, const PointBlocks& blocks,
                                         const Wording& wording) {
-  constexpr std::size_t kFewToSpare = 3;
   constexpr double kLow = 1e-3;
-  if (!local.expected ||
-      local.count() > parameters_of(kind_of(*local.expected)).size() + kFewToSpare) {
-    return std::nullopt;
-  }
   GaussNewton solver(constrained(*local.expected, local.constraints), blocks, local.constraints);
   solver.descend(100, kLastGain);
   if (!(solver.cost() < kLow * kLow * static_cast<double>(blocks.count))) return std::nullopt;
@@ -172,9 +179,11 @@ Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& word
   const AxialPoints points{local, principal, few, AxisSearch(few, principal)};
   const PointBlocks blocks = PointBlocks::of(local);
   auto direct = at_once(initial_estimates(points), local, blocks, principal.spread[2]);
-  if (auto meant = expected_minimum(local, blocks, wording)) return *std::move(meant);
-  return direct ? settled(std::move(*direct), blocks, local.constraints, wording)
-                : best_minimum(all(points), local, blocks, wording);
+  auto lowest = direct ? settled(std::move(*direct), blocks, local.constraints, wording)
+                       : best_minimum(all(points), local, blocks, wording);
+  if (!is_doubtful(local, lowest)) return lowest;
+  auto meant = expected_minimum(local, blocks, wording);
+  return meant ? Result<Minimum>(*std::move(meant)) : lowest;
 }
 
 Result<Minimum> solved(const NormalisedPoints& local, const Solve& solve, std::string_view what) {

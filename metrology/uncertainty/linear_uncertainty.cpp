@@ -218,7 +218,8 @@ Result<std::vector<double>> drawn_uncertainties(const Measured& measured,
   std::uint32_t found = 0;
   for (std::uint32_t draw = 0; draw < kDraws; ++draw) {
     const auto again = measured.with(draws(draw));
-    if (!again && draw + 1 == kDraws && 2 * found < kDraws) return again.error();
+    // More than half have failed: the errors of the measurement are too large for the element.
+    if (!again && 2 * (draw + 1 - found) > kDraws) return again.error();
     if (!again) continue;
     ++found;
     for (std::size_t c = 0; c < squares.size(); ++c) {

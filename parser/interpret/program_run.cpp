@@ -144,7 +144,7 @@ ProgramRun::Failure ProgramRun::count_block(const Block& block) {
       "the main program; max_blocks of the control allows more";
   lines_ += frame().program->advance_to(block.line);
   const std::uint64_t most = options_.control.max_blocks.value_or(options_.max_blocks);
-  if (++blocks_ > most + lines_) {
+  if (++blocks_ > lines_ && blocks_ - lines_ > most) {
     return at(block, 1, "endless-loop"_id, fmt::format("more than {} blocks have run again", most),
               kRemedy);
   }

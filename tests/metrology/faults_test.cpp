@@ -217,6 +217,26 @@ TEST(FormFaults, Fault2_55_FewPointsGiveTheElementThatThePlanMeans) {
   }
 }
 
+// Two chords of an arc of 10 degrees are tangents of a cylinder across it, which noise may prefer.
+TEST(FormFaults, ANarrowArcGivesTheElementThatThePlanMeans) {
+  synthetic::Draws draws(10);
+  PlannedFeature arc = measured::cylinder("arc", {0, 0, 0}, Vec3::UnitZ(), 50.0);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Vec3> points;
+    std::vector<std::size_t> sections;
+    for (int k = 0; k < 12; ++k) {
+      const double turn = 2.0 * kRadPerDeg * (k % 6);
+      const double r = 50.0 + 1e-3 * draws.gauss();
+      points.emplace_back(r * std::cos(turn), r * std::sin(turn), k < 6 ? 0.0 : 10.0);
+      sections.push_back(k < 6 ? 0 : 1);
+    }
+    const auto found = fit_feature(arc, points, sections, 0.0);
+    ASSERT_TRUE(found);
+    EXPECT_LT(axis_of(found->element)->vec().cross(Vec3::UnitZ()).norm(), 0.01);
+    EXPECT_NEAR(std::get<Cylinder>(found->element).radius, 50.0, 5.0);
+  }
+}
+
 TEST(FormFaults, Fault2_56_TheWorstSectionCounts) {
   const PlannedFeature bore = measured::cylinder("bore", {0, 0, 0}, Vec3::UnitZ(), 10.0);
   const FittedFeature found = feature(bore, {}, [](const Vec3& p) {
