@@ -34,9 +34,9 @@ Machine changed(const std::map<std::string, std::string>& words) {
     EXPECT_NE(at, std::string::npos) << from;
     if (at != std::string::npos) text.replace(at, from.size(), to);
   }
-  const auto file = std::filesystem::path(testing::TempDir()) / "changed.toml";
-  std::ofstream(file) << text;
-  return tilting_machine(file);
+  auto machine = Machine::read(text, kMachines / "changed.toml");
+  EXPECT_TRUE(machine) << (machine ? "" : to_string(machine.error().front()));
+  return *std::move(machine);
 }
 
 std::string refusal(const Machine& of) {
