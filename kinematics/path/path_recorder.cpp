@@ -197,9 +197,10 @@ void PathRecorder::deliver(Pending& pending) {
   const std::vector<TimedPose> poses =
       options_.servo_lag ? lagged_samples(pending, block.duration) : timed_samples(pending);
   if (!pending.has_tool()) return;
+  // Not before: the axes may yet settle at the end of the last block.
+  hand_over();
   path_.blocks.push_back(block);
   append(poses, !pending.starts_chain);
-  hand_over();
 }
 
 std::vector<PathRecorder::TimedPose> PathRecorder::timed_samples(const Pending& pending) const {
@@ -286,12 +287,12 @@ void PathRecorder::append(const std::vector<TimedPose>& poses, bool continues) {
 }
 
 void PathRecorder::rest(double seconds) {
-  const bool has_moved = !pending_.empty();
-  const double lost_motion = options_.servo_lag && has_moved ? lag_.settling_time() : 0.0;
-  const double wait = std::max(seconds, lost_motion);
-  law_.rest(wait);
+  law_.rest(0.0);
   collect_times();
-  if (lost_motion > 0.0) settle(wait);
+  const double in_position = lag_.settling_time();
+  const double wait = std::max(seconds, in_position);
+  law_.rest(wait);
+  if (in_position > 0.0) settle(wait);
   clock_ = law_.now();
 }
 

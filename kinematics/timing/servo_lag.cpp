@@ -32,6 +32,7 @@ const AxisPositions& ServoLag::follow(const AxisPositions& commanded, double sec
 }
 
 double ServoLag::settling_time() const {
+  if (actual_ == commanded_) return 0.0;
   double time = 0.0;
   for (const double gain : gain_) {
     if (gain > 0.0) time = std::max(time, 12.0 / gain);

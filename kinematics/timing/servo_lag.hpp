@@ -23,7 +23,7 @@ class ServoLag {
   const AxisPositions& follow(const AxisPositions& commanded, double seconds);
   // The axes wait until they are in position.
   void settle() { actual_ = commanded_; }
-  // After which nothing is left of a lag but e^-12 of it, s.
+  // After which nothing is left of a lag but e^-12 of it, s; 0 where the axes are in position.
   [[nodiscard]] double settling_time() const;
   [[nodiscard]] const AxisPositions& actual() const { return actual_; }
   [[nodiscard]] const AxisPositions& commanded() const { return commanded_; }
