@@ -49,6 +49,7 @@ enum class CodeGroup : std::uint8_t {
   drilling_cycle,
   hole_pattern,
   bolt_holes,
+  tapping,
   corner,
   approach,
   raised_error,

@@ -117,6 +117,8 @@ struct DialectRules {
   double inch_feed = 1.0;
   // The feed of a tool call is in force from there on; F AUTO takes it up again.
   bool tool_brings_feed = false;
+  // A tool has a name beside its number: "5" is not tool 5.
+  bool tools_are_named_beside_numbers = false;
   // M words, by ten times their numbers, that count when the move of their block is done.
   std::span<const int> words_behind_move{};
   ArcTolerance arcs{};

@@ -50,7 +50,7 @@ constexpr std::array kFanucCodes{
     passed('G', 230),                                         // and off
     passed('G', 620, path_control),                           // corners
     passed('G', 630, path_control),                           // tapping
-    passed('M', 290),                                         // rigid tap
+    passed('M', 290, tapping),                                // rigid tap
     // Haas: blocks read ahead, smoothness, work offsets.
     passed('G', 1030, CodeGroup::event, LetterSet("P")),
     passed('G', 1870, CodeGroup::event, LetterSet("PE")),

@@ -204,6 +204,7 @@ constexpr DialectRules kHeidenhainRules{
     .tool_brings_length = true,
     .inch_feed = 0.1,
     .tool_brings_feed = true,
+    .tools_are_named_beside_numbers = true,
     .words_behind_move = kBehindMove,
     .arcs_turn_about_pole = true,
     .inserts_corners = true,

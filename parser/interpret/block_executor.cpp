@@ -83,6 +83,7 @@ Outcome set_frames(InterpreterState& state, MotionFilters& filters, const BlockW
       words.value_or(CodeGroup::retract,
                      state.modes.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
       RetractWord::initial;
+  state.modes.rigid_tap = state.modes.rigid_tap || words.has(CodeGroup::tapping);
   state.modes.arc_distance = words.value_or(CodeGroup::arc_distance, state.modes.arc_distance);
   state.modes.centres_are_known =
       state.modes.centres_are_known || words.has(CodeGroup::arc_distance);

@@ -65,13 +65,14 @@ void take_unknown_feed(InterpreterState& state, const BlockWords& words) {
   }
 }
 
-// The number that a tool with a name goes by: its name when that is one, that of the tool table
-// whose remark is the name, else the first that is free.
+// The number that a tool with a name goes by: the name, where that is one and tools have no numbers
+// beside their names; that of the tool table whose remark is the name; else the first that is free.
 int tool_named(InterpreterState& state, const GivenWord& word) {
   constexpr int kFirstNamedTool = 1001;
   constexpr std::size_t kMostDigits = 8;
   const std::string& name = state.parameters.text_of(word.value);
-  const bool digits = !name.empty() && name.size() <= kMostDigits &&
+  const bool counts = !state.rules.tools_are_named_beside_numbers;
+  const bool digits = counts && !name.empty() && name.size() <= kMostDigits &&
                       name.find_first_not_of("0123456789") == std::string::npos;
   if (digits) return std::stoi(name);
   if (name.empty()) return 0;

@@ -46,6 +46,9 @@ enum class Measure : std::uint8_t {
   negative      // ACN()
 };
 
+// Where a value comes from when it is no number: Q206=AUTO, Q208=MAX.
+enum class ValueSource : std::uint8_t { number, tool_call, fastest };
+
 constexpr char kNamedWord = '@';
 constexpr char kPolarRadius = 'p';
 constexpr char kPolarAngle = 'q';
@@ -63,6 +66,7 @@ struct Word {
   ExpressionRange expression{};  // empty when the value is `number`
   Measure measure = Measure::modal;
   const char* spelled = nullptr;  // "A3=" where the dialect's spelling is not the letter
+  ValueSource source = ValueSource::number;
 };
 
 // CTRANS(X,10,Y,20): a part of a frame. POS1 (X+10 Y+20): an element of a pattern of points.

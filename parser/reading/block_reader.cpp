@@ -82,9 +82,11 @@ bool opens_parameter_lines(std::string_view line, Dialect dialect) {
   // Three digits: the cycles whose parameters are Q.
   const std::size_t digit = std::min(line.find_first_of("0123456789"), line.size());
   const std::size_t end = std::min(line.find_first_not_of("0123456789", digit), line.size());
-  // CYCL DEF, not CYCL CALL POS X+100.
+  // CYCL DEF, not CYCL CALL POS X+100 nor CYCL CALL F100.
   const std::size_t word = line.substr(0, digit).find_last_not_of(" \t");
-  const bool defines = word != std::string_view::npos && upper(line[word]) == 'F';
+  const std::string_view before = line.substr(0, word == std::string_view::npos ? 0 : word + 1);
+  const bool defines = before.size() > 3 && upper(before[before.size() - 3]) == 'D' &&
+                       upper(before[before.size() - 2]) == 'E' && upper(before.back()) == 'F';
   return defines && end - digit == 3 && line.find('=') == std::string_view::npos;
 }
 

@@ -231,6 +231,8 @@ class KlartextBlock {
     if (name_ == "CYCL DEF 8.1") return std::string(1, word.letter);
     const std::string value = value_text(spelling(), block_, word, operand);
     if (word.letter == 'T') return value;
+    if (word.source == ValueSource::tool_call) return address_of(word) + "AUTO";
+    if (word.source == ValueSource::fastest) return address_of(word) + "MAX";
     const bool bare = word.expression.empty() &&
                       std::string_view("FSMt").find(word.letter) != std::string_view::npos;
     return address_of(word) + (bare ? value : with_sign(value));

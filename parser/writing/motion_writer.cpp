@@ -11,6 +11,7 @@
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/motion_spelling.hpp"
 #include "parser/writing/motion_words.hpp"
+#include "parser/writing/rigid_tap.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -38,7 +39,7 @@ class MotionWriter {
       }
       rest_ = motions.subspan(i + 1);
       write(motions[i]);
-      i += std::exchange(said_, 0);
+      i += write_said(motions.subspan(i + 1));
       if (remark != nullptr) write(*std::exchange(remark, nullptr));
     }
     begin({});
@@ -61,6 +62,21 @@ class MotionWriter {
   void write(const Motion& motion) {
     begin(motion.place);
     std::visit([this](const auto& command) { write(command); }, motion.command);
+  }
+
+  // The motions that the block at work has said already, but for what is said in them.
+  std::size_t write_said(std::span<const Motion> rest) {
+    const std::size_t said = std::exchange(said_, 0);
+    for (const Motion& motion : rest.first(said)) {
+      if (const auto* event = std::get_if<Event>(&motion.command)) write(*event);
+    }
+    if (const auto left = std::exchange(left_, std::nullopt)) write(*left);
+    // The spindle turns as before, which the program may say next.
+    const auto* spindle =
+        said < rest.size() ? std::get_if<SpindleChange>(&rest[said].command) : nullptr;
+    const bool again = said > 0 && spindle != nullptr && spindle->direction == turning_ &&
+                       spindle->speed == speed_;
+    return said + (again ? 1 : 0);
   }
 
   // What the program begins with; the number of motions that it says.
@@ -89,46 +105,21 @@ class MotionWriter {
   // Whether there are words for it; notes how it is spelt.
   bool threads(const LinearFeed& move) {
     thread_word_ = spelling_.thread;
-    if (!spelling_.rigid_tap.empty() && taps_rigidly(move)) {
-      thread_word_ = spelling_.rigid_tap;
-      said_ = 3;
+    const auto tap = rigid_tap_of(move, {turning_, speed_}, words_.at(), rest_);
+    std::string_view obstacle = tap.obstacle;
+    if (tap.reverses && spelling_.rigid_tap.empty()) {
+      obstacle = "a tap that comes back as the spindle reverses";
     }
-    const bool torn = spelling_.rigid_tap.empty() && reverses_next();
-    if (!thread_word_.empty() && !torn) return true;
-    refusals_.add(torn ? "a tap that comes back as the spindle reverses"
-                       : "a move synchronised with the spindle",
-                  "write threads with the control's cycles");
-    return false;
-  }
-
-  // The spindle reverses where the thread ends, before anything else moves.
-  [[nodiscard]] bool reverses_next() const {
-    for (const Motion& motion : rest_) {
-      if (const auto* spindle = std::get_if<SpindleChange>(&motion.command)) {
-        if (spindle->direction == turning_) return false;
-        if (spindle->direction != SpindleDirection::off) return true;
-      } else if (!std::holds_alternative<Dwell>(motion.command) &&
-                 !std::holds_alternative<Event>(motion.command)) {
-        return false;
-      }
+    if (thread_word_.empty()) obstacle = "a move synchronised with the spindle";
+    if (!obstacle.empty()) {
+      refusals_.add(std::string(obstacle), "write threads with the control's cycles");
+      return false;
     }
-    return false;
-  }
-
-  // The spindle reverses, the tap comes back to where it is now, and the spindle turns as before.
-  [[nodiscard]] bool taps_rigidly(const LinearFeed& down) const {
-    if (rest_.size() < 3) return false;
-    const auto* reversed = std::get_if<SpindleChange>(&rest_[0].command);
-    const auto* up = std::get_if<LinearFeed>(&rest_[1].command);
-    const auto* turned = std::get_if<SpindleChange>(&rest_[2].command);
-    if (reversed == nullptr || up == nullptr || turned == nullptr) return false;
-    if (!reverses_next() || turned->direction != turning_) return false;
-    if (reversed->speed != speed_ || turned->speed != speed_) return false;
-    if (!up->feed.synchronised || up->feed.value != down.feed.value) return false;
-    const AxisTarget start = words_.at();
-    return std::ranges::all_of(kAxisLetters, [&](AxisLetter letter) {
-      return up->end[letter] == (start[letter] ? start[letter] : down.end[letter]);
-    });
+    if (!tap.reverses) return true;
+    thread_word_ = spelling_.rigid_tap;
+    said_ = tap.after;
+    left_ = tap.left;
+    return true;
   }
 
   void write(const Probe& /*probe*/) {
@@ -435,7 +426,8 @@ class MotionWriter {
   double speed_ = -1.0;
   SpindleDirection turning_ = SpindleDirection::off;
   std::string_view thread_word_{};
-  std::size_t said_ = 0;  // motions after the one at work that its block says, too
+  std::optional<SpindleChange> left_{};  // how the spindle turns behind these
+  std::size_t said_ = 0;                 // motions after the one at work that its block says, too
 
   Refusals refusals_;
   MotionWords words_;

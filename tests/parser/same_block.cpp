@@ -56,8 +56,8 @@ class Comparison {
   }
   [[nodiscard]] bool same(const Word& a, const Word& b) const {
     return a.letter == b.letter && a.number == b.number && a.decimal_point == b.decimal_point &&
-           a.measure == b.measure && text_of(a.spelled) == text_of(b.spelled) &&
-           same(a.expression, b.expression);
+           a.measure == b.measure && a.source == b.source &&
+           text_of(a.spelled) == text_of(b.spelled) && same(a.expression, b.expression);
   }
   [[nodiscard]] bool same(const Assignment& a, const Assignment& b) const {
     if (a.name.has_value() != b.name.has_value()) return false;

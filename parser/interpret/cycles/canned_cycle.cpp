@@ -23,6 +23,15 @@ std::vector<CycleStep> pecks(const CycleDepths& depths, bool clears) {
   return steps;
 }
 
+std::vector<CycleStep> rigid_tap(const CycleDepths& depths) {
+  std::vector<CycleStep> steps{{feed, depths.bottom}};
+  if (depths.dwell > 0.0) steps.push_back({dwell, depths.dwell});
+  steps.push_back({reverse_spindle});
+  steps.push_back({feed, depths.feed_out});
+  steps.push_back({rapid, depths.clear});
+  return steps;
+}
+
 }  // namespace
 
 std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& d) {
@@ -35,6 +44,7 @@ std::vector<CycleStep> steps_at_hole(MotionMode cycle, const CycleDepths& d) {
       return {{feed, d.bottom}, {dwell, d.dwell}, {rapid, d.clear}};
     case MotionMode::tap:
     case MotionMode::tap_left:
+      if (d.rigid) return rigid_tap(d);
       return {{feed, d.bottom},   {stop_spindle}, {reverse_spindle}, {dwell, d.dwell},
               {feed, d.feed_out}, {stop_spindle}, {start_spindle},   {rapid, d.clear}};
     case MotionMode::bore:

@@ -42,6 +42,7 @@ struct CycleDepths {
   double back = 0.0;                  // K of G87: how far the bore goes up to
   bool from_level = false;            // G87 by Q: the bore goes from `level` up to `bottom`
   bool out_by_hand = false;           // G88: after the stop the tool is at `level`
+  bool rigid = false;  // taps: as RigidTap, which begins and ends the spindle's turns
 };
 
 enum class CycleAction : std::uint8_t {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -155,6 +156,33 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   return Done{};
 }
 
+// G84 and G74 after M29, by the feed or the way of a revolution.
+Result<std::optional<RigidTap>> rigid_tap_of(InterpreterState& state, const Movement& movement,
+                                             const Feed& feed) {
+  const MotionMode kind = state.modes.cycle->last;
+  const bool taps = kind == MotionMode::tap || kind == MotionMode::tap_left;
+  if (!taps || !state.modes.rigid_tap) return std::optional<RigidTap>{};
+  const double speed = state.modes.spindle_speed;
+  if (!(speed > 0.0)) {
+    return fail(state, movement.column, "cycle-speed-missing"_id,
+                "a rigid tap without a spindle speed", "give S beside M29");
+  }
+  if (feed.mode == FeedMode::inverse_time) {
+    return fail(state, movement.column, "cycle-inverse-time"_id, "a rigid tap in G93",
+                "give the feed per minute (G94), or the lead (G95)");
+  }
+  if (state.modes.cycle->peck.value_or(0.0) > 0.0) {
+    assume(state, movement.column, "rigid tap with Q",
+           "in one stroke: how it goes back after each Q is a parameter of the control");
+  }
+  RigidTap tap;
+  tap.lead = feed.mode == FeedMode::per_revolution ? feed.value : feed.value / speed;
+  if (kind == MotionMode::tap_left) tap.lead = -tap.lead;
+  tap.speed = speed;
+  tap.after = {SpindleDirection::off, speed};
+  return std::optional(tap);
+}
+
 }  // namespace
 
 Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Movement& movement) {
@@ -179,6 +207,8 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   }
   const auto feed = feed_for(state, words, movement, true);
   if (!feed) return feed.error();
+  const auto rigid = rigid_tap_of(state, movement, *feed);
+  if (!rigid) return rigid.error();
 
   CycleDepths depths;
   depths.level = *cycle.level + (cycle.level_is_step ? cycle.initial : 0.0);
@@ -198,6 +228,7 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     return fail(state, movement.column, "cycle-pecks"_id,
                 fmt::format("the cycle makes more than {} pecks", kMostPecks), "give a larger Q");
   }
+  depths.rigid = rigid->has_value();
   depths.out_by_hand = state.rules.cycles.hand_retract_ends_at_r;
   if (depths.out_by_hand && cycle.last == MotionMode::bore_manual) {
     assume(state, movement.column, "G88",
@@ -288,7 +319,11 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
                   fmt::format("the cycle makes more than {} moves", kMostMoves),
                   "give fewer repeats, or a larger Q");
     }
-    drill(state, steps, movement.column, place, *feed, *feed);
+    if (*rigid) {
+      tap_hole(state, steps, movement.column, place, **rigid);
+    } else {
+      drill(state, steps, movement.column, place, *feed, *feed);
+    }
   }
   return Done{};
 }
@@ -349,6 +384,23 @@ void drill(InterpreterState& state, const std::vector<CycleStep>& steps, std::ui
         break;
     }
   }
+}
+
+void tap_hole(InterpreterState& state, const std::vector<CycleStep>& steps, std::uint32_t column,
+              const PlaceInHole& place, const RigidTap& tap) {
+  const auto turn = [&](const SpindleChange& to) {
+    const bool turns = to.direction != SpindleDirection::off;
+    const bool same_speed = !turns || to.speed == state.modes.spindle_speed;
+    const bool same = to.direction == state.modes.spindle && same_speed;
+    state.modes.spindle = to.direction;
+    state.modes.spindle_speed = to.speed;
+    if (!same) emit(state, column, to);
+  };
+  const bool right = tap.lead > 0.0;
+  turn({right ? SpindleDirection::clockwise : SpindleDirection::counterclockwise, tap.speed});
+  const Feed feed{std::abs(tap.lead), FeedMode::per_revolution, true};
+  drill(state, steps, column, place, feed, feed);
+  turn(tap.after);
 }
 
 }  // namespace frustum::parser

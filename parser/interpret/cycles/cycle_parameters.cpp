@@ -20,12 +20,6 @@ std::string_view parameter_of(const Word& word) {
   return spelled.substr(0, spelled.size() - 1);
 }
 
-// FAUTO and FMAX are no numbers.
-bool is_number(const Word& word, double value) {
-  const bool feed = word.letter == 'f' || word.letter == 'W';
-  return !feed || (value != kFeedOfToolCall && value < kFastestFeed);
-}
-
 }  // namespace
 
 void set_cycle_parameters(InterpreterState& state, const BlockWords& words, bool defines) {
@@ -46,8 +40,9 @@ void set_cycle_parameters(InterpreterState& state, const BlockWords& words, bool
     }
     const std::string_view name = parameter_of(word);
     if (name.empty() || !words.has(word.letter)) continue;
-    const double value = words[word.letter].value;
-    if (is_number(word, value)) state.parameters.set(name, value);
+    // AUTO and MAX are no numbers.
+    if (word.source != ValueSource::number) continue;
+    state.parameters.set(name, words[word.letter].value);
   }
   if (defines) state.modes.hole_cycle.definition = std::move(kept);
 }
@@ -59,7 +54,7 @@ Outcome renew_cycle(InterpreterState& state) {
   for (std::size_t i = 0; i < cycle.definition->words.size(); ++i) {
     const Word& word = cycle.definition->words[i];
     const std::string_view name = parameter_of(word);
-    if (name.empty() || !is_number(word, word.number)) continue;
+    if (name.empty() || word.source != ValueSource::number) continue;
     const auto value = state.parameters.read(name);
     if (!value || *value == word.number) continue;
     if (!next) next = std::make_shared<Block>(*cycle.definition);

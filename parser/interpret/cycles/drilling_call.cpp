@@ -15,6 +15,7 @@
 #include "parser/interpret/cycles/canned_cycle_call.hpp"
 #include "parser/interpret/cycles/drilling_steps.hpp"
 #include "parser/interpret/cycles/hole_pattern.hpp"
+#include "parser/interpret/cycles/tap_words.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/state/block_words.hpp"
@@ -65,6 +66,11 @@ Result<int> drilling_modes(const InterpreterState& state, const BlockWords& word
   return static_cast<int>(std::round(words['i'].value));
 }
 
+bool is_tap_word(const GivenCode& code) {
+  const auto word = static_cast<DrillingWord>(code.code->value);
+  return word == DrillingWord::tap || word == DrillingWord::floating_tap;
+}
+
 // The heights that all of them have.
 Result<DrillingCycle> drilling_heights(const InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::drilling_cycle];
@@ -75,7 +81,8 @@ Result<DrillingCycle> drilling_heights(const InterpreterState& state, const Bloc
                 fmt::format("{} has no {}", name, letter == 'z' ? "RTP" : "RFP"),
                 fmt::format("give {}(RTP, RFP, SDIS, DP)", name));
   }
-  for (const char letter : {'u', 'd', 'Q', 'W'}) {
+  for (const char letter : {'u', 'd', 'Q', 'm', 'v', 'w'}) {
+    if (letter == 'm' && is_tap_word(code)) continue;  // MPIT, whose sign is the thread's hand
     if (!words.has(letter) || words[letter].value >= 0.0) continue;
     return fail(state, words[letter].column, "value-negative"_id,
                 fmt::format("{} is negative", words.text_of(letter)),
@@ -221,92 +228,6 @@ Result<std::optional<SpindleDirection>> drilling_direction(const InterpreterStat
   return std::optional(kDirections.at(static_cast<std::size_t>(*word - 3)));
 }
 
-// PIT by _PTAB: in the unit of the program, mm, threads an inch, inches.
-double lead_of(const InterpreterState& state, double value, int unit) {
-  switch (unit) {
-    case 1:
-      return value;
-    case 2:
-      return value == 0.0 ? 0.0 : kMmPerInch / value;
-    case 3:
-      return value * kMmPerInch;
-    default:
-      return value * unit_scale(state);
-  }
-}
-
-// _VARI 1 breaks the chip by _VRT after each _DAM, 2 leaves the hole.
-Outcome set_tap_strokes(const InterpreterState& state, const BlockWords& words,
-                        DrillingCycle& cycle) {
-  const double scale = unit_scale(state);
-  // Exact stops, feed forward, jerk.
-  if (const auto technology = whole(state, words, 'r', 0, 99999); !technology) {
-    return technology.error();
-  }
-  const auto strokes = whole(state, words, 't', 0, 2);
-  if (!strokes) return strokes.error();
-  if (*strokes == 0) return Done{};
-  cycle.clears = *strokes == 2;
-  cycle.first = words['Q'].value != 0.0 ? words['Q'].value * scale : std::abs(cycle.bottom);
-  cycle.degression = cycle.first;
-  if (words['v'].value > 0.0) cycle.chip = words['v'].value * scale;
-  if (cycle.first > cycle.reference - cycle.bottom) {
-    return fail(state, words.has('Q') ? words['Q'].column : words['t'].column, "cycle-depth"_id,
-                "the first depth of CYCLE84 is not within the hole",
-                "give _DAM, how deep each stroke goes");
-  }
-  if (!pecks(cycle).empty()) return Done{};
-  return fail(state, words['Q'].column, "cycle-pecks"_id,
-              fmt::format("the cycle makes more than {} pecks", kMostPecks), "give a larger _DAM");
-}
-
-Outcome set_tap(const InterpreterState& state, const BlockWords& words, DrillingCycle& cycle) {
-  const GivenCode& code = words[CodeGroup::drilling_cycle];
-  const bool by_size = words['m'].value != 0.0;
-  const auto unit = whole(state, words, 'f', 0, 3);
-  if (!unit) return unit.error();
-  const auto metric = by_size ? metric_lead(words['m'].value)
-                              : std::optional(lead_of(state, words['k'].value, *unit));
-  if (!metric) {
-    return fail(state, words['m'].column, "cycle-lead"_id,
-                fmt::format("{} is no metric thread", words.text_of('m')),
-                "give M3 to M48 by its number, or the lead by PIT");
-  }
-  if (*metric == 0.0) {
-    return fail(state, code.column, "cycle-lead"_id, code.code->name() + " has no lead",
-                "give MPIT, the size of a metric thread, or PIT, its lead");
-  }
-  cycle.lead = *metric;
-  cycle.speed = words['s'].value;
-  cycle.speed_back = words['l'].value != 0.0 ? words['l'].value : cycle.speed;
-  if (!(cycle.speed > 0.0 && cycle.speed_back > 0.0)) {
-    return fail(state, words.has('s') ? words['s'].column : code.column, "cycle-speed-missing"_id,
-                code.code->name() + " has no spindle speed", "give SST, in revolutions per minute");
-  }
-  return set_tap_strokes(state, words, cycle);
-}
-
-// CYCLE840: without a lead F is that of the tap.
-Outcome set_floating_tap(const InterpreterState& state, const BlockWords& words,
-                         DrillingCycle& cycle) {
-  const auto unit = whole(state, words, 'f', 0, 3);
-  if (!unit) return unit.error();
-  for (const char letter : {'s', 't', 'r'}) {
-    const auto number = whole(state, words, letter, 0, letter == 's' ? 4 : 99999);
-    if (!number) return number.error();
-  }
-  const auto lead = words['m'].value != 0.0
-                        ? metric_lead(words['m'].value)
-                        : std::optional(lead_of(state, words['k'].value, *unit));
-  if (!lead) {
-    return fail(state, words['m'].column, "cycle-lead"_id,
-                fmt::format("{} is no metric thread", words.text_of('m')),
-                "give M3 to M48 by its number, or the lead by PIT");
-  }
-  cycle.lead = std::abs(*lead);
-  return Done{};
-}
-
 Result<DrillingCycle> drilling_cycle_of(InterpreterState& state, const BlockWords& words) {
   auto cycle = drilling_heights(state, words);
   if (!cycle) return cycle;
@@ -361,8 +282,19 @@ Outcome take_spindle(const InterpreterState& state, std::uint32_t column, Drilli
     return fail(state, column, "thread-spindle-off"_id, "CYCLE840 while the spindle is at rest",
                 "start the spindle with S and M3 or M4 before");
   }
+  if (cycle.direction_back == state.modes.spindle) {
+    return fail(state, column, "cycle-direction"_id,
+                "CYCLE840 comes back as the spindle turns on the way in (SDR)",
+                "give SDR against M3 or M4 before the cycle, or 0");
+  }
   cycle.speed = cycle.speed_back = state.modes.spindle_speed;
   if (!cycle.direction) cycle.direction = state.modes.spindle;
+  if (cycle.by_spindle && state.modes.spindle == SpindleDirection::counterclockwise) {
+    cycle.lead = -cycle.lead;
+  }
+  if (!cycle.by_spindle && cycle.lead > 0.0) {
+    cycle.feed = cycle.feed_out = cycle.lead * state.modes.spindle_speed;
+  }
   return Done{};
 }
 
@@ -390,8 +322,7 @@ Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t c
     return fail(state, column, "cycle-frame"_id, "a cycle where the depths are scaled or mirrored",
                 "end that before, by SCALE or MIRROR alone");
   }
-  const bool by_lead = is_tap(cycle) && cycle.lead != 0.0;
-  const bool own_feeds = by_lead || (cycle.feed && cycle.feed_out);
+  const bool own_feeds = cycle.by_spindle || (cycle.feed && cycle.feed_out);
   if (!own_feeds && state.modes.feed_mode == FeedMode::inverse_time) {
     return fail(state, column, "cycle-inverse-time"_id, "a cycle in G93",
                 "give the feed per minute, in G94");
@@ -405,25 +336,21 @@ Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t c
                 "give F before, above zero");
   }
   const double given = state.modes.feed ? state.modes.feed->scaled : 0.0;
-  Feed feed{cycle.feed.value_or(given), state.modes.feed_mode};
-  Feed feed_out{cycle.feed_out.value_or(given), state.modes.feed_mode};
+  const auto feed_by = [&](const std::optional<double>& own) {
+    const bool lead = is_tap(cycle) && own;
+    return Feed{own.value_or(given), lead ? FeedMode::per_minute : state.modes.feed_mode};
+  };
   const auto turn = [&](SpindleDirection direction, double speed) {
     state.modes.spindle = direction;
     state.modes.spindle_speed = speed;
     emit(state, column, SpindleChange{direction, speed});
   };
-  if (by_lead) {
-    feed = feed_out = {std::abs(cycle.lead), FeedMode::per_revolution, true};
-  }
   const double speed_before = state.modes.spindle_speed;
   state.position.set(w, cycle.level);
   if (auto done = check_programmed_frame(state, movement); !done) return done;
   emit(state, column,
        Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
-  if (cycle.kind == DrillingWord::tap) {
-    turn(cycle.lead > 0.0 ? SpindleDirection::clockwise : SpindleDirection::counterclockwise,
-         cycle.speed);
-  } else if (!is_tap(cycle) && cycle.direction && *cycle.direction != state.modes.spindle) {
+  if (!is_tap(cycle) && cycle.direction && *cycle.direction != state.modes.spindle) {
     turn(*cycle.direction, state.modes.spindle_speed);
   }
   Vec3 hole = Vec3::Zero();
@@ -439,10 +366,13 @@ Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t c
     point[axes.w] = depth;
     return point;
   };
-  drill(state, steps_of(cycle), column, place, feed, feed_out);
-  if (is_tap(cycle)) {
-    turn(cycle.direction.value_or(SpindleDirection::off), speed_before);
+  const SpindleChange after{cycle.direction.value_or(SpindleDirection::off), speed_before};
+  if (cycle.by_spindle) {
+    tap_hole(state, steps_of(cycle), column, place, {cycle.lead, cycle.speed, after});
+    return Done{};
   }
+  drill(state, steps_of(cycle), column, place, feed_by(cycle.feed), feed_by(cycle.feed_out));
+  if (is_tap(cycle)) turn(after.direction, after.speed);
   return Done{};
 }
 

@@ -79,20 +79,15 @@ std::vector<CycleStep> steps_of_oriented_bore(const CycleDepths& depths) {
 std::vector<CycleStep> steps_of_tap(const CycleDepths& depths, double step, double back) {
   using enum CycleAction;
   std::vector<CycleStep> steps;
-  const auto turn_round = [&steps](CycleAction action) {
-    steps.push_back({stop_spindle});
-    steps.push_back({action});
-  };
   for (int n = 1; depths.bottom + n * step < -kSameDepth; ++n) {
     steps.push_back({feed, -n * step});
-    turn_round(reverse_spindle);
+    steps.push_back({reverse_spindle});
     steps.push_back({feed, back > 0.0 ? std::min(back - n * step, depths.level) : depths.level});
-    turn_round(start_spindle);
+    steps.push_back({start_spindle});
   }
   steps.push_back({feed, depths.bottom});
-  turn_round(reverse_spindle);
+  steps.push_back({reverse_spindle});
   steps.push_back({feed, depths.level});
-  turn_round(start_spindle);
   steps.push_back({rapid, depths.clear});
   return steps;
 }
@@ -106,7 +101,7 @@ Outcome set_tap_steps(InterpreterState& state, const BlockWords& words) {
   }
   HoleCycle& cycle = state.modes.hole_cycle;
   cycle.tap_step = words['E'].value * unit_scale(state);
-  cycle.tap_back = words['H'].value * cycle.feed.value;
+  cycle.tap_back = words['H'].value * std::abs(cycle.lead.value_or(0.0));
   if (cycle.tap_step > 0.0 && cycle.depth > kMostPecks * cycle.tap_step) {
     return fail(state, words['E'].column, "cycle-pecks"_id,
                 fmt::format("the cycle makes more than {} pecks", kMostPecks),
@@ -143,6 +138,46 @@ void tell_assumed_cycle(InterpreterState& state, const GivenCode& code) {
   if (known != kAssumedCycles.end()) assume(state, code.column, known->cycle, known->text);
 }
 
+// Q239, and PITCH of 17: the hand of the thread by its sign.
+Outcome set_pitch(InterpreterState& state, const BlockWords& words) {
+  const double pitch = words['r'].value;
+  if (pitch == 0.0) {
+    return fail(state, words['r'].column, "cycle-lead"_id, "the pitch of the thread is zero",
+                "give it above zero, or below for a left-handed thread");
+  }
+  state.modes.hole_cycle.lead = pitch * feed_scale(state, FeedMode::per_revolution);
+  return Done{};
+}
+
+// The feed of a word: a number, that of the tool call (AUTO), by rapid (MAX).
+Result<Feed> feed_of(const InterpreterState& state, const BlockWords& words, char letter,
+                     FeedMode mode) {
+  const GivenWord& word = words[letter];
+  if (word.source == ValueSource::fastest) return Feed{kFastestFeed, FeedMode::per_minute};
+  if (word.source == ValueSource::number) {
+    const Feed feed{word.value * feed_scale(state, mode), mode};
+    if (feed.value >= 0.0) return feed;
+    return fail(state, word.column, "feed-not-positive"_id,
+                fmt::format("the feed {} is below zero", words.text_of(letter)),
+                "give a feed above zero");
+  }
+  if (state.modes.tool_feed) return Feed{state.modes.tool_feed->scaled, FeedMode::per_minute};
+  return fail(state, word.column, "tool-feed-missing"_id,
+              words.name_of(letter) + "=AUTO without a feed in the tool call",
+              "give F in TOOL CALL, or a number here");
+}
+
+// Of Klartext, which has heights and steps without a sign.
+Outcome check_lengths(const InterpreterState& state, const BlockWords& words) {
+  for (const char letter : {'u', 'v', 'Q', 'o'}) {
+    if (words[letter].value >= 0.0) continue;
+    return fail(state, words[letter].column, "value-negative"_id,
+                fmt::format("{} is negative", words.text_of(letter)),
+                "clearances and steps have no sign");
+  }
+  return Done{};
+}
+
 // The words of 1, 2 and 17 come one a block; the first begins anew.
 Outcome set_old_cycle(InterpreterState& state, const BlockWords& words, HoleWord word) {
   HoleCycle& cycle = state.modes.hole_cycle;
@@ -163,11 +198,17 @@ Outcome set_old_cycle(InterpreterState& state, const BlockWords& words, HoleWord
   }
   if (words.has('Q')) cycle.peck = std::abs(words['Q'].value) * scale;
   if (words.has('P')) cycle.dwell = words['P'].value;
-  for (const auto& [letter, mode] :
-       {std::pair('f', FeedMode::per_minute), std::pair('r', FeedMode::per_revolution)}) {
-    if (words.has(letter)) cycle.feed = {words[letter].value * feed_scale(state, mode), mode};
+  if (words['P'].value < 0.0) {
+    return fail(state, words['P'].column, "value-negative"_id,
+                fmt::format("the dwell {:g} is negative", words['P'].value),
+                "a dwell takes a time that is not negative");
   }
-  return Done{};
+  if (words.has('r')) return set_pitch(state, words);
+  if (!words.has('f')) return Done{};
+  cycle.feed = {words['f'].value * feed_scale(state, FeedMode::per_minute), FeedMode::per_minute};
+  if (cycle.feed.value > 0.0) return Done{};
+  return fail(state, words['f'].column, "feed-not-positive"_id,
+              "the feed of the cycle is not above zero", "give a feed above zero");
 }
 
 Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord word) {
@@ -267,6 +308,7 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
     depths.clear = std::max((*cycle.start - top).dot(axis), cycle.clear);
   }
   depths.feed_out = depths.level;
+  depths.rigid = cycle.lead.has_value();
   depths.peck = cycle.peck;
   depths.dwell = cycle.dwell;
   depths.peck_from = cycle.level;
@@ -284,7 +326,12 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
       : cycle.kind == MotionMode::fine_bore ? steps_of_oriented_bore(depths)
       : cycle.tap_step > 0.0                ? steps_of_tap(depths, cycle.tap_step, cycle.tap_back)
                                             : steps_at_hole(cycle.kind, depths);
-  drill(state, steps, column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
+  if (!cycle.lead) {
+    drill(state, steps, column, place, cycle.feed, cycle.feed_out.value_or(cycle.feed));
+    return;
+  }
+  const double speed = state.modes.spindle_speed;
+  tap_hole(state, steps, column, place, {*cycle.lead, speed, {state.modes.spindle, speed}});
 }
 
 Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
@@ -330,28 +377,30 @@ Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words) {
   cycle.dwell = words['P'].value;
   const char feed = words.has('r') ? 'r' : 'f';
   const FeedMode mode = feed == 'r' ? FeedMode::per_revolution : FeedMode::per_minute;
-  cycle.feed = {words[feed].value * feed_scale(state, mode), mode};
-  if (words[feed].value == kFeedOfToolCall && state.modes.tool_feed) {
-    cycle.feed = {state.modes.tool_feed->scaled, FeedMode::per_minute};
+  if (from_surface && feed == 'r') {
+    if (auto done = set_pitch(state, words); !done) return done;
+  } else {
+    const auto given = feed_of(state, words, feed, mode);
+    if (!given) return given.error();
+    cycle.feed = *given;
   }
   if (from_surface) {
+    if (auto done = check_lengths(state, words); !done) return done;
     cycle.top = words['V'].value * scale;
     cycle.dwell_above = words['w'].value;
     cycle.back = std::max(cycle.back.value_or(0.0), cycle.clear);
-    if (words['W'].value > 0.0)
-      cycle.feed_out = Feed{words['W'].value * feed_scale(state, mode), mode};
+    if (words.has('W')) {
+      const auto out = feed_of(state, words, 'W', mode);
+      if (!out) return out.error();
+      if (out->value > 0.0) cycle.feed_out = *out;
+    }
     if (depth <= 0.0) {
       return fail(state, words['z'].column, "cycle-depth"_id,
                   fmt::format("{} is not below zero", words.text_of('z')),
                   "the depth counts from the surface, downwards: Q201=-20");
     }
-    if (cycle.clear < 0.0) {
-      return fail(state, words['u'].column, "value-negative"_id,
-                  fmt::format("{} is negative", words.text_of('u')),
-                  "give the set-up clearance above the surface");
-    }
   }
-  if (cycle.feed.value <= 0.0) {
+  if (!cycle.lead && cycle.feed.value <= 0.0) {
     return fail(state, words[feed].column, "feed-not-positive"_id,
                 "the feed of the cycle is not above zero", "give a feed above zero");
   }

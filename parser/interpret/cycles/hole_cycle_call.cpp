@@ -25,6 +25,20 @@
 namespace frustum::parser {
 namespace {
 
+// A rigid tap turns the spindle itself; one in a floating chuck goes as the spindle turns.
+Outcome check_spindle(const InterpreterState& state, const GivenCode& code) {
+  const HoleCycle& cycle = state.modes.hole_cycle;
+  if (cycle.kind != MotionMode::tap) return Done{};
+  if (!(state.modes.spindle_speed > 0.0)) {
+    return fail(state, code.column, "cycle-speed-missing"_id, "a tap without a spindle speed",
+                "give S in TOOL CALL, above zero");
+  }
+  if (cycle.lead || state.modes.spindle != SpindleDirection::off) return Done{};
+  return fail(state, code.column, "thread-spindle-off"_id,
+              "a tap in a floating chuck while the spindle is at rest",
+              "start the spindle before: M3, or M4 for a left-handed thread");
+}
+
 // What a cycle at the place of the tool needs.
 Outcome check_hole_call(InterpreterState& state, const GivenCode& code) {
   const Movement movement{NonModal::none, MotionMode::linear, code.column};
@@ -40,8 +54,9 @@ Outcome check_hole_call(InterpreterState& state, const GivenCode& code) {
     return fail(state, code.column, "cycle-tool-vector"_id, "a cycle with a tool vector",
                 "tilt the plane by PLANE before");
   }
+  if (auto done = check_spindle(state, code); !done) return done;
   if (!cycle.of_tool) return Done{};
-  if (!(cycle.depth > 0.0) || !(cycle.feed.value > 0.0)) {
+  if (!(cycle.depth > 0.0) || !(cycle.lead || cycle.feed.value > 0.0)) {
     return fail(state, code.column, "cycle-depth"_id, "the cycle has no depth or no feed",
                 "define all its parts before, from SET UP to F");
   }

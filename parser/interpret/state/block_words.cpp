@@ -223,7 +223,7 @@ std::optional<Diagnostic> BlockWords::add_value(const Word& word, double number,
   given_.add(word.letter);
   const bool plain = !word.decimal_point && number != 0.0 && word.expression.empty();
   if (plain) without_point_.add(word.letter);
-  values_[slot(word.letter)] = {number, word.column, word.decimal_point, word.measure};
+  values_[slot(word.letter)] = {number, word.column, word.decimal_point, word.measure, word.source};
   return std::nullopt;
 }
 

@@ -25,6 +25,7 @@ struct GivenWord {
   std::uint32_t column = 0;
   bool decimal_point = false;
   Measure measure = Measure::modal;
+  ValueSource source = ValueSource::number;
 };
 
 struct GivenCode {

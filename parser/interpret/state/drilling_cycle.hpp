@@ -35,11 +35,13 @@ struct DrillingCycle {
   // Feeds of their own, mm/min.
   std::optional<double> feed{};
   std::optional<double> feed_out{};
-  double lead = 0.0;   // of a thread
-  double speed = 0.0;  // of the spindle, 1/min; while it goes back
+  double lead = 0.0;        // of a thread; below zero: left-handed
+  bool by_spindle = false;  // a tap whose axis follows the spindle
+  double speed = 0.0;       // of the spindle, 1/min; while it goes back
   double speed_back = 0.0;
   Vec3 retract = Vec3::Zero();                  // along the plane's first, second and third axis
   std::optional<SpindleDirection> direction{};  // before the hole, of a tap after it
+  std::optional<SpindleDirection> direction_back{};  // of CYCLE840; absent: reversed
 };
 
 }  // namespace frustum::parser

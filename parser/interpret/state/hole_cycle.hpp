@@ -26,8 +26,7 @@
 
 namespace frustum::parser {
 
-// A feed that the tool call has (AUTO); MAX is 99999.
-constexpr double kFeedOfToolCall = -1.0;
+// The largest feed that a cycle takes; feeding out by it is going by rapid.
 constexpr double kFastestFeed = 99'999.0;
 
 // Pecks that shrink from one to the next: what follows from them is in cycles/deep_hole.hpp.
@@ -67,6 +66,7 @@ struct HoleCycle {
   double dwell_above = 0.0;      // seconds
   bool at_moves = false;         // M89
   bool of_tool = false;          // 1, 2: heights count from where the tool is
+  std::optional<double> lead{};  // of a rigid tap; below zero: left-handed; its feed is of no use
   double tap_step = 0.0;         // 209: so deep the chip is broken; 0: not at all
   double tap_back = 0.0;         // how far it goes back then; 0: out of the hole
   Vec3 off_wall = Vec3::Zero();  // of 202, before the tool goes back

@@ -157,6 +157,7 @@ struct ModalState {
   bool pole_lost = false;                        // it was one of another frame
   std::optional<Heading> heading{};              // of the last move
   std::optional<CannedCycle> cycle{};
+  bool rigid_tap = false;  // M29, up to the end of the cycle after it
   HoleCycle hole_cycle{};
   std::vector<Vec3> point_pattern{};        // PATTERN DEF: X, Y, and how much higher the surface is
   std::optional<DrillingCycle> drilling{};  // MCALL

@@ -304,15 +304,7 @@ class CycleReader {
         skip_value(name, place);
         continue;
       }
-      // Of feeds: by rapid, or as the tool call has it.
-      if (in_.take_name("MAX") || in_.take_name("FMAX")) {
-        add_number(block_, known->letter, kFastestFeed, place, known->spelled);
-        continue;
-      }
-      if (in_.take_name("AUTO") || in_.take_name("FAUTO")) {
-        add_number(block_, known->letter, kFeedOfTool, place, known->spelled);
-        continue;
-      }
+      if (read_feed_source(*known, place)) continue;
       add_value(draft_, known->letter, name, place, known->spelled);
     }
     for (const CycleParameter& parameter : cycle.parameters) {
@@ -328,6 +320,16 @@ class CycleReader {
                       fmt::format("{} has no {}", cycle.code, parameter.name),
                       std::string(cycle.form));
     }
+  }
+
+  // Of feeds: by rapid, or as the tool call has it.
+  bool read_feed_source(const CycleParameter& parameter, std::uint32_t column) {
+    if (parameter.letter != 'f' && parameter.letter != 'W') return false;
+    const bool fastest = in_.take_name("MAX") || in_.take_name("FMAX");
+    if (!fastest && !in_.take_name("AUTO") && !in_.take_name("FAUTO")) return false;
+    add_number(block_, parameter.letter, 0.0, column, parameter.spelled);
+    block_.words.back().source = fastest ? ValueSource::fastest : ValueSource::tool_call;
+    return true;
   }
 
   // A number, a parameter, MAX or AUTO.

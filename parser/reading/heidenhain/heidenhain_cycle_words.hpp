@@ -11,10 +11,6 @@
 
 namespace frustum::parser::klartext_cycles {
 
-// Feeds that are no numbers: hole_cycle.hpp.
-constexpr double kFastestFeed = 99'999.0;
-constexpr double kFeedOfTool = -1.0;
-
 struct CycleParameter {
   const char* name;
   char letter;  // hole_cycle.hpp

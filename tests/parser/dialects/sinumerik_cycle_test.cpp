@@ -69,10 +69,23 @@ TEST(SinumerikCycles, TapInAFloatingChuckAsTheSpindleTurns) {
             "R12 F-15@1.5s M4/1000 F12@1.5s R40 M3/1000");
   EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,4,5,0,6)"),
             "R12 F-15@1s M4/1000 F12@1s R40 M5/1000");
-  // Without a lead by the feed in force.
-  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,,25,,0,,1)"), "R12 F-15@200 M4/1000 F12@200 R40 M3/1000");
-  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,,,,,-2)", "M4 S300"),
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,3,4,0,,2)", "M4 S300"),
             "R12 F-15@2s M3/300 F12@2s R40 M4/300");
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,,,,,-2)", "M4 S300"),
+            "CYCLE840 lead R12 F-15@2s M3/300 F12@2s R40 M4/300");
+}
+
+// ENC: 1 goes by the feed in force, or by the lead and 300 turns a minute.
+TEST(SinumerikCycles, TapInAFloatingChuckWithoutAnEncoder) {
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,,25,,4,3,1)"),
+            "R12 F-15@200 M4/1000 F12@200 R40 M3/1000");
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,3,4,1,,1.5)", "M4 S300"),
+            "R12 F-15@450 M3/300 F12@450 R40 M4/300");
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,4,3,11,6)"),
+            "CYCLE840 ENC R12 F-15@1000 M4/1000 F12@1000 R40 M3/1000");
+  // No lead: there is no encoder.
+  EXPECT_EQ(cycle_steps("CYCLE840(40,10,2,-15,,,4,3,0)"),
+            "CYCLE840 R12 F-15@200 M4/1000 F12@200 R40 M3/1000");
 }
 
 TEST(SinumerikCycles, StrokesOfTheControlAreAssumed) {
@@ -332,7 +345,9 @@ TEST(SinumerikCycles, TellMistakes) {
       {"CYCLE83(5,0,2,-5,,,1,-0.5)\n", "1:1: error: the cycle makes more than 10000 pecks"},
       {"CYCLE83(5,0,2,-5,,,1,0,0,0,2)\n", "1:28: error: FRF=2 is out of range"},
       {"CYCLE83(5,0,2,-5,,,1,0,0,0,1,2)\n", "1:30: error: VARI=2 is out of range"},
-      {"CYCLE83(5,0,2,-5,,,1,0,0,-1)\n", "1:26: error: DTS=-1 is negative"},
+      {"CYCLE83(5,0,2,-5,,,1,0,0,-1)\n",
+       "1:26: error: a dwell in revolutions with no spindle speed"},
+      {"CYCLE83(5,0,2,-5,,,1,0,0,0,1,0,,-1)\n", "1:33: error: _MDEP=-1 is negative"},
       {"CYCLE83(5,0,2,-5,,,1,0,0,0,1,0,1)\n", "1:32: error: _AXN=1 drills across the plane"},
       {"CYCLE84(5,0,2,-5)\n", "1:1: error: CYCLE84 has no lead"},
       {"CYCLE84(5,0,2,-5,,,3,7)\n", "1:22: error: MPIT=7 is no metric thread"},
@@ -343,7 +358,12 @@ TEST(SinumerikCycles, TellMistakes) {
       {"MCALL L10\n", "1:1: error: MCALL L10 is not simulated"},
       {"MCALL HOLES1(0,0,0,10,5,3)\n", "1:1: error: MCALL HOLES1 is not simulated"},
       {"HOLES2(0,0,10,10,5)\n", "1:1: error: HOLES2 has no number of holes"},
-      {"CYCLE840(5,0,2,-5)\n", "1:1: error: CYCLE840 while the spindle is at rest"},
+      {"CYCLE840(5,0,2,-5,,,,,,6)\n", "1:1: error: CYCLE840 while the spindle is at rest"},
+      {"CYCLE840(5,0,2,-5)\n", "1:1: error: CYCLE840 without an encoder has no SDR"},
+      {"CYCLE840(5,0,2,-5,,,1)\n", "1:21: error: SDR=1 is no direction"},
+      {"CYCLE840(5,0,2,-5,,,4,3,2,6)\n", "1:25: error: ENC=2 is not known"},
+      {"S9 M3 CYCLE840(5,0,2,-5,,,3,3,0,6)\n",
+       "1:7: error: CYCLE840 comes back as the spindle turns on the way in (SDR)"},
       {"CYCLE840(5,0,2,-5,,,0,3,0,7)\n", "1:27: error: MPIT=7 is no metric thread"},
       {"G0 X0 Y0 CYCLE81(5,0,2,-5)\n", "1:4: error: X0 has no meaning in this block"},
       {"CYCLE81(5,0,2,-5) CYCLE82(5,0,2,-5)\n", "1:19: error: CYCLE82 beside another cycle"},
