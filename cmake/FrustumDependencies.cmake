@@ -9,6 +9,7 @@ find_package(tomlplusplus 3.3 REQUIRED)       # tomlplusplus::tomlplusplus
 find_package(TBB REQUIRED)                    # TBB::tbb
 find_package(Boost 1.74 REQUIRED)             # Boost::headers
 find_package(CLI11 REQUIRED)                  # CLI11::CLI11
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)  # OpenSSL::Crypto
 find_package(PNG 1.6 REQUIRED)                # PNG::PNG
 find_package(ZLIB REQUIRED)                   # ZLIB::ZLIB
 find_package(pugixml 1.12 REQUIRED)            # pugixml::pugixml

@@ -17,6 +17,7 @@
 #include "core/diagnostic.hpp"
 #include "cutter/body/cutter_spec.hpp"
 #include "metrology/measurement.hpp"
+#include "report/evidence.hpp"
 
 namespace frustum::report {
 
@@ -116,7 +117,7 @@ struct PointBounds {
 
 struct RunReport {
   std::string title{};
-  std::string date{};       // as it should be printed; left out when empty
+  Evidence evidence{};
   std::string version{};    // of the program that made the report; left out when empty
   std::string machine{};    // "IWF, C on B, tilting table"
   std::string structure{};  // "t-(C)-Z-Y-b-X-B-C-w"

@@ -1,5 +1,6 @@
 // frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM
 // points.
+#include <filesystem>
 #include <memory>
 
 #include "app/command/cmm_option.hpp"
@@ -11,9 +12,11 @@
 #include "app/job/job_report.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
+#include "core/whole_file.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
+#include "report/measuring_statement.hpp"
 #include "trials/mesh_probe.hpp"
 
 namespace frustum::app {
@@ -39,13 +42,15 @@ int measure_job(const MeasureOptions& options) {
   if (!job) return refuse(job.error());
   const auto exports = checked_exports(options.exports, job->exports);
   if (!exports) return refuse(exports.error());
+  auto evidence = evidence_of(*job);
+  if (!evidence) return refuse(evidence.error());
   TrialRun run(progress_style(options.quiet || options.json));
   const auto trial = run.trial(*job);
   if (!trial) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
     return refuse(trial.error());
   }
-  report::RunReport report = report_of(*job, *trial);
+  report::RunReport report = report_of(*job, *trial, *std::move(evidence));
   report.timings = run.timings();
   return show_result(report, job->piece.plan, *exports, options);
 }
@@ -90,6 +95,26 @@ Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
   return faults;
 }
 
+Result<report::Evidence> evidence_of(const MeasureOptions& options, const InspectionPlan& plan,
+                                     const CmmModel& cmm) {
+  report::Evidence evidence;
+  evidence.header = plan.header;
+  const bool is_probed = !options.mesh.empty();
+  evidence.measuring = report::measuring_statement(
+      plan, cmm,
+      is_probed ? report::PointSource::virtual_cmm : report::PointSource::measured_points);
+  const std::pair<const char*, const std::string&> files[] = {
+      {"plan", options.plan}, {"points", options.points}, {"mesh", options.mesh}};
+  for (const auto& [role, file] : files) {
+    // A pipe cannot be read once more.
+    if (file.empty() || !std::filesystem::is_regular_file(file)) continue;
+    const auto bytes = read_whole_file(file);
+    if (!bytes) return bytes.error();
+    evidence.files.push_back(report::hashed_file(role, file, *bytes));
+  }
+  return evidence;
+}
+
 int measure_by_plan(const MeasureOptions& options) {
   const auto plan = metrology::load_plan(options.plan);
   if (!plan) return refuse(plan.error());
@@ -105,8 +130,12 @@ int measure_by_plan(const MeasureOptions& options) {
     write_failed_exports(*exports, measurement.error(), *plan);
     return refuse(measurement.error());
   }
+  auto evidence = evidence_of(options, *plan, *cmm);
+  if (!evidence) return refuse(evidence.error());
   report::RunReport report;
   report.title = plan->title;
+  report.version = FRUSTUM_VERSION;
+  report.evidence = *std::move(evidence);
   report.measurement = *std::move(measurement);
   return show_result(report, *plan, *exports, options);
 }

@@ -53,13 +53,15 @@ int run_job(const RunOptions& options) {
   if (!job) return refuse(job.error());
   const auto exports = checked_exports(options.exports, job->exports);
   if (!exports) return refuse(exports.error());
+  auto evidence = evidence_of(*job);
+  if (!evidence) return refuse(evidence.error());
   TrialRun run(progress_style(options.quiet || options.json));
   auto trial = run.trial(*job);
   if (!trial) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
     return refuse(trial.error());
   }
-  report::RunReport report = report_of(*job, *trial);
+  report::RunReport report = report_of(*job, *trial, *std::move(evidence));
   run.begin("prove points");
   add_proof(report, trials::prove_points(*trial->workpiece, trial->measurement));
   if (job->report) {

@@ -145,7 +145,7 @@ void read_operations(const TomlTable& root, programs::TestPiece& piece) {
 }
 
 void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece& piece,
-                     metrology::CmmModel& cmm_model, Diagnostics& problems) {
+                     metrology::CmmModel& cmm_model, fs::path& plan_file, Diagnostics& problems) {
   const std::optional<TomlTable> inspection =
       want_plan ? root.table("inspection") : root.table_if("inspection");
   if (!inspection) return;
@@ -155,7 +155,8 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
   const metrology::DecisionRule decision = metrology::read_decision(*inspection);
   if (!inspection->has("plan") && !want_plan) return;
   if (inspection->text("plan").empty()) return;
-  auto plan = metrology::load_plan(inspection->file_path("plan"));
+  plan_file = inspection->file_path("plan");
+  auto plan = metrology::load_plan(plan_file);
   if (plan && want_plan && plan->characteristics.empty()) {
     inspection->fail("plan", "the plan has no [[characteristic]]: there is nothing to check",
                      "add at least one characteristic with a tolerance");
@@ -264,7 +265,11 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   override_tool_radius(piece, overrides, problems);
 
   metrology::CmmModel cmm;
-  read_inspection(root, want_plan, piece, cmm, problems);
+  fs::path plan_file;
+  read_inspection(root, want_plan, piece, cmm, plan_file, problems);
+  if (const auto head = root.table_if("report")) {
+    piece.plan.header = metrology::joined(metrology::read_report_header(*head), piece.plan.header);
+  }
   check_made_features(root, piece);
   const auto machine_file = machine_of(root);
   std::optional<kinematics::Machine> machine;
@@ -292,6 +297,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   return Job{.machine = *std::move(machine),
              .file = file,
              .machine_file = *machine_file,
+             .plan_file = std::move(plan_file),
              .piece = std::move(piece),
              .errors = std::move(errors),
              .nominal = std::move(nominal),

@@ -28,6 +28,7 @@ struct Job {
   kinematics::Machine machine;
   std::filesystem::path file{};
   std::filesystem::path machine_file{};
+  std::filesystem::path plan_file{};  // empty: none
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
   // A shape that surfaces are compared with instead of the plan's; null: none.

@@ -21,6 +21,7 @@
 #include "metrology/decision_rule.hpp"
 #include "metrology/fit/association.hpp"
 #include "metrology/plan/monte_carlo_settings.hpp"
+#include "metrology/plan/report_header.hpp"
 
 namespace frustum::metrology {
 
@@ -282,6 +283,7 @@ struct PlannedCharacteristic {
 
 struct InspectionPlan {
   std::string title{};
+  ReportHeader header{};
   ProbeSettings probe{};
   Alignment alignment = Alignment::datum;
   std::optional<DatumSystem> datum{};

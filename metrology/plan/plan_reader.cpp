@@ -260,6 +260,7 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
   plan.title = root.text_or("title", "");
   plan.alignment = static_cast<Alignment>(root.choice_or("alignment", words(kAlignmentNames), 0));
   plan.decision = read_decision(root);
+  if (const auto head = root.table_if("report")) plan.header = read_report_header(*head);
   if (const auto how = root.table_if("uncertainty")) plan.monte_carlo = read_monte_carlo(*how);
   const TomlTable probe = root.table("probe");
   plan.probe.ball_diameter = probe.length("ball_diameter", Bound::positive).value;

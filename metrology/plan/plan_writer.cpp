@@ -257,6 +257,7 @@ std::string to_toml(const InspectionPlan& plan) {
                        toml_text(kDecisionNames.at(static_cast<std::size_t>(plan.decision))));
   }
   if (plan.monte_carlo) out += fmt::format("uncertainty = {}\n", to_toml(*plan.monte_carlo));
+  out += to_toml(plan.header);
   out += "\n[probe]\n";
   out += fmt::format("ball_diameter = {}  # mm\n", plan.probe.ball_diameter);
   out += fmt::format("clearance = {}  # mm, where the approach starts\n", plan.probe.clearance);

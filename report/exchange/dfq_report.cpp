@@ -63,6 +63,13 @@ class DfqText {
   std::string text_;
 };
 
+// "23.11.2026/14:05:00" of "2026-11-23T14:05:00"; nothing of a date without a time of day.
+std::string time_text(const std::string& date) {
+  if (date.size() != std::string_view("2026-11-23T14:05:00").size()) return {};
+  return date.substr(8, 2) + '.' + date.substr(5, 2) + '.' + date.substr(0, 4) + '/' +
+         date.substr(11);
+}
+
 void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
   const int decimals = decimals_of(c.unit);
   const double nominal = c.nominal.value_or(0.0);
@@ -75,10 +82,23 @@ void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
   dfq.field("K2142", n, ascii(c.unit));
 }
 
-void add_value(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
+void add_value(DfqText& dfq, std::size_t n, const CharacteristicResult& c,
+               const metrology::ReportHeader& header) {
   const bool is_measured = outcome_of(c) != Outcome::not_measured;
   dfq.decimal("K0001", n, is_measured ? c.value : 0.0, decimals_of(c.unit));
   dfq.field("K0002", n, is_measured ? "0" : "255");
+  if (const std::string time = time_text(header.date); !time.empty()) dfq.field("K0004", n, time);
+  if (!header.serial_number.empty()) dfq.field("K0014", n, ascii(header.serial_number));
+  if (!header.order.empty()) dfq.field("K0053", n, ascii(header.order));
+}
+
+// All facts in the part's remark: the format has fields of their own for few of them.
+std::string remark(const RunReport& report) {
+  std::string text;
+  for (const Fact& fact : all_facts(report.evidence, report.version)) {
+    text += (text.empty() ? "" : "; ") + fact.label + ": " + fact.value;
+  }
+  return ascii(text);
 }
 
 }  // namespace
@@ -87,11 +107,14 @@ std::string dfq_report(const RunReport& report) {
   const auto& characteristics = report.measurement.characteristics;
   DfqText dfq;
   dfq.field("K0100", std::to_string(characteristics.size()));
-  dfq.field("K1001", ascii(report.title));
-  dfq.field("K1002", ascii(report.title));
+  const metrology::ReportHeader& header = report.evidence.header;
+  dfq.field("K1001", ascii(header.part_number.empty() ? report.title : header.part_number));
+  dfq.field("K1002", ascii(header.part.empty() ? report.title : header.part));
+  if (!header.order.empty()) dfq.field("K1053", ascii(header.order));
+  if (const std::string text = remark(report); !text.empty()) dfq.field("K1900", text);
   for (std::size_t i = 0; i < characteristics.size(); ++i) describe(dfq, i + 1, characteristics[i]);
   for (std::size_t i = 0; i < characteristics.size(); ++i) {
-    add_value(dfq, i + 1, characteristics[i]);
+    add_value(dfq, i + 1, characteristics[i], header);
   }
   return dfq.text();
 }

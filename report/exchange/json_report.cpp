@@ -106,6 +106,22 @@ Json datum_json(const metrology::Measurement& measurement) {
   return json;
 }
 
+// What is not stated is null, so that a script can ask for it.
+Json evidence_json(const RunReport& report) {
+  Json json;
+  json["version"] = report.version;
+  for (const metrology::HeaderKey& row : metrology::kHeaderKeys) {
+    const std::string& value = report.evidence.header.*row.value;
+    json[std::string(row.key)] = value.empty() ? Json(nullptr) : Json(value);
+  }
+  json["measuring"] = Json::object();
+  for (const Fact& fact : report.evidence.measuring) json["measuring"][fact.key] = fact.value;
+  json["files"] = array_of(report.evidence.files, [](const HashedFile& file) {
+    return Json{{"role", file.role}, {"name", file.name}, {"sha256", file.sha256}};
+  });
+  return json;
+}
+
 Json diagnostic_json(const Diagnostic& diagnostic) {
   Json json;
   json["severity"] = to_string(diagnostic.severity);
@@ -151,6 +167,7 @@ std::string json_report(const RunReport& report) {
   json["machine"] = report.machine;
   json["structure"] = report.structure;
   json["program"] = report.program;
+  json["evidence"] = evidence_json(report);
   json["features"] = array_of(report.measurement.features, feature_json);
   json["characteristics"] = array_of(report.measurement.characteristics, characteristic_json);
   // Where the measured part sits in its workpiece frame.

@@ -9,6 +9,7 @@
 #include "report/exchange/qif_characteristics.hpp"
 #include "report/exchange/qif_features.hpp"
 #include "report/exchange/qif_node.hpp"
+#include "report/html/html_text.hpp"
 
 namespace frustum::report {
 namespace {
@@ -58,9 +59,41 @@ void add_units(xml_node root) {
   add_unit(units, "LinearUnit", "meter", "mm", 1e-3);
 }
 
-void add_device(xml_node root, int id) {
+void add_device(xml_node root, const Evidence& evidence, int id) {
   const xml_node list = add(add(root, "MeasurementResources"), "MeasurementDevices");
-  add_text(add_identified(list, "MeasurementDevice", id), "Name", "CMM");
+  const xml_node device = add_identified(list, "MeasurementDevice", id);
+  const std::string& name = evidence.header.cmm;
+  add_text(device, "Name", name.empty() ? "CMM" : name);
+  std::string accuracy;
+  for (const Fact& fact : evidence.measuring) {
+    if (fact.key == "source" || fact.key == "accuracy") {
+      accuracy += (accuracy.empty() ? "" : "; ") + fact.value;
+    }
+  }
+  if (!accuracy.empty()) add_text(device, "Description", accuracy);
+  close_list(list);
+}
+
+// The facts of which the schema knows the place; a date without a time of day has none.
+void add_traceability(xml_node results, const metrology::ReportHeader& header) {
+  const bool has_time = header.date.find('T') != std::string::npos;
+  if (header.order.empty() && header.operated_by.empty() && !has_time) return;
+  const xml_node node = add(results, "InspectionTraceability");
+  if (!header.order.empty()) add_text(node, "OrderNumber", header.order);
+  if (has_time) add_text(node, "InspectionStart", header.date);
+  if (!header.operated_by.empty()) {
+    add_text(add(node, "InspectionOperator"), "Name", header.operated_by);
+  }
+}
+
+// All facts by their names.
+void add_facts(xml_node results, const RunReport& report) {
+  const xml_node list = add(results, "Attributes");
+  for (const Fact& fact : all_facts(report.evidence, report.version)) {
+    xml_node node = add(list, "AttributeStr");
+    node.append_attribute("name") = fact.key.c_str();
+    node.append_attribute("value") = readable_text(fact.value).c_str();
+  }
   close_list(list);
 }
 
@@ -68,6 +101,8 @@ void add_results(xml_node root, const RunReport& report, const metrology::Inspec
                  Ids& ids, FeatureIds& features, const CharacteristicIds& items) {
   const xml_node set = add(add(root, "Results"), "MeasurementResultsSet");
   const xml_node results = add_identified(set, "MeasurementResults", ids.next());
+  add_facts(results, report);
+  add_traceability(results, report.evidence.header);
   add_measured_features(results, plan, report.measurement, ids, features);
   add_measured_characteristics(results, plan, report.measurement, ids, features, items);
   add_text(add(results, "InspectionStatus"), "InspectionStatusEnum",
@@ -101,7 +136,7 @@ std::string qif_results(const RunReport& report, const metrology::InspectionPlan
   const int standard = ids.next(), device = ids.next();
   add_standard(root, standard);
   add_units(root);
-  add_device(root, device);
+  add_device(root, report.evidence, device);
   FeatureIds features;
   add_features(root, plan, ids, features);
   const CharacteristicIds items =

@@ -103,7 +103,6 @@ std::string head_html(const RunReport& report) {
   html += fact("Tool", tools);
   html += fact("Points probed", points > 0 ? std::to_string(points) : "");
   html += fact("Cycle time", report.cycle_time ? duration_text(*report.cycle_time) : "");
-  html += fact("Date", html_text(report.date));
   return html + "</dl></header>\n";
 }
 

@@ -1,0 +1,42 @@
+// What makes a report evidence: whose part, measured with what and by which rules, from which files
+// by which version. Every format of the results has the same facts.
+//
+// Units: none; values are texts for people, with their units. Errors: none.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "metrology/plan/report_header.hpp"
+
+namespace frustum::report {
+
+struct Fact {
+  std::string key{};    // in JSON and QIF: "decision_rule"
+  std::string label{};  // for people: "Decision rule"
+  std::string value{};
+};
+
+struct HashedFile {
+  std::string role{};    // "program", "plan", "job", "machine", "points", "mesh"
+  std::string name{};    // without folders, so that a report does not depend on where it was made
+  std::string sha256{};  // of its bytes
+};
+// The role, the name and the fingerprint of what a file held.
+[[nodiscard]] HashedFile hashed_file(std::string role, const std::string& path,
+                                     std::string_view bytes);
+
+struct Evidence {
+  metrology::ReportHeader header{};
+  std::vector<Fact> measuring{};  // as measuring_statement() gives them
+  std::vector<HashedFile> files{};
+};
+
+// The facts of the head that are stated.
+[[nodiscard]] std::vector<Fact> stated(const metrology::ReportHeader& header);
+// All facts, the version of the program among them, in one order for every format: head, measuring,
+// "sha256_program" and so on.
+[[nodiscard]] std::vector<Fact> all_facts(const Evidence& evidence, const std::string& version);
+
+}  // namespace frustum::report

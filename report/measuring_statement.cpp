@@ -1,0 +1,146 @@
+#include "report/measuring_statement.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/units.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
+
+namespace frustum::report {
+namespace {
+
+using metrology::CmmModel;
+using metrology::InspectionPlan;
+using metrology::PlannedCharacteristic;
+
+std::string source_text(const CmmModel& cmm, PointSource source) {
+  if (source == PointSource::measured_points) return "points of a CMM, read from a file";
+  const bool is_field = cmm.kind == metrology::CmmKind::field;
+  return fmt::format("virtual CMM, {}, seed {}",
+                     is_field ? "21 parametric errors" : "linear error field and noise", cmm.seed);
+}
+
+std::string accuracy_text(const CmmModel& cmm, PointSource source) {
+  if (metrology::point_uncertainty(cmm).is_zero()) {
+    return source == PointSource::virtual_cmm
+               ? "ideal, E0 = 0: the machine makes no error, and every U is 0"
+               : "not stated: every U is 0, which says nothing about the machine";
+  }
+  std::string text = fmt::format("E0 = {:g} µm", cmm.e0_mm * kUmPerMm);
+  if (cmm.length_per_error) {
+    text += fmt::format("; E = {:g} µm + L/{:g} (L in mm, E in µm)", cmm.e0_mm * kUmPerMm,
+                        *cmm.length_per_error);
+  }
+  return text;
+}
+
+std::string probe_text(const metrology::ProbeSettings& probe, PointSource source) {
+  const bool is_fitted = probe.compensation == metrology::Compensation::fitted;
+  const std::string ball = fmt::format("ball diameter {:g} mm", probe.ball_diameter);
+  if (source == PointSource::measured_points) return ball;
+  return ball + (is_fitted ? ", compensated along the normal of the fitted element"
+                           : ", compensated against the approach");
+}
+
+std::string stylus_text(const metrology::Stylus& stylus) {
+  const Vec3 to_head = stylus.direction.vec();
+  return fmt::format("length {:g} mm, shank {:g} mm, from the ball along ({:g}, {:g}, {:g})",
+                     stylus.length, stylus.diameter, to_head.x(), to_head.y(), to_head.z());
+}
+
+std::string temperature_text(const metrology::ThermalState& state) {
+  return fmt::format("part {:g} °C, scales {:g} °C, {}", state.part, state.scales,
+                     state.compensated ? "compensated" : "not compensated");
+}
+
+std::string alignment_text(const InspectionPlan& plan) {
+  if (plan.alignment == metrology::Alignment::plan || !plan.datum) {
+    return "none: results are in the frame in which the points come";
+  }
+  const metrology::DatumSystem& datum = *plan.datum;
+  if (!datum.best_fit.empty()) {
+    return fmt::format("best fit of {} by least squares", fmt::join(datum.best_fit, ", "));
+  }
+  std::string text = "datums " + datum.primary;
+  for (const std::string& next : {datum.secondary, datum.tertiary}) {
+    if (!next.empty()) text += " | " + next;
+  }
+  const bool is_outside = datum.criterion == metrology::Criterion::outside_material;
+  return text + (datum.base   ? ", each by its own least-squares element"
+                 : is_outside ? ", touched from outside the material (ISO 5459)"
+                              : ", by least squares in this order");
+}
+
+std::string filter_text(const metrology::ProfileFilter& filter) {
+  std::string text;
+  const auto add = [&](double value, const char* form) {
+    if (value > 0.0) text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(form), value);
+  };
+  add(filter.upr, "to {:g} UPR");
+  add(filter.upr_from, "from {:g} UPR");
+  add(filter.cutoff, "cut-off {:g} mm");
+  add(filter.cutoff_long, "long waves from {:g} mm removed");
+  return text;
+}
+
+std::string filters_text(const InspectionPlan& plan) {
+  std::string text;
+  for (const PlannedCharacteristic& c : plan.characteristics) {
+    if (!c.filter) continue;
+    text +=
+        fmt::format("{}{}: Gaussian, {}", text.empty() ? "" : "; ", c.name, filter_text(*c.filter));
+  }
+  if (text.empty()) return "none: forms hold all undulations and the noise of the machine";
+  return text + "; all others none";
+}
+
+std::string association_text(const InspectionPlan& plan) {
+  constexpr std::array<std::string_view, 5> kWords{"least squares", "minimum zone",
+                                                   "maximum inscribed", "minimum circumscribed",
+                                                   "outside the material"};
+  std::string text = "least squares";
+  for (const PlannedCharacteristic& c : plan.characteristics) {
+    if (c.criterion == metrology::Criterion::least_squares) continue;
+    text += fmt::format("; {}: {}", c.name, kWords.at(static_cast<std::size_t>(c.criterion)));
+  }
+  return text;
+}
+
+std::string uncertainty_text_of(const InspectionPlan& plan) {
+  return std::string("U is expanded, k = 2 (about 95 %), from what is stated of the machine") +
+         (plan.monte_carlo ? "; the interval is simulated (Monte Carlo)" : "");
+}
+
+std::string decision_text(metrology::DecisionRule rule) {
+  constexpr std::array<std::string_view, 2> kRules{
+      "simple acceptance: the value is within the tolerance; U is not taken into account "
+      "(ISO 14253-1 is not applied)",
+      "ISO 14253-1: pass where the whole uncertainty interval is within the tolerance, fail where "
+      "all of it is outside, uncertain otherwise"};
+  return std::string(kRules.at(static_cast<std::size_t>(rule)));
+}
+
+}  // namespace
+
+std::vector<Fact> measuring_statement(const InspectionPlan& plan, const CmmModel& cmm,
+                                      PointSource source) {
+  std::vector<Fact> facts{{"source", "Measured by", source_text(cmm, source)},
+                          {"accuracy", "Accuracy", accuracy_text(cmm, source)},
+                          {"probe", "Probe", probe_text(plan.probe, source)}};
+  if (cmm.stylus) facts.push_back({"stylus", "Stylus", stylus_text(*cmm.stylus)});
+  if (cmm.temperature) {
+    facts.push_back({"temperature", "Temperature", temperature_text(*cmm.temperature)});
+  }
+  facts.push_back({"alignment", "Alignment", alignment_text(plan)});
+  facts.push_back({"filter", "Filter", filters_text(plan)});
+  facts.push_back({"association", "Association", association_text(plan)});
+  facts.push_back({"uncertainty", "Uncertainty", uncertainty_text_of(plan)});
+  facts.push_back({"decision_rule", "Decision rule", decision_text(plan.decision)});
+  return facts;
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,127 @@
+#include "report/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+#include "report/exchange/export_file.hpp"
+#include "report/measuring_statement.hpp"
+#include "sample_report.hpp"
+
+namespace frustum::report {
+namespace {
+
+constexpr const char* kHashOfAbc =
+    "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+
+metrology::CmmModel stated_cmm() {
+  metrology::CmmModel cmm;
+  cmm.e0_mm = 1.8e-3;
+  cmm.length_per_error = 350.0;
+  return cmm;
+}
+
+RunReport told_report() {
+  RunReport report = small_report();
+  report.version = "1.2.3";
+  report.evidence.header = {.part = "Cone",
+                            .part_number = "N-1",
+                            .serial_number = "0042",
+                            .order = "4711",
+                            .operated_by = "A. Example",
+                            .date = "2026-11-23T14:05:00",
+                            .cmm = "CMM 7"};
+  metrology::InspectionPlan plan;
+  plan.decision = metrology::DecisionRule::iso14253;
+  plan.datum = metrology::DatumSystem{.primary = "A", .secondary = "B"};
+  report.evidence.measuring = measuring_statement(plan, stated_cmm(), PointSource::virtual_cmm);
+  report.evidence.files = {hashed_file("program", "/far/away/part.nc", "abc")};
+  return report;
+}
+
+std::string value_of(const std::vector<Fact>& facts, std::string_view key) {
+  for (const Fact& fact : facts) {
+    if (fact.key == key) return fact.value;
+  }
+  return {};
+}
+
+TEST(Evidence, Fault2_38_SaysHowWasMeasured) {
+  metrology::InspectionPlan plan;
+  plan.datum = metrology::DatumSystem{.primary = "A", .secondary = "B"};
+  metrology::PlannedCharacteristic round;
+  round.name = "pin.roundness";
+  round.criterion = metrology::Criterion::minimum_zone;
+  round.filter = metrology::ProfileFilter{.upr = 50.0};
+  plan.characteristics = {round};
+  auto facts = measuring_statement(plan, stated_cmm(), PointSource::virtual_cmm);
+  EXPECT_EQ(value_of(facts, "accuracy"), "E0 = 1.8 µm; E = 1.8 µm + L/350 (L in mm, E in µm)");
+  EXPECT_EQ(value_of(facts, "alignment"), "datums A | B, by least squares in this order");
+  EXPECT_EQ(value_of(facts, "filter"), "pin.roundness: Gaussian, to 50 UPR; all others none");
+  EXPECT_EQ(value_of(facts, "association"), "least squares; pin.roundness: minimum zone");
+  EXPECT_NE(value_of(facts, "decision_rule").find("U is not taken into account"),
+            std::string::npos);
+  plan = {};
+  plan.decision = metrology::DecisionRule::iso14253;
+  facts = measuring_statement(plan, {}, PointSource::virtual_cmm);
+  EXPECT_EQ(value_of(facts, "accuracy").substr(0, 5), "ideal");
+  EXPECT_EQ(value_of(facts, "alignment").substr(0, 4), "none");
+  EXPECT_EQ(value_of(facts, "filter").substr(0, 4), "none");
+  EXPECT_EQ(value_of(facts, "decision_rule").substr(0, 12), "ISO 14253-1:");
+  EXPECT_EQ(value_of(measuring_statement(plan, {}, PointSource::measured_points), "accuracy")
+                .substr(0, 10),
+            "not stated");
+}
+
+TEST(Evidence, Fault2_38_IsTheSameInEveryFormat) {
+  const RunReport report = told_report();
+  const auto facts = all_facts(report.evidence, report.version);
+  EXPECT_EQ(value_of(facts, "sha256_program"), kHashOfAbc);
+  ASSERT_EQ(facts.size(), 17U);  // 7 of the head, 8 of the measuring, version, hash
+  const auto json = nlohmann::json::parse(exported(ExportFormat::json, report, {}))["evidence"];
+  EXPECT_EQ(json["serial_number"], "0042");
+  EXPECT_EQ(json["version"], "1.2.3");
+  EXPECT_EQ(json["files"][0]["name"], "part.nc");
+  EXPECT_EQ(json["files"][0]["sha256"], kHashOfAbc);
+  pugi::xml_document qif;
+  ASSERT_TRUE(qif.load_string(exported(ExportFormat::qif, report, {}).c_str()));
+  const pugi::xml_node results = qif.document_element()
+                                     .child("Results")
+                                     .child("MeasurementResultsSet")
+                                     .child("MeasurementResults");
+  const std::string dfq = exported(ExportFormat::dfq, report, {});
+  for (const Fact& fact : facts) {
+    const pugi::xml_node node =
+        results.child("Attributes").find_child_by_attribute("name", fact.key.c_str());
+    EXPECT_EQ(node.attribute("value").value(), fact.value) << fact.key;
+    if (json["measuring"].contains(fact.key)) {
+      EXPECT_EQ(json["measuring"][fact.key], fact.value);
+    }
+    if (fact.key != "accuracy") {  // whose µ is a u there
+      EXPECT_NE(dfq.find(fact.label + ": " + fact.value), std::string::npos) << fact.key;
+    }
+  }
+  EXPECT_STREQ(results.child("InspectionTraceability").child_value("OrderNumber"), "4711");
+  EXPECT_STREQ(results.child("InspectionTraceability").child_value("InspectionStart"),
+               "2026-11-23T14:05:00");
+  EXPECT_EQ(dfq.substr(0, 51), "K0100 2\nK1001 N-1\nK1002 Cone\nK1053 4711\nK1900 Part:");
+  EXPECT_NE(dfq.find("K0004/2 23.11.2026/14:05:00\nK0014/2 0042\nK0053/2 4711\n"),
+            std::string::npos);
+}
+
+// A day alone is not made midnight, and nothing that is not stated is written.
+TEST(Evidence, Fault2_38_WhatIsNotStatedIsNotMadeUp) {
+  RunReport report = told_report();
+  report.evidence.header = {.date = "2026-11-23"};
+  const std::string dfq = exported(ExportFormat::dfq, report, {});
+  EXPECT_EQ(dfq.find("K0004"), std::string::npos);
+  EXPECT_NE(dfq.find("Date: 2026-11-23;"), std::string::npos);
+  EXPECT_EQ(exported(ExportFormat::qif, report, {}).find("InspectionTraceability"),
+            std::string::npos);
+  const auto json = nlohmann::json::parse(exported(ExportFormat::json, report, {}));
+  EXPECT_TRUE(json["evidence"]["operator"].is_null());
+}
+
+}  // namespace
+}  // namespace frustum::report
