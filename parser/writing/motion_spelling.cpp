@@ -26,6 +26,8 @@ constexpr NcSpelling kFanucWords{
     .lead = "F",
     .lead_by = LeadBy::one_axis,
     .rigid_tap = "",
+    .tap_cycle = "M29 S{speed}\nG99 {word} Z{z} R{start} {feed}\nG80",
+    .tap_words = {"G84", "G74"},
     .modal = true,
     .planes = {"G17", "G18", "G19"},
     .tool_vector = {"I", "J", "K"},
@@ -71,6 +73,7 @@ constexpr NcSpelling linuxcnc_words() {
   s.lead = "K";
   s.lead_by = LeadBy::way;
   s.rigid_tap = "G33.1";
+  s.tap_cycle = "";
   s.full_turns = "P#";
   s.tool_vector = {};
   s.tool_vectors = "";
@@ -99,6 +102,7 @@ constexpr NcSpelling sinumerik_words() {
   s.vectors_on_arcs = true;
   s.lead = "IJK";
   s.lead_by = LeadBy::longest_axis;
+  s.tap_cycle = "SPOS=0\nG331 Z{z} K{signed}\nG332 Z{start} K{signed}";
   s.home_return = "";
   s.before_machine_coordinates = "SUPA";
   s.machine_coordinates_compensated = true;
@@ -141,6 +145,10 @@ constexpr NcSpelling kHeidenhainWords{
     .lead = "",
     .lead_by = LeadBy::way,
     .rigid_tap = "",
+    .tap_cycle =
+        "CYCL DEF 207 RIGID TAPPING Q200=+0 Q201={depth} Q239={signed} Q203={start} "
+        "Q204=+0\nCYCL CALL",
+    .tap_words = {},
     .modal = false,
     .planes = {},
     .tool_vector = {"TX", "TY", "TZ"},

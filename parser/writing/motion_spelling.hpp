@@ -44,7 +44,13 @@ struct NcSpelling {
   // Synchronised with the spindle, and the letter of the way of a revolution; empty: none.
   std::string_view thread, lead;
   LeadBy lead_by;
-  std::string_view rigid_tap;  // to the bottom and back, the spindle reversing; empty: none
+  // A rigid tap: to the bottom and back, the spindle reversing. A word in place of that of the
+  // thread; or a cycle along Z, after which the spindle is at rest: {z} the bottom and {start} as
+  // numbers, {depth} below zero, {lead}, {signed} below zero for a left-handed thread, {feed}
+  // (F500), {speed}, {word} by the hand.
+  std::string_view rigid_tap;
+  std::string_view tap_cycle;
+  std::array<std::string_view, 2> tap_words;  // right-handed, left-handed
   bool modal;
   std::array<std::string_view, 3> planes;       // XY ZX YZ
   std::array<std::string_view, 3> tool_vector;  // components; empty: none

@@ -52,6 +52,7 @@ class MotionWords {
   // Where the axes are, as far as it is known.
   [[nodiscard]] AxisTarget at() const;
   void stay(const AxisTarget& at);  // the axes are back where they were
+  [[nodiscard]] std::string text_of(AxisLetter letter, double value) const;  // 12.5
   // X12.5, or nothing when the axis is there already.
   [[nodiscard]] std::string axis(AxisLetter letter, double value, bool always);
   [[nodiscard]] std::string vector(const std::optional<UnitVec3>& tool_axis);
@@ -73,7 +74,6 @@ class MotionWords {
     double value = 0.0;
   };
   [[nodiscard]] std::string coordinate(double value, int decimals) const;
-  [[nodiscard]] std::string text_of(AxisLetter letter, double value) const;
 
   const NcSpelling& spelling_;
   const WriterOptions& options_;

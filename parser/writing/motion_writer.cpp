@@ -74,8 +74,8 @@ class MotionWriter {
     // The spindle turns as before, which the program may say next.
     const auto* spindle =
         said < rest.size() ? std::get_if<SpindleChange>(&rest[said].command) : nullptr;
-    const bool again = said > 0 && spindle != nullptr && spindle->direction == turning_ &&
-                       spindle->speed == speed_;
+    const bool again = said > 0 && !spelling_.rigid_tap.empty() && spindle != nullptr &&
+                       spindle->direction == turning_ && spindle->speed == speed_;
     return said + (again ? 1 : 0);
   }
 
@@ -98,28 +98,67 @@ class MotionWriter {
     straight(move.end, move.tool_axis, move.coordinates, nullptr);
   }
   void write(const LinearFeed& move) {
-    if (move.feed.synchronised && !threads(move)) return;
+    if (move.feed.synchronised) return write_thread(move);
     straight(move.end, move.tool_axis, move.coordinates, &move.feed);
   }
 
-  // Whether there are words for it; notes how it is spelt.
-  bool threads(const LinearFeed& move) {
-    thread_word_ = spelling_.thread;
+  void write_thread(const LinearFeed& move) {
     const auto tap = rigid_tap_of(move, {turning_, speed_}, words_.at(), rest_);
+    const bool in_cycle = tap.reverses && spelling_.rigid_tap.empty();
+    thread_word_ = tap.reverses ? spelling_.rigid_tap : spelling_.thread;
     std::string_view obstacle = tap.obstacle;
-    if (tap.reverses && spelling_.rigid_tap.empty()) {
-      obstacle = "a tap that comes back as the spindle reverses";
-    }
-    if (thread_word_.empty()) obstacle = "a move synchronised with the spindle";
+    if (in_cycle && obstacle.empty()) obstacle = obstacle_to_cycle(move);
+    if (!tap.reverses && thread_word_.empty()) obstacle = "a move synchronised with the spindle";
     if (!obstacle.empty()) {
-      refusals_.add(std::string(obstacle), "write threads with the control's cycles");
-      return false;
+      return refusals_.add(std::string(obstacle), "write threads with the control's cycles");
     }
-    if (!tap.reverses) return true;
-    thread_word_ = spelling_.rigid_tap;
-    said_ = tap.after;
     left_ = tap.left;
-    return true;
+    if (in_cycle) {
+      tap_in_cycle(move);
+      said_ = tap.after;
+      return;
+    }
+    said_ = tap.after;
+    straight(move.end, move.tool_axis, move.coordinates, &move.feed);
+  }
+
+  // Cycles tap along Z, from a place that is known, with the tool where the axes are.
+  [[nodiscard]] std::string_view obstacle_to_cycle(const LinearFeed& move) const {
+    const AxisTarget start = words_.at();
+    bool alone = start[AxisLetter::Z].has_value();
+    for (const AxisLetter letter : kAxisLetters) {
+      if (letter == AxisLetter::Z || !move.end[letter]) continue;
+      alone = alone && start[letter] &&
+              words_.text_of(letter, *start[letter]) == words_.text_of(letter, *move.end[letter]);
+    }
+    if (!alone || move.coordinates == Coordinates::machine) return "a tap that is not along Z";
+    if (!(*move.end[AxisLetter::Z] < *start[AxisLetter::Z])) return "a tap upwards";
+    if (move.tool_axis || guides_tip(in_force_)) return "a tap with tool centre point control";
+    return {};
+  }
+
+  void tap_in_cycle(const LinearFeed& move) {
+    if (length_cannot_be_off()) return;
+    const AxisTarget start = words_.at();
+    const auto number = [this](double z) { return words_.text_of(AxisLetter::Z, z); };
+    const double top = *start[AxisLetter::Z], bottom = *move.end[AxisLetter::Z];
+    const bool right = turning_ == SpindleDirection::clockwise;
+    const std::string lead = significant(move.feed.value, options_.feed_digits);
+    std::string feed;
+    if (spelling_.tap_cycle.find("{feed}") != std::string_view::npos) {
+      words_.restate_feed();
+      feed = words_.feed({move.feed.value * speed_, FeedMode::per_minute});
+    }
+    if (plane_.value_or(Plane::xy) != Plane::xy) out_.line(spelling_.planes[0]);
+    plane_ = Plane::xy;
+    out_.lines(fmt::format(
+        fmt::runtime(spelling_.tap_cycle), fmt::arg("z", number(bottom)),
+        fmt::arg("start", number(top)), fmt::arg("depth", number(bottom - top)),
+        fmt::arg("signed", (right ? spelling_.plus_signs ? "+" : "" : "-") + lead),
+        fmt::arg("feed", feed), fmt::arg("speed", significant(speed_, options_.feed_digits)),
+        fmt::arg("word", spelling_.tap_words.at(right ? 0 : 1))));
+    motion_word_ = {};
+    turning_ = SpindleDirection::off;
   }
 
   void write(const Probe& /*probe*/) {

@@ -414,7 +414,7 @@ TEST(NcWriter, GivesTheLeadOfAThreadAlongItsLongestAxis) {
 }
 
 // With words of their own, the tap would wait for the spindle twice, and be torn between.
-TEST(NcWriter, TapsRigidlyInOneBlockOrNotAtAll) {
+TEST(NcWriter, TapsRigidlyInOneBlock) {
   const std::string taps = "G21 G90\nS500 M3\nG0 X1 Y2 Z3\nG33.1 Z-10 K1.5\nG0 X4\nG0 Z20\nM2\n";
   const auto motions = motions_in(taps, Dialect::linuxcnc);
   const auto written = write_nc(motions, Dialect::linuxcnc);
@@ -428,11 +428,6 @@ TEST(NcWriter, TapsRigidlyInOneBlockOrNotAtAll) {
     });
   };
   EXPECT_EQ(taps_of(motions_in(written->text, Dialect::linuxcnc)), 2);
-  for (const Dialect dialect : {Dialect::fanuc, Dialect::sinumerik}) {
-    const auto torn = write_nc(motions, dialect);
-    ASSERT_FALSE(torn);
-    EXPECT_NE(torn.error().front().message.find("the spindle reverses"), std::string::npos);
-  }
 }
 
 // M137 counts when the move of its block is done, and F before.

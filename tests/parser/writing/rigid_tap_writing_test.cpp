@@ -1,8 +1,11 @@
 // Rigid taps of all controls in the words of another one, or why there are none.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "parser/writing/motion_writer.hpp"
 #include "tests/parser/writing/read_back.hpp"
@@ -40,6 +43,60 @@ TEST(RigidTapWriting, OfAllControlsIsOneBlockOfLinuxCnc) {
   has(tapped("G21 G90 G94\nT1 M6\nG43 H1 G0 X1 Y2 Z20\nM29 S500\nG98 G84 Z-10 R2 F750\nG80\n",
              Dialect::fanuc),
       "Z2.\nS500 M3\nG33.1 Z-10. K1.5\nG0 Z20.\nM5\n");
+}
+
+// Each control has a tap of its own, which is read as the same motions.
+TEST(RigidTapWriting, IsTheTapOfTheControl) {
+  const std::string head = "G21 G90\nT1 M6\nG43 H1\nS500 M3\nG0 X1 Y2 Z3\n";
+  const std::string right = head + "G33.1 Z-10 K1.5\nG0 X4\nG1 Z1 F90\nM2\n";
+  const std::string left = head + "M4\nG33.1 Z-10 K1.5\nM5\nG0 X4\nM2\n";
+  const auto written = [](const std::string& text, Dialect dialect) {
+    const auto nc = write_nc(motions_in(text, Dialect::linuxcnc), dialect);
+    return nc ? nc->text : first_of(nc.error());
+  };
+  const auto expect_in = [](const std::string& text, const std::string& block) {
+    EXPECT_NE(text.find(block), std::string::npos) << text;
+  };
+  expect_in(written(right, Dialect::fanuc),
+            "Z3.\nM29 S500\nG99 G84 Z-10. R3. F750\nG80\nM3\nG0 X4.\nG1 Z1. F90\n");
+  expect_in(written(left, Dialect::fanuc),
+            "M4\nM29 S500\nG99 G74 Z-10. R3. F750\nG80\nM4\nM5\nG0 X4.\n");
+  expect_in(written(right, Dialect::sinumerik),
+            "Z3\nSPOS=0\nG331 Z-10 K1.5\nG332 Z3 K1.5\nM3\nG0 X4\nG1 Z1 F90\n");
+  expect_in(written(left, Dialect::sinumerik),
+            "M4\nSPOS=0\nG331 Z-10 K-1.5\nG332 Z3 K-1.5\nM4\nM5\nG0 X4\n");
+  expect_in(written(left, Dialect::heidenhain),
+            " CYCL DEF 207 RIGID TAPPING Q200=+0 Q201=-13 Q239=-1.5 Q203=+3 Q204=+0\n");
+  for (const std::string& text : {right, left}) {
+    const auto cuts = [](const std::vector<Motion>& all) {
+      std::string told;
+      SpindleDirection turns = SpindleDirection::off;
+      for (const Motion& motion : all) {
+        if (const auto* spindle = std::get_if<SpindleChange>(&motion.command)) {
+          turns = spindle->direction;
+        }
+        const auto* cut = std::get_if<LinearFeed>(&motion.command);
+        if (cut == nullptr) continue;
+        told += fmt::format("{:g} {:g}{} {}; ", *cut->end[AxisLetter::Z], cut->feed.value,
+                            cut->feed.synchronised ? "s" : "", static_cast<int>(turns));
+      }
+      return told;
+    };
+    for (const Dialect dialect : written_dialects()) {
+      EXPECT_EQ(cuts(motions_in(written(text, dialect), dialect)),
+                cuts(motions_in(text, Dialect::linuxcnc)))
+          << written(text, dialect);
+    }
+  }
+}
+
+TEST(RigidTapWriting, OfCyclesIsAlongZ) {
+  const std::string across = "G21 G90\nT1 M6\nG43 H1\nS500 M3\nG0 X1 Y2 Z3\nG33.1 X-10 K1.5\nM2\n";
+  for (const Dialect dialect : {Dialect::fanuc, Dialect::sinumerik, Dialect::heidenhain}) {
+    const auto refused = write_nc(motions_in(across, Dialect::linuxcnc), dialect);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().front().message.find("a tap that is not along Z"), std::string::npos);
+  }
 }
 
 TEST(RigidTapWriting, RefusesWhatIsNotInAndOutAtOnce) {
