@@ -106,6 +106,10 @@ Result<std::vector<Vec2>> holes_of_pattern(const InterpreterState& state, const 
                   fmt::format("{} is not simulated", words.text_of('l')),
                   "the tool goes straight from hole to hole: Q365=0");
     }
+    if (words['d'].value < 0.0) {
+      return fail(state, words['d'].column, "value-negative"_id,
+                  fmt::format("{} is negative", words.text_of('d')), "a diameter has no sign");
+    }
     const double start = words['a'].value;
     const double stop = words.has('b') ? words['b'].value : start + kDegreesRound;
     const bool round = std::abs(stop - start) >= kDegreesRound;
@@ -163,7 +167,9 @@ Outcome call_pattern(InterpreterState& state, const BlockWords& words) {
   if (words.has('v')) cycle.back = std::max(words['v'].value * scale, cycle.clear);
   const auto surface = surface_of_holes(state, code);
   if (!surface) return surface.error();
-  const bool low_between = words.has('e') && words['e'].value == 0.0;
+  const auto between = words.has('e') ? whole(state, words, 'e', 0, 1) : Result<int>(1);
+  if (!between) return between.error();
+  const bool low_between = *between == 0;
   const auto back = cycle.back;
   for (std::size_t i = 0; i < holes->size(); ++i) {
     if (low_between) cycle.back = i + 1 < holes->size() ? std::optional(cycle.clear) : back;

@@ -133,6 +133,11 @@ TEST(KlartextCycle, HasNoStepsBelowZero) {
   EXPECT_EQ(ids_in_klartext(kOver + "CYCL DEF 200 Q200=2 Q201=-5 Q206=9 Q203=+0 Q204=-50\n"),
             Ids{"value-negative"});
   EXPECT_EQ(ids_in_klartext(kOver + "CYCL DEF 207 " + kAt0 + "Q239=0\n"), Ids{"cycle-lead"});
+  const std::string drill = kOver + "CYCL DEF 200 " + kAt0 + "Q206=100\n";
+  EXPECT_EQ(ids_in_klartext(drill + "CYCL DEF 220 Q216=0 Q217=0 Q244=-20 Q241=2\n"),
+            Ids{"value-negative"});
+  EXPECT_EQ(ids_in_klartext(drill + "CYCL DEF 220 Q216=0 Q217=0 Q244=20 Q241=2 Q301=5\n"),
+            Ids{"out-of-range"});
   EXPECT_EQ(ids_in_klartext(kOver + "CYCL DEF 1.1 SET UP 2\nCYCL DEF 1.4 DWELL -1\n"),
             Ids{"value-negative"});
 }
