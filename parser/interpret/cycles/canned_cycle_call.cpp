@@ -175,6 +175,7 @@ Result<std::optional<RigidTap>> rigid_tap_of(InterpreterState& state, const Move
     assume(state, movement.column, "rigid tap with Q",
            "in one stroke: how it goes back after each Q is a parameter of the control");
   }
+  assume(state, movement.column, "rigid tap", "the spindle is at rest when the hole is done");
   RigidTap tap;
   tap.lead = feed.mode == FeedMode::per_revolution ? feed.value : feed.value / speed;
   if (kind == MotionMode::tap_left) tap.lead = -tap.lead;

@@ -115,6 +115,8 @@ struct AssumedCycle {
   std::string_view cycle;
   std::string_view text;
 };
+constexpr std::string_view kSpindleAfterTap =
+    "the spindle turns afterwards as it did before the cycle";
 constexpr std::array kAssumedCycles{
     AssumedCycle{
         "CYCL DEF 203",
@@ -123,10 +125,11 @@ constexpr std::array kAssumedCycles{
     AssumedCycle{"CYCL DEF 205",
                  "pecks shrink by Q212 down to Q205, and the stop above the last depth goes evenly "
                  "from Q258 to Q259"},
+    AssumedCycle{"CYCL DEF 207", kSpindleAfterTap},
     AssumedCycle{"CYCL DEF 206", "the tap comes back by the feed that it went in with"},
     AssumedCycle{"CYCL DEF 209",
                  "at each Q257 the tap goes back by Q256 times the pitch, or out of the hole where "
-                 "that is 0"},
+                 "that is 0; the spindle turns afterwards as it did before the cycle"},
     AssumedCycle{
         "CYCL DEF 241",
         "it goes from Q200 to the depth in one stroke by Q206 and back by Q208; the speeds "
@@ -203,7 +206,10 @@ Outcome set_old_cycle(InterpreterState& state, const BlockWords& words, HoleWord
                 fmt::format("the dwell {:g} is negative", words['P'].value),
                 "a dwell takes a time that is not negative");
   }
-  if (words.has('r')) return set_pitch(state, words);
+  if (words.has('r')) {
+    assume(state, words['r'].column, "CYCL DEF 17", kSpindleAfterTap);
+    return set_pitch(state, words);
+  }
   if (!words.has('f')) return Done{};
   cycle.feed = {words['f'].value * feed_scale(state, FeedMode::per_minute), FeedMode::per_minute};
   if (cycle.feed.value > 0.0) return Done{};

@@ -69,6 +69,17 @@ TEST(RigidTap, OfKlartextStartsTheSpindleAndLeavesItAsItWas) {
             "R50 R2 M3/500 F-10@1s M4/500 F2@1s R20 M5/500");
 }
 
+TEST(RigidTap, OfKlartextTellsHowItLeavesTheSpindle) {
+  for (const std::string cycle : {"207", "209"}) {
+    const auto told =
+        all_of<Event>(motions(kOver + "CYCL DEF " + cycle + " " + kAt0 + "Q239=+1\nCYCL CALL\n", {},
+                              Dialect::heidenhain));
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told[0].grade, EventGrade::assumed);
+    EXPECT_NE(told[0].text.find("the spindle turns afterwards"), std::string::npos);
+  }
+}
+
 TEST(RigidTap, OfFanucIsG84AfterM29) {
   const std::string go = "G21 G90 G94\nG0 X0 Y0 Z50\nM29 S800\n";
   EXPECT_EQ(taps(go + "G98 G84 Z-10 R2 F1000\nG80\n", Dialect::fanuc),
