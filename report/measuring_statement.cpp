@@ -19,6 +19,7 @@ using metrology::PlannedCharacteristic;
 
 std::string source_text(const CmmModel& cmm, PointSource source) {
   if (source == PointSource::measured_points) return "points of a CMM, read from a file";
+  if (metrology::point_uncertainty(cmm).is_zero()) return "virtual CMM";
   const bool is_field = cmm.kind == metrology::CmmKind::field;
   return fmt::format("virtual CMM, {}, seed {}",
                      is_field ? "21 parametric errors" : "linear error field and noise", cmm.seed);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "report/number_text.hpp"
+#include "report/verdict.hpp"
 
 namespace frustum::report {
 namespace {
@@ -174,6 +175,11 @@ void write_characteristics(Page& page, const RunReport& report) {
   }
 }
 
+void write_no_uncertainty(Page& page, const RunReport& report) {
+  if (!has_no_uncertainty(report.measurement)) return;
+  page.labelled("", "U = 0: no error of the CMM is stated (e0 and l_per_um)");
+}
+
 void write_cycle(Page& page, const RunReport& report) {
   if (!report.cycle_time) return;
   page.line();
@@ -252,6 +258,7 @@ std::string terminal_report(const RunReport& report, const TerminalOptions& opti
   write_head(page, report);
   write_errors(page, report);
   write_characteristics(page, report);
+  write_no_uncertainty(page, report);
   write_cycle(page, report);
   write_bounds(page, report);
   write_collisions(page, report);

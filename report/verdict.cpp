@@ -1,5 +1,8 @@
 #include "report/verdict.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,6 +17,28 @@ Outcome outcome_of(const metrology::CharacteristicResult& characteristic) {
 std::string_view name_of(Outcome outcome) {
   constexpr std::array<std::string_view, 4> kNames{"pass", "fail", "uncertain", "not measured"};
   return kNames.at(static_cast<std::size_t>(outcome));
+}
+
+std::string counts_text(const metrology::Measurement& measurement) {
+  std::array<std::size_t, 4> counts{};
+  for (const auto& c : measurement.characteristics) {
+    ++counts.at(static_cast<std::size_t>(outcome_of(c)));
+  }
+  constexpr std::array<std::string_view, 4> kOne{"passes", "fails", "uncertain", "not measured"};
+  std::string text;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    if (counts[k] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k],
+                        counts[k] == 1 ? kOne[k] : name_of(static_cast<Outcome>(k)));
+  }
+  return text;
+}
+
+bool has_no_uncertainty(const metrology::Measurement& measurement) {
+  const auto& all = measurement.characteristics;
+  return !all.empty() && std::all_of(all.begin(), all.end(), [](const auto& c) {
+    return c.expanded_uncertainty == 0.0 && (!c.simulated || c.simulated->standard == 0.0);
+  });
 }
 
 }  // namespace frustum::report

@@ -3,6 +3,7 @@
 // Units: none. Errors: none; a value that is not finite was not measured.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "metrology/measurement.hpp"
@@ -15,5 +16,13 @@ enum class Outcome { pass, fail, uncertain, not_measured };
 [[nodiscard]] Outcome outcome_of(const metrology::CharacteristicResult& characteristic);
 // "pass", "fail", "uncertain", "not measured".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
+
+// "6 pass, 1 fails, 1 uncertain": how many characteristics came to what, those that none came to
+// left out; empty without characteristics.
+[[nodiscard]] std::string counts_text(const metrology::Measurement& measurement);
+
+// Every characteristic states an uncertainty of exactly 0: nothing is known of the machine that
+// measured, or it is ideal.
+[[nodiscard]] bool has_no_uncertainty(const metrology::Measurement& measurement);
 
 }  // namespace frustum::report

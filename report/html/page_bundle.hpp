@@ -13,7 +13,7 @@ namespace frustum::report {
 [[nodiscard]] std::string_view page_template();
 // One style sheet without outside references.
 [[nodiscard]] std::string_view page_style();
-// One script with plotly.js and three.js in it; free of "</script".
+// One script with three.js in it; free of "</script".
 [[nodiscard]] std::string_view page_script();
 
 // The template filled: title and body are HTML, data is JSON that may be in a script element.

@@ -1,6 +1,6 @@
 // Bundles the page: node build.mjs SOURCE_FOLDER OUTPUT_FOLDER, run where node_modules is.
 //
-// Writes page.js (our script, plotly.js with two trace types, three.js; the licence of every package that
+// Writes page.js (our script, three.js; the licence of every package that
 // went in as a comment at its end) and page.css. Fails when the script could not stand inside a page.
 import {build} from 'esbuild';
 import {existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';

@@ -14,56 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Rounded to `step`, to keep the page small.
-Json rounded(double value, double per_step) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(value * per_step) / per_step;
-}
-
-Json rounded(const std::vector<double>& values, double scale, double per_step) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(rounded(value * scale, per_step));
-  return array;
-}
-
-Json polar_json(const metrology::CharacteristicResult& characteristic) {
-  return {{"name", characteristic.name},
-          {"angle", rounded(characteristic.plot_angle, 1.0, 1e6)},
-          {"deviation_um", rounded(characteristic.plot_deviation, kUmPerMm, 1e5)}};
-}
-
-Json profile_json(const metrology::CharacteristicResult& characteristic) {
-  Json lines = Json::array();
-  for (const metrology::LineProfile& line : characteristic.profiles) {
-    lines.push_back({{"feature", line.feature},
-                     {"position_mm", rounded(line.position, 1.0, 1e4)},
-                     {"deviation_um", rounded(line.deviation, kUmPerMm, 1e5)},
-                     {"fit_offset_um", rounded(line.fit_offset * kUmPerMm, 1e5)},
-                     {"fit_slope_urad", rounded(line.fit_slope * kUradPerRad, 1e5)}});
-  }
-  return {{"name", characteristic.name}, {"lines", std::move(lines)}};
-}
-
-bool same_lines(const metrology::CharacteristicResult& a,
-                const metrology::CharacteristicResult& b) {
-  return std::equal(a.profiles.begin(), a.profiles.end(), b.profiles.begin(), b.profiles.end(),
-                    [](const auto& p, const auto& q) { return p.feature == q.feature; });
-}
-
-Json trace_json(const AxisTrace& trace) {
-  Json axes = Json::array();
-  for (const AxisSeries& series : trace.axes) {
-    axes.push_back({{"axis", series.axis},
-                    {"rotary", series.rotary},
-                    {"values", rounded(series.values, 1.0, 1e4)}});
-  }
-  const bool is_cone_angle = trace.abscissa_kind == Abscissa::cone_angle;
-  return {{"operation", trace.operation},
-          {"abscissa", rounded(trace.abscissa, 1.0, 1e4)},
-          {"abscissa_kind", is_cone_angle ? "cone_angle" : "block"},
-          {"axes", std::move(axes)}};
-}
-
 Json colour_json(const Colour& colour) { return Json::array({colour[0], colour[1], colour[2]}); }
 
 // Positions on a grid of 2^18 steps over the longest side of the bounding box: half a micrometre
@@ -128,42 +78,12 @@ Json surface_json(const SurfacePicture& picture) {
 
 }  // namespace
 
-bool has_polar_chart(const metrology::CharacteristicResult& characteristic) {
-  return characteristic.plot_angle.size() > 2 &&
-         characteristic.plot_angle.size() == characteristic.plot_deviation.size();
-}
-
-bool has_profile_chart(const RunReport& report,
-                       const metrology::CharacteristicResult& characteristic) {
-  const auto& profiles = characteristic.profiles;
-  if (profiles.empty() || std::any_of(profiles.begin(), profiles.end(), [](const auto& line) {
-        return line.position.empty() || line.position.size() != line.deviation.size();
-      })) {
-    return false;
-  }
-  if (characteristic.kind == "line_distance") return true;
-  const auto& all = report.measurement.characteristics;
-  return std::none_of(all.begin(), all.end(), [&](const auto& other) {
-    return other.kind == "line_distance" && same_lines(other, characteristic);
-  });
-}
-
 bool has_surface(const RunReport& report) {
   return !report.surface.empty() && report.surface.is_valid();
 }
 
 std::string chart_data(const RunReport& report) {
   Json json;
-  json["polar"] = Json::array();
-  for (const metrology::CharacteristicResult& c : report.measurement.characteristics) {
-    if (has_polar_chart(c)) json["polar"].push_back(polar_json(c));
-  }
-  json["profiles"] = Json::array();
-  for (const metrology::CharacteristicResult& c : report.measurement.characteristics) {
-    if (has_profile_chart(report, c)) json["profiles"].push_back(profile_json(c));
-  }
-  json["traces"] = Json::array();
-  for (const AxisTrace& trace : report.traces) json["traces"].push_back(trace_json(trace));
   json["surface"] = has_surface(report) ? surface_json(report.surface) : Json(nullptr);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,5 +1,5 @@
-// The report of a run as one HTML page that opens without a network: tables in plain HTML, charts
-// and the rotatable workpiece drawn by the embedded script.
+// The report of a run as one HTML page that opens without a network: tables and charts in
+// plain HTML and SVG, which print; the embedded script only turns the workpiece.
 //
 // Units: as printed beside each number. Errors: writing: a diagnostic that names the file.
 #pragma once

@@ -12,6 +12,7 @@
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
 #include "report/number_text.hpp"
+#include "report/picture/image.hpp"
 
 namespace frustum::report {
 namespace {
@@ -94,14 +95,21 @@ std::string padded(const std::string& text, std::size_t width, std::size_t shown
   return std::string(width > shown ? width - shown : 0, ' ') + text;
 }
 
+// Whether white is read better on it than black: the contrast of WCAG 2.2, with its luminance.
+bool is_dark(const Colour& colour) {
+  const double luminance = 0.2126 * static_cast<double>(linear_from_srgb(colour[0])) +
+                           0.7152 * static_cast<double>(linear_from_srgb(colour[1])) +
+                           0.0722 * static_cast<double>(linear_from_srgb(colour[2]));
+  return 1.05 / (luminance + 0.05) > (luminance + 0.05) / 0.05;
+}
+
 // The background of a cell: the row's largest effect of a typical error is the end of the scale.
 std::string cell_style(double effect, double largest) {
   if (largest <= 0.0 || std::abs(effect) <= 0.0) return {};
   const Colour colour = deviation_colour(effect, largest);
   const auto channel = [&](std::size_t i) { return std::lround(colour[i] * 255.0); };
-  const bool dark = std::abs(effect) > 0.6 * largest;
   return fmt::format(" style=\"background:rgb({},{},{});color:{}\"", channel(0), channel(1),
-                     channel(2), dark ? "#fff" : "#1a1c1f");
+                     channel(2), is_dark(colour) ? "#fff" : "#000");
 }
 
 // Three significant digits, of small numbers four decimals or one digit; nothing where nothing is.
@@ -132,7 +140,7 @@ std::string_view group_of(const NamedUnit& characteristic) {
 }
 
 std::string heat_map_head(const SensitivityTable& table, std::span<const Eigen::Index> columns) {
-  std::string html = "<thead><tr><th></th>";
+  std::string html = "<thead><tr><td></td>";
   for (const Eigen::Index k : columns) {
     const NamedUnit& p = table.parameters[static_cast<std::size_t>(k)];
     html += fmt::format("<th scope=\"col\" class=\"n\">{}<br><small>{}</small></th>",
@@ -141,18 +149,32 @@ std::string heat_map_head(const SensitivityTable& table, std::span<const Eigen::
   return html + "</tr></thead>";
 }
 
-// Columns without an answer are left out.
-std::string heat_map(const SensitivityTable& table, const Eigen::MatrixXd& matrix) {
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
-    if (answers(matrix, k)) columns.push_back(k);
+// How much a typical error changes a characteristic.
+double effect_of(const SensitivityTable& table, const Eigen::MatrixXd& matrix, Eigen::Index i,
+                 Eigen::Index k) {
+  const double value = std::abs(matrix(i, k)) < kNothing ? 0.0 : matrix(i, k);
+  return value * typical(table.parameters[static_cast<std::size_t>(k)]);
+}
+
+// The largest effect of each row: the end of its scale.
+std::vector<double> row_scales(const SensitivityTable& table, const Eigen::MatrixXd& matrix) {
+  std::vector<double> scales(static_cast<std::size_t>(matrix.rows()), 0.0);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+      const double effect = std::abs(effect_of(table, matrix, i, k));
+      double& scale = scales[static_cast<std::size_t>(i)];
+      if (std::isfinite(effect)) scale = std::max(scale, effect);
+    }
   }
-  const auto effect_of = [&](Eigen::Index i, Eigen::Index k) {
-    const double value = std::abs(matrix(i, k)) < kNothing ? 0.0 : matrix(i, k);
-    return value * typical(table.parameters[static_cast<std::size_t>(k)]);
-  };
+  return scales;
+}
+
+std::string heat_block(const SensitivityTable& table, const Eigen::MatrixXd& matrix,
+                       std::span<const Eigen::Index> columns, const std::vector<double>& scales) {
   std::string html =
-      "<div class=\"scroll\"><table class=\"heat\">" + heat_map_head(table, columns) + "<tbody>\n";
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Derivatives by " +
+      html_text(table.parameters[static_cast<std::size_t>(columns.front())].name) +
+      " and others\"><table class=\"heat\">" + heat_map_head(table, columns) + "<tbody>\n";
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     const NamedUnit& c = table.characteristics[static_cast<std::size_t>(i)];
     const bool begins =
@@ -160,37 +182,58 @@ std::string heat_map(const SensitivityTable& table, const Eigen::MatrixXd& matri
     html += fmt::format("<tr{}><th scope=\"row\">{} <small>{}</small></th>",
                         begins ? " class=\"begins\"" : "", html_text(c.name),
                         html_text(unit_symbol(c.unit)));
-    double largest = 0.0;
     for (const Eigen::Index k : columns) {
-      const double effect = std::abs(effect_of(i, k));
-      if (std::isfinite(effect)) largest = std::max(largest, effect);
-    }
-    for (const Eigen::Index k : columns) {
-      html += fmt::format("<td class=\"n\"{}>{}</td>", cell_style(effect_of(i, k), largest),
-                          page_cell(matrix(i, k)));
+      html += fmt::format(
+          "<td class=\"n\"{}>{}</td>",
+          cell_style(effect_of(table, matrix, i, k), scales[static_cast<std::size_t>(i)]),
+          page_cell(matrix(i, k)));
     }
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
 }
 
-// Some twenty columns of three digits fit the width of the sheet; on a narrow screen the names
-// stay.
+// Columns without an answer are left out; what does not fit the width of a sheet is a table below.
+std::string heat_map(const SensitivityTable& table, const Eigen::MatrixXd& matrix) {
+  constexpr std::size_t kMostColumns = 18;  // of a landscape sheet
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+    if (answers(matrix, k)) columns.push_back(k);
+  }
+  const std::vector<double> scales = row_scales(table, matrix);
+  const std::size_t blocks = (columns.size() + kMostColumns - 1) / kMostColumns;
+  std::string html;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t first = b * columns.size() / blocks;
+    const std::size_t last = (b + 1) * columns.size() / blocks;
+    html += heat_block(table, matrix, std::span(columns).subspan(first, last - first), scales);
+  }
+  return html;
+}
+
+// On a narrow screen the names stay while the columns are scrolled.
 constexpr const char* kStyle = R"(
 .sheet { padding-left: 24px; padding-right: 24px; }
 .heat { width: auto; font-size: 11px; line-height: 1.35; }
 .heat th { padding: 2px 3px; font-size: 11px; line-height: 1.15; }
-.heat small { opacity: .7; font-weight: 400; font-size: 10px; }
+.heat small { font-weight: 400; font-size: 10px; }
 .heat td { padding: 2px 3px; min-width: 2.9em; border-top: 0; }
 .heat th:last-child, .heat td:last-child { padding-right: 3px; }
+.scroll + .scroll { margin-top: 18px; }
 .heat thead th { border-bottom: 1px solid var(--faint); }
 .heat tbody tr:last-child td { border-bottom: 0; }
 .heat .begins > * { border-top: 1px solid var(--rule); }
 .heat th[scope=row] { padding: 2px 6px 2px 0; position: sticky; left: 0; background: var(--paper);
   color: var(--ink); vertical-align: top; line-height: 1.35; }
 .heat th[scope=row] small { line-height: 1; }
-@page { size: A4 landscape; margin: 10mm; }
-@media print { .heat, .heat th { font-size: 8.5pt; } section { margin-top: 20px; } }
+@page { size: A4 landscape; margin: 12mm 10mm 14mm; }
+@media print {
+  .sheet { padding: 0; }
+  .heat, .heat th { font-size: 8pt; }
+  .heat th, .heat td { padding: 2px 4px; }
+  .heat { break-inside: avoid; }
+  section { margin-top: 20px; }
+}
 )";
 
 }  // namespace
@@ -263,7 +306,9 @@ std::string sensitivity_text(const SensitivityTable& table, int width) {
 
 std::string sensitivity_html(const SensitivityTable& table) {
   std::string html = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+      "<meta name=\"color-scheme\" content=\"light dark\"><title>{0}</title>\n"
       "<style>{1}{4}</style>"
       "</head><body><main class=\"sheet\"><header><h1>{0}</h1><p>{2}, {3}</p></header>\n",
       html_text(table.title), page_style(), html_text(table.machine), html_text(table.method),

@@ -1,4 +1,4 @@
-// A scene that is turned with the mouse, and the buttons of its figure that show it from one side.
+// A scene that is turned with the mouse or the keyboard, and the buttons of its figure that show it from one side.
 import * as three from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -21,15 +21,44 @@ function distanceOf(box, back, camera, margin) {
   return distance;
 }
 
-// Scene and camera in `element`; nothing where the browser draws no 3D graphics, which it then says.
-// show(box, margin) begins: the box is in view from all sides.
+// Arrow keys turn about the target by 5 degrees, plus and minus zoom; the wheel zooms where Ctrl is held or the
+// view has the focus, and scrolls the page otherwise.
+function listen(element, camera, controls, render) {
+  const step = 5 * Math.PI / 180;
+  const turns = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]};
+  const zooms = {'+': 1 / 1.15, '=': 1 / 1.15, '-': 1.15};
+  const place = new three.Spherical();
+  const toUpY = new three.Quaternion().setFromUnitVectors(camera.up, new three.Vector3(0, 1, 0));
+  const fromUpY = toUpY.clone().invert();
+  element.addEventListener('keydown', (event) => {
+    const turn = turns[event.key], zoom = zooms[event.key];
+    if ((!turn && !zoom) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const back = camera.position.clone().sub(controls.target);
+    place.setFromVector3(back.applyQuaternion(toUpY));
+    if (turn) {
+      place.theta += turn[0];
+      place.phi += turn[1];
+      place.makeSafe();
+    }
+    if (zoom) place.radius *= zoom;
+    camera.position.setFromSpherical(place).applyQuaternion(fromUpY).add(controls.target);
+    controls.update();
+    render();
+  });
+  element.addEventListener('pointerdown', () => element.focus({preventScroll: true}));
+  element.addEventListener('wheel', (event) => {
+    if (!event.ctrlKey && document.activeElement !== element) event.stopImmediatePropagation();
+  }, {capture: true, passive: true});
+}
+
+// Scene and camera in `element`; nothing where the browser draws no 3D graphics: what is there without a script
+// remains. show(box, margin) begins: the box is in view from all sides.
 export function viewIn(element) {
   let renderer;
   try {
     renderer = new three.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
   } catch {
-    element.textContent = 'This browser draws no 3D graphics (WebGL is off).';
-    element.classList.add('missing');
     return null;
   }
   const scene = new three.Scene();
@@ -38,7 +67,9 @@ export function viewIn(element) {
   const canvas = renderer.domElement;
   element.append(canvas);
   const controls = new OrbitControls(camera, canvas);
+  canvas.style.touchAction = 'pan-y';  // a finger that moves up and down scrolls the page
   const render = () => renderer.render(scene, camera);
+  listen(element, camera, controls, render);
   const resize = () => {
     const width = element.clientWidth;
     const height = element.clientHeight;
@@ -65,6 +96,7 @@ export function viewIn(element) {
     for (const button of element.closest('figure').querySelectorAll('[data-view]')) {
       button.addEventListener('click', () => look(button.dataset.view));
     }
+    element.closest('figure').classList.add('live');
     controls.addEventListener('change', render);
     new ResizeObserver(resize).observe(element);
     resize();

@@ -9,6 +9,7 @@
 #include "core/whole_file.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
+#include "report/page/volume_drawing.hpp"
 
 namespace frustum::report {
 namespace {
@@ -39,9 +40,12 @@ std::string volume_data(const VolumetricPage& page) {
 }
 
 template <std::size_t columns>
-std::string table(const std::array<const char*, columns>& heads,
+std::string table(std::string_view label, const std::array<const char*, columns>& heads,
                   const std::vector<std::array<std::string, columns>>& rows, std::size_t words) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr>";
+  std::string html = fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>"
+      "<thead><tr>",
+      label);
   const auto cell = [&](const char* tag, std::size_t column, const std::string& text) {
     return fmt::format("<{0}{1}>{2}</{0}>", tag, column < words ? "" : " class=\"n\"",
                        html_text(text));
@@ -58,8 +62,10 @@ std::string table(const std::array<const char*, columns>& heads,
 
 std::string figure(const VolumetricPage& page) {
   std::string html =
-      "<figure class=\"surface\"><div class=\"view\" data-volume tabindex=\"0\" role=\"img\" "
-      "aria-label=\"Grid of the working volume with error vectors\"></div><div class=\"tools\">";
+      "<figure class=\"surface\"><div class=\"still\">" + volume_drawing(page) +
+      "</div><div class=\"view\" data-volume tabindex=\"0\" role=\"application\" "
+      "aria-label=\"Grid of the working volume with error vectors, to be turned: arrow keys turn, "
+      "plus and minus zoom\"></div><div class=\"tools\">";
   constexpr std::pair<const char*, const char*> kSides[] = {
       {"relative", "tool to workpiece"}, {"tool", "tool"}, {"workpiece", "workpiece"}};
   for (const auto& [side, text] : kSides) {
@@ -81,11 +87,15 @@ std::string figure(const VolumetricPage& page) {
       "<button type=\"button\" data-view=\"side\">Side</button></div>"
       "<div class=\"tools\"><output class=\"reading\"></output></div></figure>\n";
   return html +
-         "<p class=\"note\">Drag to turn, wheel to zoom, right button to move. Thin lines: the "
-         "grid "
-         "of the linear axes as commanded. Blue: the grid displaced by the errors. Arrows: the "
-         "error "
-         "at each point, in the directions of the machine's bed.</p>\n";
+         "<p class=\"note\">Thin lines: the grid of the linear axes as commanded. Blue: the grid "
+         "displaced by the errors. Orange: the error at each point, tool to workpiece, in the "
+         "directions of the machine's bed" +
+         fmt::format(", drawn {:g} times as large", magnification(page)) +
+         (page.views.empty() || page.views.front().position.empty()
+              ? std::string()
+              : ", at " + html_text(page.views.front().position)) +
+         ". <span class=\"hint\">Drag or use the arrow keys to turn; + and − or the wheel with "
+         "Ctrl to zoom.</span></p>\n";
 }
 
 }  // namespace
@@ -117,12 +127,14 @@ std::string volumetric_html(const VolumetricPage& page) {
     body += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", html_text(name), html_text(value));
   }
   body += "</dl></header>\n<main><section><h2>Errors over the volume</h2>\n";
-  body += table<4>({"", "maximum, µm", "mean, µm", "95 %, µm"}, page.statistics, 1);
+  body += table<4>("Errors over the volume", {"error of", "maximum, µm", "mean, µm", "95 %, µm"},
+                   page.statistics, 1);
   body += "<p class=\"note\">" + html_text(page.worst) + "</p></section>\n";
   body += "<section><h2>The working volume</h2>\n" + figure(page) + "</section>\n";
   if (!page.ranking.empty()) {
     body += "<section><h2>Which errors weigh most</h2>\n";
-    body += table<4>({"error", "meaning", "gain, rms over the volume", "share of mean square"},
+    body += table<4>("Ranking of the errors",
+                     {"error", "meaning", "gain, rms over the volume", "share of mean square"},
                      page.ranking, 2);
     body +=
         "<p class=\"note\">Gain: displacement of the tool relative to the workpiece by one µm or "

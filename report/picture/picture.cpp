@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/units.hpp"
+#include "core/whole_file.hpp"
 #include "report/colour_scale.hpp"
 #include "report/number_text.hpp"
 #include "report/picture/ground_shadow.hpp"
@@ -117,9 +118,7 @@ void draw_colour_bar(Image& image, double span) {
 
 }  // namespace
 
-Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
-                                            const SurfacePicture& picture,
-                                            const PictureOptions& options) {
+Result<std::string> picture_png(const SurfacePicture& picture, const PictureOptions& options) {
   if (std::optional<Diagnostic> complaint = complaint_about(picture, options)) {
     return std::move(*complaint);
   }
@@ -139,7 +138,15 @@ Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
   cast_ground_shadow(scene, image);
   shade(scene, span, image);
   if (has_bar) draw_colour_bar(image, span);
-  return write_png(path, image);
+  return png_bytes(image);
+}
+
+Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
+                                            const SurfacePicture& picture,
+                                            const PictureOptions& options) {
+  const auto bytes = picture_png(picture, options);
+  if (!bytes) return bytes.error();
+  return write_whole_file(path, *bytes);
 }
 
 }  // namespace frustum::report

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "core/result.hpp"
 #include "report/run_report.hpp"
@@ -25,6 +26,9 @@ struct PictureOptions {
   bool colour_bar = true;  // drawn only when some deviation is known
 };
 
+// What the file holds.
+[[nodiscard]] Result<std::string> picture_png(const SurfacePicture& picture,
+                                              const PictureOptions& options = {});
 [[nodiscard]] Result<std::filesystem::path> write_picture(const std::filesystem::path& path,
                                                           const SurfacePicture& picture,
                                                           const PictureOptions& options = {});

@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/whole_file.hpp"
-
 namespace frustum::report {
 
-Result<std::filesystem::path> write_png(const std::filesystem::path& path, const Image& image) {
+Result<std::string> png_bytes(const Image& image) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * 3);
   for (const LinearColour& pixel : image.pixels) {
@@ -28,14 +26,14 @@ Result<std::filesystem::path> write_png(const std::filesystem::path& path, const
   png.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = 0;
   if (png_image_write_to_memory(&png, nullptr, &size, 0, bytes.data(), 0, nullptr) == 0) {
-    return cannot_write(path, png.message);
+    return error("picture-png"_id, std::string("the picture cannot be coded: ") + png.message);
   }
   std::string file(size, '\0');
   if (png_image_write_to_memory(&png, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0) {
-    return cannot_write(path, png.message);
+    return error("picture-png"_id, std::string("the picture cannot be coded: ") + png.message);
   }
   file.resize(size);
-  return write_whole_file(path, file);
+  return file;
 }
 
 }  // namespace frustum::report

@@ -1,16 +1,15 @@
-// An image as a PNG file, 8 bits a channel, sRGB.
+// An image as the bytes of a PNG file, 8 bits a channel, sRGB.
 //
-// Units: pixels. Errors: a diagnostic that names the file and the reason when it cannot be written.
+// Units: pixels. Errors: a diagnostic with libpng's reason when it cannot be coded.
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "core/result.hpp"
 #include "report/picture/image.hpp"
 
 namespace frustum::report {
 
-[[nodiscard]] Result<std::filesystem::path> write_png(const std::filesystem::path& path,
-                                                      const Image& image);
+[[nodiscard]] Result<std::string> png_bytes(const Image& image);
 
 }  // namespace frustum::report

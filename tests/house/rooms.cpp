@@ -18,7 +18,7 @@ const std::map<std::string, Room>& rooms() {
       {"cutter", {4, {"body", "sweep", "search"}}},
       {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral"}}},
       {"programs", {6, {"cone", "step"}}},
-      {"report", {6, {"html", "page", "picture", "exchange", "sheet"}}},
+      {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"app", {9, {"job", "view", "command"}}},

@@ -1,0 +1,219 @@
+// Pages as a customer sees them, in Chromium: offline, without a message on the console, without a violation that
+// axe-core knows, on a telephone of 390 px, on paper, by keyboard, and without JavaScript.
+//
+// node pages_test.mjs FRUSTUM SOURCE_FOLDER WORK_FOLDER AXE_SCRIPT
+// Pictures and PDF files stay in the work folder. Exit code 77: skipped, no Chromium or no axe-core.
+import {spawnSync} from 'node:child_process';
+import {existsSync, mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {Browser, findChromium} from './chromium.mjs';
+
+const [frustum, source, work, axe] = process.argv.slice(2);
+const chromium = findChromium();
+if (!chromium || !existsSync(axe)) {
+  console.log(`skipped: ${chromium ? `no axe-core at ${axe}` : 'there is no Chromium (CHROMIUM names one)'}`);
+  process.exit(77);
+}
+rmSync(work, {recursive: true, force: true});
+mkdirSync(work, {recursive: true});
+
+let failures = 0;
+function expect(holds, page, what) {
+  if (holds) return;
+  ++failures;
+  console.error(`${page}: ${what}`);
+}
+
+function run(...args) {
+  const {status, stderr} = spawnSync(frustum, args, {cwd: work, encoding: 'utf8'});
+  if (status !== 0 && status !== 1) throw new Error(`frustum ${args.join(' ')}: ${stderr}`);
+}
+
+// Every kind of page; "uncertain" has one characteristic of each verdict that a CMM of 2 um gives it.
+function makePages() {
+  run('program', 'cone', '--machine', 'iwf-bc', '--out', 'piece', '--chord-tolerance', '1');
+  const job = readFileSync(join(work, 'piece/job.toml'), 'utf8');
+  const plan = readFileSync(join(work, 'piece/cone.plan.toml'), 'utf8');
+  writeFileSync(join(work, 'piece/judged.plan.toml'),
+                plan.replace('"600 urad"', '"20 urad"').replace('"100 um"', '"0.1 um"'));
+  writeFileSync(join(work, 'piece/judged.toml'),
+                job.replace('cone.plan.toml', 'judged.plan.toml')
+                    .replace('{ e0 = "0 um" }', '{ e0 = "2 um", l_per_um = 300, seed = 1 }\ndecision = "iso14253"') +
+                    '\n[report]\npart = "Cone"\nserial_number = "0042"\norder = "4711"\noperator = "A. Example"\n' +
+                    'date = "2026-11-23"\ncmm = "CMM 7, no. 12"\n');
+  run('run', 'piece/job.toml', '--out', 'ideal', '--quiet');
+  run('run', 'piece/judged.toml', '--out', 'judged', '--quiet');
+  run('run', join(source, 'examples/ibaraki-2010/workpiece-1/job.toml'), '--out', 'step', '--quiet');
+  run('volumetric', 'iwf-bc', '--error', 'EB0Z=20urad', '--error', 'EXX=linear 10um', '--tolerance',
+      'displacements=10um', '--tolerance', 'rotations=20urad', '--out', 'volumetric', '--json');
+  run('sensitivity', join(source, 'examples/ibaraki-2010/workpiece-1/job.toml'), '--out', 'sensitivity', '--json');
+  return {
+    ideal: 'ideal/report.html',
+    judged: 'judged/report.html',
+    step: 'step/report.html',
+    volumetric: 'volumetric/volumetric.html',
+    sensitivity: 'sensitivity/sensitivity.html',
+  };
+}
+
+const browser = await Browser.start(chromium);
+const messages = [];
+const requests = [];
+browser.on((method, params) => {
+  if (method === 'Runtime.consoleAPICalled') messages.push(params.args.map((a) => a.value).join(' '));
+  if (method === 'Runtime.exceptionThrown') messages.push(params.exceptionDetails.exception?.description);
+  if (method === 'Log.entryAdded') messages.push(params.entry.text);
+  if (method === 'Network.requestWillBeSent' && !/^(file|data|blob):/.test(params.request.url)) {
+    requests.push(params.request.url);
+  }
+});
+
+async function picture(name) {
+  const {data} = await browser.send('Page.captureScreenshot', {captureBeyondViewport: true});
+  writeFileSync(join(work, `${name}.png`), Buffer.from(data, 'base64'));
+}
+
+async function violations(page, scheme) {
+  await browser.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: scheme}]});
+  await browser.evaluate(readFileSync(axe, 'utf8'));
+  const found = await browser.evaluate(`axe.run(document, {resultTypes: ['violations']}).then((r) =>
+      r.violations.map((v) => v.id + ': ' + v.help + ' (' + v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join(' | ') + ')'))`);
+  for (const violation of found) expect(false, page, `${scheme}: ${violation}`);
+}
+
+// What is cut, or makes the page scroll sideways.
+const overflow = `(() => {
+  const wide = document.scrollingElement.scrollWidth - document.documentElement.clientWidth;
+  return wide > 0 ? 'the page is ' + wide + ' px too wide' : '';
+})()`;
+const hiddenCells = `[...document.querySelectorAll('.cards tbody td')].filter((cell) => {
+  if (cell.textContent === '') return false;
+  const box = cell.getBoundingClientRect();
+  return box.width === 0 || box.left < 0 || box.right > document.documentElement.clientWidth + 0.5;
+}).map((cell) => cell.dataset.label).join(', ')`;
+
+async function checkTelephone(page) {
+  await browser.size(390, 844, true);
+  await browser.evaluate('new Promise((done) => setTimeout(done, 200))');  // the view follows its new size
+  const wide = await browser.evaluate(overflow);
+  expect(wide === '', page, `390 px: ${wide}`);
+  const hidden = await browser.evaluate(hiddenCells);
+  expect(hidden === '', page, `390 px: not seen: ${hidden}`);
+  await picture(`${page}-390`);
+}
+
+async function checkKeyboard(page) {
+  const has = await browser.evaluate(`(() => {
+    const view = document.querySelector('.live .view');
+    if (!view) return false;
+    view.scrollIntoView({block: 'center'});
+    return true;
+  })()`);
+  const isView = await browser.evaluate(`document.querySelector('.view') !== null`);
+  expect(has || !isView, page, 'the 3D view is not drawn');
+  if (!has) return;
+  const shown = () => browser.evaluate(`document.querySelector('.view canvas').toDataURL()`);
+  const before = await shown();
+  // The wheel over the view scrolls the page unless the view has the focus.
+  const {x, y} = await browser.evaluate(`(() => {
+    const box = document.querySelector('.view').getBoundingClientRect();
+    return {x: box.left + box.width / 2, y: box.top + box.height / 2};
+  })()`);
+  const scrolled = () => browser.evaluate('window.scrollY');
+  const start = await scrolled();
+  await browser.send('Input.dispatchMouseEvent', {type: 'mouseWheel', x, y, deltaX: 0, deltaY: -120});
+  await browser.evaluate('new Promise((done) => setTimeout(done, 400))');
+  expect(await scrolled() !== start, page, 'the wheel over the 3D view does not scroll the page');
+  expect(await shown() === before, page, 'the wheel over the 3D view zooms without Ctrl or focus');
+  await browser.evaluate(`document.querySelector('.view').focus()`);
+  let last = before;
+  for (const key of ['ArrowLeft', 'ArrowDown', '+']) {
+    await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', key, text: key === '+' ? '+' : undefined});
+    await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', key});
+    const now = await shown();
+    expect(now !== last, page, `${key} does not change the 3D view`);
+    last = now;
+  }
+}
+
+async function checkPaper(page) {
+  await browser.send('Emulation.setEmulatedMedia', {media: 'print'});
+  const left = await browser.evaluate(`[...document.querySelectorAll('.hint, .tools, canvas, button')].filter((e) =>
+      e.getClientRects().length > 0).map((e) => e.className || e.tagName).join(', ')`);
+  expect(left === '', page, `on paper: ${left}`);
+  await browser.send('Emulation.setEmulatedMedia', {media: ''});
+  const {data} = await browser.send('Page.printToPDF', {preferCSSPageSize: true, printBackground: true});
+  const file = join(work, `${page}.pdf`);
+  writeFileSync(file, Buffer.from(data, 'base64'));
+  const {status, stdout} = spawnSync('pdftotext', ['-layout', file, '-'], {encoding: 'utf8'});
+  if (status !== 0) return;  // no poppler: the pages are there to be looked at
+  const pages = stdout.split('\f').slice(0, -1);
+  pages.forEach((text, k) => {
+    const words = text.trim().split(/\s+/).length;
+    expect(words > 8, page, `on paper: page ${k + 1} has ${words} words`);
+    expect(new RegExp(`\\b${k + 1} ?/ ?${pages.length}\\b`).test(text), page, `on paper: page ${k + 1} has no number`);
+  });
+  expect(!/Drag|wheel/.test(stdout), page, 'on paper: hints for the mouse');
+}
+
+// Tables and charts, and a picture of the part, as HTML alone.
+async function checkWithoutScript(page, url) {
+  await browser.send('Emulation.setScriptExecutionDisabled', {value: true});
+  await browser.load(url);
+  const {root} = await browser.send('DOM.getDocument');
+  const boxes = async (selector) => {
+    const {nodeIds} = await browser.send('DOM.querySelectorAll', {nodeId: root.nodeId, selector});
+    const seen = await Promise.all(nodeIds.map((nodeId) => browser.send('DOM.getBoxModel', {nodeId}).catch(() => null)));
+    return {all: nodeIds.length, seen: seen.filter((box) => box && box.model.height > 40).length};
+  };
+  const figures = await boxes('figure');
+  expect(figures.seen === figures.all, page, `without JavaScript ${figures.all - figures.seen} figures are empty`);
+  await picture(`${page}-without-script`);
+  await browser.send('Emulation.setScriptExecutionDisabled', {value: false});
+}
+
+try {
+  const pages = makePages();
+  await browser.send('Network.emulateNetworkConditions',
+                     {offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0});
+  for (const [page, file] of Object.entries(pages)) {
+    const url = pathToFileURL(join(work, file)).href;
+    await browser.size(1200, 900);
+    await browser.load(url);
+    await browser.evaluate('new Promise((done) => setTimeout(done, 500))');
+    await picture(page);
+    const wide = await browser.evaluate(overflow);
+    expect(wide === '', page, wide);
+    await checkKeyboard(page);
+    await violations(page, 'light');
+    await violations(page, 'dark');
+    await picture(`${page}-dark`);
+    await violations(page, 'light');
+    await checkTelephone(page);
+    await browser.size(1200, 900);
+    await checkPaper(page);
+    expect(messages.length === 0, page, `on the console: ${messages.splice(0).join(' | ')}`);
+    await checkWithoutScript(page, url);
+    messages.length = 0;
+  }
+  expect(requests.length === 0, 'all', `asked for: ${requests.join(', ')}`);
+  const words = async (page) => {
+    await browser.load(pathToFileURL(join(work, pages[page])).href);
+    return browser.evaluate('document.body.innerText');
+  };
+  // What a metrologist asks: what was measured, with what, by which rule, is it inside, how uncertain is it.
+  const judged = await words('judged');
+  for (const answer of ['0042', '4711', 'A. Example', '2026-11-23', 'CMM 7, no. 12', 'E0 = 2 µm', 'ball diameter',
+                        'ISO 14253-1: pass where', 'datums A | C | groove', 'uncertain', 'SHA-256']) {
+    expect(judged.includes(answer), 'judged', `does not say "${answer}"`);
+  }
+  expect((await words('ideal')).includes('U = 0: no error of the CMM is stated'), 'ideal', 'does not say that U = 0');
+} finally {
+  await browser.close();
+}
+if (failures > 0) {
+  console.error(`${failures} faults; pictures are in ${work}`);
+  process.exit(1);
+}
+console.log(`all pages are sound; pictures are in ${work}`);
