@@ -17,7 +17,9 @@ PlotScale scale_of(const AxisTrace& trace, bool rotary) {
     if (series.rotary != rotary) continue;
     for (const double value : series.values) range.include(value);
   }
-  return {range.widened(0.05, 1.0), rotary ? "rotary axes, degrees" : "linear axes, mm"};
+  // Not the same room: an axis that rests would lie under one of the other scale.
+  return {range.widened(rotary ? 0.13 : 0.05, 1.0),
+          rotary ? "rotary axes, degrees" : "linear axes, mm"};
 }
 
 }  // namespace
