@@ -29,7 +29,7 @@ table { border-collapse: collapse; width: 100%; }
 th { text-align: left; font-weight: 600; color: var(--faint); border-bottom: 1px solid var(--ink);
   padding: 3px 10px 3px 0; }
 td { border-bottom: 1px solid var(--rule); padding: 3px 10px 3px 0; white-space: nowrap; }
-td.wide { white-space: normal; } .n { text-align: right; }
+td.wide { white-space: normal; min-width: 13em; } .n { text-align: right; }
 td.b { font-weight: 600; }
 .cards { display: grid; grid-template-columns: 1fr 1fr; gap: 14px 22px; }
 .card { border-top: 1px solid var(--ink); padding-top: 5px; break-inside: avoid; }
@@ -53,7 +53,8 @@ text { font-size: 12px; fill: var(--ink); paint-order: stroke; stroke: #fff; str
 .legend b.c { color: var(--cut); } .legend b.t { color: var(--accent); }
 @media screen and (max-width: 760px) { .top, .cards { grid-template-columns: 1fr; } main { padding: 20px; }
   .scroll { overflow-x: auto; } }
-@page { size: A4; margin: 11mm; }
+@page { size: A4; margin: 11mm 11mm 15mm;
+  @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #5d6875; } }
 @media print { body { background: #fff; font-size: 8.5pt; }
   main { border: 0; margin: 0; padding: 0; max-width: none; } .cards { gap: 4px 18px; }
   h2 { margin: 12px 0 5px; break-after: avoid; } th, td { padding: 1.5px 8px 1.5px 0; } h1 { font-size: 17pt; }
@@ -76,7 +77,8 @@ std::string facts_of(const SetupSheet& sheet) {
 
 std::string step_table(const SetupSheet& sheet) {
   std::string html =
-      "<div class=\"scroll\"><table><thead><tr><th>Step</th><th>Table</th>"
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"Steps\"><table><thead><tr><th>Step</th><th>Table</th>"
       "<th class=\"n\">X from</th><th class=\"n\">Y from</th><th class=\"n\">Z from</th>"
       "<th class=\"n\">X to</th><th class=\"n\">Y to</th><th class=\"n\">Z to</th>"
       "<th class=\"n\">NC lines</th><th>Cuts</th></tr></thead><tbody>\n";

@@ -48,12 +48,14 @@ function makePages() {
   run('volumetric', 'iwf-bc', '--error', 'EB0Z=20urad', '--error', 'EXX=linear 10um', '--tolerance',
       'displacements=10um', '--tolerance', 'rotations=20urad', '--out', 'volumetric', '--json');
   run('sensitivity', join(source, 'examples/ibaraki-2010/workpiece-1/job.toml'), '--out', 'sensitivity', '--json');
+  run('program', 'step', '--machine', 'zx-yac', '--patterns', '1-a,2-a', '--out', 'sheet');
   return {
     ideal: 'ideal/report.html',
     judged: 'judged/report.html',
     step: 'step/report.html',
     volumetric: 'volumetric/volumetric.html',
     sensitivity: 'sensitivity/sensitivity.html',
+    sheet: 'sheet/setup.html',
   };
 }
 
