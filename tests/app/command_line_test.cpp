@@ -59,7 +59,7 @@ TEST_F(CommandLineSystem, DrawsAxesOverTheConeAngleWhereTheJobSaysSo) {
   const auto drawn_over_angle = [this] {
     EXPECT_EQ(run("run piece/job.toml --out result --quiet").exit_code, 0);
     const std::string page = read(folder_ / "result/report.html");
-    const std::string_view sought = "\"abscissa_kind\":\"cone_angle\"";
+    const std::string_view sought = "cone angle φ, degrees";
     int count = 0;
     for (auto at = page.find(sought); at != std::string::npos; at = page.find(sought, at + 1))
       ++count;
