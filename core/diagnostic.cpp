@@ -9,22 +9,24 @@
 namespace frustum {
 
 Diagnostic error(DiagnosticId id, std::string message, std::string hint) {
-  return {.id = id, .message = std::move(message), .hint = std::move(hint)};
+  return {.id = id, .message = shortened(std::move(message)), .hint = shortened(std::move(hint))};
 }
 
 Diagnostic error(std::string message, std::string hint) {
-  return {.message = std::move(message), .hint = std::move(hint)};
+  return {.message = shortened(std::move(message)), .hint = shortened(std::move(hint))};
 }
 
 Diagnostic warning(DiagnosticId id, std::string message, std::string hint) {
   return {.severity = Severity::warning,
           .id = id,
-          .message = std::move(message),
-          .hint = std::move(hint)};
+          .message = shortened(std::move(message)),
+          .hint = shortened(std::move(hint))};
 }
 
 Diagnostic warning(std::string message, std::string hint) {
-  return {.severity = Severity::warning, .message = std::move(message), .hint = std::move(hint)};
+  return {.severity = Severity::warning,
+          .message = shortened(std::move(message)),
+          .hint = shortened(std::move(hint))};
 }
 
 std::string to_string(Severity severity) {

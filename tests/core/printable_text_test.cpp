@@ -17,6 +17,20 @@ TEST(PrintableText, WritesControlCharactersOut) {
             "\\x9B31m");
 }
 
+TEST(ShortenedText, Fault2_31_CutsLongNumbersAndWords) {
+  const std::string digits(200, '1');
+  EXPECT_EQ(shortened("at [" + digits + ".000] mm"),
+            "at [" + std::string(20, '1') + "... (200 characters).000] mm");
+  EXPECT_EQ(shortened(std::string(40, '1') + " is left"), std::string(40, '1') + " is left");
+  EXPECT_EQ(shortened("/" + std::string(299, 'p')), "/" + std::string(299, 'p'));
+  EXPECT_EQ(shortened("word " + std::string(5000000, 'x')),
+            "word " + std::string(40, 'x') + "... (5000000 characters)");
+  // Between characters, not within one.
+  EXPECT_EQ(shortened("x" + std::string(39, 'y') + "\u00e4" + std::string(300, 'z')),
+            "x" + std::string(39, 'y') + "... (342 characters)");
+  EXPECT_EQ(error("wrong"_id, digits, digits).hint, std::string(20, '1') + "... (200 characters)");
+}
+
 TEST(PrintableText, LeavesTextAndTabs) {
   EXPECT_EQ(printable("G1\tX1 \xC3\xBC \xFF"), "G1\tX1 \xC3\xBC \xFF");
 }
