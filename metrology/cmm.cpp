@@ -148,6 +148,24 @@ Diagnostic at(const FeaturePoints& points, Diagnostic d) {
   return d;
 }
 
+// A section that the plan's strategy does not have.
+std::optional<Diagnostic> unknown_section(const PlannedFeature& feature,
+                                          const FeaturePoints& points) {
+  const std::size_t count = section_count(feature);
+  for (std::size_t i = 0; i < points.sections.size(); ++i) {
+    if (points.sections[i] < count) continue;
+    Diagnostic d =
+        error("unknown-section"_id,
+              fmt::format("'{}' has {} section{} in the plan, there is no section {}", feature.name,
+                          count, count == 1 ? "" : "s", points.sections[i]),
+              "the first section is 0; without the column the nearest one is taken");
+    d.file = points.file;
+    d.line = i < points.lines.size() ? points.lines[i] : points.line;
+    return d;
+  }
+  return std::nullopt;
+}
+
 // Points of a feature that the plan does not have.
 Diagnostic unknown_feature(const InspectionPlan& plan, const FeaturePoints& points) {
   if (points.feature.empty()) {
@@ -222,6 +240,7 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
     const PlannedFeature* feature =
         nameless ? &plan.features.front() : find_feature(plan, points.feature);
     if (feature == nullptr) return unknown_feature(plan, points);
+    if (auto unknown = unknown_section(*feature, points)) return *std::move(unknown);
     std::vector<std::size_t> sections = points.sections;
     if (sections.size() != points.points.size()) {
       sections.clear();

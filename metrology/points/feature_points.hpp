@@ -19,6 +19,7 @@ struct FeaturePoints {
   // Where the first of them is, for diagnostics; empty and 0 when that is no line of a file.
   std::string file{};
   int line = 0;
+  std::vector<int> lines{};  // of each point; empty where that is no line
 };
 enum class PointMeaning { surface, ball_centre };
 

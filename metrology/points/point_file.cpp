@@ -4,77 +4,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <unordered_map>
 
 #include "core/spelling.hpp"
+#include "core/text_encoding.hpp"
 #include "core/whole_file.hpp"
+#include "metrology/points/line_words.hpp"
 #include "metrology/points/ply_points.hpp"
 
 namespace frustum::metrology {
 namespace {
-
-struct Word {
-  std::string text;
-  int column;  // 1-based
-};
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-// The line without its comment, and the comment; a # within quotes begins none.
-std::pair<std::string_view, std::string_view> split_comment(std::string_view line) {
-  bool quoted = false;
-  for (std::size_t at = 0; at < line.size(); ++at) {
-    if (line[at] == '"') quoted = !quoted;
-    if (line[at] == '#' && !quoted) return {line.substr(0, at), line.substr(at + 1)};
-  }
-  return {line, {}};
-}
-
-// A field in quotes, from the first of them; a doubled quote represents one.
-std::string unquoted(std::string_view line, std::size_t& at) {
-  std::string text;
-  for (++at; at < line.size(); ++at) {
-    if (line[at] == '"' && (at + 1 >= line.size() || line[at + 1] != '"')) {
-      ++at;
-      break;
-    }
-    if (line[at] == '"') ++at;
-    text += line[at];
-  }
-  return text;
-}
-
-// Splits at commas or semicolons when the line has any, at blanks otherwise.
-std::vector<Word> words_of(std::string_view line) {
-  std::vector<Word> words;
-  const bool separated = line.find_first_of(",;") != std::string_view::npos;
-  const auto ends_word = [&](char c) { return separated ? c == ',' || c == ';' : is_blank(c); };
-  std::size_t at = 0;
-  while (at <= line.size()) {
-    while (at < line.size() && is_blank(line[at])) ++at;
-    if (!separated && at == line.size()) break;
-    const std::size_t first = at;
-    std::string text;
-    if (at < line.size() && line[at] == '"') text = unquoted(line, at);
-    const std::size_t plain = at;
-    while (at < line.size() && !ends_word(line[at])) ++at;
-    std::string_view rest = line.substr(plain, at - plain);
-    while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
-    words.push_back({text + std::string(rest), static_cast<int>(first) + 1});
-    ++at;
-  }
-  return words;
-}
-
-std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 Diagnostic unlike_units(const LengthUnit& stated, const LengthUnit& asked) {
   return error("length-unit"_id,
@@ -92,24 +33,16 @@ class PointReader {
   PointReader(const std::filesystem::path& file, const std::optional<LengthUnit>& unit)
       : file_(file.string()), default_unit_(unit) {}
 
-  Result<std::vector<FoundPoints>> read(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of spreadsheets
-    bool first = true;
+  Result<std::vector<FoundPoints>> read(std::string_view bytes) {
+    const auto decoded = utf8_text(bytes);
+    if (!decoded) return placed(decoded.error().front(), 0);
+    std::string_view text = *decoded;
     while (!text.empty()) {
       ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      const auto [line, comment] = split_comment(text.substr(0, end));
-      text.remove_prefix(std::min(end + 1, text.size()));
-      const auto stated = stated_unit(comment);
-      if (!stated) return placed(stated.error().front(), static_cast<int>(line.size()) + 1);
-      if (*stated) {
-        if (auto problem = take_unit(**stated, static_cast<int>(line.size()) + 1)) return *problem;
-      }
-      const std::vector<Word> words = words_of(line);
-      if (words.empty() || (words.size() == 1 && words.front().text.empty())) continue;
-      auto problem = first ? first_line(words) : point_line(words);
-      first = false;
-      if (problem) return *problem;
+      const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+      if (auto problem = take_line(text.substr(0, end))) return *problem;
+      text.remove_prefix(end);
+      text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
     }
     if (auto problem = wrong_count()) return *problem;
     return std::move(found_);
@@ -117,6 +50,28 @@ class PointReader {
 
  private:
   using Problem = std::optional<Diagnostic>;
+
+  Problem take_line(std::string_view whole) {
+    const auto [line, comment] = split_comment(whole);
+    const int after = static_cast<int>(line.size()) + 1;
+    const auto stated = stated_unit(comment);
+    if (!stated) return placed(stated.error().front(), after);
+    if (*stated) {
+      if (auto problem = take_unit(**stated, after)) return problem;
+    }
+    const std::vector<Word> words = words_of(line);
+    if (words.empty() || (words.size() == 1 && words.front().text.empty())) return std::nullopt;
+    const bool is_first = !has_begun_;
+    has_begun_ = true;
+    auto problem = is_first ? first_line(words) : point_line(words);
+    if (!problem) return problem;
+    // What is wrong with the columns comes of the comma.
+    const auto written = decimal_comma(line);
+    if (!written) return problem;
+    return fault("decimal-comma"_id, written->column,
+                 fmt::format("'{}' is written with a decimal comma", written->text),
+                 "write numbers with a decimal point: a comma separates columns");
+  }
 
   [[nodiscard]] Diagnostic placed(Diagnostic d, int column) const {
     d.file = file_;
@@ -178,7 +133,9 @@ class PointReader {
 
   Problem header(const std::vector<Word>& words) {
     stated_above_ = unit_.has_value();
-    const std::vector<std::string> known{"feature", "section", "x", "y", "z", "weight"};
+    has_header_ = true;
+    const std::vector<std::string> known{"feature", "section", "x", "y",     "z",
+                                         "i",       "j",       "k", "weight"};
     columns_.clear();
     for (const Word& word : words) {
       ApproachDirection heading = approach_direction_of(word.text);
@@ -211,7 +168,7 @@ class PointReader {
     const Word* without = nullptr;
     for (const Word& word : words) {
       const ApproachDirection heading = approach_direction_of(word.text);
-      if (heading.name.size() == 1) (heading.unit.empty() ? without : with) = &word;
+      if (is_coordinate(heading.name)) (heading.unit.empty() ? without : with) = &word;
     }
     if (with == nullptr || without == nullptr) return std::nullopt;
     return fault("length-unit"_id, without->column,
@@ -223,18 +180,33 @@ class PointReader {
   Problem unit_of_column(const ApproachDirection& heading, const Word& word) {
     if (heading.unit.empty()) return std::nullopt;
     const auto unit = length_unit(heading.unit);
-    const bool is_coordinate = heading.name.size() == 1;
-    if (unit && is_coordinate) return take_unit(*unit, word.column);
+    const bool has_unit = is_coordinate(heading.name);
+    if (unit && has_unit) return take_unit(*unit, word.column);
     return fault("length-unit"_id, word.column,
                  fmt::format("'{}' is not a unit for column '{}'", heading.unit, heading.name),
-                 is_coordinate ? "mm, um, nm, cm, m or inch" : "leave the unit out");
+                 has_unit ? "mm, um, nm, cm, m or inch" : "leave the unit out");
+  }
+
+  // Without a header six numbers are a point and the unit direction of its surface or approach.
+  [[nodiscard]] static bool has_direction(const std::vector<Word>& words) {
+    if (words.size() != 6) return false;
+    Vec3 direction;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto number = number_in(words[3 + k].text);
+      if (!number) return false;
+      direction[static_cast<Eigen::Index>(k)] = *number;
+    }
+    // Files round directions to three digits or more.
+    return std::abs(direction.norm() - 1.0) < 0.01;
   }
 
   Problem point_line(const std::vector<Word>& words) {
-    if (words.size() != columns_.size()) {
-      return fault("point-columns"_id, words.back().column,
-                   fmt::format("{} columns, expected {}", words.size(), columns_.size()),
-                   fmt::format("a line holds {}", joined_columns()));
+    if (!has_header_ && found_.empty() && has_direction(words)) {
+      columns_ = {"x", "y", "z", "i", "j", "k"};
+    }
+    if (words.size() != columns_.size() ||
+        (!has_header_ && words.size() == 6 && !has_direction(words))) {
+      return wrong_columns(words);
     }
     std::string_view feature;
     std::optional<std::size_t> section;
@@ -243,7 +215,7 @@ class PointReader {
     for (std::size_t i = 0; i < words.size(); ++i) {
       const Word& word = words[i];
       if (columns_[i] == "feature") {
-        feature = word.text;
+        feature = without_guard(word.text);
         continue;
       }
       const auto number = number_in(word.text);
@@ -266,20 +238,52 @@ class PointReader {
                        fmt::format("'{}' is not a weight", word.text), "weights are 0 or more");
         }
         weight = *number;
-      } else {
+      } else if (is_coordinate(columns_[i])) {
         point[columns_[i][0] - 'x'] = *number;
       }
     }
-    auto place = std::find_if(found_.begin(), found_.end(),
-                              [&](const FoundPoints& f) { return f.feature.feature == feature; });
-    if (place == found_.end()) {
-      found_.push_back({{std::string(feature), {}, {}, file_, line_}, {}});
-      place = found_.end() - 1;
-    }
-    place->feature.points.push_back(mm() * point);
-    if (section) place->feature.sections.push_back(*section);
-    if (weight) place->weights.push_back(*weight);
+    FoundPoints& place = points_of(feature);
+    place.feature.points.push_back(mm() * point);
+    place.feature.lines.push_back(line_);
+    if (section) place.feature.sections.push_back(*section);
+    if (weight) place.weights.push_back(*weight);
     return std::nullopt;
+  }
+
+  [[nodiscard]] Diagnostic wrong_columns(const std::vector<Word>& words) const {
+    if (!has_header_ && words.size() == 6) {
+      return fault("point-columns"_id, words[3].column,
+                   "6 columns, and the last three are no unit direction",
+                   "a line holds x, y, z, or x, y, z and the direction i, j, k of length 1; "
+                   "decimals have a point");
+    }
+    return fault("point-columns"_id, words.back().column,
+                 fmt::format("{} columns, expected {}", words.size(), columns_.size()),
+                 fmt::format("a line holds {}", joined_columns()));
+  }
+
+  // The apostrophe that keeps spreadsheets from taking a name for a formula.
+  [[nodiscard]] static std::string_view without_guard(std::string_view name) {
+    const auto first = name.find_first_not_of('\'');
+    const bool guarded = first != 0 && first != std::string_view::npos &&
+                         std::string_view("=+-@\t").find(name[first]) != std::string_view::npos;
+    return name.substr(guarded ? 1 : 0);
+  }
+
+  FoundPoints& points_of(std::string_view feature) {
+    const auto [place, is_new] = places_.try_emplace(std::string(feature), found_.size());
+    if (is_new) {
+      found_.push_back({});
+      found_.back().feature.feature = feature;
+      found_.back().feature.file = file_;
+      found_.back().feature.line = line_;
+    }
+    return found_[place->second];
+  }
+
+  // Those that have the unit of the file.
+  [[nodiscard]] static bool is_coordinate(std::string_view column) {
+    return column == "x" || column == "y" || column == "z";
   }
 
   [[nodiscard]] double mm() const {
@@ -297,9 +301,12 @@ class PointReader {
   std::optional<LengthUnit> unit_;  // as the file says
   bool stated_above_ = false;       // of the header
   int line_ = 0;
+  bool has_begun_ = false;  // a line that is not blank
+  bool has_header_ = false;
   std::vector<std::string> columns_{"x", "y", "z"};
   std::optional<double> count_;
   std::vector<FoundPoints> found_;
+  std::unordered_map<std::string, std::size_t> places_;  // in it, by the name of the feature
 };
 
 Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
@@ -316,7 +323,10 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
   if (!problems.empty()) return problems;
   const double mm = ply->unit ? ply->unit->mm : unit ? unit->mm : 1.0;
   for (Vec3& point : ply->points) point *= mm;
-  return std::vector<FoundPoints>{{{"", std::move(ply->points), {}, file.string(), 0}, {}}};
+  FoundPoints found;
+  found.feature.points = std::move(ply->points);
+  found.feature.file = file.string();
+  return std::vector<FoundPoints>{std::move(found)};
 }
 
 Result<std::vector<FoundPoints>> read_file(const std::filesystem::path& file,

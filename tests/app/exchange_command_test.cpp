@@ -108,6 +108,40 @@ TEST_F(ExchangeSystem, FitsAnElementAndSaysAllAboutIt) {
   EXPECT_NE(run("fit --help").out.find("Example: frustum fit"), std::string::npos);
 }
 
+TEST_F(ExchangeSystem, Fault2_60_FailuresAreJsonToo) {
+  write_plan();
+  write("p.csv", tube_points());
+  write("bad.csv", "1 2 3\n4 nan 6\n");
+  for (const std::string command :
+       {"measure --plan tube.plan.toml --points bad.csv --json", "fit cylinder bad.csv --json",
+        "measure --plan none.toml --points p.csv --json", "fit torus p.csv --unit ell --json",
+        "measure none.toml --json", "measure none.toml --unit mm --json", "run none.toml --json"}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    const json doc = json::parse(outcome.out, nullptr, false);
+    ASSERT_FALSE(doc.is_discarded()) << command << outcome.out;
+    EXPECT_EQ(doc["status"], "error") << command;
+    EXPECT_EQ(doc["diagnostics"][0]["severity"], "error") << command;
+    EXPECT_FALSE(outcome.err.empty()) << command;
+  }
+  const json doc = json::parse(run("fit cylinder bad.csv --json").out);
+  EXPECT_EQ(doc["diagnostics"][0]["line"], 2);
+  EXPECT_EQ(doc["diagnostics"][0]["column"], 3);
+}
+
+TEST_F(ExchangeSystem, Fault2_60_SectionsThatThePlanLacksAreRefused) {
+  write_plan();
+  std::string points = "feature,section,x,y,z\n";
+  for (int i = 0; i < 24; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / 24.0;
+    points += fmt::format("tube,{},{:.17g},{:.17g},{}\n", i < 12 ? 0 : 3, kRadius * std::cos(turn),
+                          kRadius * std::sin(turn), i < 12 ? 5 : 35);
+  }
+  write("p.csv", points);
+  expect_refusal("measure --plan tube.plan.toml --points p.csv",
+                 {"p.csv:14: error", "'tube' has 3 sections in the plan, there is no section 3"});
+}
+
 TEST_F(ExchangeSystem, FitsInTheUnitOfTheFile) {
   write("inch.csv", tube_points(25.4, "x [inch],y [inch],z [inch]\n"));
   write("bare.csv", tube_points(25.4));

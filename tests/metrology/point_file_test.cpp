@@ -65,6 +65,95 @@ TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
       "0)");
 }
 
+TEST(PointFile, Fault2_60_NamesADecimalComma) {
+  for (const char* line : {"1,5 2,25 3", "1,5\t2\t3", "1,5;2,5;3,5", "1;2;3,5", "1,5, 2,5, 3,5",
+                           "-1,5e3;2;3", "1 2 3\n4,5 6 7", "x;y;z\n1,5;2;3"}) {
+    EXPECT_NE(point_file_complaint(line).find("is written with a decimal comma"), std::string::npos)
+        << line << ": " << point_file_complaint(line);
+  }
+  EXPECT_EQ(point_file_complaint("feature;x;y;z\nA;1;2,5;3\n"),
+            "p.csv:2:5: error: '2,5' is written with a decimal comma (hint: write numbers with a "
+            "decimal point: a comma separates columns)");
+}
+
+TEST(PointFile, Fault2_60_ReadsUtf16AndLinesThatEndWithCr) {
+  const std::string text = "feature,x,y,z\n\u2300 \u00e4,1,2,3\n\U0001F600,4,5,6\n";
+  const auto utf16 = [](const std::u16string& units, bool big, bool mark) {
+    std::string bytes;
+    const auto add = [&](unsigned unit) {
+      const char low = static_cast<char>(unit & 0xFFU), high = static_cast<char>(unit >> 8U);
+      bytes += big ? std::string{high, low} : std::string{low, high};
+    };
+    if (mark) add(0xFEFFU);
+    for (const char16_t unit : units) add(unit);
+    return bytes;
+  };
+  const std::u16string wide = u"feature,x,y,z\r\n\u2300 \u00e4,1,2,3\r\n\U0001F600,4,5,6\r\n";
+  std::string by_cr = text;
+  std::replace(by_cr.begin(), by_cr.end(), '\n', '\r');
+  for (const std::string& bytes :
+       {text, by_cr, "\xEF\xBB\xBF" + by_cr, utf16(wide, false, true), utf16(wide, true, true),
+        utf16(wide, false, false), utf16(wide, true, false)}) {
+    const auto points = parse_feature_points(bytes);
+    ASSERT_TRUE(points) << to_string(points.error().front());
+    ASSERT_EQ(points->size(), 2U);
+    EXPECT_EQ((*points)[0].feature, "\u2300 \u00e4");
+    EXPECT_EQ((*points)[1].feature, "\U0001F600");
+    EXPECT_EQ((*points)[1].points, (std::vector<Vec3>{{4, 5, 6}}));
+    EXPECT_EQ((*points)[1].lines, std::vector<int>{3});
+  }
+  EXPECT_EQ(point_file_complaint(utf16(wide, false, true) + "1"),
+            "p.csv: error: the file is UTF-16 and ends within a character (hint: save the file as "
+            "UTF-8)");
+  EXPECT_EQ(point_file_complaint(utf16(wide + u"\xD800", true, true)),
+            "p.csv: error: the file is UTF-16 and has half a character (hint: save the file as "
+            "UTF-8)");
+  EXPECT_EQ(point_file_complaint(std::string("\xFF\xFE\0\0"
+                                             "1\0\0\0",
+                                             8)),
+            "p.csv: error: the file is UTF-32 (hint: save the file as UTF-8)");
+}
+
+TEST(PointFile, Fault2_60_ReadsPointsWithTheirDirections) {
+  for (const char* text :
+       {"x,y,z,i,j,k\n1,2,3,0.6,0.8,0\n4,5,6,0,0,7\n", "1 2 3 0.577 0.577 0.577\n4 5 6 0 -1 0\n",
+        "i;j;k;x;y;z\n0;0;1;1;2;3\n0;0;1;4;5;6\n"}) {
+    const auto points = parse_feature_points(text);
+    ASSERT_TRUE(points) << text << to_string(points.error().front());
+    EXPECT_EQ(points->front().points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}})) << text;
+  }
+  EXPECT_EQ(point_file_complaint("1,2,3,4,5,6\n"),
+            "p.csv:1:7: error: 6 columns, and the last three are no unit direction (hint: a line "
+            "holds x, y, z, or x, y, z and the direction i, j, k of length 1; decimals have a "
+            "point)");
+  EXPECT_NE(point_file_complaint("1 2 3 0 0 1\n1 2 3 0 0 2\n").find("p.csv:2:7"),
+            std::string::npos);
+  // Directions are no lengths: no factor applies to them, and they state no unit.
+  const auto inch = parse_feature_points("# unit: inch\n1 2 3 0 0 1\n");
+  ASSERT_TRUE(inch);
+  EXPECT_EQ(inch->front().points.front(), Vec3(25.4, 50.8, 3 * 25.4));
+  EXPECT_NE(point_file_complaint("x,y,z,i [inch],j,k\n").find("not a unit for column 'i'"),
+            std::string::npos);
+}
+
+TEST(PointFile, Fault2_60_TakesTheApostropheOffANameThatIsNoFormula) {
+  const auto points =
+      parse_feature_points("feature,x,y,z\n'=1,1,2,3\n''=1,1,2,3\n'quoted,1,2,3\n=1,4,5,6\n");
+  ASSERT_TRUE(points);
+  ASSERT_EQ(points->size(), 3U);
+  EXPECT_EQ((*points)[0].feature, "=1");
+  EXPECT_EQ((*points)[0].points.size(), 2U);
+  EXPECT_EQ((*points)[1].feature, "'=1");
+  EXPECT_EQ((*points)[2].feature, "'quoted");
+}
+
+TEST(PointFile, Fault2_60_ShortensWhatNobodyReads) {
+  const std::string digits(5000000, '7');
+  for (const std::string& text : {digits + " 1 2\n", "1 2 " + digits + "x\n", digits + ".5\n"}) {
+    EXPECT_LT(point_file_complaint(text).size(), 300U);
+  }
+}
+
 TEST(PointFile, HonoursTheUnitThatAFileStates) {
   for (const char* text : {"# unit: inch\n1 2 3\n", "# Units = IN\n1,2,3\n", "# inch\n1 2 3\n",
                            "x [inch],y [inch],z [inch]\n1,2,3\n", "x_in,y_in,z_in\n1,2,3\n",
