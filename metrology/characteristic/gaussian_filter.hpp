@@ -8,10 +8,12 @@
 //            reaches to the ends, and straight lines stay
 // Units    : mm or rad along the profile, deviations in any unit
 // Shape    : n samples in any order; not necessarily at equal steps
-// Errors   : too few samples for the cut-off: 7 a wave are needed; a profile that should be closed
-//            and is not; cut-offs that exclude each other
+// Errors   : too few samples for the cut-off: 7 a wave are needed, everywhere: a gap is named with
+//            its place; a profile that should be closed and is not; cut-offs that exclude each
+//            other
 // Accuracy : of equal steps, 2^-((m - 1)^2) of an undulation at the cut-off, m samples a wave:
-//            1e-11 at the coarsest (tests/metrology/profile_filter_test.cpp)
+//            1e-11 at the coarsest; of many points a wave, for which the sums are interpolated,
+//            1e-14 of the largest deviation (tests/metrology/profile_filter_test.cpp)
 // Source   : ISO 16610-21 (weights), ISO 16610-28 (ends: moments are retained, first order)
 #pragma once
 

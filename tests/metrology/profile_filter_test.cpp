@@ -115,6 +115,82 @@ TEST(GaussianFilter, AsksForEnoughPointsAWave) {
   EXPECT_FALSE(open_waviness(std::vector<double>{1.0}, std::vector<double>{1.0}, 0.05));
 }
 
+// As the definition says: all samples for each.
+double summed_around(const Profile& p, double at, double cutoff, double turn) {
+  double w = 0.0, wx = 0.0, wxx = 0.0, wy = 0.0, wxy = 0.0;
+  const std::size_t n = p.place.size();
+  for (int lap = turn > 0.0 ? -3 : 0; lap <= (turn > 0.0 ? 3 : 0); ++lap) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const double before = j > 0        ? p.place[j] - p.place[j - 1]
+                            : turn > 0.0 ? p.place[0] + turn - p.place[n - 1]
+                                         : 0.0;
+      const double after = j + 1 < n    ? p.place[j + 1] - p.place[j]
+                           : turn > 0.0 ? p.place[0] + turn - p.place[n - 1]
+                                        : 0.0;
+      const double x = p.place[j] + lap * turn - at;
+      const double u = x / cutoff;
+      const double g = 0.5 * (before + after) *
+                       std::exp(-std::numbers::pi * std::numbers::pi / std::numbers::ln2 * u * u);
+      w += g;
+      wx += g * x;
+      wxx += g * x * x;
+      wy += g * p.value[j];
+      wxy += g * x * p.value[j];
+    }
+  }
+  return turn > 0.0 ? wy / w : (wxx * wy - wx * wxy) / (w * wxx - wx * wx);
+}
+
+TEST(GaussianFilter, Fault2_59_ManyPointsAreAsExactAsFew) {
+  synthetic::Draws draws(53);
+  Profile p;
+  for (int i = 0; i < 3000; ++i) {
+    p.place.push_back(kTurn * (i + draws.between(-0.4, 0.4) + 0.5) / 3000);
+    p.value.push_back(draws.between(-1.0, 1.0) + std::sin(3.0 * p.place.back()));
+  }
+  for (const double upr : {1.0, 2.5, 5.0, 9.0}) {
+    const auto closed = closed_waviness(p.place, p.value, upr);
+    const auto open = open_waviness(p.place, p.value, kTurn / upr);
+    ASSERT_TRUE(closed && open);
+    for (std::size_t i = 0; i < p.place.size(); i += 97) {
+      EXPECT_NEAR((*closed)[i], summed_around(p, p.place[i], kTurn / upr, kTurn), 1e-14) << upr;
+      EXPECT_NEAR((*open)[i], summed_around(p, p.place[i], kTurn / upr, 0.0), 1e-13) << upr;
+    }
+  }
+}
+
+TEST(GaussianFilter, Fault2_59_AMillionPointsTakeSeconds) {
+  // Each against each within reach would be 2e11 weights, an hour.
+  constexpr int kCount = 1000000;
+  const Profile p = sampled(kCount, kTurn / kCount,
+                            [](double a) { return std::cos(15.0 * a) + std::cos(400.0 * a); });
+  const auto smooth = closed_waviness(p.place, p.value, 15.0);
+  ASSERT_TRUE(smooth);
+  for (std::size_t i = 0; i < p.place.size(); i += 9973) {
+    EXPECT_NEAR((*smooth)[i], 0.5 * std::cos(15.0 * p.place[i]), 1e-12);
+  }
+}
+
+TEST(GaussianFilter, Fault2_60_SaysWhereAGapIs) {
+  Profile p = sampled(360, kTurn / 360, [](double a) { return std::cos(a); });
+  p.place.erase(p.place.begin() + 101, p.place.begin() + 131);
+  p.value.erase(p.value.begin() + 101, p.value.begin() + 131);
+  EXPECT_TRUE(closed_waviness(p.place, p.value, 1.0));  // 51 deg would do
+  const auto refused = closed_waviness(p.place, p.value, 15.0);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().message,
+            "the closed profile has a gap of 31 deg after 100 deg: a point every 3.43 "
+            "deg is needed for 7 a wave of the filter's cut-off");
+  // The gap across the zero direction, and a second one.
+  p.place.erase(p.place.begin(), p.place.begin() + 50);
+  p.value.erase(p.value.begin(), p.value.begin() + 50);
+  const auto twice = closed_waviness(p.place, p.value, 15.0);
+  ASSERT_FALSE(twice);
+  EXPECT_NE(twice.error().front().message.find("2 gaps, the largest of 51 deg after 359 deg"),
+            std::string::npos)
+      << twice.error().front().message;
+}
+
 TEST(Harmonics, FindsAmplitudesAndPhasesAtUnevenAngles) {
   synthetic::Draws draws(52);
   std::vector<double> angle;
