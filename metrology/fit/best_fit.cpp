@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
 
 namespace frustum::metrology {
 namespace {
@@ -13,28 +16,122 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 // A direction in which the sum of squares curves less than this share of the largest is not
 // reported: rotations are scaled by the size of the part, so what is reported is of order one.
 constexpr double kUntold = 1e-10;
+// Nor is one in which what the points say to first order is no more than twice what the bend of
+// the surfaces makes of the deviations: a section tilts if its circle is oval, and a parallel
+// circle of a ball slides along its axis if it is small, but that says nothing of how the part
+// lies, and may have its minimum degrees away.
+constexpr double kLargestBend = 0.5;
 
-// Normal equations of the motion of the points against the planned geometry, about `centre`,
-// rotations times `size`.
+// The points and elements about `centre`, so that coordinates are no larger than the part, and the
+// degrees that are free.
+struct Task {
+  std::vector<Element> elements{};
+  std::vector<Vec3> points{};
+  std::vector<std::size_t> element_of{};  // of each point, in `elements`
+  double size = 1.0;
+  std::array<bool, 6> locked{};
+};
+
+Task task_of(std::span<const PointOnElement> points, const Vec3& centre,
+             const std::array<bool, 6>& locked) {
+  Task task;
+  task.locked = locked;
+  task.size = 0.0;
+  const Pose to_centre{Mat3::Identity(), -centre};
+  std::map<const Element*, std::size_t> known;
+  for (const PointOnElement& p : points) {
+    const auto [place, is_new] = known.try_emplace(p.planned, task.elements.size());
+    if (is_new) task.elements.push_back(transformed(to_centre, *p.planned));
+    task.element_of.push_back(place->second);
+    task.points.push_back(p.point - centre);
+    task.size = std::max(task.size, task.points.back().norm());
+  }
+  if (!(task.size > 0.0)) task.size = 1.0;
+  return task;
+}
+
+// Shift and rotation, the latter times the size of the part, as a motion.
+Pose motion_of(const Vec6& step, double size) {
+  const Vec3 turn = step.tail<3>() / size;
+  const double angle = turn.norm();
+  Mat3 rotation = Mat3::Identity();
+  if (angle > 0.0) rotation = rotation_about(turn / angle, angle);
+  return {rotation, step.head<3>()};
+}
+
+// Normal equations of the motion of the points against the planned geometry.
 struct Normal {
   Mat6 matrix = Mat6::Zero();
-  Vec6 right = Vec6::Zero();
+  Vec6 right = Vec6::Zero();  // minus half the gradient of the sum of squares
 };
-Normal normal_of(std::span<const PointOnElement> points, const Pose& planned_from_measured,
-                 const Vec3& centre, double size, const std::array<bool, 6>& locked) {
+Normal normal_of(const Task& task, const Pose& planned_from_measured) {
   Normal n;
-  for (const PointOnElement& p : points) {
-    const Vec3 x = planned_from_measured.point(p.point);
-    const Vec3 normal = outward_normal(*p.planned, x);
+  for (std::size_t i = 0; i < task.points.size(); ++i) {
+    const Element& planned = task.elements[task.element_of[i]];
+    const Vec3 x = planned_from_measured.point(task.points[i]);
+    const Vec3 normal = outward_normal(planned, x);
     Vec6 row;
-    row << normal, (x - centre).cross(normal) / size;
+    row << normal, x.cross(normal) / task.size;
     for (Eigen::Index k = 0; k < 6; ++k) {
-      if (locked[static_cast<std::size_t>(k)]) row[k] = 0.0;
+      if (task.locked[static_cast<std::size_t>(k)]) row[k] = 0.0;
     }
     n.matrix += row * row.transpose();
-    n.right -= row * residual(*p.planned, x);
+    n.right -= row * residual(planned, x);
   }
   return n;
+}
+
+// The directions in which the points say how they lie, at a pose.
+std::vector<Vec6> told_ways(const Task& task, const Pose& planned_from_measured) {
+  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal_of(task, planned_from_measured).matrix);
+  const double largest = eigen.eigenvalues().maxCoeff();
+  std::vector<Vec6> told;
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const double curvature = eigen.eigenvalues()[k];
+    if (!(curvature > kUntold * largest)) continue;
+    const Vec6 way = eigen.eigenvectors().col(k);
+    // The whole curvature of half the sum of squares, by differences of its gradient.
+    const double h = 1e-4 * task.size;
+    const auto slope = [&](double step) {
+      const Pose moved = motion_of(step * way, task.size) * planned_from_measured;
+      return -way.dot(normal_of(task, moved).right);
+    };
+    const double whole = (slope(h) - slope(-h)) / (2.0 * h);
+    if (std::abs(whole - curvature) <= kLargestBend * curvature) told.push_back(way);
+  }
+  return told;
+}
+
+// Those that need no such proof as planned.
+std::vector<Vec6> strong_ways(const Task& task) {
+  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal_of(task, {}).matrix);
+  constexpr double kStrong = 1e-3;  // of the largest: a lever arm of 3 % of the part
+  std::vector<Vec6> strong;
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()[k] > kStrong * eigen.eigenvalues().maxCoeff()) {
+      strong.emplace_back(eigen.eigenvectors().col(k));
+    }
+  }
+  return strong;
+}
+
+// Gauss-Newton along these directions; nothing where it does not settle.
+std::optional<Pose> settled(const Task& task, const std::vector<Vec6>& ways, Pose pose) {
+  if (ways.empty()) return pose;
+  constexpr int kRounds = 100;
+  // mm, root mean square of how far the last step moves the points along their normals.
+  const double limit = 1e-13 * task.size * std::sqrt(static_cast<double>(task.points.size()));
+  Eigen::MatrixXd basis(6, static_cast<Eigen::Index>(ways.size()));
+  for (std::size_t k = 0; k < ways.size(); ++k) basis.col(static_cast<Eigen::Index>(k)) = ways[k];
+  for (int round = 0; round < kRounds; ++round) {
+    const Normal n = normal_of(task, pose);
+    const Eigen::MatrixXd matrix = basis.transpose() * n.matrix * basis;
+    const Vec6 step = basis * matrix.ldlt().solve(basis.transpose() * n.right);
+    if (!step.allFinite()) return std::nullopt;
+    pose = motion_of(step, task.size) * pose;
+    if (std::sqrt(std::max(0.0, step.dot(n.matrix * step))) <= limit) return pose;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -46,42 +143,36 @@ Result<BestFit> best_fit(std::span<const PointOnElement> points,
   for (const PointOnElement& p : points) centre += p.point / static_cast<double>(points.size());
   // Locked rotations are about the origin: only there do they leave shifts alone.
   if (locked[0] || locked[1] || locked[2]) centre = Vec3::Zero();
-  double size = 0.0;
-  for (const PointOnElement& p : points) size = std::max(size, (p.point - centre).norm());
-  if (!(size > 0.0)) size = 1.0;
+  const Task task = task_of(points, centre, locked);
 
-  Pose planned_from_measured;
-  BestFit found;
-  constexpr int kRounds = 100;
-  for (int round = 0; round < kRounds; ++round) {
-    const Normal n = normal_of(points, planned_from_measured, centre, size, locked);
-    const Eigen::SelfAdjointEigenSolver<Mat6> eigen(n.matrix);
-    const double largest = eigen.eigenvalues().maxCoeff();
-    Vec6 step = Vec6::Zero();
-    Vec6 told = Vec6::Zero();
-    for (Eigen::Index k = 0; k < 6; ++k) {
-      if (!(eigen.eigenvalues()[k] > kUntold * largest)) continue;
-      const Vec6 way = eigen.eigenvectors().col(k);
-      step += way.dot(n.right) / eigen.eigenvalues()[k] * way;
-      told += way.cwiseAbs2();
-    }
-    const Vec3 turn = step.tail<3>() / size;
-    const double angle = turn.norm();
-    Mat3 rotation = Mat3::Identity();
-    if (angle > 0.0) rotation = rotation_about(turn / angle, angle);
-    const Pose motion{rotation, centre + step.head<3>() - rotation * centre};
-    planned_from_measured = motion * planned_from_measured;
-    if (!step.allFinite()) break;
-    if (step.norm() > 1e-13 * size) continue;
-    found.measured_from_planned = planned_from_measured.inverse();
-    for (std::size_t k = 0; k < 6; ++k) {
-      // Of two degrees that share one direction the one with the larger part counts.
-      found.is_told[k] = !locked[k] && told[static_cast<Eigen::Index>(k)] > 0.5;
-    }
-    return found;
+  // Far from the points the bend of the surfaces hides what they say: the directions are chosen
+  // again where those chosen before led, until there is nothing to choose.
+  Pose pose;
+  std::vector<Vec6> ways = strong_ways(task);
+  bool has_settled = false;
+  constexpr int kChoices = 4;
+  for (int choice = 0; choice < kChoices; ++choice) {
+    const std::optional<Pose> found = settled(task, ways, pose);
+    has_settled = found.has_value();
+    if (found) pose = *found;
+    std::vector<Vec6> again = told_ways(task, pose);
+    if (has_settled && again.size() == ways.size() && choice > 0) break;
+    ways = std::move(again);
   }
-  return error("fit-not-converged"_id, "the best fit does not settle",
-               "check that the points belong to the planned features and are near them");
+  if (!has_settled) {
+    return error("fit-not-converged"_id, "the best fit does not settle",
+                 "check that the points belong to the planned features and are near them");
+  }
+  BestFit found;
+  const Pose from_centre{Mat3::Identity(), centre};
+  found.measured_from_planned = from_centre * pose.inverse() * from_centre.inverse();
+  Vec6 told = Vec6::Zero();
+  for (const Vec6& way : ways) told += way.cwiseAbs2();
+  for (std::size_t k = 0; k < 6; ++k) {
+    // Of two degrees that share one direction the one with the larger part counts.
+    found.is_told[k] = !locked[k] && told[static_cast<Eigen::Index>(k)] > 0.5;
+  }
+  return found;
 }
 
 }  // namespace frustum::metrology

@@ -2,11 +2,14 @@
 //
 // Model    : the pose P that makes sum d_i^2 least, d_i = distance of P^-1 x_i from the planned
 //            element of point i; degrees of freedom that the elements do not tell, and those that
-//            are locked, keep their planned value: no shift along and no rotation about their axis
+//            are locked, keep their planned value: no shift along and no rotation about their axis.
+//            What the deviations of the points tell only because surfaces are bent counts as not
+//            told: how a section that is oval or of another size might be tilted
 // Units    : mm, rad
 // Shape    : any number of points on any elements
 // Errors   : no points; not converged (points far from the planned geometry)
-// Accuracy : the step at the end is below 1e-13 of the size of the part
+// Accuracy : the last step moves the points by less than 1e-13 of the size of the part, wherever
+//            the part is
 //            (tests/metrology/datum_system_test.cpp)
 // Source   : Gauss-Newton on the six small motions
 #pragma once
