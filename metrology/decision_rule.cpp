@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrology/rounding_slack.hpp"
+
 namespace frustum::metrology {
 
 DecisionRule read_decision(const TomlTable& table) {
@@ -21,7 +23,8 @@ UncertaintyInterval interval_of(const CharacteristicResult& characteristic) {
 
 Verdict verdict_of(const CharacteristicResult& characteristic, DecisionRule rule) {
   const double nominal = characteristic.nominal.value_or(0.0);
-  const double tolerance = characteristic.tolerance;
+  const double tolerance = characteristic.tolerance +
+                           rounding_slack(characteristic.value, nominal, characteristic.tolerance);
   if (rule == DecisionRule::simple) {
     return std::abs(characteristic.value - nominal) <= tolerance ? Verdict::pass : Verdict::fail;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "metrology/characteristic/evaluators.hpp"
+#include "metrology/rounding_slack.hpp"
 
 namespace frustum::metrology {
 
@@ -40,7 +41,9 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.value = value->value * evaluator.per_internal;
   if (value->nominal) result.nominal = *value->nominal * evaluator.per_internal;
   result.tolerance = planned.tolerance * evaluator.per_internal;
-  result.pass = std::abs(value->value - value->nominal.value_or(0.0)) <= planned.tolerance;
+  const double nominal = value->nominal.value_or(0.0);
+  result.pass = std::abs(value->value - nominal) <=
+                planned.tolerance + rounding_slack(value->value, nominal, planned.tolerance);
   result.plot_angle = std::move(value->profile.angle);
   result.plot_deviation = std::move(value->profile.deviation);
   result.profiles = std::move(value->lines);

@@ -6,6 +6,7 @@
 #include "measured_feature.hpp"
 #include "metrology/characteristic/characteristic.hpp"
 #include "metrology/characteristic/datum_system.hpp"
+#include "metrology/decision_rule.hpp"
 #include "synthetic.hpp"
 
 namespace frustum::metrology {
@@ -24,6 +25,24 @@ PlannedCharacteristic asked(K kind, std::vector<std::string> features,
   c.tolerance = 1.0;
   c.criterion = criterion;
   return c;
+}
+
+TEST(Limits, Fault2_60_AValueOnItsLimitPasses) {
+  CharacteristicResult c;
+  for (const double diameter : {0.3, 10.0, 333.0}) {
+    for (const double tolerance : {0.001, 0.01, 0.07}) {
+      for (const double side : {-1.0, 1.0}) {
+        c.nominal = diameter;
+        c.tolerance = tolerance;
+        for (const DecisionRule rule : {DecisionRule::simple, DecisionRule::iso14253}) {
+          c.value = diameter + side * tolerance;
+          EXPECT_EQ(verdict_of(c, rule), Verdict::pass) << diameter << " " << tolerance;
+          c.value = diameter + side * (tolerance + 1e-12 * diameter);
+          EXPECT_EQ(verdict_of(c, rule), Verdict::fail) << diameter << " " << tolerance;
+        }
+      }
+    }
+  }
 }
 
 Result<CharacteristicResult> evaluated_of(const PlannedCharacteristic& planned,
