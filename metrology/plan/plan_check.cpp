@@ -15,13 +15,30 @@
 namespace frustum::metrology {
 namespace {
 
+// Squares of what is longer or shorter leave the range of doubles; nobody writes it on purpose.
+bool has_sound_length(const Vec3& direction) {
+  const double length = direction.stableNorm();
+  return length > 1e-100 && length < 1e100;
+}
+constexpr double kFarthest = 1e9;  // mm: a thousand kilometres
+
 class FeatureCheck {
  public:
   FeatureCheck(const InspectionPlan& plan, std::size_t index, const PlanFault& fault)
       : plan_(plan), feature_(plan.features[index]), index_(index), fault_(fault) {}
 
   void run() const {
-    if (!feature_.point.allFinite()) wrong("point", "must be three finite numbers");
+    if (!(feature_.point.cwiseAbs().maxCoeff() <= kFarthest)) {
+      wrong("point", fmt::format("must be three numbers of at most {:g} mm", kFarthest));
+    }
+    for (const auto& [key, direction] : {std::pair<std::string_view, Vec3>{"axis", feature_.axis},
+                                         {"zero", feature_.zero.value_or(feature_.axis)},
+                                         {"normal", feature_.normal}}) {
+      if (has_sound_length(direction) || direction == Vec3::Zero()) continue;
+      wrong(key, "must be a direction, of a length between 1e-100 and 1e100",
+            "for example [0, 0, 1]");
+      return;
+    }
     if (!UnitVec3::of(feature_.axis)) {
       wrong("axis", "must be a direction, is [0, 0, 0]");
       return;
@@ -130,6 +147,11 @@ void check_precedence(const InspectionPlan& plan, const PlanFault& fault) {
     const PlannedFeature* feature = suitable(
         plan, *names[i], {plane, cylinder, cone, circle, line, sphere, point}, "a datum", wrong);
     if (feature != nullptr && !UnitVec3::of(feature->axis)) sound = false;
+    if (feature != nullptr && feature->kind == cone &&
+        datum.criterion == Criterion::outside_material) {
+      wrong(fmt::format("'{}' is a cone, which has no association \"om\"", *names[i]),
+            "choose criterion = \"ls\": a cone has no largest or smallest size");
+    }
     for (std::size_t j = 0; j < i; ++j) {
       if (*names[j] == *names[i]) wrong(fmt::format("'{}' is named twice", *names[i]), "");
     }

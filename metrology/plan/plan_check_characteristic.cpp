@@ -299,7 +299,18 @@ class CharacteristicCheck {
       wrong("datum_criterion", fmt::format("this {} names no datum", kind()));
     } else if (c_.datum_criterion != Criterion::outside_material) {
       wrong("datum_criterion", "a datum is associated by \"ls\" or \"om\"");
+    } else {
+      datums_outside_material();
     }
+  }
+
+  void datums_outside_material() const {
+    const auto datum = std::find_if(features_.begin() + 1, features_.end(),
+                                    [](const PlannedFeature* f) { return f->kind == cone; });
+    if (datum == features_.end()) return;
+    wrong("datum_criterion",
+          fmt::format("the datum '{}' is a cone, which has no association \"om\"", (*datum)->name),
+          "choose \"ls\": a cone has no largest or smallest size");
   }
 
   void keys() const {

@@ -13,10 +13,20 @@
 namespace frustum::metrology {
 namespace {
 
+// An error of the machine: a bare number would be mm, where um are meant.
+double error_length(const TomlTable& table, std::string_view key, double fallback, Bound bound) {
+  const double length = table.length_or(key, Mm{fallback}, bound).value;
+  if (table.is_number(key) && length != 0.0) {
+    table.fail(key, "no-unit"_id, fmt::format("{:g} has no unit", length),
+               "write for example \"0.5 um\"");
+  }
+  return length;
+}
+
 ProbeErrors read_probe(const TomlTable& table, const ProbeErrors& usual) {
   ProbeErrors p;
   const auto length = [&](std::string_view key, double fallback) {
-    return table.length_or(key, Mm{fallback}, Bound::non_negative).value;
+    return error_length(table, key, fallback, Bound::non_negative);
   };
   p.pre_travel = length("pre_travel", usual.pre_travel);
   p.lobe = length("lobe", usual.lobe);
@@ -81,7 +91,7 @@ ThermalState read_temperature(const TomlTable& table) {
 }
 
 void read_field(const TomlTable& table, CmmModel& cmm) {
-  if (table.has("p_form")) cmm.probing_limit = table.length("p_form", Bound::positive).value;
+  if (table.has("p_form")) cmm.probing_limit = error_length(table, "p_form", 0.0, Bound::positive);
   cmm.travel = table.vector_or("travel", cmm.travel);
   if (!(cmm.travel.minCoeff() > 0.0)) {
     table.fail("travel", "cmm-volume"_id, "must be three lengths greater than 0");
@@ -151,7 +161,7 @@ ProbeErrors probe_errors(const CmmModel& cmm) {
 
 CmmModel read_cmm_model(const TomlTable& table) {
   CmmModel cmm;
-  cmm.e0_mm = table.length_or("e0", {}, Bound::non_negative).value;
+  cmm.e0_mm = error_length(table, "e0", 0.0, Bound::non_negative);
   if (table.has("l_per_um")) cmm.length_per_error = table.number("l_per_um", Bound::positive);
   cmm.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Bound::non_negative));
   cmm.kind = static_cast<CmmKind>(table.choice_or("model", {"linear", "field"}, 0));

@@ -278,6 +278,43 @@ TEST(CharacteristicPlan, TellsWhichDatumSystemsMakeSense) {
             "datum.locked: only a best_fit has locked degrees");
 }
 
+TEST(CharacteristicPlan, Fault2_60_AConeIsNoDatumOutsideTheMaterial) {
+  EXPECT_EQ(datum_fault({"C", "cone", "groove", Criterion::outside_material}),
+            "datum.secondary: 'cone' is a cone, which has no association \"om\"");
+  PlannedCharacteristic c = of(K::perpendicularity, {"A", "cone"});
+  c.datum_criterion = Criterion::outside_material;
+  EXPECT_EQ(fault(c),
+            "characteristic[1].datum_criterion: the datum 'cone' is a cone, which has no "
+            "association \"om\"");
+  c.datum_criterion = Criterion::least_squares;
+  EXPECT_EQ(fault(c), "");
+  c = of(K::perpendicularity, {"cone", "A"});
+  c.datum_criterion = Criterion::outside_material;
+  EXPECT_EQ(fault(c), "");
+}
+
+TEST(CharacteristicPlan, Fault2_31_DirectionsAndPlacesBeyondSenseAreRefused) {
+  const auto complaint = [](const std::string& key, const Vec3& value) {
+    InspectionPlan plan = test_part::plan();
+    PlannedFeature& feature = plan.features[1];
+    if (key == "axis") feature.axis = value;
+    if (key == "zero") feature.zero = value;
+    if (key == "point") feature.point = value;
+    const Diagnostics found = check(plan);
+    return found.empty() ? "" : found.front().key + ": " + found.front().message;
+  };
+  for (const double far : {1e300, 1e200, 1e-200}) {
+    for (const char* key : {"axis", "zero"}) {
+      EXPECT_EQ(complaint(key, Vec3(far, far, 0)),
+                std::string("feature[2].") + key +
+                    ": must be a direction, of a length between 1e-100 and 1e100");
+    }
+  }
+  EXPECT_EQ(complaint("point", Vec3(0, 1e300, 0)),
+            "feature[2].point: must be three numbers of at most 1e+09 mm");
+  EXPECT_EQ(complaint("zero", Vec3(0, 5e3, 0)), "");
+}
+
 TEST(CharacteristicPlan, TellsTheLineOfWhatNoPartCouldHold) {
   const std::string text = to_toml(test_part::plan());
   const auto plan = parse_plan(text +

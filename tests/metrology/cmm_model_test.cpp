@@ -367,6 +367,18 @@ TEST(CmmModel, ReadsEveryKey) {
   EXPECT_DOUBLE_EQ(length_limit(cmm, 600.0), 0.004);
 }
 
+TEST(CmmModel, Fault2_31_ErrorsOfTheMachineHaveAUnit) {
+  EXPECT_EQ(cmm_complaint("e0 = 0.5\n"),
+            "job.toml:1:1: error: e0: 0.5 has no unit (hint: write for example \"0.5 um\")");
+  EXPECT_NE(
+      cmm_complaint("model = \"field\"\ne0 = \"4 um\"\np_form = 2\n").find("p_form: 2 has no"),
+      std::string::npos);
+  EXPECT_NE(
+      cmm_complaint("model = \"field\"\ne0 = \"4 um\"\n[probe]\nlobe = 1\n").find("lobe: 1 has no"),
+      std::string::npos);
+  EXPECT_EQ(cmm_complaint("e0 = 0\n"), "");
+}
+
 TEST(CmmModel, NamesWhatIsImpossible) {
   EXPECT_EQ(cmm_complaint("e0 = \"1 um\"\np_form = \"1 um\"\n"),
             "job.toml:2:1: error: p_form: belongs to a machine with a field (hint: write model = "
