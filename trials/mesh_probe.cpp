@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/units.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "stock/mesh/io/mesh_reader.hpp"
@@ -15,6 +16,22 @@ MeshProbe turned_over(const stock::FacetSolid& solid) {
   std::vector<stock::FacetSolid::Facet> facets(solid.facets().begin(), solid.facets().end());
   for (auto& facet : facets) std::swap(facet[1], facet[2]);
   return MeshProbe(stock::FacetSolid(std::move(vertices), std::move(facets)));
+}
+
+// What was done to the corners, where it moved any.
+std::optional<Diagnostic> note_of(const stock::WeldedMesh& joined, double mm,
+                                  const std::filesystem::path& file) {
+  if (joined.moved == 0) return std::nullopt;
+  std::string message =
+      fmt::format("{} corners of the mesh were joined with others {:.2g} um away or less",
+                  joined.moved, joined.farthest * mm * kUmPerMm);
+  if (joined.lost_facets > 0) {
+    message += fmt::format("; {} facets without an area were left out", joined.lost_facets);
+  }
+  Diagnostic note = warning("mesh-welded"_id, std::move(message));
+  note.severity = Severity::note;
+  note.file = file.string();
+  return note;
 }
 
 }  // namespace
@@ -54,13 +71,16 @@ Result<MeshProbe> read_mesh_probe(const std::filesystem::path& file,
                                   const metrology::InspectionPlan& plan) {
   auto mesh = stock::read_mesh(file);
   if (!mesh) return std::move(mesh).error();
-  *mesh = stock::welded(*std::move(mesh));  // before the unit hides single precision
-  for (Vec3& vertex : mesh->vertices) vertex *= unit ? unit->mm : 1.0;
-  if (auto fault = metrology::scale_fault(plan, mesh->vertices)) {
+  auto joined = stock::welded(*std::move(mesh));  // before the unit hides single precision
+  const double mm = unit ? unit->mm : 1.0;
+  for (Vec3& vertex : joined.mesh.vertices) vertex *= mm;
+  if (auto fault = metrology::scale_fault(plan, joined.mesh.vertices)) {
     fault->file = file.string();
     return *std::move(fault);
   }
-  return MeshProbe(stock::FacetSolid(std::move(mesh->vertices), std::move(mesh->triangles)));
+  const std::optional<Diagnostic> note = note_of(joined, mm, file);
+  return MeshProbe(
+      stock::FacetSolid(std::move(joined.mesh.vertices), std::move(joined.mesh.triangles)), note);
 }
 
 }  // namespace frustum::trials

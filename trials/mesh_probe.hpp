@@ -25,7 +25,11 @@ namespace frustum::trials {
 
 class MeshProbe {
  public:
-  explicit MeshProbe(stock::FacetSolid solid) : solid_(std::move(solid)) {}
+  explicit MeshProbe(stock::FacetSolid solid, std::optional<Diagnostic> note = std::nullopt)
+      : solid_(std::move(solid)), note_(std::move(note)) {}
+
+  // What was done to the mesh before it could be probed.
+  [[nodiscard]] const std::optional<Diagnostic>& note() const { return note_; }
 
   [[nodiscard]] std::optional<metrology::Touch> touch(const Vec3& start, const UnitVec3& direction,
                                                       double length_mm) const;
@@ -34,6 +38,7 @@ class MeshProbe {
 
  private:
   stock::FacetSolid solid_;
+  std::optional<Diagnostic> note_;
 };
 
 // STL, PLY or OBJ in mm, or in `unit`.

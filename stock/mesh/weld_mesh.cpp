@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 namespace frustum::stock {
@@ -11,41 +12,71 @@ namespace {
 
 bool is_single(double x) { return x == static_cast<double>(static_cast<float>(x)); }
 
-double seam_of(const std::vector<Vec3>& vertices) {
-  Vec3 min = vertices.front();
+// Of each vertex; 0 where nothing is near enough to be its equal.
+std::vector<double> seams_of(const SurfaceMesh& mesh) {
+  Vec3 min = mesh.vertices.front();
   Vec3 max = min;
   bool all_single = true;
-  for (const Vec3& v : vertices) {
+  for (const Vec3& v : mesh.vertices) {
     min = min.cwiseMin(v);
     max = max.cwiseMax(v);
     all_single = all_single && is_single(v.x()) && is_single(v.y()) && is_single(v.z());
   }
-  if (!all_single) return 1e-9 * (max - min).norm();
+  const double largest = max.cwiseAbs().cwiseMax(min.cwiseAbs()).maxCoeff();
   // Of the largest coordinate: smaller ones may come of it by a difference.
-  constexpr double kLastPlace = std::numeric_limits<float>::epsilon();
-  return 4.0 * kLastPlace * max.cwiseAbs().cwiseMax(min.cwiseAbs()).maxCoeff();
+  constexpr double kLastPlaces = 4.0 * std::numeric_limits<float>::epsilon();
+  const double widest = all_single ? kLastPlaces * largest : 1e-9 * (max - min).norm();
+  std::vector<double> seams(mesh.vertices.size(), widest);
+  for (const auto& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
+    const double side = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+    for (const std::uint32_t v : t) {
+      const double around = mesh.vertices[v].cwiseAbs().maxCoeff() + 20.0 * side;
+      seams[v] = std::min(seams[v], all_single ? kLastPlaces * around : 1e-6 * side);
+    }
+  }
+  return seams;
 }
 
-// Vertices in cells of space, wide enough that most of them are near no border.
+// Vertices with seams of about one width, in cells of space that are wide enough that most of the
+// vertices are near no border.
 class WeldCells {
  public:
-  WeldCells(const std::vector<Vec3>& vertices, double seam)
-      : vertices_(vertices), seam_(seam), size_(1000.0 * seam), next_(vertices.size(), kNone) {}
+  WeldCells(const SurfaceMesh& mesh, const std::vector<double>& seams,
+            std::vector<std::uint32_t>& next, double width)
+      : vertices_(mesh.vertices), seams_(seams), next_(next), size_(1000.0 * width) {}
 
-  // The first vertex kept within the seam; `vertex` itself, which is kept then, when there is none.
-  std::uint32_t first_near(std::uint32_t vertex) {
+  // The first vertex kept here within the narrower seam of both; `vertex` itself when none is.
+  [[nodiscard]] std::uint32_t first_near(std::uint32_t vertex) const {
     const Vec3& p = vertices_[vertex];
-    const Cell low = cell_of(p - Vec3::Constant(seam_));
-    const Cell high = cell_of(p + Vec3::Constant(seam_));
+    const double reach = std::min(seams_[vertex], 1e-3 * size_);
     std::uint32_t first = vertex;
-    for (Cell at = low; at[0] <= high[0]; ++at[0]) {
+    // Cells are counted in whole numbers: vertices so far off have no seams to tell.
+    if (!(reach > 1e-15 * p.cwiseAbs().maxCoeff())) return first;
+    const Cell low = cell_of(p - Vec3::Constant(reach));
+    const Cell high = cell_of(p + Vec3::Constant(reach));
+    Cell at{};
+    for (at[0] = low[0]; at[0] <= high[0]; ++at[0]) {
       for (at[1] = low[1]; at[1] <= high[1]; ++at[1]) {
-        for (at[2] = low[2]; at[2] <= high[2]; ++at[2]) first = std::min(first, first_in(at, p));
+        for (at[2] = low[2]; at[2] <= high[2]; ++at[2]) {
+          first = std::min(first, first_in(at, p, reach));
+        }
       }
     }
-    if (first == vertex) keep(vertex);
     return first;
   }
+  void keep(std::uint32_t vertex) {
+    const Vec3& p = vertices_[vertex];
+    if (!(seams_[vertex] > 1e-15 * p.cwiseAbs().maxCoeff())) return;
+    const auto [place, is_new] = newest_.try_emplace(cell_of(p), vertex);
+    if (is_new) return;
+    next_[vertex] = place->second;
+    place->second = vertex;
+  }
+
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
  private:
   using Cell = std::array<std::int64_t, 3>;
@@ -59,7 +90,6 @@ class WeldCells {
       return mixed;
     }
   };
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   [[nodiscard]] Cell cell_of(const Vec3& p) const {
     Cell cell;
@@ -68,46 +98,71 @@ class WeldCells {
     }
     return cell;
   }
-  [[nodiscard]] std::uint32_t first_in(const Cell& cell, const Vec3& p) const {
+  [[nodiscard]] std::uint32_t first_in(const Cell& cell, const Vec3& p, double reach) const {
     const auto found = newest_.find(cell);
     std::uint32_t first = kNone;
     for (std::uint32_t v = found == newest_.end() ? kNone : found->second; v != kNone;
          v = next_[v]) {
-      if ((vertices_[v] - p).norm() <= seam_) first = v;  // later ones in the list came earlier
+      // Later ones in the list came earlier.
+      if ((vertices_[v] - p).norm() <= std::min(reach, seams_[v])) first = v;
     }
     return first;
   }
-  void keep(std::uint32_t vertex) {
-    const auto [place, is_new] = newest_.try_emplace(cell_of(vertices_[vertex]), vertex);
-    if (is_new) return;
-    next_[vertex] = place->second;
-    place->second = vertex;
-  }
 
   const std::vector<Vec3>& vertices_;
-  double seam_;
+  const std::vector<double>& seams_;
+  std::vector<std::uint32_t>& next_;  // kept before it in its cell
   double size_;
   std::unordered_map<Cell, std::uint32_t, Hash> newest_{};
-  std::vector<std::uint32_t> next_;  // kept before it in its cell
+};
+
+// By the power of ten that the seam is less than: a cell of each has few vertices.
+class Weld {
+ public:
+  explicit Weld(const SurfaceMesh& mesh)
+      : mesh_(mesh), seams_(seams_of(mesh)), next_(mesh.vertices.size(), WeldCells::kNone) {}
+
+  // The vertex that this one becomes, after all before it.
+  std::uint32_t becomes(std::uint32_t vertex) {
+    if (!(seams_[vertex] > 0.0)) return vertex;
+    std::uint32_t first = vertex;
+    for (const auto& [power, cells] : levels_) first = std::min(first, cells.first_near(vertex));
+    if (first != vertex) return first;
+    const int power = static_cast<int>(std::ceil(std::log10(seams_[vertex])));
+    levels_.try_emplace(power, mesh_, seams_, next_, std::pow(10.0, power))
+        .first->second.keep(vertex);
+    return vertex;
+  }
+
+ private:
+  const SurfaceMesh& mesh_;
+  std::vector<double> seams_;
+  std::vector<std::uint32_t> next_;
+  std::map<int, WeldCells> levels_{};
 };
 
 }  // namespace
 
-SurfaceMesh welded(SurfaceMesh mesh) {
-  if (mesh.vertices.empty()) return mesh;
-  const double seam = seam_of(mesh.vertices);
-  // WeldCells are counted in whole numbers; a mesh of one place, or far off for its size, has no
-  // seams to tell.
-  if (!(seam > 1e-15 * mesh.vertices.front().cwiseAbs().maxCoeff())) return mesh;
-  WeldCells cells(mesh.vertices, seam);
-  std::vector<std::uint32_t> becomes(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < becomes.size(); ++v) becomes[v] = cells.first_near(v);
-  for (auto& triangle : mesh.triangles) {
-    for (std::uint32_t& v : triangle) v = becomes[v];
+WeldedMesh welded(SurfaceMesh mesh) {
+  WeldedMesh done;
+  if (!mesh.vertices.empty()) {
+    Weld weld(mesh);
+    std::vector<std::uint32_t> becomes(mesh.vertices.size());
+    for (std::uint32_t v = 0; v < becomes.size(); ++v) {
+      becomes[v] = weld.becomes(v);
+      const double moved = (mesh.vertices[v] - mesh.vertices[becomes[v]]).norm();
+      if (!(moved > 0.0)) continue;
+      ++done.moved;
+      done.farthest = std::max(done.farthest, moved);
+    }
+    for (auto& triangle : mesh.triangles) {
+      for (std::uint32_t& v : triangle) v = becomes[v];
+    }
   }
-  std::erase_if(mesh.triangles,
-                [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-  return mesh;
+  done.lost_facets = std::erase_if(
+      mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  done.mesh = std::move(mesh);
+  return done;
 }
 
 }  // namespace frustum::stock

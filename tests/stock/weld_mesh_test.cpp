@@ -53,7 +53,7 @@ TEST(WeldMesh, LetsNoRayThroughASeam) {
   for (const double rounding : {4.5e-16, 1e-12, 1e-9}) {
     const SurfaceMesh loose = plate(rounding);
     EXPECT_GT(falls_through(loose), 0) << rounding;  // or there is nothing to weld
-    const SurfaceMesh joined = welded(loose);
+    const SurfaceMesh joined = welded(loose).mesh;
     EXPECT_EQ(falls_through(joined), 0) << rounding;
     EXPECT_EQ(joined.triangles.size(), 50U);
     std::vector<std::uint32_t> named;
@@ -73,22 +73,60 @@ TEST(WeldMesh, KnowsThatSinglePrecisionRoundsMore) {
     for (double& x : v) x = static_cast<double>(static_cast<float>(x));
   }
   EXPECT_GT(falls_through(loose, 10.0), 0);
-  EXPECT_EQ(falls_through(welded(loose), 10.0), 0);
+  EXPECT_EQ(falls_through(welded(loose).mesh, 10.0), 0);
 }
 
 TEST(WeldMesh, KeepsWhatIsAMillionthApart) {
   SurfaceMesh mesh;
   mesh.vertices = {{0, 0, 0.1}, {1e-5, 0, 0.1}, {10, 10, 0.1}, {0, 1e-12, 0.1}, {0, 0, 0.1}};
   mesh.triangles = {{0, 1, 2}, {0, 3, 2}, {4, 1, 2}};
-  const SurfaceMesh joined = welded(mesh);
+  const SurfaceMesh joined = welded(mesh).mesh;
   // The second facet has lost a side; the others are as they were, the last by its earlier corner.
   using T = std::array<std::uint32_t, 3>;
   EXPECT_EQ(joined.triangles, (std::vector<T>{{0, 1, 2}, {0, 1, 2}}));
-  EXPECT_TRUE(welded({}).triangles.empty());
+  EXPECT_TRUE(welded({}).mesh.triangles.empty());
   SurfaceMesh one_place;
   one_place.vertices.assign(3, Vec3(1, 2, 3));
   one_place.triangles = {{0, 1, 2}};
-  EXPECT_LE(welded(one_place).triangles.size(), 1U);
+  EXPECT_LE(welded(one_place).mesh.triangles.size(), 1U);
+}
+
+// A fine part with a facet far off: what is 0.01 mm apart stays so, what rounding parted is joined.
+TEST(WeldMesh, Fault2_58_OneFarFacetLeavesTheOthersAlone) {
+  for (const double far : {1e6, 1e7, 1e12}) {
+    for (const bool single : {false, true}) {
+      SurfaceMesh mesh = plate(single ? 4e-7 : 1e-12);
+      const auto last = static_cast<std::uint32_t>(mesh.vertices.size());
+      // Two facets of 0.01 mm beside it, and the far one, which begins at the plate.
+      for (const Vec3& v : {Vec3(20, 0, 0), Vec3(20.01, 0, 0), Vec3(20, 0.01, 0),
+                            Vec3(20.01, 0.01, 0), Vec3(0, 0, 0.3), Vec3(far, far, far)}) {
+        mesh.vertices.push_back(v);
+      }
+      mesh.triangles.push_back({last, last + 1, last + 2});
+      mesh.triangles.push_back({last + 1, last + 3, last + 2});
+      mesh.triangles.push_back({last + 4, last, last + 5});
+      if (single) {
+        for (Vec3& v : mesh.vertices) {
+          for (double& x : v) x = static_cast<double>(static_cast<float>(x));
+        }
+      }
+      const WeldedMesh done = welded(mesh);
+      EXPECT_EQ(done.lost_facets, 0U) << far;
+      EXPECT_LE(done.farthest, single ? 4e-6 : 4e-12) << far;
+      EXPECT_GT(done.moved, 50U) << far;
+      EXPECT_EQ(falls_through(done.mesh), 0) << far;
+    }
+  }
+}
+
+TEST(WeldMesh, Fault2_58_SaysWhatItDid) {
+  SurfaceMesh mesh;
+  mesh.vertices = {{0, 0, 0.1}, {10, 0, 0}, {10, 10, 0.1}, {0, 3e-9, 0.1}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 2}};
+  const WeldedMesh done = welded(mesh);
+  EXPECT_EQ(done.moved, 1U);
+  EXPECT_NEAR(done.farthest, 3e-9, 1e-18);
+  EXPECT_EQ(done.lost_facets, 1U);
 }
 
 }  // namespace
