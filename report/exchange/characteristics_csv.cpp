@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 
 #include "report/exchange/csv_field.hpp"
 #include "report/number_text.hpp"
@@ -14,13 +15,15 @@ std::string number(std::optional<double> value) {
   return value && std::isfinite(*value) ? exact_decimal(*value) : std::string();
 }
 
-std::string features_of(const metrology::InspectionPlan& plan, const std::string& name) {
-  std::string text;
+// By the name of the characteristic, separated by blanks.
+std::unordered_map<std::string_view, std::string> features_by_name(
+    const metrology::InspectionPlan& plan) {
+  std::unordered_map<std::string_view, std::string> found;
   for (const metrology::PlannedCharacteristic& planned : plan.characteristics) {
-    if (planned.name != name) continue;
+    std::string& text = found[planned.name];
     for (const std::string& feature : planned.features) text += (text.empty() ? "" : " ") + feature;
   }
-  return text;
+  return found;
 }
 
 }  // namespace
@@ -30,8 +33,11 @@ std::string characteristics_csv(const metrology::Measurement& measurement,
   std::string csv =
       "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict,"
       "interval_low,interval_high\n";
+  const auto features = features_by_name(plan);
   for (const metrology::CharacteristicResult& c : measurement.characteristics) {
-    csv += csv_field(c.name) + ',' + c.kind + ',' + csv_field(features_of(plan, c.name)) + ',' +
+    const auto named = features.find(c.name);
+    csv += csv_field(c.name) + ',' + c.kind + ',' +
+           csv_field(named == features.end() ? std::string() : named->second) + ',' +
            number(c.value) + ',' + number(c.nominal) + ',' + number(deviation_of(c)) + ',' +
            number(c.tolerance) + ',' + number(c.expanded_uncertainty) + ',' + c.unit + ',' +
            std::string(name_of(outcome_of(c))) + ',' +

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,25 +14,6 @@ namespace frustum::report {
 namespace {
 
 using metrology::CharacteristicResult;
-
-// Bytes beyond ASCII belong to a character; its first byte counts for all of it.
-std::string ascii(const std::string& text) {
-  std::string out;
-  const std::string clean = readable_text(text);
-  for (std::size_t at = 0; at < clean.size(); ++at) {
-    const auto byte = static_cast<unsigned char>(clean[at]);
-    if (byte < 0x80U) {
-      out += clean[at];
-      continue;
-    }
-    if ((byte & 0xC0U) == 0x80U) continue;
-    const std::string_view character = std::string_view(clean).substr(at, 2);
-    out += character == "\u00b5" || character == "\u03bc" ? "u"
-           : character == "\u00b0"                        ? "deg"
-                                                          : "?";
-  }
-  return out;
-}
 
 // A nanometre, or its like in the other units.
 int decimals_of(const std::string& unit) {
@@ -74,12 +56,12 @@ void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
   const int decimals = decimals_of(c.unit);
   const double nominal = c.nominal.value_or(0.0);
   dfq.field("K2001", n, std::to_string(n));
-  dfq.field("K2002", n, ascii(c.name));
+  dfq.field("K2002", n, readable_text(c.name));
   dfq.field("K2022", n, std::to_string(decimals));
   dfq.decimal("K2101", n, nominal, decimals);
   if (c.nominal) dfq.decimal("K2110", n, nominal - c.tolerance, decimals);
   dfq.decimal("K2111", n, nominal + c.tolerance, decimals);
-  dfq.field("K2142", n, ascii(c.unit));
+  dfq.field("K2142", n, readable_text(c.unit));
 }
 
 void add_value(DfqText& dfq, std::size_t n, const CharacteristicResult& c,
@@ -88,8 +70,8 @@ void add_value(DfqText& dfq, std::size_t n, const CharacteristicResult& c,
   dfq.decimal("K0001", n, is_measured ? c.value : 0.0, decimals_of(c.unit));
   dfq.field("K0002", n, is_measured ? "0" : "255");
   if (const std::string time = time_text(header.date); !time.empty()) dfq.field("K0004", n, time);
-  if (!header.serial_number.empty()) dfq.field("K0014", n, ascii(header.serial_number));
-  if (!header.order.empty()) dfq.field("K0053", n, ascii(header.order));
+  if (!header.serial_number.empty()) dfq.field("K0014", n, readable_text(header.serial_number));
+  if (!header.order.empty()) dfq.field("K0053", n, readable_text(header.order));
 }
 
 // All facts in the part's remark: the format has fields of their own for few of them.
@@ -98,7 +80,7 @@ std::string remark(const RunReport& report) {
   for (const Fact& fact : all_facts(report.evidence, report.version)) {
     text += (text.empty() ? "" : "; ") + fact.label + ": " + fact.value;
   }
-  return ascii(text);
+  return readable_text(text);
 }
 
 }  // namespace
@@ -108,15 +90,19 @@ std::string dfq_report(const RunReport& report) {
   DfqText dfq;
   dfq.field("K0100", std::to_string(characteristics.size()));
   const metrology::ReportHeader& header = report.evidence.header;
-  dfq.field("K1001", ascii(header.part_number.empty() ? report.title : header.part_number));
-  dfq.field("K1002", ascii(header.part.empty() ? report.title : header.part));
-  if (!header.order.empty()) dfq.field("K1053", ascii(header.order));
+  dfq.field("K1001", readable_text(header.part_number.empty() ? report.title : header.part_number));
+  dfq.field("K1002", readable_text(header.part.empty() ? report.title : header.part));
+  if (!header.order.empty()) dfq.field("K1053", readable_text(header.order));
   if (const std::string text = remark(report); !text.empty()) dfq.field("K1900", text);
   for (std::size_t i = 0; i < characteristics.size(); ++i) describe(dfq, i + 1, characteristics[i]);
   for (std::size_t i = 0; i < characteristics.size(); ++i) {
     add_value(dfq, i + 1, characteristics[i], header);
   }
-  return dfq.text();
+  // Readers take a file without a mark for one of the code page of their computer.
+  const std::string& text = dfq.text();
+  const bool is_ascii = std::all_of(text.begin(), text.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) < 0x80U; });
+  return (is_ascii ? "" : "\xEF\xBB\xBF") + text;
 }
 
 }  // namespace frustum::report

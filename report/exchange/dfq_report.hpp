@@ -6,7 +6,8 @@
 // A form has an upper limit only.
 // Units  : each characteristic in its own (um, mm, deg, urad), as K2142 says; fixed decimals as
 //          K2022 says
-// Errors : none; the file is ASCII: micro signs become u, degree signs deg, other characters ?
+// Errors : none; a file with characters beyond ASCII is UTF-8 and begins with a byte order mark, as
+//          no public source states an encoding; others are ASCII
 // Source : AQDEF, the field list of the transfer format
 #pragma once
 

@@ -158,7 +158,15 @@ Json timing_json(const std::vector<Timing>& timings) {
   return json;
 }
 
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
+
+std::string json_failure(const Diagnostics& diagnostics) {
+  return text_of({{"status", "error"}, {"diagnostics", array_of(diagnostics, diagnostic_json)}});
+}
 
 std::string json_report(const RunReport& report) {
   Json json;
@@ -214,7 +222,7 @@ std::string json_report(const RunReport& report) {
         {"regular", bounds.regular}, {"refuted", bounds.refuted}};
   }
   json["notes"] = report.notes;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 }  // namespace frustum::report

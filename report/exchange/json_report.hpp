@@ -14,11 +14,15 @@
 
 #include <string>
 
+#include "core/diagnostic.hpp"
 #include "report/run_report.hpp"
 
 namespace frustum::report {
 
 // Indented, ending with a line end; keys in the order of the contract.
 [[nodiscard]] std::string json_report(const RunReport& report);
+
+// What a command prints instead where it has no result: {"status":"error","diagnostics":[..]}.
+[[nodiscard]] std::string json_failure(const Diagnostics& diagnostics);
 
 }  // namespace frustum::report

@@ -4,6 +4,7 @@
 
 #include <pugixml.hpp>
 #include <sstream>
+#include <unordered_set>
 
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
@@ -108,8 +109,10 @@ std::string junit_report(const RunReport& report, const metrology::InspectionPla
   for (const CharacteristicResult& c : report.measurement.characteristics) {
     add_characteristic(suite, c);
   }
+  std::unordered_set<std::string_view> measured;
+  for (const CharacteristicResult& c : report.measurement.characteristics) measured.insert(c.name);
   for (const metrology::PlannedCharacteristic& planned : plan.characteristics) {
-    if (report.measurement.find(planned.name)) continue;
+    if (measured.contains(planned.name)) continue;
     suite.error(planned.name, "not measured", faults.empty() ? "no result" : faults);
     is_told = true;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/units.hpp"
 #include "report/number_text.hpp"
@@ -74,21 +75,38 @@ double document_value(double value, const CharacteristicResult& result) {
   return is_angle(result) ? internal * kDegPerRad : internal;
 }
 
-const PlannedCharacteristic* planned_of(const InspectionPlan& plan, const std::string& name) {
-  for (const PlannedCharacteristic& planned : plan.characteristics) {
-    if (planned.name == name) return &planned;
+// The plan's characteristics and features by their names.
+class PlannedParts {
+ public:
+  explicit PlannedParts(const InspectionPlan& plan) {
+    for (const PlannedCharacteristic& c : plan.characteristics) {
+      characteristics_.try_emplace(c.name, &c);
+    }
+    for (const metrology::PlannedFeature& f : plan.features) features_.try_emplace(f.name, &f);
   }
-  return nullptr;
-}
+  // Null where the plan has none.
+  [[nodiscard]] const PlannedCharacteristic* characteristic(const std::string& name) const {
+    const auto found = characteristics_.find(name);
+    return found == characteristics_.end() ? nullptr : found->second;
+  }
+  [[nodiscard]] const metrology::PlannedFeature* feature(const std::string& name) const {
+    const auto found = features_.find(name);
+    return found == features_.end() ? nullptr : found->second;
+  }
+
+ private:
+  std::unordered_map<std::string_view, const PlannedCharacteristic*> characteristics_{};
+  std::unordered_map<std::string_view, const metrology::PlannedFeature*> features_{};
+};
 
 // A zone of that name within <ZoneShape>.
 void add_zone(xml_node definition, const char* zone) { add(add(definition, "ZoneShape"), zone); }
 
 // Two planes for a toleranced plane, a cylinder for an axis.
-const char* orientation_zone(const InspectionPlan& plan, const PlannedCharacteristic* planned) {
+const char* orientation_zone(const PlannedParts& plan, const PlannedCharacteristic* planned) {
   const metrology::PlannedFeature* feature = planned == nullptr || planned->features.empty()
                                                  ? nullptr
-                                                 : find_feature(plan, planned->features.front());
+                                                 : plan.feature(planned->features.front());
   const bool is_plane = feature != nullptr && feature->kind == metrology::FeatureKind::plane;
   return is_plane ? "PlanarZone" : "DiametricalZone";
 }
@@ -112,10 +130,10 @@ void add_definition(xml_node node, const CharacteristicKindRow& row,
 }
 
 // Between the planned axes of the first two features, deg; 0 where there are none.
-double planned_angle(const InspectionPlan& plan, const PlannedCharacteristic* planned) {
+double planned_angle(const PlannedParts& plan, const PlannedCharacteristic* planned) {
   if (planned == nullptr || planned->features.size() < 2) return 0.0;
-  const metrology::PlannedFeature* first = find_feature(plan, planned->features[0]);
-  const metrology::PlannedFeature* second = find_feature(plan, planned->features[1]);
+  const metrology::PlannedFeature* first = plan.feature(planned->features[0]);
+  const metrology::PlannedFeature* second = plan.feature(planned->features[1]);
   if (first == nullptr || second == nullptr) return 0.0;
   return std::atan2(first->axis.cross(second->axis).norm(),
                     std::abs(first->axis.dot(second->axis))) *
@@ -123,7 +141,7 @@ double planned_angle(const InspectionPlan& plan, const PlannedCharacteristic* pl
 }
 
 void add_nominal(xml_node node, const CharacteristicKindRow& row,
-                 const CharacteristicResult& result, const InspectionPlan& plan,
+                 const CharacteristicResult& result, const PlannedParts& plan,
                  const PlannedCharacteristic* planned) {
   if (row.kind == "angularity") add_number(node, "Angle", planned_angle(plan, planned));
   if (row.zone != Zone::limits && row.zone != Zone::between) return;
@@ -166,17 +184,18 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
   const xml_node definitions = add(all, "CharacteristicDefinitions");
   const xml_node nominals = add(all, "CharacteristicNominals");
   const xml_node items = add(all, "CharacteristicItems");
+  const PlannedParts parts(plan);
   for (const CharacteristicResult& result : measurement.characteristics) {
     const CharacteristicKindRow row = row_of(result);
-    const PlannedCharacteristic* planned = planned_of(plan, result.name);
+    const PlannedCharacteristic* planned = parts.characteristic(result.name);
     const int definition = ids.next(), nominal = ids.next(), item = ids.next();
     add_definition(
         add_identified(definitions, name_of_characteristic(row, "Definition"), definition), row,
-        result, orientation_zone(plan, planned));
+        result, orientation_zone(parts, planned));
     const xml_node nominal_node =
         add_identified(nominals, name_of_characteristic(row, "Nominal"), nominal);
     add_reference(nominal_node, "CharacteristicDefinitionId", definition);
-    add_nominal(nominal_node, row, result, plan, planned);
+    add_nominal(nominal_node, row, result, parts, planned);
     const xml_node item_node = add_identified(items, name_of_characteristic(row, "Item"), item);
     add_text(item_node, "Name", result.name);
     add_feature_ids(item_node, "FeatureItemIds", planned, features.items);
@@ -195,8 +214,9 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
                                   const FeatureIds& features, const CharacteristicIds& items) {
   if (measurement.characteristics.empty()) return;
   const xml_node list = add(add(results, "MeasuredCharacteristics"), "CharacteristicMeasurements");
+  const PlannedParts parts(plan);
   for (const CharacteristicResult& result : measurement.characteristics) {
-    const PlannedCharacteristic* planned = planned_of(plan, result.name);
+    const PlannedCharacteristic* planned = parts.characteristic(result.name);
     const xml_node node =
         add_identified(list, name_of_characteristic(row_of(result), "Measurement"), ids.next());
     add_text(add(node, "Status"), "CharacteristicStatusEnum", status_of(result));

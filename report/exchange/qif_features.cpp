@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 #include "core/units.hpp"
 #include "metrology/plan/strategy.hpp"
@@ -212,8 +213,13 @@ void add_measured_features(xml_node results, const InspectionPlan& plan,
                            FeatureIds& features) {
   const xml_node measured = add(results, "MeasuredFeatures");
   const xml_node point_sets = add(results, "MeasuredPointSets");
+  std::unordered_map<std::string_view, const PlannedFeature*> planned_features;
+  for (const PlannedFeature& planned : plan.features) {
+    planned_features.try_emplace(planned.name, &planned);
+  }
   for (const MeasuredFeature& feature : measurement.features) {
-    const PlannedFeature* planned = find_feature(plan, feature.name);
+    const auto known = planned_features.find(feature.name);
+    const PlannedFeature* planned = known == planned_features.end() ? nullptr : known->second;
     const FeatureKindRow* row = planned == nullptr ? nullptr : row_of(*planned);
     if (row == nullptr) continue;
     const int id = ids.next();

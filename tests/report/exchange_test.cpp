@@ -1,6 +1,7 @@
 // The formats for tables, continuous integration and statistics.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <limits>
 #include <pugixml.hpp>
@@ -128,14 +129,70 @@ TEST(DfqReport, WritesKFieldsAndOneSetOfValues) {
   report.measurement.characteristics.push_back(report.measurement.characteristics[0]);
   report.measurement.characteristics[2].value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(exported(ExportFormat::dfq, report, {}),
-            "K0100 3\n"
-            "K1001 K?nus 45deg, 3 um\nK1002 K?nus 45deg, 3 um\n"
+            "\xEF\xBB\xBFK0100 3\n"
+            "K1001 K\u00f6nus 45\u00b0, 3 \u00b5m\nK1002 K\u00f6nus 45\u00b0, 3 \u00b5m\n"
             "K2001/1 1\nK2002/1 cone.form\nK2022/1 4\nK2101/1 0.0000\nK2111/1 10.0000\nK2142/1 um\n"
             "K2001/2 2\nK2002/2 cone.half_angle\nK2022/2 8\nK2101/2 45.00000000\n"
             "K2110/2 44.98282000\nK2111/2 45.01718000\nK2142/2 deg\n"
             "K2001/3 3\nK2002/3 cone.form\nK2022/3 4\nK2101/3 0.0000\nK2111/3 10.0000\nK2142/3 um\n"
             "K0001/1 0.0000\nK0002/1 0\nK0001/2 45.00123000\nK0002/2 0\n"
             "K0001/3 0.0000\nK0002/3 255\n");
+}
+
+TEST(DfqReport, Fault2_60_WritesCharactersBeyondAsciiAsUtf8) {
+  RunReport report;
+  report.title = "Geh\u00e4use";
+  report.measurement.characteristics.push_back({});
+  report.measurement.characteristics.back().name = "\u2300 10 \u00b5m \u00b0";
+  const std::string text = exported(ExportFormat::dfq, report, {});
+  EXPECT_EQ(text.substr(0, 11), "\xEF\xBB\xBFK0100 1\n");
+  EXPECT_NE(text.find("K1001 Geh\u00e4use\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("K2002/1 \u2300 10 \u00b5m \u00b0\n"), std::string::npos) << text;
+}
+
+TEST(CharacteristicsCsv, Fault2_60_NamesAreNoFormulas) {
+  RunReport report;
+  for (const char* name : {"=1+2", "+x", "-y", "@z", "a=b", "'=1", "'quoted"}) {
+    report.measurement.characteristics.push_back({});
+    report.measurement.characteristics.back().name = name;
+  }
+  const std::string text = exported(ExportFormat::csv, report, {});
+  for (const char* line :
+       {"\n'=1+2,", "\n'+x,", "\n'-y,", "\n'@z,", "\na=b,", "\n''=1,", "\n'quoted,"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  }
+}
+
+TEST(Exports, Fault2_59_TakeTimeByTheNumberOfCharacteristics) {
+  // One by one found among all others, 40,000 would take a minute.
+  constexpr int kCount = 40000;
+  RunReport report;
+  metrology::InspectionPlan plan;
+  for (int i = 0; i < kCount; ++i) {
+    metrology::PlannedFeature planned;
+    planned.name = "feature " + std::to_string(i);
+    planned.kind = metrology::FeatureKind::point;
+    plan.features.push_back(planned);
+    metrology::MeasuredFeature measured;
+    measured.name = planned.name;
+    report.measurement.features.push_back(measured);
+    metrology::PlannedCharacteristic asked;
+    asked.name = "c" + std::to_string(i);
+    asked.kind = metrology::CharacteristicKind::position;
+    asked.features = {planned.name};
+    plan.characteristics.push_back(asked);
+    metrology::CharacteristicResult result;
+    result.name = asked.name;
+    result.kind = "position";
+    report.measurement.characteristics.push_back(result);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  for (const ExportFormat format : {ExportFormat::qif, ExportFormat::csv, ExportFormat::json,
+                                    ExportFormat::junit, ExportFormat::dfq}) {
+    EXPECT_GT(exported(format, report, plan).size(), 100000U);
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(taken.count(), 20.0);
 }
 
 TEST(ExportFile, GoesByTheExtension) {
