@@ -83,6 +83,8 @@ struct ResultOptions {
   bool quiet = false;
 };
 void add_result_options(Command& command, ResultOptions& options);
+// Says that there are no results, and why; returns the exit code.
+int refuse(const Diagnostics& diagnostics, const ResultOptions& options);
 // Writes the files of --export, whose names go into the report, and prints it; returns the exit
 // code.
 int show_result(report::RunReport& report, const metrology::InspectionPlan& plan,

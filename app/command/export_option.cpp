@@ -18,10 +18,14 @@ void add_result_options(Command& command, ResultOptions& options) {
   command.flag("--quiet", options.quiet, "No progress, no summary");
 }
 
+int refuse(const Diagnostics& diagnostics, const ResultOptions& options) {
+  return refuse(diagnostics, options.json ? Answer::json : Answer::text);
+}
+
 int show_result(report::RunReport& report, const metrology::InspectionPlan& plan,
                 const std::vector<std::filesystem::path>& exports, const ResultOptions& options) {
   if (const Diagnostics faults = write_exports(exports, report, plan); !faults.empty()) {
-    return refuse(faults);
+    return refuse(faults, options);
   }
   if (options.json) {
     std::cout << report::json_report(report);

@@ -181,18 +181,19 @@ std::string fit_text(const FitOptions& o, const Association& found, std::size_t 
 }
 
 int fit(const FitOptions& o) {
+  const Answer answer = o.json ? Answer::json : Answer::text;
   auto options = association_options(o);
-  if (!options) return refuse(options.error());
+  if (!options) return refuse(options.error(), answer);
   const auto unit = unit_of(o.unit);
-  if (!unit) return refuse(unit.error());
+  if (!unit) return refuse(unit.error(), answer);
   auto cloud = metrology::read_point_cloud(o.points, *unit);
-  if (!cloud) return refuse(cloud.error());
+  if (!cloud) return refuse(cloud.error(), answer);
   if (!o.unweighted) options->weights = std::move(cloud->weights);
   const auto found = metrology::associate(o.element, cloud->points, *options);
   if (!found) {
     Diagnostics problems = found.error();
     for (Diagnostic& d : problems) d.file = o.points;
-    return refuse(problems);
+    return refuse(problems, answer);
   }
   std::cout << (o.json ? fit_json(o, *found) : fit_text(o, *found, cloud->points.size()));
   return kDone;

@@ -37,18 +37,22 @@ struct MeasureOptions : ResultOptions {
   bool ball_centres = false;
 };
 
+int conflicting(const MeasureOptions& options, std::string message, std::string hint) {
+  return refuse({error("conflicting-options"_id, std::move(message), std::move(hint))}, options);
+}
+
 int measure_job(const MeasureOptions& options) {
   const auto job = load_job(options.job, options.overrides, true);
-  if (!job) return refuse(job.error());
+  if (!job) return refuse(job.error(), options);
   const auto exports = checked_exports(options.exports, job->exports);
-  if (!exports) return refuse(exports.error());
+  if (!exports) return refuse(exports.error(), options);
   auto evidence = evidence_of(*job);
-  if (!evidence) return refuse(evidence.error());
+  if (!evidence) return refuse(evidence.error(), options);
   TrialRun run(progress_style(options.quiet || options.json));
   const auto trial = run.trial(*job);
   if (!trial) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
-    return refuse(trial.error());
+    return refuse(trial.error(), options);
   }
   report::RunReport report = report_of(*job, *trial, *std::move(evidence));
   report.timings = run.timings();
@@ -86,6 +90,7 @@ Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
   const auto probe = trials::read_mesh_probe(options.mesh, unit, plan);
   if (!probe) return probe.error();
   auto measurement = metrology::measure(plan, *probe, cmm);
+  if (measurement && probe->note()) measurement->diagnostics.push_back(*probe->note());
   if (measurement) return measurement;
   Diagnostics faults = measurement.error();
   if (auto facing = probe->facing_fault(plan)) faults.insert(faults.begin(), *std::move(facing));
@@ -117,21 +122,21 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
 
 int measure_by_plan(const MeasureOptions& options) {
   const auto plan = metrology::load_plan(options.plan);
-  if (!plan) return refuse(plan.error());
+  if (!plan) return refuse(plan.error(), options);
   const auto unit = unit_of(options.unit);
-  if (!unit) return refuse(unit.error());
+  if (!unit) return refuse(unit.error(), options);
   const auto cmm = cmm_of(options.cmm);
-  if (!cmm) return refuse(cmm.error());
+  if (!cmm) return refuse(cmm.error(), options);
   const auto exports = checked_exports(options.exports);
-  if (!exports) return refuse(exports.error());
+  if (!exports) return refuse(exports.error(), options);
   auto measurement = options.mesh.empty() ? evaluated_points(options, *plan, *unit, *cmm)
                                           : probed_mesh(options, *plan, *unit, *cmm);
   if (!measurement) {
     write_failed_exports(*exports, measurement.error(), *plan);
-    return refuse(measurement.error());
+    return refuse(measurement.error(), options);
   }
   auto evidence = evidence_of(options, *plan, *cmm);
-  if (!evidence) return refuse(evidence.error());
+  if (!evidence) return refuse(evidence.error(), options);
   report::RunReport report;
   report.title = plan->title;
   report.version = FRUSTUM_VERSION;
@@ -145,27 +150,26 @@ int measure(const MeasureOptions& options) {
   const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
   const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
   if (by_plan && options.overrides.any()) {
-    return refuse("conflicting-options"_id,
-                  "--error, --errors, --tool-radius-error and --draw go with a job",
-                  "measured points and meshes have the errors that they have");
+    return conflicting(options, "--error, --errors, --tool-radius-error and --draw go with a job",
+                       "measured points and meshes have the errors that they have");
   }
   if (options.ball_centres && options.points.empty()) {
-    return refuse("conflicting-options"_id, "--ball-centres goes with --points", "leave it out");
+    return conflicting(options, "--ball-centres goes with --points", "leave it out");
   }
   if (by_job && !options.unit.empty()) {
-    return refuse("conflicting-options"_id, "--unit goes with --points or --mesh",
-                  "a job's part is in mm; leave it out");
+    return conflicting(options, "--unit goes with --points or --mesh",
+                       "a job's part is in mm; leave it out");
   }
   if (by_plan) return measure_by_plan(options);
   if (by_job && options.cmm.any()) {
-    return refuse("conflicting-options"_id, "--e0, --l-per-um and --cmm go with --points or --mesh",
-                  "a job states its machine in [inspection.cmm]");
+    return conflicting(options, "--e0, --l-per-um and --cmm go with --points or --mesh",
+                       "a job states its machine in [inspection.cmm]");
   }
   if (by_job) return measure_job(options);
-  return refuse("conflicting-options"_id,
-                "give either a job file, or --plan and --points, or --plan and --mesh",
-                "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv | "
-                "frustum measure --plan PLAN.toml --mesh SCAN.stl");
+  return conflicting(
+      options, "give either a job file, or --plan and --points, or --plan and --mesh",
+      "frustum measure job.toml | frustum measure --plan PLAN.toml --points POINTS.csv | "
+      "frustum measure --plan PLAN.toml --mesh SCAN.stl");
 }
 
 }  // namespace

@@ -50,16 +50,16 @@ std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job
 
 int run_job(const RunOptions& options) {
   const auto job = load_job(options.job, options.overrides, true);
-  if (!job) return refuse(job.error());
+  if (!job) return refuse(job.error(), options);
   const auto exports = checked_exports(options.exports, job->exports);
-  if (!exports) return refuse(exports.error());
+  if (!exports) return refuse(exports.error(), options);
   auto evidence = evidence_of(*job);
-  if (!evidence) return refuse(evidence.error());
+  if (!evidence) return refuse(evidence.error(), options);
   TrialRun run(progress_style(options.quiet || options.json));
   auto trial = run.trial(*job);
   if (!trial) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
-    return refuse(trial.error());
+    return refuse(trial.error(), options);
   }
   report::RunReport report = report_of(*job, *trial, *std::move(evidence));
   run.begin("prove points");
@@ -67,7 +67,7 @@ int run_job(const RunOptions& options) {
   if (job->report) {
     run.begin("mesh the surface");
     auto mesh = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), {});
-    if (!mesh) return refuse(mesh.error());
+    if (!mesh) return refuse(mesh.error(), options);
     report.surface = picture_of(*mesh, job->piece.plan);
     const double finished = stock::measure(*mesh).volume;
     const double blank = trial->workpiece->blank().volume();
@@ -75,7 +75,9 @@ int run_job(const RunOptions& options) {
   }
   run.end();
   report.timings = run.timings();
-  if (const auto failure = write_files(report, *job, folder_of(options))) return refuse(*failure);
+  if (const auto failure = write_files(report, *job, folder_of(options))) {
+    return refuse(*failure, options);
+  }
   return show_result(report, job->piece.plan, *exports, options);
 }
 

@@ -20,6 +20,18 @@ void append(Diagnostics& to, const Diagnostics& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
+// The machine that an error file names must be this one, or one that is known.
+std::optional<Diagnostic> unknown_machine(const kinematics::ErrorFileHead& file,
+                                          const kinematics::Machine& machine) {
+  if (file.machine == machine.name()) return std::nullopt;
+  const auto known = find_machine(file.machine, file.file.parent_path());
+  if (known) return std::nullopt;
+  Diagnostic problem = known.error().front();
+  problem.file = file.file.string();
+  problem.key = "machine";
+  return problem;
+}
+
 }  // namespace
 
 Result<std::vector<ErrorEntry>> gather_errors(ErrorList of_job, const ErrorWords& words,
@@ -44,6 +56,7 @@ Result<std::vector<ErrorEntry>> gather_errors(ErrorList of_job, const ErrorWords
     }
   }
   for (const kinematics::ErrorFileHead& file : all.files) {
+    if (auto problem = unknown_machine(file, machine)) all.problems.push_back(*std::move(problem));
     if (auto problem = mismatch(file, machine)) all.problems.push_back(*std::move(problem));
   }
   if (has_error(all.problems)) return all.problems;

@@ -12,6 +12,8 @@
 #include "core/whole_file.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "metrology/plan/nominal.hpp"
+#include "metrology/probing/acceptance_test.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
 #include "report/measuring_statement.hpp"
 #include "stock/mesh/deviation.hpp"
 #include "stock/mesh/refine_surface.hpp"
@@ -119,6 +121,27 @@ std::string collision_text(const stock::Collision& c) {
                      c.depth, c.point.x(), c.point.y(), c.point.z(), until);
 }
 
+namespace {
+
+// The virtual CMM may be drawn worse than its statement.
+std::optional<Diagnostic> failed_acceptance(const metrology::CmmModel& cmm) {
+  if (metrology::point_uncertainty(cmm).is_zero()) return std::nullopt;
+  const metrology::AcceptanceReport tested = metrology::acceptance_test(cmm);
+  if (tested.passes()) return std::nullopt;
+  return warning(
+      "cmm-acceptance"_id,
+      fmt::format(
+          "the CMM of the job fails its own acceptance test: the worst of {} lengths uses "
+          "{:.0f} % of its limit (ISO 10360-2); a sphere has form {:.3f} um and size {:.3f} "
+          "um, limit {:.3f} um (ISO 10360-5)",
+          tested.lengths.size(), 100.0 * tested.worst_length_share(),
+          tested.probing_form * kUmPerMm, tested.probing_size * kUmPerMm,
+          tested.probing_limit * kUmPerMm),
+      "model = \"field\" in inspection.cmm draws machines that pass; frustum cmm prints the test");
+}
+
+}  // namespace
+
 Result<report::Evidence> evidence_of(const Job& job) {
   report::Evidence evidence;
   evidence.header = job.piece.plan.header;
@@ -168,6 +191,9 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial, report::
   report.diagnostics = trial.warnings;
   report.diagnostics.insert(report.diagnostics.end(), trial.wrong_cuts.begin(),
                             trial.wrong_cuts.end());
+  if (!trial.measurement.characteristics.empty()) {
+    if (auto failed = failed_acceptance(job.cmm)) report.diagnostics.push_back(*std::move(failed));
+  }
   const Vec3& at = job.piece.placement.origin;
   const Vec3 tilt = job.piece.placement.tilt * kDegPerRad;
   report.notes.push_back(fmt::format(

@@ -7,6 +7,7 @@
 
 #include "app/job/measured_values.hpp"
 #include "core/toml_document.hpp"
+#include "metrology/uncertainty/point_uncertainty.hpp"
 #include "trials/parameter.hpp"
 
 namespace frustum::app {
@@ -22,15 +23,19 @@ void append_all(Diagnostics& all, const Diagnostics& more) {
 std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folder,
                                    Diagnostics& problems) {
   const std::string name = table.text("name");
-  const fs::path job_file = table.file_path("job");
+  const std::string job_name = table.text("job");
   const std::vector<std::string> files = table.texts_or("measured", {});
   if (files.empty()) {
     table.fail("measured", "nothing-measured"_id, "no measured values",
                "measured = [\"part-1.toml\"]: .toml values, .json results or .csv points; several "
                "files are several parts of one kind");
   }
-  if (!table.has("job")) return std::nullopt;
-  auto job = load_job(job_file, {}, true);
+  if (job_name.empty()) {
+    // Of another type or missing, text() has reported it.
+    if (table.is_sound()) table.fail("job", "no-job"_id, "names no file", "job = \"job.toml\"");
+    return std::nullopt;
+  }
+  auto job = load_job(table.file_path("job"), {}, true);
   if (!job) {
     append_all(problems, job.error());
     return std::nullopt;
@@ -46,8 +51,13 @@ std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folde
   return part;
 }
 
-// An error's amount in mm or rad, checked against what the name means.
+// An error's amount in mm or rad, checked against what the name means. A bare number would be mm or
+// degrees, where um and urad are meant.
 double amount(const TomlTable& table, std::string_view key, const Parameter& parameter) {
+  if (table.is_number(key) && table.number(key) != 0.0) {
+    table.fail(key, "no-unit"_id, fmt::format("{:g} has no unit", table.number(key)),
+               parameter.angular ? "write for example \"30 urad\"" : "write for example \"10 um\"");
+  }
   return parameter.angular ? table.angle(key).value : table.length(key).value;
 }
 
@@ -141,8 +151,20 @@ Parts read_parts(const TomlDocument& document) {
 }
 
 void read_uncertainty(const TomlTable& table, Study& study) {
-  if (const auto cmm = table.table_if("cmm")) study.cmm = metrology::read_cmm_model(*cmm);
+  if (const auto cmm = table.table_if("cmm")) {
+    study.cmm = metrology::read_cmm_model(*cmm);
+    if (metrology::point_uncertainty(*study.cmm).is_zero()) {
+      cmm->fail("e0", "no-uncertainty"_id, "a CMM without errors gives measured values no weight",
+                "state its e0, l_per_um or both; leave cmm out for the job's own");
+    }
+  }
   if (const auto floor = table.table_if("floor")) {
+    for (const char* key : {"length", "angle"}) {
+      if (floor->is_number(key) && floor->number(key) != 0.0) {
+        floor->fail(key, "no-unit"_id, fmt::format("{:g} has no unit", floor->number(key)),
+                    "write for example \"4 um\" or \"20 urad\"");
+      }
+    }
     study.floor_length = floor->length_or("length", {}, Bound::non_negative).value;
     study.floor_angle = floor->angle_or("angle", {}, Bound::non_negative).value;
   }
@@ -182,8 +204,14 @@ Result<Study> load_study(const fs::path& file) {
   const TomlTable& root = document->root();
   Parts parts = read_parts(*document);
   // Without a machine nothing else of the file can be judged.
-  if (has_error(parts.problems)) return parts.problems;
-  if (parts.parts.empty()) return document->finish();
+  if (has_error(parts.problems) || parts.parts.empty()) {
+    for (const char* key : {"title", "unknown", "known", "uncertainty", "method", "compare"}) {
+      (void)root.has(key);  // known, though not read
+    }
+    Diagnostics all = document->finish();
+    append_all(all, parts.problems);
+    return all;
+  }
 
   Study study;
   study.file = file;

@@ -8,11 +8,18 @@
 #include <cstring>
 #include <iostream>
 
+#include "report/exchange/json_report.hpp"
+
 namespace frustum::app {
 
 int refuse(const Diagnostics& diagnostics) {
   print(std::cerr, diagnostics);
   return kBadInput;
+}
+
+int refuse(const Diagnostics& diagnostics, Answer answer) {
+  if (answer == Answer::json) std::cout << report::json_failure(diagnostics);
+  return refuse(diagnostics);
 }
 
 int refuse(DiagnosticId id, const std::string& message, const std::string& hint) {

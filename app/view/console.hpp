@@ -22,6 +22,10 @@ constexpr int kTableWidth = 140;
 int refuse(const Diagnostics& diagnostics);
 int refuse(DiagnosticId id, const std::string& message, const std::string& hint = {});
 
+// The same for a command that was asked for JSON: its standard output is one document then too.
+enum class Answer { text, json };
+int refuse(const Diagnostics& diagnostics, Answer answer);
+
 // Opens those of standard input, output and errors that the caller has closed, so that no file
 // takes their place; they stay unusable.
 void open_standard_streams();

@@ -65,6 +65,22 @@ TEST_F(DecisionSystem, ExitsWithOneWhereConformityIsNotProven) {
   expect_verdict("pass");
 }
 
+TEST_F(DecisionSystem, Fault2_60_SaysThatTheCmmFailsItsOwnTest) {
+  write_piece();
+  const auto tells = [&] {
+    const Told told = measured();
+    for (const json& d : told.all["diagnostics"]) {
+      if (d["id"] == "cmm-acceptance") return true;
+    }
+    return false;
+  };
+  EXPECT_EQ(run("cmm piece/job.toml").exit_code, 1);
+  EXPECT_TRUE(tells());
+  in_job("e0 = \"2 um\"", "model = \"field\", e0 = \"2 um\", l_per_um = 300");
+  EXPECT_EQ(run("cmm piece/job.toml").exit_code, 0);
+  EXPECT_FALSE(tells());
+}
+
 TEST_F(DecisionSystem, FailsWhatIsWhollyOutside) {
   write_piece();
   job_asks("decision = \"iso14253\"");

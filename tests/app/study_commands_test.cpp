@@ -62,6 +62,33 @@ TEST_F(StudyCommandsSystem, TellsTheDerivativeOfEveryCharacteristic) {
   EXPECT_NEAR(json::parse(differences.out)["matrix"][0][0].get<double>(), 2.0, 1e-6);
 }
 
+TEST_F(StudyCommandsSystem, Fault2_31_MistakesOfAStudyHaveTheirPlace) {
+  const std::string study =
+      "title = \"t\"\n[[part]]\nname = \"a\"\njob = 5\nmeasured = [\"m.toml\"]\n";
+  write("s.toml", study);
+  const Outcome number = run("identify s.toml");
+  EXPECT_EQ(number.exit_code, 2);
+  EXPECT_EQ(number.err, "s.toml:4:1: error: part[1].job: expected text, found a whole number\n");
+  write_steps("piece", "--patterns 1-a");
+  measure("piece", "", "m.json");
+  write("s.toml",
+        "[[part]]\nname = \"a\"\njob = \"piece/job.toml\"\nmeasured = [\"m.json\"]\n"
+        "[uncertainty]\ncmm = { e0 = 0 }\n");
+  const Outcome ideal = run("identify s.toml");
+  EXPECT_EQ(ideal.exit_code, 2);
+  EXPECT_NE(ideal.err.find("s.toml:6:9: error: uncertainty.cmm.e0: "), std::string::npos)
+      << ideal.err;
+}
+
+TEST_F(StudyCommandsSystem, Fault2_31_AnErrorFileNamesAMachine) {
+  write_steps("piece", "--patterns 1-a");
+  write("mine.toml", "title = \"t\"\nmachine = \"rubbish\"\n[errors]\nEXX = \"linear 1 um\"\n");
+  const Outcome outcome = run("measure piece/job.toml --errors mine.toml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("mine.toml: error: machine: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("rubbish"), std::string::npos) << outcome.err;
+}
+
 TEST_F(StudyCommandsSystem, IdentifiesThePublishedMachine) {
   const Outcome outcome =
       run("identify '" FRUSTUM_SOURCE_DIR "/examples/ibaraki-2010/study.toml' --json");
