@@ -44,17 +44,21 @@ int report(const CompensateOptions& options, const calibration::CompensatedPiece
     nlohmann::ordered_json doc{{"files", nlohmann::ordered_json::array()},
                                {"before", as_json(made.before)},
                                {"after", as_json(made.after)},
+                               {"at_turns", as_json(made.at_turns)},
                                {"reached", reached}};
     for (const fs::path& file : files) doc["files"].push_back(file.string());
     std::cout << doc.dump(2) << '\n';
   } else {
     for (const fs::path& file : files) std::cout << file.string() << '\n';
     const auto row = [](const char* when, const calibration::PathError& error) {
-      std::cout << fmt::format("{:<7} tip {:10.4f} um   tool axis {:10.4f} urad\n", when,
+      std::cout << fmt::format("{:<8} tip {:10.4f} um   tool axis {:10.4f} urad\n", when,
                                error.tip * kUmPerMm, error.axis * kUradPerRad);
     };
     row("before", made.before);
     row("after", made.after);
+    if (made.at_turns.tip > 0.0 || made.at_turns.axis > 0.0) {
+      row("at turns", made.at_turns);
+    }
   }
   if (reached) return kDone;
   std::cerr << "more than 1 % of the tip's error, and more than 0.05 um, is left\n";

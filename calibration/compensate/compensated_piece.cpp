@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "calibration/compensate/compensation_proof.hpp"
 #include "parser/writing/motion_spelling.hpp"
 #include "parser/writing/motion_writer.hpp"
 
@@ -35,11 +36,11 @@ Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
                                            const trials::CommandedPiece& commanded,
                                            const CompensationOptions& options,
                                            std::optional<parser::Dialect> dialect) {
-  auto result = compensated(machine, errors, trials::setup_of(piece), commanded.motions,
-                            commanded.program, options);
+  const kinematics::Setup setup = trials::setup_of(piece);
+  auto result = corrected(machine, errors, setup, commanded.motions, commanded.program, options);
   if (!result) return in_file(std::move(result).error(), piece.program_file);
 
-  CompensatedPiece made{.piece = piece, .before = result->before, .after = result->after};
+  CompensatedPiece made{.piece = piece, .before = result->before};
   if (piece.dialect == parser::Dialect::cldata) made.piece.dialect = parser::Dialect::fanuc;
   parser::WriterOptions layout;
   if (dialect && *dialect != made.piece.dialect) {
@@ -59,6 +60,14 @@ Result<CompensatedPiece> compensated_piece(const kinematics::Machine& machine,
     operation.first_line = lines.first;
     operation.last_line = lines.last;
   }
+  // What is proven is the text.
+  const auto written = trials::command_piece(machine, made.piece);
+  if (!written) return written.error();
+  const auto proof =
+      prove(machine, errors, setup, commanded.program, written->program, result->sources, options);
+  if (!proof) return in_file(proof.error(), made.piece.program_file);
+  made.after = proof->beside;
+  made.at_turns = proof->at_turns;
   return made;
 }
 

@@ -19,7 +19,8 @@ namespace frustum::calibration {
 struct CompensatedPiece {
   programs::TestPiece piece{};
   PathError before{};
-  PathError after{};
+  PathError after{};     // of the program as written, beside the places where an axis turns
+  PathError at_turns{};  // there
 };
 
 [[nodiscard]] Result<CompensatedPiece> compensated_piece(

@@ -8,13 +8,16 @@
 //            keep their mode: under tool-centre-point control tip and rotary positions, otherwise
 //            axis positions. Tool vectors become rotary positions, arcs become short lines, tilted
 //            planes are resolved. Moves in machine coordinates and without a tool stay as they are;
-//            rapids are corrected at their ends
+//            rapids are corrected at their ends. Errors that depend on the direction of approach
+//            are corrected for the directions in which the corrected axes move (stroke.hpp)
 // Units    : mm, rad
 // Errors   : what the controller refuses, before or after the correction (a corrected position
 //            beyond the travel), with the NC line
 // Accuracy : proven by running the result: `after` is what was measured on it
+//            (compensation_proof.hpp)
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,10 +41,21 @@ struct PathError {
   double axis = 0.0;  // rad
 };
 
+// What a block of the corrected program comes from: of all blocks with a tool in the spindle, the
+// number of one before the correction, and a span of its u.
+struct SourceSpan {
+  std::uint32_t block = 0;
+  double from = 0.0;
+  double to = 1.0;
+  bool turn = false;  // made for an axis that turns: the tool stays, or goes a micrometre
+};
+
 struct CompensatedProgram {
   std::vector<parser::Motion> motions{};
+  std::vector<SourceSpan> sources{};  // of each block with a tool
   PathError before{};
-  PathError after{};
+  PathError after{};     // beside the places where an axis turns
+  PathError at_turns{};  // there, while the axes go over the jump of an error
 };
 
 [[nodiscard]] Result<CompensatedProgram> compensated(const kinematics::Machine& machine,
@@ -49,12 +63,12 @@ struct CompensatedProgram {
                                                      const kinematics::Setup& setup,
                                                      std::span<const parser::Motion> motions,
                                                      const CompensationOptions& options = {});
-// Of motions that have been commanded before.
-[[nodiscard]] Result<CompensatedProgram> compensated(const kinematics::Machine& machine,
-                                                     const kinematics::GeometricErrors& errors,
-                                                     const kinematics::Setup& setup,
-                                                     std::span<const parser::Motion> motions,
-                                                     const kinematics::CommandedProgram& commanded,
-                                                     const CompensationOptions& options = {});
+// Of motions that have been commanded before; not proven yet.
+[[nodiscard]] Result<CompensatedProgram> corrected(const kinematics::Machine& machine,
+                                                   const kinematics::GeometricErrors& errors,
+                                                   const kinematics::Setup& setup,
+                                                   std::span<const parser::Motion> motions,
+                                                   const kinematics::CommandedProgram& commanded,
+                                                   const CompensationOptions& options = {});
 
 }  // namespace frustum::calibration

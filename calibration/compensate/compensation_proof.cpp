@@ -1,0 +1,199 @@
+#include "calibration/compensate/compensation_proof.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "calibration/compensate/pose_distance.hpp"
+#include "calibration/compensate/wanted_block.hpp"
+#include "kinematics/path/travel.hpp"
+
+namespace frustum::calibration {
+namespace {
+
+using kinematics::CommandedMove;
+using kinematics::ToolPath;
+using kinematics::ToolPose;
+
+// Of the blocks before and after one; several axes may turn, and back, within the zone of one.
+constexpr std::size_t kTurnsBeside = 40;
+constexpr std::size_t kBlocksBeside = 40;
+
+// The place nearest to a pose on a line of poses.
+ToolPose nearest(const ToolPose& pose, std::span<const ToolPose> line) {
+  ToolPose best = line.front();
+  double least = distance(best, pose);
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    const ToolPose foot =
+        kinematics::between(line[k], line[k + 1], share_of_way(line[k], line[k + 1], pose));
+    if (const double d = distance(foot, pose); d < least) {
+      least = d;
+      best = foot;
+    }
+  }
+  return best;
+}
+
+void include(PathError& error, const ToolPose& actual, const ToolPose& wanted) {
+  error.tip = std::max(error.tip, (actual.tip - wanted.tip).norm());
+  error.axis = std::max(error.axis, angle_between(actual.axis, wanted.axis));
+}
+
+// A place where an axis turns, and how far round it the turn moves the tool.
+class Turn {
+ public:
+  Turn(const ToolPose& place, std::span<const ToolPose> actual) : place_(place) {
+    for (const ToolPose& pose : actual) reach_ = std::max(reach_, distance(pose, place));
+  }
+  [[nodiscard]] bool is_near(const ToolPose& place) const {
+    return distance(place, place_) <= reach_;
+  }
+
+ private:
+  ToolPose place_;
+  double reach_ = kTurnZone;
+};
+
+// Nominal poses, in the workpiece frame, of the blocks that the spans come from in order.
+class NominalSpans {
+ public:
+  NominalSpans(const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
+               const kinematics::Setup& setup, const kinematics::CommandedProgram& nominal,
+               double bound)
+      : machine_(machine),
+        errors_(errors),
+        setup_(setup),
+        workpiece_from_table_(setup.table_from_workpiece.inverse()),
+        bound_(bound) {
+    for (const kinematics::CommandedStep& step : nominal.steps) {
+      const auto* move = std::get_if<CommandedMove>(&step);
+      if (move != nullptr && move->tool != 0) moves_.push_back(move);
+    }
+  }
+
+  [[nodiscard]] std::vector<ToolPose> poses(const SourceSpan& span) {
+    const WantedBlock& block = block_of(span.block);
+    std::vector<ToolPose> poses{at(block, span.from)};
+    if (span.to <= span.from) return poses;
+    for (const double u : block.samples_between(span.from, span.to)) poses.push_back(at(block, u));
+    poses.push_back(at(block, span.to));
+    return poses;
+  }
+
+ private:
+  const WantedBlock& block_of(std::uint32_t index) {
+    if (!block_ || index != index_) {
+      const CommandedMove& move = *moves_[index];
+      const kinematics::ToolGeometry& tool = setup_.tools.at(move.tool);
+      block_.emplace(machine_, errors_, move.motion, tool.length + tool.length_error,
+                     tool.flute_length, bound_);
+      index_ = index;
+    }
+    return *block_;
+  }
+  [[nodiscard]] ToolPose at(const WantedBlock& block, double u) const {
+    const ToolPose in_table = block.pose(u);
+    return {workpiece_from_table_.point(in_table.tip),
+            workpiece_from_table_.direction(in_table.axis)};
+  }
+
+  const kinematics::Machine& machine_;
+  const kinematics::GeometricErrors& errors_;
+  const kinematics::Setup& setup_;
+  Pose workpiece_from_table_;
+  double bound_;
+  std::vector<const CommandedMove*> moves_{};
+  std::optional<WantedBlock> block_{};
+  std::uint32_t index_ = 0;
+};
+
+// The poses of one block of a path, and those from which an error jumps to the next one.
+struct ActualBlock {
+  std::vector<ToolPose> poses{};
+  std::vector<std::size_t> jumps{};
+};
+
+std::vector<ActualBlock> actual_blocks(const ToolPath& path) {
+  std::vector<ActualBlock> blocks(path.blocks.size());
+  for (const kinematics::PathSegment& segment : path.segments) {
+    ActualBlock& block = blocks[segment.block];
+    if (block.poses.empty()) block.poses.push_back(path.from(segment));
+    const bool stands = path.axes[segment.first_pose].q == path.axes[segment.first_pose + 1].q;
+    if (stands) block.jumps.push_back(block.poses.size() - 1);
+    block.poses.push_back(path.to(segment));
+  }
+  return blocks;
+}
+
+// Where axes turn in one block.
+std::vector<Turn> turns_of(const SourceSpan& source, std::span<const ToolPose> wanted,
+                           const ActualBlock& actual) {
+  std::vector<Turn> turns;
+  if (source.turn) turns.emplace_back(wanted.front(), actual.poses);
+  for (const std::size_t k : actual.jumps) {
+    turns.emplace_back(nearest(actual.poses[k], wanted), std::span(actual.poses).subspan(k, 2));
+  }
+  return turns;
+}
+
+}  // namespace
+
+Result<CompensationProof> prove(const kinematics::Machine& machine,
+                                const kinematics::GeometricErrors& errors,
+                                const kinematics::Setup& setup,
+                                const kinematics::CommandedProgram& nominal,
+                                const kinematics::CommandedProgram& written,
+                                std::span<const SourceSpan> sources,
+                                const CompensationOptions& options) {
+  const double bound = 0.5 * options.bound;
+  const ToolPath path =
+      kinematics::travel(machine, setup, written, errors, {.path_bound = bound}).path;
+  NominalSpans nominal_spans(machine, errors, setup, nominal, bound);
+  if (path.blocks.size() != sources.size()) {
+    return error("compensation-unproven"_id,
+                 fmt::format("the program written has {} blocks with a tool, not {}",
+                             path.blocks.size(), sources.size()),
+                 "report this program");
+  }
+  const std::vector<ActualBlock> actual = actual_blocks(path);
+  std::vector<std::vector<ToolPose>> wanted;
+  std::vector<Turn> turns;
+  std::vector<std::size_t> turns_before{0};  // each block
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    wanted.push_back(nominal_spans.poses(sources[k]));
+    const std::vector<Turn> found = turns_of(sources[k], wanted[k], actual[k]);
+    turns.insert(turns.end(), found.begin(), found.end());
+    turns_before.push_back(turns.size());
+  }
+  CompensationProof proof;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    if (path.blocks[k].kind != kinematics::PathKind::feed || actual[k].poses.empty()) continue;
+    const std::size_t first = turns_before[k] - std::min(turns_before[k], kTurnsBeside);
+    const std::size_t last = std::min(turns_before[k + 1] + kTurnsBeside, turns.size());
+    for (const ToolPose& pose : actual[k].poses) {
+      const ToolPose place = nearest(pose, wanted[k]);
+      const bool turning = std::any_of(turns.begin() + static_cast<std::ptrdiff_t>(first),
+                                       turns.begin() + static_cast<std::ptrdiff_t>(last),
+                                       [&](const Turn& turn) { return turn.is_near(place); });
+      include(turning ? proof.at_turns : proof.beside, pose, place);
+    }
+    if (sources[k].turn) continue;
+    for (const ToolPose& pose : wanted[k]) {
+      ToolPose passing = nearest(pose, actual[k].poses);
+      // Where an axis turns, it may be a block beside that passes.
+      const std::size_t beside = distance(passing, pose) > options.bound ? kBlocksBeside : 0;
+      for (std::size_t i = k - std::min(k, beside); i <= k + beside && i < actual.size(); ++i) {
+        if (actual[i].poses.empty()) continue;
+        const ToolPose other = nearest(pose, actual[i].poses);
+        if (distance(other, pose) < distance(passing, pose)) passing = other;
+      }
+      include(proof.beside, passing, pose);
+    }
+  }
+  return proof;
+}
+
+}  // namespace frustum::calibration
