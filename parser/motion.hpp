@@ -113,6 +113,8 @@ struct Dwell {
 // M6: the tool of that number is now in the spindle.
 struct ToolChange {
   int tool = 0;
+  // The control says that the axes are then where they were before; else the machine's builder does.
+  bool axes_stay = false;
 };
 // G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given); `length` is set where
 // the program or its tool table gives the length itself (G43.1, G10 L1), and goes before what the

@@ -107,6 +107,9 @@ struct DialectRules {
   // Machine coordinates still carry the tool length and the tool-tip control.
   bool machine_coordinates_keep_length = false;
   bool home_without_axes_is_all = false;
+  // After a tool change the axes are where they were before it (RS274/NGC, NIST 6556, 3.6.3); else
+  // Z is where the machine's builder has it.
+  bool tool_change_keeps_place = false;
   // M6 may come before any T: the tool that the operator has prepared.
   bool first_tool_may_be_prepared = false;
   // Before G20 or G21 the unit is what the control was left in: mm is taken, unless it is known.

@@ -135,6 +135,7 @@ constexpr DialectRules kLinuxCncRules{
     .dwell = kLinuxCncDwell,
     .dwell_hint = "give P in seconds",
     .home_without_axes_is_all = true,
+    .tool_change_keeps_place = true,
     .feed_precedes_unit = true,
     .arcs = arc_tolerance(0.01),
     .arcs_in_inches = arc_tolerance(0.001 * kMmPerInch),

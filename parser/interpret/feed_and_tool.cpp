@@ -14,6 +14,7 @@
 #include "parser/interpret/state/interpreter_state.hpp"
 #include "parser/interpret/state/word_values.hpp"
 #include "parser/language/letter_case.hpp"
+#include "parser/language/letter_set.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -135,6 +136,19 @@ Outcome change_before_tool(InterpreterState& state, const GivenCode& change) {
   return Done{};
 }
 
+// Most machines change tools at a place of their own, and stay there.
+void lose_height(InterpreterState& state) {
+  const ProgramPosition& position = state.position;
+  const std::optional<double> height = position.programmed(AxisLetter::Z)
+                                           ? position.programmed(AxisLetter::Z)
+                                           : position[AxisLetter::Z];
+  if (!height) return;
+  const double before = *height;
+  const bool by_axes = !state.modes.tool_centre_point() && !state.modes.tilted;
+  forget(state, by_axes ? LetterSet("Z") : kLinearWords, PositionLoss::tool_change);
+  state.position.keep_height_before_tool(before);
+}
+
 Outcome change_tool(InterpreterState& state, const BlockWords& words) {
   const GivenCode& change = words[CodeGroup::tool_change];
   const std::uint32_t column = change.code != nullptr ? change.column : words['T'].column;
@@ -147,9 +161,13 @@ Outcome change_tool(InterpreterState& state, const BlockWords& words) {
     state.modes.spindle = SpindleDirection::off;
     emit(state, column, SpindleChange{state.modes.spindle, state.modes.spindle_speed});
   }
+  // TOOL CALL of the tool that is in the spindle gives it another speed.
+  const bool called_again =
+      known && state.rules.tool_brings_length && state.modes.tool == *state.modes.selected_tool;
+  if (!state.rules.tool_change_keeps_place && !called_again) lose_height(state);
   if (!known) return Done{};
   state.modes.tool = state.data.tool = *state.modes.selected_tool;
-  emit(state, column, ToolChange{state.modes.tool});
+  emit(state, column, ToolChange{state.modes.tool, state.rules.tool_change_keeps_place});
   return Done{};
 }
 
@@ -213,7 +231,7 @@ Outcome set_tool(InterpreterState& state, const BlockWords& words) {
     if (!tool) return tool.error();
     if (auto done = check_tool_exists(state, *tool, words['Q'].column); !done) return done;
     state.modes.tool = state.data.tool = *tool;
-    emit(state, change.column, ToolChange{state.modes.tool});
+    emit(state, change.column, ToolChange{state.modes.tool, true});
   } else if (change.code != nullptr || comes_behind_change(state, words)) {
     return change_tool(state, words);
   }

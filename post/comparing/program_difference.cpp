@@ -40,7 +40,7 @@ void complete(ComparedProgram& program) {
   motions.reserve(program.motions.size() + 1);
   for (parser::Motion& motion : program.motions) {
     if (auto* change = std::get_if<parser::ToolChange>(&motion.command)) {
-      motions.push_back({motion.place, up});
+      if (!change->axes_stay) motions.push_back({motion.place, up});
       if (change->tool == 0) change->tool = kUncalled;
     }
     motions.push_back(std::move(motion));

@@ -101,12 +101,12 @@ class Planner {
   }
   void follow(const parser::ToolChange& change) {
     stop_spindle();
+    if (!change.axes_stay) stays_at_.reset();
+    if (change.axes_stay && !stays_at_) stays_at_ = state_.q[AxisLetter::Z];
     state_.retract();
     state_.compensate({});
     state_.tool = change.tool;
     state_.emit(change);
-    kept_z_ = last_z_;
-    lower_to_.reset();
   }
   void follow(const parser::CompensationChange& change) {
     if (change.length) {
@@ -187,6 +187,7 @@ class Planner {
 
   // Machine coordinates: axis positions in every form of output.
   void move_axes(const AxisTarget& end, const Feed* feed) {
+    if (feed != nullptr) lower();
     AxisPositions to = state_.q;
     for (const AxisLetter letter : parser::kAxisLetters) {
       if (!end[letter]) continue;
@@ -204,37 +205,46 @@ class Planner {
     state_.q = to;
     state_.moved = true;
     const auto& z = end[AxisLetter::Z];
-    if (z) last_z_ = kept_z_ = lower_to_ = std::nullopt;
+    if (z) stays_at_.reset();
     if (z) state_.retracted = *z >= state_.machine.home()[AxisLetter::Z] - kNoTravel;
   }
 
-  // A rapid in X and Y after a tool change still has the Z from before it, which the program need
-  // not have said again: it is made with Z at home, where the change left it. Z follows where it is
-  // said, or before the tool is fed.
+  // Z is at its home after a tool change, whatever the program's control does with it. A rapid in X
+  // and Y alone is made up there; where its control keeps Z, that follows before the tool is fed.
   void go(const PlannedBlock& block) {
-    const std::optional<double> z = block.end[AxisLetter::Z];
-    const bool kept = kept_z_ && z == kept_z_ && state_.retracted && !state_.tip_words();
     PlannedBlock beside = block;
     beside.end[AxisLetter::Z].reset();
-    if (kept && block.feed == nullptr && moves(beside.end)) {
-      lower_to_ = *z + state_.controller.axis_shift().z();
+    const bool by_axes = block.feed == nullptr && !state_.tip_words();
+    if (by_axes && state_.retracted && !leaves_height(block.end) && moves(beside.end)) {
+      const double up = state_.q[AxisLetter::Z];
       go_there(beside, true);
-      state_.retracted = true;
+      state_.retracted = state_.q[AxisLetter::Z] == up;
       return;
     }
-    if (lower_to_ && block.feed != nullptr) lower(*lower_to_);
-    lower_to_.reset();
-    kept_z_.reset();
-    if (z) last_z_ = z;
+    if (!by_axes) lower();
+    stays_at_.reset();
     if (state_.problems.empty()) go_there(block);
   }
 
-  // Z alone, by rapid.
-  void lower(double z) {
+  // Whether a word says another Z than the program has.
+  [[nodiscard]] bool leaves_height(const AxisTarget& end) const {
+    const std::optional<double>& z = end[AxisLetter::Z];
+    if (!z) return false;
+    const double at = stays_at_.value_or(state_.q[AxisLetter::Z]);
+    return std::abs(*z + state_.controller.axis_shift().z() - at) > kNoTravel;
+  }
+
+  // To where the program has Z, by rapid.
+  void lower() {
+    const auto z = std::exchange(stays_at_, std::nullopt);
+    if (!z || std::abs(*z - state_.q[AxisLetter::Z]) <= kNoTravel) return;
     AxisPositions to = state_.q;
-    to[AxisLetter::Z] = z;
+    to[AxisLetter::Z] = *z;
     PlannedBlock down;
     down.end[AxisLetter::Z] = 0.0;
+    for (const auto& joint : state_.machine.joints()) {
+      if (state_.tip_words()) down.end[joint.letter] = 0.0;
+    }
     const CompensationChange wanted = output_compensation();
     if (!state_.within_travel(to) || !state_.length_known(wanted, &down.end)) return;
     state_.compensate(wanted);
@@ -382,10 +392,15 @@ class Planner {
     return false;
   }
 
+  // A thread's way back follows a spindle that turns again.
+  [[nodiscard]] double spindle_speed_for(const Feed& feed) const {
+    return feed.synchronised ? state_.modes().spindle.speed : state_.modes().spindle_speed();
+  }
+
   double minutes_for(const PlannedBlock& block, const BlockMotion& motion) {
     if (block.feed == nullptr || !has_feed(block.feed)) return 0.0;
     const auto minutes =
-        minutes_of(*block.feed, motion.feed_length(), state_.modes().spindle.speed);
+        minutes_of(*block.feed, motion.feed_length(), spindle_speed_for(*block.feed));
     if (minutes) return *minutes;
     state_.fail(minutes.error().front());
     return 0.0;
@@ -457,9 +472,8 @@ class Planner {
   std::span<const Motion> program_;
   PlanOptions options_;
   std::size_t at_ = 0;
-  std::optional<double> last_z_{};    // word of the program
-  std::optional<double> kept_z_{};    // that from before the tool change, while Z is at its home
-  std::optional<double> lower_to_{};  // position of Z that the program means meanwhile
+  // Position of Z that the program has since a tool change that keeps it, while Z is at its home.
+  std::optional<double> stays_at_{};
   PlanState state_;
   RotaryChoice rotary_{state_};
   BlockOutput output_{state_, rotary_};

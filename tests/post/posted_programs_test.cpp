@@ -118,14 +118,46 @@ TEST(PostedPrograms, StayUpAfterAToolChangeUntilZIsSaid) {
   EXPECT_NE(text_of(program).find("\nX80. Y80.\nG43 H2\nX80. Y80. Z50.\nG1 Z-2.\n"),
             std::string::npos)
       << text_of(program);
-  // Fed from the old Z, with and without a new length.
-  expect_alike(head + "G1 Z-2\nM30\n", Dialect::fanuc);
-  expect_alike(head + "G43 H2\nG1 Z-2\nM30\n", Dialect::fanuc);
-  // Z is needed where the tool is fed, and where the program says it beside X and Y.
-  const std::string fed = text_of(head + "G1 X90\nM30\n");
-  EXPECT_NE(fed.find("\nX80. Y80.\nG43 H1\nZ50.\nG1 X90. Y80.\n"), std::string::npos) << fed;
   const std::string said = text_of(head + "G43 H2 X90 Z40\nG1 Z0\nM30\n");
   EXPECT_NE(said.find("\nX80. Y80.\nG43 H2\nX90. Y80. Z40.\n"), std::string::npos) << said;
+  // Where the change leaves Z the tool is fed from there.
+  expect_alike(head + "G1 Z-2\nM30\n", Dialect::fanuc);
+  expect_alike(head + "G43 H2\nG1 Z-2\nM30\n", Dialect::fanuc);
+  const std::string fed = text_of(head + "G1 X90\nM30\n");
+  EXPECT_NE(fed.find("\nX80. Y80.\nG43 H1\nG1 X90. Y80.\n"), std::string::npos) << fed;
+}
+
+// LinuxCNC leaves the axes where they were (NIST 6556, 3.6.3): Z50 with 100 mm is Z30 with 120 mm.
+// The posted program comes down to it before the tool is fed, and not askew from Z's home.
+TEST(PostedPrograms, ComeDownToWhereTheChangeOfTheOtherControlLeavesZ) {
+  const std::string head =
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG0 X10 Y10\nG43 H1 Z50\nG1 Z-1 F100\nG0 Z50\nT2 M6\n"
+      "S1000 M3\n";
+  for (const char* rest : {"G1 X90\n", "G1 Z-1\n", "G0 X80\nG1 X90\n", "G91 G0 Z-20\nG1 X9\n",
+                           "G43 H2\nG0 X80\nG1 X90\n", "G53 G1 X90\n"}) {
+    expect_alike(head + rest + "M30\n", Dialect::linuxcnc);
+  }
+  const auto text_of = [&](const std::string& rest, Dialect to) {
+    return posted(motions_in(head + rest + "M30\n", Dialect::linuxcnc), to);
+  };
+  const std::string fed = text_of("G1 X90\n", Dialect::fanuc);
+  EXPECT_NE(fed.find("\nG43 H1\nZ50.\nG1 X90. Y10.\n"), std::string::npos) << fed;
+  const std::string longer = text_of("G1 X90\n", Dialect::heidenhain);
+  EXPECT_NE(longer.find("L Z+30 R0 FMAX\n"), std::string::npos) << longer;
+  const std::string stepped = text_of("G91 G0 Z-20\n", Dialect::fanuc);
+  EXPECT_NE(stepped.find("\nG43 H1\nX10. Y10. Z30.\n"), std::string::npos) << stepped;
+}
+
+// The hole is where it is said; Z is where the change leaves it.
+TEST(PostedPrograms, GoToAHoleAtTheHeightOfTheToolChange) {
+  const std::string program =
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z50\nG1 Z-1 F100\nX10\nT2 M6\n"
+      "S1000 M3\nG43 H2\nG81 X33 Y30 Z-5 R2 F100\nX44\nG80\nM30\n";
+  expect_alike(program, Dialect::fanuc);
+  const std::string text = posted(motions_in(program, Dialect::fanuc), Dialect::fanuc);
+  EXPECT_NE(text.find("\nX33. Y30.\nG43 H2\nX33. Y30. Z2.\nG1 Z-5.\nG0 Z2.\nX44.\n"),
+            std::string::npos)
+      << text;
 }
 
 // G43.4 and M428 are for programs that turn the tool or the work.
@@ -200,6 +232,18 @@ TEST(PostedPrograms, HaveAFeed) {
       EXPECT_NE(posted(motions, to).find("before the first F"), std::string::npos)
           << posted(motions, to);
     }
+  }
+}
+
+// The tool stands still, and the control waits for ever.
+TEST(PostedPrograms, TurnTheSpindleThatTheirFeedCountsBy) {
+  const auto motions = motions_in(
+      "G21 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z5\nG95 G1 Z-1 F0.2\nM5\nX10\nM30\n",
+      Dialect::fanuc);
+  for (const Dialect to : parser::written_dialects()) {
+    EXPECT_NE(posted(motions, to).find("8:1: error: feed per revolution with the spindle at rest"),
+              std::string::npos)
+        << posted(motions, to);
   }
 }
 

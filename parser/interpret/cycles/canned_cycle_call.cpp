@@ -69,6 +69,27 @@ Outcome check_shift(const InterpreterState& state, const BlockWords& words,
   return Done{};
 }
 
+// The depth from which a cycle begins; absent after a tool change, where R and the bottom suffice.
+Result<std::optional<double>> initial_level(InterpreterState& state, const Movement& movement,
+                                            AxisLetter depth_axis) {
+  // The length of the tool has been switched on with no move of its own.
+  if (const auto programmed = state.position.programmed(depth_axis)) {
+    state.position.set(depth_axis, *programmed);
+  }
+  if (state.position[depth_axis]) return state.position[depth_axis];
+  const bool after_change =
+      depth_axis == AxisLetter::Z && state.position.height_before_tool().has_value();
+  const bool steps = state.modes.distance == DistanceMode::incremental;
+  if (after_change && !steps && movement.motion != MotionMode::bore_back) {
+    return std::optional<double>{};
+  }
+  return fail(
+      state, movement.column, state.position.unknown_id(depth_axis),
+      fmt::format("the cycle starts at an unknown {}: {}", to_char(depth_axis),
+                  state.position.why_unknown(depth_axis)),
+      fmt::format("program {} in absolute coordinates (G90) before it", to_char(depth_axis)));
+}
+
 // Words that the block gives replace those in force.
 Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Movement& movement,
                   AxisLetter depth_axis) {
@@ -78,18 +99,12 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   if (goes_on && state.rules.cycles.words_end_with_their_g_word && cycle.last != movement.motion) {
     cycle = CannedCycle{.initial = cycle.initial};
   }
+  std::optional<double> initial = cycle.initial;
   if (!goes_on) {
-    // The length of the tool has been switched on with no move of its own.
-    if (const auto programmed = state.position.programmed(depth_axis)) {
-      state.position.set(depth_axis, *programmed);
-    }
-    if (!state.position[depth_axis]) {
-      return fail(state, movement.column, state.position.unknown_id(depth_axis),
-                  fmt::format("the cycle starts at an unknown {}: {}", depth_letter,
-                              state.position.why_unknown(depth_axis)),
-                  fmt::format("program {} in absolute coordinates (G90) before it", depth_letter));
-    }
-    cycle.initial = *state.position[depth_axis];
+    const auto level = initial_level(state, movement, depth_axis);
+    if (!level) return level.error();
+    initial = *level;
+    cycle.initial = initial.value_or(0.0);
   }
   cycle.last = movement.motion;
   const auto read = [&](char letter, std::optional<double>& value, double scale) {
@@ -125,13 +140,19 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     return fail(state, movement.column, "cycle-word-missing"_id,
                 fmt::format("the cycle has no {}", letter), std::move(what));
   };
-  if (!cycle.level && state.rules.starts_with_rapid) {
+  if (!cycle.level && state.rules.starts_with_rapid && initial) {
     assume(state, movement.column, "cycle without R", "feeding begins where the tool is");
     cycle.level = cycle.level_is_step ? 0.0 : cycle.initial;
   }
   if (!cycle.level) return missing('R', "give R, where feeding begins");
   if (!cycle.bottom) {
     return missing(depth_letter, fmt::format("give {}, the bottom of the hole", depth_letter));
+  }
+  if (!initial) {
+    cycle.initial = std::max(*state.position.height_before_tool(), *cycle.level);
+    assume(state, movement.column, "initial level",
+           fmt::format("{}: the initial level is where it was before, or R where that is higher",
+                       state.position.why_unknown(depth_axis)));
   }
   if (needs_peck(cycle.last) && (!cycle.peck || *cycle.peck <= 0.0)) {
     return missing('Q', "give Q, the depth of a peck, above zero");
@@ -297,7 +318,7 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
       state.position.set(v, bolt.y());
     }
     rapid(movement.column);
-    if (*state.position[w] != depths.level && !depths.from_level) {
+    if (state.position[w] != depths.level && !depths.from_level) {
       state.position.set(w, depths.level);
       rapid(movement.column);
     }

@@ -255,8 +255,8 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
   const auto height = state.position[AxisLetter::Z] && !state.position.programmed(AxisLetter::Z)
                           ? state.position[AxisLetter::Z]
                           : state.position.programmed(AxisLetter::Z);
-  const auto above = state.position[AxisLetter::Z] ? state.position[AxisLetter::Z]
-                                                   : state.position.height_before_tool();
+  const auto before_tool = state.position.height_before_tool();
+  const auto above = state.position[AxisLetter::Z] ? state.position[AxisLetter::Z] : before_tool;
   const CompensationChange reported_before = compensation_change(before.compensation);
   const CompensationChange reported_after = compensation_change(next);
   const bool tip_before = reported_before.mode == LengthCompensation::tool_centre_point;
@@ -274,7 +274,8 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
     if (state.rules.length_adds_to_moves && height && shifted && !tip_after) {
       state.position.keep_programmed(AxisLetter::Z, *height);
     }
-    if (state.rules.tool_brings_length && above && !state.position[AxisLetter::Z]) {
+    if ((state.rules.tool_brings_length || before_tool) && above &&
+        !state.position[AxisLetter::Z]) {
       state.position.keep_height_before_tool(*above);
     }
   }

@@ -14,6 +14,7 @@ constexpr std::array kLossTexts{"",
                                 "the change of the tilted plane",
                                 "the turn of the frame",
                                 "the cycle of the probe",
+                                "the tool change",
                                 kMistake};
 
 }  // namespace

@@ -30,6 +30,7 @@ enum class PositionLoss : std::uint8_t {
   tilted_plane,
   turned_frame,  // G68
   probing_cycle,
+  tool_change,
   mistake,  // a block that could not be run
 };
 
@@ -52,7 +53,7 @@ class ProgramPosition {
     programmed_[axis].reset();
     if (axis == AxisLetter::Z) height_before_tool_.reset();
   }
-  // Where Z was before a change of tools whose lengths only the setup knows.
+  // Where Z was before a tool change after which it is not known.
   [[nodiscard]] const std::optional<double>& height_before_tool() const {
     return height_before_tool_;
   }

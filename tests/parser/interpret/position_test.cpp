@@ -1,7 +1,9 @@
 // What the program may rely on after moves and frame changes whose result it cannot know.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/units.hpp"
@@ -39,12 +41,44 @@ TEST(Position, IsKnownOnlyAsFarAsTheProgramCanKnowIt) {
            Case{"G43.5 H1", "XABC"},
            Case{"G49", "XYZABC"},
            Case{"G40 G80 G17 G0", "XYZABC"},
-           Case{"T1 M6", "XYZABC"},
+           Case{"T1 M6", "XYABC"},
            Case{"G20", "XYZABC"},
        }) {
     const std::string text = std::string("G0 X1 Y2 Z3 A4 B5 C6\n") + c.change + "\n";
     // A move of X shows what the program carries besides X.
     EXPECT_EQ(axes_in(last_of<Traverse>(motions(text + "X9\n")).end), c.known) << c.change;
+  }
+}
+
+// Where a machine changes its tools only its builder knows; LinuxCNC comes back (NIST 6556, 3.6.3).
+TEST(Position, OfZIsLostInAToolChangeThatTheControlDoesNotDescribe) {
+  const std::string head = "G21 G90 G54\nT1 M6\nG0 X1 Y2 Z50\nT2 M6\n";
+  const auto step = complaints(head + "G91 G0 Z-20\n");
+  ASSERT_EQ(step.size(), 1U);
+  EXPECT_NE(step.front().find("5:8: error: Z-20 is incremental, but Z is not known since the tool "
+                              "change on line 4"),
+            std::string::npos)
+      << step.front();
+  const auto kept = motions(head + "G91 G0 Z-20\n", {}, Dialect::linuxcnc);
+  EXPECT_EQ(last_of<Traverse>(kept).end[Z], 30.0);
+  EXPECT_TRUE(last_of<ToolChange>(kept).axes_stay);
+}
+
+// R and the bottom of G90 do not ask where the cycle begins, the level of G98 does; steps do.
+TEST(Position, OfZAfterAToolChangeIsTheMachinesInACycle) {
+  const std::string head = "G21 G90 G54\nT1 M6\nG0 X1 Y2 Z50\nT2 M6\nM3 S100\n";
+  const std::string cycle = "G81 X33 Y30 Z-5 R2 F100\n";
+  const std::vector<std::string> unknown{"position-unknown"};
+  EXPECT_EQ(complaint_ids(head + "G91 " + cycle), unknown);
+  EXPECT_EQ(complaint_ids(head + "G87 X33 Y30 Z-5 R-9 Q1 F100\n"), unknown);
+  for (const auto& [length, level] : {std::pair("", 50.0), {"G43 H2\n", 50.0}}) {
+    const auto drilled = motions(head + length + cycle);
+    std::vector<std::optional<double>> heights;
+    for (const Traverse& rapid : all_of<Traverse>(drilled)) heights.push_back(rapid.end[Z]);
+    EXPECT_EQ(heights, (std::vector<std::optional<double>>{50.0, std::nullopt, 2.0, level}));
+    EXPECT_EQ(last_of<Event>(drilled).text,
+              "Z is not known since the tool change on line 4: the initial level is where it was "
+              "before, or R where that is higher");
   }
 }
 
