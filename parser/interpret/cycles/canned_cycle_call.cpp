@@ -288,14 +288,16 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     emit(state, column,
          Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
   };
-  const double height = state.rules.cycles.start_from_initial ? cycle.initial : *state.position[w];
+  const double height = state.rules.cycles.start_from_initial
+                            ? cycle.initial
+                            : state.position[w].value_or(cycle.initial);
   if (state.rules.cycles.rises_before_it_goes && holes > 0 && height < depths.level) {
     state.position.set(w, depths.level);
     rapid(movement.column);
   }
   // With G99 it goes up to a higher R on the way.
   if (state.rules.cycles.start_from_initial) {
-    state.position.set(w, std::max(*state.position[w],
+    state.position.set(w, std::max(state.position[w].value_or(cycle.initial),
                                    state.modes.retract_to_initial ? depths.clear : depths.level));
   }
   Vec2 middle = Vec2::Zero();
@@ -322,8 +324,8 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
       state.position.set(w, depths.level);
       rapid(movement.column);
     }
-    Vec3 centre;
-    for (const AxisLetter axis : {u, v, w}) {
+    Vec3 centre = Vec3::Zero();
+    for (const AxisLetter axis : {u, v}) {
       centre[static_cast<Eigen::Index>(axis)] = *state.position[axis];
     }
     const auto place = [&](double depth, bool shifted) {
