@@ -113,7 +113,7 @@ struct Dwell {
 // M6: the tool of that number is now in the spindle.
 struct ToolChange {
   int tool = 0;
-  // The control says that the axes are then where they were before; else the machine's builder does.
+  // The control says that the axes are where they were before; else only the builder knows.
   bool axes_stay = false;
 };
 // G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given); `length` is set where
