@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "cutter/body/cutter.hpp"
 #include "cutter/body/tool_table.hpp"
 #include "kinematics/model/number_table.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -109,6 +112,31 @@ std::optional<std::string> value_text(const CutterSpec& spec, const CutterKey& k
   return rows_text(rows, width_of(key.name));
 }
 
+// Programs call a tool by its name, in which capitals and small letters are the same. Remarks of a
+// tool table may be there twice as long as no program calls them. `keys`: of the tools in the file.
+void check_names(const TomlTable& tools, const std::map<int, std::string>& keys,
+                 const ToolList& all) {
+  const auto is_named = [&](int number) {
+    const auto key = keys.find(number);
+    return key != keys.end() && tools.table(key->second).has("name");
+  };
+  std::map<std::string, int> named;
+  for (const auto& [number, spec] : all) {
+    if (spec.name.empty()) continue;
+    const auto [first, is_new] = named.emplace(parser::upper_case(spec.name), number);
+    if (is_new) continue;
+    const bool at_this = is_named(number);
+    if (!at_this && !is_named(first->second)) continue;
+    const int wrong = at_this ? number : first->second;
+    const int other = at_this ? first->second : number;
+    tools.table(keys.at(wrong))
+        .fail("name", "tool-name"_id,
+              fmt::format("tool.{} has the name \"{}\" too", other, all.at(other).name),
+              "programs call tools by their names, in which capitals and small letters are the "
+              "same: give each its own");
+  }
+}
+
 }  // namespace
 
 CutterSpec read_cutter(const TomlTable& table, const std::optional<CutterSpec>& base) {
@@ -158,6 +186,7 @@ ToolList read_tools(const TomlTable& tools, ToolList base) {
     }
     base.insert_or_assign(*number, std::move(spec));
   }
+  check_names(tools, seen, base);
   return base;
 }
 

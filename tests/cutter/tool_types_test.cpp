@@ -318,6 +318,28 @@ TEST(ToolLibrary, MistakesAreReportedWithTheirKeys) {
   }
 }
 
+TEST(ToolLibrary, NamesThatDifferByCapitalsAloneAreTheSame) {
+  const auto complaints = [](std::string_view text, ToolList base = {}) {
+    const auto document = TomlDocument::parse(text, "job.toml");
+    static_cast<void>(read_tools(document->root().table("tool"), std::move(base)));
+    std::string all;
+    for (const Diagnostic& d : document->finish()) all += to_string(d) + "\n";
+    return all;
+  };
+  const std::string mill = "type = \"flat\", diameter = 2, length = 9";
+  const std::string twice = complaints("tool.1 = { name = \"Mill 8\", " + mill +
+                                       " }\ntool.4 = { name = \"MILL 8\", " + mill + " }\n");
+  EXPECT_NE(twice.find("tool.4.name"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("tool.1 has the name \"Mill 8\" too"), std::string::npos) << twice;
+  CutterSpec drill;
+  drill.name = "drill";
+  const ToolList library{{4, drill}, {5, drill}};  // remarks may be the same
+  EXPECT_EQ(complaints("tool.1 = { name = \"Mill 8\", " + mill + " }\n", library), "");
+  EXPECT_NE(
+      complaints("tool.1 = { name = \"DRILL\", " + mill + " }\n", library).find("tool.1.name"),
+      std::string::npos);
+}
+
 TEST(ToolLibrary, AJobChangesSingleValues) {
   ToolList base{{4, specimens()[3]}};
   const auto document = TomlDocument::parse(
