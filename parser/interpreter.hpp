@@ -67,7 +67,7 @@ struct InterpreterOptions {
   std::vector<std::filesystem::path> search_path{};
   // A program that runs more blocks than this beyond the lines of its files, by repeats within
   // repeats, is taken for a mistake; max_blocks of `control` goes before it.
-  std::uint64_t max_blocks = 3'000'000;
+  std::uint64_t max_blocks = 2'000'000;
   // So is one that runs more than this without moving an axis.
   std::uint64_t max_idle_blocks = 1'000'000;
   // Looks on: called before each block that is run or passed over; false ends the run there.

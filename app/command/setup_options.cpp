@@ -27,7 +27,7 @@ void add_control_options(Command& command, SetupWords& words) {
                  "An M or G word of the machine's builder that moves nothing, repeated");
   command.option("--max-blocks", words.max_blocks,
                  "Blocks that may run again before they are an endless loop (default: as the "
-                 "machine file says, else 3000000)");
+                 "machine file says, else 2000000)");
   command
       .option("--decimal-point", words.decimal_point,
               "How numbers without a point count: calculator (X10 is 10 mm) or increment (0.010 "
