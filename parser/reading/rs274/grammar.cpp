@@ -77,7 +77,7 @@ class BlockBuilder {
   }
   Iterator read_program_number(Iterator begin) {
     in_.go_to(column_of(begin));
-    if (in_.peek() < '0' || in_.peek() > '9') return aligns(begin) ? begin : nullptr;
+    if (in_.peek() < '0' || in_.peek() > '9') return nullptr;
     // The O is one byte or some blanks before its digits; its column was noted.
     if (block_.program) {
       in_.fail("word-twice"_id, opening_word_column_, "two O words in a block",
@@ -87,17 +87,20 @@ class BlockBuilder {
     block_.program_column = opening_word_column_;
     return end_of_reading();
   }
-  // A colon that begins a block, without a number: the alignment character of ISO 6983.
-  bool aligns(Iterator begin) {
-    const bool leads = block_.words.empty() && block_.assignments.empty() &&
-                       block_.comments.empty() && !block_.program && !block_.number;
+  // A colon that begins a block, without a number: the alignment character of ISO 6983. With one it
+  // is the O of a program.
+  Iterator read_mark(Iterator begin) {
+    in_.go_to(column_of(begin));
+    if (in_.peek() != ':') return nullptr;
+    const std::uint32_t column = in_.column();
+    in_.take(':');
     const char next = in_.peek();
-    const bool goes_on = next == '\0' || next == '(' || next == ';' ||
+    const bool goes_on = next == '\0' || next == '(' || next == ';' || next == '/' ||
                          std::isalpha(static_cast<unsigned char>(next)) != 0;
-    if (text_[opening_word_column_ - 1] != ':' || !leads || !goes_on) return false;
+    if (!goes_on) return nullptr;
     block_.comments.push_back(
-        {column_of(begin) - 1, false, "without a number it is passed over", ":", false, true});
-    return true;
+        {column, false, "without a number it is passed over", ":", false, true});
+    return end_of_reading();
   }
   // A plain number, by far the most common value, needs no expression.
   Iterator read_word_value(Iterator begin) {
@@ -327,7 +330,8 @@ const auto kTapeMark = x3::lit('%')[then([](BlockBuilder& b) { b.set_tape_mark()
 const auto block_end_def = x3::eoi;
 const auto kBlock =
     ((kTapeMark >> -(kInMacro >> PartReader(&BlockBuilder::read_tape_name)) >> *kComment) |
-     (-kDelete >> -((x3::no_case['n'] > block_number) >> -kDelete) >>
+     (-(kInMacro >> PartReader(&BlockBuilder::read_mark)) >> -kDelete >>
+      -((x3::no_case['n'] > block_number) >> -kDelete) >>
       *(kWord | kComment | kSetting | kProgram | kCorner))) > block_end;
 
 BOOST_SPIRIT_DEFINE(word_value, corner_letter, setting_value, equals, comment_end, block_number,

@@ -76,6 +76,7 @@ class SinumerikReader {
         in_.fail("out-of-range"_id, in_.column(), "/ has a level from 0 to 9", "write /1");
       }
     }
+    pass_over_mark();
     const std::uint32_t column = in_.column();
     const bool numbered = in_.take(':') || (in_.peek() == 'N' && in_.letters() == "N");
     // NORM is a word.
@@ -93,6 +94,16 @@ class SinumerikReader {
         in_.fail("number-too-large"_id, column, "the block number is too large",
                  "N has up to 8 digits");
     }
+  }
+
+  // : of a main block without its number.
+  void pass_over_mark() {
+    const std::uint32_t column = in_.column();
+    if (!in_.take(':')) return;
+    const char next = in_.peek();
+    if (next >= '0' && next <= '9') return in_.go_to(column);
+    draft_.add_event(":", column, "without a number it is passed over");
+    block_.comments.back().assumed = true;
   }
 
   void read_element() {

@@ -14,14 +14,18 @@ namespace frustum::parser {
 namespace {
 
 // Settings that change nothing that is simulated: SPOS=30, ACC[X]=50.
-constexpr std::array<const char*, 23> kSettings{
-    "SPOS",    "SPOSA", "ADIS",  "ADISPOS", "LIMS", "OVR",     "OVRRAP",  "ACC",
-    "CTOL",    "OTOL",  "STOLF", "ATOL",    "FD",   "JERKLIM", "VELOLIM", "FGREF",
-    "ACCLIMA", "OVRA",  "SCC",   "FL",      "FPR",  "TOLFRC",  "CUTMOD"};
+constexpr std::array<const char*, 33> kSettings{
+    "SPOS", "SPOSA",  "ADIS", "ADISPOS", "LIMS",    "OVR",     "OVRRAP", "ACC",      "CTOL",
+    "OTOL", "STOLF",  "ATOL", "FD",      "JERKLIM", "VELOLIM", "FGREF",  "ACCLIMA",  "OVRA",
+    "SCC",  "FL",     "FPR",  "TOLFRC",  "CUTMOD",  "STAT",    "TU",     "VELOLIMA", "JERKLIMA",
+    "FDA",  "SCPARA", "FXST", "FXSW",    "FA",      "FP"};
+
+// Where to an interruption of the program lifts the tool.
+constexpr std::array<const char*, 5> kLiftWords{"POLF", "POLFMASK", "POLFMLIN", "DILF", "ALF"};
 
 // Settings that change nothing at zero, where they are switched off or what they are anyway.
-constexpr std::array<const char*, 9> kIdleAtZero{"OFFN",   "DL",   "TOFF",  "TOFFL", "TOFFR",
-                                                 "TOFFLR", "DISC", "TCARR", "FXS"};
+constexpr std::array<const char*, 12> kIdleAtZero{
+    "OFFN", "DL", "TOFF", "TOFFL", "TOFFR", "TOFFLR", "DISC", "TCARR", "FXS", "ISD", "SPN", "SPP"};
 
 // Axes beside X, Y and Z, of a quill or a second slide: at zero they are where they were when the
 // work offset was taken.
@@ -238,6 +242,17 @@ bool read_sinumerik_setting(BlockDraft& draft, const std::string& name, std::uin
     } else {
       read_setting(draft, setting, column);
     }
+    return true;
+  }
+  if (const char* lift = found_in(kLiftWords, name); lift != nullptr) {
+    if (draft.in.peek() == '(') {
+      read_event(draft, lift, column, false);
+    } else {
+      read_setting(draft, lift, column);
+    }
+    if (draft.in.failed()) return true;
+    draft.block.comments.back().text += ": nothing interrupts the program and lifts the tool";
+    draft.block.comments.back().assumed = true;
     return true;
   }
   if (const char* event = found_in(kEvents, name); event != nullptr) {
