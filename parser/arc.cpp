@@ -24,7 +24,7 @@ Result<Arc> arc_by_radius(const ArcWords& words) {
   const PlaneAxes axes = axes_of(words.plane);
   const double radius = *words.radius;
   if (radius == 0.0) {
-    return error("arc-radius-zero"_id, "R is zero",
+    return error("arc-radius-zero"_id, fmt::format("{} is zero", words.radius_word),
                  fmt::format("give the radius, or the centre by {}", centre_words(words.plane)));
   }
   const double du = words.end[axes.u] - words.start[axes.u];
@@ -32,15 +32,17 @@ Result<Arc> arc_by_radius(const ArcWords& words) {
   const double chord = std::hypot(du, dv);
   if (chord < kFullCircleGap) {
     return error("arc-full-by-radius"_id,
-                 "an arc with R ends at its start, which leaves its centre open",
+                 fmt::format("an arc with {} ends at its start, which leaves its centre open",
+                             words.radius_word),
                  fmt::format("give the centre of a full circle by {}", centre_words(words.plane)));
   }
   const double half = chord / 2.0;
   if (half - std::abs(radius) > words.tolerance.reach.value_or(words.tolerance.at(half))) {
     return error("arc-radius"_id,
-                 fmt::format("R {} is too small: the end is {} from the start",
+                 fmt::format("{} {} is too small: the end is {} from the start", words.radius_word,
                              mm(std::abs(radius)), mm(chord)),
-                 fmt::format("R must be at least {}; correct R or the end", mm(half)));
+                 fmt::format("{0} must be at least {1}; correct {0} or the end", words.radius_word,
+                             mm(half)));
   }
   // From the middle of the chord to the centre; left of the chord for a short counterclockwise arc.
   const double height = std::sqrt(std::max(radius * radius - half * half, 0.0));
@@ -107,15 +109,16 @@ Result<Arc> arc_of(const ArcWords& words) {
   const bool has_centre = std::any_of(words.centre.begin(), words.centre.end(),
                                       [](const auto& word) { return word.has_value(); });
   if (has_centre && words.radius) {
-    return error("arc-centre-twice"_id,
-                 fmt::format("{} has both R and a centre", word_of(words.clockwise)),
-                 fmt::format("give R, or {}", centre_words(words.plane)));
+    return error(
+        "arc-centre-twice"_id,
+        fmt::format("{} has both {} and a centre", word_of(words.clockwise), words.radius_word),
+        fmt::format("give {}, or {}", words.radius_word, centre_words(words.plane)));
   }
   if (words.radius) return arc_by_radius(words);
   if (has_centre) return arc_by_centre(words);
   return error("arc-centre-missing"_id,
                fmt::format("{} without a centre", word_of(words.clockwise)),
-               fmt::format("give {}, or R", centre_words(words.plane)));
+               fmt::format("give {}, or {}", centre_words(words.plane), words.radius_word));
 }
 
 }  // namespace frustum::parser

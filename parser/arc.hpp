@@ -13,6 +13,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "core/pose.hpp"
 #include "core/result.hpp"
@@ -56,6 +57,7 @@ struct ArcWords {
   bool centre_is_absolute = false;                // G90.1
   std::optional<double> radius{};
   ArcTolerance tolerance{};
+  std::string_view radius_word = "R";  // as the program writes it, for messages
 };
 
 struct Arc {

@@ -64,6 +64,7 @@ class TableLine {
         return fault;
       }
     }
+    tool.has_diameter = given.has('D');
     if (!given.empty() && !number) {
       return Mistake{1, "a line without a tool number", "begin the line with T and its number"};
     }
@@ -143,6 +144,12 @@ class TableLine {
 };
 
 }  // namespace
+
+Tool& entry_of(ToolTable& tools, int number) {
+  const auto [place, fresh] = tools.try_emplace(number);
+  if (fresh) place->second.has_length = place->second.has_diameter = false;
+  return place->second;
+}
 
 Result<ToolTable> tool_table_of(std::string_view text, const std::string& file, LengthUnit unit) {
   const double scale = unit == LengthUnit::millimetre ? 1.0 : kMmPerInch;

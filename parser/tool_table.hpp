@@ -4,6 +4,7 @@
 //   alone. T1 P1 D10.0 Z50.0 ;end mill
 //   T number, P pocket, D diameter, X Y Z A B C offsets, I J front and back angle of a turning tool
 //   in degrees, Q its orientation 0 to 9. U, V and W have to be zero: these axes are not simulated.
+// A D that a line leaves out is not given, and zero in LinuxCNC itself; other words are zero.
 // The file does not name its unit. It is that of the machine, and in LinuxCNC's stand-alone rs274
 // always the inch.
 //
@@ -29,9 +30,10 @@ struct Tool {
       offset{};  // of its tip from the gauge point, along the machine axes
   double diameter = 0.0;
   std::string remark{};
-  // Whether the length (Z) is given; a program may set the diameter alone, and the setup has the
-  // length.
+  // Whether the length (Z) and the diameter are given; what is not, only the setup knows. A wear
+  // gives neither.
   bool has_length = true;
+  bool has_diameter = true;
   double length_wear = 0.0;    // added to the length
   double diameter_wear = 0.0;  // added to the diameter
   double front_angle = 0.0;
@@ -40,6 +42,9 @@ struct Tool {
 };
 
 using ToolTable = std::map<int, Tool>;  // by tool number
+
+// The entry of a number; of a new one neither length nor diameter is given.
+[[nodiscard]] Tool& entry_of(ToolTable& tools, int number);
 
 [[nodiscard]] Result<ToolTable> tool_table_of(std::string_view text, const std::string& file,
                                               LengthUnit unit = LengthUnit::millimetre);

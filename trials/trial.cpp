@@ -191,11 +191,10 @@ std::string_view name_of(Stage stage) {
 parser::ToolTable called_tools_of(const TestPiece& piece) {
   parser::ToolTable tools;
   for (const auto& [number, cutter] : piece.tools) {
-    parser::Tool tool;
+    parser::Tool& tool = parser::entry_of(tools, number);
     tool.diameter = cutter.diameter.value;
-    tool.has_length = false;
+    tool.has_diameter = true;
     tool.remark = cutter.name;
-    tools.emplace(number, tool);
   }
   return tools;
 }

@@ -67,9 +67,9 @@ std::optional<Diagnostic> add_tool_diameter(const std::string& text, parser::Too
     return error("out-of-range"_id,
                  fmt::format("--tool-diameter {}: a diameter is above zero", text), "in mm");
   }
-  parser::Tool& tool = tools[word->number];
+  parser::Tool& tool = parser::entry_of(tools, word->number);
   tool.diameter = word->value;
-  tool.has_length = false;
+  tool.has_diameter = true;
   return std::nullopt;
 }
 
@@ -199,9 +199,9 @@ void KnownSetup::tell(parser::InterpreterOptions& options) const {
   options.tools = tools;
   options.tools_are_all = false;
   for (const auto& [number, tool] : setup.tools) {
-    const auto [at, fresh] = options.tools.try_emplace(number);
-    at->second.has_length = true;
-    at->second.offset.at(static_cast<std::size_t>(parser::AxisLetter::Z)) = tool.length;
+    parser::Tool& told = parser::entry_of(options.tools, number);
+    told.has_length = true;
+    told.offset.at(static_cast<std::size_t>(parser::AxisLetter::Z)) = tool.length;
   }
   for (const auto& [number, origin] : setup.work_offsets) {
     if (number == 1 && first_offset_is_assumed) continue;

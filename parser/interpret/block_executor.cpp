@@ -99,25 +99,6 @@ Outcome set_frames(InterpreterState& state, MotionFilters& filters, const BlockW
   return set_hole_cycle(state, words);
 }
 
-// The first block whose lengths or feed depend on the unit, before the program has given one.
-void look_for_unit(InterpreterState& state, const BlockWords& words, const Movement& movement) {
-  constexpr LetterSet kLengths{"XYZIJKRQ"};
-  if (words.has(CodeGroup::unit) || !state.rules.unit_may_be_missing) {
-    state.modes.unit_is_known = true;
-    return;
-  }
-  const bool cuts = movement.motion > MotionMode::traverse;
-  const bool dwells = movement.non_modal == NonModal::dwell;
-  const bool moves = movement.motion != MotionMode::none || movement.non_modal != NonModal::none;
-  if (!moves || dwells) return;
-  LetterSet lengths = words.given() & kLengths;
-  while (!lengths.empty() && words[lengths.first()].value == 0.0) lengths = lengths.without_first();
-  if (lengths.empty() && !cuts) return;
-  state.modes.unit_is_known = true;
-  assume(state, lengths.empty() ? movement.column : words[lengths.first()].column, "units",
-         "lengths are in mm: no G20 or G21 comes before");
-}
-
 // G1 X10 C2 in a program that has turned no axis so far: controls of lathes, and some others, make
 // a chamfer of it.
 void look_for_chamfer(InterpreterState& state, const BlockWords& words, const Movement& movement) {
@@ -144,6 +125,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWor
     return *std::move(failure);
   }
   const LengthUnit unit = words.value_or(CodeGroup::unit, state.modes.unit);
+  state.modes.unit_is_known = state.modes.unit_is_known || words.has(CodeGroup::unit);
   if (!words.without_point().empty()) count_without_points(state, words, unit);
   const auto movement = movement_of(state, words);
   if (!movement) return movement.error();
@@ -153,7 +135,6 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWor
   if (!idle) return idle.error();
 
   if (words.has('C')) look_for_chamfer(state, words, *movement);
-  if (!state.modes.unit_is_known) look_for_unit(state, words, *movement);
 
   if (auto done = check_radius_compensation(state, filters, words, *movement); !done) {
     return std::move(done).error();

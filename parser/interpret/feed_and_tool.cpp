@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/constants.hpp"
 #include "parser/interpret/frames/tool_compensation.hpp"
@@ -67,34 +68,40 @@ void take_unknown_feed(InterpreterState& state, const BlockWords& words) {
 }
 
 // The number that a tool with a name goes by: the name, where that is one and tools have no numbers
-// beside their names; that of the tool table whose remark is the name; else the first that is free.
-int tool_named(InterpreterState& state, const GivenWord& word) {
+// beside their names; that of the tool whose name it is; else the first that is free. Names are the
+// same in capitals and small letters.
+Result<int> tool_named(InterpreterState& state, const GivenWord& word) {
   constexpr int kFirstNamedTool = 1001;
   constexpr std::size_t kMostDigits = 8;
-  const std::string& name = state.parameters.text_of(word.value);
+  const std::string& given = state.parameters.text_of(word.value);
   const bool counts = !state.rules.tools_are_named_beside_numbers;
-  const bool digits = counts && !name.empty() && name.size() <= kMostDigits &&
-                      name.find_first_not_of("0123456789") == std::string::npos;
-  if (digits) return std::stoi(name);
-  if (name.empty()) return 0;
+  const bool digits = counts && !given.empty() && given.size() <= kMostDigits &&
+                      given.find_first_not_of("0123456789") == std::string::npos;
+  if (digits) return std::stoi(given);
+  if (given.empty()) return 0;
+  const std::string name = upper_case(given);
   const auto known = state.data.tool_names.find(name);
   if (known != state.data.tool_names.end()) return known->second;
+  std::vector<int> found;
   for (const auto& [number, tool] : state.data.tools) {
-    if (upper_case(tool.remark) == upper_case(name)) {
-      state.data.tool_names.emplace(name, number);
-      return number;
-    }
+    if (upper_case(tool.remark) == name) found.push_back(number);
   }
-  int number = kFirstNamedTool;
+  if (found.size() > 1) {
+    return fail(state, word.column, "tool-name"_id,
+                fmt::format("\"{}\" is the name of tools {} and {}", given, found[0], found[1]),
+                "give each tool its own name, or call it by its number");
+  }
+  int number = found.empty() ? kFirstNamedTool : found.front();
   const auto taken = [&] {
     return state.data.tools.contains(number) ||
            std::ranges::any_of(state.data.tool_names,
                                [&](const auto& tool) { return tool.second == number; });
   };
-  while (taken()) ++number;
+  while (found.empty() && taken()) ++number;
   state.data.tool_names.emplace(name, number);
+  if (!found.empty()) return number;
   emit(state, word.column,
-       Event{"tool_name", fmt::format("{} is tool {}", name, number), EventGrade::assumed});
+       Event{"tool_name", fmt::format("{} is tool {}", given, number), EventGrade::assumed});
   return number;
 }
 
@@ -103,7 +110,7 @@ int tool_named(InterpreterState& state, const GivenWord& word) {
 Outcome lengthen_tool(InterpreterState& state, const BlockWords& words) {
   const bool given = words.has('U') && state.rules.always_claimed.has('U');
   if (!given && !words.has(CodeGroup::tool_change)) return Done{};
-  const double length = given ? words['U'].value * unit_scale(state) : 0.0;
+  const double length = given ? length_of(state, words['U'].value) : 0.0;
   if (length != 0.0 && state.modes.tilted) {
     return fail(state, words['U'].column, "not-supported"_id,
                 words.text_of('U') + " in a tilted plane is not simulated",
@@ -205,7 +212,9 @@ Outcome set_feed(InterpreterState& state, const BlockWords& words) {
 
 Outcome set_tool(InterpreterState& state, const BlockWords& words) {
   if (words.has('T') && is_text(words['T'].value)) {
-    state.modes.selected_tool = tool_named(state, words['T']);
+    const auto tool = tool_named(state, words['T']);
+    if (!tool) return tool.error();
+    state.modes.selected_tool = *tool;
   } else if (words.has('T')) {
     const auto tool = tool_number(state, words);
     if (!tool) return tool.error();
@@ -218,7 +227,7 @@ Outcome set_tool(InterpreterState& state, const BlockWords& words) {
   const GivenCode& change = words[CodeGroup::tool_change];
   if (change.code != nullptr) state.modes.tool_oversize = 0.0;
   if (words.has('j') && state.rules.always_claimed.has('j')) {
-    state.modes.tool_oversize = words['j'].value * unit_scale(state);
+    state.modes.tool_oversize = length_of(state, words['j'].value);
   }
   if (auto done = lengthen_tool(state, words); !done) return done;
   if (words.value_or(CodeGroup::tool_change, ToolWord::change) == ToolWord::is) {

@@ -148,7 +148,7 @@ Outcome make_move(InterpreterState& state, const BlockWords& words, const Moveme
     }
   }
   if (movement.non_modal == NonModal::machine_coordinates && movement.motion == MotionMode::none) {
-    emit(state, movement.column, Event{"G53", {}});
+    emit(state, movement.column, Event{words[CodeGroup::non_modal].code->name(), {}});
   }
   if (movement.motion == MotionMode::none) return Done{};
   guide_uncalled_tool(state, movement.column);

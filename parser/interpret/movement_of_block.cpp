@@ -188,10 +188,22 @@ Result<Movement> in_machine_coordinates(const NonModalWord& used) {
                 "machine coordinates belong to a straight move, for example G53 G0 Z0");
   }
   if (used.names_no_axis()) return used.without_axes("give the axes to move, for example Z0");
-  if (used.words.value_or(CodeGroup::distance, used.state.modes.distance) ==
-      DistanceMode::incremental) {
-    return fail(used.state, column, "machine-coordinates"_id, used.name() + " in G91",
-                "machine coordinates need G90");
+  const bool steps = used.words.value_or(CodeGroup::distance, used.state.modes.distance) ==
+                     DistanceMode::incremental;
+  for (const AxisLetter axis : kAxisLetters) {
+    const GivenWord& word = used.words[to_char(axis)];
+    if (!used.words.has(to_char(axis))) continue;
+    if (steps && word.measure == Measure::modal) {
+      return fail(used.state, column, "machine-coordinates"_id, used.name() + " in G91",
+                  "machine coordinates need G90");
+    }
+    const bool step = word.measure == Measure::incremental;
+    if (step && used.state.rules.dialect != Dialect::heidenhain) {
+      return fail(
+          used.state, word.column, "machine-coordinates"_id,
+          fmt::format("{} is a step beside {}", used.words.text_of(to_char(axis)), used.name()),
+          "give the place in machine coordinates");
+    }
   }
   return Movement{used.word(), mode, column};
 }

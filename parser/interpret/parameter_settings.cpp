@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/decimal.hpp"
+#include "parser/interpret/frames/data_input.hpp"
 #include "parser/interpret/frames/datum.hpp"
 #include "parser/interpret/frames/machine_variables.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
@@ -97,6 +98,9 @@ Outcome set_numbered(InterpreterState& state, std::uint32_t column, int index, d
                 "it is the tool or the position; use another parameter");
   }
   if (written == ParameterWrite::done) {
+    const ParameterUse use = use_of(state.rules.dialect, index);
+    if (use != ParameterUse::other) state.system.read_by_unit(value);
+    if (use == ParameterUse::radius && value != 0.0) assume_radius(state, column);
     return state.rules.parameters_count_at_once ? replace_datum(state, column) : Outcome{Done{}};
   }
   const auto kept = set_system_variable(state, column, index, value);

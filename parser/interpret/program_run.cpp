@@ -30,13 +30,25 @@ bool does_something(const Block& block) {
   return !block.words.empty() || !block.assignments.empty() || block.program || block.flow;
 }
 
-ControlData data_before(const InterpreterOptions& options) {
+// The first word that may be a length or a feed, else the first setting.
+std::uint32_t column_of_length(const Block& block) {
+  constexpr LetterSet kLengths{"XYZIJKRQF"};
+  for (const Word& word : block.words) {
+    if (kLengths.has(word.letter) && word.number != 0.0) return word.column;
+  }
+  return block.assignments.empty() ? 1 : block.assignments.front().column;
+}
+
+ControlData data_before(const InterpreterOptions& options, Dialect dialect) {
   ControlData data;
   data.tools = options.tools;
-  data.tools_are_given = !options.tools.empty();
   data.tools_are_listed =
-      options.tools_are_all && std::any_of(options.tools.begin(), options.tools.end(),
+      options.tools_are_all && std::any_of(data.tools.begin(), data.tools.end(),
                                            [](const auto& tool) { return tool.second.has_length; });
+  // What LinuxCNC's own table leaves out is zero.
+  if (dialect == Dialect::linuxcnc && data.tools_are_listed) {
+    for (auto& [number, tool] : data.tools) tool.has_diameter = true;
+  }
   data.work_offsets = options.work_offsets;
   data.reference_points = options.reference_points;
   data.unit = options.machine_unit;
@@ -51,7 +63,7 @@ ProgramRun::ProgramRun(const Program& program, const MotionSink& sink,
     : sink_(sink),
       options_(options),
       rules_(rules_of(program.dialect)),
-      executor_(program.dialect, options.start, data_before(options), sink),
+      executor_(program.dialect, options.start, data_before(options, program.dialect), sink),
       main_(std::make_shared<LoadedProgram>(program, LoadedProgram::Role::main)) {
   executor_.state().control = options.control;
   if (options.control.unit && rules_.unit_may_be_missing) {
@@ -131,7 +143,11 @@ void ProgramRun::tell_assumed_values(const Block& block) {
   const auto stored = state.parameters.take_stored_read();
   if (state.system.assumed.empty() && !stored) return;
   state.at_work.block = &block;
-  for (const AssumedValue* value : state.system.assumed) assume(state, 1, value->name, value->text);
+  for (const AssumedValue* value : state.system.assumed) {
+    const bool of_unit = value == &kStartUnit;
+    state.modes.unit_is_known = state.modes.unit_is_known || of_unit;
+    assume(state, of_unit ? column_of_length(block) : 1, value->name, value->text);
+  }
   state.system.assumed.clear();
   if (!stored) return;
   assume(state, 1, "stored variables",

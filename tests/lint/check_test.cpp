@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <string_view>
 
 #include "lint/check_help.hpp"
 #include "tests/lint/checking.hpp"
@@ -29,11 +30,21 @@ struct Case {
   bool point_is_open = false;  // nothing says how numbers without a point are read
 };
 
+// Tool 1 of the job, for those that follow contours: 10 mm across.
+CheckOptions options_of(const Case& one) {
+  CheckOptions options;
+  if (!std::string_view(one.id).starts_with("radius-")) return options;
+  parser::Tool& tool = parser::entry_of(options.run.tools, 1);
+  tool.diameter = 10.0;
+  tool.has_diameter = true;
+  return options;
+}
+
 class EachCheck : public testing::TestWithParam<Case> {};
 
 TEST_P(EachCheck, IsRaisedOnceAndOnlyIt) {
-  const CheckReport report =
-      checked(GetParam().wrong, {}, GetParam().dialect, GetParam().point_is_open);
+  const CheckReport report = checked(GetParam().wrong, options_of(GetParam()), GetParam().dialect,
+                                     GetParam().point_is_open);
   const auto found = of(report, GetParam().id);
   ASSERT_EQ(found.size(), 1U) << ids(report);
   EXPECT_EQ(report.findings.size(), 1U) << ids(report);
@@ -42,12 +53,14 @@ TEST_P(EachCheck, IsRaisedOnceAndOnlyIt) {
 }
 
 TEST_P(EachCheck, IsSilentWhereTheProgramIsRight) {
-  EXPECT_EQ(ids(checked(GetParam().right, {}, GetParam().dialect, GetParam().point_is_open)), "")
+  EXPECT_EQ(ids(checked(GetParam().right, options_of(GetParam()), GetParam().dialect,
+                        GetParam().point_is_open)),
+            "")
       << GetParam().right;
 }
 
 TEST_P(EachCheck, CanBeLeftOut) {
-  CheckOptions options;
+  CheckOptions options = options_of(GetParam());
   options.disabled = {*check_named(GetParam().id)};
   EXPECT_EQ(ids(checked(GetParam().wrong, options, GetParam().dialect, GetParam().point_is_open)),
             "");
@@ -55,7 +68,7 @@ TEST_P(EachCheck, CanBeLeftOut) {
 
 const std::string kCut = "G1 Z-1 F200\n";
 // Along X with a tool of 5 mm radius on its left.
-const std::string kSide = "G10 L12 P1 R5\nG41 D1\nG1 X20 F100\nX40\n";
+const std::string kSide = "(D 10)\nG41 D1\nG1 X20 F100\nX40\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Checks, EachCheck,
@@ -111,8 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"arc-huge", whole("G2 X1 Y0 R20000 F200\n"), 5, "20 m", whole("G2 X1 Y0 R200 F200\n")},
         Case{"radius-gouge", whole(kSide + "G3 X42 Y0 I1\nG1 X60\nG40 X80\n"), 9, "of radius 5",
              whole(kSide + "G3 X60 Y0 I10\nG1 X70\nG40 X80\n")},
-        Case{"radius-compensation", whole("G10 L12 P1 R5\nG41 D7\nG1 X20 F100\nG40 X30\n"), 6,
-             "no tool 7", whole(kSide + "G40 X60\n")},
+        Case{"radius-compensation", whole("(D 10)\nG41 D7\nG1 X20 F100\nG40 X30\n"), 6, "no tool 7",
+             whole(kSide + "G40 X60\n")},
         Case{"short-segments", whole(kCut + "X0.001\nX0.002\nX1\n"), 6,
              "2 cutting moves are shorter", whole(kCut + "X0.1\n")},
         Case{"tip-control-off", whole("G0 C0\nG1 X10 C90 F200\n"), 6, "X and C cut together",

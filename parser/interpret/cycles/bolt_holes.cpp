@@ -33,7 +33,7 @@ Result<std::vector<Vec2>> bolt_places(InterpreterState& state, const BlockWords&
   }
   const auto count = whole(state, words, 'L', 0, kMostBolts);
   if (!count) return count.error();
-  const double reach = words['I'].value * unit_scale(state);
+  const double reach = length_of(state, words['I'].value);
   const double first = words.has('J') ? words['J'].value : 0.0;
   const double step = kind == BoltWord::arc ? words['K'].value : 360.0 / *count;
   for (int hole = 0; hole < *count; ++hole) {

@@ -107,15 +107,15 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     cycle.initial = initial.value_or(0.0);
   }
   cycle.last = movement.motion;
-  const auto read = [&](char letter, std::optional<double>& value, double scale) {
-    if (words.has(letter)) value = words[letter].value * scale;
+  const auto read = [&](char letter, std::optional<double>& value) {
+    if (words.has(letter)) value = length_of(state, words[letter].value);
   };
   cycle.depth_by_i = depth_is_by_i(state, words, cycle);
   if (auto done = check_shift(state, words, cycle); !done) return done;
   const char level_letter = cycle.depth_by_i ? depth_letter : 'R';
   const char bottom_letter = cycle.depth_by_i ? 'I' : depth_letter;
-  read(level_letter, cycle.level, unit_scale(state));
-  read(bottom_letter, cycle.bottom, unit_scale(state));
+  read(level_letter, cycle.level);
+  read(bottom_letter, cycle.bottom);
   const bool incremental = state.modes.distance == DistanceMode::incremental;
   const bool any_block = !state.rules.cycles.words_keep_their_mode;
   if (any_block || words.has(level_letter)) cycle.level_is_step = incremental;
@@ -125,15 +125,16 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
         state, movement.column, "cycle with I",
         fmt::format("{} is where feeding begins and I the bottom, as Fagor has it", depth_letter));
   }
-  read('Q', cycle.peck, unit_scale(state));
+  read('Q', cycle.peck);
   const bool milliseconds =
       state.rules.dialect == Dialect::fanuc && words.has('P') && !words['P'].decimal_point;
-  read('P', cycle.dwell, milliseconds ? 1.0 / kMillisecondsPerSecond : 1.0);
+  const double seconds = milliseconds ? 1.0 / kMillisecondsPerSecond : 1.0;
+  if (words.has('P')) cycle.dwell = words['P'].value * seconds;
   const PlaneAxes axes = axes_of(state.modes.plane);
   if (!words.has(CodeGroup::bolt_holes)) {
-    read("IJK"[axes.u], cycle.shift_u, unit_scale(state));
-    read("IJK"[axes.v], cycle.shift_v, unit_scale(state));
-    read("IJK"[3 - axes.u - axes.v], cycle.back, unit_scale(state));
+    read("IJK"[axes.u], cycle.shift_u);
+    read("IJK"[axes.v], cycle.shift_v);
+    read("IJK"[3 - axes.u - axes.v], cycle.back);
   }
 
   const auto missing = [&](char letter, std::string what) {

@@ -100,7 +100,7 @@ Outcome set_tap_steps(InterpreterState& state, const BlockWords& words) {
                 "the steps of a tap have no sign");
   }
   HoleCycle& cycle = state.modes.hole_cycle;
-  cycle.tap_step = words['E'].value * unit_scale(state);
+  cycle.tap_step = length_of(state, words['E'].value);
   cycle.tap_back = words['H'].value * std::abs(cycle.lead.value_or(0.0));
   if (cycle.tap_step > 0.0 && cycle.depth > kMostPecks * cycle.tap_step) {
     return fail(state, words['E'].column, "cycle-pecks"_id,
@@ -226,7 +226,7 @@ Outcome set_deep_hole(InterpreterState& state, const BlockWords& words, HoleWord
   }
   HoleCycle& cycle = state.modes.hole_cycle;
   const auto length = [&](char letter, double otherwise) {
-    return words.has(letter) ? words[letter].value * unit_scale(state) : otherwise;
+    return words.has(letter) ? length_of(state, words[letter].value) : otherwise;
   };
   DeepHole hole;
   hole.depth = cycle.depth;

@@ -249,7 +249,7 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
       if (!words.has(to_char(axis))) continue;
       if (auto done = set_target(state, words, axis); !done) return done;
     }
-    above = words['Z'].value * unit_scale(state);
+    above = length_of(state, words['Z'].value);
   }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y}) {
     if (state.position[axis]) continue;

@@ -38,7 +38,7 @@ Result<double> lead_of(const InterpreterState& state, const BlockWords& words,
                 fmt::format("{} without {}", name, letter),
                 fmt::format("give {}, the way of one revolution, on each such block", letter));
   }
-  const double lead = goes_on ? state.modes.feed->scaled : words[letter].value * unit_scale(state);
+  const double lead = goes_on ? state.modes.feed->scaled : length_of(state, words[letter].value);
   if (!(lead > 0.0)) {
     return fail(state, words[letter].column, "thread-lead"_id,
                 fmt::format("{} is not above zero", words.text_of(letter)),
@@ -115,11 +115,11 @@ Result<ThreadingCycle> threading_cycle(const InterpreterState& state, const Bloc
   cycle.start_x = *state.position[AxisLetter::X];
   cycle.start_z = *state.position[AxisLetter::Z];
   cycle.lead = *lead;
-  cycle.crest = words['I'].value * unit_scale(state);
-  cycle.first_depth = words['J'].value * unit_scale(state);
-  cycle.full_depth = words['K'].value * unit_scale(state);
+  cycle.crest = length_of(state, words['I'].value);
+  cycle.first_depth = length_of(state, words['J'].value);
+  cycle.full_depth = length_of(state, words['K'].value);
   cycle.slide_angle = words['Q'].value * kRadPerDeg;
-  cycle.taper = words['E'].value * unit_scale(state);
+  cycle.taper = length_of(state, words['E'].value);
   // Below 1 it would cut deeper from pass to pass; the control takes 1 then.
   if (words.has('R')) cycle.degression = std::max(1.0, words['R'].value);
   if (cycle.crest == 0.0) {
@@ -226,7 +226,7 @@ Outcome tap_rigidly(InterpreterState& state, const BlockWords& words, const Move
 
 Outcome tap_one_way(InterpreterState& state, const BlockWords& words, const Movement& movement) {
   const char letter = lead_letter(state, words);
-  const double signed_lead = words[letter].value * unit_scale(state);
+  const double signed_lead = length_of(state, words[letter].value);
   if (signed_lead == 0.0) {
     return fail(state, movement.column, "thread-lead"_id, fmt::format("a tap without {}", letter),
                 "give K along Z, the way of one revolution; below zero for a left-handed thread");

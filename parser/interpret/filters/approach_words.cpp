@@ -44,7 +44,7 @@ Result<ContourLink> link_of(const InterpreterState& state, const BlockWords& wor
                 fmt::format("{} without R", code.code->name()),
                 "give the radius of the arc, for example R5");
   }
-  link.size = words[size].value * unit_scale(state);
+  link.size = length_of(state, words[size].value);
   const bool takes_sign =
       link.shape == ApproachWord::arc || link.shape == ApproachWord::leave_by_arc || by_line;
   if ((link.size == 0.0 && words.has(size)) || (link.size < 0.0 && !takes_sign)) {

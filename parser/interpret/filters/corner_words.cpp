@@ -71,7 +71,7 @@ Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const Blo
   if (code.code == nullptr) return Done{};
   Corner corner{.name = code.code->name()};
   corner.rounds = static_cast<CornerWord>(code.code->value) == CornerWord::rounding;
-  corner.size = words['R'].value * unit_scale(state);
+  corner.size = length_of(state, words['R'].value);
   corner.place = state.at_work.block->place_of(code.column);
   corner.place.file = state.at_work.file;
   if (!(corner.size > 0.0)) {
@@ -85,7 +85,7 @@ Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const Blo
                   fmt::format("{} is not above zero", words.text_of('f')),
                   "give a feed above zero");
     }
-    corner.feed = words['f'].value * unit_scale(state);
+    corner.feed = length_of(state, words['f'].value);
   }
   if (auto failure = filters.corners.insert(corner)) return *std::move(failure);
   return Done{};
@@ -96,7 +96,7 @@ Outcome keep_corner(InterpreterState& state, MotionFilters& filters, const Block
     if (!words.has(letter)) continue;
     if (words[letter].value == 0.0) continue;
     Corner corner{.name = words.text_of(letter), .rounds = letter == kCornerRadius};
-    corner.size = words[letter].value * unit_scale(state);
+    corner.size = length_of(state, words[letter].value);
     corner.place = state.at_work.block->place_of(words[letter].column);
     corner.place.file = state.at_work.file;
     if (corner.size < 0.0) {

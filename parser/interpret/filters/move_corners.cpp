@@ -30,7 +30,7 @@ const GivenCode* end_of_contour(const InterpreterState& state, const BlockWords&
 }
 
 Result<double> corner_size(const InterpreterState& state, const BlockWords& words, char letter) {
-  const double size = words[letter].value * unit_scale(state);
+  const double size = length_of(state, words[letter].value);
   if (size >= 0.0) return size;
   return fail(state, words[letter].column, "value-negative"_id,
               fmt::format("{} is negative", words.text_of(letter)),
@@ -101,7 +101,7 @@ Outcome ask_for_corner(InterpreterState& state, MotionFilters& filters, const Bl
   }
   if (!(corner.size > 0.0)) return Done{};
   if (words.has('f') && words['f'].value > 0.0) {
-    corner.feed = words['f'].value * unit_scale(state);
+    corner.feed = length_of(state, words['f'].value);
   } else if (state.modes.corner.feed > 0.0) {
     corner.feed = state.modes.corner.feed;
   } else {

@@ -62,13 +62,11 @@ Vec2 control_point(int orientation) {
   return {point[0], point[1]};
 }
 
-// No setup has given diameters, and of this number the program has set the length alone.
-bool diameter_is_unknown(const InterpreterState& state, int number) {
-  if (!state.rules.offset_numbers_stand_alone) return state.data.tools.empty();
-  if (state.data.tools_are_given) return false;
-  const auto tool = state.data.tools.find(number);
-  if (tool == state.data.tools.end()) return state.data.tools.empty();
-  return tool->second.diameter == 0.0;
+// Neither setup nor program has given the diameter of any tool; else one that is not there is
+// missing.
+bool diameters_are_unknown(const InterpreterState& state) {
+  return std::ranges::none_of(state.data.tools,
+                              [](const auto& tool) { return tool.second.has_diameter; });
 }
 
 Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
@@ -85,7 +83,7 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
     if (!words.has('D'))
       return fail(state, code.column, "radius-number-missing"_id, name + " without D",
                   "give the diameter by D");
-    return ToolEdge{words['D'].value / 2.0 * unit_scale(state), orientation};
+    return ToolEdge{length_of(state, words['D'].value) / 2.0, orientation};
   }
   const bool has_d = words.has('D') && code.code->arguments.has('D');
   const bool of_linuxcnc = state.rules.dialect == Dialect::linuxcnc;
@@ -102,7 +100,7 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
     if (*given != 0 || !of_linuxcnc) number = *given;
     state.modes.radius_number = number;
   } else if (state.rules.radius.source == RadiusSource::last_d) {
-    if (!state.modes.radius_number && diameter_is_unknown(state, -1)) return ToolEdge{};
+    if (!state.modes.radius_number && diameters_are_unknown(state)) return ToolEdge{};
     if (!state.modes.radius_number) {
       return fail(state, code.column, "radius-number-missing"_id, name + " without D",
                   fmt::format("give the number of the offset, for example {} D1", name));
@@ -115,14 +113,16 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   }
   const std::uint32_t column = has_d ? words['D'].column : code.column;
   const auto tool = state.data.tools.find(number);
-  const bool unknown = state.rules.offset_numbers_stand_alone && diameter_is_unknown(state, number);
-  if (unknown || (number == 0 && state.rules.offset_numbers_stand_alone)) return ToolEdge{};
+  const bool open = number == 0 || diameters_are_unknown(state);
+  if (open && state.rules.offset_numbers_stand_alone) return ToolEdge{};
   // No tool has no diameter.
   if (tool == state.data.tools.end() && number == 0 && of_linuxcnc) return ToolEdge{};
-  if (tool == state.data.tools.end()) {
-    return fail(state, column, "radius-compensation"_id,
-                fmt::format("the tool table has no tool {}", number),
-                "give the tool's diameter in the tool table");
+  if (tool == state.data.tools.end() || !tool->second.has_diameter) {
+    const bool listed = tool != state.data.tools.end() && tool->second.has_length;
+    return fail(
+        state, column, "radius-compensation"_id,
+        fmt::format("the tool table has no {}tool {}", listed ? "diameter of " : "", number),
+        "give the tool's diameter in the tool table");
   }
   const double diameter = tool->second.diameter + tool->second.diameter_wear;
   return ToolEdge{diameter / 2.0 + state.modes.tool_oversize, tool->second.orientation};
@@ -150,6 +150,7 @@ bool goes_along_contour(InterpreterState& state, const BlockWords& words) {
   const bool by_word =
       word == RadiusWord::left_by_diameter || word == RadiusWord::right_by_diameter;
   if (!state.data.contours_without_diameter || by_word) return false;
+  if (!diameters_are_unknown(state)) return false;
   int number = state.modes.tool;
   if (words.has('D') && code.code->arguments.has('D')) {
     number = static_cast<int>(words['D'].value);
@@ -158,7 +159,6 @@ bool goes_along_contour(InterpreterState& state, const BlockWords& words) {
   } else if (state.rules.radius.source == RadiusSource::last_d) {
     number = state.modes.radius_number.value_or(-1);
   }
-  if (!diameter_is_unknown(state, number)) return false;
   if (number > 0) state.modes.radius_number = number;
   const bool left = word == RadiusWord::left || word == RadiusWord::left_in_space;
   state.modes.tool_side = left ? ToolSide::left : ToolSide::right;
@@ -260,7 +260,7 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   const double radius = edge->radius;
   if (radius == 0.0 && state.rules.offset_numbers_stand_alone) {
     const bool none = state.modes.radius_number == 0;
-    if (!none && diameter_is_unknown(state, state.modes.radius_number.value_or(-1))) {
+    if (!none && diameters_are_unknown(state)) {
       assume(state, code.column, "cutter radius",
              code.code->name() +
                  " with a radius that only the setup knows: the moves are those of "

@@ -182,11 +182,12 @@ Outcome set_tool_data(InterpreterState& state, const BlockWords& words, const Da
   const auto number = whole(state, words, 'P', 1, kMaxNumber);
   if (!number) return number.error();
   if (auto done = check_tool_exists(state, *number, words['P'].column); !done) return done;
-  const auto found = state.data.tools.find(*number);
-  Tool tool = found == state.data.tools.end() ? Tool{} : found->second;
-  if (found == state.data.tools.end()) tool.has_length = false;
+  Tool& tool = entry_of(state.data.tools, *number);
   if (auto done = set_tool_offsets(state, words, data.input, tool); !done) return done;
-  if (words.has('R')) tool.diameter = 2.0 * words['R'].value * unit_scale(state);
+  if (words.has('R')) {
+    tool.diameter = 2.0 * length_of(state, words['R'].value);
+    tool.has_diameter = true;
+  }
   if (words.has('I')) tool.front_angle = words['I'].value;
   if (words.has('J')) tool.back_angle = words['J'].value;
   if (words.has('Q')) {
@@ -195,7 +196,6 @@ Outcome set_tool_data(InterpreterState& state, const BlockWords& words, const Da
     tool.orientation = *orientation;
   }
   if (words.has('Z')) tool.has_length = true;
-  state.data.tools[*number] = tool;
   return Done{};
 }
 
@@ -204,30 +204,38 @@ Outcome set_offset_memory(InterpreterState& state, const BlockWords& words, cons
   constexpr int kOffsets = 999;
   const auto number = whole(state, words, 'P', 1, kOffsets);
   if (!number) return number.error();
-  const auto found = state.data.tools.find(*number);
-  Tool tool = found == state.data.tools.end() ? Tool{} : found->second;
-  if (found == state.data.tools.end()) tool.has_length = false;
-  const bool adds = state.modes.distance == DistanceMode::incremental;
-  const double value = words['R'].value * unit_scale(state);
+  Tool& tool = entry_of(state.data.tools, *number);
   const bool length = data.input == DataInput::length;
-  if (length && adds && !tool.has_length) {
-    return fail(state, words['R'].column, "unknown-tool-length"_id,
-                fmt::format("{} adds to the length of offset {}, which only the setup knows",
-                            words.text_of('R'), *number),
-                "give the length in G90");
+  const bool radius = data.input == DataInput::radius;
+  const bool of_radius = radius || data.input == DataInput::radius_wear;
+  const bool adds = state.modes.distance == DistanceMode::incremental;
+  if (adds && ((length && !tool.has_length) || (radius && !tool.has_diameter))) {
+    const char* what = length ? "length" : "radius";
+    return fail(state, words['R'].column,
+                length ? "unknown-tool-length"_id : "unknown-tool-radius"_id,
+                fmt::format("{} adds to the {} of offset {}, which only the setup knows",
+                            words.text_of('R'), what, *number),
+                fmt::format("give the {} in G90", what));
   }
-  const bool of_radius = data.input == DataInput::radius || data.input == DataInput::radius_wear;
+  if (of_radius && words['R'].value != 0.0) assume_radius(state, words['R'].column);
   double& set = length                                 ? tool.offset.at(2)
                 : data.input == DataInput::length_wear ? tool.length_wear
-                : data.input == DataInput::radius      ? tool.diameter
+                : radius                               ? tool.diameter
                                                        : tool.diameter_wear;
+  const double value = length_of(state, words['R'].value);
   set = (adds ? set : 0.0) + (of_radius ? 2.0 : 1.0) * value;
-  if (length) tool.has_length = true;
-  state.data.tools[*number] = tool;
+  tool.has_length = tool.has_length || length;
+  tool.has_diameter = tool.has_diameter || radius;
   return Done{};
 }
 
 }  // namespace
+
+void assume_radius(InterpreterState& state, std::uint32_t column) {
+  assume(state, column, "offset memory",
+         "the tool offsets that the program sets are radii: the control's parameters may have them "
+         "as diameters");
+}
 
 Outcome set_data(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::non_modal];

@@ -73,7 +73,7 @@ Outcome set_feature(InterpreterState& state, const BlockWords& words) {
         "3 two vectors, 4 projection angles");
   }
   FeaturePart part;
-  part.place = vector_of(words, "XYZ") * unit_scale(state);
+  part.place = lengths_of(state, words, "XYZ");
   part.numbers =
       vector_of(words, "IJK") * (feature.form == FeatureForm::two_vectors ? 1.0 : kRadPerDeg);
   part.turn = words['R'].value * kRadPerDeg;

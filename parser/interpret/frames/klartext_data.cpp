@@ -56,7 +56,7 @@ Value of_tool(const SystemParameters& of, int number, int tool) {
   if (found == of.data.tools.end()) return std::nullopt;
   constexpr std::size_t kAlongZ = 2;
   if (number == 1 && found->second.has_length) return found->second.offset.at(kAlongZ);
-  if (number == 2 && found->second.diameter > 0.0) return found->second.diameter / 2.0;
+  if (number == 2 && found->second.has_diameter) return found->second.diameter / 2.0;
   return std::nullopt;
 }
 

@@ -15,6 +15,7 @@
 #include "core/units.hpp"
 #include "parser/interpret/frames/programmable_frame.hpp"
 #include "parser/interpret/state/word_values.hpp"
+#include "parser/language/letter_case.hpp"
 
 namespace frustum::parser {
 namespace {
@@ -76,9 +77,9 @@ bool set_tool_radius(InterpreterState& state, std::string_view name, double valu
   if (!name.starts_with("$TC_DP6[") || indices.size() != 2 || indices[1] != "1") return false;
   const auto number = number_of(indices[0]);
   if (!number) return false;
-  const auto [tool, fresh] = state.data.tools.try_emplace(*number);
-  if (fresh) tool->second.has_length = false;
-  tool->second.diameter = 2.0 * value * unit_scale(state);
+  Tool& tool = entry_of(state.data.tools, *number);
+  tool.diameter = 2.0 * length_of(state, value);
+  tool.has_diameter = true;
   return true;
 }
 
@@ -187,7 +188,7 @@ Outcome set_machine_variable(InterpreterState& state, std::uint32_t column, cons
     const auto indices = indices_in(name);
     const auto number = indices.size() == 1 ? number_of(indices[0]) : std::nullopt;
     if (name.starts_with("$TC_TP2[") && number) {
-      state.data.tool_names.insert_or_assign(state.parameters.text_of(value), *number);
+      state.data.tool_names.insert_or_assign(upper_case(state.parameters.text_of(value)), *number);
     }
     return Done{};
   }

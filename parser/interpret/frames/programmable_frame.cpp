@@ -49,7 +49,7 @@ Result<ProgramFrame> frame_of(const InterpreterState& state, const BlockWords& w
       for (std::size_t i = 0; i < rotary.size(); ++i) {
         rotary.at(i) = words["ABC"[i]].value * kRadPerDeg;
       }
-      return ProgramFrame::shift(vector_of(words, "XYZ") * unit_scale(state), rotary);
+      return ProgramFrame::shift(lengths_of(state, words, "XYZ"), rotary);
     }
     case FrameWord::turn:
     case FrameWord::turn_within:

@@ -94,7 +94,7 @@ Outcome set_tilted_plane(InterpreterState& state, const BlockWords& words) {
   if (!below) return below.error();
   if (state.rules.planes_end_frames) set_program_frame(state, {});
   Pose plane{Mat3::Identity(), Vec3::Zero()};
-  if (kind != TiltWord::off) plane.translation = vector_of(words, "XYZ") * unit_scale(state);
+  if (kind != TiltWord::off) plane.translation = lengths_of(state, words, "XYZ");
   if (kind == TiltWord::swivel) {
     const auto mode = whole(state, words, 'Q', 0, 255);
     if (!mode) return mode.error();
@@ -105,7 +105,7 @@ Outcome set_tilted_plane(InterpreterState& state, const BlockWords& words) {
                   "turn axis by axis, mode 57: X, then Y, then Z; or by solid angles, mode 64");
     }
     plane.rotation = *rotation;
-    plane.translation += plane.rotation * (vector_of(words, "uvw") * unit_scale(state));
+    plane.translation += plane.rotation * (lengths_of(state, words, "uvw"));
     plane = *below * plane;
   }
   const bool aligns = (words.has('d') && words['d'].value != 0.0) || words.has('m');

@@ -88,6 +88,13 @@ Result<std::optional<ToolOffset>> listed_offset(const InterpreterState& state,
                     number, tool->second.length_wear),
         "give the length too, by G10 L10 P R");
   }
+  if (tool != state.data.tools.end() && tool->second.offset != ToolOffset{}) {
+    return fail(
+        state, words[CodeGroup::length_compensation].column, "unknown-tool-length"_id,
+        fmt::format("offset {} has a part across the tool, but its length only the setup knows",
+                    number),
+        "give the length too, by Z");
+  }
   const bool none_given = words.has('H') && state.rules.offset_numbers_stand_alone;
   if (number == 0) {
     return state.data.tools_are_listed || none_given ? std::optional(ToolOffset{}) : std::nullopt;

@@ -65,6 +65,12 @@ Outcome open_arc(const InterpreterState& state, const BlockWords& words, ArcWord
   if (has_end) {
     const double chord =
         std::hypot(arc.end[axes.u] - arc.start[axes.u], arc.end[axes.v] - arc.start[axes.v]);
+    if (chord == 0.0) {
+      return fail(state, opening.column, "arc-full-by-radius"_id,
+                  fmt::format("an arc with {} ends at its start, which leaves its centre open",
+                              words.text_of(kOpening)),
+                  fmt::format("give the centre by {}", centre_words(arc.plane)));
+    }
     const double radius = chord / (2.0 * std::sin(angle / 2.0));
     arc.radius = opening.value > kFullCircle / 2.0 ? -radius : radius;
     return Done{};

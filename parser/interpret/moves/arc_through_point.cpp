@@ -73,7 +73,7 @@ Result<Vec3> point_between(const InterpreterState& state, const BlockWords& word
     const bool steps =
         measure == Measure::incremental ||
         (measure == Measure::modal && state.modes.distance == DistanceMode::incremental);
-    point[slot] = words[letter].value * unit_scale(state) + (steps ? start[slot] : 0.0);
+    point[slot] = length_of(state, words[letter].value) + (steps ? start[slot] : 0.0);
   }
   return point;
 }
@@ -202,7 +202,7 @@ Outcome move_about_axis(InterpreterState& state, const BlockWords& words,
           "move to the start before");
     }
     start[slot] = *state.position[letter];
-    centre[slot] = words["IJK"[slot]].value * unit_scale(state);
+    centre[slot] = length_of(state, words["IJK"[slot]].value);
     axis[slot] = words[kBetween[static_cast<std::size_t>(slot)]].value;
   }
   if (auto done = check_tool_length(state, movement); !done) return done;

@@ -48,8 +48,8 @@ Outcome move_along_cubic_in_space(InterpreterState& state, const BlockWords& wor
                   "move to the start before");
     }
     cubic[0][slot] = *state.position[letter];
-    cubic[1][slot] = words["IJK"[slot]].value * unit_scale(state);
-    cubic[2][slot] = words["uvw"[slot]].value * unit_scale(state);
+    cubic[1][slot] = length_of(state, words["IJK"[slot]].value);
+    cubic[2][slot] = length_of(state, words["uvw"[slot]].value);
   }
   LetterSet turning = kRotaryWords;
   if (state.modes.compensation.tip) turning = turning | LetterSet(state.rules.vector_letters);

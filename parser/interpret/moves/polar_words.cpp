@@ -49,7 +49,7 @@ Outcome set_polar_target(InterpreterState& state, const BlockWords& words) {
     }
   }
   if (words.has(kPolarRadius)) {
-    radius = words[kPolarRadius].value * unit_scale(state) + (incremental ? radius : 0.0);
+    radius = length_of(state, words[kPolarRadius].value) + (incremental ? radius : 0.0);
   }
   if (words.has(kPolarAngle)) {
     angle = words[kPolarAngle].value * kRadPerDeg + (incremental ? angle : 0.0);
@@ -75,7 +75,7 @@ Outcome set_place_in_plane(InterpreterState& state, const BlockWords& words) {
   const bool incremental = state.modes.distance == DistanceMode::incremental;
   PolarMode polar = *state.modes.polar;
   if (has_u) {
-    polar.radius = words[to_char(u)].value * unit_scale(state);
+    polar.radius = length_of(state, words[to_char(u)].value);
     polar.from_here = incremental;
   }
   if (has_v) {

@@ -100,7 +100,7 @@ Outcome set_pole(InterpreterState& state, const BlockWords& words) {
     }
     if (!words.has(letter)) continue;
     pole[static_cast<Eigen::Index>(axis)] =
-        words[letter].value * unit_scale(state) + (relative ? *state.position[axis] : 0.0);
+        length_of(state, words[letter].value) + (relative ? *state.position[axis] : 0.0);
   }
   // CC alone is where the tool is.
   if ((words.given() & LetterSet("XYZ")).empty()) pole = here;
@@ -154,7 +154,7 @@ Outcome set_pole_in_plane(InterpreterState& state, const BlockWords& words, NonM
     pole = last->at;
   }
   if (polar) {
-    const double radius = words[kPolarRadius].value * unit_scale(state);
+    const double radius = length_of(state, words[kPolarRadius].value);
     const double angle = words[kPolarAngle].value * kRadPerDeg;
     pole[axes.u] += radius * std::cos(angle);
     pole[axes.v] += radius * std::sin(angle);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "parser/interpret/frames/datum.hpp"
@@ -19,16 +20,17 @@ namespace {
 
 constexpr int kOtherDatum = 920;  // M92, ten times its number
 
-void leave_program_coordinates(InterpreterState& state, LetterSet axes, PositionLoss loss) {
+void leave_program_coordinates(InterpreterState& state, LetterSet axes, PositionLoss loss,
+                               std::string_view word) {
   // With the tool-centre-point control on, X Y Z are of the tip, which any axis may carry along.
-  forget(state, state.modes.tool_centre_point() ? axes | kLinearWords : axes, loss);
+  forget(state, state.modes.tool_centre_point() ? axes | kLinearWords : axes, loss, word);
   if (!(axes & kRotaryWords).empty()) state.modes.tool_axis.reset();
 }
 
 // By rapid, with the words where the program knows them: in a turned frame named words move, not
 // axes.
 void go_to_axis_positions(InterpreterState& state, const AxisTarget& point, LetterSet named,
-                          std::uint32_t column) {
+                          const GivenCode& code) {
   AxisTarget axes = axis_positions(state);
   AxisTarget end;
   AxisTarget all_there = axes;
@@ -47,20 +49,20 @@ void go_to_axis_positions(InterpreterState& state, const AxisTarget& point, Lett
     if (named.has(to_char(axis)) && !words[axis]) all = false;
   }
   if (!all) {
-    emit(state, column, Traverse{end, std::nullopt, Coordinates::machine});
-    leave_program_coordinates(state, named, PositionLoss::home);
+    emit(state, code.column, Traverse{end, std::nullopt, Coordinates::machine});
+    leave_program_coordinates(state, named, PositionLoss::home, code.code->name());
     if (!state.modes.tool_centre_point()) arrive(state, axes);
     return;
   }
   for (const AxisLetter axis : kAxisLetters) {
     if (named.has(to_char(axis))) state.position.set(axis, *words[axis]);
   }
-  emit(state, column, Traverse{state.position.target(), std::nullopt, Coordinates::program});
+  emit(state, code.column, Traverse{state.position.target(), std::nullopt, Coordinates::program});
   if (!(named & kRotaryWords).empty()) state.modes.tool_axis.reset();
 }
 
 void return_to_point(InterpreterState& state, std::size_t point, LetterSet axes,
-                     std::uint32_t column) {
+                     const GivenCode& code) {
   const bool kept = point <= state.data.reference_points.size();
   const AxisTarget& known = kept ? state.data.reference_points.at(point - 1) : AxisTarget{};
   HomeReturn home{.point = static_cast<int>(point)};
@@ -71,10 +73,10 @@ void return_to_point(InterpreterState& state, std::size_t point, LetterSet axes,
     home.axes.at(static_cast<std::size_t>(axis)) = !known[axis];
     (known[axis] ? to_place : to_machine).add(to_char(axis));
   }
-  if (!to_place.empty()) go_to_axis_positions(state, known, to_place, column);
+  if (!to_place.empty()) go_to_axis_positions(state, known, to_place, code);
   if (to_machine.empty()) return;
-  emit(state, column, Command{home});
-  leave_program_coordinates(state, to_machine, PositionLoss::home);
+  emit(state, code.column, Command{home});
+  leave_program_coordinates(state, to_machine, PositionLoss::home, code.code->name());
 }
 
 // Where only the setup knows the tool's length: as with no work offset (G500), which is the same
@@ -106,7 +108,7 @@ Outcome move_tip_in_machine_coordinates(InterpreterState& state, const BlockWord
     if (end[axis]) axes[axis] = end[axis];
   }
   axes[AxisLetter::Z].reset();
-  leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
+  leave_program_coordinates(state, named, PositionLoss::machine_coordinates, code.code->name());
   arrive(state, axes);
   return Done{};
 }
@@ -160,7 +162,7 @@ Outcome go_home(InterpreterState& state, const BlockWords& words, std::size_t po
   for (const AxisLetter axis : kAxisLetters) {
     if (named.has(to_char(axis))) state.modes.way_home[axis] = state.position[axis];
   }
-  return_to_point(state, point, named, column);
+  return_to_point(state, point, named, words[CodeGroup::non_modal]);
   return Done{};
 }
 
@@ -169,7 +171,7 @@ Outcome approach_point(InterpreterState& state, const BlockWords& words) {
   if (static_cast<NonModal>(code.code->value) == NonModal::to_fixed_point) {
     assume(state, code.column, "G75", "the fixed point is where the reference point is");
   }
-  return_to_point(state, 1, words.given() & kAxisWords, code.column);
+  return_to_point(state, 1, words.given() & kAxisWords, code);
   return Done{};
 }
 
@@ -243,6 +245,19 @@ Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& w
     if (!words.has(letter)) continue;
     named.add(letter);
     end[axis] = scaled(state, axis, words[letter].value);
+    auto& last = state.modes.machine_place[axis];
+    if (words[letter].measure == Measure::incremental) {
+      if (!last) {
+        return fail(state, words[letter].column, "position-unknown"_id,
+                    fmt::format("{} is a step from the last place of {}, which has none",
+                                words.text_of(letter), code.code->name()),
+                    "give the place in machine coordinates before, without I");
+      }
+      assume(state, words[letter].column, "M91 step",
+             "steps in machine coordinates count from the last place of M91");
+      *end[axis] += *last;
+    }
+    last = end[axis];
   }
   const Compensation& kept = state.modes.compensation;
   if (state.rules.machine_coordinates_keep_length && kept.tip) {
@@ -261,7 +276,7 @@ Outcome move_in_machine_coordinates(InterpreterState& state, const BlockWords& w
   for (const AxisLetter axis : kAxisLetters) {
     if (end[axis]) axes[axis] = end[axis];
   }
-  leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
+  leave_program_coordinates(state, named, PositionLoss::machine_coordinates, code.code->name());
   if (!state.modes.tool_centre_point()) arrive(state, axes);
   return Done{};
 }
@@ -307,7 +322,7 @@ Outcome step_axes(InterpreterState& state, const BlockWords& words, const Moveme
     end[axis] = axes[axis] = *axes[axis] + step;
   }
   if (auto done = send_axes_to(state, words, movement, end); !done) return done;
-  leave_program_coordinates(state, named, PositionLoss::machine_coordinates);
+  leave_program_coordinates(state, named, PositionLoss::machine_coordinates, {});
   arrive(state, axes);
   return Done{};
 }
@@ -322,10 +337,10 @@ Outcome retract_tool(InterpreterState& state, const BlockWords& words) {
     home.axes.at(static_cast<std::size_t>(AxisLetter::Z)) = true;
     emit(state, code.column, Command{home});
     leave_program_coordinates(state, state.modes.tilted ? kLinearWords : LetterSet("Z"),
-                              PositionLoss::home);
+                              PositionLoss::home, code.code->name());
     return Done{};
   }
-  const double way = words['z'].value * unit_scale(state);
+  const double way = length_of(state, words['z'].value);
   if (way < 0.0) {
     return fail(state, words['z'].column, "value-negative"_id,
                 fmt::format("{} is negative", words.text_of('z')), "give a way above zero");

@@ -80,7 +80,7 @@ Vec2 place_in_plane(const InterpreterState& state) {
 
 // Of two words that lead along the axes of the plane in the order of the letters X, Y, Z.
 Vec2 way_of(const InterpreterState& state, const BlockWords& words, char first, char second) {
-  const Vec2 way = Vec2(words[first].value, words[second].value) * unit_scale(state);
+  const Vec2 way{length_of(state, words[first].value), length_of(state, words[second].value)};
   return state.modes.plane == Plane::zx ? Vec2(way.y(), way.x()) : way;
 }
 

@@ -116,7 +116,7 @@ Outcome check_pitch(InterpreterState& state, const BlockWords& words, const ArcW
   if (angle <= 1e-9) angle += kTurn;
   const double parts = angle / kTurn + (turns - 1);
   const double rise = std::abs(arc.end[axes.w] - arc.start[axes.w]);
-  const double pitch = std::abs(words[letter].value) * unit_scale(state);
+  const double pitch = std::abs(length_of(state, words[letter].value));
   const double rounding =
       kRounding * turns * (state.modes.unit == LengthUnit::millimetre ? 1.0 : kRoundingOfInches);
   if (std::abs(rise - pitch * parts) > rounding) {
@@ -249,7 +249,11 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   if (auto done = check_tool_length(state, movement); !done) return done;
   if (auto done = check_programmed_frame(state, movement); !done) return done;
   if (auto done = check_polar_arc(state, words); !done) return done;
+  const std::string radius_word = words.has('R')                              ? words.name_of('R')
+                                  : state.rules.dialect == Dialect::sinumerik ? "CR"
+                                                                              : "R";
   ArcWords arc_words;
+  arc_words.radius_word = radius_word;
   arc_words.plane = state.modes.plane;
   const bool inches = state.modes.unit != LengthUnit::millimetre && state.rules.arcs_in_inches;
   arc_words.tolerance = inches ? *state.rules.arcs_in_inches : state.rules.arcs;
@@ -267,7 +271,7 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
     const char letter = "IJK"[i];
     if (!words.has(letter) || (state.rules.arcs_may_lack_centre && words.has('R'))) continue;
     const bool absolute = words[letter].measure == Measure::absolute;
-    arc_words.centre.at(i) = words[letter].value * unit_scale(state) -
+    arc_words.centre.at(i) = length_of(state, words[letter].value) -
                              (absolute ? arc_words.start[static_cast<Eigen::Index>(i)] : 0.0);
   }
   const bool polar = state.rules.polar.about_pole && words.first_of(LetterSet("pq")) != 0;
@@ -286,7 +290,7 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
       arc_words.centre.at(static_cast<std::size_t>(axis)) = state.modes.pole->at[axis];
     }
   }
-  if (words.has('R')) arc_words.radius = words['R'].value * unit_scale(state);
+  if (words.has('R')) arc_words.radius = length_of(state, words['R'].value);
   if (words.has(kOpening) && state.rules.dialect == Dialect::sinumerik) {
     if (auto done = open_arc(state, words, arc_words); !done) return done;
   }

@@ -108,6 +108,28 @@ WorkOffset ControlData::work_offset(int number) const {
   return found == work_offsets.end() ? WorkOffset{} : found->second;
 }
 
+ParameterUse use_of(Dialect dialect, int index) {
+  const auto slot = slot_of(dialect, index);
+  if (!slot) return ParameterUse::other;
+  switch (slot->kept) {
+    case Kept::radius:
+    case Kept::radius_wear:
+      return ParameterUse::radius;
+    case Kept::length:
+    case Kept::length_wear:
+    case Kept::tool_diameter:
+      return ParameterUse::length;
+    case Kept::reference_point:
+    case Kept::shift:
+    case Kept::origin:
+    case Kept::tool_offset:
+    case Kept::position:
+      return is_rotary(kAxisLetters.at(slot->axis)) ? ParameterUse::other : ParameterUse::length;
+    default:
+      return ParameterUse::other;
+  }
+}
+
 std::optional<double> read_parameter(const ControlData& data, Dialect dialect, int index) {
   const auto slot = slot_of(dialect, index);
   if (!slot) return std::nullopt;
@@ -149,7 +171,8 @@ std::optional<double> read_parameter(const ControlData& data, Dialect dialect, i
     case Kept::tool_offset:
       return of_tool([&](const Tool& tool) { return tool.offset.at(slot->axis) / scale; });
     case Kept::tool_diameter:
-      return of_tool([&](const Tool& tool) { return tool.diameter / scale; });
+      return of_tool(
+          [&](const Tool& tool) { return tool.has_diameter ? tool.diameter / scale : kVacant; });
     case Kept::tool_front_angle:
       return of_tool([](const Tool& tool) { return tool.front_angle; });
     case Kept::tool_back_angle:
@@ -164,7 +187,8 @@ std::optional<double> read_parameter(const ControlData& data, Dialect dialect, i
     case Kept::length_wear:
       return numbered == nullptr ? 0.0 : numbered->length_wear / scale;
     case Kept::radius:
-      return numbered == nullptr ? kVacant : numbered->diameter / 2.0 / scale;
+      if (numbered == nullptr || !numbered->has_diameter) return kVacant;
+      return numbered->diameter / 2.0 / scale;
     case Kept::radius_wear:
       return numbered == nullptr ? 0.0 : numbered->diameter_wear / 2.0 / scale;
   }
@@ -177,11 +201,7 @@ ParameterWrite write_parameter(ControlData& data, Dialect dialect, int index, do
   if (slot->read_only) return ParameterWrite::read_only;
   const auto letter = static_cast<AxisLetter>(slot->axis);
   const double scaled = value * scale_of(data, *slot);
-  const auto tool = [&]() -> Tool& {
-    const auto [place, fresh] = data.tools.try_emplace(slot->number);
-    if (fresh) place->second.has_length = false;
-    return place->second;
-  };
+  const auto tool = [&]() -> Tool& { return entry_of(data.tools, slot->number); };
   switch (slot->kept) {
     case Kept::reference_point:
       data.reference_points.at(static_cast<std::size_t>(slot->number))[letter] = scaled;
@@ -210,6 +230,7 @@ ParameterWrite write_parameter(ControlData& data, Dialect dialect, int index, do
       break;
     case Kept::radius:
       tool().diameter = 2.0 * scaled;
+      tool().has_diameter = true;
       break;
     case Kept::radius_wear:
       tool().diameter_wear = 2.0 * scaled;

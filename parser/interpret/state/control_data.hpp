@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -40,13 +41,12 @@ struct ControlData {
   WorkOffsets work_offsets{};
   std::array<AxisTarget, 2> reference_points{};  // of G28 and G30; absent: the machine's
   ToolTable tools{};
-  bool tools_are_given = false;   // of the setup, with their diameters
   bool tools_are_listed = false;  // there was a tool table: other tools do not exist
   std::array<double, kAxisLetters.size()> shift{};  // of G92, also while it does not count
   bool shift_counts = false;
   int selected_offset = 1;
   int tool = 0;
-  std::map<std::string, int, std::less<>> tool_names{};  // of tools that are called by names
+  std::map<std::string, int, std::less<>> tool_names{};  // of called tools, in capitals
   LengthUnit unit = LengthUnit::millimetre;              // of the lengths in parameters
   // Where the diameter of a contour's tool is not known, its centre goes along the contour.
   bool contours_without_diameter = false;
@@ -58,6 +58,8 @@ struct ControlData {
 // A parameter that the data has. NaN: the program does not know its value.
 [[nodiscard]] std::optional<double> read_parameter(const ControlData& data, Dialect dialect,
                                                    int index);
+enum class ParameterUse : std::uint8_t { other, length, radius };
+[[nodiscard]] ParameterUse use_of(Dialect dialect, int index);
 enum class ParameterWrite : std::uint8_t { not_kept, done, read_only };
 [[nodiscard]] ParameterWrite write_parameter(ControlData& data, Dialect dialect, int index,
                                              double value);

@@ -8,6 +8,7 @@ namespace frustum::parser {
 InterpreterState::InterpreterState(Dialect dialect, const AxisTarget& start,
                                    ControlData control_data)
     : rules(rules_of(dialect)), data(std::move(control_data)), position(start) {
+  modes.unit_is_known = !rules.unit_may_be_missing;
   modes.retract_to_initial = rules.cycles.retract_to_initial;
   for (const auto& [number, offset] : data.work_offsets) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -56,10 +57,10 @@ void lose_pole(InterpreterState& state) {
   state.modes.pole.reset();
 }
 
-void forget(InterpreterState& state, LetterSet axes, PositionLoss loss) {
+void forget(InterpreterState& state, LetterSet axes, PositionLoss loss, std::string_view word) {
   for (const AxisLetter axis : kAxisLetters) {
     if (axes.has(to_char(axis))) {
-      state.position.forget(axis, loss, state.at_work.block->line);
+      state.position.forget(axis, loss, state.at_work.block->line, word);
     }
   }
   // Moves of the machine leave a pole in the words' frame.

@@ -99,8 +99,8 @@ void emit(InterpreterState& state, std::uint32_t column, Command command);
 void assume(InterpreterState& state, std::uint32_t column, std::string_view name,
             std::string_view text);
 
-// The program does not know any more where these axes are.
-void forget(InterpreterState& state, LetterSet axes, PositionLoss loss);
+// The program does not know any more where these axes are, since the word.
+void forget(InterpreterState& state, LetterSet axes, PositionLoss loss, std::string_view word = {});
 // The frame of the pole's coordinates is another one now.
 void lose_pole(InterpreterState& state);
 

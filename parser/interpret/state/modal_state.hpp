@@ -150,6 +150,7 @@ struct ModalState {
   std::array<double, 6> local_shift{};  // of its shift, the part of G52, where that is apart
   ProgramFrame program_frame{};         // of Sinumerik, which is its word frame
   bool shift_was_added = false;         // to that, by ATRANS
+  AxisTarget machine_place{};           // of the last words in machine coordinates
   AxisTarget way_home{};                // the place that the last G28 or G30 went by
   LetterSet placed_in_other_frame{};    // axes that no absolute word has placed since it changed
   std::optional<ProgrammedFrame> frame_below{};  // of the words before G68.2: that plane is in it

@@ -6,8 +6,8 @@ namespace frustum::parser {
 namespace {
 
 constexpr std::array kLossTexts{"",
-                                "G28",
-                                "the move in machine coordinates (G53)",
+                                "the return home",
+                                "the move in machine coordinates",
                                 "the change of work offset",
                                 "the change of tool length compensation",
                                 "the tool vector",
@@ -19,14 +19,15 @@ constexpr std::array kLossTexts{"",
 
 }  // namespace
 
-void ProgramPosition::forget(AxisLetter axis, PositionLoss loss, std::uint32_t line) {
+void ProgramPosition::forget(AxisLetter axis, PositionLoss loss, std::uint32_t line,
+                             std::string_view word) {
   // An axis that was not known before keeps its first cause: that is where the remedy belongs.
   axes_[axis].reset();
   programmed_[axis].reset();
   if (axis == AxisLetter::Z) height_before_tool_.reset();
   if (!target_[axis]) return;
   target_[axis].reset();
-  causes_.at(static_cast<std::size_t>(axis)) = {loss, line};
+  causes_.at(static_cast<std::size_t>(axis)) = {loss, line, std::string(word)};
 }
 
 std::string ProgramPosition::why_unknown(AxisLetter axis) const {
@@ -34,8 +35,13 @@ std::string ProgramPosition::why_unknown(AxisLetter axis) const {
   if (cause.loss == PositionLoss::never_programmed) {
     return fmt::format("{} has not been programmed yet", to_char(axis));
   }
-  return fmt::format("{} is not known since {} on line {}", to_char(axis),
-                     kLossTexts.at(static_cast<std::size_t>(cause.loss)), cause.line);
+  std::string what = kLossTexts.at(static_cast<std::size_t>(cause.loss));
+  if (cause.loss == PositionLoss::home && !cause.word.empty()) {
+    what = cause.word;
+  } else if (!cause.word.empty()) {
+    what += fmt::format(" ({})", cause.word);
+  }
+  return fmt::format("{} is not known since {} on line {}", to_char(axis), what, cause.line);
 }
 
 DiagnosticId ProgramPosition::unknown_id(AxisLetter axis) const {

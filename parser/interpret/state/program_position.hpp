@@ -14,6 +14,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/diagnostic.hpp"
 #include "parser/motion.hpp"
@@ -22,8 +23,8 @@ namespace frustum::parser {
 
 enum class PositionLoss : std::uint8_t {
   never_programmed,
-  home,                 // G28
-  machine_coordinates,  // G53
+  home,                 // the word says which: G28, G74
+  machine_coordinates,  // G53, SUPA, M91
   work_offset,
   length_compensation,
   tool_vector,  // I J K moved the rotary axes
@@ -66,7 +67,8 @@ class ProgramPosition {
   // Where an axis stands, in machine coordinates, while its program coordinate is not known.
   [[nodiscard]] const std::optional<double>& standing(AxisLetter axis) const { return axes_[axis]; }
   void stand(AxisLetter axis, double value) { axes_[axis] = value; }
-  void forget(AxisLetter axis, PositionLoss loss, std::uint32_t line);
+  // `word`: what the program has written, where messages name it.
+  void forget(AxisLetter axis, PositionLoss loss, std::uint32_t line, std::string_view word = {});
   [[nodiscard]] bool never_known(AxisLetter axis) const {
     return !target_[axis] &&
            causes_.at(static_cast<std::size_t>(axis)).loss == PositionLoss::never_programmed;
@@ -81,6 +83,7 @@ class ProgramPosition {
   struct Cause {
     PositionLoss loss = PositionLoss::never_programmed;
     std::uint32_t line = 0;
+    std::string word{};
   };
   AxisTarget target_{};
   AxisTarget axes_{};

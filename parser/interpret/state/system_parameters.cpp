@@ -10,14 +10,15 @@ namespace {
 
 using Value = std::optional<double>;
 
-double in_program_unit(double millimetres, const ModalState& state) {
-  return state.unit == LengthUnit::millimetre ? millimetres : millimetres / kMmPerInch;
+double in_program_unit(double millimetres, const SystemParameters& of) {
+  of.read_by_unit(millimetres);
+  return of.state.unit == LengthUnit::millimetre ? millimetres : millimetres / kMmPerInch;
 }
 
 Value position_of(const SystemParameters& of, AxisLetter axis) {
   const auto& value = of.position[axis];
   if (!value) return std::nullopt;
-  return is_rotary(axis) ? *value * kDegPerRad : in_program_unit(*value, of.state);
+  return is_rotary(axis) ? *value * kDegPerRad : in_program_unit(*value, of);
 }
 
 double motion_word(MotionMode mode) {
@@ -272,8 +273,8 @@ Value sinumerik_variable(const SystemParameters& of, std::string_view name) {
   if (name == "$P_TOOL") return of.state.compensation.length ? of.state.tool_edge : 0;
   if (name == "$P_TOOLR" || name == "$P_TOOLD") {
     const auto tool = of.data.tools.find(of.state.tool);
-    if (tool == of.data.tools.end()) return std::nullopt;
-    return in_program_unit(tool->second.diameter / (name == "$P_TOOLR" ? 2.0 : 1.0), of.state);
+    if (tool == of.data.tools.end() || !tool->second.has_diameter) return std::nullopt;
+    return in_program_unit(tool->second.diameter / (name == "$P_TOOLR" ? 2.0 : 1.0), of);
   }
   if (name == "$P_SDIR") {
     // 3 clockwise, 4 counterclockwise, 5 off: as the M words.
@@ -292,12 +293,18 @@ constexpr int kLastSignal = 1035;
 
 constexpr AssumedValue kSignals{"signals", "the inputs that #1000 to #1035 read are off"};
 constexpr AssumedValue kFirstMotion{"first motion", "G0 is in force before the first motion word"};
-constexpr AssumedValue kStartUnit{"units", "lengths are in mm: no G20 or G21 comes before"};
 constexpr AssumedValue kNoTool{"#4120", "it is 0 before the first T"};
 constexpr AssumedValue kGroupOfWorkOffset{
     "#4012", "the work offset in force, as Mitsubishi and Haas have it (Fanuc: #4014)"};
 
 }  // namespace
+
+const AssumedValue kStartUnit{"units", "lengths are in mm: no G20 or G21 comes before"};
+
+void SystemParameters::read_by_unit(double value) const {
+  const bool told = !assumed.empty() && assumed.back() == &kStartUnit;
+  if (value != 0.0 && !state.unit_is_known && !told) assumed.push_back(&kStartUnit);
+}
 
 Value SystemParameters::number(int index) const {
   const int first = dialect == Dialect::fanuc ? kFanucPosition : kLinuxcncPosition;
@@ -324,7 +331,10 @@ Value SystemParameters::number(int index) const {
       return 0.0;
     }
   }
-  return read_parameter(data, dialect, index);
+  const Value kept = read_parameter(data, dialect, index);
+  const bool is_length = use_of(dialect, index) != ParameterUse::other;
+  if (kept && !is_vacant(*kept) && is_length) read_by_unit(*kept);
+  return kept;
 }
 
 Value SystemParameters::named(std::string_view name) const {

@@ -27,6 +27,8 @@ struct AssumedValue {
   std::string_view text{};
 };
 
+extern const AssumedValue kStartUnit;
+
 class SystemParameters final : public KeptParameters {
  public:
   SystemParameters(Dialect of, const ModalState& modes, const ProgramPosition& place,
@@ -38,12 +40,15 @@ class SystemParameters final : public KeptParameters {
   // Whether a program may not set the name.
   [[nodiscard]] bool keeps(std::string_view name) const;
 
+  // A length, or a feed in lengths, counts in the unit in force: an assumption where none is known.
+  void read_by_unit(double value) const;
+
   Dialect dialect;
   const ModalState& state;
   const ProgramPosition& position;
   const ControlData& data;
   int call_level = 0;
-  // What has been read of values that are assumed.
+  // What has been read of values that are assumed, until it is told.
   mutable std::vector<const AssumedValue*> assumed{};
 };
 

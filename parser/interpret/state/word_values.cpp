@@ -12,12 +12,25 @@ double unit_scale(const InterpreterState& state) {
   return state.modes.unit == LengthUnit::millimetre ? 1.0 : kMmPerInch;
 }
 
+double length_of(const InterpreterState& state, double value) {
+  state.system.read_by_unit(value);
+  return value * unit_scale(state);
+}
+
+Vec3 lengths_of(const InterpreterState& state, const BlockWords& words, std::string_view letters) {
+  Vec3 lengths = vector_of(words, letters);
+  for (double& length : lengths) length = length_of(state, length);
+  return lengths;
+}
+
 double scaled(const InterpreterState& state, AxisLetter axis, double value) {
+  if (is_rotary(axis)) return value * kRadPerDeg;
   const double share = axis == AxisLetter::X && state.modes.diameter ? 0.5 : 1.0;
-  return value * (is_rotary(axis) ? kRadPerDeg : share * unit_scale(state));
+  return share * length_of(state, value);
 }
 
 double feed_scale(const InterpreterState& state, FeedMode mode) {
+  if (mode != FeedMode::inverse_time) state.system.read_by_unit(1.0);
   if (state.modes.unit != LengthUnit::inch || mode == FeedMode::inverse_time) return 1.0;
   return mode == FeedMode::per_minute ? state.rules.inch_feed * kMmPerInch : kMmPerInch;
 }

@@ -13,10 +13,14 @@
 
 namespace frustum::parser {
 
-// mm of a length that the program writes as 1.
+// Every length passes here: in mm, and noted where nothing has given the unit.
+[[nodiscard]] double length_of(const InterpreterState& state, double value);
+[[nodiscard]] Vec3 lengths_of(const InterpreterState& state, const BlockWords& words,
+                              std::string_view letters);
+// mm of a length that the program writes as 1, in dialects whose unit is never open.
 [[nodiscard]] double unit_scale(const InterpreterState& state);
 [[nodiscard]] double scaled(const InterpreterState& state, AxisLetter axis, double value);
-// Lengths in mm that a feed counts in.
+// Of an F word: lengths in mm that it counts in.
 [[nodiscard]] double feed_scale(const InterpreterState& state, FeedMode mode);
 [[nodiscard]] Result<int> whole(const InterpreterState& state, const BlockWords& words, char letter,
                                 int least, int most);

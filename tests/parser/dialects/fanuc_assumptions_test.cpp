@@ -26,6 +26,12 @@ TEST(FanucAssumptions, ColonWithoutANumberIsPassedOver) {
   const auto all = motions(":O1001\n: (A PART)\n:G90 G0 X5\n");
   EXPECT_EQ(assumptions_of(all), Assumptions{":"});
   EXPECT_EQ(last_of<Traverse>(all).end[X], 5.0);
+  const auto numbered = motions(":N5 G90 G0 X5\n: N7 X6\nGOTO9\nX7\n:N9 X8\n");
+  EXPECT_EQ(assumptions_of(numbered), Assumptions{":"});
+  EXPECT_EQ(all_of<Traverse>(numbered).size(), 3U);
+  EXPECT_EQ(last_of<Traverse>(numbered).end[X], 8.0);
+  // With a number it is the O of a program.
+  EXPECT_EQ(complaint_ids("G0 X1\n:5 G0 X5\n"), Assumptions{"program-end-missing"});
   EXPECT_EQ(complaint_ids("#1=5:\n"), Assumptions{"name-missing"});
   EXPECT_EQ(complaint_ids("G0 X1 : Y2\n"), Assumptions{"name-missing"});
   EXPECT_EQ(complaint_ids(":[1]\n"), Assumptions{"name-missing"});
@@ -54,6 +60,16 @@ TEST(FanucAssumptions, UnitIsAssumedWhereNothingGivesIt) {
   }
   EXPECT_EQ(line_of(run("G91\n#1=#4006\nG0 X0\n")), 2U);
   EXPECT_EQ(line_of(run("G21\n#1=#4006\n")), 0U);
+  for (const char* before :
+       {"G68 X5 Y0 R30", "G51.1 X5", "G68.2 X5 Y0 Z0 I0 J0 K0", "#5221=5", "#12001=5", "F100",
+        "G95 F0.1", "G10 L2 P1 X5", "G10 L10 P1 R50", "G52 X5", "G92 X0 Y5", "G54.1 P1 X5"}) {
+    EXPECT_EQ(line_of(run("G90\n" + std::string(before) + "\nG21\n")), 2U) << before;
+    EXPECT_EQ(line_of(run("G21\n" + std::string(before) + "\n")), 0U) << before;
+  }
+  for (const char* free : {"G68 X0 Y0 R30", "G51.1 X0", "#5224=90", "#100=5", "G93", "G4 X2.",
+                           "S1000 M3", "G68.2 X0 Y0 Z0 I0 J30 K0", "G0 C90", "#13001=0"}) {
+    EXPECT_EQ(line_of(run("G90\n" + std::string(free) + "\nG21\n")), 0U) << free;
+  }
   InterpreterOptions options;
   options.control.unit = LengthUnit::inch;
   const auto inches = run("G0 X1. Y2.\nG1 X2. F10\nG21 X3.\n", options);

@@ -134,5 +134,69 @@ TEST(FanucMotion, WearOfTheRadiusCounts) {
   EXPECT_EQ(all_of<Event>(open).at(0).name, "cutter radius");
 }
 
+// A wear adds to what nobody has given, and a length is no radius.
+TEST(FanucMotion, WearOrLengthAloneGivesNoRadius) {
+  using Texts = std::vector<std::string>;
+  const std::string contour = "G0 X0 Y0\nG1 G41 D2 X10 F100\nY5\nY10\nG40 X0\n";
+  InterpreterOptions options;
+  options.tools[1].diameter = 8.0;
+  const auto message = [&](const std::string& setting) {
+    const Texts lines = complaints(setting + contour, options);
+    return lines.size() == 1 ? lines.front().substr(0, lines.front().find(" (hint: ")) : "";
+  };
+  EXPECT_EQ(message("G21 G10 L13 P2 R0.3\n"), "3:8: error: the tool table has no tool 2");
+  EXPECT_EQ(message("#13002=0.3\n"), "3:8: error: the tool table has no tool 2");
+  EXPECT_EQ(message("G10 L10 P2 R80\n"), "3:8: error: the tool table has no diameter of tool 2");
+  EXPECT_EQ(message("#10002=80\n"), "3:8: error: the tool table has no diameter of tool 2");
+  // To the wear in the program the job's diameter counts; zero is a radius too.
+  EXPECT_NEAR(*all_of<LinearFeed>(motions("G10 L13 P1 R0.3\nG0 X0 Y0\nG1 G41 D1 X10 F100\nY5\n"
+                                          "Y10\nG40 X0\n",
+                                          options))
+                   .at(1)
+                   .end[X],
+              5.7, 1e-9);
+  EXPECT_EQ(all_of<LinearFeed>(motions("G10 L12 P2 R0\n" + contour, options)).at(1).end[X], 10.0);
+  // Steps need what they add to.
+  EXPECT_EQ(complaint_ids("G91 G10 L12 P2 R0.1\n", options), Texts{"unknown-tool-radius"});
+  EXPECT_TRUE(complaint_ids("G91 G10 L12 P1 R0.1\n", options).empty());
+  // Lengths alone of a setup leave all radii open.
+  InterpreterOptions lengths;
+  Tool& tool = entry_of(lengths.tools, 2);
+  tool.offset[2] = 80.0;
+  tool.has_length = true;
+  const auto open = motions("G21\n" + contour, lengths);
+  EXPECT_EQ(all_of<LinearFeed>(open).at(1).end[X], 10.0);
+  ASSERT_EQ(all_of<Event>(open).size(), 1U);
+  EXPECT_EQ(all_of<Event>(open).at(0).name, "cutter radius");
+}
+
+TEST(FanucMotion, WearAloneGivesNoLength) {
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(complaint_ids("G10 L11 P2 R0.3\nG43 H2 Z5\n"), Ids{"unknown-tool-length"});
+  EXPECT_EQ(complaint_ids("#11002=0.3\nG43 H2 Z5\n"), Ids{"unknown-tool-length"});
+  EXPECT_EQ(complaint_ids("G91 G10 L10 P2 R0.3\n"), Ids{"unknown-tool-length"});
+  const auto both = motions("#10002=80\n#11002=0.3\nG43 H2 Z5\n");
+  EXPECT_EQ(last_of<CompensationChange>(both).length, 80.3);
+}
+
+// The parameters of the control say whether offsets are radii.
+TEST(FanucMotion, OffsetsOfRadiiAreTold) {
+  const auto told = [](std::string_view text) {
+    std::vector<std::string> names;
+    for (const Event& event : all_of<Event>(motions(text))) {
+      if (event.grade == EventGrade::assumed) names.push_back(event.name);
+    }
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  for (const char* text : {"G21 G10 L12 P1 R5\nG10 L13 P1 R1\n", "G21 G10 L13 P1 R0.1\n",
+                           "G21\n#12001=5\n", "G21\n#13001=0.1\n"}) {
+    EXPECT_EQ(told(text), Names{"offset memory"}) << text;
+  }
+  for (const char* text : {"G21 G10 L13 P1 R0\n", "G21\n#13001=0\n", "G21 G10 L10 P1 R50\n"}) {
+    EXPECT_TRUE(told(text).empty()) << text;
+  }
+}
+
 }  // namespace
 }  // namespace frustum::parser

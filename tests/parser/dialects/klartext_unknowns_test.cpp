@@ -68,6 +68,15 @@ TEST(KlartextUnknowns, StepsAfterMachineCoordinatesGoOnInThem) {
   EXPECT_TRUE(run.assumptions.empty());
 }
 
+// A step with M91 counts from the last place that M91 has given.
+TEST(KlartextUnknowns, StepsWithinMachineCoordinatesCountFromTheLastPlaceThere) {
+  const TakenRun run = taken_run("L X+100 FMAX M91\nL IX+5 FMAX M91\nL IX+5 FMAX M91\n");
+  EXPECT_EQ(run.moves, (TakenMoves{"*X100", "*X105", "*X110"}));
+  EXPECT_EQ(run.assumptions, (TakenMoves{"M91 step"}));
+  EXPECT_EQ(taken_complaint("L X+0 FMAX\nL IX+5 FMAX M91\n"),
+            "2:3: error: IX5 is a step from the last place of M91, which has none");
+}
+
 TEST(KlartextUnknowns, PlacesAreReadAsFarAsTheyAreKnown) {
   const std::string head = "TOOL CALL 1 Z S1\n";
   // What the program has placed is no assumption.
@@ -112,7 +121,7 @@ TEST(KlartextUnknowns, HolesAfterAToolChangeAreAsHighAsBefore) {
       taken_complaint("TOOL CALL 1 Z S1\nL X+1 Y+1 Z+2 FMAX\nL Z+0 FMAX M91\nTOOL CALL 2 Z\n" +
                       cycle + "L X+3 FMAX M99\n"),
       "11:12: error: the height of the hole is not known: Z is not known since the move in "
-      "machine coordinates (G53) on line 3");
+      "machine coordinates (M91) on line 3");
 }
 
 TEST(KlartextUnknowns, TheBuildersDatumIsTheMachines) {

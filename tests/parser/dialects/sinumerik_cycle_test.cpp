@@ -332,7 +332,7 @@ TEST(SinumerikCycles, TellMistakes) {
       {"G0 X0 Y0 G93\nCYCLE81(5,0,2,-5) F5\n", "2:1: error: a cycle in G93"},
       {"F9 G0 X0 Y0\nMCALL CYCLE81(5,0,2,-5)\nG0 SUPA D0 X1\n",
        "3:1: error: the place of the hole is not known: X is not known since the move in machine "
-       "coordinates (G53) on line 3"},
+       "coordinates (SUPA) on line 3"},
       {"MIRROR Z0\nF9 G0 X0 Y0\nCYCLE81(5,0,2,-5)\n",
        "3:1: error: a cycle where the depths are scaled or mirrored"},
       {"SCALE X2 Y2 Z2\nF9 G0 X0 Y0\nCYCLE81(5,0,2,-5)\n",

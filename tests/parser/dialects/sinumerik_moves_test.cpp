@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/units.hpp"
@@ -35,6 +36,18 @@ TEST(SinumerikAngles, OpenArcsAboutTheirCentre) {
   EXPECT_NEAR(*back.end[X], 10.0, 1e-12);
   EXPECT_NEAR(*back.end[Y], -10.0, 1e-12);
   EXPECT_EQ(back.turns, -2);
+}
+
+TEST(SinumerikAngles, ComplaintsNameWhatIsWritten) {
+  const auto complaint = [](const std::string& text) {
+    const auto lines = complaints("G1 X30 Y0 Z0 F100\n" + text, {}, Dialect::sinumerik);
+    return lines.empty() ? "" : lines.front().substr(0, lines.front().find(" (hint"));
+  };
+  EXPECT_EQ(complaint("G3 X30 AR=90\n"),
+            "2:8: error: an arc with AR=90 ends at its start, which leaves its centre open");
+  EXPECT_EQ(complaint("G3 X20 CR=0\n"), "2:8: error: CR is zero");
+  EXPECT_EQ(complaint("G3 X20 CR=2\n"),
+            "2:8: error: CR 2 mm is too small: the end is 10 mm from the start");
 }
 
 TEST(SinumerikAngles, OpenArcsToTheirEnd) {
@@ -117,7 +130,61 @@ TEST(SinumerikPoints, AreGoneToStraight) {
   // No way over the words.
   EXPECT_EQ(all_of<Traverse>(moves).size(), 2U);
   EXPECT_EQ(ids_of_moves("G74\n"), std::vector<std::string>{"axes-missing"});
+  for (const auto& [home, named] :
+       {std::pair("G74 X1=0", "G74"), std::pair("G75 X1=0", "G75"),
+        std::pair("G0 SUPA X5", "the move in machine coordinates (SUPA)")}) {
+    const auto lines =
+        complaints("G0 X1\n" + std::string(home) + "\nG91 G0 Y1 X5\n", {}, Dialect::sinumerik);
+    ASSERT_EQ(lines.size(), 1U) << home;
+    const std::string since = "X is not known since " + std::string(named) + " on line 2";
+    EXPECT_NE(lines.front().find(since), std::string::npos) << lines.front();
+  }
   EXPECT_EQ(ids_of_moves("G0 X1=5\n"), std::vector<std::string>{"not-supported"});
+}
+
+// A step by machine coordinates has no place that it counts from.
+TEST(SinumerikPoints, OfTheMachineArePlaces) {
+  EXPECT_EQ(ids_of_moves("G0 X5\nG0 SUPA X=IC(10)\n"),
+            std::vector<std::string>{"machine-coordinates"});
+  EXPECT_EQ(ids_of_moves("G91\nG0 SUPA X10\n"), std::vector<std::string>{"machine-coordinates"});
+  const auto absolute = run_moves("G91\nG0 G153 X=AC(10)\n");
+  EXPECT_EQ(last_of<Traverse>(absolute).end[X], 10.0);
+  EXPECT_EQ(last_of<Traverse>(absolute).coordinates, Coordinates::machine);
+  EXPECT_EQ(all_of<Event>(run_moves("SUPA\n")).at(0).name, "SUPA");
+}
+
+// Reserved words are no variables of the machine.
+TEST(SinumerikWordsOfTheControl, ThatWouldMoveTheToolAreRefused) {
+  using Ids = std::vector<std::string>;
+  for (const char* text :
+       {"PHI=1",      "PSI=1",     "NUT=1",   "XH=1",   "PO[X]=1",       "PL=1",
+        "PW=2",       "SD=3",      "SPN=2",   "SPP=2",  "ISD=1",         "DISRP=1",
+        "OS[X]=1",    "OSP1[X]=1", "SR[X]=1", "CPON=1", "CPLNUM[X,Y]=1", "FOC[X]=1",
+        "MEASA[X]=1", "PTP",       "PTPG0",   "SON",    "TRAILON(X,Y)",  "COUPON(S2,S1)",
+        "REPOSA",     "ORIPATH"}) {
+    EXPECT_EQ(ids_of_moves(std::string(text) + "\n"), Ids{"not-supported"}) << text;
+  }
+  for (const char* text : {"MCALL HOLE", "G41 G147 X5", "G148", "G247", "G248", "G347", "G348",
+                           "G340", "G341", "G140", "G143"}) {
+    const auto lines = complaints(std::string(text) + "\n", {}, Dialect::sinumerik);
+    ASSERT_EQ(lines.size(), 1U) << text;
+    EXPECT_NE(lines.front().find(" is not simulated"), std::string::npos) << lines.front();
+  }
+}
+
+// The pose of the joints is looked at in PTP alone.
+TEST(SinumerikWordsOfTheControl, ThatMoveNothingAreEvents) {
+  for (const char* text : {"STAT=1", "TU='B10'", "TU=3", "FA[X]=100", "VELOLIMA[X]=50",
+                           "SCPARA[X]=2", "SPN=0", "CP"}) {
+    const auto events = all_of<Event>(run_moves(std::string(text) + "\n"));
+    ASSERT_EQ(events.size(), 1U) << text;
+    EXPECT_EQ(events.front().grade, EventGrade::known) << text;
+  }
+  for (const char* text : {"POLF[X]=5", "POLFMASK(X,Z)", "DILF=2", "ALF=1"}) {
+    const auto events = all_of<Event>(run_moves(std::string(text) + "\n"));
+    ASSERT_EQ(events.size(), 1U) << text;
+    EXPECT_EQ(events.front().grade, EventGrade::assumed) << text;
+  }
 }
 
 TEST(SinumerikAxes, GoByThemselvesByRapid) {

@@ -29,6 +29,15 @@ std::string complaint_of(std::string_view text) {
   return lines[0].substr(0, lines[0].find(" (hint: "));
 }
 
+TEST(SinumerikMainBlocks, MayLackTheirNumber) {
+  const auto all =
+      motions(":10 G0 X5\n:N20 X6\n: X7\nGOTOF N40\nX8\n:N40 X9\n", {}, Dialect::sinumerik);
+  EXPECT_EQ(last_of<Traverse>(all).end[AxisLetter::X], 9.0);
+  EXPECT_EQ(all_of<Traverse>(all).size(), 4U);
+  ASSERT_EQ(all_of<Event>(all).size(), 1U);
+  EXPECT_EQ(all_of<Event>(all).front().grade, EventGrade::assumed);
+}
+
 TEST(SinumerikPrograms, GoOnBehindAPercentSignWithoutAName) {
   const auto all = motions("%_N_PART_MPF\n%\nG0 X1\nM30\n%\n", {}, Dialect::sinumerik);
   EXPECT_EQ(last_of<Traverse>(all).end[AxisLetter::X], 1.0);

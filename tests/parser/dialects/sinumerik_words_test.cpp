@@ -52,11 +52,15 @@ TEST(SinumerikTools, Fault2_10_GoByTheirNames) {
   EXPECT_EQ(texts_of(all, "tool_name"),
             (std::vector<std::string>{"DRILL 8.5 is tool 1001", "MILL 10 is tool 1002"}));
   EXPECT_EQ(grade_of(all, "tool_name"), EventGrade::assumed);
+  EXPECT_EQ(texts_of(run_words("T=\"drill\" M6\nT=\"DRILL\" M6\n"), "tool_name").size(), 1U);
   // A remark of the tool table names its tool.
   InterpreterOptions options;
   options.tools[7] = Tool{.diameter = 8.5, .remark = "Drill 8.5"};
   const auto listed = motions("T=\"DRILL 8.5\" M6\n", options, Dialect::sinumerik);
   EXPECT_EQ(last_of<ToolChange>(listed).tool, 7);
+  options.tools[9] = Tool{.diameter = 8.5, .remark = "DRILL 8.5"};
+  EXPECT_EQ(complaint_ids("T=\"Drill 8.5\" M6\n", options, Dialect::sinumerik),
+            std::vector<std::string>{"tool-name"});
   // A name may be in a variable, and be given by the program.
   EXPECT_EQ(last_of<ToolChange>(run_words("DEF STRING[20] NAME=\"MILL\"\n$TC_TP2[5]=\"MILL\"\n"
                                           "T=NAME M6\n"))
