@@ -7,6 +7,7 @@ set(FRUSTUM_INSTALL_CMAKE "${CMAKE_INSTALL_LIBDIR}/cmake/Frustum")
 set(FRUSTUM_INSTALL_MACHINES "${CMAKE_INSTALL_DATADIR}/frustum/machines")
 
 get_property(rooms GLOBAL PROPERTY FRUSTUM_ROOMS)
+list(TRANSFORM rooms PREPEND "frustum::" OUTPUT_VARIABLE FRUSTUM_LIBRARIES)
 foreach(room IN LISTS rooms)
   install(TARGETS frustum_${room} EXPORT FrustumTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 endforeach()

@@ -12,15 +12,6 @@ DecisionRule read_decision(const TomlTable& table) {
   return static_cast<DecisionRule>(table.choice_or("decision", names, 0));
 }
 
-UncertaintyInterval interval_of(const CharacteristicResult& characteristic) {
-  const CharacteristicResult& c = characteristic;
-  if (c.simulated) return {c.simulated->low, c.simulated->high};
-  UncertaintyInterval interval{c.value - c.expanded_uncertainty, c.value + c.expanded_uncertainty};
-  // Forms and zones have no nominal value.
-  if (!c.nominal) interval.low = std::max(0.0, interval.low);
-  return interval;
-}
-
 Verdict verdict_of(const CharacteristicResult& characteristic, DecisionRule rule) {
   const double nominal = characteristic.nominal.value_or(0.0);
   const double tolerance = characteristic.tolerance +
@@ -28,7 +19,8 @@ Verdict verdict_of(const CharacteristicResult& characteristic, DecisionRule rule
   if (rule == DecisionRule::simple) {
     return std::abs(characteristic.value - nominal) <= tolerance ? Verdict::pass : Verdict::fail;
   }
-  const UncertaintyInterval interval = interval_of(characteristic);
+  const TrueValueInterval interval = characteristic.interval.value_or(
+      TrueValueInterval{characteristic.value, characteristic.value});
   const double low = interval.low - nominal;
   const double high = interval.high - nominal;
   if (low >= -tolerance && high <= tolerance) return Verdict::pass;

@@ -1,9 +1,8 @@
 // Whether a characteristic conforms, with the uncertainty of its measurement or without.
 //
 // Model    : simple: pass when |value - nominal| is within the tolerance. iso14253: pass when the
-//            whole uncertainty interval is, fail when nothing of it is, else uncertain. The
-//            interval is the simulated one where there is one, else value +- U; of forms and zones
-//            none of it is below 0
+//            whole interval of the true value is, fail when nothing of it is, else uncertain. Where
+//            no accuracy is stated the interval is the value
 // Units    : those of the characteristic
 // Shape    : one characteristic or all of a measurement
 // Errors   : read_decision notes a rule that there is not
@@ -25,13 +24,6 @@ inline constexpr std::array<std::string_view, 2> kDecisionNames{"simple", "iso14
 // decision = "simple" | "iso14253" of a plan or of a job's [inspection]; simple when absent.
 // Mistakes are noted in the table's document.
 [[nodiscard]] DecisionRule read_decision(const TomlTable& table);
-
-// Where the true value is, at 95 %.
-struct UncertaintyInterval {
-  double low = 0.0;
-  double high = 0.0;
-};
-[[nodiscard]] UncertaintyInterval interval_of(const CharacteristicResult& characteristic);
 
 [[nodiscard]] Verdict verdict_of(const CharacteristicResult& characteristic, DecisionRule rule);
 // Sets `pass` and `uncertain` of all.

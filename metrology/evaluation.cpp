@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "metrology/characteristic/evaluators.hpp"
 #include "metrology/decision_rule.hpp"
 #include "metrology/uncertainty/linear_uncertainty.hpp"
@@ -18,7 +20,7 @@ std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
   std::string names;
   std::size_t count = 0;
   for (const CharacteristicResult& c : measurement.characteristics) {
-    if (c.simulated || c.expanded_uncertainty > 0.0) continue;
+    if (c.expanded_uncertainty > 0.0) continue;
     ++count;
     names += (names.empty() ? "'" : ", '") + c.name + "'";
   }
@@ -27,6 +29,30 @@ std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
   return warning("decision-without-uncertainty"_id,
                  fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", names),
                  std::string(kStateAccuracy));
+}
+
+// A size is what is not of either sign: the kind of its spread is known.
+bool is_size(const CharacteristicResult& c) { return c.spread.is_known(); }
+
+void state(CharacteristicResult& c, double standard, double below, double above) {
+  c.standard_uncertainty = standard;
+  c.expanded_uncertainty = std::max(below, above);
+  const double low = c.value - below;
+  c.interval = {is_size(c) ? std::max(0.0, low) : low, c.value + above, is_size(c)};
+}
+
+// The simulated interval counts, but of sizes whose shape nothing is known of: their bounds hold
+// whatever it is.
+void take(CharacteristicResult& c, SimulatedUncertainty simulated) {
+  if (is_size(c) && !c.measurand.is_known()) {
+    simulated.low = c.interval->low;
+    simulated.high = c.interval->high;
+  } else {
+    c.interval = {simulated.low, simulated.high, false};
+    c.standard_uncertainty = simulated.standard;
+    c.expanded_uncertainty = std::max(c.value - simulated.low, simulated.high - c.value);
+  }
+  c.simulated = simulated;
 }
 
 }  // namespace
@@ -39,11 +65,10 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
   if (!u.is_zero()) {
     const auto uncertain = linear_uncertainty(plan, features, u);
     if (!uncertain) return uncertain.error();
-    constexpr double kCoverage = 2.0;  // 95 % of a normal distribution
     for (std::size_t i = 0; i < uncertain->standard.size(); ++i) {
-      CharacteristicResult& c = measurement->characteristics[i];
-      c.expanded_uncertainty = kCoverage * uncertain->standard[i] *
-                               evaluator_of(plan.characteristics[i].kind).per_internal;
+      const double per_internal = evaluator_of(plan.characteristics[i].kind).per_internal;
+      state(measurement->characteristics[i], per_internal * uncertain->standard[i],
+            per_internal * uncertain->bounds[i].below, per_internal * uncertain->bounds[i].above);
     }
   }
   if (plan.monte_carlo && u.is_zero()) {
@@ -56,7 +81,7 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
         plan, features, error_draws(cmm, plan.monte_carlo->seed), *plan.monte_carlo);
     if (!simulated) return simulated.error();
     for (std::size_t i = 0; i < simulated->size(); ++i) {
-      measurement->characteristics[i].simulated = (*simulated)[i];
+      take(measurement->characteristics[i], (*simulated)[i]);
     }
   }
   decide(*measurement, plan.decision);

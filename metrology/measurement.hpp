@@ -76,6 +76,13 @@ struct SimulatedUncertainty {
   bool stable = false;  // to the digits asked for, or as exact as that without noise
 };
 
+// Where the true value is in 95 % of measurements, in the unit of its characteristic.
+struct TrueValueInterval {
+  double low = 0.0;
+  double high = 0.0;
+  bool at_least = false;  // on the safe side: in 95 % or more
+};
+
 struct CharacteristicResult {
   std::string name{};
   std::string kind{};
@@ -84,8 +91,13 @@ struct CharacteristicResult {
   // For characteristics that have one (half angle). 0 for those that compare lines: their value is
   // a deviation of either sign.
   std::optional<double> nominal{};
-  double tolerance = 0.0;             // in `unit`: limit of the value, or of |value - nominal|
-  double expanded_uncertainty = 0.0;  // k = 2, in `unit`
+  double tolerance = 0.0;  // in `unit`: limit of the value, or of |value - nominal|
+  // In `unit`: value +- this holds the true value in 95 % of measurements. Of values of either sign
+  // twice the standard uncertainty; of sizes, which noise makes larger, to the far end of the
+  // interval.
+  double expanded_uncertainty = 0.0;
+  double standard_uncertainty = 0.0;                // in `unit`
+  std::optional<TrueValueInterval> interval{};      // where the accuracy of the CMM is stated
   std::optional<SimulatedUncertainty> simulated{};  // where the plan asks for it
   bool pass = false;
   bool uncertain = false;  // not passed for the uncertainty alone

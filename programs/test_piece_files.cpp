@@ -105,7 +105,7 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
   return text;
 }
 
-Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs::path& machine_file,
+Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std::string& machine,
                                                const fs::path& folder) {
   std::error_code problem;
   fs::create_directories(folder, problem);
@@ -115,8 +115,6 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs:
     failure.file = folder.string();
     return failure;
   }
-  fs::path machine = fs::relative(fs::absolute(machine_file), fs::absolute(folder), problem);
-  if (problem || machine.empty()) machine = fs::absolute(machine_file);
   const fs::path plan = fs::path(piece.program_file).replace_extension(".plan.toml");
   const std::vector<fs::path> files{folder / "job.toml", folder / piece.program_file,
                                     folder / plan};
@@ -124,7 +122,7 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const fs:
   const std::vector<std::pair<fs::path, std::string>> contents{
       {files[1], piece.program},
       {files[2], metrology::to_toml(piece.plan)},
-      {files[0], job_text(piece, machine.generic_string(), plan.string())}};
+      {files[0], job_text(piece, machine, plan.string())}};
   for (const auto& [file, text] : contents) {
     if (const auto written = write_whole_file(file, text); !written) return written.error();
   }

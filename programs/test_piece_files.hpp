@@ -12,13 +12,13 @@
 
 namespace frustum::programs {
 
-// job.toml as text; `machine` is the path of the machine file as the job shall name it.
+// job.toml as text; `machine` is the machine as the job shall name it: a shipped name, or the path
+// of a file.
 [[nodiscard]] std::string job_text(const TestPiece& piece, const std::string& machine,
                                    const std::string& plan_file);
 
 // Writes job.toml, the NC program and the plan; returns their paths, the job first.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_test_piece(
-    const TestPiece& piece, const std::filesystem::path& machine_file,
-    const std::filesystem::path& folder);
+    const TestPiece& piece, const std::string& machine, const std::filesystem::path& folder);
 
 }  // namespace frustum::programs

@@ -53,9 +53,9 @@ std::string uncertainty_text(double value) {
 }
 
 std::string interval_text(const metrology::CharacteristicResult& characteristic) {
-  if (!characteristic.simulated) return "";
-  return value_text(characteristic.simulated->low, characteristic.unit) + " .. " +
-         value_text(characteristic.simulated->high, characteristic.unit);
+  if (!characteristic.interval) return "";
+  return value_text(characteristic.interval->low, characteristic.unit) + " .. " +
+         value_text(characteristic.interval->high, characteristic.unit);
 }
 
 std::string unit_symbol(std::string_view unit) {

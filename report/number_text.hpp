@@ -31,7 +31,7 @@ namespace frustum::report {
 // Uncertainties get two significant digits.
 [[nodiscard]] std::string uncertainty_text(double value);
 
-// "0.000 .. 1.234", the simulated interval; empty without one.
+// "0.000 .. 1.234", the interval of the true value; empty without one.
 [[nodiscard]] std::string interval_text(const metrology::CharacteristicResult& characteristic);
 
 // "um" -> "µm", "deg" -> "°", "urad" -> "µrad", "mm3" -> "mm³"; anything else unchanged. UTF-8.

@@ -138,7 +138,7 @@ void write_characteristics(Page& page, const RunReport& report) {
   const bool has_nominal = std::any_of(characteristics.begin(), characteristics.end(),
                                        [](const auto& c) { return !nominal_text(c).empty(); });
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (k=2)", "95 % interval",
+  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (95%)", "95 % interval",
                   "Used", "Verdict"});
   for (const metrology::CharacteristicResult& c : characteristics) {
     const std::optional<double> used = used_share(c);

@@ -36,9 +36,8 @@ std::string counts_text(const metrology::Measurement& measurement) {
 
 bool has_no_uncertainty(const metrology::Measurement& measurement) {
   const auto& all = measurement.characteristics;
-  return !all.empty() && std::all_of(all.begin(), all.end(), [](const auto& c) {
-    return c.expanded_uncertainty == 0.0 && (!c.simulated || c.simulated->standard == 0.0);
-  });
+  return !all.empty() && std::all_of(all.begin(), all.end(),
+                                     [](const auto& c) { return c.expanded_uncertainty == 0.0; });
 }
 
 }  // namespace frustum::report

@@ -10,6 +10,7 @@
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/job/job.hpp"
+#include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "programs/test_piece_files.hpp"
@@ -85,7 +86,8 @@ int compensate(const CompensateOptions& options) {
   if (!made) return refuse(made.error());
   made->piece.title += ", compensated";
   made->piece.program_file = fs::path(made->piece.program_file).filename().string();
-  const auto files = programs::write_test_piece(made->piece, job->machine_file, options.out);
+  const auto files = programs::write_test_piece(
+      made->piece, name_for_job(job->machine_file, options.out), options.out);
   if (!files) return refuse(files.error());
   return report(options, *made, *files);
 }

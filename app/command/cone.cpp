@@ -5,6 +5,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
 #include "programs/cone/cone_frustum.hpp"
 #include "programs/test_piece_files.hpp"
@@ -68,7 +69,7 @@ Result<std::vector<fs::path>> write_cone(const ConeOptions& options, const Machi
   const auto piece =
       programs::cone_frustum(*cone, machine, *parser::dialect_named(options.dialect));
   if (!piece) return piece.error();
-  return programs::write_test_piece(*piece, machine_file, options.out);
+  return programs::write_test_piece(*piece, name_for_job(machine_file, options.out), options.out);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
 #include "app/view/step_sheet.hpp"
 #include "programs/step/step_pattern.hpp"
@@ -56,7 +57,8 @@ Result<std::vector<fs::path>> write_step(const StepOptions& options, const Machi
   if (!test) return test.error();
   const auto made = programs::step_pattern(*test, machine, *parser::dialect_named(options.dialect));
   if (!made) return made.error();
-  auto files = programs::write_test_piece(made->piece, machine_file, options.out);
+  auto files =
+      programs::write_test_piece(made->piece, name_for_job(machine_file, options.out), options.out);
   if (!files) return files;
   const auto sheet = report::write_setup_sheet(fs::path(options.out) / "setup.html",
                                                sheet_of(*test, *made, machine));

@@ -12,14 +12,15 @@
 namespace frustum::app {
 namespace fs = std::filesystem;
 
-// Beside the source while developing, beside the installed program afterwards.
+// Beside the installed program; else beside the source, while developing.
 std::vector<fs::path> machine_folders() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  std::vector<fs::path> folders{FRUSTUM_SOURCE_MACHINES};
+  std::vector<fs::path> folders;
   if (!program.empty()) {
     folders.push_back(program.parent_path().parent_path() / FRUSTUM_INSTALLED_MACHINES);
   }
+  folders.emplace_back(FRUSTUM_SOURCE_MACHINES);
   return folders;
 }
 
@@ -55,6 +56,17 @@ Result<kinematics::Machine> load_machine(const std::string& name, const fs::path
   const auto file = find_machine(name, folder);
   if (!file) return file.error();
   return kinematics::Machine::load(*file);
+}
+
+std::string name_for_job(const fs::path& machine_file, const fs::path& folder) {
+  std::error_code problem;
+  for (const fs::path& shipped : machine_folders()) {
+    const fs::path same = shipped / machine_file.filename();
+    if (fs::equivalent(same, machine_file, problem)) return machine_file.stem().string();
+  }
+  const fs::path from_there =
+      fs::relative(fs::absolute(machine_file), fs::absolute(folder), problem);
+  return (problem || from_there.empty() ? fs::absolute(machine_file) : from_there).generic_string();
 }
 
 std::vector<fs::path> shipped_machines() {

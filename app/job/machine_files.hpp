@@ -17,6 +17,10 @@ namespace frustum::app {
                                                          const std::filesystem::path& folder);
 [[nodiscard]] Result<kinematics::Machine> load_machine(const std::string& name,
                                                        const std::filesystem::path& folder);
+// As a job in `folder` shall name a machine file: a shipped one by its name, so that the job can be
+// moved; another by its path from there.
+[[nodiscard]] std::string name_for_job(const std::filesystem::path& machine_file,
+                                       const std::filesystem::path& folder);
 // Where shipped machines may be, best first; error files are in errors/ under it.
 [[nodiscard]] std::vector<std::filesystem::path> machine_folders();
 // The shipped machine files, by name.

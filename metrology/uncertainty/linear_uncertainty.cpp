@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 
-#include "core/linear_algebra.hpp"
 #include "metrology/characteristic/measured_values.hpp"
 #include "metrology/uncertainty/element_patterns.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
@@ -13,19 +14,11 @@
 namespace frustum::metrology {
 namespace {
 
-using Columns = std::vector<Eigen::VectorXd>;
-
-// What a characteristic is made of: the parts of a zone, or its value.
-Eigen::VectorXd parts_of(const CharacteristicResult& c) {
-  if (!c.spread.is_known()) return Eigen::VectorXd::Constant(1, internal_value(c));
-  return Eigen::Map<const Eigen::VectorXd>(c.spread.parts.data(),
-                                           static_cast<Eigen::Index>(c.spread.parts.size()));
-}
-
-// How its parts answer: a column a pattern, times the standard deviation of its coefficient.
+// How the parts of a characteristic answer: a column a pattern, times the standard deviation of its
+// coefficient.
 struct Response {
-  Columns others{};                // to datums and to the field of the machine
-  Columns toleranced{};            // to the features whose points or sections the parts are of
+  PartAnswers others{};            // to datums and to the field of the machine
+  PartAnswers toleranced{};        // to the features whose points or sections the parts are of
   std::vector<double> in_order{};  // of the first part to all patterns
 
   void add(bool to_toleranced, Eigen::VectorXd answer) {
@@ -33,6 +26,13 @@ struct Response {
     (to_toleranced ? toleranced : others).push_back(std::move(answer));
   }
 };
+
+// What a characteristic is made of: the parts of a zone, or its value.
+Eigen::VectorXd parts_of(const CharacteristicResult& c) {
+  if (!c.spread.is_known()) return Eigen::VectorXd::Constant(1, internal_value(c));
+  return Eigen::Map<const Eigen::VectorXd>(c.spread.parts.data(),
+                                           static_cast<Eigen::Index>(c.spread.parts.size()));
+}
 
 // A profile of several surfaces tolerances all of them.
 bool is_toleranced(const PlannedCharacteristic& planned, const std::string& feature) {
@@ -64,7 +64,7 @@ struct Measured {
 
 // Half the difference of what is measured with errors added and taken away, a column a
 // characteristic.
-Result<Columns> difference(const Measured& measured, const MeasuringErrors& errors) {
+Result<PartAnswers> difference(const Measured& measured, const MeasuringErrors& errors) {
   const auto more = measured.with(errors);
   if (!more) return more.error();
   const auto less = measured.with([&](const Vec3& centre, const Vec3& approach, std::size_t feature,
@@ -72,7 +72,7 @@ Result<Columns> difference(const Measured& measured, const MeasuringErrors& erro
     return 2.0 * centre - errors(centre, approach, feature, point);
   });
   if (!less) return less.error();
-  Columns all;
+  PartAnswers all;
   for (std::size_t c = 0; c < more->characteristics.size(); ++c) {
     const Eigen::VectorXd high = parts_of(more->characteristics[c]);
     const Eigen::VectorXd low = parts_of(less->characteristics[c]);
@@ -83,170 +83,131 @@ Result<Columns> difference(const Measured& measured, const MeasuringErrors& erro
   return all;
 }
 
-// Largest variance of a few parts over all directions.
-double worst_variance(const Eigen::MatrixXd& covariance) {
-  return covariance.rows() == 1 ? covariance(0, 0) : symmetric_eigenvalues(covariance).maxCoeff();
-}
-
-class Spread {
- public:
-  Spread(const CharacteristicResult& measured, const Response& response, double probing)
-      : spread_(measured.spread), response_(response), probing_(probing) {}
-
-  [[nodiscard]] double of_value() const {
-    if (!spread_.is_known()) return std::sqrt(covariance(0, 1)(0, 0));
-    switch (spread_.rule.kind) {
-      case NonNegativeKind::peak_to_valley:
-        return of_ends();
-      case NonNegativeKind::twice_largest:
-        return 2.0 * of_places(3);
-      case NonNegativeKind::twice_largest_height:
-        return 2.0 * of_places(1);
-      case NonNegativeKind::length:
-        return of_places(3);
-      case NonNegativeKind::none:
-        break;
-    }
-    return 0.0;
-  }
-
- private:
-  static Eigen::MatrixXd products(const Columns& columns, Eigen::Index first, Eigen::Index count) {
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
-    for (const Eigen::VectorXd& column : columns) {
-      if (column.size() < first + count) continue;
-      sum += column.segment(first, count) * column.segment(first, count).transpose();
-    }
-    return sum;
-  }
-
-  // Of `count` parts that stand together.
-  [[nodiscard]] Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index count) const {
-    Eigen::MatrixXd sum = products(response_.toleranced, first, count);
-    if (!spread_.own.empty()) {
-      // What its element gives a place is a share of what its own points do.
-      const double own =
-          probing_ * probing_ * spread_.own.at(static_cast<std::size_t>(first / count));
-      if (worst_variance(sum) < own) sum = own * Eigen::MatrixXd::Identity(count, count);
-    }
-    return sum + products(response_.others, first, count);
-  }
-
-  // Of the place that is farthest, or may be.
-  [[nodiscard]] double of_places(Eigen::Index count) const {
-    constexpr double kSure = 3.0;  // standard deviations above which a direction is known
-    const Eigen::Map<const Eigen::VectorXd> parts(spread_.parts.data(),
-                                                  static_cast<Eigen::Index>(spread_.parts.size()));
-    struct Place {
-      double distance = 0.0;
-      double standard = 0.0;
-    };
-    std::vector<Place> places;
-    double farthest = 0.0;
-    for (Eigen::Index first = 0; first + count <= parts.size(); first += count) {
-      const Eigen::MatrixXd spread = covariance(first, count);
-      const Eigen::VectorXd away = parts.segment(first, count);
-      Place place{away.norm(), std::sqrt(worst_variance(spread))};
-      if (place.distance > kSure * place.standard) {
-        const Eigen::VectorXd toward = away / place.distance;
-        place.standard = std::sqrt(toward.dot(spread * toward));
-      }
-      farthest = std::max(farthest, place.distance);
-      places.push_back(place);
-    }
-    double standard = 0.0;
-    for (const Place& place : places) {
-      if (place.distance + 2.0 * place.standard >= farthest) {
-        standard = std::max(standard, place.standard);
-      }
-    }
-    return standard;
-  }
-
-  // Of the difference of the two ends of the worst row.
-  [[nodiscard]] double of_ends() const {
-    std::vector<std::size_t> rows = spread_.rule.rows;
-    if (rows.empty()) rows.push_back(spread_.parts.size());
-    std::size_t lowest = 0;
-    std::size_t highest = 0;
-    double worst = -1.0;
-    auto begin = spread_.parts.begin();
-    for (const std::size_t places : rows) {
-      if (places == 0) continue;
-      const auto end = begin + static_cast<std::ptrdiff_t>(places);
-      const auto [low, high] = std::minmax_element(begin, end);
-      if (*high - *low > worst) {
-        worst = *high - *low;
-        lowest = static_cast<std::size_t>(low - spread_.parts.begin());
-        highest = static_cast<std::size_t>(high - spread_.parts.begin());
-      }
-      begin = end;
-    }
-    const auto squares = [&](const Columns& columns) {
-      double sum = 0.0;
-      for (const Eigen::VectorXd& column : columns) {
-        if (column.size() != static_cast<Eigen::Index>(spread_.parts.size())) continue;
-        const double apart =
-            column[static_cast<Eigen::Index>(highest)] - column[static_cast<Eigen::Index>(lowest)];
-        sum += apart * apart;
-      }
-      return sum;
-    };
-    double own = squares(response_.toleranced);
-    if (!spread_.own.empty()) {
-      own = std::max(own, probing_ * probing_ * (spread_.own[lowest] + spread_.own[highest]));
-    }
-    return std::sqrt(own + squares(response_.others));
-  }
-
-  const NonNegative& spread_;
-  const Response& response_;
-  double probing_;
+// How the uncertainty of a characteristic is found.
+enum class Way {
+  responses,    // by what patterns and field do to its parts
+  own_points,   // a form: its element moves with the points; only the field bends it
+  draws,        // what it depends on touches single points: root mean square of draws
+  noise_alone,  // a form that is not the peak to valley of deviations, by draws of a perfect one
 };
 
-// Root mean squares of what simulated errors do to the values. A draw in which an element cannot be
+bool touches_single_points(Criterion by) {
+  return by == Criterion::outside_material || by == Criterion::maximum_inscribed ||
+         by == Criterion::minimum_circumscribed;
+}
+
+bool is_form(CharacteristicKind kind) {
+  using enum CharacteristicKind;
+  constexpr std::array kForms{roundness, cylindricity, cone_form,        equivalent_cone_form,
+                              flatness,  straightness, axis_straightness};
+  return std::find(kForms.begin(), kForms.end(), kind) != kForms.end();
+}
+
+Way way_of(const InspectionPlan& plan, const PlannedCharacteristic& c) {
+  if (is_form(c.kind)) {
+    const bool is_other_size = c.parameter.value_or(FormParameter::t) != FormParameter::t;
+    return is_other_size || c.filter || touches_single_points(c.criterion) ? Way::noise_alone
+                                                                           : Way::own_points;
+  }
+  const bool in_datum = c.frame.empty() && plan.alignment == Alignment::datum && plan.datum;
+  const bool touches = touches_single_points(c.criterion) ||
+                       touches_single_points(c.datum_criterion) ||
+                       (in_datum && touches_single_points(plan.datum->criterion));
+  return touches ? Way::draws : Way::responses;
+}
+
+// The values of many measurements, a row a characteristic. A draw in which an element cannot be
 // found is left out; where most are, nothing can be said.
-Result<std::vector<double>> drawn_uncertainties(const Measured& measured,
-                                                const PointUncertainty& u) {
+Result<std::vector<std::vector<double>>> drawn_values(const Measured& measured,
+                                                      const ErrorDraws& draws) {
   constexpr std::uint32_t kDraws = 256;
-  const auto still = measured.as_it_is();
-  if (!still) return still.error();
-  CmmModel cmm{.e0_mm = 2.0 * u.probing};
-  if (u.scale > 0.0) cmm.length_per_error = 0.5e-3 / u.scale;
-  const ErrorDraws draws = error_draws(cmm, 0);
-  std::vector<double> squares(still->characteristics.size(), 0.0);
-  std::uint32_t found = 0;
+  std::vector<std::vector<double>> values(measured.asked.characteristics.size());
+  std::uint32_t failed = 0;
   for (std::uint32_t draw = 0; draw < kDraws; ++draw) {
     const auto again = measured.with(draws(draw));
     // More than half have failed: the errors of the measurement are too large for the element.
-    if (!again && 2 * (draw + 1 - found) > kDraws) return again.error();
+    if (!again && 2 * ++failed > kDraws) return again.error();
     if (!again) continue;
-    ++found;
-    for (std::size_t c = 0; c < squares.size(); ++c) {
-      const double off =
-          internal_value(again->characteristics[c]) - internal_value(still->characteristics[c]);
-      squares[c] += off * off;
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      values[c].push_back(internal_value(again->characteristics[c]));
     }
   }
-  for (double& square : squares) square = std::sqrt(square / std::max(found, 1U));
-  return squares;
+  return values;
 }
 
-bool touches_single_points(const InspectionPlan& plan, const PlannedCharacteristic& c) {
-  const auto touches = [](Criterion by) {
-    return by == Criterion::outside_material || by == Criterion::maximum_inscribed ||
-           by == Criterion::minimum_circumscribed;
-  };
-  const bool in_datum = c.frame.empty() && plan.alignment == Alignment::datum && plan.datum;
-  return touches(c.criterion) || touches(c.datum_criterion) ||
-         (in_datum && touches(plan.datum->criterion));
+double root_mean_square_about(double value, const std::vector<double>& drawn) {
+  double squares = 0.0;
+  for (const double v : drawn) squares += (v - value) * (v - value);
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(drawn.size(), 1)));
 }
 
-// The answers of every characteristic to the patterns of every feature and to the field.
-Result<std::vector<Response>> responses_of(const Measured& measured, const PointUncertainty& u) {
+ErrorDraws errors_of(const PointUncertainty& u) {
+  CmmModel cmm{.e0_mm = 2.0 * u.probing};
+  if (u.scale > 0.0) cmm.length_per_error = 0.5e-3 / u.scale;
+  return error_draws(cmm, 0);
+}
+
+struct Uncertain {
+  double standard = 0.0;
+  TruthBounds bounds{};
+  bool either_sign = false;  // no size
+};
+
+constexpr double kCoverage = 2.0;  // 95 % of a normal distribution
+Uncertain either_way(double standard) {
+  return {standard, {kCoverage * standard, kCoverage * standard}, true};
+}
+
+Result<std::vector<Uncertain>> by_draws(const Measured& measured, const PointUncertainty& u) {
+  const auto still = measured.as_it_is();
+  if (!still) return still.error();
+  const auto values = drawn_values(measured, errors_of(u));
+  if (!values) return values.error();
+  std::vector<Uncertain> found;
+  for (std::size_t c = 0; c < values->size(); ++c) {
+    found.push_back(either_way(
+        root_mean_square_about(internal_value(still->characteristics[c]), (*values)[c])));
+  }
+  return found;
+}
+
+// The standard uncertainty is that of small errors of the part that was measured.
+Result<std::vector<Uncertain>> by_noise_alone(const Measured& measured, const PointUncertainty& u) {
+  static constexpr double kSmall = 1e-3;
+  const auto still = measured.as_it_is();
+  if (!still) return still.error();
+  const ErrorDraws errors = errors_of(u);
+  const auto small = drawn_values(measured, [&](std::uint32_t draw) -> MeasuringErrors {
+    return [whole = errors(draw)](const Vec3& centre, const Vec3& approach, std::size_t feature,
+                                  std::size_t point) -> Vec3 {
+      return centre + kSmall * (whole(centre, approach, feature, point) - centre);
+    };
+  });
+  if (!small) return small.error();
+  std::vector<FittedFeature> perfect(measured.features.begin(), measured.features.end());
+  for (FittedFeature& feature : perfect) {
+    for (MeasuredPoint& p : feature.points) {
+      p.point -= p.deviation * p.normal;
+      p.deviation = 0.0;
+    }
+  }
+  auto noise = drawn_values({measured.plan, perfect, measured.asked}, errors);
+  if (!noise) return noise.error();
+  std::vector<Uncertain> found;
+  for (std::size_t c = 0; c < noise->size(); ++c) {
+    const double value = internal_value(still->characteristics[c]);
+    const double standard = root_mean_square_about(value, (*small)[c]) / kSmall;
+    found.push_back({standard, truth_bounds(value, standard, (*noise)[c])});
+  }
+  return found;
+}
+
+using Responses = std::vector<Response>;
+
+// Adds the answers of every characteristic to the patterns of every feature.
+std::optional<Diagnostics> add_answers_to_patterns(Responses& responses, const Measured& measured,
+                                                   const PointUncertainty& u) {
   const std::vector<PlannedCharacteristic>& asked = measured.asked.characteristics;
-  std::vector<Response> responses(asked.size());
-  double reach = 1.0;
   for (const FittedFeature& feature : measured.features) {
     const auto index = static_cast<std::size_t>(feature.planned - measured.plan.features.data());
     const Eigen::MatrixXd patterns = element_patterns(feature);
@@ -264,12 +225,21 @@ Result<std::vector<Response>> responses_of(const Measured& measured, const Point
                          u.probing / step * (*answers)[c]);
       }
     }
+  }
+  return std::nullopt;
+}
+
+// Adds those to the machine's linear field.
+std::optional<Diagnostics> add_answers_to_field(Responses& responses, const Measured& measured,
+                                                const PointUncertainty& u) {
+  if (!(u.scale > 0.0)) return std::nullopt;
+  double reach = 1.0;
+  for (const FittedFeature& feature : measured.features) {
     for (const MeasuredPoint& p : feature.points) reach = std::max(reach, p.point.norm());
   }
   constexpr std::array<std::pair<int, int>, 6> kTerms{
       {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
   for (const auto& [row, column] : kTerms) {
-    if (!(u.scale > 0.0)) break;
     const double step = kStep / reach;
     Mat3 field = Mat3::Zero();
     field(row, column) = step;
@@ -282,7 +252,47 @@ Result<std::vector<Response>> responses_of(const Measured& measured, const Point
       responses[c].add(false, u.scale / step * (*answers)[c]);
     }
   }
-  return responses;
+  return std::nullopt;
+}
+
+// What the characteristics of one way are uncertain by, and how they answer.
+struct Answered {
+  std::vector<Uncertain> uncertain{};
+  Responses responses{};
+};
+
+Result<Answered> by_responses(const Measured& measured, const PointUncertainty& u,
+                              bool to_patterns) {
+  Answered found;
+  const std::size_t count = measured.asked.characteristics.size();
+  if (count == 0) return found;
+  const auto still = measured.as_it_is();
+  if (!still) return still.error();
+  found.responses.resize(count);
+  if (to_patterns) {
+    if (auto failed = add_answers_to_patterns(found.responses, measured, u)) return *failed;
+  }
+  if (auto failed = add_answers_to_field(found.responses, measured, u)) return *failed;
+  for (std::size_t c = 0; c < count; ++c) {
+    const Response& response = found.responses[c];
+    const NonNegative& spread = still->characteristics[c].spread;
+    if (spread.is_known()) {
+      const PartNoise noise(spread, response.toleranced, response.others, u.probing);
+      found.uncertain.push_back({noise.standard(), noise.bounds()});
+      continue;
+    }
+    double squares = 0.0;
+    for (const double answer : response.in_order) squares += answer * answer;
+    found.uncertain.push_back(either_way(std::sqrt(squares)));
+  }
+  return found;
+}
+
+// The plan with the characteristics of one way alone.
+Measured asked_in(Way way, const InspectionPlan& plan, std::span<const FittedFeature> features) {
+  Measured some{plan, features, plan};
+  std::erase_if(some.asked.characteristics, [&](const auto& c) { return way_of(plan, c) != way; });
+  return some;
 }
 
 }  // namespace
@@ -290,39 +300,38 @@ Result<std::vector<Response>> responses_of(const Measured& measured, const Point
 Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
                                              std::span<const FittedFeature> features,
                                              const PointUncertainty& u) {
-  Measured smooth{plan, features, plan};
-  Measured touching{plan, features, plan};
-  std::erase_if(smooth.asked.characteristics,
-                [&](const auto& c) { return touches_single_points(plan, c); });
-  std::erase_if(touching.asked.characteristics,
-                [&](const auto& c) { return !touches_single_points(plan, c); });
-  const auto measured = smooth.as_it_is();
-  if (!measured) return measured.error();
-  const auto responses = responses_of(smooth, u);
-  if (!responses) return responses.error();
-  std::vector<double> drawn;
-  if (!touching.asked.characteristics.empty()) {
-    auto found = drawn_uncertainties(touching, u);
-    if (!found) return std::move(found).error();
-    drawn = std::move(*found);
+  std::map<Way, std::vector<Uncertain>> found;
+  auto answered = by_responses(asked_in(Way::responses, plan, features), u, true);
+  if (!answered) return std::move(answered).error();
+  found[Way::responses] = std::move(answered->uncertain);
+  const auto forms = by_responses(asked_in(Way::own_points, plan, features), u, false);
+  if (!forms) return forms.error();
+  found[Way::own_points] = forms->uncertain;
+  using ByDraws = Result<std::vector<Uncertain>> (*)(const Measured&, const PointUncertainty&);
+  constexpr std::array<std::pair<Way, ByDraws>, 2> kByDraws{
+      {{Way::draws, by_draws}, {Way::noise_alone, by_noise_alone}}};
+  for (const auto& [way, uncertain] : kByDraws) {
+    const Measured some = asked_in(way, plan, features);
+    if (some.asked.characteristics.empty()) continue;
+    auto drawn = uncertain(some, u);
+    if (!drawn) return std::move(drawn).error();
+    found[way] = std::move(*drawn);
   }
   LinearUncertainty out;
-  const std::size_t errors = responses->empty() ? 0 : responses->front().in_order.size();
+  const Responses& responses = answered->responses;
+  const std::size_t errors = responses.empty() ? 0 : responses.front().in_order.size();
   out.answers = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(plan.characteristics.size()),
                                       static_cast<Eigen::Index>(errors));
-  std::size_t next_smooth = 0;
-  std::size_t next_drawn = 0;
+  std::map<Way, std::size_t> next;
   for (std::size_t c = 0; c < plan.characteristics.size(); ++c) {
-    if (touches_single_points(plan, plan.characteristics[c])) {
-      out.standard.push_back(drawn[next_drawn++]);
-      continue;
-    }
-    const Response& response = (*responses)[next_smooth];
-    const CharacteristicResult& value = measured->characteristics[next_smooth++];
-    out.standard.push_back(Spread(value, response, u.probing).of_value());
-    if (value.spread.is_known()) continue;
+    const Way way = way_of(plan, plan.characteristics[c]);
+    const std::size_t place = next[way]++;
+    const Uncertain& uncertain = found[way][place];
+    out.standard.push_back(uncertain.standard);
+    out.bounds.push_back(uncertain.bounds);
+    if (way != Way::responses || !uncertain.either_sign) continue;
     out.answers.row(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::RowVectorXd>(
-        response.in_order.data(), static_cast<Eigen::Index>(errors));
+        responses[place].in_order.data(), static_cast<Eigen::Index>(errors));
   }
   return out;
 }

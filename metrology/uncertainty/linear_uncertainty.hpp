@@ -8,18 +8,18 @@
 //            fitted and evaluated again, datum systems and frames too; so is each term of the
 //            machine's linear field. What is left of a point or of a section's centre beside its
 //            element is its own (NonNegative::own). A value of either sign has the variance of its
-//            responses; of a zone that of the part that makes it, in its direction where it is well
-//            above its uncertainty, in the worst one where it is not; of a peak to valley that of
-//            the difference of its ends. Elements that touch single points (om, mi, mc) answer to
+//            responses and lies within twice its root of the truth; a size has the variance and
+//            bounds of part_noise.hpp. Elements that touch single points (om, mi, mc) answer to
 //            those alone, and to others when the errors are larger: what depends on one has the
-//            root mean square of 256 draws instead
+//            root mean square of 256 draws instead. A form that is filtered, touched, or another
+//            parameter than the peak to valley has the deviation that small errors give it, and is
+//            above the truth by what errors make of a perfect feature at most
 // Units    : mm, rad
 // Shape    : all characteristics of a plan, in its order
 // Errors   : those of the fits and evaluations
 // Accuracy : first order about the measured part (1e-7 of what each point does by itself,
 //            tests/metrology/propagation_test.cpp); on the safe side for forms, whose points share
-//            in the fit. The bias that noise gives to a value that cannot be negative is not part
-//            of it
+//            in the fit
 // Source   : JCGM 100:2008, section 5.1.2
 #pragma once
 
@@ -29,12 +29,14 @@
 
 #include "core/result.hpp"
 #include "metrology/characteristic/fitted_feature.hpp"
+#include "metrology/uncertainty/part_noise.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
 
 namespace frustum::metrology {
 
 struct LinearUncertainty {
   std::vector<double> standard{};
+  std::vector<TruthBounds> bounds{};  // 95 % of measurements or more are within
   // What independent errors of one standard deviation do to the values of either sign: a row a
   // characteristic, zeros for the others. The joint covariance is this times its transpose.
   Eigen::MatrixXd answers{};

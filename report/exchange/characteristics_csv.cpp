@@ -41,7 +41,7 @@ std::string characteristics_csv(const metrology::Measurement& measurement,
            number(c.value) + ',' + number(c.nominal) + ',' + number(deviation_of(c)) + ',' +
            number(c.tolerance) + ',' + number(c.expanded_uncertainty) + ',' + c.unit + ',' +
            std::string(name_of(outcome_of(c))) + ',' +
-           (c.simulated ? number(c.simulated->low) + ',' + number(c.simulated->high) : ",") + '\n';
+           (c.interval ? number(c.interval->low) + ',' + number(c.interval->high) : ",") + '\n';
   }
   return csv;
 }

@@ -72,9 +72,12 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   json["expanded_uncertainty"] = json_number(characteristic.expanded_uncertainty);
   json["pass"] = characteristic.pass;
   json["verdict"] = metrology::name_of(characteristic.verdict());
+  if (const auto& interval = characteristic.interval) {
+    json["interval"] = {json_number(interval->low), json_number(interval->high)};
+    json["coverage"] = interval->at_least ? "at least 95 %" : "95 %";
+    json["standard_uncertainty"] = json_number(characteristic.standard_uncertainty);
+  }
   if (const auto& simulated = characteristic.simulated) {
-    json["interval"] = {json_number(simulated->low), json_number(simulated->high)};
-    json["standard_uncertainty"] = json_number(simulated->standard);
     json["draws"] = simulated->draws;
     json["stable"] = simulated->stable;
   }

@@ -64,9 +64,9 @@ class Suite {
 std::string shortfall(const CharacteristicResult& c) {
   std::string text = fmt::format("value {} {}", result_text(c), c.unit);
   if (const std::string nominal = nominal_text(c); !nominal.empty()) text += ", nominal " + nominal;
-  text += fmt::format(", tolerance {}, expanded uncertainty {} (k = 2)",
+  text += fmt::format(", tolerance {}, expanded uncertainty {} (95 %)",
                       value_text(c.tolerance, c.unit), uncertainty_text(c.expanded_uncertainty));
-  if (c.simulated) text += fmt::format(", 95 % interval {}", interval_text(c));
+  if (c.interval) text += fmt::format(", 95 % interval {}", interval_text(c));
   return text;
 }
 

@@ -224,8 +224,7 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     add_feature_ids(node, "FeatureMeasurementIds", planned, features.measurements);
     if (planned != nullptr) add_algorithm(node, planned->criterion);
     if (!std::isfinite(result.value)) continue;
-    const double standard = document_value(
-        result.simulated ? result.simulated->standard : 0.5 * result.expanded_uncertainty, result);
+    const double standard = document_value(0.5 * result.expanded_uncertainty, result);
     xml_node value = add_number(node, "Value", document_value(result.value, result));
     if (std::isfinite(standard)) {
       value.append_attribute("combinedUncertainty") = exact_decimal(standard).c_str();

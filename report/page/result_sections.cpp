@@ -94,9 +94,9 @@ std::string characteristics_html(const RunReport& report) {
   std::vector<std::string> headings{"Characteristic", ">Value"};
   if (nominals) headings.emplace_back(">Nominal");
   const bool intervals = std::any_of(
-      all.begin(), all.end(), [](const Characteristic& c) { return c.simulated.has_value(); });
+      all.begin(), all.end(), [](const Characteristic& c) { return c.interval.has_value(); });
   headings.emplace_back(">Tolerance");
-  headings.emplace_back(">U (k = 2)");
+  headings.emplace_back(">U (95\u202f%)");
   if (intervals) headings.emplace_back(">95\u202f% interval");
   headings.emplace_back(">Used");
   headings.emplace_back("Verdict");
@@ -113,7 +113,7 @@ std::string characteristics_html(const RunReport& report) {
     }
     cells.push_back((c.nominal ? "± " : "") + with_unit(value_text(c.tolerance, c.unit), c.unit));
     cells.push_back(uncertainty_cell(c, is_unstated));
-    if (intervals) cells.push_back(c.simulated ? with_unit(interval_text(c), c.unit) : "");
+    if (intervals) cells.push_back(c.interval ? with_unit(interval_text(c), c.unit) : "");
     cells.push_back(used_cell(c));
     cells.push_back(verdict_mark(c.verdict()));
     table.row(cells);
@@ -123,10 +123,13 @@ std::string characteristics_html(const RunReport& report) {
     if (fact.key == "decision_rule") notes += "Decision rule: " + html_text(fact.value) + ". ";
   }
   notes +=
-      "U is the expanded measurement uncertainty (k = 2). Used: share of the tolerance taken by "
-      "the value, or by its distance from the nominal where there is one.";
+      "U is the expanded measurement uncertainty: value ± U holds the true value in 95\u202f% of "
+      "measurements. Used: share of the tolerance taken by the value, or by its distance from the "
+      "nominal where there is one.";
   if (intervals) {
-    notes += " The interval holds the true value in 95\u202f% of measurements (Monte Carlo).";
+    notes +=
+        " The interval holds it too; of forms and zones, which noise makes larger, it reaches "
+        "farther down than up, and 95\u202f% is the least.";
   }
   std::string warning;
   if (is_unstated) {

@@ -108,7 +108,7 @@ TEST_F(CommandLineSystem, RefusesBadInputWithPlaceAndRemedy) {
       {"job.toml", "diameter = 110", "diameter = 0", {"blank.diameter", "greater than 0"}},
       {"job.toml", "e0 = \"0 um\"", "e0 = \"0 urad\"", {"inspection.cmm.e0", "length"}},
       {"job.toml", "cone.nc", "none.nc", {"program.file", "cannot be read"}},
-      {"job.toml", "iwf-bc.toml", "none.toml", {"machine", "none.toml", "known: ac-probe"}},
+      {"job.toml", "\"iwf-bc\"", "\"none.toml\"", {"machine", "none.toml", "known: ac-probe"}},
       {"cone.plan.toml", "points_per_section", "points_per_sektion", {"points_per_se"}},
       {"cone.plan.toml", "section_radius = 35", "section_radius = 20", {"cone"}},
   };
@@ -122,7 +122,7 @@ TEST_F(CommandLineSystem, RefusesBadInputWithPlaceAndRemedy) {
 
 TEST_F(CommandLineSystem, RefusesAnUnreachableToolDirection) {
   write_piece();
-  replace_in("piece/job.toml", "iwf-bc.toml", "three-axis.toml");
+  replace_in("piece/job.toml", "\"iwf-bc\"", "\"three-axis\"");
   expect_refusal({"cone.nc:", "has no axis B"});
 }
 

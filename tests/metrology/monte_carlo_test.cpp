@@ -88,7 +88,9 @@ TEST(MonteCarlo, RepeatsItselfAndMovesNothingElse) {
     const CharacteristicResult& c = first->characteristics[i];
     EXPECT_FALSE(linear->characteristics[i].simulated);
     EXPECT_EQ(c.value, linear->characteristics[i].value);
-    EXPECT_EQ(c.expanded_uncertainty, linear->characteristics[i].expanded_uncertainty);
+    // One statement: U is that of the interval.
+    EXPECT_EQ(c.expanded_uncertainty,
+              std::max(c.value - c.simulated->low, c.simulated->high - c.value));
     ASSERT_TRUE(c.simulated);
     EXPECT_TRUE(c.simulated->stable) << c.name;
     EXPECT_GE(c.simulated->draws, 10000U);
@@ -172,9 +174,9 @@ TEST(DecisionRule, PassesWithinFailsBeyondAndElseDoesNotKnow) {
   CharacteristicResult c;
   c.nominal = 10.0;
   c.tolerance = 1.0;
-  c.expanded_uncertainty = 0.2;
   const auto verdict = [&](double value, DecisionRule rule) {
     c.value = value;
+    c.interval = TrueValueInterval{value - 0.2, value + 0.2};
     return verdict_of(c, rule);
   };
   using enum DecisionRule;
@@ -186,11 +188,13 @@ TEST(DecisionRule, PassesWithinFailsBeyondAndElseDoesNotKnow) {
     EXPECT_EQ(verdict(10.0 + 1.19 * side, iso14253), Verdict::uncertain);
     EXPECT_EQ(verdict(10.0 + 1.21 * side, iso14253), Verdict::fail);
   }
-  // The simulated interval counts where there is one, be the value within it or not.
-  c.simulated = SimulatedUncertainty{.low = 9.5, .high = 10.5};
-  EXPECT_EQ(verdict(11.5, iso14253), Verdict::pass);
-  c.simulated = SimulatedUncertainty{.low = 10.5, .high = 11.5};
-  EXPECT_EQ(verdict(10.5, iso14253), Verdict::uncertain);
+  // The value itself need not be within its interval.
+  c.value = 11.5;
+  c.interval = TrueValueInterval{.low = 9.5, .high = 10.5};
+  EXPECT_EQ(verdict_of(c, iso14253), Verdict::pass);
+  c.value = 10.5;
+  c.interval = TrueValueInterval{.low = 10.5, .high = 11.5};
+  EXPECT_EQ(verdict_of(c, iso14253), Verdict::uncertain);
   Measurement m;
   m.characteristics = {c};
   decide(m, iso14253);

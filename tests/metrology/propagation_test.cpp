@@ -227,8 +227,8 @@ TEST(Propagation, IsTheUncertaintyThatEachResultStates) {
   for (std::size_t i = 0; i < m->characteristics.size(); ++i) {
     const CharacteristicResult& c = m->characteristics[i];
     const auto k = static_cast<Eigen::Index>(i);
-    EXPECT_NEAR(2.0 * std::sqrt((*joint)(k, k)) / internal_value(c.expanded_uncertainty, c.unit),
-                1.0, 1e-6)
+    EXPECT_NEAR(std::sqrt((*joint)(k, k)) / internal_value(c.standard_uncertainty, c.unit), 1.0,
+                1e-6)
         << c.name;
     EXPECT_GT(c.expanded_uncertainty, 0.0) << c.name;
   }

@@ -104,7 +104,8 @@ TEST(Evidence, Fault2_38_IsTheSameInEveryFormat) {
   EXPECT_STREQ(results.child("InspectionTraceability").child_value("InspectionStart"),
                "2026-11-23T14:05:00");
   // The accuracy has a µ, which makes the file UTF-8 with its mark.
-  EXPECT_EQ(dfq.substr(0, 54), "\xEF\xBB\xBFK0100 2\nK1001 N-1\nK1002 Cone\nK1053 4711\nK1900 Part:");
+  EXPECT_EQ(dfq.substr(0, 54),
+            "\xEF\xBB\xBFK0100 2\nK1001 N-1\nK1002 Cone\nK1053 4711\nK1900 Part:");
   EXPECT_NE(dfq.find("K0004/2 23.11.2026/14:05:00\nK0014/2 0042\nK0053/2 4711\n"),
             std::string::npos);
 }

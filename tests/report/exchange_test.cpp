@@ -35,18 +35,17 @@ TEST(CharacteristicsCsv, WritesOneLineEach) {
 }
 
 // With intervals that their expanded uncertainties do not tell.
-RunReport simulated_report() {
+RunReport report_with_intervals() {
   RunReport report = small_report();
   report.collisions.clear();
   for (auto& c : report.measurement.characteristics) {
-    c.simulated = metrology::SimulatedUncertainty{
-        .low = 11.5, .high = 15.25, .standard = 0.125, .draws = 2000};
+    c.interval = metrology::TrueValueInterval{.low = 11.5, .high = 15.25};
   }
   return report;
 }
 
-TEST(CharacteristicsCsv, WritesTheSimulatedInterval) {
-  const RunReport report = simulated_report();
+TEST(CharacteristicsCsv, WritesTheInterval) {
+  const RunReport report = report_with_intervals();
   const std::string csv = exported(ExportFormat::csv, report, {});
   EXPECT_NE(csv.find("\ncone.form,cone_form,,12.3456,,12.3456,10,0.4,um,fail,11.5,15.25\n"),
             std::string::npos)
@@ -83,18 +82,18 @@ TEST(JunitReport, MakesATestOfEachCharacteristic) {
   EXPECT_STREQ(form.attribute("classname").value(), "Small part");
   EXPECT_STREQ(form.attribute("time").value(), "0");
   EXPECT_STREQ(form.child("failure").attribute("message").value(),
-               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (k = 2)");
+               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (95 %)");
   const pugi::xml_node angle = form.next_sibling();
   EXPECT_STREQ(angle.attribute("name").value(), "cone.half_angle");
   EXPECT_FALSE(angle.first_child());
 }
 
-TEST(JunitReport, TellsTheSimulatedInterval) {
-  const RunReport report = simulated_report();
+TEST(JunitReport, TellsTheInterval) {
+  const RunReport report = report_with_intervals();
   const auto document = junit(report, plan_of(report));
   const pugi::xml_node form = document.child("testsuites").child("testsuite").first_child();
   EXPECT_STREQ(form.child("failure").attribute("message").value(),
-               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (k = 2), 95 % "
+               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (95 %), 95 % "
                "interval 11.500 .. 15.250");
 }
 

@@ -342,10 +342,10 @@ TEST(QifResults, HoldsTheNumbersInItsUnits) {
             "FAIL");
 }
 
-TEST(QifResults, StatesTheSimulatedUncertaintyWhereThereIsOne) {
+TEST(QifResults, StatesHalfTheExpandedUncertainty) {
   Case c = measured_part();
   for (auto& result : c.report.measurement.characteristics) {
-    result.simulated = metrology::SimulatedUncertainty{.low = 1, .high = 2, .standard = 0.75};
+    result.expanded_uncertainty = 1.5;
   }
   const auto document = parsed(qif_results(c.report, c.plan));
   const auto uncertainty = [&](const char* measurement) {

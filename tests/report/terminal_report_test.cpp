@@ -22,7 +22,7 @@ Program    part.nc
 Errors injected
   EB0C  30 urad  tilt of axis C about Y
 
-Characteristic          Value   Nominal  Tolerance  U (k=2)   Used  Verdict
+Characteristic          Value   Nominal  Tolerance  U (95%)   Used  Verdict
 ---------------------------------------------------------------------------
 cone.form           12.346 um               10.000     0.40  123 %  FAIL
 cone.half_angle  45.00123 deg  45.00000  +-0.01718  0.00069    7 %  PASS
@@ -45,7 +45,7 @@ TEST(TerminalReportGolden, ShowsDeviationsWithSignAndBothLimits) {
   all[1].pass = false;
   all[2].value = 0.0;
   EXPECT_THAT(terminal_report(report), HasSubstr(R"(
-Characteristic       Value  Tolerance  U (k=2)   Used  Verdict
+Characteristic       Value  Tolerance  U (95%)   Used  Verdict
 --------------------------------------------------------------
 1-a.dL           +9.943 um   +-40.000      1.6   25 %  PASS
 1-a.dH          -51.200 um   +-40.000      1.6  128 %  FAIL
