@@ -112,7 +112,9 @@ std::string association_text(const InspectionPlan& plan) {
 }
 
 std::string uncertainty_text_of(const InspectionPlan& plan) {
-  return std::string("U is expanded, k = 2 (about 95 %), from what is stated of the machine") +
+  return std::string(
+             "value +- U holds the true value in 95 % of measurements, by what is stated of the "
+             "machine") +
          (plan.monte_carlo ? "; the interval is simulated (Monte Carlo)" : "");
 }
 

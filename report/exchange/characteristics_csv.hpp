@@ -2,7 +2,7 @@
 //
 // Columns: name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict;
 // several features are separated by blanks. Units: value to expanded_uncertainty in `unit` (um, mm,
-// deg, urad), all digits, never an exponent; expanded_uncertainty with k = 2. Errors: none; a
+// deg, urad), all digits, never an exponent; expanded_uncertainty at 95 %. Errors: none; a
 // number that is not finite is left empty, a characteristic without nominal too.
 #pragma once
 

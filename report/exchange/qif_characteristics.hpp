@@ -2,7 +2,7 @@
 // each.
 //
 // Units: mm and deg, as the document states; combinedUncertainty is the standard uncertainty (k =
-// 1), half of what a measurement states with k = 2. Errors: none; a kind that QIF has no
+// 1), half of the expanded uncertainty. Errors: none; a kind that QIF has no
 // characteristic for is written as one of its general ones.
 #pragma once
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
+#include "metrology/cmm.hpp"
 #include "metrology/probing/cmm_errors.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
 #include "test_part.hpp"
