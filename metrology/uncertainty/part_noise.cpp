@@ -219,7 +219,7 @@ std::optional<Eigen::VectorXd> PartNoise::toward(std::size_t place) const {
 }
 
 TruthBounds PartNoise::bounds() const {
-  constexpr std::size_t kNormals = 100'000;
+  constexpr std::size_t kNormals = 20'000;
   const double u = standard();
   if (!(u > 0.0)) return {};
   const bool has_valleys = parts_.rule.kind == NonNegativeKind::peak_to_valley;

@@ -55,8 +55,8 @@ std::string profiles_html(const RunReport& report) {
 // The picture that is there without a script, and on paper.
 std::string still_html(const RunReport& report) {
   PictureOptions options;
-  options.width = 920;
-  options.height = 570;
+  options.width = 690;
+  options.height = 428;
   options.samples = 2;
   const auto png = picture_png(report.surface, options);
   if (!png) return "";

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -125,7 +127,9 @@ TEST(CompensatedReversal, Fault2_23_FindsTheDirectionsThatItsOwnCorrectionsCause
   for (const auto form : {programs::ProgramForm::vector, programs::ProgramForm::axes}) {
     const Machine machine = kinematics::shipped("iwf-bc");
     const auto piece = cone(machine, form, 2e-3);
-    for (const char* reversal : {"10um", "-10um", "10um settle 0.03mm", "-10um settle 0.006mm"}) {
+    const std::array reversals{"-10um", "10um settle 0.03mm", "10um", "-10um settle 0.006mm"};
+    for (const char* reversal :
+         std::span(reversals).first(proof::law_count<std::size_t>(reversals.size(), 1))) {
       const GeometricErrors errors = errors_from(
           machine, {fmt::format("EXX=reversal {} + harmonic 2 5um", reversal), "EYX=harmonic 3 4um",
                     "EXY=harmonic 2 6um", "ECY=harmonic 2 20urad"});
@@ -163,7 +167,7 @@ std::vector<std::string> random_errors(const Machine& machine, std::uint32_t dra
 TEST(CompensationLaws, LeavesOnePercentOrATwentiethOfAMicrometreBesideTheTurnsOfAxes) {
   // Not proven beyond: of the first 18 sets number 8 fails (run anew 1.5 mm, `after` 0.02 um) and
   // number 17 (`after` 9.9 um, run anew 0.03 um).
-  const auto draws = proof::law_count<std::uint32_t>(8, 6);
+  const auto draws = proof::law_count<std::uint32_t>(8, 2);
   const char* const names[] = {"iwf-bc", "zx-yac", "double-pivot-head", "swivel-head-table"};
   for (std::uint32_t draw = 0; draw < draws; ++draw) {
     const Machine machine = kinematics::shipped(names[draw % 4]);
@@ -172,7 +176,6 @@ TEST(CompensationLaws, LeavesOnePercentOrATwentiethOfAMicrometreBesideTheTurnsOf
     const GeometricErrors errors = errors_from(machine, random_errors(machine, draw));
     const auto made = compensated_piece(machine, errors, piece);
     ASSERT_TRUE(made) << to_string(made.error().front());
-    std::printf("made\n");
     const PathError anew = run_anew(machine, errors, piece, made->piece);
     std::printf("%u %s: tip %.3f um -> %.4f um, anew %.4f um, at turns %.3f um\n", draw,
                 names[draw % 4], made->before.tip * 1e3, made->after.tip * 1e3, anew.tip * 1e3,

@@ -12,7 +12,7 @@
 #include "metrology/cmm.hpp"
 #include "metrology/probing/cmm_errors.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
-#include "test_part.hpp"
+#include "tests/metrology/test_part.hpp"
 
 namespace frustum::metrology {
 namespace {

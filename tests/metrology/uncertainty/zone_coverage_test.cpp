@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "coverage.hpp"
-#include "measured_feature.hpp"
+#include "tests/metrology/measured_feature.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -7,9 +7,9 @@
 #include "metrology/decision_rule.hpp"
 #include "metrology/uncertainty/non_negative_interval.hpp"
 #include "metrology/uncertainty/refit.hpp"
-#include "step_part.hpp"
-#include "synthetic.hpp"
-#include "test_part.hpp"
+#include "tests/metrology/step_part.hpp"
+#include "tests/metrology/synthetic.hpp"
+#include "tests/metrology/test_part.hpp"
 
 namespace frustum::metrology {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "metrology/uncertainty/linear_uncertainty.hpp"
-#include "step_part.hpp"
-#include "test_part.hpp"
+#include "tests/metrology/step_part.hpp"
+#include "tests/metrology/test_part.hpp"
 
 namespace frustum::metrology {
 namespace {

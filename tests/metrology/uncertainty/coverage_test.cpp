@@ -9,8 +9,8 @@
 #include <cstdlib>
 
 #include "coverage.hpp"
-#include "step_part.hpp"
-#include "test_part.hpp"
+#include "tests/metrology/step_part.hpp"
+#include "tests/metrology/test_part.hpp"
 
 namespace frustum::metrology {
 namespace {
