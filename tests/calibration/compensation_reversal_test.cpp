@@ -105,7 +105,8 @@ PathError run_anew(const Machine& machine, const GeometricErrors& errors,
 double allowed(const PathError& before) { return std::max(5e-5, 0.01 * before.tip); }
 
 TEST(CompensatedReversal, Fault2_22_ProvesTheProgramThatIsWritten) {
-  for (const char* name : {"iwf-bc", "double-pivot-head"}) {
+  const std::array names{"iwf-bc", "double-pivot-head"};
+  for (const char* name : std::span(names).first(proof::law_count<std::size_t>(names.size(), 1))) {
     const Machine machine = kinematics::shipped(name);
     const auto piece = cone(machine, programs::ProgramForm::axes, 2e-3);
     // Z turns, B and X correct it: a reversal is a tilt of 100 urad.
@@ -167,7 +168,7 @@ std::vector<std::string> random_errors(const Machine& machine, std::uint32_t dra
 TEST(CompensationLaws, LeavesOnePercentOrATwentiethOfAMicrometreBesideTheTurnsOfAxes) {
   // Not proven beyond: of the first 18 sets number 8 fails (run anew 1.5 mm, `after` 0.02 um) and
   // number 17 (`after` 9.9 um, run anew 0.03 um).
-  const auto draws = proof::law_count<std::uint32_t>(8, 2);
+  const auto draws = proof::law_count<std::uint32_t>(8, 1);
   const char* const names[] = {"iwf-bc", "zx-yac", "double-pivot-head", "swivel-head-table"};
   for (std::uint32_t draw = 0; draw < draws; ++draw) {
     const Machine machine = kinematics::shipped(names[draw % 4]);

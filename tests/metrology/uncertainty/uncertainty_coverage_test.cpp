@@ -147,19 +147,19 @@ bool whole() { return std::getenv("FRUSTUM_COVERAGE") != nullptr; }
 
 TEST(UncertaintyCoverageReference, ValuePlusMinusUHoldsTheTruth) {
   const InspectionPlan plan = plan_of_datums(false);
-  const std::uint32_t count = whole() ? 2000 : proof::law_count(200U, 60U);
+  const std::uint32_t count = whole() ? 2000 : proof::law_count(200U, 80U);
   const std::vector<double> held = held_by(plan, count);
-  // 95.4 %, by the standard error of so many.
-  const double spread = 3.0 * std::sqrt(0.954 * 0.046 / count);
+  // 95.4 %, by 3.5 standard errors: the worst of 17.
+  const double spread = 3.5 * std::sqrt(0.954 * 0.046 / count);
   for (std::size_t c = 0; c < held.size(); ++c) {
     EXPECT_GE(held[c], 0.954 - spread) << plan.characteristics[c].name;
-    EXPECT_LE(held[c], std::min(1.0, 0.954 + spread)) << plan.characteristics[c].name;
+    EXPECT_LE(held[c], 0.954 + spread + 1e-9) << plan.characteristics[c].name;
   }
 }
 
 TEST(UncertaintyCoverageReference, OfDatumsThatTouchFromOutsideItIsOnTheSafeSide) {
   const InspectionPlan plan = plan_of_datums(true);
-  const std::vector<double> held = held_by(plan, whole() ? 2000 : proof::law_count(50U, 20U));
+  const std::vector<double> held = held_by(plan, whole() ? 2000 : proof::law_count(50U, 10U));
   for (std::size_t c = 0; c < held.size(); ++c) {
     EXPECT_GE(held[c], 0.9) << plan.characteristics[c].name;
   }
