@@ -153,7 +153,8 @@ class ProgramCheck {
   void look_further() {
     looked_further_ = true;
     for (Finding& found : options_.look_further()) {
-      const SourcePlace place{found.line, found.column, nullptr};
+      SourcePlace place{found.line, found.column, nullptr};
+      if (!found.file.empty()) place.file = std::make_shared<const std::string>(found.file);
       findings_.raise(
           found.check, FindingList::key_of(place), place,
           [&] {

@@ -293,7 +293,7 @@ class Cut {
 void tell_collisions(const Job& job, const CutResult& result) {
   for (const stock::Collision& c : result.collisions) {
     Diagnostic found = error("collision"_id, collision_text(c));
-    found.file = job.piece.program_file;
+    found.file = file_of(c, job.piece.program_file);
     found.line = static_cast<int>(c.source_line);
     print(std::cerr, {found});
   }

@@ -43,7 +43,7 @@ Result<std::vector<lint::Finding>> collisions_of(const Job& job) {
     if (check == lint::Check::spindle_off) continue;
     findings.push_back({.check = check,
                         .severity = lint::info_of(check).severity,
-                        .file = job.piece.program_file,
+                        .file = file_of(collision, ""),  // none: that of the main program
                         .line = collision.source_line,
                         .column = 1,
                         .message = collision_text(collision),

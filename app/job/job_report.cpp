@@ -117,8 +117,16 @@ std::string collision_text(const stock::Collision& c) {
   }
   const std::string until =
       c.last_line == c.source_line ? "" : fmt::format(", until line {}", c.last_line);
-  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f}){}", what, c.tool,
-                     c.depth, c.point.x(), c.point.y(), c.point.z(), until);
+  const std::string within =
+      c.source_file
+          ? fmt::format(", in {}", std::filesystem::path(*c.source_file).filename().string())
+          : "";
+  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f}){}{}", what, c.tool,
+                     c.depth, c.point.x(), c.point.y(), c.point.z(), until, within);
+}
+
+std::string file_of(const stock::Collision& collision, const std::string& main_program) {
+  return collision.source_file ? *collision.source_file : main_program;
 }
 
 namespace {

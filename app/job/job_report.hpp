@@ -37,6 +37,9 @@ struct SurfaceRequest {
 // plan's nominal surfaces.
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh);
 [[nodiscard]] std::string collision_text(const stock::Collision& collision);
+// Where its line is: the subprogram's own file, else that of the main program.
+[[nodiscard]] std::string file_of(const stock::Collision& collision,
+                                  const std::string& main_program);
 // What was cut away; a part that was not cut shows no rounding.
 [[nodiscard]] double removed_volume(double blank, double finished);
 [[nodiscard]] report::SurfacePicture picture_of(const stock::SurfaceMesh& mesh,

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -22,6 +23,8 @@ namespace frustum::kinematics {
 struct CommandedMove {
   BlockMotion motion;
   std::uint32_t source_line = 0;
+  // Of a subprogram that has a file of its own; null: the file of the main program.
+  std::shared_ptr<const std::string> source_file{};
   PathKind kind = PathKind::feed;
   bool spindle_on = true;
   int tool = 0;       // in the spindle; 0: none, it takes its time but leaves no path

@@ -310,6 +310,7 @@ class Controller::State {
     if (!set_feed(manner, move)) return;
     q_ = move.motion.end();
     move.source_line = place_.line;
+    move.source_file = place_.file;
     move.spindle_on = modes().spindle_on();
     move.tool = tool();
     sink_(std::move(move));

@@ -176,6 +176,7 @@ void PathRecorder::collect_times() {
 void PathRecorder::deliver(Pending& pending) {
   const CommandedMove& move = pending.move;
   PathBlock block{.source_line = move.source_line,
+                  .source_file = move.source_file,
                   .kind = move.kind,
                   .spindle_on = move.spindle_on,
                   .tool = move.tool,

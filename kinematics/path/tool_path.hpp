@@ -7,7 +7,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kinematics/controller/path_kind.hpp"
@@ -19,6 +21,8 @@ namespace frustum::kinematics {
 // One NC block's motion: what is common to all its segments.
 struct PathBlock {
   std::uint32_t source_line = 0;
+  // Of a subprogram that has a file of its own; null: the file of the main program.
+  std::shared_ptr<const std::string> source_file{};
   PathKind kind = PathKind::feed;
   bool spindle_on = true;
   int tool = 0;       // tool number in the spindle

@@ -140,10 +140,22 @@ double planned_angle(const PlannedParts& plan, const PlannedCharacteristic* plan
          kDegPerRad;
 }
 
+// Square to the plane in which the lines of a profile lie: sections of a round feature go about its
+// axis, rows of a plane stand on it.
+Vec3 normal_of_lines(const PlannedParts& plan, const PlannedCharacteristic* planned) {
+  const metrology::PlannedFeature* feature = planned == nullptr || planned->features.empty()
+                                                 ? nullptr
+                                                 : plan.feature(planned->features.front());
+  if (feature == nullptr || !(feature->axis.norm() > 0.0)) return Vec3::UnitZ();
+  const Vec3 axis = feature->axis.normalized();
+  return feature->kind == metrology::FeatureKind::plane ? axis.unitOrthogonal() : axis;
+}
+
 void add_nominal(xml_node node, const CharacteristicKindRow& row,
                  const CharacteristicResult& result, const PlannedParts& plan,
                  const PlannedCharacteristic* planned) {
   if (row.kind == "angularity") add_number(node, "Angle", planned_angle(plan, planned));
+  if (row.kind == "line_profile") add_vector(node, "Vector", normal_of_lines(plan, planned));
   if (row.zone != Zone::limits && row.zone != Zone::between) return;
   if (result.nominal) {
     add_number(node, "TargetValue", document_value(*result.nominal, result));

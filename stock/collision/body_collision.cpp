@@ -195,6 +195,7 @@ Collision described(const ToolPath& path, const Key& key, const Longest& hit) {
           .body = key.body,
           .block = key.block,
           .source_line = block.source_line,
+          .source_file = block.source_file,
           .last_line = block.source_line,
           .tool = block.tool,
           .point = hit.point,

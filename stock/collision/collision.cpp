@@ -269,6 +269,7 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
                    .body = CollisionBody::cutter,
                    .block = move.block,
                    .source_line = block.source_line,
+                   .source_file = block.source_file,
                    .last_line = workpiece.removed().path().blocks[last].source_line,
                    .tool = block.tool,
                    .point = worst.point,

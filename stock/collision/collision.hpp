@@ -18,6 +18,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "stock/solid/workpiece.hpp"
@@ -36,6 +38,7 @@ struct Collision {
   CollisionBody body = CollisionBody::cutter;
   std::uint32_t block = 0;  // of the tool path
   std::uint32_t source_line = 0;
+  std::shared_ptr<const std::string> source_file{};  // null: the file of the main program
   // Blocks that follow each other with one body in the material make one collision; the last of
   // them.
   std::uint32_t last_line = 0;

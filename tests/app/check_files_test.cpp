@@ -349,6 +349,12 @@ TEST_F(CheckFilesSystem, RapidsThroughTheStockOfAJobAreFindings) {
   write("fine.nc", head + "G1 X40 F500\n" + end);
   EXPECT_EQ(run("check fine.nc --job job.toml").exit_code, 0)
       << run("check fine.nc --job job.toml").out;
+  // In a subprogram that has a file of its own the line is of that file.
+  write("part.nc", head + "M98 P1234\n" + end);
+  write("O1234.nc", "O1234\n(the move)\nG0 X40\nM99\n");
+  const Outcome called = run("check --job job.toml");
+  EXPECT_TRUE(has(called.out, "O1234.nc:3:1: error: rapid move (G0) through material: tool T1"))
+      << called.out << called.err;
 }
 
 }  // namespace

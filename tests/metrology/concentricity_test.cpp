@@ -18,12 +18,8 @@ constexpr double kExactCentre = 1e-9;  // mm
 
 PlannedCharacteristic concentricity(std::vector<std::string> features,
                                     std::vector<std::size_t> sections = {}) {
-  PlannedCharacteristic c;
-  c.name = "c";
-  c.kind = K::concentricity;
-  c.features = std::move(features);
+  PlannedCharacteristic c = measured::characteristic(K::concentricity, std::move(features));
   c.sections = std::move(sections);
-  c.tolerance = 1.0;
   return c;
 }
 double centre_value(const PlannedCharacteristic& c, const std::vector<FittedFeature>& features) {

@@ -16,17 +16,6 @@ using K = CharacteristicKind;
 using measured::feature;
 using measured::turned;
 
-PlannedCharacteristic asked(K kind, std::vector<std::string> features,
-                            Criterion criterion = Criterion::least_squares) {
-  PlannedCharacteristic c;
-  c.name = "c";
-  c.kind = kind;
-  c.features = std::move(features);
-  c.tolerance = 1.0;
-  c.criterion = criterion;
-  return c;
-}
-
 TEST(Limits, Fault2_60_AValueOnItsLimitPasses) {
   CharacteristicResult c;
   for (const double diameter : {0.3, 10.0, 333.0}) {
@@ -104,12 +93,13 @@ TEST_P(RoundParts, Fault2_47_SectionsOfPerfectPartsAreRoundHoweverTheyAreTouched
     const double arc = i % 2 == 0 ? 2.0 * std::numbers::pi : 20.0 * kRadPerDeg;
     const FittedFeature found = perfect(part, lies, scattered_arcs(draws, arc, 4));
     for (const K kind : {K::roundness, K::axis_straightness}) {
-      const auto value = evaluated_of(asked(kind, {"bore"}), found);
+      const auto value = evaluated_of(measured::characteristic(kind, {"bore"}), found);
       ASSERT_TRUE(value) << complaint(value);
       EXPECT_LT(value->value, i % 2 == 0 ? 1e-9 : 1e-6) << name_of(kind);  // um
     }
     if (GetParam() > 0.0) {
-      const auto value = evaluated_of(asked(K::equivalent_cone_form, {"bore"}), found);
+      const auto value =
+          evaluated_of(measured::characteristic(K::equivalent_cone_form, {"bore"}), found);
       ASSERT_TRUE(value) << complaint(value);
       EXPECT_LT(value->value, 1e-6);
     }
@@ -121,12 +111,12 @@ TEST_P(RoundParts, Fault2_47_AHelixHasNoSections) {
   std::vector<Spot> helix;
   for (int i = 0; i < 120; ++i) helix.push_back({0.15 * i, 0.1 * i, 0});
   const FittedFeature found = perfect(part, {}, helix);
-  const auto roundness = evaluated_of(asked(K::roundness, {"bore"}), found);
+  const auto roundness = evaluated_of(measured::characteristic(K::roundness, {"bore"}), found);
   ASSERT_FALSE(roundness);
   EXPECT_EQ(roundness.error().front().id.text(), "section-height");
   EXPECT_THAT(complaint(roundness), testing::HasSubstr("section 0 of 'bore'"));
   const K form = GetParam() > 0.0 ? K::cone_form : K::cylindricity;
-  EXPECT_LT(evaluated_of(asked(form, {"bore"}), found)->value, 1e-6);
+  EXPECT_LT(evaluated_of(measured::characteristic(form, {"bore"}), found)->value, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RoundParts, testing::Values(0.0, 30.0 * kRadPerDeg));
@@ -139,7 +129,7 @@ TEST(FlatnessFaults, Fault2_48_PeaksPointOutOfTheMaterialWhateverWayTheFaceLooks
     const auto bump = [](const Vec3& p) { return p.norm() < 1e-9 ? 0.010 : 0.0; };
     const FittedFeature found = feature(face, {}, bump);
     for (const Criterion criterion : {Criterion::least_squares, Criterion::minimum_zone}) {
-      PlannedCharacteristic flatness = asked(K::flatness, {"F"}, criterion);
+      PlannedCharacteristic flatness = measured::characteristic(K::flatness, {"F"}, criterion);
       flatness.parameter = FormParameter::p;
       const double peak = evaluated_of(flatness, found)->value;
       flatness.parameter = FormParameter::v;
@@ -189,12 +179,13 @@ TEST(OrientationFaults, Fault2_51_HowALineRunsWithinItsFaceIsNoFaultOfTheFace) {
   PlannedFeature wall = measured::line("L", {30, 0, 20}, Vec3::UnitZ(), Vec3::UnitX());
   const FittedFeature askew = feature(wall, turned(Vec3::UnitX(), 2e-3, wall.point));
   const std::vector<FittedFeature> features{askew, feature(floor)};
-  const auto square = evaluate(asked(K::perpendicularity, {"L", "A"}), features);
+  const auto square = evaluate(measured::characteristic(K::perpendicularity, {"L", "A"}), features);
   ASSERT_TRUE(square);
   EXPECT_LT(square->value, 1e-9);
   const std::vector<FittedFeature> leaning{feature(wall, turned(Vec3::UnitY(), 2e-3, wall.point)),
                                            feature(floor)};
-  EXPECT_NEAR(evaluate(asked(K::perpendicularity, {"L", "A"}), leaning)->value, 60.0, 1e-3);
+  EXPECT_NEAR(evaluate(measured::characteristic(K::perpendicularity, {"L", "A"}), leaning)->value,
+              60.0, 1e-3);
 }
 
 TEST(FormFaults, Fault2_55_AsManyPointsAsParametersHaveNoForm) {
@@ -202,12 +193,12 @@ TEST(FormFaults, Fault2_55_AsManyPointsAsParametersHaveNoForm) {
       measured::plane("F", {0, 0, 0}, Vec3::UnitZ(), {40, 0, 0}, {0, 40, 0});
   const auto plane = fit_feature(face, {{0, 0, 0}, {10, 0, 1}, {0, 10, 2}}, {0, 0, 0}, 0.0);
   ASSERT_TRUE(plane);
-  EXPECT_THAT(complaint(evaluated_of(asked(K::flatness, {"F"}), *plane)),
+  EXPECT_THAT(complaint(evaluated_of(measured::characteristic(K::flatness, {"F"}), *plane)),
               testing::HasSubstr("3 points have no form: a plane goes through all of them"));
   const PlannedFeature bore = round_part(0.0);
   const FittedFeature three =
       perfect(bore, {}, {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {0, 9, 1}, {2, 9, 1}, {4, 9, 1}});
-  EXPECT_THAT(complaint(evaluated_of(asked(K::roundness, {"bore"}), three)),
+  EXPECT_THAT(complaint(evaluated_of(measured::characteristic(K::roundness, {"bore"}), three)),
               testing::HasSubstr("section 0 of 'bore': 3 points have no form"));
 }
 
@@ -261,7 +252,7 @@ TEST(FormFaults, Fault2_56_TheWorstSectionCounts) {
   const FittedFeature found = feature(bore, {}, [](const Vec3& p) {
     return p.z() > 5.0 ? 0.05 * std::cos(3.0 * std::atan2(p.y(), p.x())) : 0.0;
   });
-  PlannedCharacteristic roundness = asked(K::roundness, {"bore"});
+  PlannedCharacteristic roundness = measured::characteristic(K::roundness, {"bore"});
   EXPECT_NEAR(evaluated_of(roundness, found)->value, 100.0, 0.5);
   roundness.sections = {0};
   EXPECT_LT(evaluated_of(roundness, found)->value, 0.1);
@@ -280,7 +271,9 @@ TEST(OrientationFaults, Fault2_57_TheZoneOfAnAngularityTurnsAboutItsDatum) {
         feature(ramp, {}, [&](const Vec3&) { return draws.between(-0.01, 0.01); });
     const std::vector<FittedFeature> features{face, feature(floor)};
     const double zone =
-        evaluate(asked(K::angularity, {"F", "A"}, Criterion::minimum_zone), features)->value;
+        evaluate(measured::characteristic(K::angularity, {"F", "A"}, Criterion::minimum_zone),
+                 features)
+            ->value;
     // All azimuths, finely.
     double least = HUGE_VAL;
     for (int k = -40000; k <= 40000; ++k) {

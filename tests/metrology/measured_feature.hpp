@@ -96,6 +96,19 @@ inline PlannedFeature point(std::string name, const Vec3& place, const Vec3& nor
   return f;
 }
 
+// With a tolerance of 1 mm.
+inline PlannedCharacteristic characteristic(CharacteristicKind kind,
+                                            std::vector<std::string> features,
+                                            Criterion criterion = Criterion::least_squares) {
+  PlannedCharacteristic c;
+  c.name = "c";
+  c.kind = kind;
+  c.features = std::move(features);
+  c.tolerance = 1.0;
+  c.criterion = criterion;
+  return c;
+}
+
 // Turns by `angle` about an axis through `pivot`.
 inline Pose turned(const Vec3& axis, double angle, const Vec3& pivot = Vec3::Zero()) {
   const Mat3 rotation = rotation_about(axis, angle);

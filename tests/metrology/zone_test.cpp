@@ -18,17 +18,6 @@ double value_of(const PlannedCharacteristic& planned, const std::vector<FittedFe
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
   return result ? 1e-3 * result->value : -1.0;
 }
-PlannedCharacteristic characteristic_of(K kind, std::vector<std::string> features,
-                                        Criterion criterion = Criterion::least_squares) {
-  PlannedCharacteristic c;
-  c.name = "c";
-  c.kind = kind;
-  c.features = std::move(features);
-  c.tolerance = 1.0;
-  c.criterion = criterion;
-  return c;
-}
-
 // The extent is planned: a tilt of 5e-4 rad foreshortens 50 mm by 6e-6 mm, of which the tilt is
 // seen.
 constexpr double kSecondOrder = 4e-9;
@@ -39,14 +28,15 @@ TEST(RunOut, OfAnEccentricCylinderIsTwiceTheEccentricity) {
   const auto turned_part = measured::cylinder("C", {0, 0, 40}, Vec3::UnitZ(), 20.0);
   const std::vector<FittedFeature> features{feature(turned_part, Pose::translated({0.03, 0, 0})),
                                             feature(datum)};
-  EXPECT_NEAR(value_of(characteristic_of(K::circular_run_out, {"C", "D"}), features), 0.06,
+  EXPECT_NEAR(value_of(measured::characteristic(K::circular_run_out, {"C", "D"}), features), 0.06,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::total_run_out, {"C", "D"}), features), 0.06,
+  EXPECT_NEAR(value_of(measured::characteristic(K::total_run_out, {"C", "D"}), features), 0.06,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::coaxiality, {"C", "D"}), features), 0.06, kExactZone);
-  EXPECT_NEAR(
-      value_of(characteristic_of(K::coaxiality, {"C", "D"}, Criterion::minimum_zone), features),
-      0.06, kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::coaxiality, {"C", "D"}), features), 0.06,
+              kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::coaxiality, {"C", "D"}, Criterion::minimum_zone),
+                       features),
+              0.06, kExactZone);
 }
 
 TEST(RunOut, OfATiltedCylinderGrowsAlongTheAxis) {
@@ -56,11 +46,11 @@ TEST(RunOut, OfATiltedCylinderGrowsAlongTheAxis) {
   const std::vector<FittedFeature> features{feature(part, turned(Vec3::UnitY(), tilt)),
                                             feature(datum)};
   // The radius of a point at height z is largest at r cos + z sin and smallest at r cos - z sin.
-  EXPECT_NEAR(value_of(characteristic_of(K::circular_run_out, {"C", "D"}), features),
+  EXPECT_NEAR(value_of(measured::characteristic(K::circular_run_out, {"C", "D"}), features),
               20.0 * std::sin(tilt), kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::total_run_out, {"C", "D"}), features),
+  EXPECT_NEAR(value_of(measured::characteristic(K::total_run_out, {"C", "D"}), features),
               20.0 * std::sin(tilt), kExactZone);
-  PlannedCharacteristic one = characteristic_of(K::circular_run_out, {"C", "D"});
+  PlannedCharacteristic one = measured::characteristic(K::circular_run_out, {"C", "D"});
   one.sections = {1};
   EXPECT_NEAR(value_of(one, features), 8.0 * std::sin(tilt), kExactZone);
   // Each section is round: what turns is eccentricity, one undulation a revolution.
@@ -77,9 +67,9 @@ TEST(RunOut, OfAFaceIsItsTiltOverTheRing) {
   const auto face = measured::rings("F", {0, 0, 20}, Vec3::UnitZ(), {15.0, 30.0});
   const std::vector<FittedFeature> features{feature(face, turned(Vec3::UnitY(), 2e-4, {0, 0, 20})),
                                             feature(datum)};
-  EXPECT_NEAR(value_of(characteristic_of(K::circular_run_out, {"F", "D"}), features),
+  EXPECT_NEAR(value_of(measured::characteristic(K::circular_run_out, {"F", "D"}), features),
               60.0 * std::sin(2e-4), kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::total_run_out, {"F", "D"}), features),
+  EXPECT_NEAR(value_of(measured::characteristic(K::total_run_out, {"F", "D"}), features),
               60.0 * std::sin(2e-4), kExactZone);
 }
 
@@ -91,9 +81,9 @@ TEST(RunOut, OfAConeIsReadAcrossItsSurface) {
   const std::vector<FittedFeature> features{feature(cone, Pose::translated({0.05, 0, 0})),
                                             feature(datum)};
   const double expected = 0.1 * std::cos(cone.half_angle);
-  EXPECT_NEAR(value_of(characteristic_of(K::circular_run_out, {"K", "D"}), features), expected,
-              1e-9);
-  EXPECT_NEAR(value_of(characteristic_of(K::total_run_out, {"K", "D"}), features), expected,
+  EXPECT_NEAR(value_of(measured::characteristic(K::circular_run_out, {"K", "D"}), features),
+              expected, 1e-9);
+  EXPECT_NEAR(value_of(measured::characteristic(K::total_run_out, {"K", "D"}), features), expected,
               kExactZone);
 }
 
@@ -105,7 +95,7 @@ TEST(Coaxiality, RefersToTheCommonAxisOfTwoBearings) {
   const Pose lies = turned(Vec3::UnitX(), 1e-3);
   const std::vector<FittedFeature> features{feature(middle), feature(left, lies),
                                             feature(right, lies)};
-  EXPECT_NEAR(value_of(characteristic_of(K::coaxiality, {"C", "A", "B"}), features),
+  EXPECT_NEAR(value_of(measured::characteristic(K::coaxiality, {"C", "A", "B"}), features),
               20.0 * std::sin(1e-3), kExactZone);
 }
 
@@ -116,23 +106,24 @@ TEST(Orientation, OfAPlaneIsItsTiltOverItsExtent) {
   for (const Criterion criterion : {Criterion::least_squares, Criterion::minimum_zone}) {
     const std::vector<FittedFeature> about_y{feature(face, turned(Vec3::UnitY(), tilt)),
                                              feature(datum)};
-    EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"F", "D"}, criterion), about_y),
+    EXPECT_NEAR(value_of(measured::characteristic(K::parallelism, {"F", "D"}, criterion), about_y),
                 40.0 * std::sin(tilt), kSecondOrder);
     const std::vector<FittedFeature> about_x{feature(face, turned(Vec3::UnitX(), tilt)),
                                              feature(datum)};
-    EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"F", "D"}, criterion), about_x),
+    EXPECT_NEAR(value_of(measured::characteristic(K::parallelism, {"F", "D"}, criterion), about_x),
                 20.0 * std::sin(tilt), kSecondOrder);
     // Without a datum feature the datum system is one.
-    EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"F"}, criterion), about_x),
+    EXPECT_NEAR(value_of(measured::characteristic(K::parallelism, {"F"}, criterion), about_x),
                 20.0 * std::sin(tilt), kSecondOrder);
   }
   // Form counts where the points themselves have to be between the planes.
   const std::vector<FittedFeature> wavy{
       feature(face, {}, [](const Vec3& p) { return 0.002 * std::cos(0.1 * (p.x() - 5.0)); }),
       feature(datum)};
-  EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"F", "D"}), wavy), 0.0, kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::parallelism, {"F", "D"}), wavy), 0.0,
+              kExactZone);
   EXPECT_NEAR(
-      value_of(characteristic_of(K::parallelism, {"F", "D"}, Criterion::minimum_zone), wavy),
+      value_of(measured::characteristic(K::parallelism, {"F", "D"}, Criterion::minimum_zone), wavy),
       0.002 * (1.0 - std::cos(2.0)), kExactZone);
 }
 
@@ -146,17 +137,17 @@ TEST(Orientation, ComparesWithThePlannedAngle) {
   const std::vector<FittedFeature> steeper{feature(face, turned(Vec3::UnitY(), error)),
                                            feature(datum)};
   for (const Criterion criterion : {Criterion::least_squares, Criterion::minimum_zone}) {
-    EXPECT_NEAR(value_of(characteristic_of(K::angularity, {"F", "D"}, criterion), steeper),
+    EXPECT_NEAR(value_of(measured::characteristic(K::angularity, {"F", "D"}, criterion), steeper),
                 50.0 * std::sin(error), kSecondOrder);
     // Turned about the normal of the datum the angle stays.
     const std::vector<FittedFeature> aside{feature(face, turned(Vec3::UnitZ(), 0.01)),
                                            feature(datum)};
-    EXPECT_NEAR(value_of(characteristic_of(K::angularity, {"F", "D"}, criterion), aside), 0.0,
-                kExactZone);
+    EXPECT_NEAR(value_of(measured::characteristic(K::angularity, {"F", "D"}, criterion), aside),
+                0.0, kExactZone);
   }
   const std::vector<FittedFeature> aside{feature(face, turned(Vec3::UnitZ(), 0.01)),
                                          feature(datum)};
-  EXPECT_GT(value_of(characteristic_of(K::angularity, {"F"}), aside),
+  EXPECT_GT(value_of(measured::characteristic(K::angularity, {"F"}), aside),
             0.05);  // but not in the datum system
 }
 
@@ -171,13 +162,14 @@ TEST(Orientation, OfAxes) {
                                             feature(datum), feature(floor), feature(wall)};
   const double expected = 20.0 * std::sin(tilt);
   for (const Criterion criterion : {Criterion::least_squares, Criterion::minimum_zone}) {
-    EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"H", "D"}, criterion), features),
+    EXPECT_NEAR(value_of(measured::characteristic(K::parallelism, {"H", "D"}, criterion), features),
                 expected, kSecondOrder);
-    EXPECT_NEAR(value_of(characteristic_of(K::perpendicularity, {"H", "A"}, criterion), features),
+    EXPECT_NEAR(
+        value_of(measured::characteristic(K::perpendicularity, {"H", "A"}, criterion), features),
+        expected, kSecondOrder);
+    EXPECT_NEAR(value_of(measured::characteristic(K::parallelism, {"H", "B"}, criterion), features),
                 expected, kSecondOrder);
-    EXPECT_NEAR(value_of(characteristic_of(K::parallelism, {"H", "B"}, criterion), features),
-                expected, kSecondOrder);
-    EXPECT_NEAR(value_of(characteristic_of(K::perpendicularity, {"H"}, criterion), features),
+    EXPECT_NEAR(value_of(measured::characteristic(K::perpendicularity, {"H"}, criterion), features),
                 expected, kSecondOrder);
   }
 }
@@ -194,20 +186,21 @@ TEST(Position, IsTwiceTheDistanceFromTheTruePlace) {
                                             feature(stop, shift), feature(edge, shift),
                                             feature(circle, shift)};
   for (const Criterion criterion : {Criterion::least_squares, Criterion::minimum_zone}) {
-    EXPECT_NEAR(value_of(characteristic_of(K::position, {"H"}, criterion), features), 0.1,
+    EXPECT_NEAR(value_of(measured::characteristic(K::position, {"H"}, criterion), features), 0.1,
                 kExactZone);
-    EXPECT_NEAR(value_of(characteristic_of(K::position, {"F"}, criterion), features), 0.02,
+    EXPECT_NEAR(value_of(measured::characteristic(K::position, {"F"}, criterion), features), 0.02,
                 kExactZone);
-    EXPECT_NEAR(value_of(characteristic_of(K::position, {"P"}, criterion), features), 0.06,
+    EXPECT_NEAR(value_of(measured::characteristic(K::position, {"P"}, criterion), features), 0.06,
                 kExactZone);
-    EXPECT_NEAR(value_of(characteristic_of(K::position, {"L"}, criterion), features), 0.08,
+    EXPECT_NEAR(value_of(measured::characteristic(K::position, {"L"}, criterion), features), 0.08,
                 kExactZone);
   }
-  EXPECT_NEAR(value_of(characteristic_of(K::position, {"O"}), features), 0.1, kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::position, {"O"}), features), 0.1, kExactZone);
   // A tilted hole is farthest off at its end.
   const std::vector<FittedFeature> tilted{
       feature(hole, turned(Vec3::UnitX(), 1e-3, {30, 10, -10}))};
-  EXPECT_NEAR(value_of(characteristic_of(K::position, {"H"}), tilted), 40.0 * std::sin(1e-3), 1e-7);
+  EXPECT_NEAR(value_of(measured::characteristic(K::position, {"H"}), tilted), 40.0 * std::sin(1e-3),
+              1e-7);
 }
 
 TEST(Symmetry, OfASlotAboutAPlaneAndAnAxis) {
@@ -221,23 +214,25 @@ TEST(Symmetry, OfASlotAboutAPlaneAndAnAxis) {
   const std::vector<FittedFeature> features{feature(left, shift), feature(right, shift),
                                             feature(outer_left),  feature(outer_right),
                                             feature(middle),      feature(shaft)};
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"L", "R", "A", "B"}), features), 0.04,
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"L", "R", "A", "B"}), features), 0.04,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"L", "R", "M"}), features), 0.04,
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"L", "R", "M"}), features), 0.04,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"L", "R", "S"}), features), 0.04,
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"L", "R", "S"}), features), 0.04,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"S", "L", "R"}), features), 0.04,
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"S", "L", "R"}), features), 0.04,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"S", "A", "B"}), features), 0.0, kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"S", "A", "B"}), features), 0.0,
+              kExactZone);
   // A wider slot is as symmetric; one that turns is off at the ends.
   const std::vector<FittedFeature> wide{feature(left, Pose::translated({-0.1, 0, 0})),
                                         feature(right, Pose::translated({0.1, 0, 0})),
                                         feature(middle)};
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"L", "R", "M"}), wide), 0.0, kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"L", "R", "M"}), wide), 0.0,
+              kExactZone);
   const Pose turn = turned(Vec3::UnitZ(), 1e-3);
   const std::vector<FittedFeature> skew{feature(left, turn), feature(right, turn), feature(middle)};
-  EXPECT_NEAR(value_of(characteristic_of(K::symmetry, {"L", "R", "M"}), skew),
+  EXPECT_NEAR(value_of(measured::characteristic(K::symmetry, {"L", "R", "M"}), skew),
               30.0 * std::sin(1e-3), 2e-8);
 }
 
@@ -246,11 +241,13 @@ TEST(Profile, IsTwiceTheLargestDeviationFromThePlan) {
   const auto face = measured::plane("F", {0, 0, 20}, Vec3::UnitZ(), {40, 0, 0}, {0, 20, 0});
   const auto off = [](const Vec3& p) { return p.z() > 5.0 && p.x() > 9.9 ? -0.004 : 0.001; };
   const std::vector<FittedFeature> features{feature(bore, {}, off), feature(face)};
-  EXPECT_NEAR(value_of(characteristic_of(K::surface_profile, {"C"}), features), 0.008, kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::surface_profile, {"C", "F"}), features), 0.008,
+  EXPECT_NEAR(value_of(measured::characteristic(K::surface_profile, {"C"}), features), 0.008,
               kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::line_profile, {"C"}), features), 0.008, kExactZone);
-  PlannedCharacteristic first = characteristic_of(K::line_profile, {"C"});
+  EXPECT_NEAR(value_of(measured::characteristic(K::surface_profile, {"C", "F"}), features), 0.008,
+              kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::line_profile, {"C"}), features), 0.008,
+              kExactZone);
+  PlannedCharacteristic first = measured::characteristic(K::line_profile, {"C"});
   first.sections = {0};
   EXPECT_NEAR(value_of(first, features), 0.002, kExactZone);
 }
@@ -261,7 +258,7 @@ TEST(Profile, WithoutDatumsForgivesPlaceAndDirection) {
   const Pose lies = Pose::translated({0.5, -0.3, 0.2}) * turned(Vec3(0.6, 0.8, 0), 0.01);
   const auto larger = [](const Vec3&) { return 0.003; };
   const std::vector<FittedFeature> features{feature(bore, lies, larger), feature(face, lies)};
-  PlannedCharacteristic floating = characteristic_of(K::surface_profile, {"C", "F"});
+  PlannedCharacteristic floating = measured::characteristic(K::surface_profile, {"C", "F"});
   EXPECT_GT(value_of(floating, features), 0.5);
   floating.floating = true;
   EXPECT_NEAR(value_of(floating, features), 0.006, kExactZone);  // the radius stays wrong
@@ -277,7 +274,7 @@ TEST(Form, HasFourParameters) {
   // Highest at 0; lowest where cos 2a = -1/2: -0.001 - 0.0005 = -0.0015.
   const double q = std::sqrt(0.5 * (4.0 + 1.0)) * 1e-3;
   for (const K kind : {K::roundness, K::cylindricity}) {
-    PlannedCharacteristic c = characteristic_of(kind, {"C"});
+    PlannedCharacteristic c = measured::characteristic(kind, {"C"});
     EXPECT_NEAR(value_of(c, features), 0.0045, 1e-8);
     c.parameter = FormParameter::t;
     EXPECT_NEAR(value_of(c, features), 0.0045, 1e-8);
@@ -288,7 +285,7 @@ TEST(Form, HasFourParameters) {
     c.parameter = FormParameter::q;
     EXPECT_NEAR(value_of(c, features), q, 1e-8);
   }
-  PlannedCharacteristic c = characteristic_of(K::roundness, {"C"});
+  PlannedCharacteristic c = measured::characteristic(K::roundness, {"C"});
   c.harmonics = 5;
   const auto result = evaluate(c, features);
   ASSERT_TRUE(result);
@@ -306,7 +303,7 @@ TEST(Form, OfAHoleCountsPeaksTowardItsAxis) {
   };
   const std::vector<FittedFeature> features{feature(hole, {}, lobes)};
   for (const K kind : {K::roundness, K::cylindricity}) {
-    PlannedCharacteristic c = characteristic_of(kind, {"C"});
+    PlannedCharacteristic c = measured::characteristic(kind, {"C"});
     c.parameter = FormParameter::p;
     EXPECT_NEAR(value_of(c, features), 0.003, 1e-8);
   }
@@ -318,7 +315,7 @@ TEST(Form, IsFilteredAsThePlanSays) {
     return 0.002 * std::cos(15.0 * std::atan2(p.y(), p.x()));
   };
   const std::vector<FittedFeature> features{feature(shaft, {}, lobes)};
-  PlannedCharacteristic c = characteristic_of(K::roundness, {"C"});
+  PlannedCharacteristic c = measured::characteristic(K::roundness, {"C"});
   EXPECT_NEAR(value_of(c, features), 0.004, 1e-7);
   c.filter = ProfileFilter{15.0, 0.0, 0.0, 0.0};
   EXPECT_NEAR(value_of(c, features), 0.002, 1e-7);
@@ -338,20 +335,22 @@ TEST(Straightness, OfGeneratricesAndOfAnAxis) {
   // A barrel: every generatrix bulges by 3 um in the middle, the axis is straight.
   const auto barrel = [](const Vec3& p) { return std::abs(p.z()) < 1.0 ? 0.003 : 0.0; };
   const std::vector<FittedFeature> bulged{feature(shaft, {}, barrel)};
-  EXPECT_NEAR(value_of(characteristic_of(K::straightness, {"C"}), bulged), 0.003, kExactZone);
-  EXPECT_NEAR(value_of(characteristic_of(K::axis_straightness, {"C"}), bulged), 0.0, kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::straightness, {"C"}), bulged), 0.003,
+              kExactZone);
+  EXPECT_NEAR(value_of(measured::characteristic(K::axis_straightness, {"C"}), bulged), 0.0,
+              kExactZone);
   // A bent shaft: the middle section is off by 3 um; the least-squares line takes a third of it.
   FittedFeature bent = feature(shaft);
   for (MeasuredPoint& p : bent.points) {
     if (p.section == 1) p.point.x() += 0.003;
   }
-  EXPECT_NEAR(value_of(characteristic_of(K::axis_straightness, {"C"}), {bent}), 2.0 * 0.002,
+  EXPECT_NEAR(value_of(measured::characteristic(K::axis_straightness, {"C"}), {bent}), 2.0 * 0.002,
               kExactZone);
   // An edge along a plane.
   const auto edge = measured::line("L", {0, -20, 5}, Vec3::UnitX(), -Vec3::UnitY());
   const std::vector<FittedFeature> line{
       feature(edge, {}, [](const Vec3& p) { return std::abs(p.x()) < 1.0 ? 0.007 : 0.0; })};
-  PlannedCharacteristic c = characteristic_of(K::straightness, {"L"});
+  PlannedCharacteristic c = measured::characteristic(K::straightness, {"L"});
   EXPECT_NEAR(value_of(c, line), 0.012, kExactZone);  // twice 6/7: the zone is centred on the line
   c.parameter = FormParameter::t;
   EXPECT_NEAR(value_of(c, line), 0.007, kExactZone);

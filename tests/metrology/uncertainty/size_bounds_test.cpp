@@ -44,15 +44,11 @@ class PlanOfSizes {
  private:
   PlannedCharacteristic& add(K kind, std::vector<std::string> features,
                              C criterion = C::least_squares) {
-    PlannedCharacteristic c;
-    c.name = fmt::format("{} {} {} {}", plan.characteristics.size(), name_of(kind),
-                         features.front(), name_of(criterion));
-    c.kind = kind;
-    c.features = std::move(features);
-    c.criterion = criterion;
-    c.tolerance = 1.0;
-    plan.characteristics.push_back(std::move(c));
-    return plan.characteristics.back();
+    plan.characteristics.push_back(measured::characteristic(kind, std::move(features), criterion));
+    PlannedCharacteristic& c = plan.characteristics.back();
+    c.name = fmt::format("{} {} {} {}", plan.characteristics.size() - 1, name_of(kind),
+                         c.features.front(), name_of(criterion));
+    return c;
   }
   void add_forms() {
     for (const C by : {C::least_squares, C::minimum_zone}) {

@@ -244,6 +244,8 @@ TEST(SinumerikVariables, OfToolsAndOffsetsCount) {
   EXPECT_TRUE(all_of<WorkOffsetSetting>(run_words("$P_UIFR[1,X,TR]=7\nG0 X1 Y0 Z0\n")).empty());
   EXPECT_EQ(x_after("$P_PFRAME=CTRANS(X,10):CMIRROR(X)\nG0 X1 Y0 Z0\n"), 9.0);
   EXPECT_EQ(ids_of("$TC_DP3[1,1]=5\n"), std::vector<std::string>{"not-simulated"});
+  EXPECT_EQ(ids_of("$TC_DP15[1,1]=0.1\n"), std::vector<std::string>{"not-simulated"});
+  EXPECT_EQ(ids_of("$TC_DP6[1,2]=4\n"), std::vector<std::string>{"not-simulated"});
   EXPECT_EQ(ids_of("$AA_OFF[X]=3\n"), std::vector<std::string>{"not-simulated"});
   EXPECT_EQ(ids_of("$P_UIFR[1,X,TR]=$AA_IM[X]\n"), std::vector<std::string>{"unknown-value"});
   EXPECT_EQ(ids_of("$P_UIFR[1]=CROT(X,5)\n"), std::vector<std::string>{"not-simulated"});
