@@ -1,6 +1,7 @@
 #include "parser/writing/rigid_tap.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace frustum::parser {
 namespace {
@@ -12,6 +13,9 @@ bool moves(const Motion& motion) {
          std::holds_alternative<Probe>(motion.command) ||
          std::holds_alternative<HomeReturn>(motion.command);
 }
+
+// Feeds and places that a length of the tool was added to and taken from differ by rounding.
+bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * (1.0 + std::abs(a)); }
 
 // Before the tool cuts again the program says how the spindle turns.
 bool spindle_is_set(std::span<const Motion> rest) {
@@ -43,12 +47,14 @@ RigidTapMotions rigid_tap_of(const LinearFeed& in, const SpindleChange& turning,
   tap.reverses = back.direction != turning.direction && back.direction != SpindleDirection::off;
   if (!tap.reverses) return tap;
   const auto* out = i < rest.size() ? std::get_if<LinearFeed>(&rest[i].command) : nullptr;
-  if (out == nullptr || !out->feed.synchronised || out->feed.value != in.feed.value) {
+  if (out == nullptr || !out->feed.synchronised || !same(out->feed.value, in.feed.value)) {
     tap.obstacle = "a tap that does not come back by its lead";
     return tap;
   }
   const bool to_start = std::ranges::all_of(kAxisLetters, [&](AxisLetter letter) {
-    return out->end[letter] == (start[letter] ? start[letter] : in.end[letter]);
+    const auto& here = out->end[letter];
+    const auto& there = start[letter] ? start[letter] : in.end[letter];
+    return here.has_value() == there.has_value() && (!here || same(*here, *there));
   });
   if (!to_start) {
     tap.obstacle = "a tap that does not come back to where it began";

@@ -183,7 +183,10 @@ Result<std::optional<RigidTap>> rigid_tap_of(InterpreterState& state, const Move
                                              const Feed& feed) {
   const MotionMode kind = state.modes.cycle->last;
   const bool taps = kind == MotionMode::tap || kind == MotionMode::tap_left;
-  if (!taps || !state.modes.rigid_tap) return std::optional<RigidTap>{};
+  // Controls that turn the spindle themselves need no M29.
+  const bool turns_itself =
+      state.rules.dialect == Dialect::fanuc && state.modes.spindle == SpindleDirection::off;
+  if (!taps || !(state.modes.rigid_tap || turns_itself)) return std::optional<RigidTap>{};
   const double speed = state.modes.spindle_speed;
   if (!(speed > 0.0)) {
     return fail(state, movement.column, "cycle-speed-missing"_id,
@@ -192,6 +195,14 @@ Result<std::optional<RigidTap>> rigid_tap_of(InterpreterState& state, const Move
   if (feed.mode == FeedMode::inverse_time) {
     return fail(state, movement.column, "cycle-inverse-time"_id, "a rigid tap in G93",
                 "give the feed per minute (G94), or the lead (G95)");
+  }
+  if (!(feed.value > 0.0)) {
+    return fail(state, movement.column, "feed-missing"_id, "a rigid tap without a feed",
+                "give F: with the speed of the spindle it makes the lead");
+  }
+  if (!state.modes.rigid_tap) {
+    assume(state, movement.column, "tap with the spindle at rest",
+           "the control turns the spindle itself, in and out: a rigid tap");
   }
   if (state.modes.cycle->peck.value_or(0.0) > 0.0) {
     assume(state, movement.column, "rigid tap with Q",

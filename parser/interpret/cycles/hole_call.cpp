@@ -297,6 +297,16 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
     emit(state, column,
          Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
   };
+  // Where the height is not known the tool comes over the hole as high as it is.
+  if (!from && !state.modes.tool_axis) {
+    AxisTarget over = state.position.target();
+    const bool stands =
+        !over[AxisLetter::Z] && over[AxisLetter::X] == top.x() && over[AxisLetter::Y] == top.y();
+    over[AxisLetter::X] = top.x();
+    over[AxisLetter::Y] = top.y();
+    over[AxisLetter::Z].reset();
+    if (!stands) emit(state, column, Traverse{over, std::nullopt, Coordinates::program});
+  }
   const double height = from && !turns ? (*from - top).dot(axis) : cycle.clear;
   if (from && height < cycle.clear) {
     // Up first, so that the way to the hole is clear.

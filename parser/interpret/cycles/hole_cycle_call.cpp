@@ -260,6 +260,10 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
   }
   const auto surface = surface_of_holes(state, cause);
   if (!surface) return surface.error();
+  if (call == HoleCall::at_place && !state.position[AxisLetter::Z]) {
+    emit(state, cause.column,
+         Traverse{state.position.target(), std::nullopt, Coordinates::program});
+  }
   const Vec3 top(*state.position[AxisLetter::X], *state.position[AxisLetter::Y], *surface + above);
   drill_from_top(state, top, over_hole(state, from, top, cause.column), false, cause.column);
   return Done{};

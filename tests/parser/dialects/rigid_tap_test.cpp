@@ -178,5 +178,14 @@ TEST(KlartextTool, NameOfDigitsIsNoNumber) {
   EXPECT_EQ(changes(options).at(0).tool, 12);
 }
 
+// Controls that turn the spindle themselves (no M29, no M3): in and out, never out as it went in.
+TEST(RigidTap, OfFanucTurnsASpindleThatIsAtRest) {
+  const std::string head = "G21 G90 G54 G98\nT1 M6\nS300\nG0 X0 Y0 Z20\n";
+  EXPECT_EQ(taps(head + "G84 X20 Y0 Z-10 R5 F300\n", Dialect::fanuc),
+            "R20 R20 R5 M3/300 F-10@1s M4/300 F5@1s R20 M5/300");
+  EXPECT_EQ(complaint_ids(head + "M29\nG84 X20 Y0 Z-10 R5\n"),
+            std::vector<std::string>{"feed-missing"});
+}
+
 }  // namespace
 }  // namespace frustum::parser

@@ -64,6 +64,29 @@ TEST(Position, OfZIsLostInAToolChangeThatTheControlDoesNotDescribe) {
   EXPECT_TRUE(last_of<ToolChange>(kept).axes_stay);
 }
 
+// Where the height is the machine's, the tool comes over the hole before it goes down.
+TEST(Position, OfZAfterAToolChangeIsKeptOnTheWayToAHole) {
+  const std::string klartext =
+      "TOOL CALL 1 Z S500\nL X+10 Y+10 FMAX M3\nL Z+50 FMAX\nTOOL CALL 2 Z S1000\n"
+      "L X+100 Y+5 FMAX M3\nCYCL DEF 200 DRILLING Q200=2 Q201=-15 Q206=250 Q202=15 Q210=0 "
+      "Q203=+0 Q204=50 Q211=0\nCYCL CALL POS X+7 Y+7 Z+0 FMAX\n";
+  const std::string cldata =
+      "UNITS/MM\nLOADTL/1\nRAPID\nGOTO/100,100,50\nLOADTL/2\nSPINDL/RPM,500,CLW\n"
+      "CYCLE/DRILL,DEPTH,15,MMPM,100,CLEAR,2\nGOTO/7,7,0\n";
+  for (const auto& [text, dialect] :
+       {std::pair(klartext, Dialect::heidenhain), {cldata, Dialect::cldata}}) {
+    const auto rapids = all_of<Traverse>(motions(text, {}, dialect));
+    bool is_over = false;
+    for (const Traverse& rapid : rapids) {
+      if (rapid.end[X] != 7.0) continue;
+      EXPECT_TRUE(is_over || !rapid.end[Z]) << name_of(dialect);
+      is_over = true;
+      EXPECT_EQ(rapid.end[AxisLetter::Y], 7.0) << name_of(dialect);
+    }
+    EXPECT_TRUE(is_over) << name_of(dialect);
+  }
+}
+
 // R and the bottom of G90 do not ask where the cycle begins, the level of G98 does; steps do.
 TEST(Position, OfZAfterAToolChangeIsTheMachinesInACycle) {
   const std::string head = "G21 G90 G54\nT1 M6\nG0 X1 Y2 Z50\nT2 M6\nM3 S100\n";

@@ -116,5 +116,22 @@ TEST(RigidTapWriting, RefusesWhatIsNotInAndOutAtOnce) {
   }
 }
 
+// A height that the length of the tool was added to and taken from is off by its last digit.
+TEST(RigidTapWriting, ComesBackWhereRoundingLetsIt) {
+  const double off = (5.1 + 146.3) - 146.3;
+  ASSERT_NE(off, 5.1);
+  auto motions = motions_in(
+      "G21 G17 G90 G94\nT1 M6\nS500 M3\nG0 X0 Y0 Z5.1\nG33.1 Z-12 K1.5\n"
+      "G0 Z60\nM2\n",
+      Dialect::linuxcnc);
+  for (Motion& motion : motions) {
+    auto* rapid = std::get_if<Traverse>(&motion.command);
+    if (rapid != nullptr && rapid->end[AxisLetter::Z] == 5.1) rapid->end[AxisLetter::Z] = off;
+  }
+  const auto written = write_nc(motions, Dialect::fanuc);
+  ASSERT_TRUE(written) << first_of(written.error());
+  EXPECT_NE(written->text.find("G84"), std::string::npos) << written->text;
+}
+
 }  // namespace
 }  // namespace frustum::parser
