@@ -21,12 +21,7 @@ constexpr double kZone = 0.006;  // mm, width
 double criterion_value(K kind, std::vector<std::string> names, Criterion criterion,
                        const std::vector<FittedFeature>& features,
                        Criterion datum_criterion = Criterion::least_squares) {
-  PlannedCharacteristic c;
-  c.name = "c";
-  c.kind = kind;
-  c.features = std::move(names);
-  c.tolerance = 1.0;
-  c.criterion = criterion;
+  PlannedCharacteristic c = measured::characteristic(kind, std::move(names), criterion);
   c.datum_criterion = datum_criterion;
   const auto result = evaluate(c, features);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error().front()));
