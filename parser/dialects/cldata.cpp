@@ -46,7 +46,7 @@ constexpr std::array kCldataCodes{
     named("CYCLE/DEEP", hole_cycle, HoleWord::peck, kCldataHoleWords),
     named("CYCLE/DEEP2", hole_cycle, HoleWord::deep_pecks, kCldataDeepHoleWords),
     named("CYCLE/BRKCHP", hole_cycle, HoleWord::break_chip, kCldataHoleWords),
-    named("CYCLE/TAP", hole_cycle, HoleWord::tap, kCldataHoleWords),
+    named("CYCLE/TAP", hole_cycle, HoleWord::tap, kCldataHoleWords | LetterSet("t")),
     named("CYCLE/BORE", hole_cycle, HoleWord::bore, kCldataHoleWords),
     named("STOP", stop, StopKind::program_stop),
     named("OPSTOP", stop, StopKind::optional_stop),

@@ -87,6 +87,7 @@ enum class NonModal : std::uint8_t {
   check_home,      // G27
   from_home,       // G29: by the place that G28 went by
   data,            // G10
+  tool_data,       // TOOL DEF
   shift_to_place,  // G92: so that the tool is where the words say
   shift,           // G52
   shift_off,

@@ -39,6 +39,7 @@ constexpr std::array kHeidenhainCodes{
     named("DEP CT", approach, ApproachWord::leave_by_arc, LetterSet("ZRid")),
     named("DEP LCT", approach, ApproachWord::leave_by_arc_and_line, LetterSet("XYZABCpqRd")),
     named("TOOL CALL", tool_change, 0),
+    named("TOOL DEF", non_modal, NonModal::tool_data, LetterSet("eLR")),
     named("F AUTO", feed_source, 0),
     named("R0", radius_compensation, RadiusWord::off),
     named("RL", radius_compensation, RadiusWord::left),

@@ -70,6 +70,8 @@ constexpr std::array kNonModalMoves{
                                          const auto&) { return come_from_home(state, words); }},
     NonModalMove{NonModal::data,
                  [](auto& state, auto& words, const auto&) { return set_data(state, words); }},
+    NonModalMove{NonModal::tool_data,
+                 [](auto& state, auto& words, const auto&) { return define_tool(state, words); }},
     NonModalMove{
         NonModal::align,
         [](auto& state, auto&, const auto& movement) { return align(state, movement.column); }},

@@ -23,11 +23,11 @@ struct CycleWord {
   char letter;
   std::string_view written;
 };
-constexpr std::array kCycleWords{CycleWord{'Z', "FEDTO"},   CycleWord{'R', "RAPTO"},
-                                 CycleWord{'u', "CLEAR"},   CycleWord{'f', "PERMIN"},
-                                 CycleWord{'r', "PERREV"},  CycleWord{'I', "RTRCTO,AUTO"},
-                                 CycleWord{'v', "RTRCTO"},  CycleWord{'Q', "STEP"},
-                                 CycleWord{'x', "SUBPECK"}, CycleWord{'P', "DWELL"}};
+constexpr std::array kCycleWords{
+    CycleWord{'Z', "FEDTO"},       CycleWord{'R', "RAPTO"},  CycleWord{'u', "CLEAR"},
+    CycleWord{'f', "PERMIN"},      CycleWord{'r', "PERREV"}, CycleWord{'t', "LEAD"},
+    CycleWord{'I', "RTRCTO,AUTO"}, CycleWord{'v', "RTRCTO"}, CycleWord{'Q', "STEP"},
+    CycleWord{'x', "SUBPECK"},     CycleWord{'P', "DWELL"}};
 
 // What records are written by: the unit, whether TLAXIS was given, the last place.
 struct Pen {
@@ -204,7 +204,7 @@ class RecordWriter {
     if (is_assumed("CYCLE")) left_out += "fr";
     if (is_assumed("CYCLE STEP")) left_out += "Q";
     if (is_assumed("CYCLE numbers")) {
-      left_out += "ZRufr";
+      left_out += "ZRufrt";
       text += fmt::format(",{},{}", shortest_decimal(number('Z')), shortest_decimal(number('u')));
     }
     for (const Word& word : block_.words) {
@@ -213,6 +213,7 @@ class RecordWriter {
       text += fmt::format(",{}", written->written);
       if (word.letter != 'I') text += "," + shortest_decimal(word.number);
     }
+    if (name_ == "CYCLE/TAP" && has('r')) text += ",FLOAT";
     return text;
   }
 

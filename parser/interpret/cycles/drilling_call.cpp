@@ -298,6 +298,17 @@ Outcome take_spindle(const InterpreterState& state, std::uint32_t column, Drilli
   return Done{};
 }
 
+// The cycle gives the spindle the speed of before it again; without one that of the tap stays.
+double speed_after_hole(InterpreterState& state, const DrillingCycle& cycle, std::uint32_t column) {
+  const double before = state.modes.spindle_speed;
+  if (before > 0.0 || cycle.kind != DrillingWord::tap) return before;
+  if (cycle.direction.value_or(SpindleDirection::off) != SpindleDirection::off) {
+    assume(state, column, "CYCLE84 S",
+           "no S is given before the cycle: the spindle turns on with the speed of the way back");
+  }
+  return cycle.speed_back;
+}
+
 Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t column) {
   if (cycle.fault) return *cycle.fault;
   if (auto done = take_spindle(state, column, cycle); !done) return done;
@@ -345,7 +356,7 @@ Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t c
     state.modes.spindle_speed = speed;
     emit(state, column, SpindleChange{direction, speed});
   };
-  const double speed_before = state.modes.spindle_speed;
+  const double speed_after = speed_after_hole(state, cycle, column);
   state.position.set(w, cycle.level);
   if (auto done = check_programmed_frame(state, movement); !done) return done;
   emit(state, column,
@@ -366,7 +377,7 @@ Outcome drill_here(InterpreterState& state, DrillingCycle cycle, std::uint32_t c
     point[axes.w] = depth;
     return point;
   };
-  const SpindleChange after{cycle.direction.value_or(SpindleDirection::off), speed_before};
+  const SpindleChange after{cycle.direction.value_or(SpindleDirection::off), speed_after};
   if (cycle.by_spindle) {
     tap_hole(state, steps_of(cycle), column, place, {cycle.lead, cycle.speed, after});
     return Done{};

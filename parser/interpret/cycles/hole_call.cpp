@@ -30,7 +30,6 @@ namespace {
 
 constexpr int kMaxBreaks = 99'999;
 
-constexpr double kSameAxis = 1e-9;  // the sine of the angle between two tool axes
 constexpr double kSameDepth =
     1e-9;  // mm, rounding: what is left below a step is no step of its own
 
@@ -347,7 +346,10 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
     return;
   }
   const double speed = state.modes.spindle_speed;
-  tap_hole(state, steps, column, place, {*cycle.lead, speed, {state.modes.spindle, speed}});
+  const bool left =
+      cycle.hand_of_spindle && state.modes.spindle == SpindleDirection::counterclockwise;
+  tap_hole(state, steps, column, place,
+           {left ? -*cycle.lead : *cycle.lead, speed, {state.modes.spindle, speed}});
 }
 
 Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
@@ -395,6 +397,14 @@ Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words) {
   const FeedMode mode = feed == 'r' ? FeedMode::per_revolution : FeedMode::per_minute;
   if (from_surface && feed == 'r') {
     if (auto done = set_pitch(state, words); !done) return done;
+  } else if (words.has('t')) {
+    cycle.lead = words['t'].value * feed_scale(state, FeedMode::per_revolution);
+    cycle.hand_of_spindle = true;
+    if (*cycle.lead <= 0.0) {
+      return fail(state, words['t'].column, "cycle-lead"_id,
+                  "the lead of the tap is not above zero",
+                  "give it above zero; the direction of the spindle says the hand of the thread");
+    }
   } else {
     const auto given = feed_of(state, words, feed, mode);
     if (!given) return given.error();
@@ -458,35 +468,6 @@ Outcome define_hole_cycle(InterpreterState& state, const BlockWords& words) {
 void set_called_program(InterpreterState& state, std::string name) {
   state.modes.hole_cycle = {};
   state.modes.hole_cycle.program = std::move(name);
-}
-
-Outcome make_hole(InterpreterState& state, const BlockWords& words, const Movement& movement) {
-  HoleCycle& cycle = state.modes.hole_cycle;
-  if (movement.motion != MotionMode::linear && movement.motion != MotionMode::traverse) {
-    return fail(state, movement.column, "cycle-arc"_id, "an arc while a cycle is on",
-                "end the cycle before, by CYCLE/OFF");
-  }
-  for (const char letter : {'X', 'Y', 'Z'}) {
-    if (!words.has(letter) || words[letter].measure != Measure::incremental) continue;
-    return fail(state, words[letter].column, "cycle-step"_id, "a step while a cycle is on",
-                "name the hole by its place");
-  }
-  const auto from = point_of_hole(state.position.target());
-  const auto axis_before = state.modes.tool_axis;
-  if (auto done = check_tool_length(state, movement); !done) return done;
-  if (auto done = set_targets(state, words); !done) return done;
-  if (auto done = set_tool_axis(state, words); !done) return done;
-  if (auto done = check_programmed_frame(state, movement); !done) return done;
-  const auto top = point_of_hole(state.position.target());
-  if (!top)
-    return fail(state, movement.column, "position-unknown"_id, "the place of the hole is not known",
-                "give X, Y and Z");
-  const Vec3 axis = state.modes.tool_axis ? state.modes.tool_axis->vec() : Vec3::UnitZ();
-  const bool turns = axis_before.has_value() != state.modes.tool_axis.has_value() ||
-                     (axis_before && axis_before->vec().cross(axis).norm() > kSameAxis);
-  if (!cycle.start) cycle.start = from;
-  drill_from_top(state, *top, from, turns, movement.column);
-  return Done{};
 }
 
 }  // namespace frustum::parser

@@ -1,5 +1,5 @@
 // Hole cycles where the tool is, at a place, at points, and on rings and grids: CYCL CALL, M99,
-// M89, CYCL CALL PAT, CYCL DEF 220 and 221 of Klartext.
+// M89, CYCL CALL PAT, CYCL DEF 220 and 221 of Klartext; at the places of GOTO.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,6 +25,8 @@
 namespace frustum::parser {
 namespace {
 
+constexpr double kSameAxis = 1e-9;  // the sine of the angle between two tool axes
+
 // A rigid tap turns the spindle itself; one in a floating chuck goes as the spindle turns.
 Outcome check_spindle(const InterpreterState& state, const GivenCode& code) {
   const HoleCycle& cycle = state.modes.hole_cycle;
@@ -37,6 +39,20 @@ Outcome check_spindle(const InterpreterState& state, const GivenCode& code) {
   return fail(state, code.column, "thread-spindle-off"_id,
               "a tap in a floating chuck while the spindle is at rest",
               "start the spindle before: M3, or M4 for a left-handed thread");
+}
+
+// A tap with a lead turns the spindle itself.
+Outcome check_lead(InterpreterState& state, std::uint32_t column) {
+  if (!state.modes.hole_cycle.lead) return Done{};
+  if (!(state.modes.spindle_speed > 0.0)) {
+    return fail(state, column, "cycle-speed-missing"_id, "a tap without a spindle speed",
+                "give it before, by SPINDL/500,RPM,CLW");
+  }
+  if (state.modes.spindle == SpindleDirection::off) {
+    assume(state, column, "CYCLE/TAP",
+           "the spindle is at rest before it: the thread is right-handed");
+  }
+  return Done{};
 }
 
 // What a cycle at the place of the tool needs.
@@ -266,6 +282,36 @@ Outcome call_hole_cycle(InterpreterState& state, const BlockWords& words) {
   }
   const Vec3 top(*state.position[AxisLetter::X], *state.position[AxisLetter::Y], *surface + above);
   drill_from_top(state, top, over_hole(state, from, top, cause.column), false, cause.column);
+  return Done{};
+}
+
+Outcome make_hole(InterpreterState& state, const BlockWords& words, const Movement& movement) {
+  HoleCycle& cycle = state.modes.hole_cycle;
+  if (movement.motion != MotionMode::linear && movement.motion != MotionMode::traverse) {
+    return fail(state, movement.column, "cycle-arc"_id, "an arc while a cycle is on",
+                "end the cycle before, by CYCLE/OFF");
+  }
+  for (const char letter : {'X', 'Y', 'Z'}) {
+    if (!words.has(letter) || words[letter].measure != Measure::incremental) continue;
+    return fail(state, words[letter].column, "cycle-step"_id, "a step while a cycle is on",
+                "name the hole by its place");
+  }
+  const auto from = point_of_hole(state.position.target());
+  const auto axis_before = state.modes.tool_axis;
+  if (auto done = check_tool_length(state, movement); !done) return done;
+  if (auto done = set_targets(state, words); !done) return done;
+  if (auto done = set_tool_axis(state, words); !done) return done;
+  if (auto done = check_programmed_frame(state, movement); !done) return done;
+  const auto top = point_of_hole(state.position.target());
+  if (!top)
+    return fail(state, movement.column, "position-unknown"_id, "the place of the hole is not known",
+                "give X, Y and Z");
+  const Vec3 axis = state.modes.tool_axis ? state.modes.tool_axis->vec() : Vec3::UnitZ();
+  const bool turns = axis_before.has_value() != state.modes.tool_axis.has_value() ||
+                     (axis_before && axis_before->vec().cross(axis).norm() > kSameAxis);
+  if (auto done = check_lead(state, movement.column); !done) return done;
+  if (!cycle.start) cycle.start = from;
+  drill_from_top(state, *top, from, turns, movement.column);
   return Done{};
 }
 

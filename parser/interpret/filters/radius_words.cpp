@@ -130,7 +130,7 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
 
 // Whether a tool without diameter may follow a contour.
 bool may_be_point(const InterpreterState& state) {
-  return state.rules.dialect == Dialect::linuxcnc;
+  return state.rules.dialect == Dialect::linuxcnc || state.rules.dialect == Dialect::heidenhain;
 }
 
 void switch_radius_off(InterpreterState& state, MotionFilters& filters, std::uint32_t column) {
@@ -282,6 +282,11 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   const bool left =
       (word == RadiusWord::left || word == RadiusWord::left_by_diameter) == (radius >= 0.0);
   const ToolSide side = left ? ToolSide::left : ToolSide::right;
+  // TOOL DEF 1 L+0 R+0: the contour is that of the tool's centre.
+  if (radius == 0.0 && state.rules.dialect == Dialect::heidenhain) {
+    state.modes.tool_side = side;
+    return Done{};
+  }
   // The path is made in words, which the frame scales.
   const double in_words = std::abs(radius) / state.modes.programmed_frame.scale;
   if (filters.radius.is_on()) {

@@ -237,6 +237,39 @@ void assume_radius(InterpreterState& state, std::uint32_t column) {
          "as diameters");
 }
 
+void set_tool_radius(InterpreterState& state, std::uint32_t column, std::string_view word,
+                     int number, double radius) {
+  constexpr double kSame = 1e-6;  // mm: by what radii in inches are rounded
+  Tool& tool = entry_of(state.data.tools, number);
+  const double before = tool.diameter / 2.0;
+  if (tool.has_diameter && std::abs(before - radius) > kSame) {
+    assume(state, column, fmt::format("{} {}", word, number),
+           fmt::format("the radius {:g} mm of tool {} goes before {:g} mm, which it had", radius,
+                       number, before));
+  }
+  tool.diameter = 2.0 * radius;
+  tool.has_diameter = true;
+}
+
+Outcome define_tool(InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::non_modal];
+  const auto number = whole(state, words, 'e', 0, kMaxNumber);
+  if (!number) return number.error();
+  if (words.has('L')) {
+    assume(state, words['L'].column, code.code->name(),
+           "its L is of no effect: the length of the tool is that of the job");
+  }
+  if (words.has('R')) {
+    if (words['R'].value < 0.0) {
+      return fail(state, words['R'].column, "value-negative"_id,
+                  fmt::format("{} is negative", words.text_of('R')), "give the tool's radius");
+    }
+    set_tool_radius(state, words['R'].column, code.code->name(), *number,
+                    length_of(state, words['R'].value));
+  }
+  return Done{};
+}
+
 Outcome set_data(InterpreterState& state, const BlockWords& words) {
   const GivenCode& code = words[CodeGroup::non_modal];
   const std::string name = code.code->name();

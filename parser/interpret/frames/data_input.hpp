@@ -1,10 +1,11 @@
-// G10: what a program writes into the control's data, by its L word.
+// G10: what a program writes into the control's data, by its L word; tools that it defines.
 //
 // Units : mm, rad, mm/min
 // Errors: the first one of the block, with line, column and hint
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
@@ -13,6 +14,11 @@ namespace frustum::parser {
 
 // Offsets of radii that the program writes, by G10 or parameters.
 void assume_radius(InterpreterState& state, std::uint32_t column);
+// mm, of a tool's own data; that it differs from what the setup has is told by the word's name.
+void set_tool_radius(InterpreterState& state, std::uint32_t column, std::string_view word,
+                     int number, double radius);
 [[nodiscard]] Outcome set_data(InterpreterState& state, const BlockWords& words);
+// TOOL DEF: e its number, L its length, R its radius.
+[[nodiscard]] Outcome define_tool(InterpreterState& state, const BlockWords& words);
 
 }  // namespace frustum::parser

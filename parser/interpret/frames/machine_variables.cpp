@@ -13,6 +13,7 @@
 
 #include "core/decimal.hpp"
 #include "core/units.hpp"
+#include "parser/interpret/frames/data_input.hpp"
 #include "parser/interpret/frames/programmable_frame.hpp"
 #include "parser/interpret/state/word_values.hpp"
 #include "parser/language/letter_case.hpp"
@@ -77,14 +78,13 @@ std::optional<int> number_of(std::string_view digits) {
 }
 
 // $TC_DP6[tool,edge]: the radius of its first edge.
-bool set_tool_radius(InterpreterState& state, std::string_view name, double value) {
+bool set_radius_variable(InterpreterState& state, std::uint32_t column, std::string_view name,
+                         double value) {
   const auto indices = indices_in(name);
   if (!name.starts_with("$TC_DP6[") || indices.size() != 2 || indices[1] != "1") return false;
   const auto number = number_of(indices[0]);
   if (!number) return false;
-  Tool& tool = entry_of(state.data.tools, *number);
-  tool.diameter = 2.0 * length_of(state, value);
-  tool.has_diameter = true;
+  set_tool_radius(state, column, "$TC_DP6", *number, length_of(state, value));
   return true;
 }
 
@@ -197,7 +197,7 @@ Outcome set_machine_variable(InterpreterState& state, std::uint32_t column, cons
     }
     return Done{};
   }
-  if (set_tool_radius(state, name, value)) return Done{};
+  if (set_radius_variable(state, column, name, value)) return Done{};
   if (auto done = set_offset_shift(state, name, value)) return *std::move(done);
   for (const MovingVariable& moving : kMovingVariables) {
     if (!name.starts_with(moving.start) || value == 0.0) continue;

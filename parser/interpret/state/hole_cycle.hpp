@@ -5,7 +5,7 @@
 //
 // The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v
 // how high it goes afterwards (I: as high as before the first hole), Q the peck, P the dwell in
-// seconds, f or r the feed. Of Klartext: z the depth, below zero; V the height of the top; Q counts
+// seconds, f or r the feed, t the lead. Of Klartext: z the depth, below zero; V the height of the top; Q counts
 // from the top; w the dwell above; W the feed out. Of 203 and 205: D how much a peck is less than
 // the one before, L the least peck, H how far a chip is broken, K how often before the hole is
 // cleared, E how deep each time, g and h the stops above the last depth; of DEEP2: x each peck
@@ -67,6 +67,7 @@ struct HoleCycle {
   bool at_moves = false;         // M89
   bool of_tool = false;          // 1, 2: heights count from where the tool is
   std::optional<double> lead{};  // of a rigid tap; below zero: left-handed; its feed is of no use
+  bool hand_of_spindle = false;  // the hand of the lead: CYCLE/TAP of CLDATA
   double tap_step = 0.0;         // 209: so deep the chip is broken; 0: not at all
   double tap_back = 0.0;         // how far it goes back then; 0: out of the hole
   Vec3 off_wall = Vec3::Zero();  // of 202, before the tool goes back

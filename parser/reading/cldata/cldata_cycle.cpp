@@ -118,6 +118,7 @@ class CycleReader {
     }
     if (std::find(kRemarks.begin(), kRemarks.end(), part.word) != kRemarks.end()) {
       std::string text = part.word;
+      floats_ = floats_ || text == "FLOAT";
       if (place_ < given_.size() && given_[place_].is_number() &&
           (part.word == "CAM" || part.word == "ORIENT" || part.word == "DIAMTR" ||
            part.word == "TLANGL")) {
@@ -248,7 +249,13 @@ class CycleReader {
     add_number(block, 'Z', depth.number, depth.column, "depth ");
     add_number(block, 'R', level.number, level.column, "RAPTO,");
     add_number(block, 'u', highest, clear.column, "CLEAR,");
-    add_number(block, per_revolution_ ? 'r' : 'f', feed_->number, feed_->column, "feed ");
+    // The lead of a tap, but in a floating chuck, which is fed.
+    const bool leads = per_revolution_ && name_->code == "CYCLE/TAP" && !floats_;
+    add_number(block,
+               leads             ? 't'
+               : per_revolution_ ? 'r'
+                                 : 'f',
+               feed_->number, feed_->column, leads ? "lead " : "feed ");
     if (back_ && back_->number == 0.0) back_to_start_ = true;
     if (back_to_start_) {
       add_number(block, 'I', 1.0, record_.column);
@@ -298,6 +305,7 @@ class CycleReader {
   std::string remarks_{};
   std::optional<Value> dwell_{};
   bool per_revolution_ = false;
+  bool floats_ = false;
   bool back_to_start_ = false;
 };
 

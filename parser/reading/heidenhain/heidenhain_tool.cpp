@@ -5,6 +5,7 @@
 #include <string>
 
 #include "parser/dialects/code_table.hpp"
+#include "parser/language/letter_case.hpp"
 #include "parser/reading/heidenhain/heidenhain_statements.hpp"
 
 namespace frustum::parser {
@@ -18,7 +19,7 @@ class ToolReader {
     const std::uint32_t kind_column = in_.column();
     const std::string kind = in_.letters();
     if (kind != "DEF" && kind != "CALL") in_.go_to(kind_column);
-    if (kind == "DEF") return note(draft_, "TOOL DEF", column, in_.text_to(";"));
+    if (kind == "DEF") return read_definition(column);
     if (kind != "CALL")
       return in_.fail("keyword-missing"_id, column, "TOOL without CALL or DEF",
                       "write TOOL CALL 1 Z S5000");
@@ -51,6 +52,28 @@ class ToolReader {
   }
 
  private:
+  // TOOL DEF 5 L+0 R+5; without data it says which tool comes next.
+  void read_definition(std::uint32_t column) {
+    const std::uint32_t start = in_.column();
+    std::string text = in_.text_to(";");
+    const bool named = text.find('"') != std::string::npos;
+    if (named || upper_case(text).find_first_of("LR") == std::string::npos) {
+      return note(draft_, "TOOL DEF", column, std::move(text));
+    }
+    in_.go_to(start);
+    add_code(block_, *find_code(Dialect::heidenhain, "TOOL DEF"), column);
+    add_value(draft_, 'e', "TOOL DEF", start, "");
+    while (!in_.failed() && !in_.at_end() && in_.peek() != ';') {
+      const std::uint32_t place = in_.column();
+      const char letter = in_.peek();
+      if (!in_.take('L') && !in_.take('R')) {
+        return in_.fail_unexpected("TOOL DEF takes the tool's number, L and R: TOOL DEF 5 L+0 R+5");
+      }
+      add_value(draft_, letter, std::string_view(&letter, 1), place, nullptr);
+    }
+    end_statement(draft_);
+  }
+
   // TOOL CALL 5.1: a step of tool 5, which has data of its own, as a tool by that name.
   void read_tool_step(std::uint32_t place) {
     in_.go_to(place);

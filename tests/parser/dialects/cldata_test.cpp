@@ -306,9 +306,8 @@ TEST(CldataCycles, PeckTapBoreAndDwell) {
   EXPECT_EQ(
       path_behind_start("CYCLE/DRILL,BRKCHP,DEPTH,10,STEP,6,MMPM,80,CLEAR,2\nGOTO/0,0,0\n"),
       (Path{"rapid 0 0 2", "feed 0 0 -4", "rapid 0 0 -3.746", "feed 0 0 -10", "rapid 0 0 2"}));
-  EXPECT_EQ(
-      path_behind_start("SPINDL/500,CLW\nCYCLE/TAP,DEPTH,8,MMPR,1.25,CLEAR,2\nGOTO/0,0,0\n"),
-      (Path{"cw", "rapid 0 0 2", "feed 0 0 -8", "off", "ccw", "dwell", "feed 0 0 2", "off", "cw"}));
+  EXPECT_EQ(path_behind_start("SPINDL/500,CLW\nCYCLE/TAP,DEPTH,8,MMPR,1.25,CLEAR,2\nGOTO/0,0,0\n"),
+            (Path{"cw", "rapid 0 0 2", "feed 0 0 -8", "ccw", "feed 0 0 2", "cw"}));
   EXPECT_EQ(path_behind_start("CYCLE/BORE,DEPTH,8,MMPM,50,CLEAR,2,DWELL,.5\nGOTO/0,0,0\n"),
             (Path{"rapid 0 0 2", "feed 0 0 -8", "dwell", "feed 0 0 2"}));
   EXPECT_EQ(path_behind_start("CYCLE/FACE,DEPTH,8,MMPM,50,CLEAR,2,DWELL,.5\nGOTO/0,0,0\n"),

@@ -65,6 +65,45 @@ TEST(KlartextWords, Fault2_09_LabelsAndFunctionsMayRunOn) {
       {{0, -999, -999}});
 }
 
+// R has been passed over, and the contour been the path.
+TEST(KlartextWords, ToolDefGivesTheRadiusOfTheTool) {
+  const std::string contour =
+      "TOOL CALL 5 Z S1000\nL X-20 Y+0 Z+2 R0 FMAX\nL X+0 RL F100\nL X+30\n";
+  const auto paths = [&](const std::string& before, const InterpreterOptions& options = {}) {
+    return motions(before + contour + "L Y+50 R0\n", options, Dialect::heidenhain);
+  };
+  // To the left of a way along +X: 5 higher in Y.
+  const auto moves = all_of<LinearFeed>(paths("TOOL DEF 5 L+0 R+5\n"));
+  ASSERT_GE(moves.size(), 2U);
+  EXPECT_NEAR(*moves[0].end[Y], 5.0, 1e-12);
+  EXPECT_NEAR(*moves[1].end[Y], 5.0, 1e-12);
+  EXPECT_NEAR(*moves[1].end[X], 30.0, 1e-12);
+  EXPECT_NEAR(*all_of<LinearFeed>(paths("Q1 = 3\nTOOL DEF 5 R+Q1\n")).at(1).end[Y], 3.0, 1e-12);
+  EXPECT_NEAR(*all_of<LinearFeed>(paths("0 BEGIN PGM A INCH\nTOOL DEF 5 R+0.1\n")).at(1).end[Y],
+              2.54, 1e-12);
+  // The path of the centre.
+  EXPECT_NEAR(*all_of<LinearFeed>(paths("TOOL DEF 5 L+0 R+0\n")).at(1).end[Y], 0.0, 1e-12);
+  // It goes before what the job has, and that is told.
+  InterpreterOptions job;
+  entry_of(job.tools, 5).diameter = 8.0;
+  entry_of(job.tools, 5).has_diameter = true;
+  const auto other = paths("TOOL DEF 5 R+5\n", job);
+  EXPECT_NEAR(*all_of<LinearFeed>(other).at(1).end[Y], 5.0, 1e-12);
+  const Event* told = klartext_event(other, "TOOL DEF 5");
+  ASSERT_NE(told, nullptr);
+  EXPECT_EQ(told->grade, EventGrade::assumed);
+  EXPECT_EQ(told->text, "the radius 5 mm of tool 5 goes before 4 mm, which it had");
+  EXPECT_EQ(klartext_event(paths("TOOL DEF 5 R+4\n", job), "TOOL DEF 5"), nullptr);
+  // Lengths are the job's.
+  EXPECT_EQ(klartext_event(paths("TOOL DEF 5 L+80 R+5\n"), "TOOL DEF")->grade, EventGrade::assumed);
+  EXPECT_EQ(klartext_event(paths("TOOL DEF 5\n", job), "TOOL DEF")->grade, EventGrade::known);
+  EXPECT_EQ(klartext_event(paths("TOOL DEF \"DRILL\"\n", job), "TOOL DEF")->text, "\"DRILL\"");
+  for (const std::string wrong :
+       {"TOOL DEF 5 R-5\n", "TOOL DEF 5 R+5 S9\n", "TOOL DEF L+0 R+5\n"}) {
+    EXPECT_FALSE(failures_of(wrong, {}, Dialect::heidenhain).empty()) << wrong;
+  }
+}
+
 // R, F and M without a number are what a dialog has left empty.
 TEST(KlartextWords, Fault2_09_WordsWithoutNumbersChangeNothing) {
   expect_klartext_ends("L X+1 R F500 M\nL Y+2 R F M\nZ+3 R0 FMAX\nS1000 M3\nR0 FMAX M5\n",

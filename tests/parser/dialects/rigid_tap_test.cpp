@@ -178,6 +178,34 @@ TEST(KlartextTool, NameOfDigitsIsNoNumber) {
   EXPECT_EQ(changes(options).at(0).tool, 12);
 }
 
+// A lead has been taken for a feed per revolution, which no tap can go by.
+TEST(RigidTap, OfCldataFollowsTheSpindleByALead) {
+  const std::string start = "UNITS/MM\nLOADTL/1\nSPINDL/500,RPM,CLW\nRAPID\nGOTO/0,0,50\n";
+  const std::string hole = ",CLEAR,2\nGOTO/0,0,0\n";
+  for (const std::string lead : {"MMPR,1.25", "LEAD,1.25", "PITCH,1.25", "PERREV,1.25"}) {
+    EXPECT_EQ(taps(start + "CYCLE/TAP,DEPTH,8," + lead + hole, Dialect::cldata),
+              "M3/500 R50 R2 F-8@1.25s M4/500 F2@1.25s M3/500")
+        << lead;
+  }
+  EXPECT_EQ(taps(start + "CYCLE/TAP,DEPTH,8,TPI,20" + hole, Dialect::cldata),
+            "M3/500 R50 R2 F-8@1.27s M4/500 F2@1.27s M3/500");
+  EXPECT_EQ(taps(start + "SPINDL/400,RPM,CCLW\nCYCLE/TAP,DEPTH,8,MMPR,1" + hole, Dialect::cldata),
+            "M3/500 R50 M4/400 R2 F-8@1s M3/400 F2@1s M4/400");
+  // In a floating chuck, or by a feed per minute, it is fed.
+  EXPECT_EQ(taps(start + "CYCLE/TAP,DEPTH,8,MMPR,1.25,FLOAT" + hole, Dialect::cldata),
+            "M3/500 R50 R2 F-8@1.25 M5/500 M4/500 D0 F2@1.25 M5/500 M3/500");
+  EXPECT_EQ(taps(start + "CYCLE/TAP,DEPTH,8,MMPM,625" + hole, Dialect::cldata),
+            "M3/500 R50 R2 F-8@625 M5/500 M4/500 D0 F2@625 M5/500 M3/500");
+  // A spindle that has a speed alone turns for a right-handed thread, which is told.
+  const std::string at_rest = "UNITS/MM\nLOADTL/1\nSPINDL/500,RPM,CLW\nSPINDL/OFF\nRAPID\n";
+  const std::string tap = "GOTO/0,0,50\nCYCLE/TAP,DEPTH,8,MMPR,1" + hole;
+  EXPECT_EQ(taps(at_rest + tap, Dialect::cldata),
+            "M3/500 M5/500 R50 R2 M3/500 F-8@1s M4/500 F2@1s M5/500");
+  EXPECT_EQ(all_of<Event>(motions(at_rest + tap, {}, Dialect::cldata)).back().name, "CYCLE/TAP");
+  EXPECT_EQ(complaint_ids("UNITS/MM\nLOADTL/1\n" + tap, {}, Dialect::cldata),
+            std::vector<std::string>{"cycle-speed-missing"});
+}
+
 // Controls that turn the spindle themselves (no M29, no M3): in and out, never out as it went in.
 TEST(RigidTap, OfFanucTurnsASpindleThatIsAtRest) {
   const std::string head = "G21 G90 G54 G98\nT1 M6\nS300\nG0 X0 Y0 Z20\n";

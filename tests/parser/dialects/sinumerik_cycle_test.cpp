@@ -212,6 +212,19 @@ TEST(SinumerikCycles, Tap) {
             "R12 M3/300 F-15@1.27s M4/300 F12@1.27s R40 M3/1000");
 }
 
+// S 0 has come back after it.
+TEST(SinumerikCycles, TapWithoutAnySpeedBeforeLeavesItsOwn) {
+  const auto all = run_cycle("G0 X3 Y4 Z50\nCYCLE84(40,10,2,-15,,,3,,1.25,0,300,600)\n");
+  EXPECT_EQ(last_of<SpindleChange>(all).direction, SpindleDirection::clockwise);
+  EXPECT_EQ(last_of<SpindleChange>(all).speed, 600.0);
+  EXPECT_EQ(all_of<Event>(all).at(0).name, "CYCLE84 S");
+  EXPECT_EQ(all_of<Event>(all).at(0).grade, EventGrade::assumed);
+  // A spindle that stands has nothing to be told; M3 has the last speed there was.
+  const auto off = run_cycle("G0 X3 Y4 Z50\nCYCLE84(40,10,2,-15,,,5,,1.25,0,300,600)\nM3\nG0 X9\n");
+  EXPECT_EQ(last_of<SpindleChange>(off).speed, 600.0);
+  EXPECT_TRUE(all_of<Event>(off).empty());
+}
+
 TEST(SinumerikCycles, TapInStrokes) {
   // 5, then the last 7 shared; back by 1, or out of the hole.
   EXPECT_EQ(cycle_steps("CYCLE84(40,0,2,-12,,,3,,1,0,300,600,3,0,0,1,5,1)"),
