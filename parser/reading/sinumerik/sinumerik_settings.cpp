@@ -8,41 +8,15 @@
 
 #include "parser/dialects/code_table.hpp"
 #include "parser/language/letter_case.hpp"
+#include "parser/reading/sinumerik/sinumerik_passed.hpp"
 #include "parser/reading/sinumerik/sinumerik_values.hpp"
 
 namespace frustum::parser {
 namespace {
 
-// Settings that change nothing that is simulated: SPOS=30, ACC[X]=50.
-constexpr std::array<const char*, 33> kSettings{
-    "SPOS", "SPOSA",  "ADIS", "ADISPOS", "LIMS",    "OVR",     "OVRRAP", "ACC",      "CTOL",
-    "OTOL", "STOLF",  "ATOL", "FD",      "JERKLIM", "VELOLIM", "FGREF",  "ACCLIMA",  "OVRA",
-    "SCC",  "FL",     "FPR",  "TOLFRC",  "CUTMOD",  "STAT",    "TU",     "VELOLIMA", "JERKLIMA",
-    "FDA",  "SCPARA", "FXST", "FXSW",    "FA",      "FP"};
-
-// Where to an interruption of the program lifts the tool.
-constexpr std::array<const char*, 5> kLiftWords{"POLF", "POLFMASK", "POLFMLIN", "DILF", "ALF"};
-
-// Settings that change nothing at zero, where they are switched off or what they are anyway.
-constexpr std::array<const char*, 12> kIdleAtZero{
-    "OFFN", "DL", "TOFF", "TOFFL", "TOFFR", "TOFFLR", "DISC", "TCARR", "FXS", "ISD", "SPN", "SPP"};
-
 // Axes beside X, Y and Z, of a quill or a second slide: at zero they are where they were when the
 // work offset was taken.
 constexpr std::array<const char*, 3> kParallelAxes{"U", "V", "W"};
-
-// Statements that take anything in brackets and change nothing that is simulated.
-constexpr std::array<const char*, 37> kEvents{
-    "CYCLE832",  "WORKPIECE", "FGROUP",  "GROUP_BEGIN", "GROUP_END", "SETMS",  "WAITM",
-    "WAITE",     "WAITMC",    "SETM",    "CLEARM",      "INIT",      "START",  "SETPIECE",
-    "CYCLE_HSC", "STOPREOF",  "FCTDEF",  "SYNFCT",      "PUTFTOC",   "CANCEL", "WRITE",
-    "DELETE",    "ISFILE",    "SETAL",   "TMON",        "GETSELT",   "SPCON",  "SPCOF",
-    "NEWCONF",   "SETINT",    "DISABLE", "ENABLE",      "LOCK",      "UNLOCK", "CLRINT",
-    "STOPRE",    "WAITS"};
-
-// Those that may do without brackets.
-constexpr std::array<std::string_view, 7> kBareEvents{"SETMS",    "FGROUP",  "SPCON", "SPCOF",
-                                                      "STOPREOF", "NEWCONF", "STOPRE"};
 
 constexpr std::string_view kBlanks = " \t\r";
 
@@ -139,7 +113,7 @@ bool read_idle_setting(BlockDraft& draft, const std::string& name, std::uint32_t
 void read_event(BlockDraft& draft, const char* name, std::uint32_t column, bool message) {
   LineScanner& in = draft.in;
   if (!in.take('(')) {
-    if (std::ranges::find(kBareEvents, name) != kBareEvents.end()) {
+    if (std::ranges::find(kBareProcedures, name) != kBareProcedures.end()) {
       return draft.add_event(name, column, {});
     }
     in.fail("bracket-missing"_id, in.column(), "the opening bracket is missing",
@@ -235,12 +209,16 @@ bool read_sinumerik_setting(BlockDraft& draft, const std::string& name, std::uin
     read_event(draft, "message", column, true);
     return true;
   }
-  if (const char* setting = found_in(kSettings, name); setting != nullptr) {
-    // FGREF(..) is written, too.
-    if (name == "FGREF" && draft.in.peek() == '(') {
-      read_event(draft, setting, column, false);
+  const char* passed = found_in(kPassedSettings, name);
+  const bool takes_value = passed != nullptr;
+  if (!takes_value) passed = found_in(kPassedProcedures, name);
+  if (passed != nullptr) {
+    // FGREF(X), COARSEA[X]: each is written in the other way, too.
+    const char next = draft.in.peek();
+    if (takes_value ? next != '(' : next == '=' || next == '[') {
+      read_setting(draft, passed, column);
     } else {
-      read_setting(draft, setting, column);
+      read_event(draft, passed, column, false);
     }
     return true;
   }
@@ -253,10 +231,6 @@ bool read_sinumerik_setting(BlockDraft& draft, const std::string& name, std::uin
     if (draft.in.failed()) return true;
     draft.block.comments.back().text += ": nothing interrupts the program and lifts the tool";
     draft.block.comments.back().assumed = true;
-    return true;
-  }
-  if (const char* event = found_in(kEvents, name); event != nullptr) {
-    read_event(draft, event, column, false);
     return true;
   }
   // Actions beside the program: overrides, signals, stops.

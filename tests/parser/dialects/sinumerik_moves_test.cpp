@@ -161,7 +161,8 @@ TEST(SinumerikWordsOfTheControl, ThatWouldMoveTheToolAreRefused) {
         "PW=2",       "SD=3",      "SPN=2",   "SPP=2",  "ISD=1",         "DISRP=1",
         "OS[X]=1",    "OSP1[X]=1", "SR[X]=1", "CPON=1", "CPLNUM[X,Y]=1", "FOC[X]=1",
         "MEASA[X]=1", "PTP",       "PTPG0",   "SON",    "TRAILON(X,Y)",  "COUPON(S2,S1)",
-        "REPOSA",     "ORIPATH"}) {
+        "REPOSA",     "ORIPATH",   "MOVT=5",  "TCOFR",  "TOFRAMEX",      "CUTCONON",
+        "OST1[X]=1"}) {
     EXPECT_EQ(ids_of_moves(std::string(text) + "\n"), Ids{"not-supported"}) << text;
   }
   for (const char* text : {"MCALL HOLE", "G41 G147 X5", "G148", "G247", "G248", "G347", "G348",
@@ -169,6 +170,32 @@ TEST(SinumerikWordsOfTheControl, ThatWouldMoveTheToolAreRefused) {
     const auto lines = complaints(std::string(text) + "\n", {}, Dialect::sinumerik);
     ASSERT_EQ(lines.size(), 1U) << text;
     EXPECT_NE(lines.front().find(" is not simulated"), std::string::npos) << lines.front();
+  }
+}
+
+// They were calls of subprograms that there are not.
+TEST(SinumerikProcedures, ThatWouldMoveTheToolAreRefusedByName) {
+  for (const char* text : {"PRESETON(X,5)", "TOFFON(Z,5)", "EGON(Y,\"FINE\",X,1,1)",
+                           "ORIRESET(0,0)", "CONTPRON(TABLE,\"A\",1)", "EXECSTRING(\"G0 X5\")",
+                           "TCA(\"DRILL\")", "PUTFTOC(1,5,1,1)", "AXCTSWE(CT1)"}) {
+    const std::string name = std::string(text).substr(0, std::string(text).find('('));
+    const auto lines = complaints(std::string(text) + "\n", {}, Dialect::sinumerik);
+    ASSERT_EQ(lines.size(), 1U) << text;
+    EXPECT_NE(lines.front().find(name + " is not simulated"), std::string::npos) << lines.front();
+  }
+  // No label, and no call.
+  EXPECT_EQ(ids_of_moves(":L1\nM17\n"), std::vector<std::string>{"statement-not-alone"});
+}
+
+TEST(SinumerikProcedures, ThatMoveNothingAreEvents) {
+  for (const char* text :
+       {"GET(X)",     "GETD(X)",           "RELEASE(X,Y)", "MASLON(X)",        "MASLOF(X)",
+        "WAITP(X)",   "TOFFOF(Z)",         "SOFTA(X,Y)",   "BRISKA(X)",        "DRIVEA(X)",
+        "JERKA(X)",   "SPLINEPATH(1,X,Y)", "DRFOF",        "CPROT(1,2,0,0,0)", "COARSEA[X]=1",
+        "COARSEA(X)", "CTOLG0=0.1",        "TOWSTD",       "FENDNORM",         "BNAT"}) {
+    const auto events = all_of<Event>(run_moves(std::string(text) + "\n"));
+    ASSERT_EQ(events.size(), 1U) << text;
+    EXPECT_EQ(events.front().grade, EventGrade::known) << text;
   }
 }
 
@@ -180,7 +207,7 @@ TEST(SinumerikWordsOfTheControl, ThatMoveNothingAreEvents) {
     ASSERT_EQ(events.size(), 1U) << text;
     EXPECT_EQ(events.front().grade, EventGrade::known) << text;
   }
-  for (const char* text : {"POLF[X]=5", "POLFMASK(X,Z)", "DILF=2", "ALF=1"}) {
+  for (const char* text : {"POLF[X]=5", "POLFMASK(X,Z)", "POLFA(X,1,5)", "DILF=2", "ALF=1"}) {
     const auto events = all_of<Event>(run_moves(std::string(text) + "\n"));
     ASSERT_EQ(events.size(), 1U) << text;
     EXPECT_EQ(events.front().grade, EventGrade::assumed) << text;

@@ -234,6 +234,13 @@ TEST(SinumerikVariables, OfToolsAndOffsetsCount) {
       "$TC_DP6[1,1]=5\nT1 D1 M6\nG0 X0 Y-20\nG41 G1 X0 Y0 F100\nX50\n"
       "G40 Y-20\n");
   EXPECT_NEAR(*all_of<LinearFeed>(contour).at(0).end[Y], 5.0, 1e-9);
+  InterpreterOptions job;
+  entry_of(job.tools, 1).diameter = 8.0;
+  entry_of(job.tools, 1).has_diameter = true;
+  const auto told = all_of<Event>(motions("$TC_DP6[1,1]=5\n", job, Dialect::sinumerik));
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[1].text, "the radius 5 mm of tool 1 goes before 4 mm, which it had");
+  EXPECT_EQ(told[1].grade, EventGrade::assumed);
   const auto shifted = run_words(
       "$P_UIFR[1,X,TR]=7\n$P_UIFR[2]=CTRANS(X,3,Y,4):CROT(Z,90)\nG55\n"
       "G0 X1 Y0 Z0\n");
