@@ -3,8 +3,8 @@
 //
 // Units : none
 // Errors: none
-// Source: SINUMERIK 840D sl, Programming Manuals Fundamentals and Job Planning: lists of statements,
-//         G groups and predefined procedures
+// Source: SINUMERIK 840D sl, Programming Manuals Fundamentals and Job Planning: lists of
+//         statements, G groups and predefined procedures
 #pragma once
 
 #include <array>
