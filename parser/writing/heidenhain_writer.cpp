@@ -92,6 +92,7 @@ constexpr std::array kEvents{
     EventForm{"CYCL DEF 19 SETUP", "SETUP "},
     EventForm{"CYCL DEF 26", "CYCL DEF 26.0 "},
     EventForm{"TCPM F", "F "},
+    EventForm{"TOOL DEF F", "F"},
     EventForm{"PLANE DIST", "DIST "},
 };
 

@@ -6,8 +6,8 @@
 // The words of a definition: Z depth, R where feeding begins, u how high the tool comes by rapid, v
 // how high it goes afterwards (I: as high as before the first hole), Q the peck, P the dwell in
 // seconds, f or r the feed, t the lead of a tap. Of Klartext: z the depth, below zero; V the height
-// of the top; Q counts from the top; w the dwell above; W the feed out. Of 203 and 205: D how much a
-// peck is less than the one before, L the least peck, H how far a chip is broken, K how often
+// of the top; Q counts from the top; w the dwell above; W the feed out. Of 203 and 205: D how much
+// a peck is less than the one before, L the least peck, H how far a chip is broken, K how often
 // before the hole is cleared, E how deep each time, g and h the stops above the last depth; of
 // DEEP2: x each peck after the first. Of 202: n the direction off the wall, o how far. Of 220 and
 // 221: x y the centre or the corner, d the diameter, a b c the start, stop and step of the angle,

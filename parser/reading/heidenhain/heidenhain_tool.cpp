@@ -66,6 +66,11 @@ class ToolReader {
     while (!in_.failed() && !in_.at_end() && in_.peek() != ';') {
       const std::uint32_t place = in_.column();
       const char letter = in_.peek();
+      // Without meaning there.
+      if (in_.take('F')) {
+        draft_.add_event("TOOL DEF F", place, in_.text_to(" ;"));
+        continue;
+      }
       if (!in_.take('L') && !in_.take('R')) {
         return in_.fail_unexpected("TOOL DEF takes the tool's number, L and R: TOOL DEF 5 L+0 R+5");
       }

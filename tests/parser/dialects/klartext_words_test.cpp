@@ -98,6 +98,9 @@ TEST(KlartextWords, ToolDefGivesTheRadiusOfTheTool) {
   EXPECT_EQ(klartext_event(paths("TOOL DEF 5 L+80 R+5\n"), "TOOL DEF")->grade, EventGrade::assumed);
   EXPECT_EQ(klartext_event(paths("TOOL DEF 5\n", job), "TOOL DEF")->grade, EventGrade::known);
   EXPECT_EQ(klartext_event(paths("TOOL DEF \"DRILL\"\n", job), "TOOL DEF")->text, "\"DRILL\"");
+  const auto with_feed = paths("TOOL DEF5 L+30,000 F300 R5. ; CUTTER\n");
+  EXPECT_NEAR(*all_of<LinearFeed>(with_feed).at(1).end[Y], 5.0, 1e-12);
+  EXPECT_NE(klartext_event(with_feed, "TOOL DEF F"), nullptr);
   for (const std::string wrong :
        {"TOOL DEF 5 R-5\n", "TOOL DEF 5 R+5 S9\n", "TOOL DEF L+0 R+5\n"}) {
     EXPECT_FALSE(failures_of(wrong, {}, Dialect::heidenhain).empty()) << wrong;
