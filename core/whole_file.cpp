@@ -1,6 +1,7 @@
 #include "core/whole_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -90,6 +91,16 @@ Diagnostic cannot_write(const fs::path& path, std::string_view reason) {
             "name a file in an existing folder that you may write to");
   diagnostic.file = path.string();
   return diagnostic;
+}
+
+std::optional<Diagnostic> unwritable(const fs::path& path) {
+  std::error_code failure;
+  if (fs::is_directory(path, failure)) return cannot_write(path, "it is a folder");
+  if (is_device(path)) return std::nullopt;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::exists(folder, failure)) return cannot_write(path, "there is no such folder");
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return std::nullopt;
+  return cannot_write(path, std::strerror(errno));
 }
 
 Result<fs::path> write_whole_file(const fs::path& path, std::string_view bytes) {

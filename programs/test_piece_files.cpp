@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <system_error>
-
-#include "core/whole_file.hpp"
+#include "core/file_set.hpp"
 #include "cutter/body/cutter_file.hpp"
 
 namespace frustum::programs {
@@ -106,26 +104,20 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
 }
 
 Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std::string& machine,
-                                               const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) {
-    Diagnostic failure =
-        error("file-unwritable"_id, "the folder cannot be made: " + problem.message());
-    failure.file = folder.string();
-    return failure;
-  }
+                                               const fs::path& folder, const std::string& sheet) {
   const fs::path plan = fs::path(piece.program_file).replace_extension(".plan.toml");
-  const std::vector<fs::path> files{folder / "job.toml", folder / piece.program_file,
-                                    folder / plan};
-  // The job last: while it is missing, nothing half-written can be run.
-  const std::vector<std::pair<fs::path, std::string>> contents{
-      {files[1], piece.program},
-      {files[2], metrology::to_toml(piece.plan)},
-      {files[0], job_text(piece, machine, plan.string())}};
-  for (const auto& [file, text] : contents) {
-    if (const auto written = write_whole_file(file, text); !written) return written.error();
-  }
+  std::vector<std::pair<std::string, std::string>> contents{
+      {"job.toml", job_text(piece, machine, plan.string())},
+      {piece.program_file, piece.program},
+      {plan.string(), metrology::to_toml(piece.plan)}};
+  if (!sheet.empty()) contents.emplace_back("setup.html", sheet);
+  std::vector<std::string> names;
+  for (const auto& [name, text] : contents) names.push_back(name);
+  auto set = FileSet::open(folder, std::move(names));
+  if (!set) return set.error();
+  std::vector<fs::path> files;
+  for (auto& [name, text] : contents) files.push_back(set->add(name, std::move(text)));
+  if (const auto written = set->write(); !written) return written.error();
   return files;
 }
 

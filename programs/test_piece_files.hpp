@@ -18,7 +18,9 @@ namespace frustum::programs {
                                    const std::string& plan_file);
 
 // Writes job.toml, the NC program and the plan; returns their paths, the job first.
+// With `sheet` as setup.html, where there is one. All files are exchanged as one (core/file_set.hpp).
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_test_piece(
-    const TestPiece& piece, const std::string& machine, const std::filesystem::path& folder);
+    const TestPiece& piece, const std::string& machine, const std::filesystem::path& folder,
+    const std::string& sheet = {});
 
 }  // namespace frustum::programs

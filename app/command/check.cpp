@@ -93,6 +93,9 @@ int check_files(const CheckCommand& options) {
     return refuse("option-conflict"_id, "--json and --sarif - both take the standard output",
                   "name a file for one of them");
   }
+  if (!options.sarif.empty() && !sarif_alone) {
+    if (const auto fault = unwritable(options.sarif)) return refuse({*fault});
+  }
   ProgramChecker checker(options.settings, options.no_settings, [&](const std::string& note) {
     if (!options.quiet) std::cerr << "note: " << printable(note) << '\n';
   });

@@ -16,10 +16,6 @@ namespace frustum::kinematics {
 class Machine;
 }  // namespace frustum::kinematics
 
-namespace frustum::metrology {
-struct InspectionPlan;
-}  // namespace frustum::metrology
-
 namespace frustum::report {
 struct RunReport;
 }  // namespace frustum::report
@@ -85,9 +81,7 @@ struct ResultOptions {
 void add_result_options(Command& command, ResultOptions& options);
 // Says that there are no results, and why; returns the exit code.
 int refuse(const Diagnostics& diagnostics, const ResultOptions& options);
-// Writes the files of --export, whose names go into the report, and prints it; returns the exit
-// code.
-int show_result(report::RunReport& report, const metrology::InspectionPlan& plan,
-                const std::vector<std::filesystem::path>& exports, const ResultOptions& options);
+// Prints the report; returns the exit code.
+int show_result(const report::RunReport& report, const ResultOptions& options);
 
 }  // namespace frustum::app

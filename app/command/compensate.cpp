@@ -13,6 +13,7 @@
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
+#include "core/file_set.hpp"
 #include "programs/test_piece_files.hpp"
 #include "trials/trial.hpp"
 
@@ -75,6 +76,7 @@ int compensate(const CompensateOptions& options) {
     return refuse("output-overwrites-input"_id, "the output would overwrite the job",
                   "choose another folder for --out");
   }
+  if (const auto set = FileSet::open(options.out, {}); !set) return refuse(set.error());
   const auto commanded = trials::command_piece(job->machine, job->piece);
   if (!commanded) return refuse(commanded.error());
   const auto errors = trials::errors_for(job->machine, job->errors, job->piece, *commanded);

@@ -99,6 +99,9 @@ std::optional<Diagnostic> fault_of(const CutOptions& o) {
     return error("unknown-format"_id,
                  "the removal of each block is written as .csv, not " + o.removal);
   }
+  for (const std::string& file : {o.mesh, o.picture, o.removal}) {
+    if (auto fault = file.empty() ? std::nullopt : unwritable(file)) return fault;
+  }
   return std::nullopt;
 }
 

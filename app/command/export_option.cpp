@@ -3,7 +3,6 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
-#include "app/job/export_request.hpp"
 #include "app/view/console.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/terminal_report.hpp"
@@ -22,11 +21,7 @@ int refuse(const Diagnostics& diagnostics, const ResultOptions& options) {
   return refuse(diagnostics, options.json ? Answer::json : Answer::text);
 }
 
-int show_result(report::RunReport& report, const metrology::InspectionPlan& plan,
-                const std::vector<std::filesystem::path>& exports, const ResultOptions& options) {
-  if (const Diagnostics faults = write_exports(exports, report, plan); !faults.empty()) {
-    return refuse(faults, options);
-  }
+int show_result(const report::RunReport& report, const ResultOptions& options) {
   if (options.json) {
     std::cout << report::json_report(report);
   } else if (!options.quiet) {

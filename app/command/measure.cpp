@@ -41,6 +41,13 @@ int conflicting(const MeasureOptions& options, std::string message, std::string 
   return refuse({error("conflicting-options"_id, std::move(message), std::move(hint))}, options);
 }
 
+int write_and_show(report::RunReport& report, const InspectionPlan& plan,
+                   const std::vector<std::filesystem::path>& exports,
+                   const MeasureOptions& options) {
+  const Diagnostics faults = write_exports(exports, report, plan);
+  return faults.empty() ? show_result(report, options) : refuse(faults, options);
+}
+
 int measure_job(const MeasureOptions& options) {
   const auto job = load_job(options.job, options.overrides, true);
   if (!job) return refuse(job.error(), options);
@@ -56,7 +63,7 @@ int measure_job(const MeasureOptions& options) {
   }
   report::RunReport report = report_of(*job, *trial, *std::move(evidence));
   report.timings = run.timings();
-  return show_result(report, job->piece.plan, *exports, options);
+  return write_and_show(report, job->piece.plan, *exports, options);
 }
 
 Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
@@ -142,7 +149,7 @@ int measure_by_plan(const MeasureOptions& options) {
   report.version = FRUSTUM_VERSION;
   report.evidence = *std::move(evidence);
   report.measurement = *std::move(measurement);
-  return show_result(report, *plan, *exports, options);
+  return write_and_show(report, *plan, *exports, options);
 }
 
 int measure(const MeasureOptions& options) {

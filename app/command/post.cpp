@@ -61,6 +61,7 @@ int post_process(const PostOptions& options) {
     return refuse("output-overwrites-input"_id,
                   "the output would overwrite the program it is made from", "choose another -o");
   }
+  if (const auto fault = unwritable(options.out)) return refuse({*fault});
   const auto setup_words = machine_setup_of(options.setup_words);
   if (!setup_words) return refuse(setup_words.error());
   const auto motions = motions_of_file(options.file, options.dialect, *setup_words);

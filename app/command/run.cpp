@@ -8,10 +8,9 @@
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
 #include "app/job/job_report.hpp"
-#include "app/job/output_folder.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
-#include "core/whole_file.hpp"
+#include "core/file_set.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/exchange/points_csv.hpp"
 #include "report/page/html_report.hpp"
@@ -31,21 +30,21 @@ std::filesystem::path folder_of(const RunOptions& options) {
   return std::filesystem::path(options.job).parent_path() / "out";
 }
 
-// Writes result.json, points.csv and the page; their names go into the report for the terminal.
-std::optional<Diagnostics> write_files(report::RunReport& report, const Job& job,
-                                       const std::filesystem::path& folder) {
-  const auto made = output_folder(folder);
-  if (!made) return made.error();
-  std::vector<Result<std::filesystem::path>> written;
-  written.push_back(write_whole_file(folder / "result.json", report::json_report(report)));
-  written.push_back(
-      write_whole_file(folder / "points.csv", report::points_csv(report.measurement)));
-  if (job.report) written.push_back(report::write_html_report(folder / "report.html", report));
-  for (const auto& file : written) {
-    if (!file) return file.error();
-    report.files.push_back(file->string());
+// Writes result.json, points.csv, the page, and the exports that are in their folder, as one; their
+// names go into the report for the terminal.
+Diagnostics write_files(FileSet& set, report::RunReport& report, const Job& job,
+                        const std::vector<std::filesystem::path>& exports) {
+  const auto add = [&](const char* name, std::string bytes) {
+    report.files.push_back(set.add(name, std::move(bytes)).string());
+  };
+  add("result.json", report::json_report(report));
+  add("points.csv", report::points_csv(report.measurement));
+  if (job.report) add("report.html", report::html_report(report));
+  if (auto faults = write_exports(exports, report, job.piece.plan, &set); !faults.empty()) {
+    return faults;
   }
-  return std::nullopt;
+  const auto written = set.write();
+  return written ? Diagnostics{} : written.error();
 }
 
 int run_job(const RunOptions& options) {
@@ -53,6 +52,8 @@ int run_job(const RunOptions& options) {
   if (!job) return refuse(job.error(), options);
   const auto exports = checked_exports(options.exports, job->exports);
   if (!exports) return refuse(exports.error(), options);
+  auto set = FileSet::open(folder_of(options), {"result.json", "points.csv", "report.html"});
+  if (!set) return refuse(set.error(), options);
   auto evidence = evidence_of(*job);
   if (!evidence) return refuse(evidence.error(), options);
   TrialRun run(progress_style(options.quiet || options.json));
@@ -75,10 +76,10 @@ int run_job(const RunOptions& options) {
   }
   run.end();
   report.timings = run.timings();
-  if (const auto failure = write_files(report, *job, folder_of(options))) {
-    return refuse(*failure, options);
+  if (const auto faults = write_files(*set, report, *job, *exports); !faults.empty()) {
+    return refuse(faults, options);
   }
-  return show_result(report, job->piece.plan, *exports, options);
+  return show_result(report, options);
 }
 
 }  // namespace

@@ -7,10 +7,9 @@
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/job/job.hpp"
-#include "app/job/output_folder.hpp"
 #include "app/view/console.hpp"
 #include "app/view/sensitivity_view.hpp"
-#include "core/whole_file.hpp"
+#include "core/file_set.hpp"
 #include "trials/sensitivity.hpp"
 #include "trials/trial.hpp"
 
@@ -51,31 +50,26 @@ Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const
                                             job.path_bound);
 }
 
-// Writes the page, the matrix and its JSON; nothing when all went well.
-std::optional<Diagnostics> write_files(const report::SensitivityTable& table,
-                                       const std::filesystem::path& folder) {
-  const auto made = output_folder(folder);
-  if (!made) return made.error();
-  for (const auto& [name, text] :
-       {std::pair{"sensitivity.json", report::sensitivity_json(table)},
-        std::pair{"sensitivity.csv", report::sensitivity_csv(table)},
-        std::pair{"sensitivity.html", report::sensitivity_html(table)}}) {
-    const auto written = write_whole_file(folder / name, text);
-    if (!written) return written.error();
-  }
-  return std::nullopt;
-}
-
 int show_sensitivity(const SensitivityOptions& options) {
   const auto job = load_job(options.job, options.overrides, true);
   if (!job) return refuse(job.error());
+  std::optional<FileSet> set;
+  if (!options.out.empty()) {
+    auto opened =
+        FileSet::open(options.out, {"sensitivity.json", "sensitivity.csv", "sensitivity.html"});
+    if (!opened) return refuse(opened.error());
+    set = *std::move(opened);
+  }
   const auto found = derivatives(options, *job);
   if (!found) return refuse(found.error());
   const std::string method = options.method == "analytic" ? "analytic surface gains"
                                                           : "central differences of whole trials";
   const auto table = sensitivity_table(*found, job->piece.title, job->machine.title(), method);
-  if (!options.out.empty()) {
-    if (const auto failure = write_files(table, options.out)) return refuse(*failure);
+  if (set) {
+    set->add("sensitivity.json", report::sensitivity_json(table));
+    set->add("sensitivity.csv", report::sensitivity_csv(table));
+    set->add("sensitivity.html", report::sensitivity_html(table));
+    if (const auto written = set->write(); !written) return refuse(written.error());
   }
   std::cout << (options.json ? report::sensitivity_json(table)
                              : report::sensitivity_text(table, kTableWidth));

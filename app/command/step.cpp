@@ -57,14 +57,9 @@ Result<std::vector<fs::path>> write_step(const StepOptions& options, const Machi
   if (!test) return test.error();
   const auto made = programs::step_pattern(*test, machine, *parser::dialect_named(options.dialect));
   if (!made) return made.error();
-  auto files =
-      programs::write_test_piece(made->piece, name_for_job(machine_file, options.out), options.out);
-  if (!files) return files;
-  const auto sheet = report::write_setup_sheet(fs::path(options.out) / "setup.html",
-                                               sheet_of(*test, *made, machine));
-  if (!sheet) return sheet.error();
-  files->push_back(*sheet);
-  return files;
+  return programs::write_test_piece(made->piece, name_for_job(machine_file, options.out),
+                                    options.out,
+                                    report::setup_sheet(sheet_of(*test, *made, machine)));
 }
 
 }  // namespace

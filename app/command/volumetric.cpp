@@ -12,9 +12,8 @@
 #include "app/command/commands.hpp"
 #include "app/job/axis_words.hpp"
 #include "app/job/machine_files.hpp"
-#include "app/job/output_folder.hpp"
 #include "app/view/console.hpp"
-#include "core/whole_file.hpp"
+#include "core/file_set.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_ranking.hpp"
 #include "kinematics/errors/volumetric.hpp"
@@ -351,19 +350,21 @@ void print_summary(const Study& study, const std::vector<RankRow>& ranking) {
 }
 
 int run_volumetric(const VolumetricOptions& options) {
+  std::optional<FileSet> set;
+  if (!options.out.empty()) {
+    auto opened = FileSet::open(options.out, {"volumetric.json", "volumetric.html"});
+    if (!opened) return refuse(opened.error());
+    set = *std::move(opened);
+  }
   const auto study = study_of(options);
   if (!study) return refuse(study.error());
   std::vector<RankRow> ranking;
   if (!study->tolerances.errors.empty()) ranking = ranking_of(*study, options.tool_length);
   const ordered_json doc = document(*study, options, ranking);
-  if (!options.out.empty()) {
-    const auto folder = output_folder(options.out);
-    if (!folder) return refuse(folder.error());
-    const auto json = write_whole_file(*folder / "volumetric.json", doc.dump(1) + "\n");
-    if (!json) return refuse(json.error());
-    const auto page = report::write_volumetric_page(*folder / "volumetric.html",
-                                                    page_of(*study, options, ranking));
-    if (!page) return refuse(page.error());
+  if (set) {
+    set->add("volumetric.json", doc.dump(1) + "\n");
+    set->add("volumetric.html", report::volumetric_html(page_of(*study, options, ranking)));
+    if (const auto written = set->write(); !written) return refuse(written.error());
   }
   if (options.json) {
     std::cout << doc.dump(1) << '\n';

@@ -1,8 +1,8 @@
 #include "app/job/export_request.hpp"
 
 #include <iostream>
+#include <system_error>
 
-#include "app/job/output_folder.hpp"
 #include "core/whole_file.hpp"
 #include "report/exchange/export_file.hpp"
 
@@ -15,8 +15,9 @@ namespace {
 // Folders on the way are made.
 Result<fs::path> write_file(const fs::path& file, const std::string& bytes) {
   if (file.has_parent_path()) {
-    const auto folder = output_folder(file.parent_path());
-    if (!folder) return folder.error();
+    std::error_code failure;
+    fs::create_directories(file.parent_path(), failure);
+    if (failure) return cannot_write(file, failure.message());
   }
   return write_whole_file(file, bytes);
 }
@@ -47,10 +48,15 @@ Result<std::vector<fs::path>> checked_exports(const std::vector<std::string>& wr
 }
 
 Diagnostics write_exports(const std::vector<fs::path>& files, report::RunReport& report,
-                          const metrology::InspectionPlan& plan) {
+                          const metrology::InspectionPlan& plan, FileSet* set) {
   for (const fs::path& file : files) {
     const auto format = report::export_format(file);
     if (!format) return format.error();
+    if (const auto name = set == nullptr ? std::nullopt : set->name_of(file)) {
+      set->add(*name, report::exported(*format, report, plan));
+      report.files.push_back(file.string());
+      continue;
+    }
     const auto written = write_file(file, report::exported(*format, report, plan));
     if (!written) return written.error();
     report.files.push_back(file.string());

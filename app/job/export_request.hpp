@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_set.hpp"
 #include "core/result.hpp"
 #include "core/toml_document.hpp"
 #include "metrology/plan/inspection_plan.hpp"
@@ -23,10 +24,11 @@ namespace frustum::app {
 [[nodiscard]] Result<std::vector<std::filesystem::path>> checked_exports(
     const std::vector<std::string>& written, const std::vector<std::filesystem::path>& of_job = {});
 
-// Writes them all; their names go into the report.
+// Writes them all; their names go into the report. Those in the folder of `set` are added to it.
 [[nodiscard]] Diagnostics write_exports(const std::vector<std::filesystem::path>& files,
                                         report::RunReport& report,
-                                        const metrology::InspectionPlan& plan);
+                                        const metrology::InspectionPlan& plan,
+                                        FileSet* set = nullptr);
 
 // A measurement that could not be made is still reported to continuous integration: in each JUnit
 // file every characteristic becomes an error with the reason. The other formats have nothing to
