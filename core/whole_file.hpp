@@ -22,7 +22,7 @@ namespace frustum {
 // The folder must exist. Returns the path.
 [[nodiscard]] Result<std::filesystem::path> write_whole_file(const std::filesystem::path& path,
                                                              std::string_view bytes);
-// Why it would fail, as far as can be known before the work: no folder, or none that may be written.
+// Why it would fail, as far as can be known before the work: no folder, or none to write to.
 [[nodiscard]] std::optional<Diagnostic> unwritable(const std::filesystem::path& path);
 // What "the file cannot be written" looks like everywhere.
 [[nodiscard]] Diagnostic cannot_write(const std::filesystem::path& path, std::string_view reason);

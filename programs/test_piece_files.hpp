@@ -18,7 +18,7 @@ namespace frustum::programs {
                                    const std::string& plan_file);
 
 // Writes job.toml, the NC program and the plan; returns their paths, the job first.
-// With `sheet` as setup.html, where there is one. All files are exchanged as one (core/file_set.hpp).
+// With `sheet` as setup.html, where there is one. The files are exchanged as one (file_set.hpp).
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_test_piece(
     const TestPiece& piece, const std::string& machine, const std::filesystem::path& folder,
     const std::string& sheet = {});
