@@ -79,7 +79,8 @@ void add_troubles(Json& json, const Diagnostics& troubles) {
 }  // namespace
 
 std::string json_of(const CheckedFile& checked, const Diagnostics& troubles) {
-  Json json = file_json(checked);
+  Json json{{"schema", "frustum/check/1"}};
+  json.update(file_json(checked));
   add_troubles(json, troubles);
   return text_of_json(json);
 }
@@ -87,7 +88,8 @@ std::string json_of(const CheckedFile& checked, const Diagnostics& troubles) {
 std::string json_of(std::span<const CheckedFile> checked, const Diagnostics& troubles) {
   const bool passed =
       std::ranges::all_of(checked, [](const CheckedFile& each) { return each.passed; });
-  Json json{{"status", status_of(passed)},
+  Json json{{"schema", "frustum/check-files/1"},
+            {"status", status_of(passed)},
             {"counts", counts_json(counts_of(checked))},
             {"files", Json::array()}};
   for (const CheckedFile& each : checked) json["files"].push_back(file_json(each));

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ostream>
+#include <string_view>
 #include <utility>
 
 namespace frustum::report {
@@ -28,12 +29,38 @@ std::string remaining_text(double elapsed, double share) {
 
 }  // namespace
 
-Progress::Progress(std::ostream& out, ProgressStyle style) : Progress(out, style, steady_seconds) {}
+ProgressStyle style_on(const OutputDevice& device) {
+  const bool is_plain = device.no_color != nullptr && *device.no_color != '\0';
+  const bool can_draw = device.term != nullptr && std::string_view(device.term) != "dumb";
+  return device.is_terminal && can_draw && !is_plain ? ProgressStyle::bar : ProgressStyle::log;
+}
+
+Progress::Progress(std::ostream& out, ProgressStyle style) : Progress(out, style, steady_seconds) {
+  if (style == ProgressStyle::bar) ticker_ = std::thread([this] { tick(); });
+}
 
 Progress::Progress(std::ostream& out, ProgressStyle style, Clock clock)
     : out_(out), style_(style), clock_(std::move(clock)) {}
 
-Progress::~Progress() { end(); }
+Progress::~Progress() {
+  end();
+  if (!ticker_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  ending_.notify_one();
+  ticker_.join();
+}
+
+void Progress::tick() {
+  std::unique_lock lock(mutex_);
+  while (!is_ending_) {
+    ending_.wait_for(lock, std::chrono::milliseconds(100));
+    const double now = clock_();
+    if (is_running_ && now - started_ > kSilentSeconds) draw(now);
+  }
+}
 
 void Progress::begin(std::string step) {
   const std::lock_guard lock(mutex_);
@@ -71,11 +98,15 @@ void Progress::draw(double now) {
   }
   if (is_drawn_ && now - drawn_at_ < kRedrawSeconds) return;
   const int full = static_cast<int>(share_ * kBarCells);
-  out_ << fmt::format("\r\x1b[K{} [{}{}] {:3.0f} %{}", step_,
-                      std::string(static_cast<std::size_t>(full), '#'),
-                      std::string(static_cast<std::size_t>(kBarCells - full), '.'),
-                      std::floor(share_ * 100.0), remaining_text(now - started_, share_))
-       << std::flush;
+  if (share_ <= 0.0) {
+    out_ << fmt::format("\r\x1b[K{}: {:.0f} s", step_, now - started_) << std::flush;
+  } else {
+    out_ << fmt::format("\r\x1b[K{} [{}{}] {:3.0f} %{}", step_,
+                        std::string(static_cast<std::size_t>(full), '#'),
+                        std::string(static_cast<std::size_t>(kBarCells - full), '.'),
+                        std::floor(share_ * 100.0), remaining_text(now - started_, share_))
+         << std::flush;
+  }
   is_drawn_ = true;
   drawn_at_ = now;
 }

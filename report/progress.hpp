@@ -1,26 +1,38 @@
 // Tells whoever waits how far a long piece of work is.
 //
-// On a terminal: a bar redrawn on one line, once the work has taken longer than a second. In a log:
-// a plain line at each quarter, and one at the end. Silent: nothing. Short work stays silent
+// On a terminal: a bar redrawn on one line, or the seconds gone by while nobody tells a share, once
+// the work has taken longer than a second. In a log: a plain line at each quarter, and one at the
+// end. Silent: nothing. Short work stays silent
 // everywhere. Several threads may report at once; the share shown never runs backwards.
 // Units: shares in [0, 1], seconds. Errors: none; a share outside [0, 1] is clamped.
 #pragma once
 
+#include <condition_variable>
 #include <functional>
 #include <iosfwd>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace frustum::report {
 
 enum class ProgressStyle { silent, log, bar };
+
+// What is known of the device that is written to.
+struct OutputDevice {
+  bool is_terminal = false;
+  const char* term = nullptr;      // $TERM
+  const char* no_color = nullptr;  // $NO_COLOR: nothing but plain text (no-color.org)
+};
+[[nodiscard]] ProgressStyle style_on(const OutputDevice& device);
 
 class Progress {
  public:
   // Seconds from any fixed instant; never runs backwards.
   using Clock = std::function<double()>;
 
-  // Writes to `out`, which must outlive the progress.
+  // Writes to `out`, which must outlive the progress. Without a clock of its own the bar is redrawn
+  // whether work tells its share or not.
   Progress(std::ostream& out, ProgressStyle style);
   Progress(std::ostream& out, ProgressStyle style, Clock clock);
   Progress(const Progress&) = delete;
@@ -38,6 +50,7 @@ class Progress {
  private:
   void draw(double now);
   void finish();
+  void tick();
 
   std::ostream& out_;
   ProgressStyle style_;
@@ -50,6 +63,9 @@ class Progress {
   double drawn_at_ = 0.0;
   double share_ = 0.0;
   int quarter_ = 0;
+  bool is_ending_ = false;
+  std::condition_variable ending_;
+  std::thread ticker_;
 };
 
 }  // namespace frustum::report

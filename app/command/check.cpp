@@ -27,14 +27,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOutput = "-";
 
-struct CheckCommand {
+struct CheckCommand : AnswerOptions {
   std::vector<std::string> paths{};
   CheckSettings settings{};
   std::string sarif{};
   bool no_settings = false;
   bool write_baseline = false;
-  bool json = false;
-  bool quiet = false;
   bool list = false;
 };
 
@@ -90,21 +88,23 @@ int check_files(const CheckCommand& options) {
   if (options.list) return list_checks();
   const bool sarif_alone = options.sarif == kOutput;
   if (sarif_alone && options.json) {
-    return refuse("option-conflict"_id, "--json and --sarif - both take the standard output",
-                  "name a file for one of them");
+    return refuse(error("option-conflict"_id, "--json and --sarif - both take the standard output",
+                        "name a file for one of them"),
+                  options);
   }
   if (!options.sarif.empty() && !sarif_alone) {
-    if (const auto fault = unwritable(options.sarif)) return refuse({*fault});
+    if (const auto fault = unwritable(options.sarif)) return refuse(*fault, options);
   }
   ProgramChecker checker(options.settings, options.no_settings, [&](const std::string& note) {
     if (!options.quiet) std::cerr << "note: " << printable(note) << '\n';
   });
   const auto programs = checker.programs_of(options.paths);
   if (options.paths.empty() && programs.empty() && checker.troubles().empty()) {
-    return refuse("missing-option"_id, "no program", "name the files and folders to check");
+    return refuse(error("missing-option"_id, "no program", "name the files and folders to check"),
+                  options);
   }
   if (const auto wrong = overwritten(options, checker, programs); !wrong.empty()) {
-    return refuse(wrong);
+    return refuse(wrong, options);
   }
   std::vector<lint::CheckedFile> checked = checker.check(programs);
   if (options.write_baseline) {
@@ -127,7 +127,7 @@ int check_files(const CheckCommand& options) {
     if (sarif_alone) {
       std::cout << sarif;
     } else if (const auto written = write_whole_file(options.sarif, sarif); !written) {
-      return refuse(written.error());
+      return refuse(written.error(), options);
     }
   }
   if (!sarif_alone) print_findings(options, checked, checker.troubles());
@@ -175,16 +175,15 @@ void add_check(Command& program) {
   command.flag("--write-baseline", o->write_baseline,
                "Write the findings to the baseline instead of reporting them as new");
   command.flag("--no-config", o->no_settings, "Do not look for .frustum.toml");
-  command.flag("--json", o->json, "Print the findings as one JSON document");
+  add_answer_options(command, *o);
   command.option("--sarif", o->sarif,
                  "Write the findings as SARIF 2.1.0 too; - for the standard output instead");
   command.flag("--list", o->list, "List the checks with their ids and end");
-  command.flag("--quiet", o->quiet, "No notes on stderr");
   command.footer(
       "Example: frustum check parts/ --machine iwf-bc --fail-on warning\n"
       "Exit code 0: clean; 1: a finding at or above the severity of --fail-on; 2: a file, the "
       "settings or the output are in trouble. docs/check.md has all checks.");
-  command.runs([o] { return check_files(*o); });
+  command.computes([o] { return check_files(*o); });
 }
 
 }  // namespace frustum::app

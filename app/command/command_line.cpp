@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <tbb/global_control.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "app/view/console.hpp"
+#include "core/spelling.hpp"
 
 namespace frustum::app {
 
@@ -98,7 +103,67 @@ void Command::runs(std::function<int()> action) {
   app_->callback([action = std::move(action), exit_code = exit_code_] { *exit_code = action(); });
 }
 
+void Command::computes(std::function<int()> action) {
+  auto threads = std::make_shared<unsigned>(0U);
+  option("--threads", *threads, "Threads to compute with (default: one for each processor)")
+      .within(1U, 1024U);
+  runs([action = std::move(action), threads] {
+    std::optional<tbb::global_control> limit;
+    if (*threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, *threads);
+    return action();
+  });
+}
+
 bool Command::was_given(const std::string& name) const { return app_->count(name) > 0; }
+
+namespace {
+
+// The names that the user has to choose from.
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : commands) names.push_back(each->get_name());
+  return names;
+}
+
+// The first word that should be a command and is none.
+std::optional<Diagnostic> misspelt_command(const CLI::App& program, int argc, char** argv) {
+  const auto children = [](const CLI::App* of) -> std::vector<const CLI::App*> {
+    return of->get_subcommands([](const CLI::App*) { return true; });
+  };
+  const CLI::App* at = &program;
+  for (int i = 1; i < argc && *argv[i] != '-'; ++i) {
+    const auto known = children(at);
+    if (known.empty()) return std::nullopt;
+    const auto next = std::ranges::find(known, std::string(argv[i]), &CLI::App::get_name);
+    if (next == known.end()) {
+      return error("unknown-command"_id, fmt::format("'{}' is not a command", argv[i]),
+                   suggestion(argv[i], names_of(known)));
+    }
+    at = *next;
+  }
+  return std::nullopt;
+}
+
+// What the library says, and the option that is near to the one it does not know.
+Diagnostic usage_error(const CLI::App& program, const CLI::ParseError& problem) {
+  std::string usage = program.get_name(), near;
+  const CLI::App* at = &program;
+  for (auto used = at->get_subcommands(); !used.empty(); used = at->get_subcommands()) {
+    at = used.front();
+    usage += " " + at->get_name();
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* each : at->get_options()) {
+    for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+  }
+  for (const std::string& word : program.remaining(true)) {
+    const auto meant = nearest_word(word.substr(0, word.find('=')), known);
+    if (word.starts_with("--") && meant) near = fmt::format("did you mean {}? ", *meant);
+  }
+  return error("usage"_id, problem.what(), near + usage + " --help lists what there is");
+}
+
+}  // namespace
 
 int run_command_line(const ProgramText& text, const std::vector<AddsCommand>& commands, int argc,
                      char** argv) {
@@ -109,10 +174,16 @@ int run_command_line(const ProgramText& text, const std::vector<AddsCommand>& co
   Command program(&app, &exit_code);
   program.needs_a_command();
   for (const AddsCommand add : commands) add(program);
+  const AnswerOptions answer{.json = std::find(argv, argv + argc, std::string_view("--json")) !=
+                                     argv + argc};
+  if (const auto misspelt = misspelt_command(app, argc, argv)) {
+    return output_lost(refuse(*misspelt, answer));
+  }
   try {  // exceptions are internal faults: user input is answered with diagnostics
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return output_lost(app.exit(problem) == 0 ? kDone : kBadInput);
+    if (problem.get_exit_code() != 0) return output_lost(refuse(usage_error(app, problem), answer));
+    return output_lost(app.exit(problem));
   } catch (const std::exception& fault) {
     std::cerr << text.name << ": internal fault: " << fault.what() << '\n';
     return kInternalFault;

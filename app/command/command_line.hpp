@@ -69,6 +69,8 @@ class Command {
 
   // What the command does; its result is the exit code of the program.
   void runs(std::function<int()> action);
+  // The same for a command that computes: it has --threads, with the same result for any number.
+  void computes(std::function<int()> action);
   // Whether the option was given; known when the command runs.
   [[nodiscard]] bool was_given(const std::string& name) const;
 

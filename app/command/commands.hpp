@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/console.hpp"
 #include "core/result.hpp"
 
 namespace frustum::kinematics {
@@ -49,18 +50,18 @@ void add_volumetric(Command& program);
 void add_cone(Command& kinds);
 void add_step(Command& kinds);
 
+// The options that all kinds have: --machine, --out, --dialect.
+struct PieceOptions : AnswerOptions {
+  std::string machine{};
+  std::string out{};
+  std::string dialect = "fanuc";
+};
 // Writes the files of a test piece for a machine that is in a file; returns their names.
 using WritesPiece = std::function<Result<std::vector<std::filesystem::path>>(
     const kinematics::Machine& machine, const std::filesystem::path& machine_file)>;
 // Finds the machine by its name, writes the piece and prints the names of its files; returns the
 // exit code.
-int write_piece(const std::string& machine, const WritesPiece& write);
-// The options that all kinds have: --machine, --out, --dialect.
-struct PieceOptions {
-  std::string machine{};
-  std::string out{};
-  std::string dialect = "fanuc";
-};
+int write_piece(const PieceOptions& options, const WritesPiece& write);
 // `files` says what is written to --out.
 void add_piece_options(Command& kind, PieceOptions& options, const std::string& files);
 
@@ -72,15 +73,15 @@ void add_setup_options(Command& command, SetupWords& words);
 // And those by which it takes the control's start and habits: --start, --builder-word,
 // --decimal-point.
 void add_control_options(Command& command, SetupWords& words);
-// How a command shows its results: --export FILE, which may be repeated, --json, --quiet.
-struct ResultOptions {
+// The options by which a command is told how to answer: --json, --quiet.
+void add_answer_options(Command& command, AnswerOptions& options);
+// Of a command that prints nothing but its result.
+void add_json_option(Command& command, AnswerOptions& options);
+// --export FILE, which may be repeated, besides.
+struct ResultOptions : AnswerOptions {
   std::vector<std::string> exports{};
-  bool json = false;
-  bool quiet = false;
 };
 void add_result_options(Command& command, ResultOptions& options);
-// Says that there are no results, and why; returns the exit code.
-int refuse(const Diagnostics& diagnostics, const ResultOptions& options);
 // Prints the report; returns the exit code.
 int show_result(const report::RunReport& report, const ResultOptions& options);
 

@@ -22,13 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CompensateOptions {
+struct CompensateOptions : AnswerOptions {
   std::string job{};
   std::string out{};
   std::string dialect{};  // empty: the program's own
   JobOverrides overrides{};
   double bound = 0.02;  // um
-  bool json = false;
 };
 
 // At most this is to be left, of the tip's error or in mm: the larger.
@@ -43,14 +42,13 @@ int report(const CompensateOptions& options, const calibration::CompensatedPiece
            const std::vector<fs::path>& files) {
   const bool reached = made.after.tip <= std::max(kLeft, kShareLeft * made.before.tip);
   if (options.json) {
-    nlohmann::ordered_json doc{{"files", nlohmann::ordered_json::array()},
-                               {"before", as_json(made.before)},
-                               {"after", as_json(made.after)},
-                               {"at_turns", as_json(made.at_turns)},
-                               {"reached", reached}};
+    nlohmann::ordered_json doc{
+        {"schema", "frustum/compensate/1"},   {"files", nlohmann::ordered_json::array()},
+        {"before", as_json(made.before)},     {"after", as_json(made.after)},
+        {"at_turns", as_json(made.at_turns)}, {"reached", reached}};
     for (const fs::path& file : files) doc["files"].push_back(file.string());
     std::cout << doc.dump(2) << '\n';
-  } else {
+  } else if (!options.quiet) {
     for (const fs::path& file : files) std::cout << file.string() << '\n';
     const auto row = [](const char* when, const calibration::PathError& error) {
       std::cout << fmt::format("{:<8} tip {:10.4f} um   tool axis {:10.4f} urad\n", when,
@@ -69,28 +67,31 @@ int report(const CompensateOptions& options, const calibration::CompensatedPiece
 
 int compensate(const CompensateOptions& options) {
   const auto job = load_job(options.job, options.overrides, false);
-  if (!job) return refuse(job.error());
+  if (!job) return refuse(job.error(), options);
   std::error_code ignored;
   if (fs::equivalent(job->file.parent_path().empty() ? "." : job->file.parent_path(), options.out,
                      ignored)) {
-    return refuse("output-overwrites-input"_id, "the output would overwrite the job",
-                  "choose another folder for --out");
+    return refuse(error("output-overwrites-input"_id, "the output would overwrite the job",
+                        "choose another folder for --out"),
+                  options);
   }
-  if (const auto set = FileSet::open(options.out, {}); !set) return refuse(set.error());
+  if (const auto set = FileSet::open(options.out, {}); !set) return refuse(set.error(), options);
   const auto commanded = trials::command_piece(job->machine, job->piece);
-  if (!commanded) return refuse(commanded.error());
+  if (!commanded) return refuse(commanded.error(), options);
   const auto errors = trials::errors_for(job->machine, job->errors, job->piece, *commanded);
-  if (!errors) return refuse(errors.error());
+  if (!errors) return refuse(errors.error(), options);
   const auto dialect =
       options.dialect.empty() ? std::nullopt : parser::dialect_named(options.dialect);
-  auto made = calibration::compensated_piece(job->machine, *errors, job->piece, *commanded,
-                                             {.bound = options.bound / kUmPerMm}, dialect);
-  if (!made) return refuse(made.error());
+  auto made = with_progress(options, "compensate", [&](report::Progress&) {
+    return calibration::compensated_piece(job->machine, *errors, job->piece, *commanded,
+                                          {.bound = options.bound / kUmPerMm}, dialect);
+  });
+  if (!made) return refuse(made.error(), options);
   made->piece.title += ", compensated";
   made->piece.program_file = fs::path(made->piece.program_file).filename().string();
   const auto files = programs::write_test_piece(
       made->piece, name_for_job(job->machine_file, options.out), options.out);
-  if (!files) return refuse(files.error());
+  if (!files) return refuse(files.error(), options);
   return report(options, *made, *files);
 }
 
@@ -110,13 +111,13 @@ void add_compensate(Command& program) {
       .option("--bound", o->bound,
               "Actual against nominal path within a block, um (0.02); blocks are divided")
       .holds(positive_number(1e3));
-  command.flag("--json", o->json, "One JSON document on stdout and nothing else");
+  add_answer_options(command, *o);
   command.footer(
       "Exit code 1 when more than 1 % of the tip's error and more than 0.05 um is left.\n"
       "The job written has no [errors]: the machine's own are given again with --errors or "
       "--error.\n"
       "Example: frustum compensate piece/job.toml --errors machine.errors.toml --out compensated");
-  command.runs([o] { return compensate(*o); });
+  command.computes([o] { return compensate(*o); });
 }
 
 }  // namespace frustum::app

@@ -104,7 +104,7 @@ void add_cone(Command& kinds) {
       .one_of({"nas979", "tenth"});
   cone.footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");
   cone.runs([o] {
-    return write_piece(o->machine, [&o](const Machine& machine, const fs::path& file) {
+    return write_piece(*o, [&o](const Machine& machine, const fs::path& file) {
       return write_cone(*o, machine, file);
     });
   });

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CutOptions {
+struct CutOptions : AnswerOptions {
   std::string job{};
   std::string mesh{};
   std::string picture{};
@@ -47,8 +47,6 @@ struct CutOptions {
   double gouge_limit_um = 0.0, excess_limit_um = 0.0;  // 0: none
   JobOverrides overrides{};
   double chord = 0.0, decimate = 0.0;  // mm; 0: not asked for
-  bool json = false;
-  bool quiet = false;
 
   [[nodiscard]] bool polyhedral() const { return engine == "polyhedral"; }
   [[nodiscard]] bool limited() const { return gouge_limit_um > 0.0 || excess_limit_um > 0.0; }
@@ -249,8 +247,9 @@ class Cut {
 
   Failure write_snapshots() {
     const fs::path name(options_.mesh);
-    for (const stock::ProgramState& program_state :
-         stock::equally_spaced(path(), options_.snapshots, result_.until)) {
+    const auto states = stock::equally_spaced(path(), options_.snapshots, result_.until);
+    for (const stock::ProgramState& program_state : states) {
+      run_.at(static_cast<double>(result_.snapshots.size()) / static_cast<double>(states.size()));
       const auto meshed = surface_of({workpiece(), program_state});
       if (!meshed) return meshed.error();
       const fs::path file =
@@ -303,18 +302,18 @@ void tell_collisions(const Job& job, const CutResult& result) {
 }
 
 int cut(CutOptions options) {
-  if (const auto fault = fault_of(options)) return refuse({*fault});
+  if (const auto fault = fault_of(options)) return refuse(*fault, options);
   const auto view = picture_options(options);
-  if (!view) return refuse(view.error());
+  if (!view) return refuse(view.error(), options);
   options.facets.tolerance = Mm{options.facet_tolerance_mm};
   const auto job = load_job(options.job, options.overrides, false);
-  if (!job) return refuse(job.error());
-  TrialRun run(progress_style(options.quiet || options.json));
+  if (!job) return refuse(job.error(), options);
+  TrialRun run(progress_style(options));
   const auto trial = run.trial(*job, false);
-  if (!trial) return refuse(trial.error());
+  if (!trial) return refuse(trial.error(), options);
   print(std::cerr, trial->warnings);
   auto result = Cut(options, *view, *job, *trial, run).result();
-  if (!result) return refuse(result.error());
+  if (!result) return refuse(result.error(), options);
   if (options.gouge_limit_um > 0.0) result->limits.gouge = options.gouge_limit_um / kUmPerMm;
   if (options.excess_limit_um > 0.0) result->limits.excess = options.excess_limit_um / kUmPerMm;
   tell_collisions(*job, *result);
@@ -364,8 +363,7 @@ void add_options(Command& command, CutOptions& o) {
       .holds(positive_number());
   add_error_options(command, o.overrides.errors);
   command.option("--tool-radius-error", o.overrides.tool_radius_error, "With unit");
-  command.flag("--json", o.json, "One JSON document on stdout and nothing else");
-  command.flag("--quiet", o.quiet, "No progress, no summary");
+  add_answer_options(command, o);
 }
 
 }  // namespace
@@ -375,7 +373,7 @@ void add_cut(Command& program) {
   Command command = program.command("cut", "Cut a job and write the workpiece after any block");
   add_options(command, *options);
   command.footer("Example: frustum cut job.toml --mesh part.ply --pitch 0.5");
-  command.runs([command, options] {
+  command.computes([command, options] {
     options->facets_given = command.was_given("--facets") || command.was_given("--facet-tolerance");
     return cut(*options);
   });

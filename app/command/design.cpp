@@ -19,7 +19,7 @@ namespace {
 
 using calibration::DesignCriterion;
 
-struct DesignOptions {
+struct DesignOptions : AnswerOptions {
   std::string machine{};
   std::vector<std::string> patterns{}, required{}, unknowns{};
   std::vector<std::string> known{}, limits{};
@@ -29,7 +29,6 @@ struct DesignOptions {
   std::string center{};
   std::optional<double> tool_diameter{}, tool_length{};
   double raise = 0.0;
-  bool json = false;
 };
 
 // "beta_CA=5urad": an error's name and an amount that suits it, 0 or more.
@@ -210,23 +209,27 @@ std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
 
 int show_design(const DesignOptions& o) {
   const auto machine = load_machine(o.machine, ".");
-  if (!machine) return refuse(machine.error());
+  if (!machine) return refuse(machine.error(), o);
   Request request(o, *machine);
   const metrology::CmmModel cmm = request.cmm();
   const calibration::CatalogueSetup setup = request.setup();
   const calibration::StepDesignOptions choice = request.choice();
   const auto all = request.unknowns();
-  if (!all) return refuse(all.error());
-  if (!request.problems().empty()) return refuse(request.problems());
+  if (!all) return refuse(all.error(), o);
+  if (!request.problems().empty()) return refuse(request.problems(), o);
   if (const Diagnostics unused = unused_limits(choice, *all); !unused.empty()) {
-    return refuse(unused);
+    return refuse(unused, o);
   }
-  const auto design =
-      calibration::step_design(*machine, all->unknowns, all->causes, cmm, setup, choice);
-  if (!design) return refuse(design.error());
+  const auto design = with_progress(o, "choose patterns", [&](report::Progress&) {
+    return calibration::step_design(*machine, all->unknowns, all->causes, cmm, setup, choice);
+  });
+  if (!design) return refuse(design.error(), o);
   const bool limited = !choice.limits.empty();
-  std::cout << (o.json ? design_json(*machine, *design, taken_as_zero(*machine, *design))
-                       : design_text(*machine, *design, taken_as_zero(*machine, *design), limited));
+  if (o.json) {
+    std::cout << design_json(*machine, *design, taken_as_zero(*machine, *design));
+  } else if (!o.quiet) {
+    std::cout << design_text(*machine, *design, taken_as_zero(*machine, *design), limited);
+  }
   return design->smallest ? kDone : kOutOfTolerance;
 }
 
@@ -236,7 +239,7 @@ void add_design(Command& program) {
   auto o = std::make_shared<DesignOptions>();
   Command command = program.command(
       "design", "Which step patterns to cut so that a machine's errors can be separated");
-  command.option("--machine", o->machine, "Machine file, or the name of a shipped machine")
+  command.option("machine,--machine", o->machine, "Machine file, or the name of a shipped machine")
       .required();
   command.option("--patterns", o->patterns, "Choose from these only (default: all within travel)")
       .separated_by(',');
@@ -263,12 +266,12 @@ void add_design(Command& program) {
   command.option("--raise", o->raise, "Added to all heights above the tilt axis, mm (0)");
   command.option("--tool-diameter", o->tool_diameter, "mm (20)");
   command.option("--tool-length", o->tool_length, "mm (150)");
-  command.flag("--json", o->json, "One JSON document on stdout");
+  add_answer_options(command, *o);
   command.footer(
       "Exit code 1: no set of these patterns identifies all errors within the limits.\n"
       "Example: frustum design --machine zx-yac --known gamma_YX=5urad --known alpha_ZY=5urad "
       "--known beta_ZX=5urad");
-  command.runs([o] { return show_design(*o); });
+  command.computes([o] { return show_design(*o); });
 }
 
 }  // namespace frustum::app

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kAssumedLength = 100.0;  // mm, of tools that nobody gave a length
 
-struct DiffOptions {
+struct DiffOptions : AnswerOptions {
   std::string first{};
   std::string second{};
   std::string first_dialect{};  // recognised when not given
@@ -29,7 +29,6 @@ struct DiffOptions {
   double tip = 2.0;    // um
   double axis = 50.0;  // urad
   double feed = 2.0;   // percent
-  bool json = false;
 };
 
 constexpr const char* kKinds[] = {"none", "tip", "axis", "feed", "tool", "missing", "extra"};
@@ -68,7 +67,8 @@ std::string in_words(const DiffOptions& options, const post::Difference& at) {
 }
 
 nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
-  nlohmann::ordered_json doc{{"same", found.same()},
+  nlohmann::ordered_json doc{{"schema", "frustum/diff/1"},
+                             {"same", found.same()},
                              {"largest_tip_um", found.largest_tip * kUmPerMm},
                              {"largest_axis_urad", found.largest_axis * kUradPerRad},
                              {"largest_time_ratio", found.largest_time_ratio}};
@@ -86,11 +86,11 @@ nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
 
 int diff(const DiffOptions& options) {
   auto setup_words = machine_setup_of(options.setup_words);
-  if (!setup_words) return refuse(setup_words.error());
+  if (!setup_words) return refuse(setup_words.error(), options);
   auto first = motions_of_file(options.first, options.first_dialect, *setup_words);
-  if (!first) return refuse(first.error());
+  if (!first) return refuse(first.error(), options);
   auto second = motions_of_file(options.second, options.second_dialect, *setup_words);
-  if (!second) return refuse(second.error());
+  if (!second) return refuse(second.error(), options);
   print(std::cerr, in_file(parser::doubts_of(*first), options.first));
   print(std::cerr, in_file(parser::doubts_of(*second), options.second));
   for (const int tool : unmeasured_tools(setup_words->setup, {*first, *second})) {
@@ -102,12 +102,16 @@ int diff(const DiffOptions& options) {
   const post::DifferenceLimits limits{.tip = options.tip / kUmPerMm,
                                       .axis = options.axis / kUradPerRad,
                                       .time_ratio = options.feed / 100.0};
-  const auto found = post::compare_programs(
-      setup_words->machine, {options.first, *std::move(first), setup_words->setup},
-      {options.second, *std::move(second), setup_words->setup}, limits);
-  if (!found) return refuse(found.error());
+  const auto found = with_progress(options, "compare", [&](report::Progress&) {
+    return post::compare_programs(setup_words->machine,
+                                  {options.first, *std::move(first), setup_words->setup},
+                                  {options.second, *std::move(second), setup_words->setup}, limits);
+  });
+  if (!found) return refuse(found.error(), options);
   if (options.json) {
     std::cout << as_json(*found).dump(2) << '\n';
+  } else if (options.quiet) {
+    // The exit code says it.
   } else if (found->same()) {
     std::cout << fmt::format(
         "the programs agree: tip within {:.4f} um, tool axis within {:.4f} urad, times within "
@@ -140,11 +144,11 @@ void add_diff(Command& program) {
       .holds(positive_number(1e6));
   command.option("--feed", o->feed, "Tolerance of the time that a path segment takes, percent (2)")
       .holds(positive_number(1e3));
-  command.flag("--json", o->json, "One JSON document on stdout and nothing else");
+  add_answer_options(command, *o);
   command.footer(
       "Only feed moves count. Exit code 1 when the programs differ.\n"
       "Example: frustum diff cone.nc cone.mpf --machine iwf-bc --offset G54=-65,0,150");
-  command.runs([o] { return diff(*o); });
+  command.computes([o] { return diff(*o); });
 }
 
 }  // namespace frustum::app

@@ -9,23 +9,27 @@
 
 namespace frustum::app {
 
+void add_json_option(Command& command, AnswerOptions& options) {
+  command.flag("--json", options.json, "One JSON document on stdout and nothing else");
+}
+
+void add_answer_options(Command& command, AnswerOptions& options) {
+  add_json_option(command, options);
+  command.flag("--quiet", options.quiet, "No progress, no summary");
+}
+
 void add_result_options(Command& command, ResultOptions& options) {
   command.option("--export", options.exports,
                  "Results in another format, by the extension: .qif (QIF 3.0), .csv, .xml "
                  "(JUnit), .dfq (Q-DAS), .json; may be repeated");
-  command.flag("--json", options.json, "One JSON document on stdout and nothing else");
-  command.flag("--quiet", options.quiet, "No progress, no summary");
-}
-
-int refuse(const Diagnostics& diagnostics, const ResultOptions& options) {
-  return refuse(diagnostics, options.json ? Answer::json : Answer::text);
+  add_answer_options(command, options);
 }
 
 int show_result(const report::RunReport& report, const ResultOptions& options) {
   if (options.json) {
     std::cout << report::json_report(report);
   } else if (!options.quiet) {
-    std::cout << report::terminal_report(report, {.colour = stdout_is_terminal()});
+    std::cout << report::terminal_report(report, {.colour = stdout_has_colour()});
   }
   return report.passes() ? kDone : kOutOfTolerance;
 }

@@ -34,16 +34,16 @@ constexpr std::array<CriterionRow, 5> kCriteria{
     CriterionRow{"mi", "maximum inscribed"}, CriterionRow{"mc", "minimum circumscribed"},
     CriterionRow{"om", "outside the material"}};
 
-struct FitOptions {
+struct FitOptions : AnswerOptions {
   std::string element{};
   std::string points{};
   std::string criterion = "ls";
   std::string parallel{}, perpendicular{}, outward{};
   std::optional<double> radius{}, tube_radius{}, half_angle{};
   std::string unit{};
+  std::optional<std::string> feature{};
   bool hole = false;
   bool unweighted = false;
-  bool json = false;
 };
 
 // "i,j,k" of any length but 0.
@@ -127,7 +127,8 @@ void add_condition(ordered_json& json, const Fit& fit) {
 
 std::string fit_json(const FitOptions& o, const Association& found) {
   const auto& fit = found.fit;
-  ordered_json json{{"element", o.element},
+  ordered_json json{{"schema", "frustum/fit/1"},
+                    {"element", o.element},
                     {"criterion", o.criterion},
                     {"parameters", parameters_of(fit.element)},
                     {"form", fit.form},
@@ -181,19 +182,18 @@ std::string fit_text(const FitOptions& o, const Association& found, std::size_t 
 }
 
 int fit(const FitOptions& o) {
-  const Answer answer = o.json ? Answer::json : Answer::text;
   auto options = association_options(o);
-  if (!options) return refuse(options.error(), answer);
+  if (!options) return refuse(options.error(), o);
   const auto unit = unit_of(o.unit);
-  if (!unit) return refuse(unit.error(), answer);
-  auto cloud = metrology::read_point_cloud(o.points, *unit);
-  if (!cloud) return refuse(cloud.error(), answer);
+  if (!unit) return refuse(unit.error(), o);
+  auto cloud = metrology::read_point_cloud(o.points, *unit, o.feature);
+  if (!cloud) return refuse(cloud.error(), o);
   if (!o.unweighted) options->weights = std::move(cloud->weights);
   const auto found = metrology::associate(o.element, cloud->points, *options);
   if (!found) {
     Diagnostics problems = found.error();
     for (Diagnostic& d : problems) d.file = o.points;
-    return refuse(problems, answer);
+    return refuse(problems, o);
   }
   std::cout << (o.json ? fit_json(o, *found) : fit_text(o, *found, cloud->points.size()));
   return kDone;
@@ -233,6 +233,8 @@ void add_fit(Command& program) {
       .option("points", o->points,
               "CSV or columns x y z, or a PLY; mm unless the file states a unit")
       .required();
+  command.option("--feature", o->feature,
+                 "The points of this feature, of a file that has several (as points.csv of run)");
   std::string meanings;
   for (const CriterionRow& row : kCriteria) {
     meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : ", ", row.name, row.meaning);
@@ -241,9 +243,9 @@ void add_fit(Command& program) {
   add_constraints(command, *o);
   command.flag("--unweighted", o->unweighted, "Leave the column weight of the file aside");
   add_unit_option(command, o->unit);
-  command.flag("--json", o->json, "One JSON document on stdout (mm, rad)");
+  add_json_option(command, *o);
   command.footer("Example: frustum fit cylinder points.csv --criterion mz --axis 0,0,1 --json");
-  command.runs([o] { return fit(*o); });
+  command.computes([o] { return fit(*o); });
 }
 
 }  // namespace frustum::app

@@ -10,24 +10,27 @@
 namespace frustum::app {
 namespace {
 
-struct IdentifyOptions {
+struct IdentifyOptions : AnswerOptions {
   std::string study{};
-  bool json = false;
 };
 
 int show_identification(const IdentifyOptions& options) {
   const auto study = load_study(options.study);
-  if (!study) return refuse(study.error());
-  const auto result = identify_study(*study);
+  if (!study) return refuse(study.error(), options);
+  const auto result =
+      with_progress(options, "identify", [&](report::Progress&) { return identify_study(*study); });
   if (!result) {
     Diagnostics problems = result.error();
     for (Diagnostic& d : problems) {
       if (d.file.empty()) d.file = options.study;
     }
-    return refuse(problems);
+    return refuse(problems, options);
   }
-  std::cout << (options.json ? identification_json(*study, *result)
-                             : identification_text(*study, *result));
+  if (options.json) {
+    std::cout << identification_json(*study, *result);
+  } else if (!options.quiet) {
+    std::cout << identification_text(*study, *result);
+  }
   const auto& identification = result->identification;
   const bool holds = identification.observability.complete() && !identification.agreement.rejected;
   return holds ? kDone : kOutOfTolerance;
@@ -40,12 +43,12 @@ void add_identify(Command& program) {
   Command command = program.command(
       "identify", "Machine errors that explain measured test pieces, with uncertainties");
   command.option("STUDY", o->study, "Study file: parts, measured values, what is known").required();
-  command.flag("--json", o->json, "One JSON document on stdout");
+  add_answer_options(command, *o);
   command.footer(
       "Exit code 1: errors that the measurements do not identify, or measurements that the machine "
       "model does not explain.\n"
       "Example: frustum identify examples/ibaraki-2010/study.toml");
-  command.runs([o] { return show_identification(*o); });
+  command.computes([o] { return show_identification(*o); });
 }
 
 }  // namespace frustum::app

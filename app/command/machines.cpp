@@ -19,9 +19,8 @@ using kinematics::Joint;
 using kinematics::Machine;
 using nlohmann::ordered_json;
 
-struct MachinesOptions {
+struct MachinesOptions : AnswerOptions {
   std::string machine{};
-  bool json = false;
 };
 
 double shown(const Joint& joint, double q) { return joint.rotary() ? q * kDegPerRad : q; }
@@ -31,7 +30,7 @@ int list_machines(const MachinesOptions& options) {
   ordered_json list = ordered_json::array();
   for (const auto& file : shipped_machines()) {
     const auto machine = Machine::load(file);
-    if (!machine) return refuse(machine.error());
+    if (!machine) return refuse(machine.error(), options);
     if (options.json) {
       list.push_back({{"name", machine->name()},
                       {"structure", machine->structure()},
@@ -78,7 +77,7 @@ ordered_json zero_by_choice(const Machine& machine) {
 
 int list_errors(const MachinesOptions& options) {
   const auto machine = load_machine(options.machine, ".");
-  if (!machine) return refuse(machine.error());
+  if (!machine) return refuse(machine.error(), options);
   ordered_json axes = ordered_json::array(), names = ordered_json::array();
   const auto error_unit = [](const ErrorName& e) {
     return is_rotation(e.direction) ? "urad" : "um";
@@ -104,7 +103,8 @@ int list_errors(const MachinesOptions& options) {
                      {"alias_of", alias.error.text()}});
   }
   if (options.json) {
-    std::cout << ordered_json{{"machine", machine->name()},
+    std::cout << ordered_json{{"schema", "frustum/errors/1"},
+                              {"machine", machine->name()},
                               {"structure", machine->structure()},
                               {"axes", axes},
                               {"errors", names},
@@ -145,7 +145,7 @@ int list_errors(const MachinesOptions& options) {
 void add_machines(Command& program) {
   auto options = std::make_shared<MachinesOptions>();
   Command command = program.command("machines", "List the machines that ship");
-  command.flag("--json", options->json, "One JSON document on stdout");
+  add_json_option(command, *options);
   command.runs([options] { return list_machines(*options); });
 }
 
@@ -154,9 +154,11 @@ void add_errors(Command& program) {
   Command command = program.command("errors",
                                     "A machine's axes, travels and every error name it "
                                     "accepts: meaning, place, and what is zero");
-  command.option("machine", options->machine, "Machine file, or the name of a shipped machine")
+  command
+      .option("machine,--machine", options->machine,
+              "Machine file, or the name of a shipped machine")
       .required();
-  command.flag("--json", options->json, "One JSON document on stdout");
+  add_json_option(command, *options);
   command.footer("Example: frustum errors iwf-bc");
   command.runs([options] { return list_errors(*options); });
 }

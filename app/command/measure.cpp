@@ -38,7 +38,7 @@ struct MeasureOptions : ResultOptions {
 };
 
 int conflicting(const MeasureOptions& options, std::string message, std::string hint) {
-  return refuse({error("conflicting-options"_id, std::move(message), std::move(hint))}, options);
+  return refuse(error("conflicting-options"_id, std::move(message), std::move(hint)), options);
 }
 
 int write_and_show(report::RunReport& report, const InspectionPlan& plan,
@@ -55,7 +55,7 @@ int measure_job(const MeasureOptions& options) {
   if (!exports) return refuse(exports.error(), options);
   auto evidence = evidence_of(*job);
   if (!evidence) return refuse(evidence.error(), options);
-  TrialRun run(progress_style(options.quiet || options.json));
+  TrialRun run(progress_style(options));
   const auto trial = run.trial(*job);
   if (!trial) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
@@ -136,8 +136,10 @@ int measure_by_plan(const MeasureOptions& options) {
   if (!cmm) return refuse(cmm.error(), options);
   const auto exports = checked_exports(options.exports);
   if (!exports) return refuse(exports.error(), options);
-  auto measurement = options.mesh.empty() ? evaluated_points(options, *plan, *unit, *cmm)
-                                          : probed_mesh(options, *plan, *unit, *cmm);
+  auto measurement = with_progress(options, "measure", [&](report::Progress&) {
+    return options.mesh.empty() ? evaluated_points(options, *plan, *unit, *cmm)
+                                : probed_mesh(options, *plan, *unit, *cmm);
+  });
   if (!measurement) {
     write_failed_exports(*exports, measurement.error(), *plan);
     return refuse(measurement.error(), options);
@@ -203,7 +205,7 @@ void add_measure(Command& program) {
   command.footer(
       "Example: frustum measure --plan cone.plan.toml --points out/points.csv --export part.qif "
       "--export part.junit.xml");
-  command.runs([options] { return measure(*options); });
+  command.computes([options] { return measure(*options); });
 }
 
 }  // namespace frustum::app

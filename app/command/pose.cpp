@@ -26,14 +26,13 @@ using kinematics::Machine;
 using kinematics::ToolPose;
 using nlohmann::ordered_json;
 
-struct PoseOptions {
+struct PoseOptions : AnswerOptions {
   std::string machine{};
   std::string axes{};
   std::string inverse{};
   std::string heading{};
   ErrorWords errors{};
   double tool_length = 0.0;
-  bool json = false;
 };
 
 ordered_json numbers_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -105,9 +104,9 @@ Result<AxisPositions> read_headings(const Machine& machine, const std::string& t
 int forward(const PoseOptions& options, const Machine& machine,
             const kinematics::GeometricErrors& errors) {
   const auto q = read_axes(machine, options.axes);
-  if (!q) return refuse(q.error());
+  if (!q) return refuse(q.error(), options);
   const auto heading = read_headings(machine, options.heading);
-  if (!heading) return refuse(heading.error());
+  if (!heading) return refuse(heading.error(), options);
   const Pose nominal = nominal_pose(machine, *q, options.tool_length);
   const Pose actual = actual_pose(machine, errors, {*q, *heading}, options.tool_length);
   const ToolPose n = kinematics::tool_pose(nominal), a = kinematics::tool_pose(actual);
@@ -115,12 +114,18 @@ int forward(const PoseOptions& options, const Machine& machine,
   // frame.
   const Eigen::AngleAxisd turn(actual.rotation * nominal.rotation.transpose());
   const Vec3 turned = turn.angle() * turn.axis() * kUradPerRad;
-  ordered_json doc{{"axes", axes_json(machine, *q)},
+  const std::vector<std::string> beyond = kinematics::travel_violations(machine, *q);
+  ordered_json doc{{"schema", "frustum/pose/1"},
+                   {"axes", axes_json(machine, *q)},
                    {"nominal", {{"tip", numbers_json(n.tip)}, {"axis", numbers_json(n.axis)}}},
                    {"actual", {{"tip", numbers_json(a.tip)}, {"axis", numbers_json(a.axis)}}},
                    {"error_um", numbers_json((a.tip - n.tip) * kUmPerMm)},
                    {"error_urad", numbers_json(turned)},
-                   {"within_travel", kinematics::travel_violations(machine, *q).empty()}};
+                   {"within_travel", beyond.empty()},
+                   {"beyond_travel", beyond}};
+  for (const std::string& axis : beyond) {
+    print(std::cerr, {warning("axis-overtravel"_id, "beyond travel: " + axis)});
+  }
   if (options.json) {
     std::cout << doc.dump(2) << '\n';
     return kDone;
@@ -140,14 +145,16 @@ int forward(const PoseOptions& options, const Machine& machine,
 
 int inverse(const PoseOptions& options, const Machine& machine) {
   const auto values = numbers_of(options.inverse, 6, "--inverse");
-  if (!values) return refuse(values.error());
+  if (!values) return refuse(values.error(), options);
   const auto& v = *values;
   const auto axis = UnitVec3::of(Vec3(v[3], v[4], v[5]));
   if (!axis)
-    return refuse("no-direction"_id, "the tool direction i,j,k has no length", "give x,y,z,i,j,k");
+    return refuse(
+        error("no-direction"_id, "the tool direction i,j,k has no length", "give x,y,z,i,j,k"),
+        options);
   const auto solutions =
       kinematics::all_solutions(machine, {Vec3(v[0], v[1], v[2]), *axis}, options.tool_length);
-  if (!solutions) return refuse(solutions.error());
+  if (!solutions) return refuse(solutions.error(), options);
   ordered_json list = ordered_json::array();
   for (const kinematics::InverseSolution& s : *solutions) {
     list.push_back({{"axes", axes_json(machine, s.axes)},
@@ -155,7 +162,7 @@ int inverse(const PoseOptions& options, const Machine& machine) {
                     {"singular", s.singular}});
   }
   if (options.json) {
-    std::cout << ordered_json{{"solutions", list}}.dump(2) << '\n';
+    std::cout << ordered_json{{"schema", "frustum/pose/1"}, {"solutions", list}}.dump(2) << '\n';
     return kDone;
   }
   for (const auto& s : list) {
@@ -170,18 +177,20 @@ int inverse(const PoseOptions& options, const Machine& machine) {
 int run_pose(const PoseOptions& options) {
   if (!std::isfinite(options.tool_length) || options.tool_length < 0.0) {
     return refuse(
-        "out-of-range"_id,
-        fmt::format("--tool-length {}: expected a length in mm, 0 or more", options.tool_length));
+        error("out-of-range"_id, fmt::format("--tool-length {}: expected a length in mm, 0 or more",
+                                             options.tool_length)),
+        options);
   }
   const auto machine = load_machine(options.machine, ".");
-  if (!machine) return refuse(machine.error());
+  if (!machine) return refuse(machine.error(), options);
   const auto entries = gather_errors({}, options.errors, std::nullopt, *machine);
-  if (!entries) return refuse(entries.error());
+  if (!entries) return refuse(entries.error(), options);
   const auto errors = kinematics::resolve(*machine, *entries);
-  if (!errors) return refuse(errors.error());
+  if (!errors) return refuse(errors.error(), options);
   if (options.axes.empty() == options.inverse.empty()) {
-    return refuse("conflicting-options"_id, "give either --axes or --inverse",
-                  "for example --axes \"X=10,A=-30\"");
+    return refuse(error("conflicting-options"_id, "give either --axes or --inverse",
+                        "for example --axes \"X=10,A=-30\""),
+                  options);
   }
   return options.inverse.empty() ? forward(options, *machine, *errors) : inverse(options, *machine);
 }
@@ -193,7 +202,9 @@ void add_pose(Command& program) {
   Command command = program.command(
       "pose",
       "Tool tip and axis in the table frame from axis positions, or axis positions from a pose");
-  command.option("--machine", options->machine, "Machine file, or the name of a shipped machine")
+  command
+      .option("machine,--machine", options->machine,
+              "Machine file, or the name of a shipped machine")
       .required();
   command.option("--axes", options->axes, "\"X=10,Y=0,Z=5,A=-30,C=45\" (mm, degrees; default 0)");
   command.option(
@@ -205,7 +216,7 @@ void add_pose(Command& program) {
   add_error_options(command, options->errors);
   command.option("--tool-length", options->tool_length,
                  "mm, default 0: the tip is the gauge point");
-  command.flag("--json", options->json, "One JSON document on stdout");
+  add_json_option(command, *options);
   command.footer(
       "Shapes without a span extend over the axis's travel.\n"
       "Example: frustum pose --machine zx-yac --axes \"X=10,A=-30,C=45\" --error beta_CA=20urad");

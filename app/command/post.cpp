@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PostOptions {
+struct PostOptions : AnswerOptions {
   std::string file{};
   SetupWords setup_words{};
   std::string to{};
@@ -32,9 +32,9 @@ struct PostOptions {
   std::string arcs = "keep";
   double tolerance = 1e-3;         // mm
   double angle_tolerance = 0.001;  // mrad
+  double pole_tolerance = 0.0001;  // mrad
   bool no_comments = false;
   bool source_lines = false;
-  bool json = false;
 };
 
 post::PlanOptions plan_options(const PostOptions& options, const parser::NcSpelling& spelling) {
@@ -52,37 +52,43 @@ post::PlanOptions plan_options(const PostOptions& options, const parser::NcSpell
   plan.great_circle = !spelling.orientation_paths[1].empty();
   plan.tolerance = Mm{options.tolerance};
   plan.angle_tolerance = Rad{options.angle_tolerance * 1e-3};
+  plan.pole_tolerance = Rad{options.pole_tolerance * 1e-3};
   return plan;
 }
 
 int post_process(const PostOptions& options) {
   std::error_code ignored;
   if (fs::equivalent(options.file, options.out, ignored)) {
-    return refuse("output-overwrites-input"_id,
-                  "the output would overwrite the program it is made from", "choose another -o");
+    return refuse(
+        error("output-overwrites-input"_id,
+              "the output would overwrite the program it is made from", "choose another -o"),
+        options);
   }
-  if (const auto fault = unwritable(options.out)) return refuse({*fault});
+  if (const auto fault = unwritable(options.out)) return refuse(*fault, options);
   const auto setup_words = machine_setup_of(options.setup_words);
-  if (!setup_words) return refuse(setup_words.error());
+  if (!setup_words) return refuse(setup_words.error(), options);
   const auto motions = motions_of_file(options.file, options.dialect, *setup_words);
-  if (!motions) return refuse(motions.error());
+  if (!motions) return refuse(motions.error(), options);
   const auto dialect = *parser::dialect_named(options.to);
-  const auto plan = post::plan_for_machine(setup_words->machine, setup_words->setup, *motions,
-                                           plan_options(options, *parser::spelling_of(dialect)));
-  if (!plan) return refuse(in_file(plan.error(), options.file));
+  const auto plan = with_progress(options, "plan the axes", [&](report::Progress&) {
+    return post::plan_for_machine(setup_words->machine, setup_words->setup, *motions,
+                                  plan_options(options, *parser::spelling_of(dialect)));
+  });
+  if (!plan) return refuse(in_file(plan.error(), options.file), options);
   const auto program = parser::write_nc(plan->motions, dialect,
                                         {.name = program_name(options.out),
                                          .comments = !options.no_comments,
                                          .source_lines = options.source_lines});
-  if (!program) return refuse(in_file(program.error(), options.file));
+  if (!program) return refuse(in_file(program.error(), options.file), options);
   const auto written = write_whole_file(options.out, program->text);
-  if (!written) return refuse(written.error());
+  if (!written) return refuse(written.error(), options);
 
   Diagnostics warnings = parser::doubts_of(*motions);
   warnings.insert(warnings.end(), plan->warnings.begin(), plan->warnings.end());
   warnings = in_file(std::move(warnings), options.file);
   if (options.json) {
-    nlohmann::ordered_json written_doc{{"output", written->string()},
+    nlohmann::ordered_json written_doc{{"schema", "frustum/post/1"},
+                                       {"output", written->string()},
                                        {"dialect", parser::name_of(dialect)},
                                        {"machine", setup_words->machine.name()},
                                        {"lines", program->source_lines.size()},
@@ -98,6 +104,7 @@ int post_process(const PostOptions& options) {
     return kDone;
   }
   print(std::cerr, warnings);
+  if (options.quiet) return kDone;
   std::cout << fmt::format("{}: {} lines, {} points inserted, {} rewinds\n", written->string(),
                            program->source_lines.size(), plan->inserted, plan->rewinds);
   return kDone;
@@ -130,15 +137,20 @@ void add_post(Command& program) {
       .option("--angle-tolerance", o->angle_tolerance,
               "Of the tool axis where points are inserted, mrad (0.001)")
       .holds(positive_number(100.0));
+  command
+      .option("--pole-tolerance", o->pole_tolerance,
+              "Tool vectors nearer to the pole than this leave the turning axis at rest; the tool "
+              "axis is off by as much, mrad (0.0001)")
+      .holds(positive_number(100.0));
   add_setup_options(command, o->setup_words);
   command.flag("--no-comments", o->no_comments, "Leave comments out");
   command.flag("--source-lines", o->source_lines,
                "After each block, the line of the program that it came from");
-  command.flag("--json", o->json, "Say what was written as JSON");
+  add_answer_options(command, *o);
   command.footer(
       "Example: frustum post cone.nc --machine iwf-bc --to heidenhain --output axes "
       "--tool-length 1=150 --offset G54=-65,0,150 -o cone.h");
-  command.runs([o] { return post_process(*o); });
+  command.computes([o] { return post_process(*o); });
 }
 
 }  // namespace frustum::app

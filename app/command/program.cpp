@@ -1,5 +1,6 @@
 // frustum program: writes test pieces.
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
@@ -8,24 +9,32 @@
 
 namespace frustum::app {
 
-int write_piece(const std::string& machine, const WritesPiece& write) {
-  const auto file = find_machine(machine, ".");
-  if (!file) return refuse(file.error());
+int write_piece(const PieceOptions& options, const WritesPiece& write) {
+  const auto file = find_machine(options.machine, ".");
+  if (!file) return refuse(file.error(), options);
   const auto loaded = kinematics::Machine::load(*file);
-  if (!loaded) return refuse(loaded.error());
+  if (!loaded) return refuse(loaded.error(), options);
   const auto written = write(*loaded, *file);
-  if (!written) return refuse(written.error());
-  for (const auto& each : *written) std::cout << each.string() << '\n';
+  if (!written) return refuse(written.error(), options);
+  if (options.json) {
+    nlohmann::ordered_json doc{{"schema", "frustum/program/1"}, {"files", nlohmann::json::array()}};
+    for (const auto& each : *written) doc["files"].push_back(each.string());
+    std::cout << doc.dump(2) << '\n';
+  } else if (!options.quiet) {
+    for (const auto& each : *written) std::cout << each.string() << '\n';
+  }
   return kDone;
 }
 
 void add_piece_options(Command& kind, PieceOptions& options, const std::string& files) {
-  kind.option("--machine", options.machine, "Machine file, or the name of a shipped machine")
+  kind.option("machine,--machine", options.machine,
+              "Machine file, or the name of a shipped machine")
       .required();
   kind.option("--out", options.out, "Folder for " + files).required();
   kind.option("--dialect", options.dialect,
               "Of the NC program: fanuc (default), linuxcnc, sinumerik, heidenhain")
       .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
+  add_answer_options(kind, options);
 }
 
 void add_program(Command& program) {

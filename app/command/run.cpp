@@ -38,7 +38,7 @@ Diagnostics write_files(FileSet& set, report::RunReport& report, const Job& job,
     report.files.push_back(set.add(name, std::move(bytes)).string());
   };
   add("result.json", report::json_report(report));
-  add("points.csv", report::points_csv(report.measurement));
+  add("points.csv", report::points_csv(report.measurement, job.piece.plan));
   if (job.report) add("report.html", report::html_report(report));
   if (auto faults = write_exports(exports, report, job.piece.plan, &set); !faults.empty()) {
     return faults;
@@ -56,7 +56,7 @@ int run_job(const RunOptions& options) {
   if (!set) return refuse(set.error(), options);
   auto evidence = evidence_of(*job);
   if (!evidence) return refuse(evidence.error(), options);
-  TrialRun run(progress_style(options.quiet || options.json));
+  TrialRun run(progress_style(options));
   auto trial = run.trial(*job);
   if (!trial) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
@@ -76,9 +76,11 @@ int run_job(const RunOptions& options) {
   }
   run.end();
   report.timings = run.timings();
+  run.begin("write the files");
   if (const auto faults = write_files(*set, report, *job, *exports); !faults.empty()) {
     return refuse(faults, options);
   }
+  run.end();
   return show_result(report, options);
 }
 
@@ -97,7 +99,7 @@ void add_run(Command& program) {
                  "Of every tool, with unit, for example 2um");
   add_result_options(command, *options);
   command.footer("Example: frustum run job.toml --out out --error EX0C=10um");
-  command.runs([options] { return run_job(*options); });
+  command.computes([options] { return run_job(*options); });
 }
 
 }  // namespace frustum::app

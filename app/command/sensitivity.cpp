@@ -16,14 +16,13 @@
 namespace frustum::app {
 namespace {
 
-struct SensitivityOptions {
+struct SensitivityOptions : AnswerOptions {
   std::string job{};
   std::string out{};
   std::string method = "analytic";
   std::vector<std::string> parameters{};
   std::optional<double> step_um{}, step_urad{};
   JobOverrides overrides{};
-  bool json = false;
 };
 
 Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const Job& job) {
@@ -52,16 +51,17 @@ Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const
 
 int show_sensitivity(const SensitivityOptions& options) {
   const auto job = load_job(options.job, options.overrides, true);
-  if (!job) return refuse(job.error());
+  if (!job) return refuse(job.error(), options);
   std::optional<FileSet> set;
   if (!options.out.empty()) {
     auto opened =
         FileSet::open(options.out, {"sensitivity.json", "sensitivity.csv", "sensitivity.html"});
-    if (!opened) return refuse(opened.error());
+    if (!opened) return refuse(opened.error(), options);
     set = *std::move(opened);
   }
-  const auto found = derivatives(options, *job);
-  if (!found) return refuse(found.error());
+  const auto found = with_progress(options, "derive",
+                                   [&](report::Progress&) { return derivatives(options, *job); });
+  if (!found) return refuse(found.error(), options);
   const std::string method = options.method == "analytic" ? "analytic surface gains"
                                                           : "central differences of whole trials";
   const auto table = sensitivity_table(*found, job->piece.title, job->machine.title(), method);
@@ -69,10 +69,13 @@ int show_sensitivity(const SensitivityOptions& options) {
     set->add("sensitivity.json", report::sensitivity_json(table));
     set->add("sensitivity.csv", report::sensitivity_csv(table));
     set->add("sensitivity.html", report::sensitivity_html(table));
-    if (const auto written = set->write(); !written) return refuse(written.error());
+    if (const auto written = set->write(); !written) return refuse(written.error(), options);
   }
-  std::cout << (options.json ? report::sensitivity_json(table)
-                             : report::sensitivity_text(table, kTableWidth));
+  if (options.json) {
+    std::cout << report::sensitivity_json(table);
+  } else if (!options.quiet) {
+    std::cout << report::sensitivity_text(table, kTableWidth);
+  }
   return kDone;
 }
 
@@ -95,9 +98,9 @@ void add_sensitivity(Command& program) {
   add_error_options(command, o->overrides.errors);
   command.option("--tool-radius-error", o->overrides.tool_radius_error, "for example 2um");
   command.option("--out", o->out, "Folder for sensitivity.html, .csv and .json");
-  command.flag("--json", o->json, "One JSON document on stdout");
+  add_answer_options(command, *o);
   command.footer("Example: frustum sensitivity job.toml --parameter beta_CA --parameter EX0C");
-  command.runs([o] { return show_sensitivity(*o); });
+  command.computes([o] { return show_sensitivity(*o); });
 }
 
 }  // namespace frustum::app

@@ -88,7 +88,7 @@ void add_step(Command& kinds) {
   step.footer(
       "Example: frustum program step --machine zx-yac --patterns 1-a,2-a --workpiece 1 --out step");
   step.runs([o] {
-    return write_piece(o->machine, [&o](const Machine& machine, const fs::path& file) {
+    return write_piece(*o, [&o](const Machine& machine, const fs::path& file) {
       return write_step(*o, machine, file);
     });
   });

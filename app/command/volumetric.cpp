@@ -35,7 +35,7 @@ using kinematics::VolumetricPoint;
 using kinematics::VolumetricStatistics;
 using nlohmann::ordered_json;
 
-struct VolumetricOptions {
+struct VolumetricOptions : AnswerOptions {
   std::string machine{};
   std::vector<std::string> errors{};
   std::vector<std::string> tolerances{};
@@ -43,7 +43,6 @@ struct VolumetricOptions {
   int grid = 5;
   double tool_length = 0.0;
   std::string out{};
-  bool json = false;
 };
 
 // Errors with their tolerances, mm or rad.
@@ -229,7 +228,8 @@ ordered_json document(const Study& study, const VolumetricOptions& options,
   ordered_json errors = ordered_json::object();
   for (const ErrorEntry& entry : study.entries) errors[entry.name] = entry.written;
   const VolumetricPoint& worst = study.volume.worst();
-  ordered_json doc{{"machine", study.machine.name()},
+  ordered_json doc{{"schema", "frustum/volumetric/1"},
+                   {"machine", study.machine.name()},
                    {"structure", study.machine.structure()},
                    {"tool_length_mm", options.tool_length},
                    {"errors", errors},
@@ -353,22 +353,23 @@ int run_volumetric(const VolumetricOptions& options) {
   std::optional<FileSet> set;
   if (!options.out.empty()) {
     auto opened = FileSet::open(options.out, {"volumetric.json", "volumetric.html"});
-    if (!opened) return refuse(opened.error());
+    if (!opened) return refuse(opened.error(), options);
     set = *std::move(opened);
   }
-  const auto study = study_of(options);
-  if (!study) return refuse(study.error());
+  const auto study = with_progress(options, "evaluate the volume",
+                                   [&](report::Progress&) { return study_of(options); });
+  if (!study) return refuse(study.error(), options);
   std::vector<RankRow> ranking;
   if (!study->tolerances.errors.empty()) ranking = ranking_of(*study, options.tool_length);
   const ordered_json doc = document(*study, options, ranking);
   if (set) {
     set->add("volumetric.json", doc.dump(1) + "\n");
     set->add("volumetric.html", report::volumetric_html(page_of(*study, options, ranking)));
-    if (const auto written = set->write(); !written) return refuse(written.error());
+    if (const auto written = set->write(); !written) return refuse(written.error(), options);
   }
   if (options.json) {
     std::cout << doc.dump(1) << '\n';
-  } else {
+  } else if (!options.quiet) {
     print_summary(*study, ranking);
   }
   return kDone;
@@ -380,7 +381,9 @@ void add_volumetric(Command& program) {
   auto options = std::make_shared<VolumetricOptions>();
   Command command = program.command(
       "volumetric", "Error vectors over the working volume, and which errors weigh most");
-  command.option("machine", options->machine, "Machine file, or the name of a shipped machine")
+  command
+      .option("machine,--machine", options->machine,
+              "Machine file, or the name of a shipped machine")
       .required();
   command.option("--error", options->errors, "NAME=VALUE, repeated; for example EB0C=30urad");
   command.option("--tolerance", options->tolerances,
@@ -393,12 +396,12 @@ void add_volumetric(Command& program) {
   command.option("--tool-length", options->tool_length,
                  "mm, default 0: the tip is the gauge point");
   command.option("--out", options->out, "Folder for volumetric.html and volumetric.json");
-  command.flag("--json", options->json, "One JSON document on stdout");
+  add_answer_options(command, *options);
   command.footer(
       "Shapes without a span extend over the axis's travel.\n"
       "Example: frustum volumetric iwf-bc --error EB0Z=20urad --error \"EXX=linear 10um\" --out "
       "vol");
-  command.runs([options] { return run_volumetric(*options); });
+  command.computes([options] { return run_volumetric(*options); });
 }
 
 }  // namespace frustum::app

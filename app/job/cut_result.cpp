@@ -148,11 +148,12 @@ bool CutResult::passes() const {
 std::string snapshot_index(const std::vector<Snapshot>& snapshots) {
   std::vector<Snapshot> beside = snapshots;
   for (Snapshot& s : beside) s.file = std::filesystem::path(s.file).filename().string();
-  return Json{{"snapshots", snapshots_json(beside)}}.dump(2) + '\n';
+  return Json{{"schema", "frustum/snapshots/1"}, {"snapshots", snapshots_json(beside)}}.dump(2) +
+         '\n';
 }
 
 std::string cut_json(const CutResult& result) {
-  Json json = Json::object();
+  Json json{{"schema", "frustum/cut/1"}};
   if (result.surface) add_surface(json, result);
   json["until"] = state_json(result.until);
   json["finished"] = result.finished;

@@ -202,6 +202,13 @@ Result<Study> load_study(const fs::path& file) {
   auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
+  if (!root.has("part") && root.has("program") && root.has("machine")) {
+    Diagnostic no_study = error("not-a-study"_id, "this is a job, not a study",
+                                "a study names jobs and what was measured of them: [[part]] with "
+                                "name, job and measured");
+    no_study.file = file.string();
+    return no_study;
+  }
   Parts parts = read_parts(*document);
   // Without a machine nothing else of the file can be judged.
   if (has_error(parts.problems) || parts.parts.empty()) {

@@ -19,6 +19,7 @@ class TrialRun {
   [[nodiscard]] Result<trials::Trial> trial(const Job& job, bool measure = true);
   // Starts a step of its own, ending the one before.
   void begin(const std::string& step);
+  void at(double share) { progress_.at(share); }
   void end();
   [[nodiscard]] const std::vector<report::Timing>& timings() const { return timings_; }
 

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 
@@ -17,13 +18,13 @@ int refuse(const Diagnostics& diagnostics) {
   return kBadInput;
 }
 
-int refuse(const Diagnostics& diagnostics, Answer answer) {
-  if (answer == Answer::json) std::cout << report::json_failure(diagnostics);
+int refuse(const Diagnostics& diagnostics, const AnswerOptions& answer) {
+  if (answer.json) std::cout << report::json_failure(diagnostics);
   return refuse(diagnostics);
 }
 
-int refuse(DiagnosticId id, const std::string& message, const std::string& hint) {
-  return refuse(Diagnostics{error(id, message, hint)});
+int refuse(Diagnostic problem, const AnswerOptions& answer) {
+  return refuse(Diagnostics{std::move(problem)}, answer);
 }
 
 void open_standard_streams() {
@@ -43,15 +44,22 @@ int output_lost(int exit_code) {
   errno = 0;
   std::cout << std::endl;
   const std::string cause = errno == 0 ? "writing failed" : std::strerror(errno);
-  return refuse("output-lost"_id, "the standard output cannot be written: " + cause,
-                "what was printed is not complete");
+  return refuse(
+      Diagnostics{error("output-lost"_id, "the standard output cannot be written: " + cause,
+                        "what was printed is not complete")});
 }
 
-report::ProgressStyle progress_style(bool quiet) {
-  if (quiet) return report::ProgressStyle::silent;
-  return isatty(STDERR_FILENO) != 0 ? report::ProgressStyle::bar : report::ProgressStyle::log;
+report::ProgressStyle progress_style(const AnswerOptions& answer) {
+  if (answer.quiet || answer.json) return report::ProgressStyle::silent;
+  return report::style_on({.is_terminal = isatty(STDERR_FILENO) != 0,
+                           .term = std::getenv("TERM"),
+                           .no_color = std::getenv("NO_COLOR")});
 }
 
-bool stdout_is_terminal() { return isatty(STDOUT_FILENO) != 0; }
+bool stdout_has_colour() {
+  return report::style_on({.is_terminal = isatty(STDOUT_FILENO) != 0,
+                           .term = std::getenv("TERM"),
+                           .no_color = std::getenv("NO_COLOR")}) == report::ProgressStyle::bar;
+}
 
 }  // namespace frustum::app

@@ -2,6 +2,7 @@
 // Units: none. Errors: none.
 #pragma once
 
+#include <iostream>
 #include <string>
 
 #include "core/diagnostic.hpp"
@@ -20,11 +21,15 @@ constexpr int kTableWidth = 140;
 
 // Prints the diagnostics on stderr; returns kBadInput.
 int refuse(const Diagnostics& diagnostics);
-int refuse(DiagnosticId id, const std::string& message, const std::string& hint = {});
 
-// The same for a command that was asked for JSON: its standard output is one document then too.
-enum class Answer { text, json };
-int refuse(const Diagnostics& diagnostics, Answer answer);
+// How a command answers: as text; as one JSON document on stdout, failures too; without progress
+// and summary.
+struct AnswerOptions {
+  bool json = false;
+  bool quiet = false;
+};
+int refuse(const Diagnostics& diagnostics, const AnswerOptions& answer);
+int refuse(Diagnostic problem, const AnswerOptions& answer);
 
 // Opens those of standard input, output and errors that the caller has closed, so that no file
 // takes their place; they stay unusable.
@@ -33,8 +38,16 @@ void open_standard_streams();
 // could not be written.
 [[nodiscard]] int output_lost(int exit_code);
 
-// A bar on a terminal, lines in a log, nothing when quiet.
-[[nodiscard]] report::ProgressStyle progress_style(bool quiet);
-[[nodiscard]] bool stdout_is_terminal();
+// A bar on a terminal that can draw one, lines in a log, nothing when quiet or with JSON.
+[[nodiscard]] report::ProgressStyle progress_style(const AnswerOptions& answer);
+// Does `work`, which may tell its progress, and says on stderr meanwhile what is done.
+template <typename Work>
+auto with_progress(const AnswerOptions& answer, const char* step, Work&& work) {
+  report::Progress progress(std::cerr, progress_style(answer));
+  progress.begin(step);
+  return work(progress);
+}
+// Whether stdout is a terminal for which nobody has set NO_COLOR.
+[[nodiscard]] bool stdout_has_colour();
 
 }  // namespace frustum::app

@@ -106,6 +106,7 @@ std::string design_text(const kinematics::Machine& machine, const StepDesign& de
 std::string design_json(const kinematics::Machine& machine, const StepDesign& design,
                         const std::vector<std::string>& exact) {
   Json json;
+  json["schema"] = "frustum/design/1";
   json["machine"] = machine.name();
   json["unknowns"] = Json::array();
   for (const auto& u : design.unknowns) {

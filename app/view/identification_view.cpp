@@ -315,6 +315,7 @@ std::string identification_text(const Study& study, const StudyResult& result) {
 std::string identification_json(const Study& study, const StudyResult& result) {
   const auto& agreement = result.identification.agreement;
   Json json;
+  json["schema"] = "frustum/identification/1";
   json["title"] = study.title;
   json["machine"] = study.machine().name();
   json["complete"] = result.identification.observability.complete();

@@ -1,6 +1,7 @@
 #include "metrology/points/point_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -134,8 +135,9 @@ class PointReader {
   Problem header(const std::vector<Word>& words) {
     stated_above_ = unit_.has_value();
     has_header_ = true;
-    const std::vector<std::string> known{"feature", "section", "x", "y",     "z",
-                                         "i",       "j",       "k", "weight"};
+    const std::vector<std::string> known{
+        "feature", "section", "x",         "y",         "z",         "i",        "j",
+        "k",       "weight",  "nominal_x", "nominal_y", "nominal_z", "deviation"};
     columns_.clear();
     for (const Word& word : words) {
       ApproachDirection heading = approach_direction_of(word.text);
@@ -375,18 +377,24 @@ Result<std::vector<FeaturePoints>> read_feature_points(const std::filesystem::pa
 }
 
 Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
-                                    const std::optional<LengthUnit>& unit) {
+                                    const std::optional<LengthUnit>& unit,
+                                    const std::optional<std::string>& feature) {
   auto found = read_file(file, unit);
   if (!found) return std::move(found).error();
-  if (found->size() > 1) {
-    std::string names;
-    for (const FoundPoints& f : *found) names += (names.empty() ? "" : ", ") + f.feature.feature;
-    Diagnostic several =
-        error("several-features"_id,
-              fmt::format("the file has points of {} features: {}", found->size(), names),
-              "one element goes through the points of one feature; leave the others out");
-    several.file = file.string();
-    return several;
+  std::vector<std::string> names;
+  for (const FoundPoints& f : *found) names.push_back(f.feature.feature);
+  if (feature) std::erase_if(*found, [&](const auto& f) { return f.feature.feature != *feature; });
+  if (found->size() != 1) {
+    Diagnostic unclear =
+        feature ? error("unknown-feature"_id, fmt::format("no points of feature '{}'", *feature),
+                        suggestion(*feature, names))
+                : error("several-features"_id,
+                        fmt::format("the file has points of {} features: {}", names.size(),
+                                    fmt::join(names, ", ")),
+                        "one element goes through the points of one feature: name it "
+                        "(fit: --feature NAME)");
+    unclear.file = file.string();
+    return unclear;
   }
   PointCloud cloud;
   for (const FoundPoints& f : *found) {

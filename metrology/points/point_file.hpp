@@ -2,7 +2,8 @@
 //
 // Text: "x y z" or "x,y,z" lines; an optional first line that holds only the number of points; an
 //       optional header such as feature,section,x,y,z (names in any order; feature, section, weight
-//       and the direction i,j,k may be left out); without a header "x y z i j k" too, where i j k
+//       and the direction i,j,k may be left out; nominal_x, nominal_y, nominal_z and deviation, as
+//       `frustum run` writes them, are not used); without a header "x y z i j k" too, where i j k
 //       has length 1. Directions are not used. Names with a comma in quotes as RFC 4180 says, a '
 //       before = + - @ is none of the name (csv_field.hpp); comments from # to the end of the line;
 //       blank lines. Lines end with LF, CR LF or CR; UTF-8 or UTF-16. PLY (by the extension .ply):
@@ -17,6 +18,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,10 +32,11 @@ struct PointCloud {
   std::vector<Vec3> points{};     // mm
   std::vector<double> weights{};  // one a point, or none at all
 };
-// The points of a file in order; an error when they are of several features. `unit`: of a file that
-// states no other.
+// The points of a file in order, or those of one feature; an error when they are of several.
+// `unit`: of a file that states no other.
 [[nodiscard]] Result<PointCloud> read_point_cloud(const std::filesystem::path& file,
-                                                  const std::optional<LengthUnit>& unit = {});
+                                                  const std::optional<LengthUnit>& unit = {},
+                                                  const std::optional<std::string>& feature = {});
 
 // Points by feature, in order of appearance; without a feature column one entry with an empty name.
 // Weights are refused: the evaluation of a plan has none.

@@ -46,6 +46,9 @@ struct PlanOptions {
   bool great_circle = false;
   Mm tolerance{1e-3};
   Rad angle_tolerance{1e-6};
+  // Tool vectors nearer to the pole than this leave the turning axis where it suits the path; the
+  // tool may be off by as much.
+  Rad pole_tolerance{1e-7};
   Mm lift{50.0};             // along the tool axis, before rotary axes are rewound
   double lift_feed = 500.0;  // mm/min, of the way back to the part
 };

@@ -69,8 +69,8 @@ PoseRun vector_run(std::span<const parser::Motion> motions, Vec3 tip,
 
 Result<std::vector<PlannedPose>> choose_axes(const kinematics::Machine& machine, const PoseRun& run,
                                              const AxisPositions& here, double tool_length,
-                                             AxisChoice choice) {
-  kinematics::PlanOptions how{.start = here};
+                                             AxisChoice choice, Rad pole_tolerance) {
+  kinematics::PlanOptions how{.start = here, .pole_tolerance = pole_tolerance.value};
   how.through_air = run.through_air;
   std::vector<kinematics::ToolPose> path = run.poses;
   if (run.from_here) {

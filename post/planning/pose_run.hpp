@@ -35,7 +35,7 @@ enum class AxisChoice : std::uint8_t { along_the_path, nearest };
 // begins with an unwinding.
 [[nodiscard]] Result<std::vector<kinematics::PlannedPose>> choose_axes(
     const kinematics::Machine& machine, const PoseRun& run, const kinematics::AxisPositions& here,
-    double tool_length, AxisChoice choice);
+    double tool_length, AxisChoice choice, Rad pole_tolerance);
 
 // Together, as the root of the sum of squares.
 [[nodiscard]] double rotary_travel(const kinematics::AxisPositions& from,

@@ -104,7 +104,8 @@ std::vector<PlannedPose> RotaryChoice::plan_poses(const PoseRun& run) {
   // What reads vectors takes the nearest solution; without lengths travels cannot be looked at.
   const bool nearest = state_.options.output == OutputForm::vectors || state_.lengths_missing();
   auto planned = choose_axes(state_.machine, run, state_.q, state_.length(),
-                             nearest ? AxisChoice::nearest : AxisChoice::along_the_path);
+                             nearest ? AxisChoice::nearest : AxisChoice::along_the_path,
+                             state_.options.pole_tolerance);
   if (planned) return *std::move(planned);
   state_.fail(planned.error().front());
   return {};

@@ -1,5 +1,6 @@
 // What to measure on a cone test piece.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "programs/cone/cone_frustum.hpp"
@@ -103,12 +104,18 @@ PlannedFeature flange_face(const ConeGeometry& shape) {
           .extent = RadialExtent{inner, outer}};
 }
 
+// The nearest multiple, so that a file says 10 um and not 10.000000000000002 um.
+double nearest(double value, double step) {
+  const double per_step = std::round(1.0 / step);
+  return std::round(value * per_step) / per_step;
+}
+
 }  // namespace
 
 InspectionPlan cone_plan(const ConeFrustum& cone, const ConeGeometry& shape) {
   const double share = cone.limits == ConeLimits::tenth ? 0.1 : 1.0;
-  const double form = 0.1 * share;      // mm: roundness and concentricity of NAS 979
-  const double angular = 6e-4 * share;  // rad: angular accuracy of NAS 979, 600 um/m
+  const double form = nearest(0.1 * share, 1e-6);      // mm: roundness, concentricity of NAS 979
+  const double angular = nearest(6e-4 * share, 1e-9);  // rad: angular accuracy, 600 um/m
   const double height = shape.top_z - shape.base_z;
 
   InspectionPlan plan;
@@ -133,7 +140,7 @@ InspectionPlan cone_plan(const ConeFrustum& cone, const ConeGeometry& shape) {
   add("cylinder.cylindricity", CharacteristicKind::cylindricity, {"cylinder"}, {}, form);
   // 600 um/m over the height of the cone and the cylinder.
   add("cylinder.perpendicularity", CharacteristicKind::perpendicularity, {"cylinder", "A"}, {},
-      std::max(0.1 * form, angular * (height + shape.base_z - shape.floor_z)));
+      nearest(std::max(0.1 * form, angular * (height + shape.base_z - shape.floor_z)), 1e-6));
   return plan;
 }
 

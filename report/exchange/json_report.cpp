@@ -168,11 +168,14 @@ std::string text_of(const Json& json) {
 }  // namespace
 
 std::string json_failure(const Diagnostics& diagnostics) {
-  return text_of({{"status", "error"}, {"diagnostics", array_of(diagnostics, diagnostic_json)}});
+  return text_of({{"schema", "frustum/failure/1"},
+                  {"status", "error"},
+                  {"diagnostics", array_of(diagnostics, diagnostic_json)}});
 }
 
 std::string json_report(const RunReport& report) {
   Json json;
+  json["schema"] = "frustum/result/1";
   json["title"] = report.title;
   json["status"] = metrology::name_of(report.verdict());
   json["machine"] = report.machine;

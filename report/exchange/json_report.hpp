@@ -1,6 +1,7 @@
 // The results as JSON with stable names, for other programs.
 //
-// Contract : {"title","status":"pass|fail|uncertain","machine","features":[{"name","kind",
+// Contract : {"schema":"frustum/result/1",
+//            "title","status":"pass|fail|uncertain","machine","features":[{"name","kind",
 //            "points","parameters",
 //            "form":{"value_um"}}],"characteristics":[{"name","kind","value","unit","tolerance",
 //            "expanded_uncertainty","pass","verdict":"pass|fail|uncertain","interval":[low, high],

@@ -240,6 +240,7 @@ constexpr const char* kStyle = R"(
 
 std::string sensitivity_json(const SensitivityTable& table) {
   Json json;
+  json["schema"] = "frustum/sensitivity/1";
   json["title"] = table.title;
   json["machine"] = table.machine;
   json["method"] = table.method;

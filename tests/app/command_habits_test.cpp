@@ -3,6 +3,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command_line.hpp"
@@ -16,6 +17,7 @@ class CommandHabitsSystem : public CommandLine {
     const Outcome made =
         run("program cone --machine iwf-bc --chord-tolerance 50 --out piece " + more);
     ASSERT_EQ(made.exit_code, 0) << made.err;
+    replace_in("piece/job.toml", "report = true", "report = false");  // takes seconds
   }
 };
 
@@ -61,6 +63,102 @@ TEST_F(CommandHabitsSystem, Fault2_43_AFolderThatCannotBeIsRefusedBeforeTheWork)
     EXPECT_NE(refused.err.find("cannot"), std::string::npos) << command << ": " << refused.err;
     EXPECT_EQ(refused.out, "") << command;
   }
+}
+
+TEST_F(CommandHabitsSystem, Fault2_43_AMisspeltCommandOrOptionIsNamedWithTheNearest) {
+  const Outcome command = run("runn x");
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_NE(command.err.find("'runn' is not a command (hint: did you mean run?)"),
+            std::string::npos)
+      << command.err;
+  EXPECT_NE(run("program cones --machine iwf-bc").err.find("did you mean cone?"),
+            std::string::npos);
+  const Outcome option = run("pose iwf-bc --axse X=1");
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_NE(option.err.find("did you mean --axes?"), std::string::npos) << option.err;
+}
+
+TEST_F(CommandHabitsSystem, Fault2_43_EveryFailureIsJsonWhereJsonIsAskedFor) {
+  for (const char* command :
+       {"sensitivity no.toml", "identify no.toml", "design no-machine",
+        "program cone no-machine --out p", "post no.nc --machine iwf-bc --to fanuc -o b.nc",
+        "diff a.nc b.nc --machine iwf-bc", "compensate no.toml --out c",
+        "pose no-machine --axes X=1", "cut no.toml --mesh a.stl", "cmm no.toml",
+        "errors no-machine", "volumetric no-machine", "runn", "pose --nonsense"}) {
+    const Outcome refused = run(std::string(command) + " --json");
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    const auto doc = nlohmann::json::parse(refused.out, nullptr, false);
+    ASSERT_TRUE(doc.is_object()) << command << ": " << refused.out;
+    EXPECT_EQ(doc["status"], "error") << command;
+    EXPECT_TRUE(doc["diagnostics"][0].contains("id")) << command;
+    EXPECT_TRUE(doc["diagnostics"][0].contains("message")) << command;
+  }
+}
+
+TEST_F(CommandHabitsSystem, Fault2_43_QuietCommandsPrintNothingAndJsonOnesADocument) {
+  const std::string piece = "program cone iwf-bc --chord-tolerance 50 --out piece";
+  EXPECT_EQ(run(piece + " --quiet").out, "");
+  EXPECT_EQ(nlohmann::json::parse(run(piece + " --json").out)["files"][0], "piece/job.toml");
+  EXPECT_EQ(run("cmm piece/job.toml --quiet").out, "");
+  EXPECT_EQ(nlohmann::json::parse(run("cmm piece/job.toml --json").out)["lengths"].size(), 105U);
+  EXPECT_EQ(nlohmann::json::parse(run("cmm piece/job.toml --seeds 2 --json").out)["passed"], 2);
+  EXPECT_EQ(run("volumetric iwf-bc --grid 2 --quiet").out, "");
+  const std::string post = "post piece/cone.nc --job piece/job.toml --to sinumerik -o b.mpf";
+  EXPECT_EQ(run(post + " --quiet").out, "");
+  EXPECT_EQ(run("diff piece/cone.nc b.mpf --job piece/job.toml --quiet").out, "");
+}
+
+TEST_F(CommandHabitsSystem, Fault2_43_APoseBeyondTravelSaysSo) {
+  const Outcome pose = run("pose --machine iwf-bc --axes X=1000");
+  EXPECT_EQ(pose.exit_code, 0);
+  EXPECT_NE(pose.err.find("beyond travel: X = 1000"), std::string::npos) << pose.err;
+  const auto doc = nlohmann::json::parse(run("pose iwf-bc --axes X=1000 --json").out);
+  EXPECT_EQ(doc["within_travel"], false);
+  EXPECT_EQ(doc["beyond_travel"].size(), 1U);
+  EXPECT_EQ(run("pose iwf-bc --axes X=10").err, "");
+  EXPECT_EQ(run("volumetric --machine iwf-bc --grid 2").out, run("volumetric iwf-bc --grid 2").out);
+}
+
+TEST_F(CommandHabitsSystem, Fault2_43_AJobIsNoStudy) {
+  write_piece();
+  const Outcome refused = run("identify piece/job.toml");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("this is a job, not a study"), std::string::npos) << refused.err;
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+}
+
+TEST_F(CommandHabitsSystem, Fault2_33_AnyNumberOfThreadsGivesTheSameBits) {
+  write_piece();
+  EXPECT_NE(run("run piece/job.toml --threads 1 --out one --quiet").exit_code, 2);
+  EXPECT_NE(run("run piece/job.toml --threads 3 --out three --quiet").exit_code, 2);
+  EXPECT_EQ(read(folder_ / "one/points.csv"), read(folder_ / "three/points.csv"));
+  EXPECT_GT(read(folder_ / "one/points.csv").size(), 1000U);
+  EXPECT_EQ(run("cut piece/job.toml --threads 1 --mesh one.stl --pitch 4 --quiet").exit_code, 0);
+  EXPECT_EQ(run("cut piece/job.toml --threads 3 --mesh three.stl --pitch 4 --quiet").exit_code, 0);
+  EXPECT_EQ(read(folder_ / "one.stl"), read(folder_ / "three.stl"));
+  for (const char* number : {"0", "-1", "many"}) {
+    EXPECT_EQ(run(std::string("run piece/job.toml --threads ") + number).exit_code, 2) << number;
+  }
+}
+
+TEST_F(CommandHabitsSystem, Fault2_44_EveryDocumentNamesItsSchema) {
+  write_piece();
+  const auto schema = [this](const std::string& command) {
+    const auto doc = nlohmann::json::parse(run(command + " --json").out, nullptr, false);
+    return doc.is_object() && doc.contains("schema") ? doc["schema"].get<std::string>() : "none";
+  };
+  std::ofstream(folder_ / "p.csv") << "0,0,0\n1,0,0\n0,1,0\n1,1,0.1\n";
+  EXPECT_EQ(schema("run piece/job.toml"), "frustum/result/1");
+  EXPECT_EQ(schema("run no.toml"), "frustum/failure/1");
+  EXPECT_EQ(schema("pose iwf-bc --axes X=1"), "frustum/pose/1");
+  EXPECT_EQ(schema("pose iwf-bc --inverse 0,0,100,0,0,1"), "frustum/pose/1");
+  EXPECT_EQ(schema("errors iwf-bc"), "frustum/errors/1");
+  EXPECT_EQ(schema("fit plane p.csv"), "frustum/fit/1");
+  EXPECT_EQ(schema("volumetric iwf-bc --grid 2"), "frustum/volumetric/1");
+  EXPECT_EQ(schema("check piece/cone.nc --job piece/job.toml"), "frustum/check/1");
+  EXPECT_EQ(schema("check piece/cone.nc piece/cone.nc"), "frustum/check-files/1");
+  EXPECT_EQ(schema("cut piece/job.toml --point 0,0,0"), "frustum/cut/1");
+  EXPECT_EQ(schema("diff piece/cone.nc piece/cone.nc --job piece/job.toml"), "frustum/diff/1");
 }
 
 }  // namespace

@@ -382,6 +382,26 @@ TEST(MachineProgram, FollowsGreatCirclesByShortBlocksOrLeavesThemToTheReader) {
   EXPECT_GT(planned(c, blocks).size(), 2 * planned(c, reader).size());
 }
 
+// A thousandth of a degree beside the pole the tool axis goes round by 90 degrees: so does C.
+TEST(MachineProgram, Fault2_33_ThePoleToleranceLetsTheTurningAxisRest) {
+  const Case c = fanuc_on("iwf-bc",
+                          "T1 M6\nS5000 M3\nG43.5 H1\nG0 X0. Y0. Z20. I0. J0. K1.\n"
+                          "G1 X1. I0.0000174533 J0. K1. F500\nX2. I0. J0.0000174533 K1.\n"
+                          "X3. I0.1 J0. K1.\n");
+  const auto turned = [&](Rad tolerance) {
+    double from = 0.0, to = 0.0;
+    for (const Motion& motion : planned(c, {.pole_tolerance = tolerance})) {
+      const auto* feed = std::get_if<parser::LinearFeed>(&motion.command);
+      if (feed == nullptr || !feed->end[AxisLetter::C]) continue;
+      from = std::min(from, *feed->end[AxisLetter::C]);
+      to = std::max(to, *feed->end[AxisLetter::C]);
+    }
+    return to - from;
+  };
+  EXPECT_NEAR(turned(Rad{1e-7}), 90.0 * kRadPerDeg, 1e-3);
+  EXPECT_NEAR(turned(Rad{2e-5}), 0.0, 1e-9);
+}
+
 TEST(MachineProgram, StartsAndEndsWithTheToolRetracted) {
   const Case c =
       fanuc_on("iwf-bc", "T1 M6\nS5000 M3\nM8\nG43.4 H1\nG0 X0. Y0. Z20. B10. C0.\nG1 Z0. F500\n");

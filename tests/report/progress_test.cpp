@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <sstream>
+#include <thread>
 
 namespace frustum::report {
 namespace {
@@ -70,6 +72,26 @@ TEST(Progress, NeverRunsBackwards) {
   turned.seconds = 3.0;
   turned.progress.at(0.2);
   EXPECT_THAT(turned.out.str(), HasSubstr(" 80 %"));
+}
+
+TEST(Progress, Fault2_41_IsDrawnThoughNobodyTellsAShare) {
+  std::ostringstream out;
+  {
+    Progress progress(out, ProgressStyle::bar);
+    progress.begin("cut");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+  }
+  EXPECT_NE(out.str().find("cut: 1 s"), std::string::npos) << out.str();
+  EXPECT_TRUE(out.str().ends_with("\r\x1b[K")) << "the line is clean at the end";
+}
+
+TEST(Progress, Fault2_41_IsDrawnOnTerminalsThatCanDrawAlone) {
+  EXPECT_EQ(style_on({true, "xterm", nullptr}), ProgressStyle::bar);
+  EXPECT_EQ(style_on({true, "xterm", ""}), ProgressStyle::bar);
+  EXPECT_EQ(style_on({true, "xterm", "1"}), ProgressStyle::log);
+  EXPECT_EQ(style_on({true, "dumb", nullptr}), ProgressStyle::log);
+  EXPECT_EQ(style_on({true, nullptr, nullptr}), ProgressStyle::log);
+  EXPECT_EQ(style_on({false, "xterm", nullptr}), ProgressStyle::log);
 }
 
 }  // namespace

@@ -53,9 +53,9 @@ TEST(SensitivityJson, HasItsKeysInOrderAndOneRowACharacteristic) {
   const auto json = nlohmann::ordered_json::parse(sensitivity_json(small_table()));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys,
-            (std::vector<std::string>{"title", "machine", "method", "characteristics", "errors",
-                                      "units", "characteristic_units", "matrix", "even"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"schema", "title", "machine", "method",
+                                            "characteristics", "errors", "units",
+                                            "characteristic_units", "matrix", "even"}));
   EXPECT_EQ(json["errors"].size(), 4U);
   EXPECT_EQ(json["units"][1], "urad");
   EXPECT_EQ(json["characteristic_units"][1], "urad");
