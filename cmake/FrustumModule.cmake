@@ -1,13 +1,13 @@
 # frustum_module(NAME SOURCES a.cpp ... [HOT b.cpp ...] [ALONE c.cpp ...] [USES frustum::core ...]
-#                [PRIVATE_USES ...] [BATCH size])
+#                [PRIVATE_USES ...] [PRECOMPILED <header> ...] [BATCH size])
 #
 # One room: a static library frustum_NAME with alias frustum::NAME. USES are the arrows of the house;
 # PRIVATE_USES are libraries that only the room's .cpp files see. HOT sources run in innermost loops and are
 # compiled for speed; ALONE sources read headers so large, or are read with definitions of their own, that
-# they are compiled one at a time. At most BATCH sources (10) are compiled together: fewer where each takes
-# long, so that a touch of one is built soon.
+# they are compiled one at a time; PRECOMPILED are large headers that several of them read. At most BATCH
+# sources (10) are compiled together: fewer where each takes long, so that a touch of one is built soon.
 function(frustum_module name)
-  cmake_parse_arguments(ROOM "" "BATCH" "SOURCES;HOT;ALONE;USES;PRIVATE_USES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "BATCH" "SOURCES;HOT;ALONE;USES;PRIVATE_USES;PRECOMPILED" ${ARGN})
   set(room frustum_${name})
   add_library(${room} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
   if(NOT ROOM_BATCH)
@@ -32,6 +32,6 @@ function(frustum_module name)
     ${room}
     PUBLIC ${ROOM_USES}
     PRIVATE $<BUILD_INTERFACE:frustum_flags> ${ROOM_PRIVATE_USES})
-  frustum_precompile(${room})
+  frustum_precompile(${room} ${ROOM_PRECOMPILED})
   set_property(GLOBAL APPEND PROPERTY FRUSTUM_ROOMS ${name})
 endfunction()

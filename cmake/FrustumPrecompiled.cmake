@@ -12,9 +12,14 @@ set(FRUSTUM_TEST_HEADERS <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h> <rapidch
 # Test sources are compiled in a third less time so, and what they call is in libraries made for speed.
 set(FRUSTUM_TEST_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 
-# The files of TARGET, a library or a test program, start from them.
+# The files of TARGET, a library or a test program, start from them, or from them and further headers that are
+# named.
 function(frustum_precompile target)
   if(NOT FRUSTUM_PRECOMPILE)
+    return()
+  endif()
+  if(ARGN)
+    target_precompile_headers(${target} PRIVATE ${FRUSTUM_COMMON_HEADERS} ${ARGN})
     return()
   endif()
   get_target_property(type ${target} TYPE)
