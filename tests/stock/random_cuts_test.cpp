@@ -11,7 +11,7 @@ namespace {
 // 20 to 50 ms each.
 int cuts() {
   const char* wanted = std::getenv("FRUSTUM_RANDOM_CUTS");
-  return wanted ? std::atoi(wanted) : law_count(10000, 400);
+  return wanted ? std::atoi(wanted) : law_count(10000, 240);
 }
 
 // In four parts, so that several can run at once.

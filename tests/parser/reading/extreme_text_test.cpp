@@ -6,6 +6,8 @@
 
 #include <ostream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/parser/running.hpp"
@@ -13,18 +15,32 @@
 namespace frustum::parser {
 namespace {
 
-std::string repeated(std::string_view part, int times) {
-  std::string text;
-  for (int i = 0; i < times; ++i) text += part;
-  return text;
-}
-
 const std::string kDigits(400, '9');
+
+// A text with a part that is repeated. It is put together only where it is read, since these
+// tables are made in each of the thousand starts of the program, one for every test of the room.
+struct Repetitive {
+  std::string before;
+  std::string_view part{};
+  int times = 0;
+  std::string after{};
+
+  Repetitive(const char* text) : before(text) {}             // NOLINT: so that the table is short
+  Repetitive(std::string text) : before(std::move(text)) {}  // NOLINT
+  Repetitive(std::string head, std::string_view repeated, int number, std::string tail = "")
+      : before(std::move(head)), part(repeated), times(number), after(std::move(tail)) {}
+
+  [[nodiscard]] std::string whole() const {
+    std::string text = before;
+    for (int i = 0; i < times; ++i) text += part;
+    return text + after;
+  }
+};
 
 struct Extreme {
   std::string name;
   Dialect dialect;
-  std::string text;
+  Repetitive text;
   std::string complaint;  // the first, without the hint
 };
 void PrintTo(const Extreme& extreme, std::ostream* out) { *out << extreme.name; }
@@ -145,34 +161,51 @@ const std::vector<Extreme> kExtremes{
     {"HeidenhainWideText", heidenhain, "\xFE\xFFL", "1:1: error: unexpected byte 0xFE"},
     {"FanucEscape", fanuc, "\x1B[0m", "1:1: error: unexpected byte 0x1B"},
     // Length and depth.
-    {"FanucLongLine", fanuc, "G0X1" + std::string(1'000'000, ' ') + "?",
-     "1:1000005: error: unexpected '?'"},
-    {"FanucLongComment", fanuc, "(" + std::string(1'000'000, 'x'),
-     "1:1: error: the comment is not closed"},
-    {"FanucManySigns", fanuc, "G0 X" + std::string(100'000, '-') + "1",
-     "1:4: error: X has no number"},
-    {"FanucParameterChain", fanuc, std::string(100'000, '#') + "1=1",
+    {"FanucLongLine", fanuc, {"G0X1", " ", 1'000'000, "?"}, "1:1000005: error: unexpected '?'"},
+    {"FanucLongComment", fanuc, {"(", "x", 1'000'000}, "1:1: error: the comment is not closed"},
+    {"FanucManySigns", fanuc, {"G0 X", "-", 100'000, "1"}, "1:4: error: X has no number"},
+    {"FanucParameterChain",
+     fanuc,
+     {"", "#", 100'000, "1=1"},
      "1:66: error: more than 64 brackets within each other"},
-    {"FanucBrackets", fanuc, "X" + std::string(100'000, '['),
+    {"FanucBrackets",
+     fanuc,
+     {"X", "[", 100'000},
      "1:66: error: more than 64 brackets within each other"},
-    {"FanucFunctions", fanuc, "X" + repeated("SIN[", 10'000),
+    {"FanucFunctions",
+     fanuc,
+     {"X", "SIN[", 10'000},
      "1:261: error: more than 64 brackets within each other"},
-    {"FanucLongSum", fanuc, "X[" + repeated("1+", 50'000), "1:2: error: the bracket is not closed"},
-    {"SinumerikBrackets", sinumerik, "X=" + std::string(100'000, '('),
+    {"FanucLongSum", fanuc, {"X[", "1+", 50'000}, "1:2: error: the bracket is not closed"},
+    {"SinumerikBrackets",
+     sinumerik,
+     {"X=", "(", 100'000},
      "1:68: error: too many brackets within each other"},
-    {"SinumerikSigns", sinumerik, "X=" + std::string(100'000, '-') + "1",
+    {"SinumerikSigns",
+     sinumerik,
+     {"X=", "-", 100'000, "1"},
      "1:68: error: too many brackets within each other"},
-    {"SinumerikNots", sinumerik, "IF " + repeated("NOT ", 10'000) + "R1\nENDIF\n",
+    {"SinumerikNots",
+     sinumerik,
+     {"IF ", "NOT ", 10'000, "R1\nENDIF\n"},
      "1:264: error: too many brackets within each other"},
-    {"HeidenhainBrackets", heidenhain, "Q1 = " + std::string(100'000, '('),
+    {"HeidenhainBrackets",
+     heidenhain,
+     {"Q1 = ", "(", 100'000},
      "1:71: error: too many brackets within each other"},
-    {"HeidenhainFunctions", heidenhain, "Q1 = " + repeated("SIN ", 10'000) + "1",
+    {"HeidenhainFunctions",
+     heidenhain,
+     {"Q1 = ", "SIN ", 10'000, "1"},
      "1:266: error: too many brackets within each other"},
-    {"CldataArgumentsWithoutEnd", cldata, "GOTO/" + repeated("1,", 100'000),
+    {"CldataArgumentsWithoutEnd",
+     cldata,
+     {"GOTO/", "1,", 100'000},
      "1:200006: error: an argument is missing"},
-    {"CldataContinuedWithoutEnd", cldata, "GOTO/1,2,$\n" + repeated("$\n", 10'000) + "X",
+    {"CldataContinuedWithoutEnd",
+     cldata,
+     {"GOTO/1,2,$\n", "$\n", 10'000, "X"},
      "10002:1: error: X has no meaning in GOTO"},
-    {"LinuxcncOpenBranches", linuxcnc, repeated("o1 if [1]\n", 3), "1:1: error: if 1 has no end"},
+    {"LinuxcncOpenBranches", linuxcnc, {"", "o1 if [1]\n", 3}, "1:1: error: if 1 has no end"},
 };
 
 class ExtremeText : public testing::TestWithParam<Extreme> {};
@@ -180,7 +213,7 @@ class ExtremeText : public testing::TestWithParam<Extreme> {};
 TEST_P(ExtremeText, SaysWhereWhatAndTheRemedy) {
   InterpreterOptions options;
   options.max_blocks = 2000;
-  const auto lines = complaints(GetParam().text, options, GetParam().dialect);
+  const auto lines = complaints(GetParam().text.whole(), options, GetParam().dialect);
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].substr(0, lines[0].find(" (hint: ")), GetParam().complaint);
   EXPECT_NE(lines[0].find(" (hint: "), std::string::npos);
