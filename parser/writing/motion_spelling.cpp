@@ -28,6 +28,8 @@ constexpr NcSpelling kFanucWords{
     .rigid_tap = "",
     .tap_cycle = "M29 S{speed}\nG99 {word} Z{z} R{start} {feed}\nG80",
     .tap_words = {"G84", "G74"},
+    .tap_strokes = {},
+    .before_strokes = {},
     .modal = true,
     .planes = {"G17", "G18", "G19"},
     .tool_vector = {"I", "J", "K"},
@@ -103,6 +105,8 @@ constexpr NcSpelling sinumerik_words() {
   s.lead = "IJK";
   s.lead_by = LeadBy::longest_axis;
   s.tap_cycle = "SPOS=0\nG331 Z{z} K{signed}\nG332 Z{start} K{signed}";
+  s.tap_strokes = {"G331 Z{z} K{signed}", "G332 Z{z} K{signed}"};
+  s.before_strokes = "SPOS=0";
   s.home_return = "";
   s.before_machine_coordinates = "SUPA";
   s.machine_coordinates_compensated = true;
@@ -149,6 +153,8 @@ constexpr NcSpelling kHeidenhainWords{
         "CYCL DEF 207 RIGID TAPPING Q200=+0 Q201={depth} Q239={signed} Q203={start} "
         "Q204=+0\nCYCL CALL",
     .tap_words = {},
+    .tap_strokes = {},
+    .before_strokes = {},
     .modal = false,
     .planes = {},
     .tool_vector = {"TX", "TY", "TZ"},

@@ -51,6 +51,11 @@ struct NcSpelling {
   std::string_view rigid_tap;
   std::string_view tap_cycle;
   std::array<std::string_view, 2> tap_words;  // right-handed, left-handed
+  // In and out by the lead, the spindle turning by itself, from any place to any other: what a tap
+  // in strokes is made of, with {z} and {signed}. `before_strokes` orients the spindle; empty:
+  // there is no such word.
+  std::array<std::string_view, 2> tap_strokes;
+  std::string_view before_strokes;
   bool modal;
   std::array<std::string_view, 3> planes;       // XY ZX YZ
   std::array<std::string_view, 3> tool_vector;  // components; empty: none

@@ -107,7 +107,11 @@ class MotionWriter {
     const bool in_cycle = tap.reverses && spelling_.rigid_tap.empty();
     thread_word_ = tap.reverses ? spelling_.rigid_tap : spelling_.thread;
     std::string_view obstacle = tap.obstacle;
-    if (in_cycle && obstacle.empty()) obstacle = obstacle_to_cycle(move);
+    const bool guided = guides_tip(in_force_);
+    if (in_cycle && obstacle.empty()) obstacle = obstacle_to_cycle(words_, move, guided);
+    if (in_cycle && !tap.obstacle.empty() && !spelling_.before_strokes.empty()) {
+      return tap_in_strokes(move, guided);
+    }
     if (!tap.reverses && thread_word_.empty()) obstacle = "a move synchronised with the spindle";
     if (!obstacle.empty()) {
       return refusals_.add(std::string(obstacle), "write threads with the control's cycles");
@@ -122,21 +126,6 @@ class MotionWriter {
     straight(move.end, move.tool_axis, move.coordinates, &move.feed);
   }
 
-  // Cycles tap along Z, from a place that is known, with the tool where the axes are.
-  [[nodiscard]] std::string_view obstacle_to_cycle(const LinearFeed& move) const {
-    const AxisTarget start = words_.at();
-    bool alone = start[AxisLetter::Z].has_value();
-    for (const AxisLetter letter : kAxisLetters) {
-      if (letter == AxisLetter::Z || !move.end[letter]) continue;
-      alone = alone && start[letter] &&
-              words_.text_of(letter, *start[letter]) == words_.text_of(letter, *move.end[letter]);
-    }
-    if (!alone || move.coordinates == Coordinates::machine) return "a tap that is not along Z";
-    if (!(*move.end[AxisLetter::Z] < *start[AxisLetter::Z])) return "a tap upwards";
-    if (move.tool_axis || guides_tip(in_force_)) return "a tap with tool centre point control";
-    return {};
-  }
-
   void tap_in_cycle(const LinearFeed& move) {
     if (length_cannot_be_off()) return;
     const AxisTarget start = words_.at();
@@ -149,8 +138,7 @@ class MotionWriter {
       words_.restate_feed();
       feed = words_.feed({move.feed.value * speed_, FeedMode::per_minute});
     }
-    if (plane_.value_or(Plane::xy) != Plane::xy) out_.line(spelling_.planes[0]);
-    plane_ = Plane::xy;
+    begin_tap();
     out_.lines(fmt::format(
         fmt::runtime(spelling_.tap_cycle), fmt::arg("z", number(bottom)),
         fmt::arg("start", number(top)), fmt::arg("depth", number(bottom - top)),
@@ -159,6 +147,28 @@ class MotionWriter {
         fmt::arg("word", spelling_.tap_words.at(right ? 0 : 1))));
     motion_word_ = {};
     turning_ = SpindleDirection::off;
+  }
+
+  void begin_tap() {
+    if (plane_.value_or(Plane::xy) != Plane::xy) out_.line(spelling_.planes[0]);
+    plane_ = Plane::xy;
+  }
+
+  void tap_in_strokes(const LinearFeed& in, bool guided) {
+    const TapStrokes tap = tap_strokes_of(in, {turning_, speed_}, words_.at(), rest_);
+    if (guided || !tap.obstacle.empty()) {
+      return refusals_.add(guided ? "a tap with tool centre point control" : tap.obstacle,
+                           "write threads with the control's cycles");
+    }
+    if (length_cannot_be_off()) return;
+    begin_tap();
+    out_.lines(strokes_text(tap, in.feed, speed_, spelling_, words_, options_.feed_digits));
+    speed_ = tap.strokes.back().speed;
+    (void)words_.axis(AxisLetter::Z, tap.strokes.back().z, true);
+    motion_word_ = {};
+    turning_ = SpindleDirection::off;
+    left_ = tap.left;
+    said_ = tap.after;
   }
 
   void write(const Probe& /*probe*/) {

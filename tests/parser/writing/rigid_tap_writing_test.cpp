@@ -116,6 +116,51 @@ TEST(RigidTapWriting, RefusesWhatIsNotInAndOutAtOnce) {
   }
 }
 
+// Sinumerik says each way in and out for itself: strokes, dwells, speeds, and other ends.
+TEST(RigidTapWriting, InStrokesIsWrittenStrokeByStroke) {
+  const std::string go = "G17 G90 G94 G71\nT1 M6\nD1\nS500 M3\nG0 X1 Y2 Z2\n";
+  const auto cuts = [](const std::vector<Motion>& all) {
+    std::string told;
+    SpindleChange turns;
+    for (const Motion& motion : all) {
+      if (const auto* spindle = std::get_if<SpindleChange>(&motion.command)) turns = *spindle;
+      if (const auto* wait = std::get_if<Dwell>(&motion.command)) {
+        told += fmt::format("D{:g}; ", wait->seconds);
+      }
+      const auto* cut = std::get_if<LinearFeed>(&motion.command);
+      if (cut == nullptr) continue;
+      told += fmt::format("{:g} {:g}{} {} {:g}; ", *cut->end[AxisLetter::Z], cut->feed.value,
+                          cut->feed.synchronised ? "s" : "", static_cast<int>(turns.direction),
+                          turns.speed);
+    }
+    return told;
+  };
+  const auto expect_strokes = [&](const std::string& text, Dialect dialect,
+                                  const std::string& block) {
+    const auto read = motions_in(text, dialect);
+    const auto nc = write_nc(read, Dialect::sinumerik);
+    ASSERT_TRUE(nc) << first_of(nc.error());
+    EXPECT_NE(nc->text.find(block), std::string::npos) << nc->text;
+    EXPECT_EQ(cuts(motions_in(nc->text, Dialect::sinumerik)), cuts(read)) << nc->text;
+  };
+  const std::string back = "\nG0 X9\nG1 Z1 F90\nM30\n";
+  // 5 deep, 1 back, the rest.
+  expect_strokes(go + "CYCLE84(20,0,2,-10,,0,3,,1.5,0,500,500,3,0,0,1,5,1)" + back,
+                 Dialect::sinumerik,
+                 "SPOS=0\nG331 Z-5 K1.5\nG332 Z-4 K1.5\nG331 Z-10 K1.5\nG332 Z2 K1.5\nG0 Z20\n");
+  expect_strokes(go + "CYCLE84(20,0,2,-10,,0,3,,-1.5,0,500,600)" + back, Dialect::sinumerik,
+                 "SPOS=0\nG331 Z-10 K-1.5\nG332 Z2 K-1.5 S600\n");
+  expect_strokes(go + "CYCLE84(20,0,2,-10,,0.5,3,,1.5,0,500)" + back, Dialect::sinumerik,
+                 "SPOS=0\nG331 Z-10 K1.5\nG4 F0.5\nG332 Z2 K1.5\n");
+  expect_strokes(go + "G331 Z-10 K1.5\nG332 Z5 K1.5\nM3" + back, Dialect::sinumerik,
+                 "SPOS=0\nG331 Z-10 K1.5\nG332 Z5 K1.5\n");
+  expect_strokes(
+      "TOOL CALL 1 Z S500\nL X+1 Y+2 Z+20 R0 FMAX M3\nCYCL DEF 209 Q200=2 Q201=-10 Q239=1.5 "
+      "Q203=+0 Q204=20 Q257=6 Q256=1\nCYCL CALL\nL X+5 R0 F100\n",
+      Dialect::heidenhain,
+      "SPOS=0\nG331 Z-6 K1.5\nG332 Z-4.5 K1.5\nG331 Z-10 K1.5\nG332 Z2 K1.5\n");
+}
+
 // A height that the length of the tool was added to and taken from is off by its last digit.
 TEST(RigidTapWriting, ComesBackWhereRoundingLetsIt) {
   const double off = (5.1 + 146.3) - 146.3;
