@@ -40,6 +40,7 @@ enum class CodeGroup : std::uint8_t {
   orientation_path,
   orientation_reference,
   rotary_path,
+  rotary_display,
   path_control,
   retract,
   speed_mode,

@@ -109,8 +109,8 @@ constexpr std::array kHeidenhainCodes{
     modal('M', 1290, tool_tip, TipWord::off),
     modal('M', 1360, feed_mode, FeedMode::per_revolution),
     modal('M', 1370, feed_mode, FeedMode::per_minute),
-    passed('M', 900),   // corners at a constant speed
-    passed('M', 940),   // what a rotary axis shows is less than a turn again
+    passed('M', 900),                             // corners at a constant speed
+    passed('M', 940, CodeGroup::rotary_display),  // less than a turn again
     passed('M', 970),   // small steps of a contour, which matter beside it only
     passed('M', 980),   // open corners, likewise
     passed('M', 1010),  // another tool when this one is worn

@@ -95,6 +95,7 @@ Outcome set_frames(InterpreterState& state, MotionFilters& filters, const BlockW
   if (auto done = change_program_frame(state, words); !done) return done;
   if (auto done = set_tilted_plane(state, words); !done) return done;
   set_polar_mode(state, words);
+  if (auto done = check_turns_shown(state, words); !done) return done;
   set_paths(state, words);
   return set_hole_cycle(state, words);
 }

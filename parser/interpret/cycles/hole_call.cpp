@@ -355,7 +355,10 @@ void drill_from_top(InterpreterState& state, const Vec3& top, const std::optiona
 Outcome set_hole_cycle(InterpreterState& state, const BlockWords& words) {
   if (!state.at_work.block->pattern.empty()) return set_point_pattern(state, words);
   if (words[CodeGroup::hole_cycle].code == nullptr) return Done{};
-  if (auto done = define_hole_cycle(state, words); !done) return done;
+  if (auto done = define_hole_cycle(state, words); !done) {
+    state.modes.hole_cycle = {};  // nothing half defined is called
+    return done;
+  }
   if (state.modes.hole_cycle.top) set_cycle_parameters(state, words, true);
   return Done{};
 }

@@ -270,6 +270,10 @@ Outcome set_scaling(InterpreterState& state, const BlockWords& words) {
                 fmt::format("{} is out of range", words.text_of(given)),
                 "give a factor from 0.00001 to 10000");
   }
+  if (klartext && given == 'P' && next.scale != 1.0) {
+    assume(state, code.column, code.code->name(),
+           "scales Z as well: MP7410 of the control says whether it does");
+  }
   for (const AxisLetter axis : {AxisLetter::X, AxisLetter::Y, AxisLetter::Z}) {
     const auto i = static_cast<Eigen::Index>(axis);
     if (words.has(to_char(axis))) {

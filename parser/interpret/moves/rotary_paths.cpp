@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/units.hpp"
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
 
@@ -52,6 +53,22 @@ RotaryPath rotary_path_of(InterpreterState& state, const BlockWords& words, char
 }
 
 }  // namespace
+
+Outcome check_turns_shown(const InterpreterState& state, const BlockWords& words) {
+  const GivenCode& code = words[CodeGroup::rotary_display];
+  if (code.code == nullptr) return Done{};
+  for (std::size_t i = 0; i < kRotaryLetters.size(); ++i) {
+    const auto& place = state.position[static_cast<AxisLetter>(3 + i)];
+    if (!place) continue;
+    const double shown = *place * kDegPerRad;
+    if (std::abs(shown) < kTurnInDegrees) continue;
+    return fail(state, code.column, "not-simulated"_id,
+                fmt::format("{} takes full turns off {} = {:.6g} deg, which is not simulated",
+                            code.code->name(), kRotaryLetters[i], shown),
+                "turn by M126, or back to less than a full turn before");
+  }
+  return Done{};
+}
 
 void set_paths(InterpreterState& state, const BlockWords& words) {
   const GivenCode& orientation = words[CodeGroup::orientation_path];

@@ -11,6 +11,8 @@
 
 namespace frustum::parser {
 
+// M94 takes full turns off what a rotary axis shows; places count from it then.
+[[nodiscard]] Outcome check_turns_shown(const InterpreterState& state, const BlockWords& words);
 void set_paths(InterpreterState& state, const BlockWords& words);
 [[nodiscard]] Outcome announce_rotary_paths(InterpreterState& state, const BlockWords& words,
                                             std::uint32_t column);

@@ -200,6 +200,11 @@ class CldataReader {
     for (const Handler& handler : handlers()) {
       if (record_.word == handler.word) return (this->*handler.read)();
     }
+    if (keeps_tilt()) {
+      block_.comments.push_back(
+          {record_.column, false, "the tool keeps its direction", "MULTAX/OFF"});
+      return;
+    }
     const bool inches = pending_.modes.inches;
     if (read_cldata_setting(in_, record_, pending_.modes, block_)) {
       if (pending_.modes.inches != inches) pending_.at.reset();
@@ -208,6 +213,13 @@ class CldataReader {
     }
     in_.fail("unknown-word"_id, record_.column, "unknown form of " + record_.word,
              "look at the list of records in docs/dialects.md");
+  }
+
+  // MULTAX/OFF behind a tilted place: places without vectors are of the tip of the tool as it is.
+  [[nodiscard]] bool keeps_tilt() const {
+    constexpr double kUpright = 1e-9;
+    return record_.word == "MULTAX" && record_.only_word() == "OFF" && pending_.axis &&
+           (pending_.axis->normalized() - Vec3::UnitZ()).norm() > kUpright;
   }
 
   [[nodiscard]] bool is_known() const {

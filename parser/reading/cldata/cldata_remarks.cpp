@@ -63,6 +63,13 @@ bool CldataRemarks::take_note(std::string& frame) {
   if (word == "TOOL" && in_.take_name("PATH")) return note("TOOL PATH");
   if (word == "END" && in_.peek() == '-') return note("END-OF-PATH");
   if (word == "MSYS" || word == "SYS") return note_frame(frame);
+  const std::uint32_t behind_word = in_.column();
+  if (word == "SET" && in_.take('/') && in_.take_name("AXIS")) {
+    in_.fail("not-supported"_id, record_.column, "SET/AXIS is not simulated",
+             "give tool vectors in GOTO after MULTAX/ON");
+    return true;
+  }
+  in_.go_to(behind_word);
   for (const char* event : cldata_note_words()) {
     if (word == event) return note(event);
   }

@@ -47,7 +47,8 @@ const char* harmless_cldata(std::string_view record, std::string_view argument) 
   constexpr std::array kForms{
       Form{"TRACUT", "NOMORE"}, Form{"COPY", "NOMORE"},  Form{"MODE", "ABSOL"},
       Form{"THREAD", "OFF"},    Form{"ROTATE", "OFF"},   Form{"MODE", "MILL"},
-      Form{"INDEX", "NOMORE"},  Form{"TRANS", "NOMORE"}, Form{"ORIGIN", "NOMORE"}};
+      Form{"INDEX", "NOMORE"},  Form{"TRANS", "NOMORE"}, Form{"ORIGIN", "NOMORE"},
+      Form{"MIRROR", "NOMORE"}, Form{"MIRROR", "OFF"},   Form{"REFSYS", "NOMORE"}};
   for (const Form& form : kForms) {
     if (record == form.word && argument == form.argument) return form.word;
   }

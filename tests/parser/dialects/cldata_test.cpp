@@ -410,5 +410,38 @@ TEST(CldataErrors, SayWhereWhatAndTheRemedy) {
   }
 }
 
+// Places without a vector are then of the tip of the tool as it is.
+TEST(CldataTilt, StaysBehindMultaxOff) {
+  const std::string head =
+      "UNITS/MM\nLOADTL/1\nFEDRAT/100,MMPM\nGOTO/0,0,100\nMULTAX/ON\nGOTO/10,0,0,0,0.6,0.8\n"
+      "MULTAX/OFF\n";
+  const auto tilted =
+      all_of<LinearFeed>(motions(head + "GOTO/30,20,5\n", {}, Dialect::cldata)).back();
+  EXPECT_EQ(tilted.end[AxisLetter::X], 30.0);
+  EXPECT_EQ(tilted.end[AxisLetter::Z], 5.0);
+  ASSERT_TRUE(tilted.tool_axis);
+  EXPECT_LT((tilted.tool_axis->vec() - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
+  // Of an upright tool it ends the tilting.
+  const auto upright = motions(head + "GOTO/1,2,3,0,0,1\nMULTAX/OFF\n", {}, Dialect::cldata);
+  EXPECT_EQ(last_of<CompensationChange>(upright).mode, LengthCompensation::length);
+}
+
+// Records of APT that say where the part or the tool is, and are not simulated.
+TEST(CldataRefusals, NameRecordsThatMoveThePart) {
+  for (const char* record : {"MIRROR/XYPLAN", "REFSYS/MX1", "LOOPST", "INCR", "TABLE/90",
+                             "WAXIS/10", "ZAXIS/10", "SET/AXIS,90"}) {
+    EXPECT_EQ(complaint_ids(std::string("UNITS/MM\nFEDRAT/9,MMPM\n") + record + "\nGOTO/1,0,0\n",
+                            {}, Dialect::cldata),
+              std::vector<std::string>{"not-supported"})
+        << record;
+  }
+  for (const char* record : {"MIRROR/NOMORE", "SET/MODE,ABSOL", "HEAD/1"}) {
+    EXPECT_TRUE(
+        complaint_ids(std::string("UNITS/MM\n") + record + "\nGOTO/1,0,0\n", {}, Dialect::cldata)
+            .empty())
+        << record;
+  }
+}
+
 }  // namespace
 }  // namespace frustum::parser

@@ -210,5 +210,39 @@ TEST(KlartextArcs, WithoutAnEndGoOnceRound) {
   EXPECT_EQ(last_of<ArcFeed>(run_modes(head + "CP IPA-360 DR- F100\n")).turns, -1);
 }
 
+// 538 degrees would be 178 from there on, and C+180 two degrees more.
+TEST(KlartextModes, M94IsRefusedWhereItTakesTurnsOff) {
+  EXPECT_EQ(mode_complaint("L C+538 FMAX\nL X+10 C+180 F500 M94\n"),
+            "2:19: error: M94 takes full turns off C = 538 deg, which is not simulated (hint: turn "
+            "by M126, or back to less than a full turn before)");
+  EXPECT_EQ(mode_complaint("L C-359 FMAX M94\nL C+180 F500\n"), "");
+  EXPECT_EQ(mode_complaint("M94 C\nL C+180 F500\n"), "");
+}
+
+TEST(KlartextModes, ScalingOfZIsTheControls) {
+  const auto assumed = [](const std::string& text) {
+    std::vector<std::string> names;
+    for (const Event& event : all_of<Event>(run_modes("L X+1 Y+1 Z+1 FMAX\n" + text))) {
+      if (event.grade == EventGrade::assumed) names.push_back(event.name);
+    }
+    return names;
+  };
+  EXPECT_EQ(assumed("CYCL DEF 11.0\nCYCL DEF 11.1 SCL 2\nL X+10 Z+5 F100\n"),
+            std::vector<std::string>{"CYCL DEF 11"});
+  EXPECT_EQ(assumed("CYCL DEF 11.0\nCYCL DEF 11.1 SCL 1\nL X+10 Z+5 F100\n"),
+            std::vector<std::string>{});
+}
+
+// A program that goes on after the complaint, as a check does, would run a hundred million pecks.
+TEST(KlartextModes, ACycleThatIsRefusedIsNotCalled) {
+  const auto lines = complaints(
+      "TOOL CALL 1 Z S1\nL X+0 Y+0 Z+5 FMAX M3\nCYCL DEF 200 Q200=2 Q201=-1000 Q206=1 Q202=.00001 "
+      "Q210=0 Q203=0 Q204=5 Q211=0\nCYCL CALL\n",
+      {}, Dialect::heidenhain);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_TRUE(lines.front().starts_with("3:39: error: the cycle makes more than 10000 pecks"))
+      << lines.front();
+}
+
 }  // namespace
 }  // namespace frustum::parser
