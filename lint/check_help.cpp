@@ -38,16 +38,16 @@ constexpr std::array kHelp{
          "text is likely to be another dialect's or no program.",
          "Mend the errors and check again, or name the dialect by --dialect."}},
     Row{unused_subprogram,
-        {"A subprogram stands in the program and nothing calls it: a call is missing, or goes to "
+        {"A subprogram is in the program and nothing calls it: a call is missing, or goes to "
          "another number.",
          "Call it, or leave it out."}},
     Row{unused_label,
         {"No jump, repeat or call names the label: it may be misspelt where it is wanted.",
          "Name it, or leave it out."}},
     Row{unreachable_code,
-        {"Blocks stand after the end of the program or subprogram and nothing jumps to them: the "
+        {"Blocks are after the end of the program or subprogram and nothing jumps to them: the "
          "control does not run them.",
-         "Leave them out, or move the end behind them."}},
+         "Leave them out, or move the end after them."}},
     Row{duplicate_number,
         {"A jump goes to a block number that several blocks have; which one the control takes "
          "depends on where it searches first.",

@@ -95,7 +95,7 @@ Result<AxisPositions> read_headings(const Machine& machine, const std::string& t
     const double h = (*heading)[joint.letter];
     if (std::abs(h) <= 1.0) continue;
     return error("out-of-range"_id,
-                 fmt::format("--heading {}={}: expected -1 .. +1", to_char(joint.letter), h),
+                 fmt::format("--approach {}={}: expected -1 .. +1", to_char(joint.letter), h),
                  "+1 after motion in +, -1 after motion in -");
   }
   return heading;
@@ -211,8 +211,8 @@ void add_pose(Command& program) {
       "--inverse", options->inverse,
       "\"x,y,z,i,j,k\": tip (mm) and tool axis; all axis solutions, those within travel and "
       "nearest to zero first");
-  command.option("--heading", options->heading,
-                 "\"X=1,B=-1\": from which side axes came (default 0: not moved yet)");
+  command.option("--approach,--heading", options->heading,
+                 "\"X=1,B=-1\": direction of approach of the axes (default 0: not moved yet)");
   add_error_options(command, options->errors);
   command.option("--tool-length", options->tool_length,
                  "mm, default 0: the tip is the gauge point");

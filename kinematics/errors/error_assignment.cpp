@@ -216,9 +216,9 @@ class Resolver {
       if (before->distance != own.distance) {
         refuse(*own.entry,
                error("lost-motion-distance"_id,
-                     fmt::format("error {}: {} settles over another distance than in {}",
+                     fmt::format("error {}: {} takes up its play over another distance than in {}",
                                  own.entry->name, to_char(own.axis), before->entry->name),
-                     "an axis has one play: give one settling distance"));
+                     "an axis has one lost motion: give one take-up distance"));
       }
       of_axis = own.distance;
     }
@@ -270,9 +270,9 @@ class Resolver {
   }
   void refuse_settle(const ErrorEntry& entry, const NamedError& named) {
     refuse(entry, error("lost-motion-distance"_id,
-                        fmt::format("error {}: two settling distances of {}", entry.name,
+                        fmt::format("error {}: two take-up distances of {}", entry.name,
                                     to_char(named.error.axis)),
-                        "an axis has one play: give one settling distance"));
+                        "an axis has one lost motion: give one take-up distance"));
   }
 
   const Machine& machine_;

@@ -243,7 +243,7 @@ class TermReader {
     if (shape_.kind == ErrorShape::Kind::cyclic && !(shape_.period > 0.0))
       in_.fail("a cyclic error needs its period, above 0: period 5mm");
     if (shape_.kind == ErrorShape::Kind::tent && shape_.peak.kind == UnitKind::none)
-      in_.fail("a tent needs the place of its peak: at 90deg");
+      in_.fail("a triangular error needs the place of its peak: at 90deg");
     if (!in_.problem().empty()) return error("error-text"_id, in_.problem(), kForms);
     return shape_;
   }
@@ -298,8 +298,8 @@ class TermReader {
     } else if (k == Kind::cyclic && in_.take("period")) {
       shape_.period = position("the period, 5mm or 10deg");
     } else if (k == Kind::reversal && in_.take("settle")) {
-      shape_.settle = position("the settling distance, 0.01mm or 0.1deg");
-      if (*shape_.settle < 0.0) in_.fail("the settling distance is 0 or more");
+      shape_.settle = position("the take-up distance, 0.01mm or 0.1deg");
+      if (*shape_.settle < 0.0) in_.fail("the take-up distance is 0 or more");
     } else if (k == Kind::tent && in_.take("at")) {
       shape_.peak = in_.amount("the place of the peak");
       place(shape_.peak.kind);

@@ -42,8 +42,9 @@ std::string ErrorName::meaning() const {
   const std::string axis_text(1, to_char(axis));
   if (d == to_char(axis)) return "positioning of " + axis_text;
   if (!is_rotary(axis)) {
-    return fmt::format("{} of {} {} {}", is_rotation(direction) ? "angular motion" : "straightness",
-                       axis_text, is_rotation(direction) ? "about" : "in", d);
+    return fmt::format("{} of {} {} {}",
+                       is_rotation(direction) ? "angular error motion" : "straightness", axis_text,
+                       is_rotation(direction) ? "about" : "in", d);
   }
   if (is_rotation(direction)) return fmt::format("tilt motion of {} about {}", axis_text, d);
   const bool axial = static_cast<std::size_t>(direction) + 3 == static_cast<std::size_t>(axis);

@@ -161,5 +161,12 @@ TEST_F(CommandHabitsSystem, Fault2_44_EveryDocumentNamesItsSchema) {
   EXPECT_EQ(schema("diff piece/cone.nc piece/cone.nc --job piece/job.toml"), "frustum/diff/1");
 }
 
+TEST_F(CommandHabitsSystem, Fault2_44_TolerancesOfAPieceAreWrittenAsTheyAreMeant) {
+  write_piece("--limits tenth");
+  const std::string plan = read(folder_ / "piece/cone.plan.toml");
+  EXPECT_NE(plan.find("tolerance = \"10 um\""), std::string::npos) << plan;
+  EXPECT_EQ(plan.find("0000000002 um"), std::string::npos) << plan;
+}
+
 }  // namespace
 }  // namespace frustum

@@ -107,9 +107,10 @@ TEST(ErrorShape, AnAxisHasOneSettlingDistance) {
   EXPECT_TRUE(one->depends_on_direction());
   const auto two = resolved({"EXX=reversal 4um settle 0.01mm", "EYX=reversal 1um settle 0.02mm"});
   ASSERT_FALSE(two);
-  EXPECT_EQ(two.error().front().message, "error EYX: X settles over another distance than in EXX");
+  EXPECT_EQ(two.error().front().message,
+            "error EYX: X takes up its play over another distance than in EXX");
   EXPECT_EQ(shape_problem("EXX=reversal 4um settle 0.01mm + reversal 1um settle 0.02mm"),
-            "error EXX: two settling distances of X");
+            "error EXX: two take-up distances of X");
   // A replaced entry leaves nothing behind.
   EXPECT_TRUE(resolved({"EXX=reversal 4um settle 0.01mm", "EXX=reversal 1um settle 0.02mm"}));
 }
@@ -250,13 +251,14 @@ TEST(ErrorShape, WordsNameWhatIsWrong) {
   EXPECT_EQ(shape_problem("EXX=polynomial over 0mm..10mm"),
             "error EXX = polynomial over 0mm..10mm: a polynomial needs coefficients");
   EXPECT_EQ(shape_problem("EZC=tent 2um over 0deg..90deg"),
-            "error EZC = tent 2um over 0deg..90deg: a tent needs the place of its peak: at 90deg");
+            "error EZC = tent 2um over 0deg..90deg: a triangular error needs the place of its "
+            "peak: at 90deg");
   EXPECT_EQ(shape_problem("EXX=1um times Q 0mm:1 1mm:2"),
             "error EXX = 1um times Q 0mm:1 1mm:2: 'Q' is not an axis");
   EXPECT_EQ(shape_problem("EXX=1um times A 0deg:1 1deg:2"),
             "error EXX = 1um times A 0deg:1 1deg:2: machine iwf-bc has no axis A");
   EXPECT_EQ(shape_problem("EXX=reversal 2um settle -1mm"),
-            "error EXX = reversal 2um settle -1mm: the settling distance is 0 or more");
+            "error EXX = reversal 2um settle -1mm: the take-up distance is 0 or more");
 }
 
 TEST(ErrorShape, TablesNameWhatIsWrong) {
