@@ -116,7 +116,7 @@ struct ToolChange {
   // The control says that the axes are where they were before; else only the builder knows.
   bool axes_stay = false;
 };
-// G43 / G43.4 / G43.5 / G49. `offset_number` is the H word (0: none given); `length` is set where
+// G43, G44, G43.4, G43.5, G49. `offset_number` is the H word (0: none given); `length` is set where
 // the program or its tool table gives the length itself (G43.1, G10 L1), and goes before what the
 // setup has under that number.
 enum class LengthCompensation : std::uint8_t { off, length, tool_centre_point };
@@ -128,6 +128,8 @@ struct CompensationChange {
   bool tool_vectors = false;  // G43.5: I J K give the tool axis
   int offset_number = 0;
   std::optional<double> length{};  // mm
+  // G44: the setup's length is subtracted from the words instead of added; a `length` has its sign.
+  bool negative = false;
 };
 // G54..G59: 1..6, G59.1..G59.3: 7..9, G54.1 P1: 101.
 constexpr int kExtendedWorkOffset = 100;

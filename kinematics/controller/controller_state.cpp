@@ -43,7 +43,8 @@ std::optional<double> ControllerState::length_of(const parser::CompensationChang
   if (change.mode == parser::LengthCompensation::off) return 0.0;
   if (change.length) return change.length;
   const auto tool = setup_.tools.find(change.offset_number);
-  return tool == setup_.tools.end() ? std::nullopt : std::optional(tool->second.length);
+  if (tool == setup_.tools.end()) return std::nullopt;
+  return change.negative ? -tool->second.length : tool->second.length;
 }
 
 void ControllerState::place_words() {

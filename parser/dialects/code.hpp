@@ -122,8 +122,9 @@ enum class LengthWord : std::uint8_t {
   tool_vectors,
   length_only,
   length_only_off,
-  dynamic,    // G43.1: the axis words are the tool's offset
-  additional  // G43.2: added to the offset in force
+  dynamic,     // G43.1: the axis words are the tool's offset
+  additional,  // G43.2: added to the offset in force
+  negative     // G44: the length is subtracted
 };
 // By diameter: in D. In space: to the side of a tool that may be tilted, where its radius is known.
 enum class RadiusWord : std::uint8_t {

@@ -12,6 +12,7 @@
 #include "parser/interpret/block_flow.hpp"
 #include "parser/interpret/cycles/drilling_call.hpp"
 #include "parser/interpret/cycles/hole_call.hpp"
+#include "parser/interpret/cycles/rigid_mode.hpp"
 #include "parser/interpret/feed_and_tool.hpp"
 #include "parser/interpret/filters/approach_words.hpp"
 #include "parser/interpret/filters/corner_words.hpp"
@@ -45,7 +46,7 @@ Outcome set_after_move(InterpreterState& state, const BlockWords& words) {
   report_events(state, words);
   if (auto done = set_compensation(state, words); !done) return done;
   set_paths(state, words);
-  return Done{};
+  return set_rigid_mode(state, words);
 }
 
 // Of words that end another one the manuals do not say where in the block they do.
@@ -77,13 +78,13 @@ Result<std::optional<BlockWords>> words_after_move(InterpreterState& state, Bloc
 }
 
 Outcome set_frames(InterpreterState& state, MotionFilters& filters, const BlockWords& words) {
+  if (auto done = set_rigid_mode(state, words); !done) return done;
   state.modes.plane = words.value_or(CodeGroup::plane, state.modes.plane);
   state.modes.distance = words.value_or(CodeGroup::distance, state.modes.distance);
   state.modes.retract_to_initial =
       words.value_or(CodeGroup::retract,
                      state.modes.retract_to_initial ? RetractWord::initial : RetractWord::level) ==
       RetractWord::initial;
-  state.modes.rigid_tap = state.modes.rigid_tap || words.has(CodeGroup::tapping);
   state.modes.arc_distance = words.value_or(CodeGroup::arc_distance, state.modes.arc_distance);
   state.modes.centres_are_known =
       state.modes.centres_are_known || words.has(CodeGroup::arc_distance);
@@ -190,6 +191,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWor
   if (*after_move) {
     if (auto done = set_after_move(state, **after_move); !done) return std::move(done).error();
   }
+  watch_rigid_mode(state, words);
   return finish(state, filters, words);
 }
 

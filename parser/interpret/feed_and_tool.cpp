@@ -143,17 +143,17 @@ Outcome change_before_tool(InterpreterState& state, const GivenCode& change) {
   return Done{};
 }
 
-// Most machines change tools at a place of their own, and stay there.
+// Most machines change tools at a place of their own, and stay there. Where Z has been sent home or
+// to a place of the machine, that is the place.
 void lose_height(InterpreterState& state) {
   const ProgramPosition& position = state.position;
   const std::optional<double> height = position.programmed(AxisLetter::Z)
                                            ? position.programmed(AxisLetter::Z)
                                            : position[AxisLetter::Z];
-  if (!height) return;
-  const double before = *height;
+  if (!height && position.standing(AxisLetter::Z)) return;
   const bool by_axes = !state.modes.tool_centre_point() && !state.modes.tilted;
   forget(state, by_axes ? LetterSet("Z") : kLinearWords, PositionLoss::tool_change);
-  state.position.keep_height_before_tool(before);
+  state.position.keep_tool_change({state.at_work.block->line, height});
 }
 
 Outcome change_tool(InterpreterState& state, const BlockWords& words) {

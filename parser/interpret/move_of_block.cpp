@@ -133,7 +133,6 @@ Outcome make_move(InterpreterState& state, const BlockWords& words, const Moveme
   if (!by_itself || moves) state.modes.motion = motion_of(state, words);
   if (auto done = check_feature(state, movement); !done) return done;
   if (!is_cycle(state.modes.motion)) {
-    if (state.modes.cycle) state.modes.rigid_tap = false;
     state.modes.cycle.reset();
     state.modes.before_cycle = state.modes.motion;
   }

@@ -89,6 +89,7 @@ Outcome set_numbered(InterpreterState& state, std::uint32_t column, int index, d
                 fmt::format("#{} is set to a value that only the machine knows", index),
                 "set it to a value of the program");
   }
+  const LengthInForce in_force = length_in_force(state);
   const auto written = is_vacant(value) || is_unknown(value)
                            ? ParameterWrite::not_kept
                            : write_parameter(state.data, state.rules.dialect, index, value);
@@ -101,6 +102,7 @@ Outcome set_numbered(InterpreterState& state, std::uint32_t column, int index, d
     const ParameterUse use = use_of(state.rules.dialect, index);
     if (use != ParameterUse::other) state.system.read_by_unit(value);
     if (use == ParameterUse::radius && value != 0.0) assume_radius(state, column);
+    assume_length_waits(state, column, in_force);
     return state.rules.parameters_count_at_once ? replace_datum(state, column) : Outcome{Done{}};
   }
   const auto kept = set_system_variable(state, column, index, value);

@@ -118,6 +118,7 @@ void add(Json& json, const CompensationChange& change) {
   json["tool_vectors"] = change.tool_vectors;
   json["offset"] = change.offset_number;
   if (change.length) json["length"] = *change.length;
+  if (change.negative) json["negative"] = true;
 }
 void add(Json& json, const WorkOffsetChange& change) {
   json["type"] = "work_offset";

@@ -48,6 +48,7 @@ constexpr NcSpelling kFanucWords{
     .length = "G43 H#",
     .tool_centre_point = "G43.4 H#",
     .tool_vectors = "G43.5 H#",
+    .negative_length = "G44 H#",
     .leave_tool_centre_point = "",
     .compensation_by_tool = false,
     .zero_is_spindle = false,
@@ -79,6 +80,7 @@ constexpr NcSpelling linuxcnc_words() {
   s.full_turns = "P#";
   s.tool_vector = {};
   s.tool_vectors = "";
+  s.negative_length = "";
   s.tool_centre_point = "G43 H#\nM428";
   s.leave_tool_centre_point = "M429";
   s.work_offsets[6] = "G59.1";
@@ -116,6 +118,7 @@ constexpr NcSpelling sinumerik_words() {
   s.length = "D1";
   s.tool_centre_point = "D1\nTRAORI";
   s.tool_vectors = "D1\nTRAORI";
+  s.negative_length = "";
   s.leave_tool_centre_point = "TRAFOOF";
   s.compensation_by_tool = true;
   s.orientation_paths = {"ORIAXES", "ORIVECT"};
@@ -174,6 +177,7 @@ constexpr NcSpelling kHeidenhainWords{
     .length = "",
     .tool_centre_point = "",  // the orientation path says it
     .tool_vectors = "",
+    .negative_length = "",
     .leave_tool_centre_point = "FUNCTION RESET TCPM",
     .compensation_by_tool = true,
     .zero_is_spindle = false,

@@ -75,6 +75,7 @@ struct NcSpelling {
 
   // States.
   std::string_view no_compensation, length, tool_centre_point, tool_vectors;
+  std::string_view negative_length;  // which is subtracted; empty: none
   std::string_view leave_tool_centre_point;
   bool compensation_by_tool;  // the length is that of the tool in the spindle
   bool zero_is_spindle;       // H0 is

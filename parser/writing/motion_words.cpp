@@ -162,4 +162,36 @@ std::string MotionWords::feed(const Feed& feed) {
   return words.take();
 }
 
+bool has_words(const NcSpelling& spelling, const CompensationChange& change, int tool,
+               Refusals& refusals) {
+  if (change.length) {
+    refusals.add("a tool length that the program sets itself",
+                 "leave its settings of lengths out (G10, G43.1): they belong to the setup, "
+                 "--tool-length or a job");
+    return false;
+  }
+  if (change.mode != LengthCompensation::off && spelling.compensation_by_tool &&
+      change.offset_number != tool) {
+    refusals.add(fmt::format("the length of tool {} with tool {} in the spindle",
+                             change.offset_number, tool),
+                 "take the length offset of the tool in the spindle");
+    return false;
+  }
+  if (change.offset_number >= kEdgeOffsets && !spelling.compensation_by_tool) {
+    refusals.add("the length of a further edge of a tool",
+                 "take the length of the tool itself: D1");
+    return false;
+  }
+  if (change.tool_vectors && spelling.tool_vector[0].empty()) {
+    refusals.add("tool vectors", "write rotary axes: --output tcp or --output axes");
+    return false;
+  }
+  if (change.negative && spelling.negative_length.empty()) {
+    refusals.add("a tool length that is subtracted (G44)",
+                 "write G43, and the length with the opposite sign");
+    return false;
+  }
+  return true;
+}
+
 }  // namespace frustum::parser

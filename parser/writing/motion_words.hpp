@@ -41,6 +41,10 @@ class Refusals {
   Diagnostics problems_{};
 };
 
+// Whether the control can be told so, with that tool in the spindle; else a refusal is added.
+[[nodiscard]] bool has_words(const NcSpelling& spelling, const CompensationChange& change, int tool,
+                             Refusals& refusals);
+
 class MotionWords {
  public:
   MotionWords(const NcSpelling& spelling, const WriterOptions& options, Refusals& refusals)

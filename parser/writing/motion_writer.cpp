@@ -308,27 +308,7 @@ class MotionWriter {
   }
 
   void write(const CompensationChange& change) {
-    if (change.length) {
-      refusals_.add("a tool length that the program sets itself",
-                    "take the lengths from the tool table");
-      return;
-    }
-    if (change.mode != LengthCompensation::off && spelling_.compensation_by_tool &&
-        change.offset_number != tool_) {
-      refusals_.add(fmt::format("the length of tool {} with tool {} in the spindle",
-                                change.offset_number, tool_),
-                    "take the length offset of the tool in the spindle");
-      return;
-    }
-    if (change.offset_number >= kEdgeOffsets && !spelling_.compensation_by_tool) {
-      refusals_.add("the length of a further edge of a tool",
-                    "take the length of the tool itself: D1");
-      return;
-    }
-    if (change.tool_vectors && spelling_.tool_vector[0].empty()) {
-      refusals_.add("tool vectors", "write rotary axes: --output tcp or --output axes");
-      return;
-    }
+    if (!has_words(spelling_, change, tool_, refusals_)) return;
     spell(change);
     compensation_ = change;
   }
@@ -341,6 +321,7 @@ class MotionWriter {
   void spell(const CompensationChange& to) {
     if (guides_tip(in_force_) && !guides_tip(to)) out_.lines(spelling_.leave_tool_centre_point);
     const std::string_view pattern = to.mode == LengthCompensation::off ? spelling_.no_compensation
+                                     : to.negative                      ? spelling_.negative_length
                                      : !guides_tip(to)                  ? spelling_.length
                                      : to.tool_vectors                  ? spelling_.tool_vectors
                                                        : spelling_.tool_centre_point;

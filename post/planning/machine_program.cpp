@@ -301,6 +301,7 @@ class Planner {
       return {.mode = LengthCompensation::length, .offset_number = state_.tool};
     }
     CompensationChange wanted = state_.modes().compensation;
+    wanted.negative = false;  // every control adds; the words are written for that
     wanted.mode = state_.options.output == OutputForm::axes ? LengthCompensation::length
                                                             : LengthCompensation::tool_centre_point;
     wanted.tool_vectors = state_.options.output == OutputForm::vectors;

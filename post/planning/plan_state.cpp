@@ -110,7 +110,7 @@ bool PlanState::length_known(const CompensationChange& wanted, const AxisTarget*
   }
   const int number = missing(own) ? own.offset_number : wanted.offset_number;
   const bool same_length = !unnamed && missing(own) && own.offset_number == wanted.offset_number;
-  if (same_length && tip_words() == tip_control(wanted)) {
+  if (same_length && !own.negative && tip_words() == tip_control(wanted)) {
     if (!lengths_missing_) {
       out.warnings.push_back(placed(warning(
           "unknown-tool-length"_id,

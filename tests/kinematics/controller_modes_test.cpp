@@ -123,6 +123,21 @@ TEST(ControllerFeed, RefusesAFeedPerRevolutionWhileTheSpindleStands) {
   EXPECT_EQ(e.error().front().line, 3);
 }
 
+// G44 subtracts the setup's length: twice its 100 mm below G43.
+TEST(ControllerFrames, TakeALengthAwayThatIsNegative) {
+  for (const char* name : {"three-axis", "iwf-bc"}) {
+    const CompensationChange negative{
+        .mode = LengthCompensation::length, .offset_number = 1, .negative = true};
+    const auto e = run(shipped(name),
+                       lines({kLength, Traverse{target({{X, 1}, {Y, 2}, {Z, 3}})}, negative,
+                              Traverse{target({{Z, 3}})}, Traverse{target({{Z, 203}})}}),
+                       kNoLimits);
+    ASSERT_TRUE(e) << to_string(e.error().front());
+    EXPECT_NEAR(e->axes.at(2).axes[Z], e->axes.at(1).axes[Z] - 200.0, 1e-9);
+    EXPECT_NEAR(e->axes.at(3).axes[Z], e->axes.at(1).axes[Z], 1e-9);
+  }
+}
+
 // The axes are where the program says, as its control counts: origin, word and length.
 TEST(ControllerFrames, FollowAWorkOffsetThatTheProgramPlaces) {
   for (const char* name : {"three-axis", "iwf-bc"}) {

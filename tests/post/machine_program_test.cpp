@@ -432,6 +432,35 @@ TEST(MachineProgram, NeedsTheToolLengthForAxisPositionsOnly) {
   EXPECT_EQ(tip->warnings.size(), 1U);
 }
 
+// Z350 less the length of 150 is where Z50 is with it.
+TEST(MachineProgram, AddsTheLengthThatG44TakesAway) {
+  const std::string text = "T1 M6\nS500 M3\nG44 H1\nG0 X0. Y0. Z350.\nG1 X10. Z340. F500\nM30\n";
+  Case c = fanuc_on("three-axis", text);
+  const auto motions = planned(c, {.output = OutputForm::axes});
+  std::vector<double> heights;
+  for (const Motion& motion : motions) {
+    const auto* change = std::get_if<parser::CompensationChange>(&motion.command);
+    EXPECT_TRUE(change == nullptr || !change->negative);
+    const auto* move = std::get_if<parser::LinearFeed>(&motion.command);
+    if (move != nullptr) heights.push_back(move->end[AxisLetter::Z].value_or(-1.0));
+  }
+  ASSERT_EQ(heights.size(), 1U);
+  EXPECT_NEAR(heights[0], 40.0, 1e-9);
+  const auto cut_end = [&](const std::vector<Motion>& program) {
+    double z = std::nan("");
+    for (const auto& sample : executed(c, program).axes) {
+      if (sample.source_line == 5) z = sample.axes[AxisLetter::Z];
+    }
+    return z;
+  };
+  EXPECT_NEAR(cut_end(motions), cut_end(c.motions), 1e-9);
+  c.setup.tools.clear();
+  const auto unknown =
+      plan_for_machine(c.machine, c.setup, c.motions, {.output = OutputForm::axes});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().front().message, "axis positions need the length of tool 1");
+}
+
 TEST(MachineProgram, RefusesWhatTheMachineCannotDo) {
   const auto message = [](const std::string& machine, const std::string& text) {
     const Case c = fanuc_on(machine, text);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "parser/arc.hpp"
 #include "parser/interpret/cycles/bolt_holes.hpp"
 #include "parser/interpret/cycles/canned_cycle.hpp"
+#include "parser/interpret/cycles/rigid_mode.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/move_words.hpp"
 #include "parser/interpret/moves/polar_words.hpp"
@@ -69,25 +71,44 @@ Outcome check_shift(const InterpreterState& state, const BlockWords& words,
   return Done{};
 }
 
-// The depth from which a cycle begins; absent after a tool change, where R and the bottom suffice.
-Result<std::optional<double>> initial_level(InterpreterState& state, const Movement& movement,
-                                            AxisLetter depth_axis) {
+std::optional<double> depth_before(InterpreterState& state, AxisLetter depth_axis) {
   // The length of the tool has been switched on with no move of its own.
   if (const auto programmed = state.position.programmed(depth_axis)) {
     state.position.set(depth_axis, *programmed);
   }
-  if (state.position[depth_axis]) return state.position[depth_axis];
-  const bool after_change =
-      depth_axis == AxisLetter::Z && state.position.height_before_tool().has_value();
-  const bool steps = state.modes.distance == DistanceMode::incremental;
-  if (after_change && !steps && movement.motion != MotionMode::bore_back) {
-    return std::optional<double>{};
+  return state.position[depth_axis];
+}
+
+// The depth from which the cycle has begun, where its moves depend on it. After a tool change it is
+// the machine's.
+Outcome settle_initial_level(InterpreterState& state, const Movement& movement, CannedCycle& cycle,
+                             AxisLetter depth_axis) {
+  const bool needs_it = cycle.level_is_step || cycle.last == MotionMode::bore_back;
+  if (!needs_it && !state.modes.retract_to_initial && !state.rules.cycles.start_from_initial) {
+    return Done{};
   }
-  return fail(
-      state, movement.column, state.position.unknown_id(depth_axis),
-      fmt::format("the cycle starts at an unknown {}: {}", to_char(depth_axis),
-                  state.position.why_unknown(depth_axis)),
-      fmt::format("program {} in absolute coordinates (G90) before it", to_char(depth_axis)));
+  const bool known = cycle.initial || (cycle.untold_change && !needs_it);
+  if (!known) {
+    return fail(
+        state, movement.column, state.position.unknown_id(depth_axis),
+        fmt::format("the cycle starts at an unknown {}: {}", to_char(depth_axis),
+                    state.position.why_unknown(depth_axis)),
+        fmt::format("program {} in absolute coordinates (G90) before it", to_char(depth_axis)));
+  }
+  const auto change = std::exchange(cycle.untold_change, std::nullopt);
+  if (!change) return Done{};
+  const std::string_view taken = cycle.initial    ? "that of the cycle before it"
+                                 : change->height ? "where it was before, or R where that is higher"
+                                                  : "R";
+  if (!cycle.initial) cycle.initial = std::max(change->height.value_or(*cycle.level), *cycle.level);
+  // Of each change of tool.
+  emit(
+      state, movement.column,
+      Event{"initial level",
+            fmt::format("{} is not known since the tool change on line {}: the initial level is {}",
+                        to_char(depth_axis), change->line, taken),
+            EventGrade::assumed});
+  return Done{};
 }
 
 // Words that the block gives replace those in force.
@@ -97,14 +118,11 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   const bool goes_on = state.modes.cycle && is_cycle(state.modes.cycle->last);
   CannedCycle cycle = goes_on ? *state.modes.cycle : CannedCycle{};
   if (goes_on && state.rules.cycles.words_end_with_their_g_word && cycle.last != movement.motion) {
-    cycle = CannedCycle{.initial = cycle.initial};
+    cycle = CannedCycle{.initial = cycle.initial, .untold_change = cycle.untold_change};
   }
-  std::optional<double> initial = cycle.initial;
-  if (!goes_on) {
-    const auto level = initial_level(state, movement, depth_axis);
-    if (!level) return level.error();
-    initial = *level;
-    cycle.initial = initial.value_or(0.0);
+  if (!goes_on) cycle.initial = depth_before(state, depth_axis);
+  if (depth_axis == AxisLetter::Z && state.position.tool_change()) {
+    cycle.untold_change = state.position.tool_change();
   }
   cycle.last = movement.motion;
   const auto read = [&](char letter, std::optional<double>& value) {
@@ -141,20 +159,15 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     return fail(state, movement.column, "cycle-word-missing"_id,
                 fmt::format("the cycle has no {}", letter), std::move(what));
   };
-  if (!cycle.level && state.rules.starts_with_rapid && initial) {
+  if (!cycle.level && state.rules.starts_with_rapid && cycle.initial) {
     assume(state, movement.column, "cycle without R", "feeding begins where the tool is");
-    cycle.level = cycle.level_is_step ? 0.0 : cycle.initial;
+    cycle.level = cycle.level_is_step ? 0.0 : *cycle.initial;
   }
   if (!cycle.level) return missing('R', "give R, where feeding begins");
   if (!cycle.bottom) {
     return missing(depth_letter, fmt::format("give {}, the bottom of the hole", depth_letter));
   }
-  if (!initial) {
-    cycle.initial = std::max(*state.position.height_before_tool(), *cycle.level);
-    assume(state, movement.column, "initial level",
-           fmt::format("{}: the initial level is where it was before, or R where that is higher",
-                       state.position.why_unknown(depth_axis)));
-  }
+  if (auto done = settle_initial_level(state, movement, cycle, depth_axis); !done) return done;
   if (needs_peck(cycle.last) && (!cycle.peck || *cycle.peck <= 0.0)) {
     return missing('Q', "give Q, the depth of a peck, above zero");
   }
@@ -176,45 +189,6 @@ Outcome set_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   }
   state.modes.cycle = cycle;
   return Done{};
-}
-
-// G84 and G74 after M29, by the feed or the way of a revolution.
-Result<std::optional<RigidTap>> rigid_tap_of(InterpreterState& state, const Movement& movement,
-                                             const Feed& feed) {
-  const MotionMode kind = state.modes.cycle->last;
-  const bool taps = kind == MotionMode::tap || kind == MotionMode::tap_left;
-  // Controls that turn the spindle themselves need no M29.
-  const bool turns_itself =
-      state.rules.dialect == Dialect::fanuc && state.modes.spindle == SpindleDirection::off;
-  if (!taps || !(state.modes.rigid_tap || turns_itself)) return std::optional<RigidTap>{};
-  const double speed = state.modes.spindle_speed;
-  if (!(speed > 0.0)) {
-    return fail(state, movement.column, "cycle-speed-missing"_id,
-                "a rigid tap without a spindle speed", "give S beside M29");
-  }
-  if (feed.mode == FeedMode::inverse_time) {
-    return fail(state, movement.column, "cycle-inverse-time"_id, "a rigid tap in G93",
-                "give the feed per minute (G94), or the lead (G95)");
-  }
-  if (!(feed.value > 0.0)) {
-    return fail(state, movement.column, "feed-missing"_id, "a rigid tap without a feed",
-                "give F: with the speed of the spindle it makes the lead");
-  }
-  if (!state.modes.rigid_tap) {
-    assume(state, movement.column, "tap with the spindle at rest",
-           "the control turns the spindle itself, in and out: a rigid tap");
-  }
-  if (state.modes.cycle->peck.value_or(0.0) > 0.0) {
-    assume(state, movement.column, "rigid tap with Q",
-           "in one stroke: how it goes back after each Q is a parameter of the control");
-  }
-  assume(state, movement.column, "rigid tap", "the spindle is at rest when the hole is done");
-  RigidTap tap;
-  tap.lead = feed.mode == FeedMode::per_revolution ? feed.value : feed.value / speed;
-  if (kind == MotionMode::tap_left) tap.lead = -tap.lead;
-  tap.speed = speed;
-  tap.after = {SpindleDirection::off, speed};
-  return std::optional(tap);
 }
 
 }  // namespace
@@ -245,11 +219,12 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   if (!rigid) return rigid.error();
 
   CycleDepths depths;
-  depths.level = *cycle.level + (cycle.level_is_step ? cycle.initial : 0.0);
+  // Where it is not known nothing depends on it.
+  const double initial = cycle.initial.value_or(*cycle.level);
+  depths.level = *cycle.level + (cycle.level_is_step ? initial : 0.0);
   depths.bottom = *cycle.bottom + (cycle.bottom_is_step ? depths.level : 0.0);
-  depths.clear =
-      state.modes.retract_to_initial ? std::max(cycle.initial, depths.level) : depths.level;
-  if (state.modes.retract_to_initial && cycle.initial < depths.level &&
+  depths.clear = state.modes.retract_to_initial ? std::max(initial, depths.level) : depths.level;
+  if (state.modes.retract_to_initial && initial < depths.level &&
       state.rules.dialect == Dialect::fanuc) {
     assume(state, movement.column, "initial level",
            "the tool stays at R where the initial level of G98 is below it");
@@ -270,12 +245,12 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
   }
   depths.from_level = state.rules.cycles.tool_shift_by_q && cycle.last == MotionMode::bore_back;
   if (depths.from_level) {
-    depths.clear = cycle.initial;
-    if (depths.bottom <= depths.level || cycle.initial <= depths.bottom) {
+    depths.clear = initial;
+    if (depths.bottom <= depths.level || initial <= depths.bottom) {
       return fail(
           state, movement.column, "cycle-depth"_id,
           fmt::format("G87 bores from R ({:g} mm) up to {} ({:g} mm), below the tool ({:g} mm)",
-                      depths.level, to_char(w), depths.bottom, cycle.initial),
+                      depths.level, to_char(w), depths.bottom, initial),
           "give R below the bore, the other depth above R, and start above both");
     }
   } else if (depths.bottom > depths.level) {
@@ -300,16 +275,15 @@ Outcome run_cycle(InterpreterState& state, const BlockWords& words, const Moveme
     emit(state, column,
          Traverse{state.position.target(), state.modes.tool_axis, Coordinates::program});
   };
-  const double height = state.rules.cycles.start_from_initial
-                            ? cycle.initial
-                            : state.position[w].value_or(cycle.initial);
+  const double height =
+      state.rules.cycles.start_from_initial ? initial : state.position[w].value_or(initial);
   if (state.rules.cycles.rises_before_it_goes && holes > 0 && height < depths.level) {
     state.position.set(w, depths.level);
     rapid(movement.column);
   }
   // With G99 it goes up to a higher R on the way.
   if (state.rules.cycles.start_from_initial) {
-    state.position.set(w, std::max(state.position[w].value_or(cycle.initial),
+    state.position.set(w, std::max(state.position[w].value_or(initial),
                                    state.modes.retract_to_initial ? depths.clear : depths.level));
   }
   Vec2 middle = Vec2::Zero();

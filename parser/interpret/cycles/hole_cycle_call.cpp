@@ -89,11 +89,11 @@ Result<double> surface_of_holes(InterpreterState& state, const GivenCode& code) 
   const HoleCycle& cycle = state.modes.hole_cycle;
   if (cycle.top) return *cycle.top;
   if (state.position[AxisLetter::Z]) return *state.position[AxisLetter::Z] - cycle.clear;
-  if (const auto& height = state.position.height_before_tool()) {
+  if (const auto& change = state.position.tool_change(); change && change->height) {
     assume(state, code.column, "height of the hole",
            "the tip is as high as before the tool change: only the setup knows the lengths of the "
            "tools");
-    return *height - cycle.clear;
+    return *change->height - cycle.clear;
   }
   return fail(state, code.column, state.position.unknown_id(AxisLetter::Z),
               fmt::format("the height of the hole is not known: {}",

@@ -118,11 +118,11 @@ Result<ToolEdge> edge_for(InterpreterState& state, const BlockWords& words) {
   // No tool has no diameter.
   if (tool == state.data.tools.end() && number == 0 && of_linuxcnc) return ToolEdge{};
   if (tool == state.data.tools.end() || !tool->second.has_diameter) {
-    const bool listed = tool != state.data.tools.end() && tool->second.has_length;
-    return fail(
-        state, column, "radius-compensation"_id,
-        fmt::format("the tool table has no {}tool {}", listed ? "diameter of " : "", number),
-        "give the tool's diameter in the tool table");
+    const char* by_program = state.rules.dialect == Dialect::fanuc ? ", or by G10 L12" : "";
+    return fail(state, column, "radius-compensation"_id,
+                fmt::format("nothing gives the diameter of tool {}", number),
+                fmt::format("give it by --tool-diameter {}=MM, a job or a tool table (--tools){}",
+                            number, by_program));
   }
   const double diameter = tool->second.diameter + tool->second.diameter_wear;
   return ToolEdge{diameter / 2.0 + state.modes.tool_oversize, tool->second.orientation};

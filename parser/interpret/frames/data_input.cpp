@@ -204,6 +204,7 @@ Outcome set_offset_memory(InterpreterState& state, const BlockWords& words, cons
   constexpr int kOffsets = 999;
   const auto number = whole(state, words, 'P', 1, kOffsets);
   if (!number) return number.error();
+  const LengthInForce in_force = length_in_force(state);
   Tool& tool = entry_of(state.data.tools, *number);
   const bool length = data.input == DataInput::length;
   const bool radius = data.input == DataInput::radius;
@@ -226,10 +227,27 @@ Outcome set_offset_memory(InterpreterState& state, const BlockWords& words, cons
   set = (adds ? set : 0.0) + (of_radius ? 2.0 : 1.0) * value;
   tool.has_length = tool.has_length || length;
   tool.has_diameter = tool.has_diameter || radius;
+  assume_length_waits(state, words['R'].column, in_force);
   return Done{};
 }
 
 }  // namespace
+
+LengthInForce length_in_force(const InterpreterState& state) {
+  const Compensation& kept = state.modes.compensation;
+  const auto tool = state.data.tools.find(kept.offset_number);
+  if (!kept.length || tool == state.data.tools.end()) return {};
+  const Tool& entry = tool->second;
+  return {entry.has_length ? std::optional(entry.offset.at(2)) : std::nullopt, entry.length_wear};
+}
+
+void assume_length_waits(InterpreterState& state, std::uint32_t column,
+                         const LengthInForce& before) {
+  if (state.rules.dialect != Dialect::fanuc || length_in_force(state) == before) return;
+  assume(state, column, "length in force",
+         "a tool length that is set while it is in force counts from the next G43, G44 or H on; by "
+         "its parameters the control may move by it at once");
+}
 
 void assume_radius(InterpreterState& state, std::uint32_t column) {
   assume(state, column, "offset memory",

@@ -56,7 +56,8 @@ std::optional<double> growth(const ModalState& before, const ModalState& after, 
   const auto new_tool = after.compensation.offset();
   if (old_tool && new_tool) return sum + old_tool->at(kZ) - new_tool->at(kZ);
   const bool same = !old_tool && !new_tool &&
-                    before.compensation.offset_number == after.compensation.offset_number;
+                    before.compensation.offset_number == after.compensation.offset_number &&
+                    before.compensation.negative == after.compensation.negative;
   return same ? std::optional(sum) : std::nullopt;
 }
 
@@ -235,7 +236,7 @@ void arrive(InterpreterState& state, const AxisTarget& axes) {
     if (state.position[axis] || !mixes(state.modes, axis)) continue;
     for (const AxisLetter other : kLinearAxes) {
       if (!mixes(state.modes, other)) continue;
-      state.position.forget(other, PositionLoss::machine_coordinates, state.at_work.block->line);
+      state.position.forget(other, PositionLoss::turned_frame, state.at_work.block->line);
     }
   }
   AxisTarget place = axes;

@@ -34,7 +34,8 @@ Compensation compensation_of(LengthWord word, const Compensation& before) {
     case LengthWord::off:
       return {};
     case LengthWord::length:
-      return {true, false, false, 0};
+    case LengthWord::negative:
+      return {true, false, false, 0, false, word == LengthWord::negative};
     case LengthWord::tool_centre_point:
       return {true, true, false, 0};
     case LengthWord::tool_vectors:
@@ -52,7 +53,7 @@ Compensation compensation_of(LengthWord word, const Compensation& before) {
 
 bool same(const CompensationChange& a, const CompensationChange& b) {
   return a.mode == b.mode && a.tool_vectors == b.tool_vectors &&
-         a.offset_number == b.offset_number && a.length == b.length;
+         a.offset_number == b.offset_number && a.length == b.length && a.negative == b.negative;
 }
 
 // X1 Z20: offsets in the order of the axes; zero where not given.
@@ -104,12 +105,27 @@ Result<std::optional<ToolOffset>> listed_offset(const InterpreterState& state,
       words.has('H') ? words['H'].column : words[CodeGroup::length_compensation].column;
   return fail(state, column, "tool-missing"_id,
               fmt::format("tool {} is not in the tool table", number),
-              fmt::format("add a line T{} to the tool table", number));
+              fmt::format("add a line T{} to the file of --tools", number));
+}
+
+// The same, as it adds to the words.
+Result<std::optional<ToolOffset>> signed_offset(InterpreterState& state, const BlockWords& words,
+                                                const Compensation& next) {
+  auto offset = listed_offset(state, words, next.offset_number);
+  if (!offset || !next.negative) return offset;
+  if (*offset) {
+    for (double& along : **offset) along = 0.0 - along;  // zero keeps its sign
+  } else if (next.offset_number != 0) {
+    const GivenCode& length = words[CodeGroup::length_compensation];
+    assume(state, length.code != nullptr ? length.column : words['H'].column, "G44",
+           "it subtracts the length that the setup has: the control is taken to hold that length "
+           "as a positive number");
+  }
+  return offset;
 }
 
 // The tool's offset after a length word, as far as the program knows it.
-Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
-                                                 const BlockWords& words,
+Result<std::optional<ToolOffset>> tool_offset_of(InterpreterState& state, const BlockWords& words,
                                                  const Compensation& next) {
   using Known = std::optional<ToolOffset>;
   const GivenCode& code = words[CodeGroup::length_compensation];
@@ -132,7 +148,7 @@ Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
   const bool by_number = word != LengthWord::additional || words.has('H');
   Known of_tool;
   if (by_number) {
-    const auto listed = listed_offset(state, words, next.offset_number);
+    const auto listed = signed_offset(state, words, next);
     if (!listed) return listed.error();
     of_tool = *listed;
   }
@@ -151,7 +167,7 @@ Result<std::optional<ToolOffset>> tool_offset_of(const InterpreterState& state,
   if (!before || !of_tool) {
     return fail(state, code.column, "unknown-tool-length"_id,
                 code.code->name() + " adds to a length that only the setup knows",
-                "use G43.1 with the whole offset, or give the tool table");
+                "use G43.1 with the whole offset, or give the control's tool table by --tools");
   }
   for (std::size_t i = 0; i < of_tool->size(); ++i) of_tool->at(i) += before->at(i);
   return of_tool;
@@ -184,7 +200,7 @@ Result<Compensation> compensation_after(InterpreterState& state, const BlockWord
   if (length.code == nullptr && next.length && words.has('H') &&
       state.rules.offset_numbers_stand_alone && !h_is_of_radius(state, words)) {
     next.offset_number = state.modes.length_number.value_or(0);
-    const auto offset = listed_offset(state, words, next.offset_number);
+    const auto offset = signed_offset(state, words, next);
     if (!offset) return offset.error();
     next.tool_offset = *offset;
   }
@@ -226,7 +242,7 @@ Outcome check_tool_exists(const InterpreterState& state, int tool, std::uint32_t
   if (!listed || tool == 0 || state.data.tools.contains(tool)) return Done{};
   return fail(state, column, "tool-missing"_id,
               fmt::format("tool {} is not in the tool table", tool),
-              fmt::format("add a line T{} to the tool table", tool));
+              fmt::format("add a line T{} to the file of --tools", tool));
 }
 
 bool h_is_of_radius(const InterpreterState& state, const BlockWords& words) {
@@ -262,8 +278,10 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
   const auto height = state.position[AxisLetter::Z] && !state.position.programmed(AxisLetter::Z)
                           ? state.position[AxisLetter::Z]
                           : state.position.programmed(AxisLetter::Z);
-  const auto before_tool = state.position.height_before_tool();
-  const auto above = state.position[AxisLetter::Z] ? state.position[AxisLetter::Z] : before_tool;
+  auto tool_change = state.position.tool_change();
+  if (state.rules.tool_brings_length && state.position[AxisLetter::Z]) {
+    tool_change = {state.at_work.block->line, state.position[AxisLetter::Z]};
+  }
   const CompensationChange reported_before = compensation_change(before.compensation);
   const CompensationChange reported_after = compensation_change(next);
   const bool tip_before = reported_before.mode == LengthCompensation::tool_centre_point;
@@ -281,9 +299,8 @@ Outcome change_compensation(InterpreterState& state, const BlockWords& words,
     if (state.rules.length_adds_to_moves && height && shifted && !tip_after) {
       state.position.keep_programmed(AxisLetter::Z, *height);
     }
-    if ((state.rules.tool_brings_length || before_tool) && above &&
-        !state.position[AxisLetter::Z]) {
-      state.position.keep_height_before_tool(*above);
+    if (tool_change && !state.position[AxisLetter::Z]) {
+      state.position.keep_tool_change(*tool_change);
     }
   }
   return Done{};
@@ -340,7 +357,8 @@ CompensationChange compensation_change(const Compensation& compensation) {
           compensation.tool_vectors && compensation.length, compensation.offset_number,
           compensation.length && compensation.tool_offset
               ? std::optional(compensation.tool_offset->at(2))
-              : std::nullopt};
+              : std::nullopt,
+          compensation.length && compensation.negative};
 }
 
 }  // namespace frustum::parser

@@ -111,7 +111,7 @@ Outcome set_target(InterpreterState& state, const BlockWords& words, AxisLetter 
     state.position.set(axis, *programmed + value);
     return Done{};
   }
-  if (state.rules.steps_may_begin && state.position.never_known(axis) &&
+  if (state.rules.steps_may_begin && state.position.never_moved(axis) &&
       !state.position.standing(axis) && may_begin(state, axis)) {
     assume(state, words[letter].column, "start",
            fmt::format("{} counts from zero: nothing says where the axes are at the start",

@@ -15,6 +15,7 @@
 #include "parser/interpret/state/feature_words.hpp"
 #include "parser/interpret/state/hole_cycle.hpp"
 #include "parser/interpret/state/program_frame.hpp"
+#include "parser/interpret/state/program_position.hpp"
 #include "parser/interpret/state/programmed_frame.hpp"
 #include "parser/language/letter_set.hpp"
 #include "parser/language/modes.hpp"
@@ -33,8 +34,9 @@ struct Compensation {
   int offset_number = 0;
   // The tip control works without a length too: the tip is where the spindle ends.
   bool tip_without_length = false;
-  // Of the tool, along the axes, where the program or its tool table gives them; else only the
-  // setup knows.
+  bool negative = false;  // G44: what the number has is subtracted
+  // Of the tool, along the axes, as it adds to them, where the program or its tool table gives
+  // them; else only the setup knows.
   std::optional<ToolOffset> tool_offset{};
 
   // What is added to the positions of the axes; none where only the setup knows.
@@ -59,7 +61,8 @@ struct FeedWord {
 // level.
 struct CannedCycle {
   MotionMode last = MotionMode::none;
-  double initial = 0.0;  // depth before the first hole
+  std::optional<double> initial{};  // depth before the first hole, as far as it is known
+  std::optional<HeightBeforeTool> untold_change{};  // has come since, and no event has told it
   std::optional<double> level{};
   std::optional<double> bottom{};
   bool level_is_step = false;
@@ -70,6 +73,14 @@ struct CannedCycle {
   std::optional<double> shift_v{};
   std::optional<double> back{};
   bool depth_by_i = false;  // G81 of Fagor: Z is where feeding begins, I the bottom
+};
+
+// M29: taps are rigid. Lines of what has come between it and its first hole; 0: nothing.
+struct RigidMode {
+  bool on = false;
+  bool has_tapped = false;
+  std::uint32_t axes_moved = 0;
+  std::uint32_t speed_given = 0;
 };
 
 // G16: what the words of the plane's axes have said last, as radius and angle.
@@ -158,7 +169,7 @@ struct ModalState {
   bool pole_lost = false;                        // it was one of another frame
   std::optional<Heading> heading{};              // of the last move
   std::optional<CannedCycle> cycle{};
-  bool rigid_tap = false;  // M29, up to the end of the cycle after it
+  RigidMode rigid_mode{};
   HoleCycle hole_cycle{};
   std::vector<Vec3> point_pattern{};        // PATTERN DEF: X, Y, and how much higher the surface is
   std::optional<DrillingCycle> drilling{};  // MCALL

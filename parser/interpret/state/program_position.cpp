@@ -21,17 +21,22 @@ constexpr std::array kLossTexts{"",
 
 void ProgramPosition::forget(AxisLetter axis, PositionLoss loss, std::uint32_t line,
                              std::string_view word) {
-  // An axis that was not known before keeps its first cause: that is where the remedy belongs.
+  // An axis that was not known before keeps its first cause: that is where the remedy belongs. One
+  // that stands where it was at the start does so until the machine moves it.
+  Cause& cause = causes_[slot(axis)];
+  const bool of_machine = loss == PositionLoss::home || loss == PositionLoss::machine_coordinates ||
+                          loss == PositionLoss::tool_change;
+  const bool moved = of_machine && cause.loss == PositionLoss::never_programmed;
   axes_[axis].reset();
   programmed_[axis].reset();
-  if (axis == AxisLetter::Z) height_before_tool_.reset();
-  if (!target_[axis]) return;
+  if (axis == AxisLetter::Z) tool_change_.reset();
+  if (!target_[axis] && !moved) return;
   target_[axis].reset();
-  causes_.at(static_cast<std::size_t>(axis)) = {loss, line, std::string(word)};
+  cause = {loss, line, std::string(word)};
 }
 
 std::string ProgramPosition::why_unknown(AxisLetter axis) const {
-  const Cause& cause = causes_.at(static_cast<std::size_t>(axis));
+  const Cause& cause = causes_[slot(axis)];
   if (cause.loss == PositionLoss::never_programmed) {
     return fmt::format("{} has not been programmed yet", to_char(axis));
   }
@@ -45,7 +50,7 @@ std::string ProgramPosition::why_unknown(AxisLetter axis) const {
 }
 
 DiagnosticId ProgramPosition::unknown_id(AxisLetter axis) const {
-  const Cause& cause = causes_.at(static_cast<std::size_t>(axis));
+  const Cause& cause = causes_[slot(axis)];
   return cause.loss == PositionLoss::mistake ? "follows-mistake"_id : "position-unknown"_id;
 }
 

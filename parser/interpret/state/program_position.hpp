@@ -35,12 +35,20 @@ enum class PositionLoss : std::uint8_t {
   mistake,  // a block that could not be run
 };
 
+// A tool change after which Z is not known, and where Z was before it, as far as that was known.
+struct HeightBeforeTool {
+  std::uint32_t line = 0;
+  std::optional<double> height{};
+};
+
 // What why_unknown() calls a block that could not be run.
 constexpr const char* kMistake = "the mistake";
 
 class ProgramPosition {
  public:
-  explicit ProgramPosition(const AxisTarget& start = {}) : target_(start) {}
+  explicit ProgramPosition(const AxisTarget& start = {}) : target_(start) {
+    for (const AxisLetter axis : kAxisLetters) placed_[slot(axis)] = start[axis].has_value();
+  }
 
   // All known axes: what a motion's target carries.
   [[nodiscard]] const AxisTarget& target() const { return target_; }
@@ -50,15 +58,14 @@ class ProgramPosition {
 
   void set(AxisLetter axis, double value) {
     target_[axis] = value;
+    placed_[slot(axis)] = true;
     axes_[axis].reset();
     programmed_[axis].reset();
-    if (axis == AxisLetter::Z) height_before_tool_.reset();
+    if (axis == AxisLetter::Z) tool_change_.reset();
   }
-  // Where Z was before a tool change after which it is not known.
-  [[nodiscard]] const std::optional<double>& height_before_tool() const {
-    return height_before_tool_;
-  }
-  void keep_height_before_tool(double height) { height_before_tool_ = height; }
+  // The tool change since which nothing has placed Z.
+  [[nodiscard]] const std::optional<HeightBeforeTool>& tool_change() const { return tool_change_; }
+  void keep_tool_change(const HeightBeforeTool& change) { tool_change_ = change; }
   // Where the program was along an axis before a tool length shifted it, which steps go on from.
   [[nodiscard]] const std::optional<double>& programmed(AxisLetter axis) const {
     return programmed_[axis];
@@ -69,9 +76,10 @@ class ProgramPosition {
   void stand(AxisLetter axis, double value) { axes_[axis] = value; }
   // `word`: what the program has written, where messages name it.
   void forget(AxisLetter axis, PositionLoss loss, std::uint32_t line, std::string_view word = {});
-  [[nodiscard]] bool never_known(AxisLetter axis) const {
-    return !target_[axis] &&
-           causes_.at(static_cast<std::size_t>(axis)).loss == PositionLoss::never_programmed;
+  [[nodiscard]] bool never_known(AxisLetter axis) const { return !placed_[slot(axis)]; }
+  // Nothing has placed the axis so far, nor moved it.
+  [[nodiscard]] bool never_moved(AxisLetter axis) const {
+    return never_known(axis) && causes_[slot(axis)].loss == PositionLoss::never_programmed;
   }
   // "X is not known since G28 on line 12", "X has not been programmed yet".
   [[nodiscard]] std::string why_unknown(AxisLetter axis) const;
@@ -85,10 +93,13 @@ class ProgramPosition {
     std::uint32_t line = 0;
     std::string word{};
   };
+  static constexpr std::size_t slot(AxisLetter axis) { return static_cast<std::size_t>(axis); }
+
   AxisTarget target_{};
   AxisTarget axes_{};
   AxisTarget programmed_{};
-  std::optional<double> height_before_tool_{};
+  std::optional<HeightBeforeTool> tool_change_{};
+  std::array<bool, kAxisLetters.size()> placed_{};
   std::array<Cause, kAxisLetters.size()> causes_{};
 };
 

@@ -203,7 +203,8 @@ constexpr std::array kModal{
     ModalVariable{4008,
                   [](const ModalState& state) -> Value {
                     const Compensation& kept = state.compensation;
-                    return !kept.length ? 49.0 : kept.tool_vectors ? 43.5 : kept.tip ? 43.4 : 43.0;
+                    if (!kept.length || kept.negative) return kept.length ? 44.0 : 49.0;
+                    return kept.tool_vectors ? 43.5 : kept.tip ? 43.4 : 43.0;
                   }},
     ModalVariable{4009,
                   [](const ModalState& state) -> Value {

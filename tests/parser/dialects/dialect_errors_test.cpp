@@ -85,7 +85,7 @@ constexpr Mistake kLinuxcnc[] = {
     {"G81 Z-1 R2\n", "1:1: error: the cycle starts at an unknown Z: Z has not been programmed yet"},
     {"G92 X0\n", "1:5: error: G92 says where X is, but X has not been programmed yet"},
     {"O100 sub\n", "1:1: error: subprogram 100 has no end"},
-    {"G41 D1\n", "1:5: error: the tool table has no tool 1"},
+    {"G41 D1\n", "1:5: error: nothing gives the diameter of tool 1"},
     {"G0 A1 E5\n", "1:7: error: E5 has no meaning in this block"},
     {"G52\n", "1:1: error: G52 names no axis"},
     {"G1 X1\n", "1:1: error: G1 without a feed rate"},

@@ -122,7 +122,7 @@ TEST(FanucCycle, KeepsItsLevelsWhenTheModeOfDistanceChanges) {
 TEST(FanucCycle, RepeatsByK) {
   EXPECT_EQ(
       all_of<LinearFeed>(motions("G0 X0 Y0 Z9\nG91 G99 G81 X10 R-7 Z-5 K3 F50\nG80\n")).size(), 3U);
-  const auto taps = all_of<Event>(motions("M29 S500\nM3\nG0 X0 Y0 Z9\nG84 R2 Z-5 F500\n"));
+  const auto taps = all_of<Event>(motions("G0 X0 Y0 Z9\nM29 S500\nG84 R2 Z-5 F500\n"));
   ASSERT_EQ(taps.size(), 2U);
   EXPECT_EQ(taps[0].name, "M29");
   EXPECT_EQ(taps[1].name, "rigid tap");

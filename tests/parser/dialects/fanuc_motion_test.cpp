@@ -144,10 +144,10 @@ TEST(FanucMotion, WearOrLengthAloneGivesNoRadius) {
     const Texts lines = complaints(setting + contour, options);
     return lines.size() == 1 ? lines.front().substr(0, lines.front().find(" (hint: ")) : "";
   };
-  EXPECT_EQ(message("G21 G10 L13 P2 R0.3\n"), "3:8: error: the tool table has no tool 2");
-  EXPECT_EQ(message("#13002=0.3\n"), "3:8: error: the tool table has no tool 2");
-  EXPECT_EQ(message("G10 L10 P2 R80\n"), "3:8: error: the tool table has no diameter of tool 2");
-  EXPECT_EQ(message("#10002=80\n"), "3:8: error: the tool table has no diameter of tool 2");
+  EXPECT_EQ(message("G21 G10 L13 P2 R0.3\n"), "3:8: error: nothing gives the diameter of tool 2");
+  EXPECT_EQ(message("#13002=0.3\n"), "3:8: error: nothing gives the diameter of tool 2");
+  EXPECT_EQ(message("G10 L10 P2 R80\n"), "3:8: error: nothing gives the diameter of tool 2");
+  EXPECT_EQ(message("#10002=80\n"), "3:8: error: nothing gives the diameter of tool 2");
   // To the wear in the program the job's diameter counts; zero is a radius too.
   EXPECT_NEAR(*all_of<LinearFeed>(motions("G10 L13 P1 R0.3\nG0 X0 Y0\nG1 G41 D1 X10 F100\nY5\n"
                                           "Y10\nG40 X0\n",

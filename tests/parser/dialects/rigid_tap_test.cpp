@@ -96,6 +96,57 @@ TEST(RigidTap, OfFanucIsG84AfterM29) {
             std::vector<std::string>{"cycle-speed-missing"});
 }
 
+// Fanuc's alarms PS0203, PS0204 and PS0206.
+TEST(RigidTap, OfFanucFollowsM29AtOnce) {
+  using Ids = std::vector<std::string>;
+  const Ids stops{"rigid-tap-interrupted"};
+  const std::string head = "G21 G90 G94 G99\nG0 X0 Y0 Z50\n";
+  const std::string tap = "G84 X1 Z-10 R2 F800\n";
+  for (const char* between : {"X5\n", "G0 X5\n", "G81 Z-1 R2 F100\n", "G28 Z0\n", "G53 Z0\n",
+                              "S900\n", "G4 P10\nX5\nG4 P10\n"}) {
+    EXPECT_EQ(complaint_ids(head + "M29 S800\n" + between + tap), stops) << between;
+    EXPECT_TRUE(complaint_ids(head + "M29 S700\n" + between + "M29 S800\n" + tap).empty())
+        << between;
+  }
+  EXPECT_EQ(complaint_ids(head + "M29 S800\n" + tap + "G18\n"), stops);
+  for (const char* between : {"", "G4 P10\n", "(M29)\n", "M8\n", "G17\n", "#1=5\n"}) {
+    const std::string hole = " M3/800 F-10@1s M4/800 F2@1s M5/800";
+    const std::string dwell = between[1] == '4' ? " D0.01" : "";
+    EXPECT_EQ(taps(head + "M29 S800\n" + between + tap + "X2\nG80\n", Dialect::fanuc),
+              "R50" + dwell + " R50 R2" + hole + " R2" + hole)
+        << between;
+  }
+}
+
+// What the builder has it ended by is told, with the tap that is made then.
+TEST(RigidTap, OfFanucEndsWithItsCycle) {
+  const auto told = [](const std::string& text) {
+    std::string names;
+    for (const Event& event : all_of<Event>(motions(text))) {
+      if (event.grade == EventGrade::assumed) names += event.name + ": " + event.text + "; ";
+    }
+    return names;
+  };
+  const std::string head = "G21 G90 G94 G99\nG0 X0 Y0 Z50\n";
+  const std::string tap = "G84 X1 Z-10 R2 F800\n";
+  const std::string rigid = "rigid tap: the spindle is at rest when the hole is done; ";
+  EXPECT_EQ(told(head + "M29 S800\n" + tap + "G80\nM5\nT2 M6\n"), rigid);
+  EXPECT_EQ(told(head + "M29 S800\n" + tap + "G0 Z50\nM3\n"), rigid);
+  EXPECT_EQ(told(head + "M29 S800\nM3\n" + tap),
+            "M29: M3 ends the rigid mode of M29 before any hole; ");
+  EXPECT_EQ(taps(head + "M29 S800\nM3\n" + tap, Dialect::fanuc),
+            "R50 M3/800 R50 R2 F-10@800 M5/800 M4/800 D0 F2@800 M5/800 M3/800");
+  EXPECT_EQ(told(head + "M29 S800\nT2 M6\n" + tap),
+            "M29: M6 ends the rigid mode of M29 before any hole; tap with the spindle at rest: the "
+            "control turns the spindle itself, in and out: a rigid tap; " +
+                rigid);
+  EXPECT_EQ(told(head + "M29 S800\nG80\n"),
+            "M29: G80 ends the rigid mode of M29 before any hole; ");
+  EXPECT_EQ(told(head + "M29 S800\nG1\n"), "M29: G1 ends the rigid mode of M29 before any hole; ");
+  EXPECT_EQ(told(head + "M29 S800\n" + tap + "M3\nX5\n"),
+            rigid + "M29: M3 ends the rigid mode of M29; ");
+}
+
 TEST(RigidTap, OfSinumerikIsLeftHandedBelowZero) {
   const std::string go = "G0 X3 Y4 Z50 S1000 M3 F200\n";
   EXPECT_EQ(taps(go + "CYCLE84(40,10,2,-15,,,4,-6,,0,300)\n", Dialect::sinumerik),

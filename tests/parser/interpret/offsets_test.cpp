@@ -1,6 +1,8 @@
 // Work offsets, lengths and reference points that a program sets: what becomes known by them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/units.hpp"
 #include "tests/parser/running.hpp"
 
@@ -113,6 +115,72 @@ TEST(ToolLengths, OfFanucComeFromG10AndFromTheirParameters) {
   EXPECT_EQ(changes[2].mode, LengthCompensation::tool_centre_point);
   EXPECT_EQ(changes[3].length, 61.0);
   EXPECT_NEAR(*changes[4].length, 25.4, 1e-12);
+}
+
+// By a parameter the control moves by it at once, or with the next G43.
+TEST(ToolLengths, ThatChangeWhileTheyAreInForceAreTold) {
+  const auto told = [](const std::string& text) {
+    std::string lines;
+    for (const Motion& motion : motions(text)) {
+      const auto* event = std::get_if<Event>(&motion.command);
+      if (event == nullptr || event->name != "length in force") continue;
+      EXPECT_EQ(event->grade, EventGrade::assumed);
+      lines += std::to_string(motion.place.line) + ":" + std::to_string(motion.place.column) + " ";
+    }
+    return lines;
+  };
+  const std::string head = "G90 G10 L10 P1 R50\nG0 G43 H1 Z10\n";
+  for (const char* change :
+       {"G10 L10 P1 R51\n", "G10 L11 P1 R1\n", "G91 G10 L10 P1 R1\n", "G10 L1 P1 R51\n"}) {
+    EXPECT_EQ(told(head + change + "G90 X0 Z5\n").substr(0, 2), "3:") << change;
+  }
+  for (const char* change : {"#2001=51\n", "#10001=51\n", "#11001=1\n"}) {
+    EXPECT_EQ(told(head + change + "#11001=2\n"), "3:1 ") << change;
+  }
+  EXPECT_EQ(told("G0 G43 H1 Z10\nG10 L10 P1 R51\n"), "2:12 ");
+  for (const char* other : {"G10 L10 P2 R51\n", "G10 L10 P1 R50\n", "#11001=0\n", "#12001=5\n",
+                            "G10 L12 P1 R5\n", "G49\n#2001=51\n", "G10 L2 P1 X5\n"}) {
+    EXPECT_EQ(told(head + other), "") << other;
+  }
+  // It waits: Z5 is at 55 mm, and with G43 at 57.
+  const auto all = motions(head + "G10 L11 P1 R2\nZ5\nG43 Z5\n");
+  const auto changes = all_of<CompensationChange>(all);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[0].length, 50.0);
+  EXPECT_EQ(changes[1].length, 52.0);
+}
+
+TEST(ToolLengths, OfG44AreSubtracted) {
+  const auto all = motions(
+      "G10 L10 P1 R50\nG10 L11 P1 R0.5\nG10 L10 P2 R30\nG0 G44 H1 Z10\nH2\nG91 Z1\nG90\nG0 "
+      "X#4008\nG43 H1\nG49\n");
+  const auto changes = all_of<CompensationChange>(all);
+  ASSERT_EQ(changes.size(), 4U);
+  EXPECT_EQ(changes[0].length, -50.5);
+  EXPECT_TRUE(changes[0].negative);
+  EXPECT_EQ(changes[1].length, -30.0);
+  EXPECT_TRUE(changes[1].negative);
+  EXPECT_EQ(changes[2].length, 50.5);
+  EXPECT_FALSE(changes[2].negative);
+  EXPECT_FALSE(changes[3].negative);
+  EXPECT_EQ(end_of_last(all)[X], 44.0);
+  EXPECT_EQ(end_of_last(all)[Z], 11.0);
+  EXPECT_TRUE(all_of<Event>(all).empty());
+  EXPECT_FALSE(std::signbit(*last_of<CompensationChange>(motions("G44 H0\n")).length));
+}
+
+TEST(ToolLengths, OfTheSetupAreTakenForPositiveByG44) {
+  const auto all = motions("G0 G44 H1 Z10\nG0 X1\nG43 H1\nG0 X2\n");
+  const auto changes = all_of<CompensationChange>(all);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_TRUE(changes[0].negative);
+  EXPECT_FALSE(changes[0].length);
+  ASSERT_EQ(all_of<Event>(all).size(), 1U);
+  EXPECT_EQ(last_of<Event>(all).name, "G44");
+  EXPECT_EQ(last_of<Event>(all).grade, EventGrade::assumed);
+  // Between the two Z is by twice a length elsewhere that only the setup knows.
+  EXPECT_EQ(all_of<Traverse>(all)[1].end[Z], 10.0);
+  EXPECT_FALSE(end_of_last(all)[Z]);
 }
 
 TEST(ToolLengths, OfTheSetupStayItsOwnBesideARadius) {

@@ -64,6 +64,38 @@ TEST(Position, OfZIsLostInAToolChangeThatTheControlDoesNotDescribe) {
   EXPECT_TRUE(last_of<ToolChange>(kept).axes_stay);
 }
 
+// Nothing says where Z is after the first tool change either, or at home.
+TEST(Position, OfZIsNotZeroAfterTheFirstToolChangeNorAtHome) {
+  using Lines = std::vector<std::string>;
+  const auto first = [](const std::string& text, Dialect dialect = Dialect::fanuc) {
+    const Lines lines = complaints(text, in_millimetres({}), dialect);
+    return lines.empty() ? "" : lines.front().substr(0, lines.front().find(" (hint: "));
+  };
+  EXPECT_EQ(first("G90 G54\nT1 M6\nG91 G0 Z-5\n"),
+            "3:8: error: Z-5 is incremental, but Z is not known since the tool change on line 2");
+  EXPECT_EQ(first("T1 M6\nG43 H1\nG91 G1 Z-5 F100\n"),
+            "3:8: error: Z-5 is incremental, but Z is not known since the tool change on line 1");
+  EXPECT_EQ(first("T1 M6\nG43.4 H1\nG55\nG91 G0 Z-5\n"),
+            "4:8: error: Z-5 is incremental, but Z is not known since the tool change on line 1");
+  EXPECT_EQ(first("TOOL CALL 1 Z S500\nL IZ-5 FMAX\n", Dialect::heidenhain),
+            "2:3: error: IZ-5 is incremental, but Z is not known since the tool change on line 1");
+  EXPECT_EQ(first("G91 G28 Z0\nG0 Z-5\n"),
+            "2:4: error: Z-5 is incremental, but Z is not known since G28 on line 1");
+  // X and Y stay, and so does all that says where Z is.
+  EXPECT_EQ(last_of<Traverse>(motions("T1 M6\nG91 G0 X-5\n")).end[X], -5.0);
+  EXPECT_EQ(last_of<Traverse>(motions("T1 M6\nG90 G0 G43 H1 Z50\nG91 Z-5\n")).end[Z], 45.0);
+  EXPECT_EQ(last_of<Traverse>(motions("T1 M6\nG92 Z50\nG91 G0 Z-5\n")).end[Z], 45.0);
+  EXPECT_EQ(last_of<Traverse>(motions("G53 G0 Z0\nT1 M6\nG91 G0 Z-5\n")).end[Z], -5.0);
+  InterpreterOptions at_home;
+  at_home.reference_points[0][Z] = 400.0;
+  EXPECT_EQ(last_of<Traverse>(motions("G91 G28 Z0\nT1 M6\nG0 Z-5\n", at_home)).end[Z], 395.0);
+  InterpreterOptions started;
+  started.start[Z] = 100.0;
+  EXPECT_EQ(last_of<Traverse>(motions("G91 G0 Z-5\nT1 M6\n", started)).end[Z], 95.0);
+  const auto kept = motions("T1 M6\nG90 G0 Z9\nT2 M6\nG91 Z-5\n", {}, Dialect::linuxcnc);
+  EXPECT_EQ(last_of<Traverse>(kept).end[Z], 4.0);
+}
+
 // Where the height is the machine's, the tool comes over the hole before it goes down.
 TEST(Position, OfZAfterAToolChangeIsKeptOnTheWayToAHole) {
   const std::string klartext =
@@ -103,6 +135,60 @@ TEST(Position, OfZAfterAToolChangeIsTheMachinesInACycle) {
               "Z is not known since the tool change on line 4: the initial level is where it was "
               "before, or R where that is higher");
   }
+}
+
+std::vector<std::string> levels_told(const std::vector<Motion>& all) {
+  std::vector<std::string> told;
+  for (const Motion& motion : all) {
+    const auto* event = std::get_if<Event>(&motion.command);
+    if (event == nullptr || event->name != "initial level") continue;
+    EXPECT_EQ(event->grade, EventGrade::assumed);
+    told.push_back(std::to_string(motion.place.line) + ": " + event->text);
+  }
+  return told;
+}
+
+TEST(Position, OfZAfterTheFirstToolChangeIsTheMachinesInACycle) {
+  const std::string head = "G21 G90 G54\nT1 M6\nM3 S100\nG43 H1\n";
+  const auto heights = [](const std::vector<Motion>& all) {
+    std::vector<std::optional<double>> found;
+    for (const Traverse& rapid : all_of<Traverse>(all)) found.push_back(rapid.end[Z]);
+    return found;
+  };
+  using Heights = std::vector<std::optional<double>>;
+  const std::string cycle = "X33 Y30 Z-5 R2 F100\n";
+  const auto to_level = motions(head + "G99 G81 " + cycle);
+  EXPECT_EQ(heights(to_level), (Heights{std::nullopt, 2.0, 2.0}));
+  EXPECT_TRUE(levels_told(to_level).empty());
+  const auto to_initial = motions(head + "G98 G81 " + cycle);
+  EXPECT_EQ(heights(to_initial), (Heights{std::nullopt, 2.0, 2.0}));
+  EXPECT_EQ(levels_told(to_initial),
+            std::vector<std::string>{
+                "5: Z is not known since the tool change on line 2: the initial level is R"});
+  // With no tool change at all R is as good, and G98 asks where the tool is.
+  EXPECT_EQ(heights(motions("G99 G81 " + cycle)), (Heights{std::nullopt, 2.0, 2.0}));
+  const std::vector<std::string> unknown{"position-unknown"};
+  EXPECT_EQ(complaint_ids("G98 G81 " + cycle), unknown);
+  EXPECT_EQ(complaint_ids("G99 G81 " + cycle + "G98 X5\n"), unknown);
+  EXPECT_EQ(complaint_ids(head + "G99 G91 G81 " + cycle), unknown);
+}
+
+TEST(Position, OfTheInitialLevelIsToldAfterEachToolChangeThatItComesFrom) {
+  const auto all = motions(
+      "G21 G90 G0 X0 Y0 Z50\nM3 S100\nG98 G81 X1 Z-5 R2 F100\nT2 M6\nX2\nT3 M6\nG99 X3\nG98 "
+      "X4\nG80\nT4 M6\nG98 G81 X5 Z-5 R2\nT5 M6\nG99 X6\nG80\nG0 Z9\nG98 G81 X7 Z-5 R2\n");
+  EXPECT_EQ(levels_told(all),
+            (std::vector<std::string>{"5: Z is not known since the tool change on line 4: the "
+                                      "initial level is that of the cycle before it",
+                                      "8: Z is not known since the tool change on line 6: the "
+                                      "initial level is that of the cycle before it",
+                                      "11: Z is not known since the tool change on line 10: the "
+                                      "initial level is where it was before, or R where that is "
+                                      "higher"}));
+  std::vector<double> last;
+  for (const Traverse& rapid : all_of<Traverse>(all)) last.push_back(rapid.end[Z].value_or(-1.0));
+  EXPECT_EQ(last, (std::vector<double>{50, 50, 2, 50, -1, 2, 50, -1, 2, 2, 2,
+                                       50, -1, 2, 50, -1, 2, 2,  9,  9, 2, 9}));
 }
 
 TEST(Position, SurvivesARepeatedOffsetOrCompensation) {

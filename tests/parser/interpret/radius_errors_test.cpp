@@ -88,7 +88,7 @@ TEST(RadiusErrors, OfTheContour) {
 
 TEST(RadiusErrors, OfTheToolAndItsWord) {
   constexpr RadiusMistake kMistakes[] = {
-      {linuxcnc, "G41 D9\n", "1:5: error: the tool table has no tool 9"},
+      {linuxcnc, "G41 D9\n", "1:5: error: nothing gives the diameter of tool 9"},
       {linuxcnc, "G41 D1.5\n", "1:5: error: D1.5 is not a whole number"},
       {linuxcnc, "G41.1\n", "1:1: error: G41.1 without D"},
       {linuxcnc, "G41.1 D4 L3\n", "1:10: error: G41.1 with a lathe tool outside G18"},
@@ -98,16 +98,16 @@ TEST(RadiusErrors, OfTheToolAndItsWord) {
       {linuxcnc, "G41 D1\nG41 D1\n",
        "2:1: error: G41 while radius compensation is on, since line 1"},
       {fanuc, "G41\n", "1:1: error: G41 without D"},
-      {fanuc, "G41 D7\n", "1:5: error: the tool table has no tool 7"},
+      {fanuc, "G41 D7\n", "1:5: error: nothing gives the diameter of tool 7"},
       {fanuc, "G41 D1\nG42 D1\n", "2:1: error: G42 while radius compensation is on, since line 1"},
       {fanuc, "G41 D1\nG41 D2\n", "2:1: error: G41 while radius compensation is on, since line 1"},
       {fanuc, "G41.2 D1\n", "1:1: error: G41.2 is not simulated"},
       {sinumerik, "G41\n", "1:1: error: G41 without a tool in the spindle"},
-      {sinumerik, "T9 D1 M6\nG42\n", "2:1: error: the tool table has no tool 9"},
+      {sinumerik, "T9 D1 M6\nG42\n", "2:1: error: nothing gives the diameter of tool 9"},
       {sinumerik, "G451\n", "1:1: error: G451 is not simulated"},
       {sinumerik, "KONT\n", "1:1: error: KONT is not simulated"},
       {heidenhain, "TOOL CALL 9 Z S100\nL X+50 RR F100\n",
-       "2:8: error: the tool table has no tool 9"},
+       "2:8: error: nothing gives the diameter of tool 9"},
       {heidenhain, "TOOL CALL 1 Z S100\nL X+50 RL F100\nL X+90 RR\n",
        "3:8: error: RR while radius compensation is on, since line 2"},
       {heidenhain, "LN X+50 NX+0 NY+0 NZ+1 RL F100\n", "1:24: error: RL in LN is not simulated"},

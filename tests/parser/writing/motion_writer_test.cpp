@@ -329,6 +329,19 @@ TEST(NcWriter, SaysWhatADialectHasNoWordsFor) {
   EXPECT_FALSE(write_nc(vectors, Dialect::cldata));
 }
 
+TEST(NcWriter, SubtractsALengthWhereTheControlCan) {
+  const CompensationChange negative{
+      .mode = LengthCompensation::length, .offset_number = 3, .negative = true};
+  EXPECT_NE(fanuc_of({negative}).find("\nG44 H3\n"), std::string::npos);
+  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::sinumerik, Dialect::heidenhain}) {
+    const auto written =
+        write_nc(std::vector<Motion>{{{1, 1}, ToolChange{3}}, {{2, 3}, negative}}, dialect);
+    ASSERT_FALSE(written) << name_of(dialect);
+    EXPECT_NE(written.error().front().message.find("a tool length that is subtracted (G44)"),
+              std::string::npos);
+  }
+}
+
 // A quarter and two turns more, by 4 mm a turn.
 TEST(NcWriter, WritesEachTurnOfAHelixWhereTheDialectHasNoWordForThem) {
   AxisTarget start, end;
