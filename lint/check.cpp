@@ -96,6 +96,8 @@ constexpr std::array kChecks{
               Needs::job},
     CheckInfo{body_in_material, "body-in-material", kError,
               "A shank or holder is in the material during a cut", Needs::job},
+    CheckInfo{machine_collision, "machine-collision", kError,
+              "Bodies of machine, fixtures, tool and blank meet", Needs::job},
     CheckInfo{unknown_suppression, "unknown-suppression", kWarning,
               "A comment that suppresses findings names no check"},
     CheckInfo{unused_suppression, "unused-suppression", kWarning,

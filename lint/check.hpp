@@ -68,6 +68,7 @@ enum class Check : std::uint8_t {
   axis_too_slow,
   rapid_in_material,
   body_in_material,
+  machine_collision,
   unknown_suppression,
   unused_suppression,
 };

@@ -218,6 +218,10 @@ constexpr std::array kHelp{
     Row{body_in_material,
         {"The shank or the holder of a tool is in the stock during a cut.",
          "Take a longer tool or a slimmer holder, or another way to the place."}},
+    Row{machine_collision,
+        {"Two bodies that the machine file or the job states, or one of them and the tool or the "
+         "blank, meet while the axes move.",
+         "Take another way to the place, another clamping, or a longer tool."}},
     Row{unknown_suppression,
         {"A comment that is to suppress findings names no check, so that it suppresses nothing.",
          "Write an id as frustum check --list has it."}},

@@ -12,6 +12,7 @@
 
 #include "cutter/body/cutter.hpp"
 #include "kinematics/controller/setup.hpp"
+#include "kinematics/model/machine_body.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "parser/control_settings.hpp"
 #include "parser/dialect.hpp"
@@ -62,7 +63,8 @@ struct TestPiece {
   std::map<int, Vec3> work_offsets{};  // 1 = G54 ...: program origin in the table frame
   cutter::ToolList tools{};
   stock::BlankShape blank{};
-  Vec3 blank_origin = Vec3::Zero();  // centre of its bottom, workpiece frame
+  Vec3 blank_origin = Vec3::Zero();                 // centre of its bottom, workpiece frame
+  std::vector<kinematics::MachineBody> fixtures{};  // in the frame of the table
   metrology::InspectionPlan plan{};
   std::vector<Operation> operations{};
   // Error shapes without a span of their own are over the range that this operation travels.

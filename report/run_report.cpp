@@ -1,5 +1,7 @@
 #include "report/run_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +31,23 @@ bool SurfacePicture::is_valid() const {
            return std::all_of(triangle.begin(), triangle.end(),
                               [&](std::uint32_t corner) { return corner < vertices.size(); });
          });
+}
+
+std::string machine_bodies_text(const MachineBodies& bodies) {
+  if (bodies.bodies == 0) {
+    return "Machine collisions were not looked for: neither the machine file nor the job states "
+           "bodies.";
+  }
+  const std::string count = fmt::format("{} {} of machine and fixtures, with tools and blank",
+                                        bodies.bodies, bodies.bodies == 1 ? "body" : "bodies");
+  if (!bodies.smallest_distance) return count + ": none moves against another.";
+  const std::string line = bodies.line == 0 ? "" : fmt::format(", line {}", bodies.line);
+  const std::string place = line + (bodies.file.empty() ? "" : fmt::format(" in {}", bodies.file));
+  if (*bodies.smallest_distance == 0.0) {
+    return fmt::format("{}: {} and {} meet{}.", count, bodies.first, bodies.second, place);
+  }
+  return fmt::format("{}: smallest distance {:.2f} mm, {} to {}{}.", count,
+                     *bodies.smallest_distance, bodies.first, bodies.second, place);
 }
 
 bool RunReport::passes() const {

@@ -84,6 +84,17 @@ struct Collision {
   std::string text{};
 };
 
+// The bodies of machine and fixtures, and how near two that move against each other come.
+struct MachineBodies {
+  std::size_t bodies = 0;  // that machine file and job state; 0: no collision was looked for
+  std::optional<double> smallest_distance{};  // mm; 0: they meet
+  std::string first{}, second{};              // the two
+  std::uint32_t line = 0;                     // of the NC program
+  std::string file{};                         // of a subprogram's own file
+};
+// "Machine collisions were not looked for: ...", or what was found.
+[[nodiscard]] std::string machine_bodies_text(const MachineBodies& bodies);
+
 // A block that an axis limit kept below its feed.
 struct SlowedBlock {
   std::uint32_t line = 0;
@@ -129,9 +140,10 @@ struct RunReport {
   SurfacePicture surface{};
   Volumes volumes{};
   std::vector<Collision> collisions{};
-  std::optional<double> cycle_time{};  // s, of the program on the machine
-  std::vector<SlowedBlock> slowed{};   // those that lose most time first
-  std::vector<Timing> timings{};       // in the order in which the work was done
+  std::optional<MachineBodies> machine_bodies{};  // nothing: no program was run
+  std::optional<double> cycle_time{};             // s, of the program on the machine
+  std::vector<SlowedBlock> slowed{};              // those that lose most time first
+  std::vector<Timing> timings{};                  // in the order in which the work was done
   std::vector<BudgetEntry> budget{};
   std::optional<PointBounds> bounds{};
   Diagnostics diagnostics{};  // of the run; the measurement has its own

@@ -113,6 +113,12 @@ void write_head(Page& page, const RunReport& report) {
   }
 }
 
+void write_machine_bodies(Page& page, const RunReport& report) {
+  if (report.machine_bodies) {
+    page.labelled("Bodies     ", machine_bodies_text(*report.machine_bodies));
+  }
+}
+
 void write_errors(Page& page, const RunReport& report) {
   if (report.errors.empty()) {
     page.labelled("Errors     ", "none injected");
@@ -256,6 +262,7 @@ void write_foot(Page& page, const RunReport& report) {
 std::string terminal_report(const RunReport& report, const TerminalOptions& options) {
   Page page(options);
   write_head(page, report);
+  write_machine_bodies(page, report);
   write_errors(page, report);
   write_characteristics(page, report);
   write_no_uncertainty(page, report);

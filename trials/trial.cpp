@@ -115,6 +115,27 @@ Diagnostics oversize_in(const Machine& machine, const GeometricErrors& errors,
   return kinematics::oversize_errors(machine, errors, places);
 }
 
+Result<stock::MachineCollisions> machine_collisions_of(const Machine& machine,
+                                                       const TestPiece& piece,
+                                                       const kinematics::CommandedProgram& program,
+                                                       const stock::Workpiece& workpiece) {
+  const kinematics::Setup setup = setup_of(piece);
+  std::map<int, cutter::Cutter> used;
+  for (const kinematics::PathBlock& block : workpiece.removed().path().blocks) {
+    used.try_emplace(block.tool, workpiece.removed().tool(block.tool));
+  }
+  const auto scene = stock::scene_of(machine, piece.fixtures, setup, used, workpiece.blank());
+  if (!scene) return scene.error();
+  return stock::find_machine_collisions(*scene, setup, program);
+}
+
+void add_machine_collisions(Trial& trial) {
+  const stock::MachineCollisions& met = trial.machine_collisions;
+  trial.collisions.insert(trial.collisions.end(), met.collisions.begin(), met.collisions.end());
+  std::ranges::stable_sort(trial.collisions, {}, &stock::Collision::block);
+  trial.warnings.insert(trial.warnings.end(), met.warnings.begin(), met.warnings.end());
+}
+
 void begin(const std::function<void(Stage)>& on_stage, Stage stage) {
   if (on_stage) on_stage(stage);
 }
@@ -171,6 +192,10 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
   if (options.find_collisions) {
     begin(options.on_stage, Stage::collide);
     trial.collisions = stock::find_collisions(*trial.workpiece);
+    auto met = machine_collisions_of(machine, piece, commanded.program, *trial.workpiece);
+    if (!met) return met.error();
+    trial.machine_collisions = *std::move(met);
+    add_machine_collisions(trial);
   }
   if (options.measure) {
     begin(options.on_stage, Stage::measure);

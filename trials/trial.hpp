@@ -27,6 +27,7 @@
 #include "parser/tool_table.hpp"
 #include "programs/test_piece.hpp"
 #include "stock/collision/collision.hpp"
+#include "stock/collision/machine_collision.hpp"
 #include "stock/solid/workpiece.hpp"
 
 namespace frustum::trials {
@@ -45,7 +46,9 @@ struct Trial {
   std::vector<OperationTrace> operations{};
   double cycle_time = 0.0;                        // s
   std::vector<kinematics::SlowedBlock> slowed{};  // those that lose most time first
-  std::vector<stock::Collision> collisions{};
+  std::vector<stock::Collision> collisions{};     // in program order
+  // What was looked for of machine and fixtures; its collisions are among those above.
+  stock::MachineCollisions machine_collisions{};
   Diagnostics warnings{};
   Diagnostics wrong_cuts{};  // cut_check.hpp
   std::shared_ptr<const stock::Workpiece> workpiece{};

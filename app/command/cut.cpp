@@ -130,6 +130,7 @@ class Cut {
     }
     if (auto failure = find_state()) return *failure;
     result_.blank_volume = workpiece().blank().volume();
+    result_.machine_bodies = machine_bodies_of(trial_.machine_collisions);
     for (const stock::Collision& c : trial_.collisions) {
       if (result_.until.block && c.block <= *result_.until.block) result_.collisions.push_back(c);
     }

@@ -14,6 +14,8 @@ lint::Check check_of(const stock::Collision& collision) {
       return lint::Check::rapid_in_material;
     case stock::CollisionKind::feed_with_spindle_off:
       return lint::Check::spindle_off;
+    case stock::CollisionKind::bodies_meet:
+      return lint::Check::machine_collision;
     case stock::CollisionKind::body_in_material:
       break;
   }
@@ -23,6 +25,9 @@ lint::Check check_of(const stock::Collision& collision) {
 std::string remedy_of(const stock::Collision& collision) {
   if (collision.kind == stock::CollisionKind::rapid_through_material) {
     return "retract before the move, or cut there by feed";
+  }
+  if (collision.kind == stock::CollisionKind::bodies_meet) {
+    return "another way to the place, another clamping, or a longer tool";
   }
   return "a longer tool or a slimmer holder, or another way to the place";
 }

@@ -1,5 +1,5 @@
 // Where a program of a job cuts with what must not cut: rapids through material, shanks and holders
-// in it.
+// in it; and where bodies of machine, fixtures and tools meet.
 //
 // Units : mm
 // Errors: those of the trial: a program that cannot be run on the job

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/job/job_report.hpp"
+#include "report/exchange/json_report.hpp"
 
 namespace frustum::app {
 namespace {
@@ -38,19 +39,22 @@ const char* name_of(stock::CollisionBody body) {
 
 const char* name_of(stock::CollisionKind kind) {
   constexpr const char* kNames[] = {"rapid_through_material", "feed_with_spindle_off",
-                                    "body_in_material"};
+                                    "body_in_material", "bodies_meet"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 Json collision_json(const stock::Collision& c) {
-  return {{"line", c.source_line},
-          {"text", collision_text(c)},
-          {"kind", name_of(c.kind)},
-          {"body", name_of(c.body)},
-          {"tool", c.tool},
-          {"depth_mm", c.depth},
-          {"point", point_json(c.point)},
-          {"last_line", c.last_line}};
+  const bool meet = c.kind == stock::CollisionKind::bodies_meet;
+  Json json{{"line", c.source_line},
+            {"text", collision_text(c)},
+            {"kind", name_of(c.kind)},
+            {"body", meet ? c.first : std::string(name_of(c.body))},
+            {"tool", c.tool},
+            {"depth_mm", meet ? Json(nullptr) : Json(c.depth)},
+            {"point", point_json(c.point)},
+            {"last_line", c.last_line}};
+  if (meet) json["other_body"] = c.second;
+  return json;
 }
 
 Json snapshot_json(const Snapshot& snapshot) {
@@ -160,6 +164,7 @@ std::string cut_json(const CutResult& result) {
   json["collisions"] = result.collisions.size();
   json["collision_list"] = Json::array();
   for (const auto& c : result.collisions) json["collision_list"].push_back(collision_json(c));
+  json["machine_collisions"] = Json::parse(report::machine_bodies_json(result.machine_bodies));
   if (result.asked_point) json["made_by"] = originating_block_json(result);
   if (!result.snapshots.empty()) json["snapshots"] = snapshots_json(result.snapshots);
   if (result.removal) {
@@ -178,6 +183,7 @@ std::string cut_text(const CutResult& result) {
                         result.until.time);
   }
   if (result.surface) text += surface_text(result);
+  text += report::machine_bodies_text(result.machine_bodies) + '\n';
   if (result.asked_point) text += originating_block_text(result);
   if (!result.snapshots.empty()) {
     text += fmt::format("{} snapshots, {} to {}\n", result.snapshots.size(),

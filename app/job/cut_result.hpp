@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/job/job.hpp"
+#include "report/run_report.hpp"
 #include "stock/collision/collision.hpp"
 #include "stock/mesh/deviation.hpp"
 #include "stock/mesh/surface_mesh.hpp"
@@ -52,6 +53,7 @@ struct CutResult {
   std::optional<CutSurface> surface{};
   DeviationLimits limits{};
   std::vector<stock::Collision> collisions{};
+  report::MachineBodies machine_bodies{};  // over the whole program
   std::optional<Vec3> asked_point{};
   std::optional<stock::OriginatingBlock> originating_block{};
   std::vector<Snapshot> snapshots{};

@@ -238,6 +238,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   read_program(root, piece);
   read_setup(root, piece);
   read_blank(root, piece);
+  piece.fixtures = kinematics::read_fixtures(root);
   std::shared_ptr<const stock::FacetSolid> nominal;
   if (const auto table = root.table_if("nominal")) {
     nominal = read_closed_mesh(*table, "file", table->vector_or("origin", Vec3::Zero()));

@@ -99,9 +99,26 @@ std::string kind_text(stock::CollisionKind kind) {
     case stock::CollisionKind::feed_with_spindle_off:
       return "feed move with the spindle off in material";
     case stock::CollisionKind::body_in_material:
+    case stock::CollisionKind::bodies_meet:
       break;
   }
   return "in material during a feed move";
+}
+
+std::string lines_text(const stock::Collision& c) {
+  const std::string until =
+      c.last_line == c.source_line ? "" : fmt::format(", until line {}", c.last_line);
+  const std::string within =
+      c.source_file
+          ? fmt::format(", in {}", std::filesystem::path(*c.source_file).filename().string())
+          : "";
+  return until + within;
+}
+
+std::string meeting_text(const stock::Collision& c) {
+  const std::string tool = c.tool == 0 ? "" : fmt::format(" with tool T{}", c.tool);
+  return fmt::format("{} meets {}{} at ({:.1f}, {:.1f}, {:.1f}){}", c.first, c.second, tool,
+                     c.point.x(), c.point.y(), c.point.z(), lines_text(c));
 }
 
 std::array<float, 3> in_single_precision(const Vec3& v) {
@@ -111,18 +128,13 @@ std::array<float, 3> in_single_precision(const Vec3& v) {
 }  // namespace
 
 std::string collision_text(const stock::Collision& c) {
+  if (c.kind == stock::CollisionKind::bodies_meet) return meeting_text(c);
   std::string what = kind_text(c.kind);
   if (c.body != stock::CollisionBody::cutter) {
     what = body_text(c) + (c.kind == stock::CollisionKind::body_in_material ? "" : "in a ") + what;
   }
-  const std::string until =
-      c.last_line == c.source_line ? "" : fmt::format(", until line {}", c.last_line);
-  const std::string within =
-      c.source_file
-          ? fmt::format(", in {}", std::filesystem::path(*c.source_file).filename().string())
-          : "";
-  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f}){}{}", what, c.tool,
-                     c.depth, c.point.x(), c.point.y(), c.point.z(), until, within);
+  return fmt::format("{}: tool T{}, {:.3f} mm deep at ({:.1f}, {:.1f}, {:.1f}){}", what, c.tool,
+                     c.depth, c.point.x(), c.point.y(), c.point.z(), lines_text(c));
 }
 
 std::string file_of(const stock::Collision& collision, const std::string& main_program) {
@@ -149,6 +161,19 @@ std::optional<Diagnostic> failed_acceptance(const metrology::CmmModel& cmm) {
 }
 
 }  // namespace
+
+report::MachineBodies machine_bodies_of(const stock::MachineCollisions& met) {
+  report::MachineBodies bodies{.bodies = met.bodies};
+  if (!met.closest) return bodies;
+  bodies.smallest_distance = met.closest->distance;
+  bodies.first = met.closest->first;
+  bodies.second = met.closest->second;
+  bodies.line = met.closest->source_line;
+  if (met.closest->source_file) {
+    bodies.file = std::filesystem::path(*met.closest->source_file).filename().string();
+  }
+  return bodies;
+}
 
 Result<report::Evidence> evidence_of(const Job& job) {
   report::Evidence evidence;
@@ -187,6 +212,7 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial, report::
   for (const stock::Collision& c : trial.collisions) {
     report.collisions.push_back({c.source_line, collision_text(c)});
   }
+  report.machine_bodies = machine_bodies_of(trial.machine_collisions);
   report.cycle_time = trial.cycle_time;
   for (const kinematics::SlowedBlock& block : trial.slowed) {
     report.slowed.push_back({block.source_line, std::string(1, kinematics::to_char(block.axis)),

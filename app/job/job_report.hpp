@@ -21,6 +21,9 @@ namespace frustum::app {
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial,
                                           report::Evidence evidence = {});
 
+// What was looked for of machine and fixtures, as reports tell it.
+[[nodiscard]] report::MachineBodies machine_bodies_of(const stock::MachineCollisions& met);
+
 // Tells in the report how near the measured points are to the true surface. A point that is refuted
 // is an error of the engine, and the run does not pass.
 void add_proof(report::RunReport& report, const trials::PointProof& proof);

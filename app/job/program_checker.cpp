@@ -258,7 +258,8 @@ Job ProgramChecker::job_of(const Shared& shared, const NcFile& nc) {
 void ProgramChecker::look_into_stock(const Shared& shared, const NcFile& nc,
                                      lint::CheckOptions& options) {
   if (!shared.job || (options.disabled.contains(lint::Check::rapid_in_material) &&
-                      options.disabled.contains(lint::Check::body_in_material))) {
+                      options.disabled.contains(lint::Check::body_in_material) &&
+                      options.disabled.contains(lint::Check::machine_collision))) {
     return;
   }
   options.look_further = [this, &shared, &nc] {

@@ -24,6 +24,7 @@
 #include "core/result.hpp"
 #include "kinematics/model/axes.hpp"
 #include "kinematics/model/geometric_errors.hpp"
+#include "kinematics/model/machine_body.hpp"
 #include "parser/control_settings.hpp"
 
 namespace frustum::kinematics {
@@ -97,6 +98,8 @@ class Machine {
   [[nodiscard]] const std::map<std::string, ErrorAlias>& aliases() const { return aliases_; }
 
   [[nodiscard]] const ControllerWords& controller() const { return controller_; }
+  // What may collide; none: the file states no bodies.
+  [[nodiscard]] const std::vector<MachineBody>& bodies() const { return bodies_; }
 
   // All joints: tool chain, then work chain.
   [[nodiscard]] std::vector<Joint> joints() const;
@@ -130,6 +133,7 @@ class Machine {
   std::vector<AxisLetter> datum_;  // ISO 230-1 primary and secondary axis
   std::map<std::string, ErrorAlias> aliases_;
   ControllerWords controller_;
+  std::vector<MachineBody> bodies_;
 };
 
 }  // namespace frustum::kinematics

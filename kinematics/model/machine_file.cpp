@@ -47,7 +47,8 @@ class MachineReader {
     const auto structure = parse_structure(machine.structure_);
     if (!structure) {
       // Without a structure the rest has no meaning, but its keys are known.
-      for (const char* key : {"datum", "spindle", "table", "axis", "alias", "controller"}) {
+      for (const char* key :
+           {"datum", "spindle", "table", "axis", "alias", "controller", "bodies"}) {
         (void)root.has(key);
       }
       // One that is missing or no text has been reported.
@@ -82,6 +83,7 @@ class MachineReader {
     read_datum(root, machine);
     read_aliases(root, machine);
     read_controller(root, machine);
+    machine.bodies_ = read_bodies(root, machine);
     if (Diagnostics problems = document.finish(); has_error(problems)) return problems;
     return machine;
   }

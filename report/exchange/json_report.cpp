@@ -213,6 +213,9 @@ std::string json_report(const RunReport& report) {
   json["collisions"] = array_of(report.collisions, [](const Collision& collision) {
     return Json{{"line", collision.line}, {"message", collision.text}};
   });
+  if (report.machine_bodies) {
+    json["machine_collisions"] = Json::parse(machine_bodies_json(*report.machine_bodies));
+  }
   json["axis_ranges"] = array_of(report.traces, trace_json);
   json["budget"] = array_of(report.budget, [](const BudgetEntry& entry) {
     return Json{{"name", entry.name},
@@ -229,6 +232,18 @@ std::string json_report(const RunReport& report) {
   }
   json["notes"] = report.notes;
   return text_of(json);
+}
+
+std::string machine_bodies_json(const MachineBodies& bodies) {
+  Json json{{"looked_for", bodies.bodies > 0}, {"bodies", bodies.bodies}};
+  if (bodies.smallest_distance) {
+    json["smallest_distance_mm"] = json_number(*bodies.smallest_distance);
+    json["between"] = {bodies.first, bodies.second};
+    json["line"] = bodies.line;
+    if (!bodies.file.empty()) json["file"] = bodies.file;
+  }
+  json["text"] = machine_bodies_text(bodies);
+  return json.dump();
 }
 
 }  // namespace frustum::report

@@ -23,6 +23,10 @@ namespace frustum::report {
 // Indented, ending with a line end; keys in the order of the contract.
 [[nodiscard]] std::string json_report(const RunReport& report);
 
+// {"looked_for","bodies","smallest_distance_mm","between":[a, b],"line","text"}: a part of the
+// document, under "machine_collisions".
+[[nodiscard]] std::string machine_bodies_json(const MachineBodies& bodies);
+
 // What a command prints instead where it has no result: {"status":"error","diagnostics":[..]}.
 [[nodiscard]] std::string json_failure(const Diagnostics& diagnostics);
 

@@ -153,13 +153,19 @@ std::string cycle_html(const RunReport& report) {
 }
 
 std::string collisions_html(const RunReport& report) {
-  if (report.collisions.empty()) return "";
+  const std::string bodies =
+      report.machine_bodies
+          ? "<p>" + html_text(machine_bodies_text(*report.machine_bodies)) + "</p>\n"
+          : "";
+  if (report.collisions.empty()) {
+    return bodies.empty() ? "" : section("collisions", "Collisions", bodies);
+  }
   Table table("Collisions", {">Line", "Collision"});
   for (const Collision& collision : report.collisions) {
     table.row(
         {collision.line > 0 ? std::to_string(collision.line) : "–", html_text(collision.text)});
   }
-  return section("collisions", "Collisions", table.html());
+  return section("collisions", "Collisions", table.html() + bodies);
 }
 
 std::string remarks_html(const RunReport& report) {

@@ -30,6 +30,7 @@ enum class CollisionKind : std::uint8_t {
   rapid_through_material,
   feed_with_spindle_off,
   body_in_material,  // a shank or holder during a feed
+  bodies_meet,       // two bodies of the machine (stock/collision/machine_collision.hpp)
 };
 enum class CollisionBody : std::uint8_t { cutter, shank, holder };
 
@@ -43,8 +44,9 @@ struct Collision {
   // them.
   std::uint32_t last_line = 0;
   int tool = 0;
-  Vec3 point = Vec3::Zero();  // where it is worst
-  double depth = 0.0;         // mm of material, along the axis in which it is thinnest
+  Vec3 point = Vec3::Zero();      // where it is worst
+  double depth = 0.0;             // mm of material, along the axis in which it is thinnest
+  std::string first{}, second{};  // the bodies that meet
 };
 
 // A part of a tool that must never meet material: convex parts in the tool's frame.

@@ -128,6 +128,52 @@ TEST_F(CutCommandSystem, FailsWithExitCodeOneOnACollision) {
   EXPECT_EQ(cut("--mesh a.stl --pitch 2 --until-line 11")["collisions"], 0);
 }
 
+// A clamp beside the plate, its top 5 mm above it: lines 6 and 10 go down into it.
+constexpr const char* kClamp =
+    "[[fixtures]]\nname = \"clamp\"\nshape = \"box\"\nsize = [20, 20, 25]\n"
+    "origin = [-60, 0, -20]\n";
+
+TEST_F(CutCommandSystem, ToolsThatMeetAFixtureAreCollisionsOfTheirLines_Fault2_25) {
+  write_plate();
+  const json free = cut("--removal r.csv --pitch 4");
+  EXPECT_EQ(free["collisions"], 0);
+  EXPECT_EQ(free["machine_collisions"]["looked_for"], true);
+  EXPECT_GT(free["machine_collisions"]["smallest_distance_mm"], 10.0);
+  std::ofstream(folder_ / "plate.toml", std::ios::app) << kClamp;
+  const json doc = cut("--removal r.csv --pitch 4", 1);
+  ASSERT_EQ(doc["collisions"], 2);
+  const json& first = doc["collision_list"][0];
+  EXPECT_EQ(first["line"], 6);
+  EXPECT_EQ(first["last_line"], 7);
+  EXPECT_EQ(first["kind"], "bodies_meet");
+  EXPECT_EQ(first["body"], "clamp");
+  EXPECT_EQ(first["other_body"], "cutter");
+  EXPECT_NEAR(first["point"][2].get<double>(), 5.0, 0.03);
+  EXPECT_EQ(doc["collision_list"][1]["line"], 10);
+  EXPECT_EQ(doc["machine_collisions"]["between"], (json{"clamp", "cutter"}));
+  EXPECT_EQ(cut("--removal r.csv --pitch 4 --until-line 9", 1)["collisions"], 1);
+  const Outcome checked = run("check --job plate.toml");
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_NE(checked.out.find("plate.nc:6:1: error: clamp meets cutter with tool T1"),
+            std::string::npos)
+      << checked.out << checked.err;
+  EXPECT_NE(checked.out.find("[machine-collision]"), std::string::npos) << checked.out;
+}
+
+TEST_F(CutCommandSystem, WithoutBodiesItSaysThatNoneWereLookedFor_Fault2_25) {
+  write_plate();
+  std::string machine = read(FRUSTUM_SOURCE_DIR "/machines/three-axis.toml");
+  machine.resize(machine.find("[[bodies]]"));
+  std::ofstream(folder_ / "bare.toml") << machine;
+  std::string job = read(folder_ / "plate.toml");
+  job.replace(job.find("\"three-axis\""), 12, "\"bare.toml\"");
+  std::ofstream(folder_ / "plate.toml") << job;
+  const json doc = cut("--removal r.csv --pitch 4");
+  EXPECT_EQ(doc["machine_collisions"]["looked_for"], false);
+  const Outcome told = run("cut plate.toml --removal r.csv --pitch 4");
+  EXPECT_NE(told.out.find("Machine collisions were not looked for"), std::string::npos) << told.out;
+}
+
 TEST_F(CutCommandSystem, AgreesWithThePolyhedralEngineOrSaysThatItIsMissing) {
   write_plate();
   const Outcome outcome = run("cut plate.toml --json --engine polyhedral --facets 32 --mesh p.stl");

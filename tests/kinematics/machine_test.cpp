@@ -177,6 +177,72 @@ TEST(Machine, DoesNotCallKeysUnknownThatABadStructureKeptFromBeingRead) {
   EXPECT_EQ(machine.error().size(), 1U);
 }
 
+constexpr const char* kBodies = R"([[bodies]]
+name = "trunnion"
+on = "A"
+shape = "box"
+size = [300, 200, 60]
+origin = [0, 0, -100]
+tilt = [0, 0, 90]
+ignore = ["disc"]
+[[bodies]]
+name = "disc"
+on = "table"
+shape = "cylinder"
+diameter = 250
+height = "0.04 m"
+[[bodies]]
+name = "head"
+on = "spindle"
+shape = "box"
+size = [200, 200, 300]
+)";
+
+TEST(Machine, ReadsBodiesAndWhatCarriesThem_Fault2_25) {
+  const auto machine = Machine::read(std::string(kGood) + kBodies, "small.toml");
+  ASSERT_TRUE(machine) << to_string(machine.error().front());
+  const auto& bodies = machine->bodies();
+  ASSERT_EQ(bodies.size(), 3U);
+  EXPECT_EQ(bodies[0].part, (MachinePart{-1, 2}));  // X carries A
+  EXPECT_EQ(bodies[0].ignored, std::vector<std::string>{"disc"});
+  // Turned by 90 degrees about Z, X of the body is Y of the axis.
+  EXPECT_LE((bodies[0].part_from_body.point({10, 0, 0}) - Vec3(0, 10, -100)).norm(), 1e-12);
+  EXPECT_EQ(bodies[1].part, (MachinePart{-1, 3}));
+  EXPECT_EQ(std::get<CylinderBody>(bodies[1].shape).height, 40.0);
+  EXPECT_EQ(bodies[2].part, (MachinePart{+1, 2}));
+  EXPECT_EQ(bodies[2].part_from_body.translation, Vec3(0, 0, -50));  // the gauge point
+}
+
+TEST(Machine, SaysOfABadBodyWhatIsWrong_Fault2_25) {
+  struct BadBody {
+    const char* good;
+    const char* bad;
+    const char* told;
+  };
+  for (const BadBody& body : {
+           BadBody{"on = \"A\"", "on = \"B\"", "the machine has no part 'B'"},
+           BadBody{"on = \"A\"", "", "this key is missing"},
+           BadBody{"size = [300, 200, 60]", "size = [300, 0, 60]", "every size must be above 0"},
+           BadBody{"diameter = 250", "diameter = -250", "must be greater than 0"},
+           BadBody{"diameter = 250", "diametr = 250", "did you mean diameter?"},
+           BadBody{"[\"disc\"]", "[\"disk\"]", "did you mean disc?"},
+           BadBody{"\"head\"", "\"disc\"", "another body called 'disc'"},
+           BadBody{"shape = \"cylinder\"", "shape = \"mesh\"\nfile = \"none.stl\"",
+                   "none.stl cannot be read"},
+       }) {
+    std::string text = std::string(kGood) + kBodies;
+    text.replace(text.find(body.good), std::string(body.good).size(), body.bad);
+    const auto machine = Machine::read(text, "small.toml");
+    ASSERT_FALSE(machine) << body.bad;
+    std::string all;
+    for (const Diagnostic& d : machine.error()) {
+      EXPECT_GT(d.line, 20) << to_string(d);
+      all += to_string(d) + "\n";
+    }
+    EXPECT_THAT(all, testing::HasSubstr(body.told));
+  }
+}
+
 TEST(Machine, ReadsWhatTheDrivesCanDoInMillimetresAndRadians) {
   const AxisDynamics x = shipped("iwf-bc").joint(AxisLetter::X)->dynamics;
   EXPECT_EQ(x.velocity, 500.0);

@@ -12,6 +12,7 @@
 #include "core/units.hpp"
 #include "report/chart/polar_chart.hpp"
 #include "report/html/tolerance_symbol.hpp"
+#include "report/page/html_sections.hpp"
 #include "report/terminal_report.hpp"
 #include "report/verdict.hpp"
 #include "sample_report.hpp"
@@ -277,6 +278,19 @@ TEST(HtmlReport, NamesTheFileThatCannotBeWritten) {
   ASSERT_FALSE(result.has_value());
   EXPECT_THAT(result.error().front().message, HasSubstr("/no/such/folder/report.html"));
   EXPECT_FALSE(result.error().front().hint.empty());
+}
+
+TEST(HtmlReport, SaysWhetherMachineCollisionsWereLookedFor_Fault2_25) {
+  RunReport report = sample_report();
+  report.collisions.clear();
+  EXPECT_EQ(html_sections(report).find("Machine collisions"), std::string::npos);
+  report.machine_bodies = MachineBodies{};
+  EXPECT_NE(html_sections(report).find("Machine collisions were not looked for"),
+            std::string::npos);
+  report.machine_bodies = MachineBodies{
+      .bodies = 7, .smallest_distance = 12.5, .first = "table", .second = "holder", .line = 40};
+  EXPECT_NE(html_sections(report).find("smallest distance 12.50 mm, table to holder, line 40"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -75,6 +75,21 @@ TEST(JsonReport, TellsTheCycleTimeAndTheSlowedBlocks) {
   EXPECT_EQ(json["limited_blocks"][0]["reached_feed"], 640.0);
 }
 
+TEST(JsonReport, TellsWhetherMachineCollisionsWereLookedFor_Fault2_25) {
+  RunReport report;
+  EXPECT_FALSE(Json::parse(json_report(report)).contains("machine_collisions"));
+  report.machine_bodies = MachineBodies{};
+  EXPECT_EQ(Json::parse(json_report(report))["machine_collisions"]["looked_for"], false);
+  report.machine_bodies = MachineBodies{
+      .bodies = 7, .smallest_distance = 12.5, .first = "table", .second = "holder", .line = 40};
+  const Json told = Json::parse(json_report(report))["machine_collisions"];
+  EXPECT_EQ(told["looked_for"], true);
+  EXPECT_EQ(told["bodies"], 7);
+  EXPECT_EQ(told["smallest_distance_mm"], 12.5);
+  EXPECT_EQ(told["between"], (Json{"table", "holder"}));
+  EXPECT_EQ(told["line"], 40);
+}
+
 TEST(JsonReport, StatusIsPassOnlyWhenNothingFailed) {
   RunReport report = sample_report();
   EXPECT_EQ(Json::parse(json_report(report))["status"], "fail");
