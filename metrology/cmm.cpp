@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/name_index.hpp"
 #include "core/spelling.hpp"
 #include "metrology/characteristic/datum_system.hpp"
 #include "metrology/evaluation.hpp"
@@ -23,9 +24,9 @@ std::string place_of(const PlannedFeature& feature, std::size_t index,
 }
 
 Diagnostic missed(const PlannedFeature& feature, std::size_t index, const PlannedPoint& planned,
-                  ContactState state, const ProbeSettings& probe) {
+                  const BallContact& contact, const ProbeSettings& probe) {
   const std::string place = place_of(feature, index, planned);
-  if (state == ContactState::starts_inside) {
+  if (contact.state == ContactState::starts_inside) {
     return error("approach-in-material"_id,
                  fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
                              "surface",
@@ -34,8 +35,11 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
   }
   return error(
       "plan-misses-part"_id,
-      fmt::format("{}: the plan misses the part: no surface within {} mm past the nominal one",
-                  place, probe.reach),
+      fmt::format("{}: the plan misses the part: no surface within {} mm past the nominal one{}",
+                  place, probe.reach,
+                  contact.surface_past
+                      ? fmt::format(", it is {:.3f} mm past it", *contact.surface_past)
+                      : ""),
       "check the nominal geometry and the blank or mesh, or enlarge probe.reach");
 }
 
@@ -64,7 +68,7 @@ class Probing {
                                   ball_radius_, plan_.probe.clearance, plan_.probe.reach};
       const BallContact contact = touch_with_ball(part_, approach);
       if (contact.state != ContactState::contact) {
-        return missed(feature, centres.size(), planned, contact.state, plan_.probe);
+        return missed(feature, centres.size(), planned, contact, plan_.probe);
       }
       if (!errors_.reaches(contact.centre)) {
         return error("cmm-travel"_id,
@@ -235,11 +239,12 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
   const double ball_radius =
       meaning == PointMeaning::ball_centre ? 0.5 * plan.probe.ball_diameter : 0.0;
   std::vector<FittedFeature> fitted;
+  const NameIndex places(plan.features, &PlannedFeature::name);
   for (const FeaturePoints& points : features) {
     const bool nameless = points.feature.empty() && plan.features.size() == 1;
-    const PlannedFeature* feature =
-        nameless ? &plan.features.front() : find_feature(plan, points.feature);
-    if (feature == nullptr) return unknown_feature(plan, points);
+    const auto place = nameless ? std::size_t{0} : places.find(points.feature);
+    if (!place) return unknown_feature(plan, points);
+    const PlannedFeature* const feature = &plan.features[*place];
     if (auto unknown = unknown_section(*feature, points)) return *std::move(unknown);
     std::vector<std::size_t> sections = points.sections;
     if (sections.size() != points.points.size()) {
@@ -256,10 +261,9 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
   }
   auto measurement = evaluated(plan, std::move(fitted), cmm);
   if (!measurement) return measurement;
+  const NameIndex found(measurement->features, &MeasuredFeature::name);
   for (const PlannedFeature& feature : plan.features) {
-    const auto& found = measurement->features;
-    if (std::none_of(found.begin(), found.end(),
-                     [&](const MeasuredFeature& f) { return f.name == feature.name; })) {
+    if (!found.find(feature.name)) {
       measurement->diagnostics.push_back(
           warning("feature-without-points"_id,
                   fmt::format("feature '{}' of the plan has no points", feature.name)));

@@ -21,6 +21,8 @@ Verdict verdict_of(const CharacteristicResult& characteristic, DecisionRule rule
   }
   const TrueValueInterval interval = characteristic.interval.value_or(
       TrueValueInterval{characteristic.value, characteristic.value});
+  // No verdict rests on what is not proven.
+  if (interval.coverage == Coverage::not_proven) return Verdict::uncertain;
   const double low = interval.low - nominal;
   const double high = interval.high - nominal;
   if (low >= -tolerance && high <= tolerance) return Verdict::pass;

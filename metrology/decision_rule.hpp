@@ -2,7 +2,8 @@
 //
 // Model    : simple: pass when |value - nominal| is within the tolerance. iso14253: pass when the
 //            whole interval of the true value is, fail when nothing of it is, else uncertain. Where
-//            no accuracy is stated the interval is the value
+//            no accuracy is stated the interval is the value; where its coverage is not proven it
+//            is uncertain
 // Units    : those of the characteristic
 // Shape    : one characteristic or all of a measurement
 // Errors   : read_decision notes a rule that there is not

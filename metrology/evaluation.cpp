@@ -34,25 +34,52 @@ std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
 // A size is what is not of either sign: the kind of its spread is known.
 bool is_size(const CharacteristicResult& c) { return c.spread.is_known(); }
 
-void state(CharacteristicResult& c, double standard, double below, double above) {
+void state(CharacteristicResult& c, double standard, double below, double above, bool is_proven) {
   c.standard_uncertainty = standard;
   c.expanded_uncertainty = std::max(below, above);
   const double low = c.value - below;
-  c.interval = {is_size(c) ? std::max(0.0, low) : low, c.value + above, is_size(c)};
+  c.interval = {is_size(c) ? std::max(0.0, low) : low, c.value + above,
+                !is_proven   ? Coverage::not_proven
+                : is_size(c) ? Coverage::at_least_95
+                             : Coverage::of_95};
 }
 
-// The simulated interval counts, but of sizes whose shape nothing is known of: their bounds hold
-// whatever it is.
+// The simulated interval counts, but for sizes: it goes by what the shape of the part is thought to
+// be, which a few equal peaks leave open, so it may lengthen their bounds, which hold whatever the
+// shape is, and never shortens them.
 void take(CharacteristicResult& c, SimulatedUncertainty simulated) {
-  if (is_size(c) && !c.measurand.is_known()) {
-    simulated.low = c.interval->low;
-    simulated.high = c.interval->high;
+  TrueValueInterval& interval = *c.interval;
+  if (!is_size(c)) {
+    interval.low = simulated.low;
+    interval.high = simulated.high;
+  } else if (c.measurand.is_known()) {
+    interval.low = std::min(simulated.low, interval.low);
+    interval.high = std::max(simulated.high, interval.high);
   } else {
-    c.interval = {simulated.low, simulated.high, false};
-    c.standard_uncertainty = simulated.standard;
-    c.expanded_uncertainty = std::max(c.value - simulated.low, simulated.high - c.value);
+    simulated.low = interval.low;
+    simulated.high = interval.high;
   }
+  if (!is_size(c) || c.measurand.is_known()) c.standard_uncertainty = simulated.standard;
+  c.expanded_uncertainty = std::max(c.value - interval.low, interval.high - c.value);
   c.simulated = simulated;
+}
+
+// What the 95 % of an interval are not proven for.
+std::optional<Diagnostic> not_proven(const Measurement& measurement) {
+  constexpr std::size_t kNamed = 5;
+  std::string names;
+  std::size_t count = 0;
+  for (const CharacteristicResult& c : measurement.characteristics) {
+    if (!c.interval || c.interval->coverage != Coverage::not_proven) continue;
+    if (++count <= kNamed) names += (names.empty() ? "'" : ", '") + c.name + "'";
+  }
+  if (count == 0) return std::nullopt;
+  if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
+  return warning("coverage-not-proven"_id,
+                 fmt::format("that U and interval hold the truth in 95 % of measurements is not "
+                             "proven for {}: an element touches single points (om, mi, mc)",
+                             names),
+                 "iso14253 calls them uncertain; least-squares elements and datums are proven");
 }
 
 }  // namespace
@@ -68,7 +95,8 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
     for (std::size_t i = 0; i < uncertain->standard.size(); ++i) {
       const double per_internal = evaluator_of(plan.characteristics[i].kind).per_internal;
       state(measurement->characteristics[i], per_internal * uncertain->standard[i],
-            per_internal * uncertain->bounds[i].below, per_internal * uncertain->bounds[i].above);
+            per_internal * uncertain->bounds[i].below, per_internal * uncertain->bounds[i].above,
+            uncertain->is_proven[i]);
     }
   }
   if (plan.monte_carlo && u.is_zero()) {
@@ -85,6 +113,9 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
     }
   }
   decide(*measurement, plan.decision);
+  if (auto unproven = not_proven(*measurement)) {
+    measurement->diagnostics.push_back(*std::move(unproven));
+  }
   if (plan.decision == DecisionRule::iso14253) {
     if (auto undecided = without_uncertainty(*measurement)) {
       measurement->diagnostics.push_back(*std::move(undecided));

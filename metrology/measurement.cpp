@@ -19,6 +19,10 @@ bool is_angle(const CharacteristicResult& characteristic) {
   return characteristic.unit == "urad" || characteristic.unit == "deg";
 }
 
+std::string_view name_of(Coverage coverage) {
+  return kCoverageNames.at(static_cast<std::size_t>(coverage));
+}
+
 std::string_view name_of(Verdict verdict) {
   return kVerdictNames.at(static_cast<std::size_t>(verdict));
 }

@@ -76,11 +76,24 @@ struct SimulatedUncertainty {
   bool stable = false;  // to the digits asked for, or as exact as that without noise
 };
 
+// How often an interval holds the true value, as far as that is proven.
+enum class Coverage { of_95, at_least_95, not_proven };
+inline constexpr std::array<std::string_view, 3> kCoverageNames{"95 %", "at least 95 %",
+                                                                "not proven"};
+[[nodiscard]] std::string_view name_of(Coverage coverage);
+
 // Where the true value is in 95 % of measurements, in the unit of its characteristic.
 struct TrueValueInterval {
   double low = 0.0;
   double high = 0.0;
-  bool at_least = false;  // on the safe side: in 95 % or more
+  Coverage coverage = Coverage::of_95;
+};
+
+// The value of what is beside the seam of a contour.
+struct SeamlessValue {
+  double value = 0.0;   // in the unit of its characteristic
+  double at = 0.0;      // rad, of the seam
+  double within = 0.0;  // rad to either side
 };
 
 struct CharacteristicResult {
@@ -108,6 +121,7 @@ struct CharacteristicResult {
   std::vector<double> plot_deviation{};
   std::vector<LineProfile> profiles{};  // of characteristics that compare lines: first, second
   std::vector<Harmonic> harmonics{};    // of the plotted deviations, where the plan asks for them
+  std::optional<SeamlessValue> without_seam{};  // where the plan names a seam
   // What the value is the size of, where its interval is found by that; kind none for values of
   // either sign, and for others whose shape is not estimated.
   NonNegative measurand{};

@@ -88,14 +88,27 @@ std::string filter_text(const metrology::ProfileFilter& filter) {
   return text;
 }
 
-std::string filters_text(const InspectionPlan& plan) {
+// What noise alone makes of a perfect circle: the mean range of 36 and of 360 normal numbers.
+std::string noise_text(const CmmModel& cmm) {
+  constexpr double kRangeOf36 = 4.24, kRangeOf360 = 5.87;
+  const double noise = kUmPerMm * metrology::point_uncertainty(cmm).probing;
+  if (!(noise > 0.0)) return "";
+  return fmt::format(
+      "; its {:.2g} µm a point make a perfect circle of 36 points {:.2g} µm, of 360 points {:.2g} "
+      "µm",
+      noise, kRangeOf36 * noise, kRangeOf360 * noise);
+}
+
+std::string filters_text(const InspectionPlan& plan, const CmmModel& cmm) {
   std::string text;
   for (const PlannedCharacteristic& c : plan.characteristics) {
     if (!c.filter) continue;
     text +=
         fmt::format("{}{}: Gaussian, {}", text.empty() ? "" : "; ", c.name, filter_text(*c.filter));
   }
-  if (text.empty()) return "none: forms hold all undulations and the noise of the machine";
+  if (text.empty()) {
+    return "none: forms hold all undulations and the noise of the machine" + noise_text(cmm);
+  }
   return text + "; all others none";
 }
 
@@ -139,7 +152,7 @@ std::vector<Fact> measuring_statement(const InspectionPlan& plan, const CmmModel
     facts.push_back({"temperature", "Temperature", temperature_text(*cmm.temperature)});
   }
   facts.push_back({"alignment", "Alignment", alignment_text(plan)});
-  facts.push_back({"filter", "Filter", filters_text(plan)});
+  facts.push_back({"filter", "Filter", filters_text(plan, cmm)});
   facts.push_back({"association", "Association", association_text(plan)});
   facts.push_back({"uncertainty", "Uncertainty", uncertainty_text_of(plan)});
   facts.push_back({"decision_rule", "Decision rule", decision_text(plan.decision)});

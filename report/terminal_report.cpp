@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/units.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
 
@@ -181,6 +182,16 @@ void write_characteristics(Page& page, const RunReport& report) {
   }
 }
 
+void write_without_seam(Page& page, const RunReport& report) {
+  for (const metrology::CharacteristicResult& c : report.measurement.characteristics) {
+    if (!c.without_seam) continue;
+    page.labelled(
+        "", fmt::format("{}: {} {} without the seam at {:g} deg +- {:g} deg", printable(c.name),
+                        value_text(c.without_seam->value, c.unit), c.unit,
+                        c.without_seam->at * kDegPerRad, c.without_seam->within * kDegPerRad));
+  }
+}
+
 void write_no_uncertainty(Page& page, const RunReport& report) {
   if (!has_no_uncertainty(report.measurement)) return;
   page.labelled("", "U = 0: no error of the CMM is stated (e0 and l_per_um)");
@@ -265,6 +276,7 @@ std::string terminal_report(const RunReport& report, const TerminalOptions& opti
   write_machine_bodies(page, report);
   write_errors(page, report);
   write_characteristics(page, report);
+  write_without_seam(page, report);
   write_no_uncertainty(page, report);
   write_cycle(page, report);
   write_bounds(page, report);

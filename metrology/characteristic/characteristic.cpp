@@ -10,6 +10,13 @@
 
 namespace frustum::metrology {
 
+Diagnostic without_points(const PlannedCharacteristic& planned, const std::string& feature) {
+  return error(
+      "feature-without-points"_id,
+      fmt::format("characteristic '{}': feature '{}' has no points", planned.name, feature),
+      "measure the feature, or take the characteristic out of the plan");
+}
+
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                       std::span<const FittedFeature> features) {
   std::vector<const FittedFeature*> chosen;
@@ -17,16 +24,16 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     const auto found = std::find_if(features.begin(), features.end(), [&](const FittedFeature& f) {
       return f.planned->name == name;
     });
-    if (found == features.end()) {
-      return error(
-          "feature-without-points"_id,
-          fmt::format("characteristic '{}': feature '{}' has no points", planned.name, name),
-          "measure the feature, or take the characteristic out of the plan");
-    }
+    if (found == features.end()) return without_points(planned, name);
     chosen.push_back(&*found);
   }
+  return evaluate(planned, std::move(chosen));
+}
+
+Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
+                                      std::vector<const FittedFeature*> named) {
   const Evaluator& evaluator = evaluator_of(planned.kind);
-  auto value = evaluator.evaluate({planned, std::move(chosen)});
+  auto value = evaluator.evaluate({planned, std::move(named)});
   if (!value) {
     Diagnostics failure = std::move(value).error();
     for (Diagnostic& d : failure) {
@@ -48,6 +55,10 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.plot_deviation = std::move(value->profile.deviation);
   result.profiles = std::move(value->lines);
   result.harmonics = std::move(value->harmonics);
+  if (value->without_seam) {
+    result.without_seam = SeamlessValue{*value->without_seam * evaluator.per_internal,
+                                        planned.seam->at, planned.seam->within};
+  }
   result.spread = std::move(value->measurand);
   if (value->has_shape) result.measurand = result.spread;
   return result;

@@ -25,5 +25,10 @@ namespace frustum::metrology {
 // far it can be trusted depends on frames and datum systems, too: uncertainty/.
 [[nodiscard]] Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                                     std::span<const FittedFeature> features);
+// The same where it is known which those are that it names, in its order.
+[[nodiscard]] Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
+                                                    std::vector<const FittedFeature*> named);
+[[nodiscard]] Diagnostic without_points(const PlannedCharacteristic& planned,
+                                        const std::string& feature);
 
 }  // namespace frustum::metrology

@@ -27,6 +27,7 @@ struct Evaluated {
   RoundProfile profile{};
   std::vector<LineProfile> lines{};
   std::vector<Harmonic> harmonics{};
+  std::optional<double> without_seam{};
   NonNegative measurand{};  // what the value is the size of; kind none for values of either sign
   bool has_shape = true;    // whether its interval is found from that
 };

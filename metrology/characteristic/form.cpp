@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "metrology/characteristic/datum_element.hpp"
@@ -122,14 +123,37 @@ Result<Evaluated> equivalent_form_of(const Toleranced& what, std::size_t section
   return form;
 }
 
+FittedFeature beside(const Seam& seam, const FittedFeature& feature) {
+  FittedFeature rest = feature;
+  const AngleFrame frame = angle_frame(feature);
+  const Vec3 centre = point_of(feature.element);
+  std::erase_if(rest.points, [&](const MeasuredPoint& p) {
+    const double from_seam = angle_of(p.point - centre, frame) - seam.at;
+    // 1e-9 rad: a point on the limit is within it.
+    return std::abs(std::remainder(from_seam, 2.0 * std::numbers::pi)) <= seam.within + 1e-9;
+  });
+  return rest;
+}
+
+// The form of all points, and beside it that of those off the seam.
+Result<Evaluated> with_and_without_seam(const Toleranced& what, SectionForm form_of) {
+  auto whole = worst_section(what, form_of);
+  if (!whole || !what.planned.seam) return whole;
+  const FittedFeature rest = beside(*what.planned.seam, *what.features.front());
+  const auto off_seam = worst_section({what.planned, {&rest}}, form_of);
+  if (!off_seam) return off_seam;
+  whole->without_seam = off_seam->value;
+  return whole;
+}
+
 }  // namespace
 
 Result<Evaluated> evaluate_roundness(const Toleranced& what) {
-  return worst_section(what, roundness_of);
+  return with_and_without_seam(what, roundness_of);
 }
 
 Result<Evaluated> evaluate_equivalent_cone_form(const Toleranced& what) {
-  return worst_section(what, equivalent_form_of);
+  return with_and_without_seam(what, equivalent_form_of);
 }
 
 Result<Evaluated> evaluate_surface_form(const Toleranced& what) {

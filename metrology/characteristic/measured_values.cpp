@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "core/name_index.hpp"
 #include "metrology/characteristic/characteristic.hpp"
 #include "metrology/characteristic/datum_system.hpp"
 #include "metrology/characteristic/workpiece_frame.hpp"
@@ -30,17 +31,27 @@ class Frames {
   std::map<std::string, Result<Pose>> found_;
 };
 
-// Those of the features that the characteristic names.
-std::vector<FittedFeature> named(const PlannedCharacteristic& planned, const Pose& to_from,
-                                 std::span<const FittedFeature> features) {
-  std::vector<FittedFeature> chosen;
-  for (const FittedFeature& feature : features) {
-    const auto& names = planned.features;
-    if (std::find(names.begin(), names.end(), feature.planned->name) != names.end()) {
-      chosen.push_back(transformed(to_from, feature));
-    }
+// The features that a characteristic names, in its order.
+Result<std::vector<const FittedFeature*>> named(const PlannedCharacteristic& planned,
+                                                std::span<const FittedFeature> features,
+                                                const NameIndex& places) {
+  std::vector<const FittedFeature*> chosen;
+  for (const std::string& name : planned.features) {
+    const auto place = places.find(name);
+    if (!place) return without_points(planned, name);
+    chosen.push_back(&features[*place]);
   }
   return chosen;
+}
+
+// The characteristic in another frame.
+Result<CharacteristicResult> evaluate_in(const Pose& to_from, const PlannedCharacteristic& planned,
+                                         const std::vector<const FittedFeature*>& features) {
+  std::vector<FittedFeature> seen;
+  for (const FittedFeature* feature : features) seen.push_back(transformed(to_from, *feature));
+  std::vector<const FittedFeature*> chosen;
+  for (const FittedFeature& feature : seen) chosen.push_back(&feature);
+  return evaluate(planned, std::move(chosen));
 }
 
 }  // namespace
@@ -62,12 +73,17 @@ Result<Measurement> evaluated_values(const InspectionPlan& plan,
     in_datum.push_back(transformed(datum_from_workpiece, feature));
     measurement.features.push_back(summary(in_datum.back()));
   }
+  const NameIndex places(
+      features, [](const FittedFeature& f) -> const std::string& { return f.planned->name; });
   Frames frames(plan, features);
   const auto result_of = [&](const PlannedCharacteristic& planned) -> Result<CharacteristicResult> {
-    if (planned.frame.empty()) return evaluate(planned, in_datum);
+    const bool in_frame = !planned.frame.empty();
+    auto chosen = named(planned, in_frame ? features : in_datum, places);
+    if (!chosen) return std::move(chosen).error();
+    if (!in_frame) return evaluate(planned, *std::move(chosen));
     const Result<Pose>& frame = frames.find(planned.frame);
     if (!frame) return frame.error();
-    return evaluate(planned, named(planned, frame->inverse(), features));
+    return evaluate_in(frame->inverse(), planned, *chosen);
   };
   Diagnostics failures;
   for (const PlannedCharacteristic& planned : plan.characteristics) {

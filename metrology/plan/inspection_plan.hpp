@@ -258,6 +258,15 @@ struct ProfileFilter {
   bool operator==(const ProfileFilter&) const = default;
 };
 
+// Where a contour begins and ends on a round feature: angles about its axis, from its zero
+// direction. The mark that the tool leaves there is apart from the form of the rest.
+struct Seam {
+  double at = 0.0;      // rad
+  double within = 0.0;  // rad to either side
+
+  bool operator==(const Seam&) const = default;
+};
+
 struct PlannedCharacteristic {
   std::string name{};
   CharacteristicKind kind = CharacteristicKind::roundness;
@@ -277,6 +286,8 @@ struct PlannedCharacteristic {
   std::optional<ProfileFilter> filter{};     // roundness, straightness, circular run-out
   int harmonics = 0;      // highest that is reported of a roundness or circular run-out
   bool floating = false;  // profiles: the planned geometry is laid into the points first
+  // Roundness, equivalent_cone_form: the value without this stretch is reported beside the whole.
+  std::optional<Seam> seam{};
 
   bool operator==(const PlannedCharacteristic&) const = default;
 };

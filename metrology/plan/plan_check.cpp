@@ -128,8 +128,9 @@ std::string listed(const FeatureKinds& kinds) {
 }
 
 // Datums by order of precedence: each must take a degree of freedom.
-void check_precedence(const InspectionPlan& plan, const PlanFault& fault) {
+void check_precedence(const NamedPlan& named, const PlanFault& fault) {
   using enum FeatureKind;
+  const InspectionPlan& plan = named.plan;
   const DatumSystem& datum = *plan.datum;
   constexpr std::array<std::string_view, 3> kKeys{"primary", "secondary", "tertiary"};
   const std::array<const std::string*, 3> names{&datum.primary, &datum.secondary, &datum.tertiary};
@@ -145,7 +146,7 @@ void check_precedence(const InspectionPlan& plan, const PlanFault& fault) {
       continue;
     }
     const PlannedFeature* feature = suitable(
-        plan, *names[i], {plane, cylinder, cone, circle, line, sphere, point}, "a datum", wrong);
+        named, *names[i], {plane, cylinder, cone, circle, line, sphere, point}, "a datum", wrong);
     if (feature != nullptr && !UnitVec3::of(feature->axis)) sound = false;
     if (feature != nullptr && feature->kind == cone &&
         datum.criterion == Criterion::outside_material) {
@@ -167,8 +168,8 @@ void check_precedence(const InspectionPlan& plan, const PlanFault& fault) {
   }
 }
 
-void check_best_fit(const InspectionPlan& plan, const PlanFault& fault) {
-  const DatumSystem& datum = *plan.datum;
+void check_best_fit(const NamedPlan& named, const PlanFault& fault) {
+  const DatumSystem& datum = *named.plan.datum;
   const auto wrong = [&](std::string_view key, std::string message, std::string hint = {}) {
     fault(PlanPart::datum, 0, key, std::move(message), std::move(hint));
   };
@@ -178,21 +179,21 @@ void check_best_fit(const InspectionPlan& plan, const PlanFault& fault) {
   if (datum.criterion != Criterion::least_squares || datum.base) {
     wrong("criterion", "a best fit is one of least squares", "leave it out");
   }
+  const NameIndex places(datum.best_fit, std::identity());
   for (std::size_t i = 0; i < datum.best_fit.size(); ++i) {
     const std::string& name = datum.best_fit[i];
-    if (find_feature(plan, name) == nullptr) {
+    if (named.feature(name) == nullptr) {
       wrong("best_fit", fmt::format("the plan has no feature '{}'", name),
-            suggestion(name, feature_names(plan)));
+            suggestion(name, feature_names(named.plan)));
     }
-    if (std::find(datum.best_fit.begin(), datum.best_fit.begin() + static_cast<std::ptrdiff_t>(i),
-                  name) != datum.best_fit.begin() + static_cast<std::ptrdiff_t>(i)) {
+    if (places.find(name) != i) {
       wrong("best_fit", fmt::format("'{}' is named twice", name));
     }
   }
 }
 
-void check_datum(const InspectionPlan& plan, const PlanFault& fault) {
-  const DatumSystem& datum = *plan.datum;
+void check_datum(const NamedPlan& named, const PlanFault& fault) {
+  const DatumSystem& datum = *named.plan.datum;
   const auto wrong = [&](std::string_view key, std::string message, std::string hint = {}) {
     fault(PlanPart::datum, 0, key, std::move(message), std::move(hint));
   };
@@ -207,11 +208,11 @@ void check_datum(const InspectionPlan& plan, const PlanFault& fault) {
     }
   }
   if (!datum.best_fit.empty()) {
-    check_best_fit(plan, fault);
+    check_best_fit(named, fault);
     return;
   }
   if (!datum.locked.empty()) wrong("locked", "only a best_fit has locked degrees");
-  check_precedence(plan, fault);
+  check_precedence(named, fault);
 }
 
 std::string key_path(PlanPart part, std::size_t index, std::string_view key) {
@@ -252,12 +253,13 @@ DiagnosticId id_of(PlanPart part) {
   return "plan"_id;
 }
 
-const PlannedFeature* suitable(const InspectionPlan& plan, const std::string& name,
+const PlannedFeature* suitable(const NamedPlan& named, const std::string& name,
                                const FeatureKinds& kinds, std::string_view purpose,
                                const std::function<void(std::string, std::string)>& fault) {
-  const PlannedFeature* feature = find_feature(plan, name);
+  const PlannedFeature* feature = named.feature(name);
   if (feature == nullptr) {
-    fault(fmt::format("the plan has no feature '{}'", name), suggestion(name, feature_names(plan)));
+    fault(fmt::format("the plan has no feature '{}'", name),
+          suggestion(name, feature_names(named.plan)));
     return nullptr;
   }
   if (std::find(kinds.begin(), kinds.end(), feature->kind) == kinds.end()) {
@@ -282,18 +284,19 @@ void check(const InspectionPlan& plan, const PlanFault& fault) {
     fault(PlanPart::root, 0, "feature", "the plan has no feature",
           "write at least one [[feature]]");
   }
+  const NamedPlan named(plan);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const std::string& name = plan.features[i].name;
     if (name.empty()) fault(PlanPart::feature, i, "name", "must not be empty", "");
-    if (find_feature(plan, name) != &plan.features[i]) {
+    if (named.features.find(name) != i) {
       fault(PlanPart::feature, i, "name", fmt::format("'{}' names two features", name), "");
     }
     FeatureCheck(plan, i, fault).run();
   }
-  if (plan.datum) check_datum(plan, fault);
-  for (std::size_t i = 0; i < plan.frames.size(); ++i) check_frame(plan, i, fault);
+  if (plan.datum) check_datum(named, fault);
+  for (std::size_t i = 0; i < plan.frames.size(); ++i) check_frame(named, i, fault);
   for (std::size_t i = 0; i < plan.characteristics.size(); ++i) {
-    check_characteristic(plan, i, fault);
+    check_characteristic(named, i, fault);
   }
 }
 

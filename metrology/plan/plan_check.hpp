@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/name_index.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 
 namespace frustum::metrology {
@@ -23,6 +24,25 @@ using PlanFault =
 
 void check(const InspectionPlan& plan, const PlanFault& fault);
 
+// A plan and where what it names is.
+struct NamedPlan {
+  explicit NamedPlan(const InspectionPlan& of)
+      : plan(of),
+        features(of.features, &PlannedFeature::name),
+        frames(of.frames, &PlannedFrame::name),
+        characteristics(of.characteristics, &PlannedCharacteristic::name) {}
+
+  [[nodiscard]] const PlannedFeature* feature(std::string_view name) const {
+    const auto place = features.find(name);
+    return place ? &plan.features[*place] : nullptr;
+  }
+
+  const InspectionPlan& plan;
+  NameIndex features;
+  NameIndex frames;
+  NameIndex characteristics;
+};
+
 // What is wrong with that part: "plan-feature", ...
 [[nodiscard]] DiagnosticId id_of(PlanPart part);
 
@@ -34,12 +54,12 @@ using FeatureKinds = std::vector<FeatureKind>;
 // The feature of that name when it exists and has one of the kinds; else tells message and hint.
 // `purpose` begins the message: "a cone_form".
 [[nodiscard]] const PlannedFeature* suitable(
-    const InspectionPlan& plan, const std::string& name, const FeatureKinds& kinds,
+    const NamedPlan& named, const std::string& name, const FeatureKinds& kinds,
     std::string_view purpose, const std::function<void(std::string, std::string)>& fault);
 
 // A characteristic: its features, and whether it takes the keys it has
 // (plan_check_characteristic.cpp).
-void check_characteristic(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);
+void check_characteristic(const NamedPlan& named, std::size_t index, const PlanFault& fault);
 
 // Message and hint.
 using PlaceFault = std::function<void(std::string, std::string)>;
@@ -49,7 +69,7 @@ void check_places(const PlannedCharacteristic& planned,
                   std::span<const PlannedFeature* const> features, const PlaceFault& fault);
 
 // Frames and characteristics that compare lines (plan_check_lines.cpp).
-void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault& fault);
+void check_frame(const NamedPlan& named, std::size_t index, const PlanFault& fault);
 // `first` and `second` are the two lines named, of the kind line.
 void check_line_pair(const InspectionPlan& plan, std::size_t index, const PlannedFeature& first,
                      const PlannedFeature& second, const PlanFault& fault);

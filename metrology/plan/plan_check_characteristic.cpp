@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/spelling.hpp"
 #include "metrology/fit/element.hpp"
@@ -137,9 +138,10 @@ bool contains(std::string_view words, std::string_view word) {
 
 class CharacteristicCheck {
  public:
-  CharacteristicCheck(const InspectionPlan& plan, std::size_t index, const PlanFault& fault)
-      : plan_(plan),
-        c_(plan.characteristics[index]),
+  CharacteristicCheck(const NamedPlan& named, std::size_t index, const PlanFault& fault)
+      : named_(named),
+        plan_(named.plan),
+        c_(named.plan.characteristics[index]),
         index_(index),
         fault_(fault),
         rule_(rules().at(static_cast<std::size_t>(c_.kind))) {}
@@ -164,10 +166,8 @@ class CharacteristicCheck {
 
   void name() const {
     if (c_.name.empty()) wrong("name", "must not be empty");
-    for (std::size_t i = 0; i < index_; ++i) {
-      if (plan_.characteristics[i].name == c_.name) {
-        wrong("name", fmt::format("'{}' names two characteristics", c_.name));
-      }
+    if (named_.characteristics.find(c_.name) != index_) {
+      wrong("name", fmt::format("'{}' names two characteristics", c_.name));
     }
   }
 
@@ -181,8 +181,8 @@ class CharacteristicCheck {
       const bool is_first = features_.empty();
       const bool as_first = is_first || rule_.datums == rule_.toleranced;
       const std::string purpose = fmt::format("{} {}", as_first ? "a" : "the datum of a", kind());
-      features_.push_back(suitable(plan_, name, is_first ? rule_.toleranced : rule_.datums, purpose,
-                                   [&](std::string message, std::string hint) {
+      features_.push_back(suitable(named_, name, is_first ? rule_.toleranced : rule_.datums,
+                                   purpose, [&](std::string message, std::string hint) {
                                      wrong(c_.features.size() == 1 ? "feature" : "features",
                                            std::move(message), std::move(hint));
                                    }));
@@ -210,7 +210,7 @@ class CharacteristicCheck {
     if (!takes(frame_key)) {
       wrong("frame", fmt::format("not for a {}", kind()),
             "only kinds that compare with planned places and directions take one");
-    } else if (find_frame(plan_, c_.frame) == nullptr) {
+    } else if (!named_.frames.find(c_.frame)) {
       std::vector<std::string> names;
       for (const PlannedFrame& frame : plan_.frames) names.push_back(frame.name);
       wrong("frame", fmt::format("the plan has no frame '{}'", c_.frame),
@@ -307,10 +307,26 @@ class CharacteristicCheck {
   void datums_outside_material() const {
     const auto datum = std::find_if(features_.begin() + 1, features_.end(),
                                     [](const PlannedFeature* f) { return f->kind == cone; });
-    if (datum == features_.end()) return;
+    if (datum == features_.end()) {
+      common_axis_outside_material();
+      return;
+    }
     wrong("datum_criterion",
           fmt::format("the datum '{}' is a cone, which has no association \"om\"", (*datum)->name),
           "choose \"ls\": a cone has no largest or smallest size");
+  }
+
+  // Coaxial cylinders of their own sizes that touch from outside together are no association here.
+  void common_axis_outside_material() const {
+    const std::size_t toleranced = c_.kind == CharacteristicKind::symmetry &&
+                                           features_.front()->kind == plane && features_.size() > 2
+                                       ? 2
+                                       : 1;
+    if (features_.size() < toleranced + 2 || features_.back()->kind == plane) return;
+    wrong("datum_criterion",
+          fmt::format("the common axis of {} datums is of least squares, it has no \"om\"",
+                      features_.size() - toleranced),
+          "leave it out, or name one datum");
   }
 
   void keys() const {
@@ -326,6 +342,20 @@ class CharacteristicCheck {
             "only line_profile and surface_profile can do without datums");
     }
     if (c_.filter) filter(*c_.filter);
+    if (c_.seam) seam(*c_.seam);
+  }
+
+  void seam(const Seam& s) const {
+    constexpr double kMostOfEitherSide = 0.25 * std::numbers::pi;
+    if (c_.kind != CharacteristicKind::roundness &&
+        c_.kind != CharacteristicKind::equivalent_cone_form) {
+      wrong("seam", fmt::format("not for a {}", kind()),
+            "only roundness and equivalent_cone_form have a value without a seam");
+    } else if (c_.filter || c_.harmonics > 0) {
+      wrong("seam", "a profile with a gap has no filter and no harmonics", "leave one of them out");
+    } else if (!(s.within > 0.0 && s.within <= kMostOfEitherSide)) {
+      wrong("seam", "within must be more than 0 and at most 45 deg to either side");
+    }
   }
 
   void filter(const ProfileFilter& f) const {
@@ -381,6 +411,7 @@ class CharacteristicCheck {
     return sound;
   }
 
+  const NamedPlan& named_;
   const InspectionPlan& plan_;
   const PlannedCharacteristic& c_;
   std::size_t index_;
@@ -391,8 +422,8 @@ class CharacteristicCheck {
 
 }  // namespace
 
-void check_characteristic(const InspectionPlan& plan, std::size_t index, const PlanFault& fault) {
-  CharacteristicCheck(plan, index, fault).run();
+void check_characteristic(const NamedPlan& named, std::size_t index, const PlanFault& fault) {
+  CharacteristicCheck(named, index, fault).run();
 }
 
 }  // namespace frustum::metrology

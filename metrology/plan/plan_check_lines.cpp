@@ -32,13 +32,13 @@ double facing(const PlannedFeature& line, const Vec3& across) {
 
 }  // namespace
 
-void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault& fault) {
-  const PlannedFrame& frame = plan.frames[index];
+void check_frame(const NamedPlan& named, std::size_t index, const PlanFault& fault) {
+  const PlannedFrame& frame = named.plan.frames[index];
   const auto wrong = [&](std::string_view key, std::string message, std::string hint = {}) {
     fault(PlanPart::frame, index, key, std::move(message), std::move(hint));
   };
   if (frame.name.empty()) wrong("name", "must not be empty");
-  if (find_frame(plan, frame.name) != &frame) {
+  if (named.frames.find(frame.name) != index) {
     wrong("name", fmt::format("'{}' names two frames", frame.name));
   }
   if (frame.planes.empty()) wrong("planes", "name one plane or more");
@@ -49,13 +49,13 @@ void check_frame(const InspectionPlan& plan, std::size_t index, const PlanFault&
                   name) != frame.planes.begin() + static_cast<std::ptrdiff_t>(i)) {
       wrong("planes", fmt::format("'{}' is named twice", name));
     }
-    const PlannedFeature* plane = suitable(plan, name, {FeatureKind::plane}, "Z of a frame",
+    const PlannedFeature* plane = suitable(named, name, {FeatureKind::plane}, "Z of a frame",
                                            [&](std::string message, std::string hint) {
                                              wrong("planes", std::move(message), std::move(hint));
                                            });
     if (plane != nullptr && UnitVec3::of(plane->axis)) planes.push_back(plane);
   }
-  const PlannedFeature* line = suitable(plan, frame.line, {FeatureKind::line}, "X of a frame",
+  const PlannedFeature* line = suitable(named, frame.line, {FeatureKind::line}, "X of a frame",
                                         [&](std::string message, std::string hint) {
                                           wrong("line", std::move(message), std::move(hint));
                                         });

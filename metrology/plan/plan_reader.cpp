@@ -197,6 +197,23 @@ ProfileFilter read_filter(const TomlTable& table) {
   return filter;
 }
 
+// The root's filter is that of all roundnesses and straightnesses that have none of their own: upr
+// of closed profiles, cutoff of open ones.
+void filter_forms(InspectionPlan& plan, const ProfileFilter& filter) {
+  for (PlannedCharacteristic& c : plan.characteristics) {
+    if (c.filter || c.seam) continue;
+    ProfileFilter own;
+    if (c.kind == CharacteristicKind::roundness) {
+      own.upr = filter.upr;
+      own.upr_from = filter.upr_from;
+    } else if (c.kind == CharacteristicKind::straightness) {
+      own.cutoff = filter.cutoff;
+      own.cutoff_long = filter.cutoff_long;
+    }
+    if (own != ProfileFilter{}) c.filter = own;
+  }
+}
+
 PlannedCharacteristic read_characteristic(const TomlTable& table) {
   PlannedCharacteristic c;
   c.name = table.text("name");
@@ -222,6 +239,9 @@ PlannedCharacteristic read_characteristic(const TomlTable& table) {
   if (const auto filter = table.table_if("filter")) c.filter = read_filter(*filter);
   if (table.has("harmonics")) c.harmonics = count(table, "harmonics");
   c.floating = table.boolean_or("floating", false);
+  if (const auto seam = table.table_if("seam")) {
+    c.seam = Seam{seam->angle("at").value, seam->angle("within", Bound::positive).value};
+  }
   return c;
 }
 
@@ -282,6 +302,14 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
   const std::vector<TomlTable> characteristics = root.tables("characteristic");
   for (const TomlTable& table : characteristics) {
     plan.characteristics.push_back(read_characteristic(table));
+  }
+  if (const auto filter = root.table_if("filter")) {
+    const ProfileFilter read = read_filter(*filter);
+    if (read == ProfileFilter{}) {
+      root.fail("filter", "plan-value"_id, "has neither upr nor cutoff",
+                "for example filter = { upr = 50, cutoff = \"0.8 mm\" }");
+    }
+    filter_forms(plan, read);
   }
   if (Diagnostics found = document.finish(); has_error(found)) return found;
   check(plan, [&](PlanPart part, std::size_t index, std::string_view key, std::string message,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/name_index.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "metrology/points/length_unit.hpp"
 
@@ -57,12 +58,12 @@ std::optional<Diagnostic> fault_of(const char* what, double size, double expecte
 std::optional<Diagnostic> scale_fault(const InspectionPlan& plan,
                                       std::span<const FeaturePoints> features) {
   Box planned, measured;
+  const NameIndex places(plan.features, &PlannedFeature::name);
   for (const FeaturePoints& points : features) {
     const bool nameless = points.feature.empty() && plan.features.size() == 1;
-    const PlannedFeature* feature =
-        nameless ? &plan.features.front() : find_feature(plan, points.feature);
-    if (feature == nullptr) continue;
-    add_planned(*feature, planned);
+    const auto place = nameless ? std::size_t{0} : places.find(points.feature);
+    if (!place) continue;
+    add_planned(plan.features[*place], planned);
     for (const Vec3& point : points.points) measured.add(point);
   }
   return fault_of("the points", measured.diagonal(), planned.diagonal());

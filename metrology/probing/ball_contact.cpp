@@ -139,12 +139,22 @@ class Descent {
   Touch resting_on_{};
 };
 
-// The ray from farther out tells a start inside the material from a surface out of reach.
-ContactState why_missed(const SurfaceProbeRef& part, const BallApproach& approach) {
+// The ray from farther out tells a start inside the material from a surface out of reach. In a bore
+// it meets the wall opposite: that one is seen from the start, too, if the start is in the open.
+BallContact why_missed(const SurfaceProbeRef& part, const BallApproach& approach) {
   constexpr double kFarther = 1000.0;  // mm: outside any part that fits a machine
-  const Vec3 start = approach.target + (approach.clearance + kFarther) * approach.outward.vec();
-  return part.touch(start, -approach.outward, kFarther) ? ContactState::starts_inside
-                                                        : ContactState::no_surface;
+  const UnitVec3& outward = approach.outward;
+  const Vec3 start = approach.target + approach.clearance * outward.vec();
+  const bool is_under_surface =
+      part.touch(start + kFarther * outward.vec(), -outward, kFarther).has_value();
+  if (is_under_surface && !part.touch(start, outward, kFarther)) {
+    return {.state = ContactState::starts_inside};
+  }
+  BallContact missed{.state = ContactState::no_surface};
+  if (const auto past = part.touch(start, -outward, kFarther)) {
+    missed.surface_past = (approach.target - past->point).dot(outward.vec());
+  }
+  return missed;
 }
 
 }  // namespace
@@ -159,7 +169,7 @@ BallContact touch_with_ball(const SurfaceProbeRef& part, const BallApproach& app
   for (int i = 0; i < kMost; ++i) {
     const auto touch = descent.ray(continuation[2]);
     if (!touch) {
-      if (i == 0) return {.state = why_missed(part, approach)};
+      if (i == 0) return why_missed(part, approach);
       break;  // a shifted ray left the part: the ball rests on its edge
     }
     const Vec3 next = touch->normal;

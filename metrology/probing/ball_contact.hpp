@@ -15,6 +15,8 @@
 // Source   : ours
 #pragma once
 
+#include <optional>
+
 #include "metrology/probing/surface_probe.hpp"
 
 namespace frustum::metrology {
@@ -33,6 +35,8 @@ struct BallContact {
   ContactState state = ContactState::no_surface;
   Vec3 centre = Vec3::Zero();  // of the ball; only with ContactState::contact
   Touch touch{};               // the point that it rests on; the normal is from there to the centre
+  // mm past the nominal surface, with ContactState::no_surface: what the approach would meet.
+  std::optional<double> surface_past{};
 };
 
 [[nodiscard]] BallContact touch_with_ball(const SurfaceProbeRef& part,

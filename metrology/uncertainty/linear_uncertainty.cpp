@@ -9,22 +9,48 @@
 
 #include "metrology/characteristic/measured_values.hpp"
 #include "metrology/uncertainty/element_patterns.hpp"
+#include "metrology/uncertainty/feature_groups.hpp"
 #include "metrology/uncertainty/monte_carlo_uncertainty.hpp"
 
 namespace frustum::metrology {
 namespace {
 
-// How the parts of a characteristic answer: a column a pattern, times the standard deviation of its
-// coefficient.
-struct Response {
-  PartAnswers others{};            // to datums and to the field of the machine
-  PartAnswers toleranced{};        // to the features whose points or sections the parts are of
-  std::vector<double> in_order{};  // of the first part to all patterns
-
-  void add(bool to_toleranced, Eigen::VectorXd answer) {
-    in_order.push_back(answer.size() > 0 ? answer[0] : 0.0);
-    (to_toleranced ? toleranced : others).push_back(std::move(answer));
+// How the parts of a characteristic answer to what it rests on: a column an error, times the
+// standard deviation of its coefficient.
+class Response {
+ public:
+  void add(std::size_t error, bool to_toleranced, Eigen::VectorXd answer) {
+    columns_.push_back({error, to_toleranced, std::move(answer)});
   }
+  // By the numbers of the errors.
+  void sort() {
+    std::sort(columns_.begin(), columns_.end(),
+              [](const Column& a, const Column& b) { return a.error < b.error; });
+  }
+  // To the features whose points or sections the parts are of, or to datums and machine.
+  [[nodiscard]] PartAnswers of(bool toleranced) const {
+    PartAnswers answers;
+    for (const Column& column : columns_) {
+      if (column.to_toleranced == toleranced) answers.push_back(column.answer);
+    }
+    return answers;
+  }
+  // Of the first part: the number of the error and the answer.
+  [[nodiscard]] std::vector<std::pair<std::size_t, double>> of_first() const {
+    std::vector<std::pair<std::size_t, double>> answers;
+    for (const Column& column : columns_) {
+      if (column.answer.size() > 0) answers.emplace_back(column.error, column.answer[0]);
+    }
+    return answers;
+  }
+
+ private:
+  struct Column {
+    std::size_t error;
+    bool to_toleranced;
+    Eigen::VectorXd answer;
+  };
+  std::vector<Column> columns_{};
 };
 
 // What a characteristic is made of: the parts of a zone, or its value.
@@ -56,21 +82,41 @@ struct Measured {
     if (!moved) return std::move(moved).error();
     return evaluated_values(asked, *std::move(moved));
   }
-  [[nodiscard]] Result<Measurement> as_it_is() const {
-    return with(
+  // With errors in some features alone: places in `features`.
+  [[nodiscard]] Result<Measurement> with(const MeasuringErrors& errors,
+                                         std::span<const std::size_t> in_error,
+                                         std::vector<FittedFeature> others) const {
+    for (const std::size_t place : in_error) {
+      auto moved = remeasured_features(plan, features.subspan(place, 1), errors);
+      if (!moved) return std::move(moved).error();
+      others[place] = std::move(moved->front());
+    }
+    return evaluated_values(asked, std::move(others));
+  }
+  [[nodiscard]] Result<std::vector<FittedFeature>> features_as_they_are() const {
+    return remeasured_features(
+        plan, features,
         [](const Vec3& centre, const Vec3&, std::size_t, std::size_t) -> Vec3 { return centre; });
+  }
+  [[nodiscard]] Result<Measurement> as_it_is() const {
+    auto still = features_as_they_are();
+    if (!still) return std::move(still).error();
+    return evaluated_values(asked, *std::move(still));
   }
 };
 
+MeasuringErrors opposite(const MeasuringErrors& errors) {
+  return [&errors](const Vec3& centre, const Vec3& approach, std::size_t feature,
+                   std::size_t point) -> Vec3 {
+    return 2.0 * centre - errors(centre, approach, feature, point);
+  };
+}
+
 // Half the difference of what is measured with errors added and taken away, a column a
 // characteristic.
-Result<PartAnswers> difference(const Measured& measured, const MeasuringErrors& errors) {
-  const auto more = measured.with(errors);
+Result<PartAnswers> half_difference(const Result<Measurement>& more,
+                                    const Result<Measurement>& less) {
   if (!more) return more.error();
-  const auto less = measured.with([&](const Vec3& centre, const Vec3& approach, std::size_t feature,
-                                      std::size_t point) -> Vec3 {
-    return 2.0 * centre - errors(centre, approach, feature, point);
-  });
   if (!less) return less.error();
   PartAnswers all;
   for (std::size_t c = 0; c < more->characteristics.size(); ++c) {
@@ -103,13 +149,24 @@ bool is_form(CharacteristicKind kind) {
   return std::find(kForms.begin(), kForms.end(), kind) != kForms.end();
 }
 
+// Sizes, and what names its own datum, are the same in every frame.
+bool is_seen_in_frame(const PlannedCharacteristic& c) {
+  using enum CharacteristicKind;
+  constexpr std::array kSizes{radius, diameter, half_angle};
+  constexpr std::array kInFrame{line_distance, line_angle, line_profile, surface_profile, position};
+  if (std::find(kSizes.begin(), kSizes.end(), c.kind) != kSizes.end()) return false;
+  return c.features.size() < 2 ||
+         std::find(kInFrame.begin(), kInFrame.end(), c.kind) != kInFrame.end();
+}
+
 Way way_of(const InspectionPlan& plan, const PlannedCharacteristic& c) {
   if (is_form(c.kind)) {
     const bool is_other_size = c.parameter.value_or(FormParameter::t) != FormParameter::t;
     return is_other_size || c.filter || touches_single_points(c.criterion) ? Way::noise_alone
                                                                            : Way::own_points;
   }
-  const bool in_datum = c.frame.empty() && plan.alignment == Alignment::datum && plan.datum;
+  const bool in_datum =
+      c.frame.empty() && plan.alignment == Alignment::datum && plan.datum && is_seen_in_frame(c);
   const bool touches = touches_single_points(c.criterion) ||
                        touches_single_points(c.datum_criterion) ||
                        (in_datum && touches_single_points(plan.datum->criterion));
@@ -204,35 +261,67 @@ Result<std::vector<Uncertain>> by_noise_alone(const Measured& measured, const Po
 
 using Responses = std::vector<Response>;
 
-// Adds the answers of every characteristic to the patterns of every feature.
-std::optional<Diagnostics> add_answers_to_patterns(Responses& responses, const Measured& measured,
-                                                   const PointUncertainty& u) {
+// Adds the answers of every characteristic to the patterns of every feature: those of a group of
+// features at once. Returns how many errors there are.
+Result<std::size_t> add_answers_to_patterns(Responses& responses, const Measured& measured,
+                                            const PointUncertainty& u) {
   const std::vector<PlannedCharacteristic>& asked = measured.asked.characteristics;
+  const FeatureGroups rest = feature_groups(measured.asked, measured.features);
+  std::vector<Eigen::MatrixXd> patterns;
+  std::vector<std::size_t> first_error;  // of each feature
+  std::vector<std::size_t> place_of(measured.plan.features.size(), measured.features.size());
+  std::size_t errors = 0;
   for (const FittedFeature& feature : measured.features) {
-    const auto index = static_cast<std::size_t>(feature.planned - measured.plan.features.data());
-    const Eigen::MatrixXd patterns = element_patterns(feature);
-    for (Eigen::Index k = 0; k < patterns.cols(); ++k) {
-      const double step = kStep / patterns.col(k).cwiseAbs().maxCoeff();
-      const auto answers = difference(
-          measured,
-          [&](const Vec3& centre, const Vec3& approach, std::size_t f, std::size_t point) -> Vec3 {
-            if (f != index) return centre;
-            return centre + step * patterns(static_cast<Eigen::Index>(point), k) * approach;
-          });
+    place_of[static_cast<std::size_t>(feature.planned - measured.plan.features.data())] =
+        patterns.size();
+    patterns.push_back(element_patterns(feature));
+    first_error.push_back(errors);
+    errors += static_cast<std::size_t>(patterns.back().cols());
+  }
+  const auto still = measured.features_as_they_are();
+  if (!still) return still.error();
+  for (std::size_t group = 0; group < rest.groups.size(); ++group) {
+    Eigen::Index most = 0;
+    for (const std::size_t place : rest.groups[group]) {
+      most = std::max(most, patterns[place].cols());
+    }
+    for (Eigen::Index k = 0; k < most; ++k) {
+      const auto step = [&](std::size_t place) {
+        return kStep / patterns[place].col(k).cwiseAbs().maxCoeff();
+      };
+      std::vector<std::size_t> moved;
+      std::vector<double> steps(patterns.size(), 0.0);
+      for (const std::size_t place : rest.groups[group]) {
+        if (k >= patterns[place].cols()) continue;
+        moved.push_back(place);
+        steps[place] = step(place);
+      }
+      const MeasuringErrors pattern = [&](const Vec3& centre, const Vec3& approach,
+                                          std::size_t feature, std::size_t point) -> Vec3 {
+        const std::size_t place = place_of[feature];
+        return centre +
+               steps[place] * patterns[place](static_cast<Eigen::Index>(point), k) * approach;
+      };
+      const auto answers = half_difference(measured.with(pattern, moved, *still),
+                                           measured.with(opposite(pattern), moved, *still));
       if (!answers) return answers.error();
       for (std::size_t c = 0; c < responses.size(); ++c) {
-        responses[c].add(is_toleranced(asked[c], feature.planned->name),
-                         u.probing / step * (*answers)[c]);
+        const auto place = rest.of(c, group);
+        if (!place || k >= patterns[*place].cols()) continue;
+        const bool to_toleranced = is_toleranced(asked[c], measured.features[*place].planned->name);
+        responses[c].add(first_error[*place] + static_cast<std::size_t>(k), to_toleranced,
+                         u.probing / steps[*place] * (*answers)[c]);
       }
     }
   }
-  return std::nullopt;
+  return errors;
 }
 
-// Adds those to the machine's linear field.
-std::optional<Diagnostics> add_answers_to_field(Responses& responses, const Measured& measured,
-                                                const PointUncertainty& u) {
-  if (!(u.scale > 0.0)) return std::nullopt;
+// Adds those to the machine's linear field, whose errors are numbered from `errors` on; returns how
+// many there are with them.
+Result<std::size_t> add_answers_to_field(Responses& responses, const Measured& measured,
+                                         const PointUncertainty& u, std::size_t errors) {
+  if (!(u.scale > 0.0)) return errors;
   double reach = 1.0;
   for (const FittedFeature& feature : measured.features) {
     for (const MeasuredPoint& p : feature.points) reach = std::max(reach, p.point.norm());
@@ -243,22 +332,23 @@ std::optional<Diagnostics> add_answers_to_field(Responses& responses, const Meas
     const double step = kStep / reach;
     Mat3 field = Mat3::Zero();
     field(row, column) = step;
-    const auto answers = difference(
-        measured, [&](const Vec3& centre, const Vec3&, std::size_t, std::size_t) -> Vec3 {
-          return centre + field * centre;
-        });
+    const MeasuringErrors bend = [&](const Vec3& centre, const Vec3&, std::size_t,
+                                     std::size_t) -> Vec3 { return centre + field * centre; };
+    const auto answers = half_difference(measured.with(bend), measured.with(opposite(bend)));
     if (!answers) return answers.error();
     for (std::size_t c = 0; c < responses.size(); ++c) {
-      responses[c].add(false, u.scale / step * (*answers)[c]);
+      responses[c].add(errors, false, u.scale / step * (*answers)[c]);
     }
+    ++errors;
   }
-  return std::nullopt;
+  return errors;
 }
 
 // What the characteristics of one way are uncertain by, and how they answer.
 struct Answered {
   std::vector<Uncertain> uncertain{};
   Responses responses{};
+  std::size_t errors = 0;
 };
 
 Result<Answered> by_responses(const Measured& measured, const PointUncertainty& u,
@@ -269,20 +359,25 @@ Result<Answered> by_responses(const Measured& measured, const PointUncertainty& 
   const auto still = measured.as_it_is();
   if (!still) return still.error();
   found.responses.resize(count);
-  if (to_patterns) {
-    if (auto failed = add_answers_to_patterns(found.responses, measured, u)) return *failed;
-  }
-  if (auto failed = add_answers_to_field(found.responses, measured, u)) return *failed;
+  auto errors = to_patterns ? add_answers_to_patterns(found.responses, measured, u)
+                            : Result<std::size_t>(std::size_t{0});
+  if (errors) errors = add_answers_to_field(found.responses, measured, u, *errors);
+  if (!errors) return std::move(errors).error();
+  found.errors = *errors;
+  NormalDraws normals;
   for (std::size_t c = 0; c < count; ++c) {
-    const Response& response = found.responses[c];
+    Response& response = found.responses[c];
+    response.sort();
     const NonNegative& spread = still->characteristics[c].spread;
     if (spread.is_known()) {
-      const PartNoise noise(spread, response.toleranced, response.others, u.probing);
-      found.uncertain.push_back({noise.standard(), noise.bounds()});
+      const PartAnswers toleranced = response.of(true);
+      const PartAnswers others = response.of(false);
+      const PartNoise noise(spread, toleranced, others, u.probing);
+      found.uncertain.push_back({noise.standard(), noise.bounds(normals)});
       continue;
     }
     double squares = 0.0;
-    for (const double answer : response.in_order) squares += answer * answer;
+    for (const auto& [error, answer] : response.of_first()) squares += answer * answer;
     found.uncertain.push_back(either_way(std::sqrt(squares)));
   }
   return found;
@@ -319,9 +414,7 @@ Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
   }
   LinearUncertainty out;
   const Responses& responses = answered->responses;
-  const std::size_t errors = responses.empty() ? 0 : responses.front().in_order.size();
-  out.answers = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(plan.characteristics.size()),
-                                      static_cast<Eigen::Index>(errors));
+  std::vector<Eigen::Triplet<double>> answers;
   std::map<Way, std::size_t> next;
   for (std::size_t c = 0; c < plan.characteristics.size(); ++c) {
     const Way way = way_of(plan, plan.characteristics[c]);
@@ -329,10 +422,15 @@ Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
     const Uncertain& uncertain = found[way][place];
     out.standard.push_back(uncertain.standard);
     out.bounds.push_back(uncertain.bounds);
+    out.is_proven.push_back(way != Way::draws);
     if (way != Way::responses || !uncertain.either_sign) continue;
-    out.answers.row(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::RowVectorXd>(
-        responses[place].in_order.data(), static_cast<Eigen::Index>(errors));
+    for (const auto& [error, answer] : responses[place].of_first()) {
+      answers.emplace_back(static_cast<int>(c), static_cast<int>(error), answer);
+    }
   }
+  out.answers.resize(static_cast<Eigen::Index>(plan.characteristics.size()),
+                     static_cast<Eigen::Index>(answered->errors));
+  out.answers.setFromTriplets(answers.begin(), answers.end());
   return out;
 }
 

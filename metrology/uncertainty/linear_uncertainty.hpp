@@ -23,7 +23,7 @@
 // Source   : JCGM 100:2008, section 5.1.2
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <span>
 #include <vector>
 
@@ -37,9 +37,12 @@ namespace frustum::metrology {
 struct LinearUncertainty {
   std::vector<double> standard{};
   std::vector<TruthBounds> bounds{};  // 95 % of measurements or more are within
+  // Not of what rests on single points that an element touches: which points these are may be
+  // another thing of the measured part than of the part.
+  std::vector<bool> is_proven{};
   // What independent errors of one standard deviation do to the values of either sign: a row a
   // characteristic, zeros for the others. The joint covariance is this times its transpose.
-  Eigen::MatrixXd answers{};
+  Eigen::SparseMatrix<double, Eigen::RowMajor> answers{};
 };
 
 // `features` as measured, in the workpiece frame.

@@ -6,7 +6,6 @@
 
 #include "core/linear_algebra.hpp"
 #include "core/quantile.hpp"
-#include "core/random.hpp"
 #include "metrology/uncertainty/non_negative_interval.hpp"
 
 namespace frustum::metrology {
@@ -36,33 +35,31 @@ Eigen::Index parts_of_a_place(NonNegativeKind kind) {
   return are_vectors ? 3 : 1;
 }
 
-// Errors of all elements, datums and of the machine, and of the places by themselves.
-class Drawn {
- public:
-  explicit Drawn(std::uint32_t draw)
-      : shared_{.seed = kSeed, .draw = draw, .purpose = RandomPurpose::cmm_scale},
-        own_{.seed = kSeed, .draw = draw, .purpose = RandomPurpose::cmm_point} {}
+constexpr std::uint64_t kSeed = 0x3c6ef372fe94f82bU;
 
-  void add(Eigen::VectorXd& noise, const PartAnswers& answers, Eigen::Index first,
-           std::uint64_t number_of_first) const {
-    for (std::size_t k = 0; k < answers.size(); ++k) {
-      if (answers[k].size() < first + noise.size()) continue;
-      noise += normal(shared_, number_of_first + k) * answers[k].segment(first, noise.size());
-    }
-  }
-  void add_own(Eigen::VectorXd& noise, double standard, Eigen::Index first) const {
-    for (Eigen::Index i = 0; i < noise.size(); ++i) {
-      noise[i] += standard * normal(own_, static_cast<std::uint64_t>(first + i));
-    }
-  }
-
- private:
-  static constexpr std::uint64_t kSeed = 0x3c6ef372fe94f82bU;
-  RandomKey shared_;
-  RandomKey own_;
-};
+double normal_of(RandomPurpose purpose, std::uint32_t draw, std::size_t number) {
+  return normal({.seed = kSeed, .draw = draw, .purpose = purpose}, number);
+}
 
 }  // namespace
+
+double NormalDraws::of_element(std::uint32_t draw, std::size_t error) {
+  return kept(elements_, RandomPurpose::cmm_scale, draw, error);
+}
+
+double NormalDraws::of_place(std::uint32_t draw, std::size_t number) {
+  return kept(places_, RandomPurpose::cmm_point, draw, number);
+}
+
+double NormalDraws::kept(std::vector<std::vector<double>>& known, RandomPurpose purpose,
+                         std::uint32_t draw, std::size_t number) {
+  constexpr std::size_t kMostKept = 256;  // of a draw: 2 MB of a thousand draws
+  if (number >= kMostKept) return normal_of(purpose, draw, number);
+  if (known.size() <= draw) known.resize(draw + 1);
+  std::vector<double>& of_draw = known[draw];
+  while (of_draw.size() <= number) of_draw.push_back(normal_of(purpose, draw, of_draw.size()));
+  return of_draw[number];
+}
 
 TruthBounds truth_bounds(double size, double standard, std::span<double> noise) {
   constexpr double kCoverage = 0.95;
@@ -218,7 +215,7 @@ std::optional<Eigen::VectorXd> PartNoise::toward(std::size_t place) const {
   return away.normalized();
 }
 
-TruthBounds PartNoise::bounds() const {
+TruthBounds PartNoise::bounds(NormalDraws& normals) const {
   constexpr std::size_t kNormals = 20'000;
   const double u = standard();
   if (!(u > 0.0)) return {};
@@ -238,15 +235,25 @@ TruthBounds PartNoise::bounds() const {
   std::vector<double> largest;
   Eigen::VectorXd noise(per_place_);
   for (std::size_t d = 0; d < draws; ++d) {
-    const Drawn drawn(static_cast<std::uint32_t>(d));
+    const auto draw = static_cast<std::uint32_t>(d);
+    const auto add = [&](const PartAnswers& answers, Eigen::Index first, std::size_t error) {
+      for (const Eigen::VectorXd& answer : answers) {
+        const double coefficient = normals.of_element(draw, error++);
+        if (answer.size() < first + per_place_) continue;
+        noise += coefficient * answer.segment(first, per_place_);
+      }
+    };
     const auto adds = [&](std::size_t place) {
       const auto first = static_cast<Eigen::Index>(place) * per_place_;
       noise.setZero();
-      drawn.add(noise, others_, first, elements_.size());
+      add(others_, first, elements_.size());
       if (places[place].alone) {
-        drawn.add_own(noise, probing_ * std::sqrt(parts_.own[place]), first);
+        const double standard = probing_ * std::sqrt(parts_.own[place]);
+        for (Eigen::Index i = 0; i < per_place_; ++i) {
+          noise[i] += standard * normals.of_place(draw, static_cast<std::size_t>(first + i));
+        }
       } else {
-        drawn.add(noise, elements_, first, 0);
+        add(elements_, first, 0);
       }
       const auto& direction = places[place].toward;
       return factor_ * (direction ? direction->dot(noise) : noise.norm());

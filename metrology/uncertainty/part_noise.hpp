@@ -20,10 +20,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/random.hpp"
 #include "metrology/non_negative.hpp"
 
 namespace frustum::metrology {
@@ -41,6 +43,20 @@ struct TruthBounds {
 // Of all parts: a column an independent error of one standard deviation. Empty ones say nothing.
 using PartAnswers = std::vector<Eigen::VectorXd>;
 
+// The normal numbers of draws: pure functions of their places, which many characteristics ask for.
+class NormalDraws {
+ public:
+  [[nodiscard]] double of_element(std::uint32_t draw, std::size_t error);
+  [[nodiscard]] double of_place(std::uint32_t draw, std::size_t number);
+
+ private:
+  static double kept(std::vector<std::vector<double>>& known, RandomPurpose purpose,
+                     std::uint32_t draw, std::size_t number);
+
+  std::vector<std::vector<double>> elements_{};  // a row a draw
+  std::vector<std::vector<double>> places_{};
+};
+
 class PartNoise {
  public:
   // `elements`: answers to the elements whose points or sections the parts are of; `others`: to
@@ -49,7 +65,7 @@ class PartNoise {
             double probing);
 
   [[nodiscard]] double standard() const;
-  [[nodiscard]] TruthBounds bounds() const;
+  [[nodiscard]] TruthBounds bounds(NormalDraws& normals) const;
 
  private:
   // Where the size may come from: the places of a row that may be its peak and its valley, of a

@@ -55,8 +55,8 @@ Result<Eigen::MatrixXd> covariance(const InspectionPlan& plan, const Measurement
     }
     rows.push_back(planned - plan.characteristics.begin());
   }
-  const Eigen::MatrixXd answers = found->answers(rows, Eigen::all);
-  Eigen::MatrixXd joint = answers * answers.transpose();
+  const Eigen::MatrixXd of_plan = found->answers * found->answers.transpose();
+  Eigen::MatrixXd joint = of_plan(rows, rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double standard = found->standard[static_cast<std::size_t>(rows[i])];
     const auto k = static_cast<Eigen::Index>(i);

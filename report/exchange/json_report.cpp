@@ -74,7 +74,7 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   json["verdict"] = metrology::name_of(characteristic.verdict());
   if (const auto& interval = characteristic.interval) {
     json["interval"] = {json_number(interval->low), json_number(interval->high)};
-    json["coverage"] = interval->at_least ? "at least 95 %" : "95 %";
+    json["coverage"] = metrology::name_of(interval->coverage);
     json["standard_uncertainty"] = json_number(characteristic.standard_uncertainty);
   }
   if (const auto& simulated = characteristic.simulated) {
@@ -87,6 +87,11 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   // Only where lines are compared: the first, then the second.
   if (!characteristic.profiles.empty()) {
     json["profiles"] = array_of(characteristic.profiles, profile_json);
+  }
+  if (const auto& seamless = characteristic.without_seam) {
+    json["without_seam"] = {{"value", json_number(seamless->value)},
+                            {"at_deg", json_number(seamless->at * kDegPerRad)},
+                            {"within_deg", json_number(seamless->within * kDegPerRad)}};
   }
   if (!characteristic.harmonics.empty()) {
     json["harmonics"] = array_of(characteristic.harmonics, harmonic_json);

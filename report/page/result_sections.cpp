@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/units.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/tolerance_symbol.hpp"
 #include "report/number_text.hpp"
@@ -62,6 +63,14 @@ std::string used_cell(const Characteristic& characteristic) {
       fixed_text(100.0 * *used, 0));
 }
 
+std::string value_cell(const Characteristic& c) {
+  const std::string text = with_unit(result_text(c), c.unit);
+  if (!c.without_seam) return text;
+  return fmt::format("<span>{}<small>{} without the seam at {:g}° ± {:g}°</small></span>", text,
+                     with_unit(value_text(c.without_seam->value, c.unit), c.unit),
+                     c.without_seam->at * kDegPerRad, c.without_seam->within * kDegPerRad);
+}
+
 std::string uncertainty_cell(const Characteristic& c, bool is_unstated) {
   const std::string text = with_unit(uncertainty_text(c.expanded_uncertainty), c.unit);
   return is_unstated ? "<span>" + text + "<small>not stated</small></span>" : text;
@@ -107,7 +116,7 @@ std::string characteristics_html(const RunReport& report) {
     std::vector<std::string> cells{fmt::format("<span class=\"what\">{}<span><b>{}</b>{}</span>"
                                                "</span>",
                                                tolerance_symbol(c.kind), html_text(c.name), kind),
-                                   with_unit(result_text(c), c.unit)};
+                                   value_cell(c)};
     if (nominals) {
       cells.push_back(nominal_text(c).empty() ? "" : with_unit(nominal_text(c), c.unit));
     }

@@ -41,6 +41,9 @@ TEST(CharacteristicPlan, ReadsBackEveryKey) {
   round.parameter = FormParameter::p;
   round.filter = ProfileFilter{50.0, 2.5, 0.0, 0.0};
   round.harmonics = 15;
+  PlannedCharacteristic marked = of(K::equivalent_cone_form, {"cone"});
+  marked.name = "marked";
+  marked.seam = Seam{0.3 * kRadPerDeg, 5.0 * kRadPerDeg};
   PlannedCharacteristic straight = of(K::straightness, {"C"});
   straight.name = "straight";
   straight.filter = ProfileFilter{0.0, 0.0, 0.1 + 0.2, 8.0};
@@ -50,7 +53,8 @@ TEST(CharacteristicPlan, ReadsBackEveryKey) {
   PlannedCharacteristic profile = of(K::surface_profile, {"cone", "C", "A"});
   profile.name = "profile";
   profile.floating = true;
-  plan.characteristics.insert(plan.characteristics.end(), {round, straight, run_out, profile});
+  plan.characteristics.insert(plan.characteristics.end(),
+                              {round, marked, straight, run_out, profile});
   for (const DatumSystem& datum :
        {*plan.datum, DatumSystem{"A", "", "", Criterion::outside_material},
         DatumSystem{"", "", "", Criterion::least_squares, {"A", "C"}, {"RZ", "TX"}},
@@ -291,6 +295,56 @@ TEST(CharacteristicPlan, Fault2_60_AConeIsNoDatumOutsideTheMaterial) {
   c = of(K::perpendicularity, {"cone", "A"});
   c.datum_criterion = Criterion::outside_material;
   EXPECT_EQ(fault(c), "");
+}
+
+TEST(CharacteristicPlan, Fault2_40_ThePlanHasAFilterForAllForms) {
+  InspectionPlan unfiltered = test_part::plan();
+  unfiltered.characteristics = {of(K::roundness, {"C"}), of(K::straightness, {"C"}),
+                                of(K::cylindricity, {"C"}), of(K::roundness, {"C"})};
+  const char* name = "abcd";
+  for (PlannedCharacteristic& c : unfiltered.characteristics) c.name = std::string(1, *name++);
+  unfiltered.characteristics.back().filter = ProfileFilter{.upr = 15.0};
+  const std::string text = to_toml(unfiltered);
+  const auto plan = parse_plan("filter = { upr = 50, cutoff = \"0.8 mm\" }\n" + text);
+  ASSERT_TRUE(plan) << to_string(plan.error().front());
+  EXPECT_EQ(plan->characteristics[0].filter, (ProfileFilter{.upr = 50.0}));
+  EXPECT_EQ(plan->characteristics[1].filter, (ProfileFilter{.cutoff = 0.8}));
+  EXPECT_FALSE(plan->characteristics[2].filter);
+  EXPECT_EQ(plan->characteristics[3].filter, (ProfileFilter{.upr = 15.0}));
+  const auto empty = parse_plan("filter = {}\n" + text, "p.toml");
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(to_string(empty.error().front()).substr(0, 50),
+            "p.toml:1:1: error: filter: has neither upr nor cut");
+}
+
+TEST(CharacteristicPlan, Fault2_29_ASeamIsThatOfARoundProfile) {
+  PlannedCharacteristic c = of(K::cylindricity, {"C"});
+  c.seam = Seam{0.0, 0.1};
+  EXPECT_EQ(fault(c), "characteristic[1].seam: not for a cylindricity");
+  c = of(K::roundness, {"C"});
+  c.seam = Seam{0.0, 1.0};
+  EXPECT_EQ(fault(c),
+            "characteristic[1].seam: within must be more than 0 and at most 45 deg to either side");
+  c.seam->within = 0.1;
+  EXPECT_EQ(fault(c), "");
+  c.filter = ProfileFilter{.upr = 50.0};
+  EXPECT_EQ(fault(c),
+            "characteristic[1].seam: a profile with a gap has no filter and no harmonics");
+}
+
+TEST(CharacteristicPlan, Fault2_52_ACommonAxisIsNotOutsideTheMaterial) {
+  InspectionPlan plan = test_part::plan();
+  PlannedFeature other = *find_feature(plan, "C");
+  other.name = "C2";
+  plan.features.push_back(other);
+  PlannedCharacteristic c = of(K::circular_run_out, {"cone", "C", "C2"});
+  plan.characteristics = {c};
+  EXPECT_TRUE(check(plan).empty());
+  plan.characteristics.front().datum_criterion = Criterion::outside_material;
+  ASSERT_FALSE(check(plan).empty());
+  EXPECT_EQ(check(plan).front().message,
+            "the common axis of 2 datums is of least squares, it has no \"om\"");
+  EXPECT_EQ(check(plan).front().key, "characteristic[1].datum_criterion");
 }
 
 TEST(CharacteristicPlan, Fault2_31_DirectionsAndPlacesBeyondSenseAreRefused) {

@@ -178,7 +178,8 @@ TEST(VirtualCmm, ExplainsAPlanThatMissesThePart) {
   EXPECT_EQ(
       to_string(high.error().front()),
       "error: feature 'cone', point 1 at [33.649, 0.000, 26.000]: the plan misses the part: no "
-      "surface within 2 mm past the nominal one (hint: check the nominal geometry and the "
+      "surface within 2 mm past the nominal one, it is 15.588 mm past it (hint: check the nominal "
+      "geometry and the "
       "blank or mesh, or enlarge probe.reach)");
   p.features[3].radius = 12.0;
   const auto deep = measure(p, part());
@@ -190,6 +191,28 @@ TEST(VirtualCmm, ExplainsAPlanThatMissesThePart) {
       "enlarge probe.clearance)");
   p.features[3].half_angle = 2.0;
   EXPECT_EQ(measure(p, part()).error().front().key, "feature[4].half_angle");
+}
+
+TEST(BallContact, Fault2_28_AnOversizeBoreIsOutOfReachNotMaterial) {
+  // A bore of 13 mm in a block, planned with 10 mm: from far away the block is met from outside.
+  const test_part::ImplicitBody block{[](const Vec3& x) {
+                                        const double away = std::hypot(x.x(), x.y());
+                                        return std::max(13.0 - away, away - 50.0);
+                                      },
+                                      {}};
+  const BallApproach approach{Vec3(10.0, 0.0, 0.0), UnitVec3::of(Vec3(-1, 0, 0)).value(), 1.5, 2.0,
+                              2.0};
+  const BallContact missed = touch_with_ball(block, approach);
+  EXPECT_EQ(missed.state, ContactState::no_surface);
+  ASSERT_TRUE(missed.surface_past);
+  EXPECT_NEAR(*missed.surface_past, 3.0, 1e-9);
+  // One of 5 mm, in whose wall the approach starts.
+  const test_part::ImplicitBody narrow{[](const Vec3& x) {
+                                         const double away = std::hypot(x.x(), x.y());
+                                         return std::max(5.0 - away, away - 50.0);
+                                       },
+                                       {}};
+  EXPECT_EQ(touch_with_ball(narrow, approach).state, ContactState::starts_inside);
 }
 
 TEST(BallContact, IsExactOnHolesAndTiltedSurfaces) {

@@ -290,5 +290,49 @@ TEST(OrientationFaults, Fault2_57_TheZoneOfAnAngularityTurnsAboutItsDatum) {
   }
 }
 
+// A round cone with a waviness of 1 um and a mark 7 um deep where the contour begins.
+TEST(Roundness, Fault2_29_TheValueWithoutTheSeamIsBesideTheWhole) {
+  PlannedFeature cone = measured::cylinder("K", {0, 0, 0}, Vec3::UnitZ(), 20.0, {0.0}, 360);
+  cone.kind = FeatureKind::cone;
+  cone.half_angle = 15.0 * kRadPerDeg;
+  cone.zero = Vec3::UnitX();
+  cone.strategy = SectionStrategy{{0.0, 5.0}, 360};
+  const FittedFeature found = feature(cone, {}, [](const Vec3& p) {
+    const double angle = std::atan2(p.y(), p.x());
+    return 0.0005 * std::cos(12.0 * angle) - (std::abs(angle) < 0.0525 ? 0.007 : 0.0);
+  });
+  for (const K kind : {K::roundness, K::equivalent_cone_form}) {
+    PlannedCharacteristic c = measured::characteristic(kind, {"K"});
+    const auto whole = evaluated_of(c, found);
+    ASSERT_TRUE(whole) << complaint(whole);
+    EXPECT_FALSE(whole->without_seam);
+    c.seam = Seam{0.0, 5.0 * kRadPerDeg};
+    const auto both = evaluated_of(c, found);
+    ASSERT_TRUE(both) << complaint(both);
+    EXPECT_EQ(both->value, whole->value);
+    EXPECT_GT(both->value, 6.5);
+    ASSERT_TRUE(both->without_seam);
+    // Waves of 12 per revolution; the points were moved along the normal of the surface, and a
+    // roundness is across the axis.
+    const double across = kind == K::roundness ? 1.0 / std::cos(cone.half_angle) : 1.0;
+    // The circle of the rest is off by what the waves do beside the gap.
+    EXPECT_NEAR(both->without_seam->value, across, 0.08);
+    // The mark is at 0 deg, and +-5 deg about 90 deg are beside it.
+    c.seam = Seam{90.0 * kRadPerDeg, 5.0 * kRadPerDeg};
+    EXPECT_GT(evaluated_of(c, found)->without_seam->value, 6.5);
+  }
+}
+
+TEST(DecisionRule, Fault2_52_NoVerdictRestsOnAnIntervalThatIsNotProven) {
+  CharacteristicResult c;
+  c.tolerance = 10.0;
+  c.value = 5.0;
+  c.interval = TrueValueInterval{.low = 4.0, .high = 6.0};
+  EXPECT_EQ(verdict_of(c, DecisionRule::iso14253), Verdict::pass);
+  c.interval->coverage = Coverage::not_proven;
+  EXPECT_EQ(verdict_of(c, DecisionRule::iso14253), Verdict::uncertain);
+  EXPECT_EQ(verdict_of(c, DecisionRule::simple), Verdict::pass);
+}
+
 }  // namespace
 }  // namespace frustum::metrology

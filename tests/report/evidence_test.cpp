@@ -68,6 +68,11 @@ TEST(Evidence, Fault2_38_SaysHowWasMeasured) {
   EXPECT_EQ(value_of(facts, "accuracy").substr(0, 5), "ideal");
   EXPECT_EQ(value_of(facts, "alignment").substr(0, 4), "none");
   EXPECT_EQ(value_of(facts, "filter").substr(0, 4), "none");
+  // The mean range of 36 normal numbers is 4.236 of their standard deviation, of 360 5.871.
+  EXPECT_NE(value_of(measuring_statement({}, {.e0_mm = 0.002}, PointSource::virtual_cmm), "filter")
+                .find("; its 1 µm a point make a perfect circle of 36 points 4.2 µm, of 360 points "
+                      "5.9 µm"),
+            std::string::npos);
   EXPECT_EQ(value_of(facts, "decision_rule").substr(0, 12), "ISO 14253-1:");
   EXPECT_EQ(value_of(measuring_statement(plan, {}, PointSource::measured_points), "accuracy")
                 .substr(0, 10),
