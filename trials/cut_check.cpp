@@ -45,6 +45,30 @@ Diagnostic finding(const std::string& feature, const std::string& operation, std
 
 }  // namespace
 
+std::optional<Diagnostic> away_from_blank(const stock::Workpiece& workpiece,
+                                          const programs::TestPiece& piece) {
+  const std::size_t segments = workpiece.removed().path().segments.size();
+  if (segments == 0) return std::nullopt;
+  const Box blank = workpiece.blank().bounds();
+  Box swept = workpiece.removed().box(0);
+  for (std::uint32_t i = 0; i < segments; ++i) {
+    const Box& box = workpiece.removed().box(i);
+    if (overlap(box, blank)) return std::nullopt;
+    swept = united(swept, box);
+  }
+  const auto text = [](const Box& box) {
+    return fmt::format("[{:.3f}, {:.3f}, {:.3f}] to [{:.3f}, {:.3f}, {:.3f}]", box.min.x(),
+                       box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z());
+  };
+  Diagnostic away =
+      error("blank-untouched"_id,
+            fmt::format("nothing is removed: the tool, {}, never comes to the blank, {}",
+                        text(swept), text(blank)),
+            "check the origin of the blank, the work offsets and the lengths of the tools");
+  away.file = piece.program_file;
+  return away;
+}
+
 Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
                                  const metrology::Measurement& measurement) {
   Diagnostics findings;

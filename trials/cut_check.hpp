@@ -12,8 +12,13 @@
 #include "core/diagnostic.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
+#include "stock/solid/workpiece.hpp"
 
 namespace frustum::trials {
+
+// A tool that covers nothing of the blank's box from the beginning of the program to its end.
+[[nodiscard]] std::optional<Diagnostic> away_from_blank(const stock::Workpiece& workpiece,
+                                                        const programs::TestPiece& piece);
 
 // One warning for each feature with points that its operation did not make.
 [[nodiscard]] Diagnostics wrongly_cut_features(const programs::TestPiece& piece,

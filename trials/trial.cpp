@@ -188,6 +188,9 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
   auto workpiece = cut(piece, std::move(travel.path));
   if (!workpiece) return workpiece.error();
   trial.workpiece = std::make_shared<const stock::Workpiece>(*std::move(workpiece));
+  if (auto away = away_from_blank(*trial.workpiece, piece)) {
+    trial.wrong_cuts.push_back(*std::move(away));
+  }
 
   if (options.find_collisions) {
     begin(options.on_stage, Stage::collide);
@@ -203,7 +206,9 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
     auto measurement = metrology::measure(piece.plan, probe, cmm);
     if (!measurement) return measurement.error();
     trial.measurement = *std::move(measurement);
-    trial.wrong_cuts = wrongly_cut_features(piece, trial.measurement);
+    for (Diagnostic& d : wrongly_cut_features(piece, trial.measurement)) {
+      trial.wrong_cuts.push_back(std::move(d));
+    }
   }
   return trial;
 }

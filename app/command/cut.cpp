@@ -313,6 +313,7 @@ int cut(CutOptions options) {
   const auto trial = run.trial(*job, false);
   if (!trial) return refuse(trial.error(), options);
   print(std::cerr, trial->warnings);
+  print(std::cerr, trial->wrong_cuts);
   auto result = Cut(options, *view, *job, *trial, run).result();
   if (!result) return refuse(result.error(), options);
   if (options.gouge_limit_um > 0.0) result->limits.gouge = options.gouge_limit_um / kUmPerMm;
@@ -323,7 +324,7 @@ int cut(CutOptions options) {
   } else if (!options.quiet) {
     std::cout << cut_text(*result);
   }
-  return result->passes() ? kDone : kOutOfTolerance;
+  return result->passes() && !has_error(trial->wrong_cuts) ? kDone : kOutOfTolerance;
 }
 
 void add_options(Command& command, CutOptions& o) {

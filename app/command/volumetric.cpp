@@ -200,8 +200,13 @@ std::vector<RankRow> ranking_of(const Study& study, double tool_length) {
   return rows;
 }
 
+// A length of a length is a number, whose unit is 1.
 const char* gain_unit(const MachineError& e) {
-  return is_rotation(e.error.direction) ? "um/urad" : "um/um";
+  return is_rotation(e.error.direction) ? "um/urad" : "1";
+}
+std::string gain_text(const RankRow& row) {
+  const std::string number = fmt::format("{:.4f}", row.gain);
+  return is_rotation(row.error.error.direction) ? number + " um/urad" : number;
 }
 const char* side_of(const Machine& machine, const MachineError& e) {
   return machine.joint(e.error.axis)->side > 0 ? "tool" : "workpiece";
@@ -315,8 +320,7 @@ report::VolumetricPage page_of(const Study& study, const VolumetricOptions& opti
   page.statistics = statistics_rows(study.volume);
   page.worst = worst_text(study);
   for (const RankRow& row : ranking) {
-    page.ranking.push_back({row.error.name, row.error.error.meaning(),
-                            fmt::format("{:.4f} {}", row.gain, gain_unit(row.error)),
+    page.ranking.push_back({row.error.name, row.error.error.meaning(), gain_text(row),
                             fmt::format("{:.1f} %", 100.0 * row.share)});
   }
   page.counts = study.volume.counts;
@@ -343,9 +347,8 @@ void print_summary(const Study& study, const std::vector<RankRow>& ranking) {
   std::cout << worst_text(study) << '\n';
   if (!ranking.empty()) std::cout << "\nerrors by their share of the mean square\n";
   for (const RankRow& row : ranking) {
-    std::cout << fmt::format("{:<8} {:>6.1f} %  gain {:.4f} {:<8} {}\n", row.error.name,
-                             100.0 * row.share, row.gain, gain_unit(row.error),
-                             row.error.error.meaning());
+    std::cout << fmt::format("{:<8} {:>6.1f} %  gain {:<15} {}\n", row.error.name,
+                             100.0 * row.share, gain_text(row), row.error.error.meaning());
   }
 }
 

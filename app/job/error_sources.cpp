@@ -20,12 +20,16 @@ void append(Diagnostics& to, const Diagnostics& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-// The machine that an error file names must be this one, or one that is known.
-std::optional<Diagnostic> unknown_machine(const kinematics::ErrorFileHead& file,
+// The machine that an error file names must be this one, or one that is known; where the file does
+// not say its structure, it is that of this machine.
+std::optional<Diagnostic> unknown_machine(kinematics::ErrorFileHead& file,
                                           const kinematics::Machine& machine) {
   if (file.machine == machine.name()) return std::nullopt;
-  const auto known = find_machine(file.machine, file.file.parent_path());
-  if (known) return std::nullopt;
+  const auto known = load_machine(file.machine, file.file.parent_path());
+  if (known) {
+    if (file.structure.empty()) file.structure = known->structure();
+    return std::nullopt;
+  }
   Diagnostic problem = known.error().front();
   problem.file = file.file.string();
   problem.key = "machine";
@@ -55,7 +59,7 @@ Result<std::vector<ErrorEntry>> gather_errors(ErrorList of_job, const ErrorWords
       append(all.problems, entry.error());
     }
   }
-  for (const kinematics::ErrorFileHead& file : all.files) {
+  for (kinematics::ErrorFileHead& file : all.files) {
     if (auto problem = unknown_machine(file, machine)) all.problems.push_back(*std::move(problem));
     if (auto problem = mismatch(file, machine)) all.problems.push_back(*std::move(problem));
   }

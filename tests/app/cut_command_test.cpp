@@ -70,6 +70,14 @@ TEST_F(CutCommandSystem, CompensatesTheRadiusOfTheJobsTool) {
   EXPECT_EQ(cut("--point 0,10,-2")["made_by"]["on_surface"], true);
 }
 
+TEST_F(CutCommandSystem, Fault2_30_ABlankAwayFromTheToolPathIsAFault) {
+  write_plate();
+  replace_in("plate.toml", "[80, 60, 20] }", "[80, 60, 20], origin = [0, 500, 0] }");
+  const Outcome away = run("cut plate.toml --mesh part.stl --pitch 4");
+  EXPECT_EQ(away.exit_code, 1) << away.out;
+  EXPECT_NE(away.err.find("nothing is removed: the tool, "), std::string::npos) << away.err;
+}
+
 TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
   write_plate();
   cut("--mesh film.ply --pitch 2 --snapshots 4");

@@ -89,6 +89,17 @@ TEST_F(StudyCommandsSystem, Fault2_31_AnErrorFileNamesAMachine) {
   EXPECT_NE(outcome.err.find("rubbish"), std::string::npos) << outcome.err;
 }
 
+// It was taken for any machine: the structure of the machine that it names counts.
+TEST_F(StudyCommandsSystem, Fault2_31_AnErrorFileWithoutStructureIsOfItsMachine) {
+  write_steps("piece", "--patterns 1-a");
+  write("mine.toml", "title = \"t\"\nmachine = \"dvf5000\"\n[errors]\nEXX = \"linear 1 um\"\n");
+  const Outcome outcome = run("measure piece/job.toml --errors mine.toml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("the errors are written for dvf5000 (t-(C)-Z-Y-X-b-B-C-w)"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(StudyCommandsSystem, IdentifiesThePublishedMachine) {
   const Outcome outcome =
       run("identify '" FRUSTUM_SOURCE_DIR "/examples/ibaraki-2010/study.toml' --json");
@@ -307,6 +318,9 @@ TEST_F(StudyCommandsSystem, ShowsTheErrorsOverTheWorkingVolume) {
   EXPECT_NEAR((*exY)["gain"], 1.2595395984, 1e-9);
   EXPECT_EQ(read(folder_ / "volume" / "volumetric.json"), outcome.out);
   EXPECT_NE(read(folder_ / "volume" / "volumetric.html").find("data-volume"), std::string::npos);
+
+  EXPECT_EQ((*exY)["gain_unit"], "um/urad");
+  for (const json& row : doc["ranking"]) EXPECT_NE(row["gain_unit"], "um/um");
 
   const Outcome three = run("volumetric three-axis --error EXX=10um --grid 3");
   EXPECT_EQ(three.exit_code, 0) << three.err;
