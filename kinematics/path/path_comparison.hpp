@@ -1,9 +1,10 @@
 // Two tool paths side by side: where the other one is when the reference passes each of its poses.
 //
 // Model    : both paths are walked forward together. For each pose of the reference the other path
-//            is searched ahead, a little further than the reference has moved since and the paths
-//            are apart, for its nearest place in (tip, reach * axis); it never goes back, so that
-//            passes over the same surface stay apart.
+//            is searched ahead for places that are nearest in (tip, reach * axis) there; it never
+//            goes back, so that passes over the same surface stay apart. Where it passes a pose
+//            more than once, as at a reversal, each of these places is followed until one is the
+//            worse: of all walks that which has the least sum of squared distances is the match
 //            Only feed moves count; where they are interrupted, both paths run straight to the next
 //            one
 // Units    : mm, rad, s; frame: that of the paths
@@ -42,8 +43,10 @@ struct PathMatches {
 };
 
 struct MatchOptions {
-  double reach = 20.0;      // mm: what a radian of the tool axis weighs
-  double slack = 1e-3;      // mm: how much further than the reference the other path is searched
+  double reach = 20.0;  // mm: what a radian of the tool axis weighs
+  // mm: how much further than the reference the other path is searched, and how far beside the
+  // reference's way it may go to and fro without that counting.
+  double slack = 0.05;
   double most_apart = 5.0;  // mm: paths farther apart are not searched further for that
   // mm: where the paths are farther apart, the walk ends with that match.
   double stop_beyond = std::numeric_limits<double>::infinity();
