@@ -48,6 +48,18 @@ AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, doubl
   return q;
 }
 
+int least_parts(const AxisPositions& from, const AxisPositions& to, double arc_turn) {
+  double rotary_travel = std::abs(arc_turn);
+  for (const AxisLetter letter : kRotaryAxes) {
+    rotary_travel = std::max(rotary_travel, std::abs(to[letter] - from[letter]));
+  }
+  const double linear_travel = (linear_positions(to) - linear_positions(from)).norm();
+  // No machine goes that far, but programs say so.
+  constexpr double kMostParts = 1e9;
+  const double parts = rotary_travel / kRotaryPart + linear_travel / kLinearPart;
+  return 1 + static_cast<int>(parts < kMostParts ? parts : kMostParts);
+}
+
 BlockMotion::BlockMotion(const AxisPositions& from, Law law, double linear)
     : start_(from), law_(std::move(law)), end_(at(1.0)) {
   feed_length_ = linear > kStanding ? linear : rotary_degrees(from, end_);
@@ -101,17 +113,7 @@ double BlockMotion::arc_turn() const {
   return 0.0;
 }
 
-int BlockMotion::least_parts() const {
-  double rotary_travel = std::abs(arc_turn());
-  for (const AxisLetter letter : kRotaryAxes) {
-    rotary_travel = std::max(rotary_travel, std::abs(end_[letter] - start_[letter]));
-  }
-  const double linear_travel = (linear_positions(end_) - linear_positions(start_)).norm();
-  // No machine goes that far, but programs say so.
-  constexpr double kMostParts = 1e9;
-  const double parts = rotary_travel / kRotaryPart + linear_travel / kLinearPart;
-  return 1 + static_cast<int>(parts < kMostParts ? parts : kMostParts);
-}
+int BlockMotion::least_parts() const { return kinematics::least_parts(start_, end_, arc_turn()); }
 
 BlockMotion axes_motion(const AxisPositions& from, const AxisPositions& to) {
   return {from, BlockMotion::AxesLaw{to}, (linear_positions(to) - linear_positions(from)).norm()};

@@ -27,6 +27,10 @@ namespace frustum::kinematics {
 [[nodiscard]] AxisPositions with_linear_positions(AxisPositions q, const Vec3& xyz);
 // A fraction u of the way, every axis on its own.
 [[nodiscard]] AxisPositions part_way(const AxisPositions& from, const AxisPositions& to, double u);
+// Equal parts of a motion so fine that what bends or repeats within it cannot hide between them;
+// `arc_turn`: rad of a curve in the programmed frame.
+[[nodiscard]] int least_parts(const AxisPositions& from, const AxisPositions& to,
+                              double arc_turn = 0.0);
 
 // A value of some 300 bytes, so that a program of a million blocks fits into memory; the machine
 // must outlive it.
@@ -42,7 +46,6 @@ class BlockMotion {
   // What the feed counts, uniform in u: mm of the tip or of the linear axes; degrees of the rotary
   // axes where those are at rest.
   [[nodiscard]] double feed_length() const { return feed_length_; }
-  // Equal parts so fine that what bends or repeats within the block cannot hide between them.
   [[nodiscard]] int least_parts() const;
 
  private:

@@ -7,8 +7,8 @@
 namespace frustum::kinematics {
 namespace {
 
-// Below this an axis stands: far under any scale, far above the rounding of an inverse solution.
-double still(AxisLetter axis) { return is_rotary(axis) ? 1e-11 : 1e-9; }
+// mm or rad, of the place where an axis leaves: far above the rounding of an inverse solution.
+double rounding(AxisLetter axis) { return is_rotary(axis) ? 1e-11 : 1e-9; }
 
 struct Sample {
   double u = 0.0;
@@ -79,39 +79,45 @@ struct AxisRun {
   double sense = 0.0;
 };
 
+// `furthest`: before the motion, and after it.
 std::vector<AxisRun> runs_of(const AxisCourse& course, AxisLetter axis,
-                             std::span<const Sample> samples) {
-  const double reach = still(axis);
+                             std::span<const Sample> samples, std::optional<double>& furthest) {
+  const double least = least_motion(axis);
+  const auto q = [&](std::size_t k) { return samples[k].q[axis]; };
   std::vector<AxisRun> segments;
-  double furthest = samples.front().q[axis];
+  if (!furthest || std::abs(q(0) - *furthest) > least) furthest = q(0);
   std::size_t first = 0, last = 0;  // samples that are at the furthest place so far
   double sense = 0.0;
   for (std::size_t k = 1; k < samples.size(); ++k) {
-    const double moved = samples[k].q[axis] - furthest;
-    if (std::abs(moved) <= reach) {
+    const double moved = q(k) - *furthest;
+    if (std::abs(moved) <= least) {
       last = k;
       continue;
     }
     const double now = moved > 0.0 ? 1.0 : -1.0;
     if (now != sense) {
       double u = samples[last].u;
-      if (last > first) {
-        u = course.leaves(furthest, reach, samples[last].u, samples[k].u);
-      } else if (sense != 0.0) {
-        u = course.turn_between(samples[last - 1].u, samples[k].u, sense);
+      const bool stood = last > first && std::abs(q(last) - q(first)) <= rounding(axis) &&
+                         std::abs(q(last - 1) - q(first)) <= rounding(axis);
+      if (stood) {
+        u = course.leaves(q(last), rounding(axis), samples[last].u, samples[k].u);
+      } else if (sense != 0.0 || last > first) {
+        const std::size_t before = first > 0 ? first - 1 : 0;
+        u = course.turn_between(samples[before].u, samples[k].u, -now);
+        // One that turns as the motion begins does so at 0.
+        if (before == 0 && std::abs(course(u) - q(0)) <= rounding(axis)) u = samples[0].u;
       }
-      const double q = course(u);
       if (!segments.empty()) {
         segments.back().to_u = u;
-        segments.back().to_q = q;
+        segments.back().to_q = course(u);
       }
-      segments.push_back({.from_u = u, .from_q = q, .sense = now});
+      segments.push_back({.from_u = u, .from_q = course(u), .sense = now});
       sense = now;
     }
-    furthest = samples[k].q[axis];
+    furthest = q(k);
     first = last = k;
   }
-  if (!segments.empty()) segments.back().to_q = furthest;
+  if (!segments.empty()) segments.back().to_q = q(samples.size() - 1);
   return segments;
 }
 
@@ -161,9 +167,10 @@ ApproachProfile ApproachTracker::follow(const AxisMotion& motion, int parts) {
     const auto lost_motion = lost_motion_[static_cast<std::size_t>(letter)];
     if (!lost_motion) continue;
     const AxisCourse course(motion, letter);
+    std::optional<double>& furthest = furthest_[static_cast<std::size_t>(letter)];
     ApproachProfile::Axis axis{letter, {}};
     double heading = heading_[letter];
-    for (const AxisRun& s : runs_of(course, letter, samples)) {
+    for (const AxisRun& s : runs_of(course, letter, samples, furthest)) {
       if (heading == s.sense) continue;
       profile.turning_points_.push_back(s.from_u);
       // Travel until the play is taken up.

@@ -7,7 +7,7 @@
 // Units    : mm, rad; u runs from 0 to 1 along a motion
 // Errors   : none
 // Accuracy : turning points to the last digit of the position; an axis that swings back within one
-//            part is not seen; less than 1e-9 mm or 1e-11 rad is no motion
+//            part is not seen
 // Source   : backlash of ISO 230-2, read as play
 #pragma once
 
@@ -21,6 +21,13 @@
 #include "kinematics/model/geometric_errors.hpp"
 
 namespace frustum::kinematics {
+
+// mm or rad: what an axis has to move for that to be motion. A control resolves a nanometre, and a
+// word of a program is rounded to it: under tool centre point control three of them, and the rotary
+// words, move a linear axis by up to 2e-6 mm where it should stand.
+[[nodiscard]] constexpr double least_motion(AxisLetter axis) {
+  return is_rotary(axis) ? 1e-8 : 3e-6;
+}
 
 using AxisMotion = std::function<AxisPositions(double)>;
 
@@ -76,9 +83,15 @@ class ApproachTracker {
   [[nodiscard]] ApproachProfile follow(const AxisMotion& motion, int parts);
   // Where the axes are now.
   [[nodiscard]] const AxisPositions& heading() const { return heading_; }
+  // How far the axis has gone in the direction that it came in; nothing before it was followed.
+  [[nodiscard]] std::optional<double> furthest(AxisLetter axis) const {
+    return furthest_.at(static_cast<std::size_t>(axis));
+  }
 
  private:
-  std::array<std::optional<double>, kAxisLetters.size()> lost_motion_{};  // of followed axes
+  using OfAxes = std::array<std::optional<double>, kAxisLetters.size()>;
+  OfAxes lost_motion_{};  // of followed axes
+  OfAxes furthest_{};
   AxisPositions heading_{};
 };
 

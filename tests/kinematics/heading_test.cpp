@@ -103,6 +103,28 @@ TEST(HeadingTracker, TakesRoundingForNoMotion) {
   EXPECT_EQ(tracker.follow(along_x(ramp), 100).turning_points().size(), 1u);
 }
 
+TEST(HeadingTracker, RoundingOfAProgramsWordsTurnsNoAxisAndACreepDoes) {
+  ApproachTracker tracker = tracker_of(kX, 0.0);
+  double at = 0.0;
+  const auto move_to = [&](double to) {
+    const auto profile =
+        tracker.follow(along_x([from = at, to](double u) { return from + u * (to - from); }), 1);
+    at = to;
+    return profile;
+  };
+  (void)move_to(10.0);
+  // A nanometre to and fro is the last digit of a word.
+  for (const double to : {9.999999, 10.0, 9.999999, 10.000001, 9.999999}) {
+    EXPECT_TRUE(move_to(to).turning_points().empty()) << to;
+    EXPECT_EQ(tracker.heading()[kX], 1.0) << to;
+  }
+  // A nanometre a block, always back, is motion, however short the blocks.
+  for (int k = 1; k <= 5; ++k) (void)move_to(10.0 - k * 1e-6);
+  EXPECT_EQ(tracker.heading()[kX], -1.0);
+  // What turns as a motion begins has left in its new direction.
+  EXPECT_EQ(move_to(10.0001).after(0.0)[kX], 1.0);
+}
+
 TEST(HeadingTracker, TakesUpThePlayOverTheSettlingDistance) {
   ApproachTracker tracker = tracker_of(kX, 2.0);
   const auto out = tracker.follow(along_x([](double u) { return 10.0 * u; }), 4);
