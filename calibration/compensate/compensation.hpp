@@ -47,7 +47,7 @@ struct SourceSpan {
   std::uint32_t block = 0;
   double from = 0.0;
   double to = 1.0;
-  bool turn = false;  // made for an axis that turns: the tool stays, or goes a micrometre
+  bool turn = false;  // made for an axis that turns, at one place
 };
 
 struct CompensatedProgram {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "calibration/compensate/pose_distance.hpp"
 #include "calibration/compensate/wanted_block.hpp"
+#include "kinematics/path/approach_direction.hpp"
 #include "kinematics/path/travel.hpp"
 
 namespace frustum::calibration {
@@ -20,7 +22,6 @@ using kinematics::ToolPose;
 
 // Of the blocks before and after one; several axes may turn, and back, within the zone of one.
 constexpr std::size_t kTurnsBeside = 40;
-constexpr std::size_t kBlocksBeside = 40;
 
 // The place nearest to a pose on a line of poses.
 ToolPose nearest(const ToolPose& pose, std::span<const ToolPose> line) {
@@ -116,13 +117,22 @@ struct ActualBlock {
   std::vector<std::size_t> jumps{};
 };
 
+// Whether an axis turns while all stand. Where two blocks meet, positions differ by rounding.
+bool jumps(const kinematics::AxisState& from, const kinematics::AxisState& to) {
+  return !(from.heading == to.heading) &&
+         std::ranges::all_of(kinematics::kAxisLetters, [&](kinematics::AxisLetter axis) {
+           return std::abs(to.q[axis] - from.q[axis]) <= kinematics::least_motion(axis);
+         });
+}
+
 std::vector<ActualBlock> actual_blocks(const ToolPath& path) {
   std::vector<ActualBlock> blocks(path.blocks.size());
   for (const kinematics::PathSegment& segment : path.segments) {
     ActualBlock& block = blocks[segment.block];
     if (block.poses.empty()) block.poses.push_back(path.from(segment));
-    const bool stands = path.axes[segment.first_pose].q == path.axes[segment.first_pose + 1].q;
-    if (stands) block.jumps.push_back(block.poses.size() - 1);
+    if (jumps(path.axes[segment.first_pose], path.axes[segment.first_pose + 1])) {
+      block.jumps.push_back(block.poses.size() - 1);
+    }
     block.poses.push_back(path.to(segment));
   }
   return blocks;
@@ -183,12 +193,17 @@ Result<CompensationProof> prove(const kinematics::Machine& machine,
     if (sources[k].turn) continue;
     for (const ToolPose& pose : wanted[k]) {
       ToolPose passing = nearest(pose, actual[k].poses);
-      // Where an axis turns, it may be a block beside that passes.
-      const std::size_t beside = distance(passing, pose) > options.bound ? kBlocksBeside : 0;
-      for (std::size_t i = k - std::min(k, beside); i <= k + beside && i < actual.size(); ++i) {
-        if (actual[i].poses.empty()) continue;
+      const auto try_block = [&](std::size_t i) {
+        if (distance(nearest(pose, wanted[i]), pose) > kTurnZone) return false;
+        if (actual[i].poses.empty()) return true;
         const ToolPose other = nearest(pose, actual[i].poses);
         if (distance(other, pose) < distance(passing, pose)) passing = other;
+        return true;
+      };
+      // Where an axis turns, it may be a block beside that passes.
+      if (distance(passing, pose) > options.bound) {
+        for (std::size_t i = k; i > 0 && try_block(i - 1);) --i;
+        for (std::size_t i = k + 1; i < actual.size() && try_block(i);) ++i;
       }
       include(proof.beside, passing, pose);
     }

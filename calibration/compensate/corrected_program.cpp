@@ -173,7 +173,7 @@ class Compensator {
     }
     const double way = distance(wanted.pose(stroke.from), wanted.pose(stroke.to));
     write(stroke.end, feed, wanted.way() > 0.0 ? way / wanted.way() : stroke.to - stroke.from,
-          {next_block_, stroke.from, stroke.to, stroke.turns && way <= kShortest});
+          {next_block_, stroke.from, stroke.to});
     at_.corrected_for = stroke.corrected_for;
   }
 

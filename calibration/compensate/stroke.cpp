@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibration/compensate/pose_distance.hpp"
+#include "kinematics/controller/block_motion.hpp"
 #include "kinematics/model/actual_inverse.hpp"
 #include "kinematics/model/chain.hpp"
 
@@ -29,16 +30,9 @@ constexpr double kSameHeading = 1e-4;
 constexpr double kOtherSide = 1e-3;
 constexpr double kOtherSideRotary = 1e-5;
 // From this round on an axis that either direction of approach would move the other way is held: it
-// creeps on in the direction it has, mm or rad, instead of going back by no more than that much.
+// stays where it is, mm or rad, instead of going back by no more than that much.
 constexpr int kHoldingRound = 6;
-constexpr double kCreep = 3e-6, kCreepRotary = 1e-8;
 constexpr double kHeldBack = 2e-5, kHeldBackRotary = 2e-7;
-// Of words between which an axis turns on a curve of the tip.
-constexpr int kTipParts = 16;
-
-// Below this an axis stands, mm or rad (kinematics/path/approach_direction.cpp).
-double still(AxisLetter axis) { return kinematics::is_rotary(axis) ? 1e-11 : 1e-9; }
-
 }  // namespace
 
 double StrokeSolver::Bracket::next(double assumed, double found) {
@@ -63,7 +57,7 @@ ApproachProfile StrokeSolver::follow(ApproachTracker& tracker, const Words& from
   if (!tracker.follows_any()) return tracker.follow({}, 1);
   return tracker.follow(
       [frame = frame_, from, to](double t) { return frame.axes_of(between(from, to, t)); },
-      frame_.axis_words() ? 1 : kTipParts);
+      kinematics::least_parts(frame_.axes_of(from), frame_.axes_of(to)));
 }
 
 ToolPose StrokeSolver::actual(const AxisState& at) const {
@@ -91,7 +85,7 @@ Stroke StrokeSolver::solve(const CorrectedPlace& at, double from, double to, boo
   AxisPositions leaving = at.tracker.heading(), arriving = leaving;
   std::array<Bracket, kAxisLetters.size()> at_start{}, at_end{};
   AxisPositions other_side;  // of axes that come back over it: their direction
-  AxisPositions creeping;    // of axes that are held: their direction
+  AxisPositions held_to;     // of axes that are held: their direction
   for (int round = 0; round < kRounds && !stroke.settled; ++round) {
     ApproachTracker tracker = at.tracker;
     stroke.turn.clear();
@@ -114,7 +108,7 @@ Stroke StrokeSolver::solve(const CorrectedPlace& at, double from, double to, boo
     }
     const Words end = corrected(to, arriving);
     stroke.end = tracker.follows_any() ? held(stroke.start, end) : end;
-    if (!(creeping == AxisPositions{})) creep(stroke, creeping);
+    if (!(held_to == AxisPositions{})) hold(stroke, tracker, held_to);
     stroke.approach = follow(tracker, stroke.start, stroke.end);
     stroke.corrected_for = arriving;
     const AxisPositions left = stroke.approach.after(0.0), arrived = tracker.heading();
@@ -124,20 +118,20 @@ Stroke StrokeSolver::solve(const CorrectedPlace& at, double from, double to, boo
     const AxisPositions start_q = frame_.axes_of(stroke.start), end_q = frame_.axes_of(stroke.end);
     bool turned = false;
     for (const AxisLetter axis : kAxisLetters) {
-      const bool moves = std::abs(end_q[axis] - start_q[axis]) > still(axis);
+      const bool moves = std::abs(end_q[axis] - start_q[axis]) > kinematics::least_motion(axis);
       if (jumps(axis) && left[axis] != leaving[axis] && !moves && !stroke.turn.empty()) {
         other_side[axis] = leaving[axis];
         continue;
       }
       const auto i = static_cast<std::size_t>(axis);
       if (jumps(axis) && (left[axis] != leaving[axis] || arrived[axis] != arriving[axis]) &&
-          round >= kHoldingRound && creeping[axis] == 0.0) {
-        creeping[axis] = at.corrected_for[axis] != 0.0 ? at.corrected_for[axis] : left[axis];
-        leaving[axis] = arriving[axis] = creeping[axis];
+          round >= kHoldingRound && held_to[axis] == 0.0) {
+        held_to[axis] = at.corrected_for[axis] != 0.0 ? at.corrected_for[axis] : left[axis];
+        leaving[axis] = arriving[axis] = held_to[axis];
         turned = true;
         continue;
       }
-      if (creeping[axis] != 0.0) continue;
+      if (held_to[axis] != 0.0) continue;
       if (jumps(axis)) {
         turned = turned || leaving[axis] != left[axis] || arriving[axis] != arrived[axis];
         leaving[axis] = left[axis];
@@ -157,16 +151,15 @@ Stroke StrokeSolver::solve(const CorrectedPlace& at, double from, double to, boo
   return stroke;
 }
 
-void StrokeSolver::creep(Stroke& stroke, const AxisPositions& direction) const {
-  const AxisPositions start = frame_.axes_of(stroke.start);
+void StrokeSolver::hold(Stroke& stroke, const ApproachTracker& tracker,
+                        const AxisPositions& direction) const {
   AxisPositions end = frame_.axes_of(stroke.end);
   for (const AxisLetter axis : kAxisLetters) {
+    const auto furthest = tracker.furthest(axis);
+    if (direction[axis] == 0.0 || !furthest) continue;
+    const double back = direction[axis] * (*furthest - end[axis]);
     const bool rotary = kinematics::is_rotary(axis);
-    const double least = rotary ? kCreepRotary : kCreep;
-    const double on = direction[axis] * (end[axis] - start[axis]);
-    if (direction[axis] == 0.0 || on >= least) continue;
-    if (on < -(rotary ? kHeldBackRotary : kHeldBack)) continue;
-    end[axis] = start[axis] + direction[axis] * least;
+    if (back > 0.0 && back < (rotary ? kHeldBackRotary : kHeldBack)) end[axis] = *furthest;
   }
   stroke.end = as_written(frame_.words_of(end));
 }

@@ -9,7 +9,7 @@
 //            correction than that in which they came, the axes turn: short moves at the place of
 //            its beginning. An axis that such a move leaves in the wrong direction, and that the
 //            stroke does not move, comes back to its position from the other side. An axis that
-//            would go against either direction that it is corrected for creeps on as it came
+//            would go against either direction that it is corrected for stays where it is
 // Units    : mm, rad; places are u of the block
 // Errors   : none; directions that do not agree are reported in the stroke
 #pragma once
@@ -75,8 +75,9 @@ class StrokeSolver {
   // Whether an error that jumps is another one as the axes leave.
   [[nodiscard]] bool asks_for_turn(const kinematics::AxisPositions& leaving,
                                    const kinematics::AxisPositions& corrected_for) const;
-  // Ends the stroke where axes with a direction have moved on in it, if only a little.
-  void creep(Stroke& stroke, const kinematics::AxisPositions& direction) const;
+  // Ends the stroke where axes with a direction have not moved back from it.
+  void hold(Stroke& stroke, const kinematics::ApproachTracker& tracker,
+            const kinematics::AxisPositions& direction) const;
   void find_turns(Stroke& stroke) const;
 
   const kinematics::Machine& machine_;
