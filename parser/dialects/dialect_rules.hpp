@@ -156,6 +156,8 @@ struct DialectRules {
   // An arc with neither centre nor radius is a straight move; beside a radius the centre words do
   // not count.
   bool arcs_may_lack_centre = false;
+  // F of an arc is the speed in its plane, and in G93 that over the radius (arc_feed.hpp).
+  bool arc_feed_is_in_plane = false;
   // Whether I J K are steps or the centre itself, the first arc shows.
   bool first_arc_shows_centre = false;
   // A cutting move before the first F goes on, with a feed that is not known (0).

@@ -76,7 +76,9 @@ constexpr auto kFanucOperators = joined(
     kRs274Arithmetic);
 constexpr auto kFanucFunctions = joined(
     std::array{
-        ExpressionFunction{"ATAN", Operation::arc_tangent, Arguments::one_or_divided},
+        ExpressionFunction{"ATAN", Operation::arc_tangent_from_zero, Arguments::one_or_divided},
+        ExpressionFunction{"ATAN", Operation::arc_tangent, Arguments::beside_one},
+        ExpressionFunction{"ASIN", Operation::arc_sine_from_zero},
         ExpressionFunction{"ROUND", Operation::round},
         ExpressionFunction{"FIX", Operation::truncate},
         ExpressionFunction{"FUP", Operation::round_away},

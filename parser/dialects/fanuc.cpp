@@ -119,8 +119,7 @@ constexpr std::string_view kFanucNeedsMotion =
     "axis words need a motion word (G0, G1, G2, G3) or G28";
 constexpr std::string_view kNeedsVectors =
     "I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), "
-    "and "
-    "the tool vector of G0 and G1 after G43.4 or G43.5";
+    "and the tool vector of G0 and G1 after G43.5";
 
 constexpr std::array kFanucLetters{
     LetterUse{'A', kFanucNeedsMotion},
@@ -155,7 +154,7 @@ constexpr DialectRules kFanucRules{
     .refused_codes = kFanucRefusedCodes,
     .vector_letters = "IJK",
     .vector_spelling = "I J K",
-    .vector_hint = "switch it on with G43.4 or G43.5",
+    .vector_hint = "switch it on with G43.5",
     .dwell = kFanucDwell,
     .dwell_hint = "give P in milliseconds, or X in seconds",
     .first_tool_may_be_prepared = true,
@@ -171,6 +170,7 @@ constexpr DialectRules kFanucRules{
     .length_adds_to_moves = true,
     .local_shift_is_apart = true,
     .arcs_may_lack_centre = true,
+    .arc_feed_is_in_plane = true,
     .first_arc_shows_centre = true,
     .feed_may_be_missing = true,
     .letters = kFanucLetters,

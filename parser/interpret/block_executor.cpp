@@ -34,6 +34,7 @@
 #include "parser/interpret/state/block_words.hpp"
 #include "parser/interpret/state/decimal_points.hpp"
 #include "parser/interpret/state/interpreter_state.hpp"
+#include "parser/interpret/state/least_increment.hpp"
 #include "parser/interpret/state/movement.hpp"
 #include "parser/interpret/state/word_values.hpp"
 
@@ -123,7 +124,8 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWor
     if (auto done = report_comments(state, block); !done) return std::move(done).error();
     return call_macro(state, block, *macro);
   }
-  if (auto failure = words.read(block, state.parameters, state.rules, state.control)) {
+  if (auto failure =
+          words.read(block, state.parameters, state.rules, state.control, state.modes.unit)) {
     return *std::move(failure);
   }
   const LengthUnit unit = words.value_or(CodeGroup::unit, state.modes.unit);
@@ -131,11 +133,13 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWor
   if (!words.without_point().empty()) count_without_points(state, words, unit);
   const auto movement = movement_of(state, words);
   if (!movement) return movement.error();
+  if (!words.computed().empty()) round_computed(state, words, movement->motion, unit);
   const auto after_move = words_after_move(state, words, *movement);
   if (!after_move) return after_move.error();
   const auto idle = check_claims(state, words, *movement);
   if (!idle) return idle.error();
 
+  if (auto done = check_frame_words(state, words); !done) return std::move(done).error();
   if (words.has('C')) look_for_chamfer(state, words, *movement);
 
   if (auto done = check_radius_compensation(state, filters, words, *movement); !done) {
@@ -191,6 +195,7 @@ Result<Flow> carry_out(InterpreterState& state, MotionFilters& filters, BlockWor
   if (*after_move) {
     if (auto done = set_after_move(state, **after_move); !done) return std::move(done).error();
   }
+  tell_contour_settings(state, filters, words);
   watch_rigid_mode(state, words);
   return finish(state, filters, words);
 }

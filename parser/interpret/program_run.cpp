@@ -141,8 +141,15 @@ ProgramRun::Failure ProgramRun::run_next() {
 void ProgramRun::tell_assumed_values(const Block& block) {
   InterpreterState& state = executor_.state();
   const auto stored = state.parameters.take_stored_read();
-  if (state.system.assumed.empty() && !stored) return;
+  const auto angle = state.parameters.take_angle_from_zero();
+  if (state.system.assumed.empty() && !stored && !angle) return;
   state.at_work.block = &block;
+  if (angle) {
+    assume(state, 1, "angle from zero",
+           fmt::format("ATAN and ASIN give {:.6g} degrees, not {:.6g}: angles from 0 to 360, as "
+                       "parameter 6004#0 (NAT) = 0 has it",
+                       *angle, *angle - 360.0));
+  }
   for (const AssumedValue* value : state.system.assumed) {
     const bool of_unit = value == &kStartUnit;
     state.modes.unit_is_known = state.modes.unit_is_known || of_unit;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kMostBits = 2147483648.0;  // 32 of them, one the sign
 constexpr double kMostDigits = 99'999'999.0;
+constexpr double kDegreesOfTurn = 360.0;
 bool has_bits(double value) {
   return value == std::floor(value) && value >= -kMostBits && value < kMostBits;
 }
@@ -69,6 +70,7 @@ std::optional<Domain> domain_of(Operation operation, double a, double b) {
                     "function-domain"_id, "{0} ** {1} has no real value",
                     "a negative base needs a whole exponent, zero one that is not negative"};
     case Operation::arc_sine:
+    case Operation::arc_sine_from_zero:
       return Domain{std::abs(a) <= 1.0, "function-domain"_id, "ASIN of {0}",
                     "its argument is between -1 and 1"};
     case Operation::arc_cosine:
@@ -109,6 +111,8 @@ double modulo(double a, double b) {
 // RS-274 compares within this.
 constexpr double kSame = 1e-4;
 bool same(double a, double b) { return std::abs(a - b) < kSame; }
+
+double from_zero(double degrees) { return degrees < 0.0 ? degrees + kDegreesOfTurn : degrees; }
 
 double apply(Operation operation, double a, double b) {
   switch (operation) {
@@ -158,6 +162,10 @@ double apply(Operation operation, double a, double b) {
       return std::acos(a) * kDegPerRad;
     case Operation::arc_tangent:
       return std::atan2(a, b) * kDegPerRad;
+    case Operation::arc_sine_from_zero:
+      return from_zero(std::asin(a) * kDegPerRad);
+    case Operation::arc_tangent_from_zero:
+      return from_zero(std::atan2(a, b) * kDegPerRad);
     case Operation::square_root:
       return std::sqrt(a);
     case Operation::absolute:
@@ -216,8 +224,14 @@ double apply(Operation operation, double a, double b) {
 
 constexpr bool takes_two(Operation operation) {
   return (operation >= Operation::add && operation <= Operation::remainder) ||
-         operation == Operation::arc_tangent || operation == Operation::least ||
-         operation == Operation::greatest || operation == Operation::join;
+         operation == Operation::arc_tangent || operation == Operation::arc_tangent_from_zero ||
+         operation == Operation::least || operation == Operation::greatest ||
+         operation == Operation::join;
+}
+
+constexpr bool is_from_zero(Operation operation) {
+  return operation == Operation::arc_sine_from_zero ||
+         operation == Operation::arc_tangent_from_zero;
 }
 
 Diagnostic at_column(Diagnostic diagnostic, std::uint32_t column) {
@@ -323,7 +337,11 @@ Result<double> evaluate(const ExpressionContext& context, ExpressionRange range)
                              domain->hint),
                        step.column);
     }
-    stack[top - 1] = apply(step.operation, a, b);
+    const double steps = step.operation == Operation::round ? context.steps_of_unit : 1.0;
+    stack[top - 1] = apply(step.operation, a * steps, b) / steps;
+    if (is_from_zero(step.operation) && stack[top - 1] > kDegreesOfTurn / 2.0) {
+      context.parameters.note_angle_from_zero(stack[top - 1]);
+    }
     if (!std::isfinite(stack[top - 1])) {
       return at_column(error("number-too-large"_id, "the result is too large for a number",
                              "check the operands"),

@@ -4,7 +4,8 @@
 // part of it. Angles of the functions are degrees. FIX and FUP round down and up, MOD is never
 // negative, and operators of one level bind to the left, `**` too: RS-274's rules. Custom Macro has
 // operations of its own under some of these names: AND, OR and XOR combine bits, FIX and FUP round
-// towards zero and away from it, MOD has the sign of what is divided.
+// towards zero and away from it, MOD has the sign of what is divided; in a word of an address ROUND
+// goes to the least increment of the address.
 // A vacant parameter (parameters.hpp) by itself is the result; in a computation it is 0. Texts are
 // values too, which can be compared and joined; what is computed from an unknown value is unknown.
 // Errors: division_by_zero, a function outside its domain, a parameter that was never set, a result
@@ -54,7 +55,9 @@ enum class Operation : std::uint8_t {
   tangent,
   arc_sine,
   arc_cosine,
-  arc_tangent,  // of two: ATAN[y]/[x]
+  arc_tangent,            // of two: ATAN[y]/[x], from -180 to 180
+  arc_sine_from_zero,     // below 360, where the other one is below zero
+  arc_tangent_from_zero,  // from 0 to 360
   square_root,
   absolute,
   round,
@@ -116,6 +119,7 @@ struct ExpressionContext {
   std::span<const ExpressionStep> steps;
   std::span<const std::string> names;
   const Parameters& parameters;
+  double steps_of_unit = 1.0;  // what ROUND rounds to, steps in a unit
 };
 
 // The diagnostic has a column but neither file nor line.

@@ -35,7 +35,8 @@ enum class Arguments : std::uint8_t {
   one,
   two,             // f(y,x)
   divided,         // ATAN[y]/[x], which may be written with a comma, too
-  one_or_divided,  // ATAN[y] is that of y and 1
+  one_or_divided,  // ATAN[y] is the arc tangent of y and 1, from -90 to 90
+  beside_one,      // the same where it has another operation than ATAN[y]/[x]
 };
 
 struct ExpressionFunction {

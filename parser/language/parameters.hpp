@@ -96,6 +96,11 @@ class Parameters {
   [[nodiscard]] std::optional<int> take_stored_read() const {
     return std::exchange(stored_read_, std::nullopt);
   }
+  // An angle, in degrees, that another setting of the control gives a full turn less.
+  void note_angle_from_zero(double angle) const { angle_from_zero_ = angle; }
+  [[nodiscard]] std::optional<double> take_angle_from_zero() const {
+    return std::exchange(angle_from_zero_, std::nullopt);
+  }
   [[nodiscard]] bool has(std::string_view name) const;
   // Whether there is a parameter of that number; where numbers are vacant until set, a set one.
   [[nodiscard]] bool has(double number) const;
@@ -180,6 +185,7 @@ class Parameters {
   mutable std::map<std::string, std::size_t, std::less<>> symbol_numbers_{};
   mutable std::vector<const std::string*> symbols_{};
   mutable std::optional<int> stored_read_{};
+  mutable std::optional<double> angle_from_zero_{};
   Numbered numbered_{};
   Named named_{};
   std::vector<Locals> locals_{

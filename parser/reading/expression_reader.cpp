@@ -160,16 +160,16 @@ bool ExpressionReader::append_function(const std::string& name, std::uint32_t co
     return spelling_.words_run_together ? in_.take_bytes(known.name) : known.name == name;
   });
   if (function == spelling_.functions.end()) return false;
-  append_arguments(*function);
-  push(function->operation, column);
+  const bool of_one = append_arguments(*function);
+  push(of_one ? Operation::arc_tangent : function->operation, column);
   return true;
 }
 
-void ExpressionReader::append_arguments(const ExpressionFunction& function) {
+bool ExpressionReader::append_arguments(const ExpressionFunction& function) {
   if (spelling_.call_open.empty()) {
     append(spelling_.argument);
     if (function.arguments != Arguments::one) push_number(1.0, in_.column());
-    return;
+    return function.arguments != Arguments::one;
   }
   const std::uint32_t opening = open_bracket(function.name);
   append(spelling_.argument, opening);
@@ -184,16 +184,22 @@ void ExpressionReader::append_arguments(const ExpressionFunction& function) {
     }
   }
   close_bracket(opening, function.name);
+  return false;
 }
 
 // Of ATAN[y]/[x].
-void ExpressionReader::append_divisor(const ExpressionFunction& function) {
+bool ExpressionReader::append_divisor(const ExpressionFunction& function) {
   const std::uint32_t column = in_.column();
   if (in_.peek() != '/' && function.arguments == Arguments::one_or_divided) {
-    return push_number(1.0, column);
+    push_number(1.0, column);
+    return true;
   }
-  if (!in_.take('/')) return report(in_, rules_.no_divisor, column, function.name);
-  append_bracketed(function.name);
+  if (in_.take('/')) {
+    append_bracketed(function.name);
+  } else {
+    report(in_, rules_.no_divisor, column, function.name);
+  }
+  return false;
 }
 
 void ExpressionReader::append_element(const std::string& array, std::uint32_t column) {

@@ -81,8 +81,9 @@ class ExpressionReader {
   void append_unsigned();
   [[nodiscard]] double power_of_ten();  // of a number that is read
   bool append_function(const std::string& name, std::uint32_t column);
-  void append_arguments(const ExpressionFunction& function);
-  void append_divisor(const ExpressionFunction& function);
+  // Both: whether they are one and a 1 beside it, of the arc tangent.
+  bool append_arguments(const ExpressionFunction& function);
+  bool append_divisor(const ExpressionFunction& function);
   // One whose level is within these, both included.
   [[nodiscard]] const BinaryOperator* take_operator(ExpressionLevel least, ExpressionLevel most);
   bool take(const BinaryOperator& known);

@@ -75,7 +75,8 @@ class ExpressionWriter {
     const auto argument = [this] { return at(pop(), static_cast<int>(spelling_.argument)); };
     std::string arguments = argument();
     // Of one, where functions have no brackets: the other is 1.
-    const bool of_one = function.arguments != Arguments::one && spelling_.call_open.empty();
+    const bool of_one = function.arguments == Arguments::beside_one ||
+                        (function.arguments != Arguments::one && spelling_.call_open.empty());
     if (of_one) arguments = argument();
     if (function.arguments != Arguments::one && !of_one) {
       const bool divided = function.arguments != Arguments::two;
@@ -85,7 +86,10 @@ class ExpressionWriter {
                           : fmt::format("{},{}", first, arguments);
     }
     const std::string_view open = spelling_.call_open.empty() ? " " : spelling_.call_open;
-    push(fmt::format("{}{}{}{}", function.name, open, arguments, spelling_.call_close), kPrimary);
+    // A / behind ATAN[y] would begin its divisor.
+    const bool may_be_divided = function.arguments == Arguments::beside_one;
+    push(fmt::format("{}{}{}{}", function.name, open, arguments, spelling_.call_close),
+         may_be_divided ? static_cast<int>(ExpressionLevel::sum) : kPrimary);
   }
 
   [[nodiscard]] std::string at(const Piece& piece, int level) const {

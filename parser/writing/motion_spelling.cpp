@@ -44,6 +44,7 @@ constexpr NcSpelling kFanucWords{
     .feed_modes = {"G94", "G93", "G95"},
     .feed_words = {"F", "F", "F"},
     .feed_mode_blocks = false,
+    .arc_feed_is_in_plane = true,
     .no_compensation = "G49",
     .length = "G43 H#",
     .tool_centre_point = "G43.4 H#",
@@ -68,6 +69,7 @@ constexpr NcSpelling kFanucWords{
 constexpr NcSpelling linuxcnc_words() {
   NcSpelling s = kFanucWords;
   s.title = "LinuxCNC";
+  s.arc_feed_is_in_plane = false;
   s.zero_is_spindle = true;
   s.extension = ".ngc";
   s.header = "%\n($)";
@@ -93,6 +95,7 @@ constexpr NcSpelling linuxcnc_words() {
 constexpr NcSpelling sinumerik_words() {
   NcSpelling s = kFanucWords;
   s.title = "Sinumerik";
+  s.arc_feed_is_in_plane = false;
   s.extension = ".mpf";
   s.header = "; $";
   s.modes = "G710 G90 G17 G40 G94\nTRAFOOF";
@@ -173,6 +176,7 @@ constexpr NcSpelling kHeidenhainWords{
     .feed_words = {"F", "FT", "F"},
     // M137 counts when the move of its block is done, F before.
     .feed_mode_blocks = true,
+    .arc_feed_is_in_plane = false,
     .no_compensation = "",
     .length = "",
     .tool_centre_point = "",  // the orientation path says it

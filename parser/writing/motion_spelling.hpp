@@ -72,6 +72,7 @@ struct NcSpelling {
   std::array<std::string_view, 3> feed_modes;  // per minute, inverse time, per revolution
   std::array<std::string_view, 3> feed_words;  // `FT`: seconds
   bool feed_mode_blocks;                       // the mode is a block of its own
+  bool arc_feed_is_in_plane;                   // arc_feed.hpp
 
   // States.
   std::string_view no_compensation, length, tool_centre_point, tool_vectors;

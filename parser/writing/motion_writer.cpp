@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "parser/arc.hpp"
+#include "parser/arc_feed.hpp"
 #include "parser/writing/arc_turns.hpp"
 #include "parser/writing/block_parts.hpp"
 #include "parser/writing/motion_spelling.hpp"
@@ -214,7 +215,9 @@ class MotionWriter {
       }
       plane_ = arc.plane;
     }
-    out_.lines(words_.feed_mode_block(arc.feed));
+    Feed feed = arc.feed;
+    if (spelling_.arc_feed_is_in_plane) feed.value /= canonical_of_fanuc_feed(arc, words_.at());
+    out_.lines(words_.feed_mode_block(feed));
     motion_word_ = arc.turns > 0 ? spelling_.counterclockwise : spelling_.clockwise;
     SpacedText block(motion_word_);
     const std::string centre = words_.centre(arc, axes);
@@ -237,7 +240,7 @@ class MotionWriter {
           filled(spelling_.full_turns, '#', fmt::format("{}", turns - spelling_.turns_beyond)));
     }
     if (spelling_.circle_centre_block) block.add(arc.turns > 0 ? "DR+" : "DR-");
-    block.add(words_.feed(arc.feed));
+    block.add(words_.feed(feed));
     out_.line(block.take());
   }
 

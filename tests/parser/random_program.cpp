@@ -36,12 +36,14 @@ Operation any(Dice& dice, const std::array<Operation, N>& common,
   return choice < N ? common.at(choice) : own.at(choice - N);
 }
 Operation one_operand(Dice& dice, Dialect dialect) {
-  return dialect == Dialect::fanuc ? any(dice, kOneOperand, kMacroOneOperand)
-                                   : any(dice, kOneOperand, kRs274OneOperand);
+  if (dialect != Dialect::fanuc) return any(dice, kOneOperand, kRs274OneOperand);
+  const Operation operation = any(dice, kOneOperand, kMacroOneOperand);
+  return operation == Operation::arc_sine ? Operation::arc_sine_from_zero : operation;
 }
 Operation two_operands(Dice& dice, Dialect dialect) {
-  return dialect == Dialect::fanuc ? any(dice, kTwoOperands, kMacroTwoOperands)
-                                   : any(dice, kTwoOperands, kRs274TwoOperands);
+  if (dialect != Dialect::fanuc) return any(dice, kTwoOperands, kRs274TwoOperands);
+  const Operation operation = any(dice, kTwoOperands, kMacroTwoOperands);
+  return operation == Operation::arc_tangent ? Operation::arc_tangent_from_zero : operation;
 }
 
 void push_expression(Dice& dice, Block& block, Dialect dialect, int depth) {

@@ -63,7 +63,8 @@ Outcome renew_cycle(InterpreterState& state) {
   if (!next) return Done{};
   const bool at_moves = cycle.at_moves;
   BlockWords words;
-  if (auto failure = words.read(*next, state.parameters, state.rules, state.control)) {
+  if (auto failure =
+          words.read(*next, state.parameters, state.rules, state.control, state.modes.unit)) {
     return in_this_block(state, *std::move(failure));
   }
   assume(

@@ -28,7 +28,9 @@ struct MotionFilters {
   CornerInsertion corners{};
   bool passes_corners = false;
   RadiusCompensation radius{};
-  SourcePlace radius_since{};  // where it was switched on
+  SourcePlace radius_since{};        // where it was switched on
+  std::uint64_t contour_moves = 0;   // of the radius compensation, up to the last block
+  std::uint32_t blocks_at_rest = 0;  // since the last one of them
   RadiusCompensation::Sink to_sink;
   CornerInsertion::Sink to_radius;
   ContourApproach::Sink to_corners;

@@ -101,6 +101,7 @@ RadiusCompensation::Failure RadiusCompensation::take(Motion&& motion, const Sink
   const bool moves = end && (!programmed_ || (*end - *programmed_).norm() > kNoMove ||
                              std::holds_alternative<ArcFeed>(motion.command));
   if (moves) {
+    ++doubts_.moves;
     PathPiece piece{programmed_.value_or(*end), *end};
     if (const auto* arc = std::get_if<ArcFeed>(&motion.command)) {
       const PlaneAxes axes = axes_of(setting_->plane);
@@ -214,15 +215,16 @@ RadiusCompensation::Failure RadiusCompensation::follow(Motion&& motion, const Pa
   if (auto failure = check_arc(piece, motion)) return failure;
   LastMove next{piece, parallel(piece, left()), {}, 0.0, false};
   next.start = next.beside.start;
-  if (last_->entry && setting_->rules.entry == EntryRule::beside_contour) {
-    release(next.start, sink);
-    wait(std::move(motion), std::move(next));
-    return std::nullopt;
-  }
   const double side = left() > 0.0 ? 1.0 : -1.0;
   const double angle =
       side * signed_angle(direction_at_end(last_->programmed), direction_at_start(piece));
   const double limit = setting_->rules.straight_below;
+  if (last_->entry && setting_->rules.entry == EntryRule::beside_contour) {
+    doubts_.outside_entry |= length_of(last_->programmed) > kNoMove && angle < -limit;
+    release(next.start, sink);
+    wait(std::move(motion), std::move(next));
+    return std::nullopt;
+  }
   // Straight back, the room between the two is the tool's when they bend apart on its side.
   const bool concave =
       std::numbers::pi - std::abs(angle) < limit
@@ -237,6 +239,7 @@ RadiusCompensation::Failure RadiusCompensation::follow(Motion&& motion, const Pa
     if (auto failure = cut_corner(next, motion)) return failure;
     release(next.start, sink);
   } else {
+    doubts_.outside_corner = true;
     const Vec2 from = last_->beside.end;
     release(from, sink);
     const PathPiece corner{from, next.start, piece.start, left() > 0.0 ? -1 : 1};

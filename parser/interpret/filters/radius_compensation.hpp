@@ -19,6 +19,7 @@
 //            LinuxCNC, User manual, Cutter Compensation
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -40,6 +41,13 @@ struct RadiusSetting {
   Vec2 control = Vec2::Zero();
 };
 
+// What a control decides by its settings on the way beside the contour.
+struct ContourDoubts {
+  std::uint64_t moves = 0;      // in the plane so far
+  bool outside_corner = false;  // one was gone round
+  bool outside_entry = false;   // the contour began behind one
+};
+
 class RadiusCompensation {
  public:
   using Sink = std::function<void(Motion&&)>;
@@ -47,6 +55,9 @@ class RadiusCompensation {
 
   [[nodiscard]] bool is_on() const { return setting_.has_value(); }
   [[nodiscard]] const RadiusSetting& setting() const { return *setting_; }
+  // A move in the plane waits for the next one.
+  [[nodiscard]] bool waits() const { return last_.has_value(); }
+  [[nodiscard]] const ContourDoubts& doubts() const { return doubts_; }
 
   // `position`: where the tool is, as far as it is known; with `beside_contour` where the contour
   // begins, whose first move needs no entry: the tool is abeam of it already.
@@ -93,6 +104,7 @@ class RadiusCompensation {
   AxisTarget reached_{};              // the last target, as programmed
   std::optional<LastMove> last_{};
   std::deque<Motion> waiting_{};
+  ContourDoubts doubts_{};
 };
 
 }  // namespace frustum::parser

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "parser/arc.hpp"
 #include "parser/interpret/cycles/canned_cycle.hpp"
@@ -320,6 +321,36 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
   filters.radius.start({side, in_words, state.modes.plane, state.rules.radius, in_words * control},
                        from);
   return Done{};
+}
+
+void tell_contour_settings(InterpreterState& state, MotionFilters& filters,
+                           const BlockWords& words) {
+  // Blocks at rest that each control reads over to find the corner after them.
+  constexpr std::uint32_t kReadOver = 1;
+  if (state.rules.dialect != Dialect::fanuc) return;
+  const ContourDoubts& doubts = filters.radius.doubts();
+  const bool moved = std::exchange(filters.contour_moves, doubts.moves) != doubts.moves;
+  const bool says = !words.given().empty() || words.groups() != 0 || !words.events().empty();
+  if (!moved && filters.radius.waits() && says) ++filters.blocks_at_rest;
+  if (!moved && filters.radius.is_on()) return;
+  const std::uint32_t at_rest = std::exchange(filters.blocks_at_rest, 0);
+  if (!moved) return;
+  if (at_rest > kReadOver) {
+    assume(state, 1, "look-ahead",
+           fmt::format("the control has read this move before the {} blocks without one in the "
+                       "plane before it: parameter 6009 (15i) or 19625 (30i) says how many it "
+                       "reads over; 16i one, Mitsubishi three",
+                       at_rest));
+  }
+  if (doubts.outside_corner) {
+    assume(state, 1, "outside corners",
+           "the tool goes round outside corners by arcs, as bit 2 of parameter 5007 has it; else "
+           "by straight lines");
+  }
+  if (doubts.outside_entry) {
+    assume(state, 1, "start-up",
+           "the contour begins abeam of its start: start-up of type A, parameter 5003#0 (SUP) = 0");
+  }
 }
 
 std::optional<Vec2> stop_radius_compensation(InterpreterState& state, MotionFilters& filters,

@@ -18,6 +18,9 @@ namespace frustum::parser {
 [[nodiscard]] Outcome check_radius_compensation(const InterpreterState& state,
                                                 const MotionFilters& filters,
                                                 const BlockWords& words, const Movement& movement);
+// Of Fanuc: what parameters decide of the contour that the block has gone on along.
+void tell_contour_settings(InterpreterState& state, MotionFilters& filters,
+                           const BlockWords& words);
 [[nodiscard]] Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
                                               const BlockWords& words);
 // The contour ends where the program is: the place of the tool's centre, when it was beside it.

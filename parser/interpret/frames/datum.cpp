@@ -106,11 +106,6 @@ Outcome set_work_offset(InterpreterState& state, const BlockWords& words) {
     if (!given) return given.error();
     number = *given + (extended ? kExtendedWorkOffset : 0);
   }
-  if (state.rules.dialect == Dialect::fanuc && number != state.modes.work_offset &&
-      state.modes.programmed_frame.turns()) {
-    assume(state, offset.column, "offset in G68",
-           "the centre of the rotation keeps its words in the new work offset");
-  }
   return select_work_offset(state, number, offset.column);
 }
 

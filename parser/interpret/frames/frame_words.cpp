@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "core/units.hpp"
@@ -65,7 +69,53 @@ void reset_shift_below(InterpreterState& state, const BlockWords& words) {
          "plane stays where it is until it ends");
 }
 
+// What changes the words of Fanuc, and the word that ends it.
+struct FrameInForce {
+  bool (*on)(const ProgrammedFrame& frame);
+  CodeGroup group;
+  std::uint8_t off;
+  std::string_view name;
+  std::string_view end;
+};
+constexpr std::array kFramesInForce{
+    FrameInForce{[](const ProgrammedFrame& frame) { return frame.turns(); },
+                 CodeGroup::tilted_plane, static_cast<std::uint8_t>(TiltWord::off),
+                 "a rotation by G68", "G69"},
+    FrameInForce{[](const ProgrammedFrame& frame) { return frame.scale != 1.0; },
+                 CodeGroup::scaling, static_cast<std::uint8_t>(ScalingWord::off),
+                 "a scaling by G51", "G50"},
+    FrameInForce{[](const ProgrammedFrame& frame) { return frame.is_mirrored(); },
+                 CodeGroup::mirror, static_cast<std::uint8_t>(MirrorWord::off),
+                 "a mirror image by G51.1", "G50.1"},
+};
+// G27 to G30, G52, G53, G92, which have no place in it; beside G54 to G59, and G17 to G19 in a
+// rotation.
+constexpr std::array kNotInFrames{
+    NonModal::home,  NonModal::second_home,         NonModal::check_home,    NonModal::from_home,
+    NonModal::shift, NonModal::machine_coordinates, NonModal::shift_to_place};
+
 }  // namespace
+
+Outcome check_frame_words(const InterpreterState& state, const BlockWords& words) {
+  const ProgrammedFrame& frame = state.modes.programmed_frame;
+  if (state.rules.dialect != Dialect::fanuc || frame.is_identity()) return Done{};
+  const auto non_modal = words.value_or(CodeGroup::non_modal, NonModal::none);
+  const bool misplaced = std::ranges::find(kNotInFrames, non_modal) != kNotInFrames.end();
+  for (const FrameInForce& in_force : kFramesInForce) {
+    const Code* own = words[in_force.group].code;
+    if (!in_force.on(frame) || (own != nullptr && own->value == in_force.off)) continue;
+    const bool turned = in_force.group == CodeGroup::tilted_plane;
+    const GivenCode& code = misplaced                               ? words[CodeGroup::non_modal]
+                            : words.has(CodeGroup::work_offset)     ? words[CodeGroup::work_offset]
+                            : turned && words.has(CodeGroup::plane) ? words[CodeGroup::plane]
+                                                                    : GivenCode{};
+    if (code.code == nullptr) continue;
+    return fail(state, code.column, "frame-nested"_id,
+                fmt::format("{} within {}", code.code->name(), in_force.name),
+                fmt::format("end it before by {}, and begin it again afterwards", in_force.end));
+  }
+  return Done{};
+}
 
 void change_programmed_frame(InterpreterState& state, const ProgrammedFrame& next) {
   const AxisTarget words =
@@ -110,11 +160,6 @@ Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal h
       state.data.shift_counts = true;
       break;
     default:
-      if (state.rules.dialect == Dialect::fanuc && next.turns()) {
-        return fail(state, code.column, "frame-nested"_id,
-                    fmt::format("{} within a rotation by G68", code.code->name()),
-                    "end the rotation by G69, shift, and begin it again");
-      }
       if (state.rules.dialect == Dialect::heidenhain &&
           (next.turns() || next.is_mirrored() || next.scale != 1.0)) {
         return fail(state, code.column, "frame-nested"_id,
@@ -198,8 +243,14 @@ Outcome turn_words(InterpreterState& state, const BlockWords& words) {
     }
   }
   Mat3 rotation = rotation_about(Vec3::Unit(axes.w), words['R'].value * kRadPerDeg);
-  if (state.modes.distance == DistanceMode::incremental ||
-      words['R'].measure == Measure::incremental) {
+  const bool of_fanuc = state.rules.dialect == Dialect::fanuc;
+  if (of_fanuc && state.modes.distance == DistanceMode::incremental && next.turns()) {
+    assume(state, words['R'].column, "angle of G68",
+           fmt::format("{} in G91 replaces the angle before, as parameter 5400#0 (RIN) = 0 has it",
+                       words.text_of('R')));
+  }
+  const bool adds = !of_fanuc && state.modes.distance == DistanceMode::incremental;
+  if (adds || words['R'].measure == Measure::incremental) {
     if (!next.keeps(state.modes.plane)) {
       return fail(state, words['R'].column, "frame-nested"_id,
                   fmt::format("{} in G91 goes on from a turn in another plane", words.text_of('R')),

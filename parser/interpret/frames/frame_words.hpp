@@ -14,6 +14,8 @@ namespace frustum::parser {
 // The tool stays where it is; its coordinates change.
 void change_programmed_frame(InterpreterState& state, const ProgrammedFrame& next);
 [[nodiscard]] Outcome shift_words(InterpreterState& state, const BlockWords& words, NonModal how);
+// What Fanuc has no place for within G68, G51 and G51.1: reference points, other frames, planes.
+[[nodiscard]] Outcome check_frame_words(const InterpreterState& state, const BlockWords& words);
 // G68: about the centre X Y (of the plane's axes) by R degrees.
 [[nodiscard]] Outcome turn_words(InterpreterState& state, const BlockWords& words);
 // G51 X Y Z P: lengths times P about a centre.

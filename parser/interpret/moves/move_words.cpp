@@ -176,6 +176,12 @@ Outcome set_tool_axis(InterpreterState& state, const BlockWords& words) {
                 fmt::format("give the direction by {} or by rotary words, not both",
                             state.rules.vector_spelling));
   }
+  if (state.rules.vector_letters == "IJK" && !state.modes.compensation.tool_vectors) {
+    if (vector_of(words, state.rules.vector_letters).isZero(0.0)) return Done{};
+    return fail(state, words[first].column, "word-unused"_id,
+                fmt::format("{} in G43.4, where rotary words turn the tool", words.text_of(first)),
+                "give the direction by rotary words, or switch tool vectors on with G43.5");
+  }
   state.modes.tool_axis = UnitVec3::of(vector_of(words, state.rules.vector_letters));
   if (!state.modes.tool_axis) {
     return fail(state, words[first].column, "vector-zero"_id, "the tool vector has no direction",

@@ -9,6 +9,7 @@
 
 #include "core/constants.hpp"
 #include "parser/arc.hpp"
+#include "parser/arc_feed.hpp"
 #include "parser/interpret/frames/frame_words.hpp"
 #include "parser/interpret/moves/angle_words.hpp"
 #include "parser/interpret/moves/arc_chords.hpp"
@@ -181,6 +182,25 @@ Plane plane_of_line(const InterpreterState& state, const BlockWords& words) {
   return polar && state.modes.pole ? state.modes.pole->plane : state.modes.plane;
 }
 
+// F of an arc as Fanuc has it.
+void count_feed_in_plane(InterpreterState& state, const Movement& movement,
+                         const AxisTarget& before, ArcFeed& arc) {
+  constexpr double kSameFeed = 1e-9;  // of the feed
+  const double factor = canonical_of_fanuc_feed(arc, before);
+  if (arc.feed.value == 0.0 || std::abs(factor - 1.0) <= kSameFeed) return;
+  arc.feed.value *= factor;
+  if (arc.feed.mode == FeedMode::inverse_time) {
+    assume(state, movement.column, "arc in G93",
+           "F of an arc is its speed over its radius, as Fanuc and Mitsubishi have it; on Haas it "
+           "is the inverse of its minutes");
+  } else {
+    assume(
+        state, movement.column, "helix feed",
+        "F of a helix is the speed along its arc in the plane, as parameter 1401#2 (HTG) = 0 has "
+        "it");
+  }
+}
+
 // The plane of one block.
 class PlaneOfBlock {
  public:
@@ -340,9 +360,10 @@ Outcome move_along_arc(InterpreterState& state, const BlockWords& words, const M
   if (auto done = check_pitch(state, words, arc_words, arc->centre, turns); !done) return done;
   const auto feed = feed_for(state, words, movement, true);
   if (!feed) return feed.error();
-  const ArcFeed move{end_of(state, words),  arc->centre,
-                     state.modes.plane,     arc_words.clockwise ? -turns : turns,
-                     state.modes.tool_axis, *feed};
+  ArcFeed move{end_of(state, words),  arc->centre,
+               state.modes.plane,     arc_words.clockwise ? -turns : turns,
+               state.modes.tool_axis, *feed};
+  if (state.rules.arc_feed_is_in_plane) count_feed_in_plane(state, movement, before, move);
   if (!state.modes.programmed_frame.keeps(state.modes.plane) ||
       !state.modes.offset_frame.keeps(state.modes.plane)) {
     return cut_arc_into_chords(state, movement, before, move);

@@ -1,5 +1,6 @@
 #include "parser/interpret/state/block_words.hpp"
 #include "core/decimal.hpp"
+#include "parser/interpret/state/least_increment.hpp"
 
 #include <fmt/format.h>
 
@@ -128,6 +129,11 @@ std::optional<BlockWords> BlockWords::set_aside(std::span<const int> tenths) {
   return aside;
 }
 
+void BlockWords::round(char letter, double steps_of_unit) {
+  double& value = values_[slot(letter)].value;
+  value = std::round(value * steps_of_unit) / steps_of_unit;
+}
+
 void BlockWords::rescale(LetterSet letters, double factor) {
   for (LetterSet left = letters & given_; !left.empty(); left = left.without_first()) {
     values_[slot(left.first())].value *= factor;
@@ -163,6 +169,7 @@ bool mist_and_flood(const Code& one, const Code& other) {
 void BlockWords::clear() {
   given_ = {};
   without_point_ = {};
+  computed_ = {};
   groups_ = 0;
   events_.clear();
   vacant_.clear();
@@ -171,13 +178,15 @@ void BlockWords::clear() {
 
 std::optional<Diagnostic> BlockWords::read(const Block& block, const Parameters& parameters,
                                            const DialectRules& rules,
-                                           const ControlSettings& control) {
+                                           const ControlSettings& control, LengthUnit unit) {
   clear();
   block_ = &block;
   for (const Word& word : block.words) {
     double number = word.number;
     if (!word.expression.empty()) {
-      auto computed = evaluate({block.steps, block.names, parameters}, word.expression);
+      auto computed = evaluate(
+          {block.steps, block.names, parameters, steps_of_unit(rules.dialect, word.letter, unit)},
+          word.expression);
       if (!computed) {
         const Diagnostic& failure = computed.error().front();
         return at(block, static_cast<std::uint32_t>(failure.column), failure.id, failure.message,
@@ -223,6 +232,7 @@ std::optional<Diagnostic> BlockWords::add_value(const Word& word, double number,
   given_.add(word.letter);
   const bool plain = !word.decimal_point && number != 0.0 && word.expression.empty();
   if (plain) without_point_.add(word.letter);
+  if (!word.expression.empty()) computed_.add(word.letter);
   values_[slot(word.letter)] = {number, word.column, word.decimal_point, word.measure, word.source};
   return std::nullopt;
 }

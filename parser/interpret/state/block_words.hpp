@@ -46,7 +46,7 @@ class BlockWords {
   // need not be cleared.
   [[nodiscard]] std::optional<Diagnostic> read(const Block& block, const Parameters& parameters,
                                                const DialectRules& rules,
-                                               const ControlSettings& control);
+                                               const ControlSettings& control, LengthUnit unit);
   [[nodiscard]] LetterSet given() const { return given_; }
   [[nodiscard]] bool has(char letter) const { return given_.has(letter); }
   // The word of that letter; zero when not given.
@@ -77,6 +77,9 @@ class BlockWords {
   [[nodiscard]] const std::vector<BuilderWord>& builder() const { return builder_; }
   // Letters whose values are numbers without a decimal point, and not zero.
   [[nodiscard]] LetterSet without_point() const { return without_point_; }
+  // Letters whose values an expression gives.
+  [[nodiscard]] LetterSet computed() const { return computed_; }
+  void round(char letter, double steps_of_unit);
   // Those of the letters count in another unit.
   void rescale(LetterSet letters, double factor);
   // The first word of the block among `letters`, by column.
@@ -111,6 +114,7 @@ class BlockWords {
   std::vector<GivenCode> vacant_{};
   std::vector<BuilderWord> builder_{};
   LetterSet without_point_{};
+  LetterSet computed_{};
 };
 
 }  // namespace frustum::parser

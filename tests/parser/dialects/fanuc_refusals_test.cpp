@@ -34,7 +34,7 @@ constexpr FanucMistake kFrames[] = {
     {"G68 X0 Y0 I1 R9\n",
      "1:1: error: the centre of G68 is not known: Z has not been programmed yet"},
     {"G0 X0 Y0 Z0\nG68 X0 Y0 R9\nG18 G91 G68 X0 Z0 R5\n",
-     "3:19: error: R5 in G91 goes on from a turn in another plane"},
+     "3:1: error: G18 within a rotation by G68"},
     {"G68 X0 Y0 R90\nG52 X0\n", "2:1: error: G52 within a rotation by G68"},
     {"G0 X0 Y0\nG68 X0 Y0 R90\nG92 X5\n", "3:1: error: G92 within a rotation by G68"},
     {"G51.1 X0\nG68.2 X0 I5\n", "2:1: error: G68.2 while the words are mirrored or scaled"},

@@ -304,12 +304,12 @@ TEST(KlartextFrames, TransformationsHaveWordsOfTheirOwn) {
   EXPECT_EQ(last_of<WorkOffsetChange>(run_klartext_words("PRESET SELECT #3\n")).number, 3);
 }
 
-const std::string kTool = "TOOL CALL 1 Z S1000\nM3\n";
+const std::string kSpindleOn = "TOOL CALL 1 Z S1000\nM3\n";
 
 // M89 drills where each move ends, up to the move with M99.
 TEST(KlartextWords, M89CallsACycleAfterEachMove) {
   const auto all =
-      run_klartext_words(kTool +
+      run_klartext_words(kSpindleOn +
                          "CYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 Q204=+10\n"
                          "L X+0 Y+0 Z+10 FMAX M89\nL X+20 FMAX\nL X+40 FMAX M99\nL X+60 FMAX\n");
   std::vector<double> holes;
@@ -322,7 +322,7 @@ TEST(KlartextWords, M89CallsACycleAfterEachMove) {
 // Cycle 1: from where the tool is, SET UP above the surface; it stops 0.6 mm above the last depth.
 TEST(KlartextWords, TheOldPeckingCycleCountsFromTheTool) {
   expect_klartext_ends(
-      kTool +
+      kSpindleOn +
           "CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP -2\nCYCL DEF 1.2 DEPTH -5\nCYCL DEF "
           "1.3 PECKG -3\nCYCL DEF 1.4 DWELL 0\nCYCL DEF 1.5 F80\nL X+1 Y+2 Z+12 FMAX M99\n",
       {{1, 2, 12}, {1, 2, 7}, {1, 2, 12}, {1, 2, 7.6}, {1, 2, 5}, {1, 2, 12}});
@@ -330,7 +330,7 @@ TEST(KlartextWords, TheOldPeckingCycleCountsFromTheTool) {
 
 TEST(KlartextWords, BoringLeavesTheWallBeforeItGoesBack) {
   expect_klartext_ends(
-      kTool +
+      kSpindleOn +
           "L X+1 Y+2 Z+50 FMAX\nCYCL DEF 202 BORING Q200=+2 Q201=-5 Q206=+100 Q211=+0 "
           "Q208=+250 Q203=+0 Q204=+20 Q214=1 Q336=+0\nCYCL CALL\n",
       {{1, 2, 50}, {1, 2, 2}, {1, 2, -5}, {0.8, 2, -5}, {0.8, 2, 2}, {0.8, 2, 20}, {1, 2, 20}});
@@ -339,7 +339,7 @@ TEST(KlartextWords, BoringLeavesTheWallBeforeItGoesBack) {
 // CYCL CALL POS names the place; its Z is a shift of the surface.
 TEST(KlartextWords, ACycleIsCalledAtAPlace) {
   expect_klartext_ends(
-      kTool +
+      kSpindleOn +
           "L X+1 Y+2 Z+50 FMAX\nCYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 "
           "Q204=+20\nCYCL CALL POS X+10 Y+20 Z-3\n",
       {{1, 2, 50}, {10, 20, 50}, {10, 20, -1}, {10, 20, -8}, {10, 20, 17}});
@@ -347,7 +347,7 @@ TEST(KlartextWords, ACycleIsCalledAtAPlace) {
 
 TEST(KlartextWords, PatternsCallTheCycleBefore) {
   const std::string drill =
-      kTool +
+      kSpindleOn +
       "L X+0 Y+0 Z+50 FMAX\nCYCL DEF 200 DRILLING Q200=+2 Q201=-5 Q206=+100 Q203=+0 "
       "Q204=+20\n";
   const auto holes = [](const std::string& text) {
@@ -387,7 +387,7 @@ TEST(KlartextWords, TheOversizeOfACallCountsBesideAContour) {
 
 // Parameters in lines of their own, with or without marks; feeds by word.
 TEST(KlartextWords, ParametersOfACycleMayFollowWithoutMarks) {
-  const std::string go = kTool + "L X+1 Y+2 Z+50 FMAX\n";
+  const std::string go = kSpindleOn + "L X+1 Y+2 Z+50 FMAX\n";
   const std::vector<Vec3> expected{{1, 2, 50}, {1, 2, 2}, {1, 2, -5}, {1, 2, 20}};
   expect_klartext_ends(
       go + "CYCL DEF 200 DRILLING\nQ200=2\n Q201 = -5 ;DEPTH\nQ206=+100 ~\nQ203=+0\n"

@@ -103,8 +103,9 @@ TEST(Rotation, TurnsInEachPlane) {
   expect_places("G0 X0 Y0 Z0\nG19 G68 Y0 Z0 R90\nG0 X1 Y10 Z0\n", {{0, 0, 0}, {1, 0, 10}});
 }
 
-TEST(Rotation, GoesOnInG91) {
-  expect_places("G0 X0 Y0 Z0\nG68 X0 Y0 R30\nG91 G68 X0 Y0 R60\nG90 G0 X10 Y0\n",
+// Parameter 5400#0 (RIN) = 0.
+TEST(Rotation, BeginsAnewInG91Too) {
+  expect_places("G0 X0 Y0 Z0\nG68 X0 Y0 R30\nG91 G68 X0 Y0 R90\nG90 G0 X10 Y0\n",
                 {{0, 0, 0}, {0, 10, 0}});
   // In G90 it begins anew.
   expect_places("G0 X0 Y0 Z0\nG68 X0 Y0 R30\nG68 X0 Y0 R90\nG0 X10 Y0\n", {{0, 0, 0}, {0, 10, 0}});

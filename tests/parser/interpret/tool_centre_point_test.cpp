@@ -50,9 +50,10 @@ TEST(ToolCentrePoint, KeepsTheToolVectorUntilAnother) {
   EXPECT_FALSE(moves[3].tool_axis.has_value());
 }
 
-TEST(ToolCentrePoint, TakesVectorWordsAfterG43Point4Too) {
+TEST(ToolCentrePoint, TakesVectorsAndRotaryWordsByTurns) {
   const auto moves =
-      all_of<Traverse>(motions("G43.4 H1\nG0 X0 Y0 Z0 A10 C20\nI1 J0 K1\nX1\nA5 C6\nX2\n"));
+      all_of<Traverse>(motions("G43.4 H1\nG0 X0 Y0 Z0 A10 C20\nG43.5 H1 I1 J0 K1\nX1\n"
+                               "G43.4 H1 A5 C6\nX2\n"));
   ASSERT_EQ(moves.size(), 5U);
   EXPECT_FALSE(moves[0].tool_axis.has_value());
   EXPECT_EQ(moves[0].end[A], 10 * kRadPerDeg);

@@ -45,8 +45,8 @@ TEST(WordFrame, TurnsTheCentresOfArcs) {
 }
 
 TEST(WordFrame, CutsArcsInAPlaneThatItTurnsIntoChords) {
-  const auto lines =
-      all_of<LinearFeed>(motions("G0 X0 Y0 Z0\nG68 X0 Y0 R30\nG18 G2 X10 Z0 I5 F100\n"));
+  const auto lines = all_of<LinearFeed>(
+      motions("G0 X0 Y0 Z0\nROT Z30\nG18 G2 X10 Z0 I5 K0 F100\nM30\n", {}, Dialect::sinumerik));
   ASSERT_GT(lines.size(), 100U);
   const double angle = 30.0 * std::numbers::pi / 180.0;
   for (const LinearFeed& line : lines) {

@@ -22,9 +22,10 @@ std::vector<std::string> json_of(std::string_view text) {
 // The contract of `frustum parse --canon`: other people's scripts read these very keys.
 TEST(CanonicalJson, SpellsEveryCommandAsPublished) {
   EXPECT_THAT(
-      json_of("(hi \"there\")\nT3 M6\nS100 M3\nM8\nG55\nG43.4 H1\nG0 X1 Y2 Z3 A-30 C90\n"
-              "G1 X1.5 F200\nG2 X3.5 I1 P2\nG4 P500\nG1 X0 Y0 I0 J0 K2\nG93 G1 X1 F5\nG94\n"
-              "G61\nG49\nG53 G0 Z0\nG91 G28 Z0 X0\nM5\nM9\nM1\nM0\nM30\n"),
+      json_of(
+          "(hi \"there\")\nT3 M6\nS100 M3\nM8\nG55\nG43.4 H1\nG0 X1 Y2 Z3 A-30 C90\n"
+          "G1 X1.5 F200\nG2 X3.5 I1 P2\nG4 P500\nG43.5 H1 G1 X0 Y0 I0 J0 K2\nG93 G1 X1 F5\nG94\n"
+          "G61\nG49\nG53 G0 Z0\nG91 G28 Z0 X0\nM5\nM9\nM1\nM0\nM30\n"),
       testing::ElementsAre(
           R"({"line":1,"type":"event","name":"comment","text":"hi \"there\""})",
           R"({"line":2,"type":"tool_change","tool":3})",
@@ -37,6 +38,7 @@ TEST(CanonicalJson, SpellsEveryCommandAsPublished) {
           R"({"line":9,"type":"arc","end":{"X":3.5,"Y":2.0,"Z":3.0,"A":-30.0,"C":90.0},)"
           R"("center":[2.5,2.0,3.0],"plane":"XY","turns":-2,"feed":200.0})",
           R"({"line":10,"type":"dwell","seconds":0.5})",
+          R"({"line":11,"type":"compensation","mode":"tool_centre_point","tool_vectors":true,"offset":1})",
           R"({"line":11,"type":"feed","end":{"X":0.0,"Y":0.0,"Z":3.0},"tool_axis":[0.0,0.0,1.0],"feed":200.0})",
           R"({"line":12,"type":"feed","end":{"X":1.0,"Y":0.0,"Z":3.0},"tool_axis":[0.0,0.0,1.0],)"
           R"("feed":5.0,"feed_mode":"inverse_time"})",

@@ -1,3 +1,3 @@
-; [word-unused] 3:11: error: K1 has no meaning in this block (hint: I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), and the tool vector of G0 and G1 after G43.4 or G43.5)
+; [word-unused] 3:11: error: K1 has no meaning in this block (hint: I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), and the tool vector of G0 and G1 after G43.5)
 G0 X0 Y0
 G2 X10 I5 K1 F100

@@ -1,2 +1,2 @@
-; [word-unused] 2:7: error: I1 has no meaning in this block (hint: I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), and the tool vector of G0 and G1 after G43.4 or G43.5)
+; [word-unused] 2:7: error: I1 has no meaning in this block (hint: I J K give the centre of G2 and G3 along the axes of the plane (G17 I J, G18 I K, G19 J K), and the tool vector of G0 and G1 after G43.5)
 G1 X5 I1 F100
