@@ -1,6 +1,6 @@
 // What F says of an arc on Fanuc, where it is another feed than that along the path of the tool.
 //
-// Model : a canonical feed is that along the path, a helix too, or the inverse of the minutes of the
+// Model : a canonical feed is that along the path, a helix too, or the inverse of the time of its
 //         move. Fanuc's F is the speed along the arc in the plane (parameter HTG = 0), so that the
 //         path goes by F * path / arc; in G93 it is speed over radius, so that the move takes
 //         angle / F minutes

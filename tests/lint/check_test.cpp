@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
              whole("G2 X1 Y0 I0.5 J0 F200\n")},
         Case{"arc-huge", whole("G2 X1 Y0 R20000 F200\n"), 5, "20 m", whole("G2 X1 Y0 R200 F200\n")},
         Case{"radius-gouge", whole(kSide + "G3 X42 Y0 I1\nG1 X60\nG40 X80\n"), 9, "of radius 5",
-             whole(kSide + "G3 X60 Y0 I10\nG1 X70\nG40 X80\n")},
+             whole(kSide + "G3 X40 Y20 J10\nG1 X20\nG40 X0\n")},
         Case{"radius-compensation", whole("(D 10)\nG41 D7\nG1 X20 F100\nG40 X30\n"), 6,
              "diameter of tool 7", whole(kSide + "G40 X60\n")},
         Case{"short-segments", whole(kCut + "X0.001\nX0.002\nX1\n"), 6,

@@ -201,7 +201,7 @@ class CldataReader {
       if (record_.word == handler.word) return (this->*handler.read)();
     }
     if (keeps_tilt()) {
-      block_.comments.push_back({record_.column, false, "", "MULTAX/OFF"});
+      block_.comments.push_back({record_.column, false, "OFF", "MULTAX"});
       return;
     }
     const bool inches = pending_.modes.inches;
