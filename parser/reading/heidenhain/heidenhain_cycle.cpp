@@ -38,7 +38,8 @@ class CycleReader {
     const double cycle = std::floor(number->value + 1e-6);
     int part = static_cast<int>(std::lround((number->value - cycle) * 10.0));
     if (!number->decimal_point && in_.take('.')) {  // CYCL DEF 9 .1
-      part = static_cast<int>(in_.whole_number().value_or(0.0));
+      constexpr double kNoPart = 100.0;             // no cycle has so many
+      part = static_cast<int>(std::min(in_.whole_number().value_or(0.0), kNoPart));
     }
     if (cycle == 9.0) return read_dwell_cycle(part, column);
     if (is_old_cycle(cycle)) return read_old_cycle(cycle, part, column);

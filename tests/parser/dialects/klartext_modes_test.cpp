@@ -244,5 +244,9 @@ TEST(KlartextModes, ACycleThatIsRefusedIsNotCalled) {
       << lines.front();
 }
 
+TEST(KlartextModes, ThePartOfACycleIsOneThatThereIs) {
+  EXPECT_FALSE(mode_complaint("CYCL DEF 9 .8660254037844387\n").empty());
+}
+
 }  // namespace
 }  // namespace frustum::parser
