@@ -1,6 +1,6 @@
 // Tells whoever waits how far a long piece of work is.
 //
-// On a terminal: a bar redrawn on one line, or the seconds gone by while nobody tells a share, once
+// On a terminal: a bar redrawn on one line, or the seconds gone by while none reports a share, once
 // the work has taken longer than a second. In a log: a plain line at each quarter, and one at the
 // end. Silent: nothing. Short work stays silent
 // everywhere. Several threads may report at once; the share shown never runs backwards.
@@ -32,7 +32,7 @@ class Progress {
   using Clock = std::function<double()>;
 
   // Writes to `out`, which must outlive the progress. Without a clock of its own the bar is redrawn
-  // whether work tells its share or not.
+  // whether work reports its share or not.
   Progress(std::ostream& out, ProgressStyle style);
   Progress(std::ostream& out, ProgressStyle style, Clock clock);
   Progress(const Progress&) = delete;

@@ -73,7 +73,7 @@ void add_setup_options(Command& command, SetupWords& words);
 // And those by which it takes the control's start and habits: --start, --builder-word,
 // --decimal-point.
 void add_control_options(Command& command, SetupWords& words);
-// The options by which a command is told how to answer: --json, --quiet.
+// The options that say how a command answers: --json, --quiet.
 void add_answer_options(Command& command, AnswerOptions& options);
 // Of a command that prints nothing but its result.
 void add_json_option(Command& command, AnswerOptions& options);

@@ -286,7 +286,7 @@ struct PlannedCharacteristic {
   std::optional<ProfileFilter> filter{};     // roundness, straightness, circular run-out
   int harmonics = 0;      // highest that is reported of a roundness or circular run-out
   bool floating = false;  // profiles: the planned geometry is laid into the points first
-  // Roundness, equivalent_cone_form: the value without this stretch is reported beside the whole.
+  // Roundness, equivalent_cone_form: the value without this sector is reported beside the whole.
   std::optional<Seam> seam{};
 
   bool operator==(const PlannedCharacteristic&) const = default;

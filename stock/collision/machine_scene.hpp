@@ -52,7 +52,7 @@ struct MachineScene {
                                             const Blank& blank);
 
 // Whether two bodies are looked at: not on one part of the machine, not both of the tool, not a
-// tool and the blank, which it cuts (stock/collision/collision.hpp), and not told to be ignored.
+// tool and the blank, which it cuts (stock/collision/collision.hpp), and not named to be ignored.
 [[nodiscard]] bool may_meet(const SceneBody& a, const SceneBody& b);
 
 }  // namespace frustum::stock

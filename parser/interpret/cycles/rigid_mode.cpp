@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -44,19 +45,23 @@ void end_mode(InterpreterState& state, const GivenCode& by) {
 Outcome check_way_to_hole(const InterpreterState& state, const Movement& movement) {
   const RigidMode& mode = state.modes.rigid_mode;
   if (!mode.on || mode.has_tapped) return Done{};
-  if (mode.axes_moved != 0) {
+  struct Interruption {
+    std::uint32_t line;  // 0: there was none
+    const char* what;
+    const char* alarm;
+    const char* hint;
+  };
+  const std::array interruptions{Interruption{mode.axes_moved, "the axes move", "PS0204",
+                                              "write M29 behind the last move before the tap"},
+                                 Interruption{mode.speed_given, "the speed changes", "PS0203",
+                                              "write S beside M29, or before it"}};
+  for (const Interruption& by : interruptions) {
+    if (by.line == 0) continue;
     return fail(state, movement.column, "rigid-tap-interrupted"_id,
-                fmt::format("the axes move on line {}, between M29 and its tap: the control stops "
-                            "there (alarm PS0204)",
-                            mode.axes_moved),
-                "write M29 behind the last move before the tap");
-  }
-  if (mode.speed_given != 0) {
-    return fail(state, movement.column, "rigid-tap-interrupted"_id,
-                fmt::format("the speed changes on line {}, between M29 and its tap: the control "
-                            "stops there (alarm PS0203)",
-                            mode.speed_given),
-                "write S beside M29, or before it");
+                fmt::format("{} on line {}, between M29 and its tap: the control stops there "
+                            "(alarm {})",
+                            by.what, by.line, by.alarm),
+                by.hint);
   }
   return Done{};
 }

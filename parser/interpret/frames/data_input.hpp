@@ -26,7 +26,7 @@ void assume_length_waits(InterpreterState& state, std::uint32_t column,
 
 // Offsets of radii that the program writes, by G10 or parameters.
 void assume_radius(InterpreterState& state, std::uint32_t column);
-// mm, of a tool's own data; that it differs from what the setup has is told by the word's name.
+// mm, of a tool's own data; that it differs from what the setup has is reported by the word's name.
 void set_tool_radius(InterpreterState& state, std::uint32_t column, std::string_view word,
                      int number, double radius);
 [[nodiscard]] Outcome set_data(InterpreterState& state, const BlockWords& words);

@@ -62,7 +62,7 @@ struct FeedWord {
 struct CannedCycle {
   MotionMode last = MotionMode::none;
   std::optional<double> initial{};  // depth before the first hole, as far as it is known
-  std::optional<HeightBeforeTool> untold_change{};  // has come since, and no event has told it
+  std::optional<HeightBeforeTool> untold_change{};  // has come since, and no event has reported it
   std::optional<double> level{};
   std::optional<double> bottom{};
   bool level_is_step = false;

@@ -31,6 +31,24 @@ inline std::vector<FittedFeature> fitted(const InspectionPlan& plan, const Measu
   return features;
 }
 
+// The part with the errors of one measurement in its points.
+inline std::vector<FittedFeature> measured_again(const std::vector<FittedFeature>& part,
+                                                 const MeasuringErrors& errors) {
+  std::vector<FittedFeature> seen;
+  for (std::size_t f = 0; f < part.size(); ++f) {
+    std::vector<Vec3> points;
+    std::vector<std::size_t> sections;
+    for (const MeasuredPoint& p : part[f].points) {
+      points.push_back(errors(p.point, p.normal, f, points.size()));
+      sections.push_back(p.section);
+    }
+    auto fitted = fit_feature(*part[f].planned, points, sections, 0.0);
+    EXPECT_TRUE(fitted);
+    if (fitted) seen.push_back(*std::move(fitted));
+  }
+  return seen;
+}
+
 inline Eigen::VectorXd parts_of(const CharacteristicResult& c) {
   return Eigen::Map<const Eigen::VectorXd>(c.measurand.parts.data(),
                                            static_cast<Eigen::Index>(c.measurand.parts.size()));

@@ -117,23 +117,6 @@ std::vector<FittedFeature> part_of(const InspectionPlan& plan) {
   return part;
 }
 
-std::vector<FittedFeature> seen_with(const std::vector<FittedFeature>& part,
-                                     const MeasuringErrors& errors) {
-  std::vector<FittedFeature> seen;
-  for (std::size_t f = 0; f < part.size(); ++f) {
-    std::vector<Vec3> points;
-    std::vector<std::size_t> sections;
-    for (const MeasuredPoint& p : part[f].points) {
-      points.push_back(errors(p.point, p.normal, f, points.size()));
-      sections.push_back(p.section);
-    }
-    auto fitted = fit_feature(*part[f].planned, points, sections, 0.0);
-    EXPECT_TRUE(fitted);
-    if (fitted) seen.push_back(*std::move(fitted));
-  }
-  return seen;
-}
-
 // What one measurement states of a characteristic, about its value.
 struct Statement {
   double u = 0.0;
@@ -162,7 +145,7 @@ std::vector<Shares> shares_of(const InspectionPlan& plan, std::uint32_t count,
   std::vector<Shares> shares(plan.characteristics.size());
   std::optional<coverage::Noise> noise;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::vector<FittedFeature> seen = seen_with(part, draws(i));
+    const std::vector<FittedFeature> seen = coverage::measured_again(part, draws(i));
     if (statements.size() < stated) {
       const auto said = evaluated(plan, seen, kMachine);
       EXPECT_TRUE(said) << to_string(said.error().front());

@@ -85,24 +85,6 @@ InspectionPlan plan_of_datums(bool touching) {
   return plan;
 }
 
-// The part with the errors of one measurement in its points.
-std::vector<FittedFeature> measured_again(const std::vector<FittedFeature>& part,
-                                          const MeasuringErrors& errors) {
-  std::vector<FittedFeature> seen;
-  for (std::size_t f = 0; f < part.size(); ++f) {
-    std::vector<Vec3> points;
-    std::vector<std::size_t> sections;
-    for (const MeasuredPoint& p : part[f].points) {
-      points.push_back(errors(p.point, p.normal, f, points.size()));
-      sections.push_back(p.section);
-    }
-    auto fitted = fit_feature(*part[f].planned, points, sections, 0.0);
-    EXPECT_TRUE(fitted);
-    if (fitted) seen.push_back(*std::move(fitted));
-  }
-  return seen;
-}
-
 std::vector<double> held_by(const InspectionPlan& plan, std::uint32_t count) {
   EXPECT_TRUE(check(plan).empty());
   std::vector<FittedFeature> part;
@@ -121,7 +103,7 @@ std::vector<double> held_by(const InspectionPlan& plan, std::uint32_t count) {
   std::vector<double> squares(held);
   std::vector<double> stated(held);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::vector<FittedFeature> seen = measured_again(part, draws(i));
+    const std::vector<FittedFeature> seen = coverage::measured_again(part, draws(i));
     const auto values = evaluated_values(plan, seen);
     const auto u = linear_uncertainty(plan, seen, point_uncertainty(kLinearNoise));
     EXPECT_TRUE(values) << to_string(values.error().front());
