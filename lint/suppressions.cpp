@@ -73,6 +73,11 @@ void read_suppression(std::string_view said, const parser::SourcePlace& place, s
   if (found.size() == before) found.push_back({place, covered, {}, std::nullopt, reason});
 }
 
+// What the control shows to the operator, not what people write for each other.
+bool is_message(const parser::Comment& comment) {
+  return comment.event != nullptr || parser::lower_case(comment.text).starts_with("msg,");
+}
+
 bool only_comments(const Block& block) {
   return !block.tape_mark && !block.program && block.words.empty() && block.assignments.empty() &&
          !block.flow;
@@ -104,6 +109,7 @@ std::vector<Suppression> suppressions_of(const parser::Program& program) {
       read_suppression(said.substr(0, said.find(')')), {line, 1, nullptr}, line, found);
     } else {
       for (const parser::Comment& comment : block->comments) {
+        if (is_message(comment)) continue;
         const auto said = said_in(comment.text);
         if (said) read_suppression(*said, {line, comment.column, nullptr}, line, found);
       }

@@ -36,6 +36,8 @@ struct SourcePlace {
   std::uint32_t column = 0;  // 1-based column of the first word that matters
   // Of a subprogram that has a file of its own; null: the file of the main program.
   std::shared_ptr<const std::string> file{};
+  // Line of the main program that was at work: this one, or the call that led to this one.
+  std::uint32_t main_line = 0;
 };
 
 // A target in program coordinates: mm for X Y Z, rad for A B C; absent where never programmed.

@@ -24,8 +24,8 @@ namespace frustum::programs {
 // about its axis, or anything else, drawn over blocks.
 enum class OperationKind { other, cone };
 
-// A named range of NC lines (both included): what the report plots, and where error shapes find the
-// travelled range of each axis.
+// A named range of lines of the main program (both included), with the subprograms that they call:
+// what the report plots, and where error shapes find the travelled range of each axis.
 struct Operation {
   std::string name{};
   std::uint32_t first_line = 0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "kinematics/controller/source_lines.hpp"
+
 namespace frustum::trials {
 namespace {
 
@@ -12,7 +14,7 @@ struct PointCount {
   std::size_t others = 0;  // cut by another operation
 };
 
-PointCount count_strangers(const programs::Operation& operation,
+PointCount count_strangers(const programs::Operation& operation, const kinematics::ToolPath& path,
                            const metrology::MeasuredFeature& feature) {
   PointCount count;
   for (const metrology::Touch& touch : feature.touches) {
@@ -20,7 +22,8 @@ PointCount count_strangers(const programs::Operation& operation,
     if (!by) continue;
     if (!by->segment) {
       ++count.uncut;
-    } else if (by->source_line < operation.first_line || by->source_line > operation.last_line) {
+    } else if (!kinematics::comes_from(path.blocks[path.segments[*by->segment].block],
+                                       operation.first_line, operation.last_line)) {
       ++count.others;
     }
   }
@@ -69,7 +72,7 @@ std::optional<Diagnostic> away_from_blank(const stock::Workpiece& workpiece,
   return away;
 }
 
-Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
+Diagnostics wrongly_cut_features(const programs::TestPiece& piece, const kinematics::ToolPath& path,
                                  const metrology::Measurement& measurement) {
   Diagnostics findings;
   for (const programs::Operation& operation : piece.operations) {
@@ -78,7 +81,7 @@ Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
           std::find_if(measurement.features.begin(), measurement.features.end(),
                        [&](const metrology::MeasuredFeature& f) { return f.name == name; });
       if (feature == measurement.features.end()) continue;
-      const PointCount count = count_strangers(operation, *feature);
+      const PointCount count = count_strangers(operation, path, *feature);
       if (count.uncut + count.others > 0) {
         findings.push_back(finding(name, operation.name, feature->points.size(), count));
       }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "core/diagnostic.hpp"
+#include "kinematics/path/tool_path.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
 #include "stock/solid/workpiece.hpp"
@@ -22,6 +23,7 @@ namespace frustum::trials {
 
 // One warning for each feature with points that its operation did not make.
 [[nodiscard]] Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
+                                               const kinematics::ToolPath& path,
                                                const metrology::Measurement& measurement);
 
 }  // namespace frustum::trials

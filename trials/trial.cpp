@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinematics/controller/controller.hpp"
+#include "kinematics/controller/source_lines.hpp"
 #include "kinematics/errors/error_size.hpp"
 #include "kinematics/path/travel.hpp"
 #include "parser/doubts.hpp"
@@ -47,7 +48,7 @@ std::vector<OperationTrace> traces_of(const Machine& machine, const TestPiece& p
   std::vector<OperationTrace> traces;
   for (const programs::Operation& op : piece.operations) {
     const auto inside = [&](const AxisSample& s) {
-      return s.source_line >= op.first_line && s.source_line <= op.last_line;
+      return kinematics::comes_from(s, op.first_line, op.last_line);
     };
     const auto first = std::find_if(axes.begin(), axes.end(), inside);
     if (first == axes.end() || first == axes.begin()) continue;
@@ -206,7 +207,8 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
     auto measurement = metrology::measure(piece.plan, probe, cmm);
     if (!measurement) return measurement.error();
     trial.measurement = *std::move(measurement);
-    for (Diagnostic& d : wrongly_cut_features(piece, trial.measurement)) {
+    for (Diagnostic& d :
+         wrongly_cut_features(piece, trial.workpiece->removed().path(), trial.measurement)) {
       trial.wrong_cuts.push_back(std::move(d));
     }
   }

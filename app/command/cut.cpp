@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -38,7 +39,7 @@ struct CutOptions : AnswerOptions {
   std::string removal{};
   std::string point{};
   double pitch = 0.0;
-  std::uint32_t until_line = 0;  // 0: to the end
+  std::string until_line{};  // empty: to the end
   int snapshots = 0;
   std::string engine = "ray";
   PolyhedralFacets facets{};
@@ -151,21 +152,41 @@ class Cut {
 
   Failure find_state() {
     result_.until = stock::end_of(path());
-    if (options_.until_line == 0) return std::nullopt;
-    const std::string& text = job_.piece.program;
-    const auto ends = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
-    const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
-    if (options_.until_line > lines) {
-      return Diagnostics{error(
-          "out-of-range"_id,
-          fmt::format("--until-line {}: the program has {} lines", options_.until_line, lines),
-          "its lines are counted from 1")};
+    if (options_.until_line.empty()) return std::nullopt;
+    const auto program_state = state_after(options_.until_line);
+    if (!program_state) {
+      Diagnostics problems = program_state.error();
+      for (Diagnostic& d : problems) {
+        d.message = fmt::format("--until-line {}: {}", options_.until_line, d.message);
+      }
+      return problems;
     }
-    const auto program_state = stock::after_line(path(), options_.until_line);
-    if (!program_state) return program_state.error();
     result_.finished = program_state->segments == result_.until.segments;
     result_.until = *program_state;
     return std::nullopt;
+  }
+
+  // `words`: a line of the program, or FILE:LINE of a subprogram.
+  [[nodiscard]] Result<stock::ProgramState> state_after(std::string_view words) const {
+    const std::size_t colon = words.rfind(':');
+    const std::string_view digits = words.substr(colon == words.npos ? 0 : colon + 1);
+    std::uint32_t line = 0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), line);
+    if (fault != std::errc() || end != digits.data() + digits.size()) {
+      return error("bad-number"_id, "no line of a program",
+                   "N counts the lines of the program from 1; FILE:N those of a subprogram's file");
+    }
+    if (colon != words.npos) {
+      return stock::after_line(path(), std::string(words.substr(0, colon)), line);
+    }
+    const std::string& text = job_.piece.program;
+    const auto ends = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
+    const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
+    if (line > lines) {
+      return error("out-of-range"_id, fmt::format("the program has {} lines", lines),
+                   "its lines are counted from 1");
+    }
+    return stock::after_line(path(), line);
   }
 
   Failure find_originating_block() {
@@ -341,8 +362,8 @@ void add_options(Command& command, CutOptions& o) {
       .holds(positive_number());
   command.option("--decimate", o.decimate, "Take away what is not needed for this tolerance, mm")
       .holds(positive_number());
-  command.option("--until-line", o.until_line, "Stop after the last motion of this NC line")
-      .within(1U, 4'000'000'000U);
+  command.option("--until-line", o.until_line,
+                 "Stop after the last motion of this NC line, or of FILE:LINE of a subprogram");
   command
       .option("--snapshots", o.snapshots,
               "Number of meshes at equal steps of time, named after --mesh, with an index .json")

@@ -31,7 +31,8 @@ struct DiffOptions : AnswerOptions {
   double feed = 2.0;   // percent
 };
 
-constexpr const char* kKinds[] = {"none", "tip", "axis", "feed", "tool", "missing", "extra"};
+constexpr const char* kKinds[] = {"none", "tip",     "axis",  "feed",
+                                  "tool", "missing", "extra", "spindle"};
 
 // Tools and lengths that the programs call and that the set-up does not have.
 std::set<int> unmeasured_tools(const kinematics::Setup& setup,
@@ -52,21 +53,31 @@ std::set<int> unmeasured_tools(const kinematics::Setup& setup,
   return tools;
 }
 
+// Without a line where a program has no block there.
+std::string place_text(const std::string& program, const std::string& file, std::uint32_t line) {
+  const std::string& name = file.empty() ? program : file;
+  return line == 0 ? name : fmt::format("{}:{}", name, line);
+}
+
 std::string in_words(const DiffOptions& options, const post::Difference& at) {
   std::string what;
-  if (at.kind == post::DifferenceKind::feed) {
+  if (at.first_line == 0 || at.second_line == 0 || at.kind == post::DifferenceKind::spindle) {
+    what = at.likely_cause;
+  } else if (at.kind == post::DifferenceKind::feed) {
     what = fmt::format("the time it takes is {:.4g} times that of the first", at.time_ratio);
   } else {
     what =
         fmt::format("tip {:.4f} mm and tool axis {:.5f} deg apart", at.tip, at.axis * kDegPerRad);
   }
-  std::string text = fmt::format("{}:{} and {}:{}: {}\n", options.first, at.first_line,
-                                 options.second, at.second_line, what);
+  const std::string text =
+      fmt::format("{} and {}: {}\n", place_text(options.first, at.first_file, at.first_line),
+                  place_text(options.second, at.second_file, at.second_line), what);
+  if (what == at.likely_cause) return text;
   if (!at.likely_cause.empty()) return text + "likely cause: " + at.likely_cause + '\n';
   return text + "no single known cause explains it\n";
 }
 
-nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
+nlohmann::ordered_json as_json(const DiffOptions& options, const post::ProgramComparison& found) {
   nlohmann::ordered_json doc{{"schema", "frustum/diff/1"},
                              {"same", found.same()},
                              {"largest_tip_um", found.largest_tip * kUmPerMm},
@@ -74,13 +85,16 @@ nlohmann::ordered_json as_json(const post::ProgramComparison& found) {
                              {"largest_time_ratio", found.largest_time_ratio}};
   if (found.same()) return doc;
   const post::Difference& at = found.first;
-  doc["first_difference"] = {{"kind", kKinds[static_cast<std::size_t>(at.kind)]},
-                             {"first_line", at.first_line},
-                             {"second_line", at.second_line},
-                             {"tip_um", at.tip * kUmPerMm},
-                             {"axis_urad", at.axis * kUradPerRad},
-                             {"time_ratio", at.time_ratio},
-                             {"likely_cause", at.likely_cause}};
+  doc["first_difference"] = {
+      {"kind", kKinds[static_cast<std::size_t>(at.kind)]},
+      {"first_line", at.first_line},
+      {"second_line", at.second_line},
+      {"first_file", at.first_file.empty() ? options.first : at.first_file},
+      {"second_file", at.second_file.empty() ? options.second : at.second_file},
+      {"tip_um", at.tip * kUmPerMm},
+      {"axis_urad", at.axis * kUradPerRad},
+      {"time_ratio", at.time_ratio},
+      {"likely_cause", at.likely_cause}};
   return doc;
 }
 
@@ -109,7 +123,7 @@ int diff(const DiffOptions& options) {
   });
   if (!found) return refuse(found.error(), options);
   if (options.json) {
-    std::cout << as_json(*found).dump(2) << '\n';
+    std::cout << as_json(options, *found).dump(2) << '\n';
   } else if (options.quiet) {
     // The exit code says it.
   } else if (found->same()) {

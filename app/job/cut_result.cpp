@@ -16,8 +16,24 @@ using Json = nlohmann::ordered_json;
 
 Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
+// Of a program state, a block or a point; "program_file" only where it is not the main program's.
+template <class Place>
+Json line_json(const Place& place) {
+  Json json{{"line", place.source_line}};
+  if (place.source_file) json["program_file"] = *place.source_file;
+  return json;
+}
+template <class Place>
+std::string line_text(const Place& place) {
+  std::string text = fmt::format("line {}", place.source_line);
+  if (place.source_file) {
+    text += fmt::format(" of {}", std::filesystem::path(*place.source_file).filename().string());
+  }
+  return text;
+}
+
 Json state_json(const stock::ProgramState& program_state) {
-  Json json{{"line", program_state.source_line}};
+  Json json = line_json(program_state);
   json["block"] = program_state.block ? Json(*program_state.block) : Json(nullptr);
   json["time_s"] = program_state.time;
   return json;
@@ -25,9 +41,8 @@ Json state_json(const stock::ProgramState& program_state) {
 
 Json worst_json(const std::optional<stock::WorstPoint>& worst) {
   if (!worst) return nullptr;
-  Json json{{"deviation_um", worst->deviation * kUmPerMm},
-            {"point", point_json(worst->point)},
-            {"line", worst->source_line}};
+  Json json{{"deviation_um", worst->deviation * kUmPerMm}, {"point", point_json(worst->point)}};
+  json.update(line_json(*worst));
   json["block"] = worst->block ? Json(*worst->block) : Json(nullptr);
   return json;
 }
@@ -45,14 +60,14 @@ const char* name_of(stock::CollisionKind kind) {
 
 Json collision_json(const stock::Collision& c) {
   const bool meet = c.kind == stock::CollisionKind::bodies_meet;
-  Json json{{"line", c.source_line},
-            {"text", collision_text(c)},
-            {"kind", name_of(c.kind)},
-            {"body", meet ? c.first : std::string(name_of(c.body))},
-            {"tool", c.tool},
-            {"depth_mm", meet ? Json(nullptr) : Json(c.depth)},
-            {"point", point_json(c.point)},
-            {"last_line", c.last_line}};
+  Json json = line_json(c);
+  json.update({{"text", collision_text(c)},
+               {"kind", name_of(c.kind)},
+               {"body", meet ? c.first : std::string(name_of(c.body))},
+               {"tool", c.tool},
+               {"depth_mm", meet ? Json(nullptr) : Json(c.depth)},
+               {"point", point_json(c.point)},
+               {"last_line", c.last_line}});
   if (meet) json["other_body"] = c.second;
   return json;
 }
@@ -91,7 +106,7 @@ Json originating_block_json(const CutResult& result) {
   Json json{{"point", point_json(*result.asked_point)}};
   json["on_surface"] = result.originating_block.has_value();
   if (!result.originating_block) return json;
-  json["line"] = result.originating_block->source_line;
+  json.update(line_json(*result.originating_block));
   json["block"] =
       result.originating_block->block ? Json(*result.originating_block->block) : Json(nullptr);
   json["normal"] = point_json(result.originating_block->normal);
@@ -108,7 +123,7 @@ std::string worst_text(const char* name, const std::optional<stock::WorstPoint>&
   const Vec3& p = worst->point;
   std::string text = fmt::format("{} {:.3f} um at ({:.3f}, {:.3f}, {:.3f}){}", name,
                                  std::abs(worst->deviation) * kUmPerMm, p.x(), p.y(), p.z(),
-                                 worst->block ? fmt::format(", line {}", worst->source_line) : "");
+                                 worst->block ? ", " + line_text(*worst) : "");
   if (exceeds(worst, limit)) {
     text += fmt::format(": beyond the limit of {:g} um", *limit * kUmPerMm);
   }
@@ -137,8 +152,8 @@ std::string surface_text(const CutResult& result) {
 std::string originating_block_text(const CutResult& result) {
   if (!result.originating_block) return "no surface within 1 um of the point\n";
   if (!result.originating_block->block) return "the point is on the blank's own surface\n";
-  return fmt::format("the point was made by line {}, block {}\n",
-                     result.originating_block->source_line, *result.originating_block->block);
+  return fmt::format("the point was made by {}, block {}\n", line_text(*result.originating_block),
+                     *result.originating_block->block);
 }
 
 }  // namespace
@@ -179,7 +194,7 @@ std::string cut_json(const CutResult& result) {
 std::string cut_text(const CutResult& result) {
   std::string text;
   if (!result.finished) {
-    text += fmt::format("after line {}, {:.3f} s into the program\n", result.until.source_line,
+    text += fmt::format("after {}, {:.3f} s into the program\n", line_text(result.until),
                         result.until.time);
   }
   if (result.surface) text += surface_text(result);

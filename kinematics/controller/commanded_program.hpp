@@ -25,6 +25,7 @@ struct CommandedMove {
   std::uint32_t source_line = 0;
   // Of a subprogram that has a file of its own; null: the file of the main program.
   std::shared_ptr<const std::string> source_file{};
+  std::uint32_t main_line = 0;  // of the main program: this line, or the call that led to it
   PathKind kind = PathKind::feed;
   bool spindle_on = true;
   int tool = 0;       // in the spindle; 0: none, it takes its time but leaves no path
@@ -50,6 +51,8 @@ struct CommandedProgram {
 // Axis positions at the end of a block.
 struct AxisSample {
   std::uint32_t source_line = 0;
+  std::shared_ptr<const std::string> source_file{};  // as of CommandedMove
+  std::uint32_t main_line = 0;
   PathKind kind = PathKind::feed;
   AxisPositions axes{};
 };

@@ -311,6 +311,7 @@ class Controller::State {
     q_ = move.motion.end();
     move.source_line = place_.line;
     move.source_file = place_.file;
+    move.main_line = place_.main_line;
     move.spindle_on = modes().spindle_on();
     move.tool = tool();
     sink_(std::move(move));

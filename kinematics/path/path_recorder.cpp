@@ -177,6 +177,7 @@ void PathRecorder::deliver(Pending& pending) {
   const CommandedMove& move = pending.move;
   PathBlock block{.source_line = move.source_line,
                   .source_file = move.source_file,
+                  .main_line = move.main_line,
                   .kind = move.kind,
                   .spindle_on = move.spindle_on,
                   .tool = move.tool,

@@ -23,6 +23,7 @@ struct PathBlock {
   std::uint32_t source_line = 0;
   // Of a subprogram that has a file of its own; null: the file of the main program.
   std::shared_ptr<const std::string> source_file{};
+  std::uint32_t main_line = 0;  // of the main program: this line, or the call that led to it
   PathKind kind = PathKind::feed;
   bool spindle_on = true;
   int tool = 0;       // tool number in the spindle

@@ -57,8 +57,7 @@ Result<Flow> finish(InterpreterState& state, MotionFilters& filters, const Block
     }
     if (kind == StopKind::program_end) {
       if (auto open = check_approach_at_end(filters); !open) return std::move(open).error();
-      auto done =
-          end_radius_compensation(state, filters, state.at_work.block->place_of(stop.column));
+      auto done = end_radius_compensation(state, filters, state.at_work.place_of(stop.column));
       if (!done) return std::move(done).error();
       if (auto failure = spline_without_end(state)) return *failure;
     }

@@ -107,9 +107,7 @@ ProgramRun::Failure ProgramRun::run_next() {
   if (frame().opened && ends) return run_off(&block);
   if (frame().opened && bare_mark) {
     executor_.settle();
-    SourcePlace place = block.place_of(1);
-    place.file = frame().program->place_file();
-    sink_(Motion{std::move(place),
+    sink_(Motion{executor_.state().at_work.place_of(block, 1),
                  Event{"%", "within a program it is passed over", EventGrade::assumed}});
   }
   if (!frame().opened && does_something(block)) {
@@ -123,7 +121,7 @@ ProgramRun::Failure ProgramRun::run_next() {
     return std::nullopt;
   }
   if (block.deletable && options_.block_delete) {
-    sink_(Motion{{block.line, 1, frame().program->place_file()}, Event{"block_delete", {}}});
+    sink_(Motion{executor_.state().at_work.place_of(block, 1), Event{"block_delete", {}}});
     return std::nullopt;
   }
   statement_ran_ = statement_ran_ || block.flow.has_value();
@@ -260,6 +258,7 @@ void ProgramRun::return_from_call() {
   leave_call(executor_.state());
   frames_.pop_back();
   executor_.state().at_work.file = frame().program->place_file();
+  if (frames_.size() == 1) executor_.state().at_work.call_line = 0;
 }
 
 Result<const Block*> ProgramRun::next_block() {
@@ -283,9 +282,7 @@ Result<const Block*> ProgramRun::next_block() {
 
 ProgramRun::Failure ProgramRun::end_program(const Block& block, std::uint32_t column) {
   if (auto done = executor_.end_of_text(); !done) return in_main(std::move(done).error().front());
-  SourcePlace place = block.place_of(column);
-  place.file = frame().program->place_file();
-  sink_(Motion{std::move(place), Stop{StopKind::program_end}});
+  sink_(Motion{executor_.state().at_work.place_of(block, column), Stop{StopKind::program_end}});
   frames_.clear();
   return std::nullopt;
 }
@@ -355,9 +352,7 @@ ProgramRun::Failure ProgramRun::repeat_main_program(const Block& block,
   // Nothing that has run could make the next time another.
   if (!statement_ran_ && rules_.dialect == Dialect::fanuc) {
     const auto tell = [&](Command command) {
-      SourcePlace place = block.place_of(leave.column);
-      place.file = frame().program->place_file();
-      sink_(Motion{std::move(place), std::move(command)});
+      sink_(Motion{executor_.state().at_work.place_of(block, leave.column), std::move(command)});
     };
     executor_.settle();
     tell(Event{"M99", "the main program would begin again"});
@@ -457,6 +452,7 @@ ProgramRun::Failure ProgramRun::push_call(const Block& block, std::uint32_t colu
   next.modal_macros = frame().modal_macros;
   if (next.is_modal) next.modal_macros.pop_back();
   next.cursor.go_to(next.entry);
+  if (frames_.size() == 1) executor_.state().at_work.call_line = block.place_of(column).line;
   frames_.push_back(std::move(next));
   enter_call(executor_.state());
   executor_.state().at_work.file = frame().program->place_file();

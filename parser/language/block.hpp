@@ -124,7 +124,7 @@ struct Block {
   }
   // Line and column of a byte of the block, counted from 1 over all its lines.
   [[nodiscard]] SourcePlace place_of(std::uint32_t column) const {
-    SourcePlace place{line, column, nullptr};
+    SourcePlace place{.line = line, .column = column};
     for (const std::uint32_t start : line_starts) {
       if (column <= start) break;
       ++place.line;

@@ -156,6 +156,8 @@ std::string likely_cause(const Machine& machine, const ToolPath& first, const To
       return "the second program has no feed moves";
     case DifferenceKind::extra:
       return "the second program has feed moves that the first does not have";
+    case DifferenceKind::spindle:
+      return "the spindle turns in one of the programs only";
     case DifferenceKind::tip:
     case DifferenceKind::axis:
       break;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace frustum::post {
 namespace {
@@ -25,21 +26,32 @@ bool apart(const PathMatch& match, const DifferenceLimits& limits) {
   return match.tip_distance() > limits.tip || match.axis_angle() > limits.axis;
 }
 
+// The first match whose blocks differ in something that does not show in the path. Where a block
+// begins at which another one ended, both are the nearest: two matches must show it, or the last.
+template <class Value>
+std::optional<std::size_t> first_unlike(const ToolPath& reference, const ToolPath& other,
+                                        const std::vector<PathMatch>& matches,
+                                        Value PathBlock::*value) {
+  const auto unlike = [&](const PathMatch& m) {
+    return reference.blocks[m.reference.block].*value != other.blocks[m.other.block].*value;
+  };
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const bool last = i + 1 == matches.size();
+    if (unlike(matches[i]) && (last || unlike(matches[i + 1]))) return i;
+  }
+  return std::nullopt;
+}
+
 // The first match that is apart, or that another tool makes.
 Found first_apart(const ToolPath& reference, const ToolPath& other,
                   const std::vector<PathMatch>& matches, const DifferenceLimits& limits) {
-  const auto another_tool = [&](const PathMatch& m) {
-    return reference.blocks[m.reference.block].tool != other.blocks[m.other.block].tool;
-  };
+  const std::size_t another_tool =
+      first_unlike(reference, other, matches, &PathBlock::tool).value_or(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const PathMatch& m = matches[i];
     if (m.tip_distance() > limits.tip) return {DifferenceKind::tip, i};
     if (m.axis_angle() > limits.axis) return {DifferenceKind::axis, i};
-    // Where a tool begins at which another one ended, both are the nearest.
-    const bool last = i + 1 == matches.size();
-    if (another_tool(m) && (last || another_tool(matches[i + 1]))) {
-      return {DifferenceKind::tool, i};
-    }
+    if (i == another_tool) return {DifferenceKind::tool, i};
   }
   return {};
 }
@@ -71,15 +83,24 @@ Found compare_times(const std::vector<PathMatch>& matches, const DifferenceLimit
   return found;
 }
 
-std::uint32_t line_of(const ToolPath& path, std::uint32_t block) {
-  return path.blocks[block].source_line;
+Found compare_spindles(const ToolPath& reference, const ToolPath& other,
+                       const std::vector<PathMatch>& matches) {
+  const auto at = first_unlike(reference, other, matches, &PathBlock::spindle_on);
+  return at ? Found{DifferenceKind::spindle, *at} : Found{};
 }
 
-Difference described(const ToolPath& first, const ToolPath& second, const PathMatch& match,
+std::string file_of(const PathBlock& block) {
+  return block.source_file ? *block.source_file : std::string();
+}
+
+// `match` goes from a block of the first path to one of the second.
+Difference described(const PathBlock& first, const PathBlock& second, const PathMatch& match,
                      const Found& found) {
   return {.kind = found.kind,
-          .first_line = line_of(first, match.reference.block),
-          .second_line = line_of(second, match.other.block),
+          .first_line = first.source_line,
+          .second_line = second.source_line,
+          .first_file = file_of(first),
+          .second_file = file_of(second),
           .tip = match.tip_distance(),
           .axis = match.axis_angle(),
           .time_ratio = found.time_ratio,
@@ -109,28 +130,32 @@ PathDifference path_difference(const ToolPath& first, const ToolPath& second,
       result.largest_axis = std::max(result.largest_axis, m.axis_angle());
     }
   }
+  const auto at = [&](const PathMatch& match, const Found& found) {
+    return described(first.blocks[match.reference.block], second.blocks[match.other.block], match,
+                     found);
+  };
   if (const Found found = first_apart(first, second, forward.matches, limits);
       found.kind != DifferenceKind::none) {
-    result.first = described(first, second, forward.matches[found.match], found);
+    result.first = at(forward.matches[found.match], found);
     return result;
   }
   // The first path is on the second one; what the second one does besides shows on the way back.
   const auto off = std::find_if(backward.matches.begin(), backward.matches.end(),
                                 [&](const PathMatch& m) { return apart(m, limits); });
   if (off != backward.matches.end()) {
-    result.first = {.kind = DifferenceKind::extra,
-                    .first_line = line_of(first, off->other.block),
-                    .second_line = line_of(second, off->reference.block),
-                    .tip = off->tip_distance(),
-                    .axis = off->axis_angle(),
-                    .time_ratio = 1.0,
-                    .likely_cause = {}};
+    result.first = described(first.blocks[off->other.block], second.blocks[off->reference.block],
+                             *off, {DifferenceKind::extra});
     return result;
   }
   const Found slow = compare_times(forward.matches, limits, result.largest_time_ratio);
   if (slow.kind != DifferenceKind::none) {
-    result.first = described(first, second, forward.matches[slow.match], slow);
+    result.first = at(forward.matches[slow.match], slow);
     result.same_ratio_throughout = slow.throughout;
+    return result;
+  }
+  if (const Found still = compare_spindles(first, second, forward.matches);
+      still.kind != DifferenceKind::none) {
+    result.first = at(forward.matches[still.match], still);
   }
   return result;
 }

@@ -3,8 +3,9 @@
 //
 // Model    : both programs are executed on the machine without errors; tip, tool axis and the time
 //            that each segment takes are compared along the path
-//            (kinematics/path/path_comparison.hpp), so that block division, dialect and the way a
-//            pose is written play no part. Only feed moves count; travels are not looked at.
+//            (kinematics/path/path_comparison.hpp), and then whether the spindle turns, so that
+//            block division, dialect and the way a pose is written play no part. Only feed moves
+//            count; travels are not looked at.
 //            Z goes home for each tool change in both: machines do so, written or not. Before the
 //            first call a tool without length is in the spindle
 // Units    : mm, rad, s; frame: table
@@ -34,17 +35,20 @@ struct DifferenceLimits {
   double time_ratio = 0.02;  // of the time that a segment takes
 };
 
-enum class DifferenceKind : std::uint8_t { none, tip, axis, feed, tool, missing, extra };
+enum class DifferenceKind : std::uint8_t { none, tip, axis, feed, tool, missing, extra, spindle };
 
 // The first place where the programs part.
 struct Difference {
   DifferenceKind kind = DifferenceKind::none;
   std::uint32_t first_line = 0;   // of the block in the first program
   std::uint32_t second_line = 0;  // of the block in the second program
-  double tip = 0.0;               // mm: how far apart the tips are there
-  double axis = 0.0;              // rad
-  double time_ratio = 1.0;        // second / first, feed differences only
-  std::string likely_cause{};     // "rotary axis C has the opposite sign"; empty when none fits
+  // Of subprograms that have files of their own; empty: the programs' own files.
+  std::string first_file{};
+  std::string second_file{};
+  double tip = 0.0;            // mm: how far apart the tips are there
+  double axis = 0.0;           // rad
+  double time_ratio = 1.0;     // second / first, feed differences only
+  std::string likely_cause{};  // "rotary axis C has the opposite sign"; empty when none fits
 };
 
 struct ProgramComparison {

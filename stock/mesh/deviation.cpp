@@ -9,6 +9,7 @@ WorstPoint described(const WorkpieceAt& part, const SurfaceMesh& mesh, std::size
   if (const auto originating_block = originating_block_of(part, worst.point, tolerance)) {
     worst.block = originating_block->block;
     worst.source_line = originating_block->source_line;
+    worst.source_file = originating_block->source_file;
   }
   return worst;
 }

@@ -11,7 +11,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "stock/mesh/surface_mesh.hpp"
 #include "stock/solid/program_state.hpp"
@@ -28,6 +30,7 @@ struct WorstPoint {
   Vec3 point = Vec3::Zero();
   std::optional<std::uint32_t> block{};  // that made it; nothing: the blank, or a vertex on an edge
   std::uint32_t source_line = 0;         // 0: none
+  std::shared_ptr<const std::string> source_file{};  // null: the file of the main program
 };
 
 struct WorstDeviations {

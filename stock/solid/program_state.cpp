@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace frustum::stock {
@@ -17,13 +18,41 @@ ProgramState state_after(const ToolPath& path, std::uint32_t segments, double ti
   ProgramState program_state{.segments = segments, .time = time};
   if (segments > 0) {
     program_state.block = path.segments[segments - 1].block;
-    program_state.source_line = path.blocks[*program_state.block].source_line;
+    const kinematics::PathBlock& block = path.blocks[*program_state.block];
+    program_state.source_line = block.source_line;
+    program_state.source_file = block.source_file;
   }
   return program_state;
 }
 
 ProgramState before(const ToolPath& path, const Timetable& table, std::uint32_t segment) {
   return state_after(path, segment, table.start(segment));
+}
+
+Diagnostic no_line_zero() {
+  return error("program-line"_id, "line 0 of the program does not exist",
+               "lines are counted from 1");
+}
+
+// The last block of the line that is nearest above one, or that line itself.
+class NearestAbove {
+ public:
+  explicit NearestAbove(std::uint32_t line) : line_(line) {}
+  void see(std::uint32_t line, std::uint32_t block) {
+    if (line == 0 || line > line_ || line < nearest_) return;
+    nearest_ = line;
+    block_ = block;
+  }
+  [[nodiscard]] const std::optional<std::uint32_t>& block() const { return block_; }
+
+ private:
+  std::uint32_t line_;
+  std::uint32_t nearest_ = 0;
+  std::optional<std::uint32_t> block_{};
+};
+
+bool names(const std::string& name, const std::string& file) {
+  return name == file || name == std::filesystem::path(file).filename().string();
 }
 
 // Rays of a plane-filling triad through the point: one of them meets any surface at 55 degrees or
@@ -80,15 +109,31 @@ ProgramState after_block(const ToolPath& path, std::uint32_t block) {
 }
 
 Result<ProgramState> after_line(const ToolPath& path, std::uint32_t line) {
-  if (line == 0)
-    return error("program-line"_id, "line 0 of the program does not exist",
-                 "lines are counted from 1");
-  std::optional<std::uint32_t> last;
+  if (line == 0) return no_line_zero();
+  NearestAbove nearest(line);
   for (std::uint32_t block = 0; block < path.blocks.size(); ++block) {
-    const std::uint32_t here = path.blocks[block].source_line;
-    if (here <= line && (!last || here >= path.blocks[*last].source_line)) last = block;
+    const kinematics::PathBlock& from = path.blocks[block];
+    nearest.see(from.main_line, block);
+    if (from.source_file == nullptr) nearest.see(from.source_line, block);
   }
-  return last ? after_block(path, *last) : start_of(path);
+  return nearest.block() ? after_block(path, *nearest.block()) : start_of(path);
+}
+
+Result<ProgramState> after_line(const ToolPath& path, const std::string& file, std::uint32_t line) {
+  if (line == 0) return no_line_zero();
+  NearestAbove nearest(line);
+  bool known = false;
+  for (std::uint32_t block = 0; block < path.blocks.size(); ++block) {
+    const kinematics::PathBlock& from = path.blocks[block];
+    if (from.source_file == nullptr || !names(file, *from.source_file)) continue;
+    known = true;
+    nearest.see(from.source_line, block);
+  }
+  if (!known) {
+    return error("program-line"_id, fmt::format("no motion comes from the file '{}'", file),
+                 "name the file of a subprogram that the program calls");
+  }
+  return nearest.block() ? after_block(path, *nearest.block()) : start_of(path);
 }
 
 Result<ProgramState> at_time(const ToolPath& path, double seconds) {
@@ -144,7 +189,9 @@ std::optional<OriginatingBlock> originating_block_of(const WorkpieceAt& part, co
         if (distance > tolerance.value) continue;
         if (best && std::pair(!best->block.has_value(), best->distance) <= rank) continue;
         best = {.source_line = surface.source_line, .distance = distance, .normal = surface.normal};
-        if (surface.segment) best->block = path.segments[*surface.segment].block;
+        if (!surface.segment) continue;
+        best->block = path.segments[*surface.segment].block;
+        best->source_file = path.blocks[*best->block].source_file;
       }
     }
   }

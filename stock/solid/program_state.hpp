@@ -4,7 +4,8 @@
 //            those after it have not. Workpieces of any program state share one sweep; nothing is
 //            cut twice
 // Units    : mm, s; frame: workpiece
-// Errors   : after_line() refuses line 0; at_time() refuses what is no time
+// Errors   : after_line() refuses line 0 and files that make no motion; at_time() refuses what is
+//            no time
 // Accuracy : that of Workpiece; segments are not divided, so that a program state is at most one
 //            segment off
 // Threads  : const member functions may be called from any number of threads
@@ -12,7 +13,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/result.hpp"
@@ -49,16 +52,22 @@ struct ProgramState {
   std::optional<std::uint32_t>
       block{};                    // the last of them belongs to it; nothing: before the first
   std::uint32_t source_line = 0;  // of that block
-  double time = 0.0;              // s since the start of the program
+  std::shared_ptr<const std::string> source_file{};  // null: the file of the main program
+  double time = 0.0;                                 // s since the start of the program
 };
 
 [[nodiscard]] ProgramState start_of(const kinematics::ToolPath& path);
 [[nodiscard]] ProgramState end_of(const kinematics::ToolPath& path);
 // Precondition: the path has that block.
 [[nodiscard]] ProgramState after_block(const kinematics::ToolPath& path, std::uint32_t block);
-// After the last motion of an NC line; of a line without motion, after that of the nearest line
-// above that has one.
+// After the last motion of a line of the main program, with what it calls; of a line without
+// motion, after that of the nearest line above that has one. Of a subprogram in the same file its
+// own lines count too.
 [[nodiscard]] Result<ProgramState> after_line(const kinematics::ToolPath& path, std::uint32_t line);
+// The same of a subprogram that has a file of its own: after the last motion that the line ever
+// made. The file is named by its path or by the last part of it.
+[[nodiscard]] Result<ProgramState> after_line(const kinematics::ToolPath& path,
+                                              const std::string& file, std::uint32_t line);
 // The last program state that is not later than `seconds`.
 [[nodiscard]] Result<ProgramState> at_time(const kinematics::ToolPath& path, double seconds);
 // `count` program states at equal steps of time, the last of them `until`.
@@ -95,8 +104,9 @@ class WorkpieceAt {
 struct OriginatingBlock {
   std::optional<std::uint32_t> block{};  // of the tool path; nothing: the blank's own surface
   std::uint32_t source_line = 0;         // 0: the blank
-  double distance = 0.0;                 // mm from the point to the surface, normal to it
-  Vec3 normal = Vec3::UnitZ();           // unit, out of the material
+  std::shared_ptr<const std::string> source_file{};  // null: the file of the main program
+  double distance = 0.0;        // mm from the point to the surface, normal to it
+  Vec3 normal = Vec3::UnitZ();  // unit, out of the material
 };
 [[nodiscard]] std::optional<OriginatingBlock> originating_block_of(const WorkpieceAt& part,
                                                                    const Vec3& point,

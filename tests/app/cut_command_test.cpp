@@ -70,6 +70,64 @@ TEST_F(CutCommandSystem, CompensatesTheRadiusOfTheJobsTool) {
   EXPECT_EQ(cut("--point 0,10,-2")["made_by"]["on_surface"], true);
 }
 
+// The slot is cut by lines 2 and 3 of a subprogram, first 5 mm deep and then 8.
+TEST_F(CutCommandSystem, CountsTheLinesOfEachFileByThemselves) {
+  write_plate();
+  std::ofstream(folder_ / "plate.nc")
+      << "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z-5\n"
+         "M98 P7\nG0 X-60\nG0 Z-8\nM98 P7\nM30\n";
+  std::ofstream(folder_ / "O7.nc") << "O7\nG1 X0 F600\nX60\nG0 Z10\nM99\n";
+  const auto removed = [&](const std::string& line) {
+    return cut("--removal r.csv --pitch 1 --until-line " + line)["removal"]["volume_mm3"]
+        .get<double>();
+  };
+  EXPECT_NEAR(removed("5"), 0.0, 1e-9);  // not those of the subprogram, whose lines are lower
+  EXPECT_NEAR(removed("6"), 4000.0, 1e-3);
+  EXPECT_NEAR(removed("9"), 6400.0, 1e-3);
+  EXPECT_NEAR(removed("O7.nc:3"), 6400.0, 1e-3);
+  EXPECT_GT(removed("O7.nc:2"), 4000.0);
+  EXPECT_LT(removed("O7.nc:2"), 6400.0);
+  const json made = cut("--point 30,1,-8")["made_by"];
+  EXPECT_EQ(made["line"], 3);
+  EXPECT_TRUE(made["program_file"].get<std::string>().ends_with("O7.nc")) << made;
+  EXPECT_NE(run("cut plate.toml --until-line O7.nc:2 --point 30,1,-5").out.find("line 2 of O7.nc"),
+            std::string::npos);
+  for (const char* wrong : {"O8.nc:2", "O7.nc:0", "O7.nc", "3x", "-1", ":3"}) {
+    EXPECT_EQ(run(std::string("cut plate.toml --point 0,1,-5 --until-line ") + wrong).exit_code, 2)
+        << wrong;
+  }
+}
+
+// Its first cut is that of line 6 and of what it calls, its second that of line 9.
+TEST_F(CutCommandSystem, OperationsHaveTheSubprogramsThatTheirLinesCall) {
+  write_plate();
+  std::ofstream(folder_ / "plate.nc")
+      << "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\nG0 X-60 Y0 Z-5\n"
+         "M98 P7\nG0 X-60\nG0 Z-8\nM98 P7\nM30\n";
+  std::ofstream(folder_ / "O7.nc") << "O7\n\n\n\n\n\n\nG1 X60 F600\nG0 Z10\nM99\n";
+  std::ofstream(folder_ / "plan.toml")
+      << "[probe]\nball_diameter = 2\nclearance = 1\nreach = 1\n"
+         "[[feature]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0, 0, -8]\naxis = [0, 0, 1]\n"
+         "strategy = { u = [20, 0, 0], v = [0, 2, 0], columns = 3, rows = 2 }\n"
+         "extent = { u = [30, 0, 0], v = [0, 4, 0] }\n"
+         "[[characteristic]]\nname = \"flat\"\nkind = \"flatness\"\nfeature = \"floor\"\n"
+         "tolerance = \"10 um\"\n";
+  const std::string job = read(folder_ / "plate.toml");
+  const auto warned = [&](const std::string& lines) {
+    std::ofstream(folder_ / "plate.toml")
+        << job << "inspection = { plan = \"plan.toml\" }\n"
+        << "operation = [{ name = \"slot\", lines = " << lines << ", makes = [\"floor\"] }]\n";
+    const std::string out = "out" + lines.substr(1, 1);
+    const Outcome outcome = run("run plate.toml --out " + out);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return read(folder_ / out / "result.json").find("were cut by another operation") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(warned("[9, 9]"));
+  EXPECT_TRUE(warned("[6, 6]"));
+  EXPECT_TRUE(warned("[7, 8]"));
+}
+
 TEST_F(CutCommandSystem, Fault2_30_ABlankAwayFromTheToolPathIsAFault) {
   write_plate();
   replace_in("plate.toml", "[80, 60, 20] }", "[80, 60, 20], origin = [0, 500, 0] }");

@@ -34,6 +34,12 @@ TEST(Suppressions, OnTheLineOrAboveIt) {
   EXPECT_EQ(found[2].place.line, 2U);
 }
 
+TEST(Suppressions, AMessageOfTheControlIsNone) {
+  EXPECT_TRUE(read("(MSG, frustum: ignore feed-low)\nG1 X1 F2\n").empty());
+  EXPECT_TRUE(read("MSG(\"frustum: ignore feed-low\")\nG1 X1 F2\n", Dialect::sinumerik).empty());
+  EXPECT_EQ(read("; frustum: ignore feed-low\nG1 X1 F2\n", Dialect::sinumerik).size(), 1U);
+}
+
 TEST(Suppressions, AReasonMayFollowASemicolon) {
   const auto found = read("G1 X1 F2 (frustum: ignore feed-low; because)\n");
   ASSERT_EQ(found.size(), 1U);

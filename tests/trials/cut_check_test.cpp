@@ -149,7 +149,9 @@ TEST(CutCheck, KnowsWhatCutEveryTouchedPointAsTheWorkpieceSaysWhenItIsAskedAgain
 TEST(CutCheck, NeedsNoProvenanceOfPointsFromElsewhere) {
   Cut cut = Cut::with(0.02, {"dz_AY=-60um"});
   for (auto& feature : cut.trial.measurement.features) feature.touches.clear();
-  EXPECT_TRUE(wrongly_cut_features(cut.piece, cut.trial.measurement).empty());
+  EXPECT_TRUE(
+      wrongly_cut_features(cut.piece, cut.trial.workpiece->removed().path(), cut.trial.measurement)
+          .empty());
 }
 
 }  // namespace

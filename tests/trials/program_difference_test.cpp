@@ -194,6 +194,13 @@ INSTANTIATE_TEST_SUITE_P(
                       });
                     },
                     "inches"},
+        SeededFault{"spindle_off", "iwf-bc", ProgramForm::angles,
+                    [](ComparedProgram& p) {
+                      each<parser::SpindleChange>(p, [](parser::SpindleChange& spindle) {
+                        spindle.direction = parser::SpindleDirection::off;
+                      });
+                    },
+                    "the spindle turns in one of the programs only"},
         SeededFault{"missing_tcp", "iwf-bc", ProgramForm::angles,
                     [](ComparedProgram& p) {
                       each<parser::CompensationChange>(p, [](parser::CompensationChange& c) {

@@ -106,8 +106,7 @@ Outcome approach_contour(InterpreterState& state, MotionFilters& filters, const 
                 fmt::format("{} with FMAX", code.code->name()), "give an arc a feed");
   }
   approach.tool_axis = state.modes.tool_axis;
-  approach.place = state.at_work.block->place_of(code.column);
-  approach.place.file = state.at_work.file;
+  approach.place = state.at_work.place_of(code.column);
   if (words.has('Z')) {
     assume(state, words['Z'].column, "APPR Z",
            "the tool goes in the plane first, then down; newer controls do both at once");

@@ -72,8 +72,7 @@ Outcome insert_corner(InterpreterState& state, MotionFilters& filters, const Blo
   Corner corner{.name = code.code->name()};
   corner.rounds = static_cast<CornerWord>(code.code->value) == CornerWord::rounding;
   corner.size = length_of(state, words['R'].value);
-  corner.place = state.at_work.block->place_of(code.column);
-  corner.place.file = state.at_work.file;
+  corner.place = state.at_work.place_of(code.column);
   if (!(corner.size > 0.0)) {
     return fail(state, words['R'].column, "value-not-positive"_id,
                 fmt::format("the size of {} is not above zero", corner.name),
@@ -97,8 +96,7 @@ Outcome keep_corner(InterpreterState& state, MotionFilters& filters, const Block
     if (words[letter].value == 0.0) continue;
     Corner corner{.name = words.text_of(letter), .rounds = letter == kCornerRadius};
     corner.size = length_of(state, words[letter].value);
-    corner.place = state.at_work.block->place_of(words[letter].column);
-    corner.place.file = state.at_work.file;
+    corner.place = state.at_work.place_of(words[letter].column);
     if (corner.size < 0.0) {
       return fail(state, words[letter].column, "value-not-positive"_id,
                   fmt::format("{} is not above zero", corner.name),

@@ -108,8 +108,7 @@ Outcome ask_for_corner(InterpreterState& state, MotionFilters& filters, const Bl
     assume(state, column, "corner-feed",
            "a rounding or chamfer has the feed of the move after it (MD20201)");
   }
-  corner.place = state.at_work.block->place_of(column);
-  corner.place.file = state.at_work.file;
+  corner.place = state.at_work.place_of(column);
   if (auto failure = filters.corners.insert(corner)) return *std::move(failure);
   return Done{};
 }

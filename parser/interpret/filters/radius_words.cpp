@@ -306,7 +306,7 @@ Outcome set_radius_compensation(InterpreterState& state, MotionFilters& filters,
                 code.code->name() + " in a plane that the frame turns",
                 "turn the frame about the normal of the plane");
   }
-  filters.radius_since = state.at_work.block->place_of(code.column);
+  filters.radius_since = state.at_work.place_of(code.column);
   state.modes.tool_side = side;
   AxisTarget from = state.position.target();
   // Another contour may begin before the tool has left the last one: it comes from where it is.

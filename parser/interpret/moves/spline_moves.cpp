@@ -204,7 +204,7 @@ Outcome add_nurbs_point(InterpreterState& state, const BlockWords& words,
   }
   const double weight = words.has('P') ? words['P'].value : 1.0;
   if (first)
-    state.spline.nurbs = SplineInProgress::Nurbs{state.at_work.block->place_of(movement.column),
+    state.spline.nurbs = SplineInProgress::Nurbs{state.at_work.place_of(movement.column),
                                                  order,
                                                  {{place_in_plane(state), weight}},
                                                  place_in_plane(state)};
@@ -279,7 +279,7 @@ Outcome add_knot(InterpreterState& state, const BlockWords& words, const Movemen
     const auto way = whole(state, words, 'Q', 1, 3);
     if (!way) return way.error();
     state.spline.nurbs = SplineInProgress::Nurbs{
-        state.at_work.block->place_of(movement.column), *order, {}, place_in_plane(state)};
+        state.at_work.place_of(movement.column), *order, {}, place_in_plane(state)};
   }
   SplineInProgress::Nurbs& nurbs = *state.spline.nurbs;
   if (!words.has('K')) return missing("a block of G6.2 without K", "give the knot by K");

@@ -29,8 +29,7 @@ Diagnostic fail(const InterpreterState& state, std::uint32_t column, const Diagn
 }
 
 Diagnostic in_this_block(const InterpreterState& state, Diagnostic diagnostic) {
-  const SourcePlace place =
-      state.at_work.block->place_of(static_cast<std::uint32_t>(diagnostic.column));
+  const SourcePlace place = state.at_work.place_of(static_cast<std::uint32_t>(diagnostic.column));
   diagnostic.line = static_cast<int>(place.line);
   diagnostic.column = static_cast<int>(place.column);
   return diagnostic;
@@ -41,9 +40,7 @@ void emit(InterpreterState& state, std::uint32_t column, Command command) {
                         std::holds_alternative<LinearFeed>(command) ||
                         std::holds_alternative<ArcFeed>(command) ||
                         std::holds_alternative<HomeReturn>(command);
-  SourcePlace place = state.at_work.block->place_of(column);
-  place.file = state.at_work.file;
-  state.output.take(Motion{std::move(place), std::move(command)});
+  state.output.take(Motion{state.at_work.place_of(column), std::move(command)});
 }
 
 void assume(InterpreterState& state, std::uint32_t column, std::string_view name,

@@ -39,7 +39,19 @@ using Outcome = Result<Done>;
 struct BlockAtWork {
   const Block* block = nullptr;
   std::shared_ptr<const std::string> file{};  // as SourcePlace::file has it
-  bool moved = false;                         // it has moved an axis
+  // Of the main program, where it has called what is at work; 0: the block is the main program's.
+  std::uint32_t call_line = 0;
+  bool moved = false;  // it has moved an axis
+
+  [[nodiscard]] SourcePlace place_of(std::uint32_t column) const {
+    return place_of(*block, column);
+  }
+  [[nodiscard]] SourcePlace place_of(const Block& of, std::uint32_t column) const {
+    SourcePlace place = of.place_of(column);
+    place.file = file;
+    place.main_line = call_line == 0 ? place.line : call_line;
+    return place;
+  }
 };
 
 // Modes that M70 and M73 keep, of the main program and each call.

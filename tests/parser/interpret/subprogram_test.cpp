@@ -67,6 +67,32 @@ TEST_F(FolderOfPrograms, AreFoundByTheirNumbers) {
             std::vector<std::string>{"missing-subprogram"});
 }
 
+// "main line/line", with a + where the line is of another file.
+std::vector<std::string> origins(const std::vector<Motion>& motions) {
+  std::vector<std::string> places;
+  for (const Motion& motion : motions) {
+    if (!std::holds_alternative<LinearFeed>(motion.command)) continue;
+    const SourcePlace& place = motion.place;
+    places.push_back(fmt::format("{}/{}{}", place.main_line, place.line, place.file ? "+" : ""));
+  }
+  return places;
+}
+
+TEST_F(FolderOfPrograms, MotionsKnowTheLineOfTheMainProgramThatLedToThem) {
+  write("O77.nc", "O77\nG1 X5 F100\nM98 P78\nX6\nM99\n");
+  write("O78.nc", "O78\nG1 X7 F100\nM99\n");
+  EXPECT_EQ(origins(motions("G1 X1 F100\nM98 P77\nX2\nM98 P9\nX3\nM30\nO9\nX4\nM99\n", options_)),
+            (std::vector<std::string>{"1/1", "2/2+", "2/2+", "2/4+", "3/3", "4/8", "5/5"}));
+}
+
+// A compensated move waits for the next one, and keeps the place where it was read.
+TEST_F(FolderOfPrograms, AMoveThatWaitsKeepsTheLineOfItsCall) {
+  write("O77.nc", "O77\nX5 Y5\nY9\nM99\n");
+  options_.contours_without_diameter = true;
+  EXPECT_EQ(origins(motions("G0 X0 Y0\nG1 G41 D1 X5 F100\nM98 P77\nY20\nG40 X0\nM30\n", options_)),
+            (std::vector<std::string>{"2/2", "3/2+", "3/3+", "4/4", "5/5"}));
+}
+
 TEST_F(FolderOfPrograms, MustNotShareANumber) {
   write("a.nc", "O77\nM99\n");
   write("b.nc", "O0077\nM99\n");
