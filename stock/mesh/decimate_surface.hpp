@@ -9,8 +9,8 @@
 // Errors   : a tolerance that is not finite and positive; a mesh that is not closed and manifold
 // Accuracy : vertices and centres are checked, as above; that triangles then are within the
 //            tolerance all over is measured, not proven (tests/stock/refine_surface_test.cpp)
-// Source   : OpenMesh 9, Decimater (quadrics, Hausdorff and normal-flipping modules); Garland and
-//            Heckbert 1997, SIGGRAPH
+// Source   : OpenMesh 9, Decimater (quadrics and normal-flipping modules); Garland and Heckbert
+//            1997, SIGGRAPH
 // Threads  : runs on one
 #pragma once
 

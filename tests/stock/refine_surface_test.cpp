@@ -12,6 +12,7 @@
 
 #include "cutter/search/swept_cutter.hpp"
 #include "stock/mesh/decimate_surface.hpp"
+#include "stock/solid/facet_solid.hpp"
 #include "stock/solid/workpiece.hpp"
 #include "tests/stock/surface_mesh_solids.hpp"
 
@@ -257,6 +258,10 @@ TEST(DecimateSurface, StaysWithinTheToleranceAndKeepsEdges) {
       vertices = fewer->vertices.size();
       EXPECT_LT(worst_distance(*fewer, shape.distance), tolerance + before);
       EXPECT_LT(worst_of_vertices(*fewer, shape.distance), 1e-6);
+      const FacetSolid left(fewer->vertices, fewer->triangles);
+      EXPECT_TRUE(std::ranges::all_of(fine.vertices, [&](const Vec3& taken_away) {
+        return left.is_within(taken_away, 0.5 * tolerance + 1e-6 * tolerance);
+      }));
     }
   }
 }
