@@ -40,7 +40,13 @@ Result<std::vector<lint::Finding>> collisions_of(const Job& job) {
   options.measure = false;
   const auto trial = run_trial(job.machine, std::span<const kinematics::ErrorEntry>(), job.piece,
                                job.cmm, options);
-  if (!trial) return trial.error();
+  if (!trial) {
+    Diagnostics problems = trial.error();
+    for (Diagnostic& d : problems) {
+      if (d.file.empty()) d.file = job.file.string();
+    }
+    return problems;
+  }
   std::vector<lint::Finding> findings;
   for (const stock::Collision& collision : trial->collisions) {
     const lint::Check check = check_of(collision);

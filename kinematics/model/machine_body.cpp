@@ -46,6 +46,10 @@ MachineBody read_body(const TomlTable& table, std::set<std::string>& names) {
                "reports call bodies by their names: give each its own");
   }
   const Vec3 tilt = table.vector_or("tilt", Vec3::Zero()) * kRadPerDeg;
+  if (tilt.cwiseAbs().maxCoeff() > 2.0 * std::numbers::pi) {
+    table.fail("tilt", "out-of-range"_id, "an angle is beyond a whole turn",
+               "degrees about X, Y and Z, each from -360 to 360");
+  }
   body.part_from_body = {rotation_z(tilt.z()) * rotation_y(tilt.y()) * rotation_x(tilt.x()),
                          table.vector_or("origin", Vec3::Zero())};
   return body;

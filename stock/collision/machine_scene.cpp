@@ -1,6 +1,9 @@
 #include "stock/collision/machine_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "stock/mesh/io/mesh_reader.hpp"
@@ -61,6 +64,19 @@ void add_tool(MachineScene& scene, const kinematics::Setup& setup, int number,
   if (tool.holder()) add("holder", *tool.holder());
 }
 
+// Beyond it rounding would take the place of distances, and no search would end.
+constexpr double kFarthest = 1e5;  // mm
+
+std::optional<Diagnostic> too_far(const SceneBody& body) {
+  const Box& box = body.solid->bounds();
+  const double size = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+  const double place = body.part_from_body.translation.cwiseAbs().maxCoeff();
+  if (size <= kFarthest && place <= kFarthest) return std::nullopt;
+  return error("body-too-far"_id,
+               fmt::format("the body '{}' reaches {:.3g} mm", body.name, std::max(size, place)),
+               fmt::format("sizes and places of bodies are at most {:g} mm", kFarthest));
+}
+
 }  // namespace
 
 Result<SolidBody> solid_of(const kinematics::BodyShape& shape) {
@@ -110,6 +126,11 @@ Result<MachineScene> scene_of(const kinematics::Machine& machine,
        .part_from_body =
            part_from_table * setup.table_from_workpiece * Pose::translated(blank.origin()),
        .solid = std::make_shared<const SolidBody>(SolidBody::of(blank.shape()))});
+  Diagnostics problems;
+  for (const SceneBody& body : scene.bodies) {
+    if (auto problem = too_far(body)) problems.push_back(*std::move(problem));
+  }
+  if (!problems.empty()) return problems;
   return scene;
 }
 

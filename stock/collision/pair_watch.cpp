@@ -49,7 +49,9 @@ void PairWatch::follow(std::span<const AxisVertex> vertices) {
 }
 
 void PairWatch::follow(const AxisPositions& from, const AxisVertex& vertex) {
-  constexpr double kStride = 1.0;  // mm, of bodies that have met
+  // Of bodies that have met: that far, or that part of the way, where large bodies turn.
+  constexpr double kStride = 1.0;  // mm
+  constexpr double kPart = 1.0 / 64.0;
   if (!is_followed_) {
     has_met_ = false;
     look(from, vertex.move);
@@ -60,7 +62,7 @@ void PairWatch::follow(const AxisPositions& from, const AxisVertex& vertex) {
       const AxisPositions here = part_way(from, vertex.q, u);
       const double way =
           ClosingBound(here, branch_a_.movers(here), branch_b_.movers(here), nullptr).at(vertex.q);
-      u = way <= kStride ? 1.0 : u + (1.0 - u) * kStride / way;
+      u = way <= kStride ? 1.0 : u + std::max((1.0 - u) * kStride / way, kPart);
       look(u < 1.0 ? part_way(from, vertex.q, u) : vertex.q, vertex.move);
       continue;
     }
@@ -79,10 +81,12 @@ void PairWatch::follow(const AxisPositions& from, const AxisVertex& vertex) {
 
 void PairWatch::look(const AxisPositions& q, std::uint32_t move) {
   const Separation apart = separation_at(q);
-  if (!nearest_ || apart.upper < nearest_->distance) nearest_ = {apart.upper, move};
   // A little above, so that every proof leads on.
   constexpr double kStep = 0.001;  // mm
-  if (apart.lower <= kMeeting + kStep) {
+  const bool meets = apart.lower <= kMeeting + kStep;
+  const double distance = meets ? 0.0 : apart.upper;
+  if (!nearest_ || distance < nearest_->distance) nearest_ = {distance, move};
+  if (meets) {
     meet(q, move, apart);
     return;
   }

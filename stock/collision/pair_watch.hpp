@@ -8,7 +8,7 @@
 // Units    : mm
 // Errors   : none
 // Accuracy : the smallest distance is found within kNearness + 1 % of it. Where bodies have met
-//            they are followed in steps of 1 mm until they are apart again
+//            they are followed in steps of 1 mm, or of 1/64 of a way, until they are apart again
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class PairWatch {
   };
   [[nodiscard]] const std::vector<Meeting>& meetings() const { return meetings_; }
   struct Nearest {
-    double distance = 0.0;
+    double distance = 0.0;  // 0: they have met
     std::uint32_t move = 0;
   };
   // Nothing: the bodies were never there together.

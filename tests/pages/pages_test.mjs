@@ -92,6 +92,7 @@ async function violations(page, colours) {
   for (const violation of found) expect(false, page, `${colours}: ${violation}`);
 }
 
+const drawn = `document.querySelector('.view') === null || document.querySelector('.live .view canvas') !== null`;
 // What is cut, or makes the page scroll sideways.
 const overflow = `(() => {
   const wide = document.scrollingElement.scrollWidth - document.documentElement.clientWidth;
@@ -103,10 +104,21 @@ const hiddenCells = `[...document.querySelectorAll('.cards tbody td')].filter((c
   return box.width === 0 || box.left < 0 || box.right > document.documentElement.clientWidth + 0.5;
 }).map((cell) => cell.dataset.label).join(', ')`;
 
+// What `read` gives once it is as wanted. A busy machine takes its time; what never comes is given up after two
+// minutes, with what was read last.
+async function settled(read, wanted) {
+  const end = Date.now() + 120e3;
+  let value = await read();
+  while (!wanted(value) && Date.now() < end) {
+    await browser.evaluate('new Promise((done) => setTimeout(done, 50))');
+    value = await read();
+  }
+  return value;
+}
+
 async function checkTelephone(page) {
   await browser.size(390, 844, true);
-  await browser.evaluate('new Promise((done) => setTimeout(done, 200))');  // the view follows its new size
-  const wide = await browser.evaluate(overflow);
+  const wide = await settled(() => browser.evaluate(overflow), (text) => text === '');  // the view follows its new size
   expect(wide === '', page, `390 px: ${wide}`);
   const hidden = await browser.evaluate(hiddenCells);
   expect(hidden === '', page, `390 px: not seen: ${hidden}`);
@@ -133,15 +145,15 @@ async function checkKeyboard(page) {
   const scrolled = () => browser.evaluate('window.scrollY');
   const start = await scrolled();
   await browser.send('Input.dispatchMouseEvent', {type: 'mouseWheel', x, y, deltaX: 0, deltaY: -120});
-  await browser.evaluate('new Promise((done) => setTimeout(done, 400))');
-  expect(await scrolled() !== start, page, 'the wheel over the 3D view does not scroll the page');
+  const moved = await settled(scrolled, (now) => now !== start);
+  expect(moved !== start, page, 'the wheel over the 3D view does not scroll the page');
   expect(await shown() === before, page, 'the wheel over the 3D view zooms without Ctrl or focus');
   await browser.evaluate(`document.querySelector('.view').focus()`);
   let last = before;
   for (const key of ['ArrowLeft', 'ArrowDown', '+']) {
     await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', key, text: key === '+' ? '+' : undefined});
     await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', key});
-    const now = await shown();
+    const now = await settled(shown, (picture) => picture !== last);
     expect(now !== last, page, `${key} does not change the 3D view`);
     last = now;
   }
@@ -192,7 +204,7 @@ try {
     const url = pathToFileURL(join(work, file)).href;
     await browser.size(1200, 900);
     await browser.load(url);
-    await browser.evaluate('new Promise((done) => setTimeout(done, 500))');
+    await settled(() => browser.evaluate(drawn), (is) => is);
     await picture(page);
     const wide = await browser.evaluate(overflow);
     expect(wide === '', page, wide);
