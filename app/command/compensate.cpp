@@ -9,12 +9,12 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/job/compensated_job.hpp"
 #include "app/job/job.hpp"
-#include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "core/file_set.hpp"
-#include "programs/test_piece_files.hpp"
+#include "core/whole_file.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::app {
@@ -65,6 +65,33 @@ int report(const CompensateOptions& options, const calibration::CompensatedPiece
   return kOutOfTolerance;
 }
 
+// The job, the program and, as it is, the plan.
+Result<std::vector<fs::path>> write_compensated(const Job& job, programs::TestPiece& piece,
+                                                const fs::path& folder) {
+  piece.title += ", compensated";
+  piece.program_file = fs::path(piece.program_file).filename().string();
+  const std::string plan =
+      job.plan_file.empty() ? ""
+                            : fs::path(piece.program_file).replace_extension(".plan.toml").string();
+  auto text = compensated_job(job, piece, plan, folder);
+  if (!text) return text.error();
+  std::vector<std::pair<std::string, std::string>> contents{{"job.toml", *std::move(text)},
+                                                            {piece.program_file, piece.program}};
+  if (!plan.empty()) {
+    auto bytes = read_whole_file(job.plan_file);
+    if (!bytes) return bytes.error();
+    contents.emplace_back(plan, *std::move(bytes));
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : contents) names.push_back(name);
+  auto set = FileSet::open(folder, std::move(names));
+  if (!set) return set.error();
+  std::vector<fs::path> files;
+  for (auto& [name, bytes] : contents) files.push_back(set->add(name, std::move(bytes)));
+  if (const auto written = set->write(); !written) return written.error();
+  return files;
+}
+
 int compensate(const CompensateOptions& options) {
   const auto job = load_job(options.job, options.overrides, false);
   if (!job) return refuse(job.error(), options);
@@ -87,10 +114,7 @@ int compensate(const CompensateOptions& options) {
                                           {.bound = options.bound / kUmPerMm}, dialect);
   });
   if (!made) return refuse(made.error(), options);
-  made->piece.title += ", compensated";
-  made->piece.program_file = fs::path(made->piece.program_file).filename().string();
-  const auto files = programs::write_test_piece(
-      made->piece, name_for_job(job->machine_file, options.out), options.out);
+  const auto files = write_compensated(*job, made->piece, options.out);
   if (!files) return refuse(files.error(), options);
   return report(options, *made, *files);
 }

@@ -228,7 +228,9 @@ void check_error_names(const TomlTable& root, const kinematics::Machine& machine
 }  // namespace
 
 Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool want_plan) {
-  auto document = TomlDocument::load(file);
+  auto text = read_whole_file(file);
+  if (!text) return text.error();
+  auto document = TomlDocument::parse(*text, file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
   Diagnostics problems;
@@ -297,6 +299,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   if (has_error(all)) return all;
   return Job{.machine = *std::move(machine),
              .file = file,
+             .text = *std::move(text),
              .machine_file = *machine_file,
              .plan_file = std::move(plan_file),
              .piece = std::move(piece),

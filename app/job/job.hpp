@@ -27,6 +27,7 @@ namespace frustum::app {
 struct Job {
   kinematics::Machine machine;
   std::filesystem::path file{};
+  std::string text{};  // of the file
   std::filesystem::path machine_file{};
   std::filesystem::path plan_file{};  // empty: none
   programs::TestPiece piece{};

@@ -64,9 +64,13 @@ std::string name_for_job(const fs::path& machine_file, const fs::path& folder) {
     const fs::path same = shipped / machine_file.filename();
     if (fs::equivalent(same, machine_file, problem)) return machine_file.stem().string();
   }
-  const fs::path from_there =
-      fs::relative(fs::absolute(machine_file), fs::absolute(folder), problem);
-  return (problem || from_there.empty() ? fs::absolute(machine_file) : from_there).generic_string();
+  return path_from(machine_file, folder);
+}
+
+std::string path_from(const fs::path& file, const fs::path& folder) {
+  std::error_code problem;
+  const fs::path from_there = fs::relative(fs::absolute(file), fs::absolute(folder), problem);
+  return (problem || from_there.empty() ? fs::absolute(file) : from_there).generic_string();
 }
 
 std::vector<fs::path> shipped_machines() {

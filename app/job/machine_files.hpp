@@ -21,6 +21,9 @@ namespace frustum::app {
 // moved; another by its path from there.
 [[nodiscard]] std::string name_for_job(const std::filesystem::path& machine_file,
                                        const std::filesystem::path& folder);
+// A file's path from a folder, whichever of them is given relative to the working folder.
+[[nodiscard]] std::string path_from(const std::filesystem::path& file,
+                                    const std::filesystem::path& folder);
 // Where shipped machines may be, best first; error files are in errors/ under it.
 [[nodiscard]] std::vector<std::filesystem::path> machine_folders();
 // The shipped machine files, by name.

@@ -48,7 +48,7 @@ std::vector<Confined> confined_headers() {
       entry("OpenMesh", "OpenMesh/.*", ".*\\.cpp|stock/mesh/open_mesh\\.hpp"),
       entry("Embree", "embree[0-9]/.*",
             "stock/solid/box_scene\\.cpp|report/picture/surface_rays\\.cpp"),
-      entry("toml++", "toml\\+\\+/.*|toml\\.hpp", "core/toml_document\\.cpp"),
+      entry("toml++", "toml\\+\\+/.*|toml\\.hpp", "core/toml_(document|edit)\\.cpp"),
       entry("Random123", "Random123/.*", "core/random\\.cpp"),
       entry("CLI11", "CLI/.*", "app/command/command_line\\.cpp"),
       entry("GoogleTest", "(gtest|gmock|rapidcheck).*", "tests/.*"),
