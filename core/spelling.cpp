@@ -1,5 +1,7 @@
 #include "core/spelling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <vector>
@@ -31,7 +33,9 @@ std::optional<std::string> nearest_word(std::string_view word,
   const std::string* best = nullptr;
   // A word is "meant" when at most a third of it, and at least one letter, is wrong.
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  const auto between = [](std::size_t a, std::size_t b) { return a < b ? b - a : a - b; };
   for (const std::string& candidate : candidates) {
+    if (between(word.size(), candidate.size()) >= best_distance) continue;  // no nearer than that
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best = &candidate;
@@ -44,11 +48,13 @@ std::optional<std::string> nearest_word(std::string_view word,
 
 std::string suggestion(std::string_view word, std::span<const std::string> candidates) {
   if (const auto nearest = nearest_word(word, candidates)) return "did you mean " + *nearest + "?";
+  constexpr std::size_t kMostToRead = 40;
   std::string known;
-  for (const std::string& candidate : candidates) {
+  for (const std::string& candidate : candidates.first(std::min(candidates.size(), kMostToRead))) {
     known += (known.empty() ? "known: " : ", ") + candidate;
   }
-  return known;
+  if (candidates.size() <= kMostToRead) return known;
+  return known + fmt::format(" and {} more", candidates.size() - kMostToRead);
 }
 
 }  // namespace frustum

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/spelling.hpp"
+#include "core/toml_key_length.hpp"
 #include "core/toml_node.hpp"
 #include "core/whole_file.hpp"
 
@@ -34,6 +35,8 @@ Node convert(const toml::node& from) {
         entries.entries.begin(), entries.entries.end(), [](const auto& a, const auto& b) {
           return std::tie(a.node.line, a.node.column) < std::tie(b.node.line, b.node.column);
         });
+    for (const auto& entry : entries.entries)
+      entries.places.emplace(entry.name, entries.places.size());
     node.value = std::move(entries);
   } else if (const auto* array = from.as_array()) {
     Node::Array items;
@@ -60,6 +63,15 @@ Result<TomlDocument> TomlDocument::load(const std::filesystem::path& file) {
 }
 
 Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::filesystem::path& file) {
+  if (const auto place = overlong_key(text)) {
+    Diagnostic failure = frustum::error("toml-syntax"_id,
+                                        fmt::format("a key of more than {} names", kMostNamesInKey),
+                                        "no table here is so deep in others");
+    failure.file = file.string();
+    failure.line = place->line;
+    failure.column = place->column;
+    return failure;
+  }
   auto state = std::make_shared<State>();
   state->file = file;
   try {  // toml++ reports by exception; it ends here
@@ -96,7 +108,9 @@ const std::filesystem::path& TomlDocument::file() const { return root_.state_->f
 
 Diagnostics TomlDocument::finish() const {
   using Visit = std::function<void(const Node& node, const std::string& path)>;
-  const Visit visit = [this, &visit](const Node& node, const std::string& path) {
+  // The verdict is a copy, so that asking twice does not report a key twice.
+  Diagnostics verdict = root_.state_->diagnostics;
+  const Visit visit = [this, &visit, &verdict](const Node& node, const std::string& path) {
     if (const Node::Array* items = node.array()) {
       for (std::size_t i = 0; i < items->size(); ++i) {
         visit((*items)[i], fmt::format("{}[{}]", path, i + 1));
@@ -105,24 +119,18 @@ Diagnostics TomlDocument::finish() const {
     }
     const Node::Table* table = node.table();
     if (table == nullptr || !table->opened) return;
+    const std::vector<std::string> known(table->asked.begin(), table->asked.end());
     for (const auto& [name, child] : table->entries) {
-      if (std::find(table->asked.begin(), table->asked.end(), name) == table->asked.end()) {
-        std::vector<std::string> known = table->asked;
-        std::sort(known.begin(), known.end());
-        known.erase(std::unique(known.begin(), known.end()), known.end());
-        TomlTable(root_.state_, &node, path)
-            .fail(name, "unknown-key"_id, "unknown key", suggestion(name, known));
-      } else {
+      if (table->asked.contains(name)) {
         visit(child, joined(path, name));
+      } else {
+        verdict.push_back(
+            placed(*root_.state_, &node, path, name,
+                   frustum::error("unknown-key"_id, "unknown key", suggestion(name, known))));
       }
     }
   };
-  // The verdict is a copy, so that asking twice does not report a key twice.
-  Diagnostics& noted = root_.state_->diagnostics;
-  const std::size_t before = noted.size();
   visit(root_.state_->root, "");
-  Diagnostics verdict = noted;
-  noted.resize(before);
   return verdict;
 }
 

@@ -6,8 +6,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,9 +24,12 @@ struct Entry;
 struct Node {
   using Array = std::vector<Node>;
   struct Table {
-    std::vector<Entry> entries;
-    mutable std::vector<std::string> asked;  // what readers asked for, known or not
-    mutable bool opened = false;             // a reader looked inside
+    std::vector<Entry> entries;                              // in file order
+    std::map<std::string, std::size_t, std::less<>> places;  // of them, by name
+    mutable std::set<std::string, std::less<>> asked;        // by readers, known or not
+    mutable bool opened = false;                             // a reader looked inside
+
+    [[nodiscard]] const Node* find(std::string_view name) const;
   };
   std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Table> value;
   int line = 0;
@@ -38,10 +44,16 @@ struct Entry {
   Node node;
 };
 
+inline const Node* Node::Table::find(std::string_view name) const {
+  const auto place = places.find(name);
+  return place == places.end() ? nullptr : &entries[place->second].node;
+}
+
 struct State {
   std::filesystem::path file;
   Node root;
   Diagnostics diagnostics;
+  std::set<std::pair<std::string, std::string>> noted;  // key and message of each
 };
 
 // "tool.1" and "diameter": "tool.1.diameter".
@@ -50,6 +62,11 @@ inline std::string joined(const std::string& path, std::string_view key) {
   if (key.empty()) return path;
   return path + "." + std::string(key);
 }
+
+// With the file, and line, column and path of a key of a table; `table` may be null, which is one
+// that is missing.
+Diagnostic placed(const State& state, const Node* table, const std::string& path,
+                  std::string_view key, Diagnostic diagnostic);
 
 }  // namespace toml_detail
 

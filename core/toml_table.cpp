@@ -33,6 +33,18 @@ const char* kind_of(const Node& node) {
 
 }  // namespace
 
+Diagnostic toml_detail::placed(const State& state, const Node* table, const std::string& path,
+                               std::string_view key, Diagnostic diagnostic) {
+  diagnostic.file = state.file.string();
+  diagnostic.key = joined(path, key);
+  const Node* child = table != nullptr ? table->table()->find(key) : nullptr;
+  if (const Node* place = child != nullptr ? child : table) {
+    diagnostic.line = place->line;
+    diagnostic.column = place->column;
+  }
+  return diagnostic;
+}
+
 TomlTable::TomlTable(std::shared_ptr<State> state, const Node* node, std::string path)
     : state_(std::move(state)), node_(node), path_(std::move(path)) {
   if (node_ != nullptr && node_->table() != nullptr) node_->table()->opened = true;
@@ -41,10 +53,8 @@ TomlTable::TomlTable(std::shared_ptr<State> state, const Node* node, std::string
 const Node* TomlTable::find(std::string_view key, bool required) const {
   if (node_ == nullptr) return nullptr;
   const Node::Table& table = *node_->table();
-  table.asked.emplace_back(key);
-  for (const auto& [name, child] : table.entries) {
-    if (name == key) return &child;
-  }
+  table.asked.emplace(key);
+  if (const Node* found = table.find(key)) return found;
   if (required) fail(key, "missing-key"_id, "this key is missing");
   return nullptr;
 }
@@ -59,23 +69,10 @@ void TomlTable::fail(std::string_view key, const Diagnostic& found) const {
 
 void TomlTable::fail(std::string_view key, DiagnosticId id, std::string message,
                      std::string hint) const {
-  Diagnostic diagnostic = frustum::error(id, std::move(message), std::move(hint));
-  diagnostic.file = state_->file.string();
-  diagnostic.key = joined(path_, key);
-  const Node* place = node_;
-  if (node_ != nullptr) {
-    for (const auto& [name, child] : node_->table()->entries) {
-      if (name == key) place = &child;
-    }
-  }
-  if (place != nullptr) {
-    diagnostic.line = place->line;
-    diagnostic.column = place->column;
-  }
-  const bool reported = std::ranges::any_of(state_->diagnostics, [&](const Diagnostic& d) {
-    return d.key == diagnostic.key && d.message == diagnostic.message;
-  });
-  if (!reported) state_->diagnostics.push_back(std::move(diagnostic));
+  Diagnostic failure =
+      placed(*state_, node_, path_, key, frustum::error(id, std::move(message), std::move(hint)));
+  const bool is_new = state_->noted.emplace(failure.key, failure.message).second;
+  if (is_new) state_->diagnostics.push_back(std::move(failure));
 }
 
 bool TomlTable::is_sound() const {
@@ -267,11 +264,19 @@ std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size
 Vec3 TomlTable::vector(std::string_view key) const {
   const std::size_t before = state_->diagnostics.size();
   const std::vector<double> values = numbers(key);
-  if (values.size() == 3) return {values[0], values[1], values[2]};
-  if (state_->diagnostics.size() == before) {
-    fail(key, "wrong-type"_id,
-         fmt::format("expected three numbers [x, y, z], found {}", values.size()));
+  if (values.size() != 3) {
+    if (state_->diagnostics.size() == before) {
+      fail(key, "wrong-type"_id,
+           fmt::format("expected three numbers [x, y, z], found {}", values.size()));
+    }
+    return Vec3::Zero();
   }
+  // No machine is so large, and sums and squares of what is smaller are finite.
+  constexpr double kLargest = 1e15;
+  const Vec3 vector(values[0], values[1], values[2]);
+  if (vector.cwiseAbs().maxCoeff() <= kLargest) return vector;
+  fail(key, "out-of-range"_id,
+       fmt::format("must be within 1e15, is [{}]", fmt::join(values, ", ")));
   return Vec3::Zero();
 }
 

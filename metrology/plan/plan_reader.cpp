@@ -26,19 +26,33 @@ int count(const TomlTable& table, std::string_view key) {
 constexpr Rad kTurn{2.0 * std::numbers::pi};
 
 // The key `points` or, instead of it, `pitch`; and whether it is a scan.
-template <typename S>
-void read_spacing(const TomlTable& table, std::string_view points, int& number, S& s) {
-  number = 0;
+struct Spacing {
+  int points = 0;
+  double pitch = 0.0;
+  bool scan = false;
+};
+
+Spacing spacing_of(const TomlTable& table, std::string_view points) {
+  Spacing spacing;
   if (table.has("pitch")) {
-    s.pitch = table.length("pitch", Bound::positive).value;
+    spacing.pitch = table.length("pitch", Bound::positive).value;
     if (table.has(points)) {
       table.fail("pitch", "plan-value"_id, fmt::format("{} and pitch exclude each other", points));
       static_cast<void>(count(table, points));
     }
   } else {
-    number = count(table, points);
+    spacing.points = count(table, points);
   }
-  s.scan = table.boolean_or("scan", false);
+  spacing.scan = table.boolean_or("scan", false);
+  return spacing;
+}
+
+template <typename S>
+void read_spacing(const TomlTable& table, std::string_view points, int& number, S& s) {
+  const Spacing spacing = spacing_of(table, points);
+  number = spacing.points;
+  s.pitch = spacing.pitch;
+  s.scan = spacing.scan;
 }
 
 template <typename S>
@@ -174,9 +188,10 @@ std::vector<std::size_t> read_sections(const TomlTable& table) {
   std::vector<std::size_t> sections;
   if (!table.has("sections")) return sections;
   for (const double value : table.numbers("sections")) {
-    if (value < 0.0 || value != std::floor(value)) {
+    // Larger than any plan has.
+    if (value < 0.0 || value != std::floor(value) || value > 1e6) {
       table.fail("sections", "plan-value"_id,
-                 fmt::format("a section is a whole number from 0, found {}", value));
+                 fmt::format("a section is a whole number from 0 to 1000000, found {}", value));
       return sections;
     }
     sections.push_back(static_cast<std::size_t>(value));

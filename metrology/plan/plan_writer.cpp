@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/units.hpp"
 #include "metrology/plan/inspection_plan.hpp"
@@ -16,7 +17,7 @@ std::optional<double> written_in(double value, double scale) {
   const double quotient = value / scale;
   // What people typed has few digits; what was computed is a few roundings away from the quotient.
   std::array<double, 8> candidates{};
-  candidates[0] = std::stod(fmt::format("{:.12g}", quotient));
+  candidates[0] = std::strtod(fmt::format("{:.12g}", quotient).c_str(), nullptr);
   candidates[1] = quotient;
   for (std::size_t i = 0; i < 3; ++i) {
     candidates[2 + 2 * i] = std::nextafter(i == 0 ? quotient : candidates[2 * i], HUGE_VAL);

@@ -221,9 +221,11 @@ class PointReader {
         continue;
       }
       const auto number = number_in(word.text);
-      if (!number || !std::isfinite(*number)) {
+      const double scale = is_coordinate(columns_[i]) ? mm() : 1.0;
+      if (!number || !std::isfinite(scale * *number)) {
         return fault("point-columns"_id, word.column,
-                     fmt::format("'{}' is not a finite number", word.text),
+                     fmt::format("'{}' is not a finite number{}", word.text,
+                                 number && std::isfinite(*number) ? " of mm" : ""),
                      fmt::format("{} expected here", columns_[i]));
       }
       if (columns_[i] == "section") {
@@ -241,11 +243,11 @@ class PointReader {
         }
         weight = *number;
       } else if (is_coordinate(columns_[i])) {
-        point[columns_[i][0] - 'x'] = *number;
+        point[columns_[i][0] - 'x'] = scale * *number;
       }
     }
     FoundPoints& place = points_of(feature);
-    place.feature.points.push_back(mm() * point);
+    place.feature.points.push_back(point);
     place.feature.lines.push_back(line_);
     if (section) place.feature.sections.push_back(*section);
     if (weight) place.weights.push_back(*weight);
@@ -324,7 +326,14 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
   for (Diagnostic& d : problems) d.file = file.string();
   if (!problems.empty()) return problems;
   const double mm = ply->unit ? ply->unit->mm : unit ? unit->mm : 1.0;
-  for (Vec3& point : ply->points) point *= mm;
+  for (Vec3& point : ply->points) {
+    point *= mm;
+    if (point.allFinite()) continue;
+    Diagnostic d = error("point-not-finite"_id, "a vertex of the PLY is no finite number of mm",
+                         "correct the vertex or the unit");
+    d.file = file.string();
+    return d;
+  }
   FoundPoints found;
   found.feature.points = std::move(ply->points);
   found.feature.file = file.string();

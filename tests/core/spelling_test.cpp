@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,14 @@ TEST(Suggestion, AsksOrListsWhatIsKnown) {
   EXPECT_EQ(suggestion("typ", keys()), "did you mean type?");
   EXPECT_EQ(suggestion("colour", keys()), "known: diameter, length, radius_error, type");
   EXPECT_EQ(suggestion("colour", {}), "");
+}
+
+TEST(Suggestion, ListsNoMoreThanPeopleRead) {
+  const std::vector<std::string> many(1000, "Z");
+  const std::string text = suggestion("colour", many);
+  EXPECT_TRUE(text.starts_with("known: Z, Z, ")) << text;
+  EXPECT_TRUE(text.ends_with("Z, Z and 960 more")) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), 'Z'), 40);
 }
 
 }  // namespace

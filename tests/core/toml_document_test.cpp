@@ -1,14 +1,17 @@
 #include "core/toml_document.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace frustum {
@@ -350,6 +353,52 @@ TEST(TomlDocument, RefusesInvalidTomlWithLineAndColumn) {
   EXPECT_EQ(document.error()[0].file, "job.toml");
   EXPECT_EQ(document.error()[0].line, 2);
   EXPECT_EQ(document.error()[0].column, 5);
+}
+
+TEST(TomlDocument, RefusesAKeyOfThousandsOfNames) {
+  std::string key = "a";
+  for (int k = 1; k < 100000; ++k) key += ".a";
+  for (const auto& [text, place] :
+       {std::pair("# 1\n" + key + " = 1\n", ":2:1"), std::pair("t = 'x'\n[" + key + "]\n", ":2:2"),
+        std::pair("b = { \"c.d\" = 1," + key + " = 1 }\n", ":1:17")}) {
+    const auto document = TomlDocument::parse(text, "job.toml");
+    ASSERT_FALSE(document);
+    EXPECT_EQ(printed(document.error()),
+              std::vector{std::string("job.toml") + place +
+                          ": error: a key of more than 16 names (hint: no table here is so deep in "
+                          "others)"});
+  }
+}
+
+TEST(TomlDocument, CountsNoDotsOfTextsCommentsAndNumbers) {
+  const std::string dots(50, '.');
+  const TomlDocument document = parsed(
+      "a = \"" + dots + "\\\"" + dots + "\" # \" " + dots + "\nb = '" + dots + "'\nc = '''\n'" +
+      dots + "''' # '\nd = \"\"\"\n\"\\\"" + dots +
+      "\"\"\"\nlist = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, " +
+      "8.5, 9.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5]\na1.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p = 1\n");
+  EXPECT_EQ(document.root().text("b"), dots);
+  EXPECT_EQ(document.root().numbers("list").size(), 17U);
+}
+
+// Each error was compared with all before it, each key was looked for among all: 20 s.
+TEST(TomlDocument, TakesTimeByTheNumberOfItsKeys) {
+  std::string text;
+  for (int k = 0; k < 60000; ++k) text += fmt::format("k{} = {{ a = 1 }}\n", k);
+  const TomlDocument document = parsed(text);
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(document.finish().size(), 60000U);
+  for (const std::string& key : document.root().keys()) (void)document.root().table(key).text("a");
+  EXPECT_EQ(document.finish().size(), 60000U);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
+}
+
+TEST(TomlDocument, RefusesPlacesBeyondAllSense) {
+  const TomlDocument document = parsed("near = [1e15, -1e15, 0]\nfar = [0, 1e16, 0]\n");
+  EXPECT_EQ(document.root().vector("near"), Vec3(1e15, -1e15, 0));
+  (void)document.root().vector("far");
+  EXPECT_THAT(verdict(document),
+              ElementsAre("jobs/job.toml:2:1: error: far: must be within 1e15, is [0, 1e+16, 0]"));
 }
 
 TEST(TomlDocument, RefusesAKeyGivenTwice) {

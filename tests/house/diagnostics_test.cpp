@@ -21,7 +21,6 @@ struct MessageSite {
 
 const std::vector<MessageSite>& message_sites() {
   static const std::vector<MessageSite> kSites{
-      {"core/toml_table.cpp", "the same diagnostic is reported once"},
       {"lint/finding_list.cpp", "the same diagnostic is reported once"},
   };
   return kSites;

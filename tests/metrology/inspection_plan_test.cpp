@@ -23,6 +23,24 @@ std::string complaint(const std::string& text) {
   return plan ? "" : to_string(plan.error().front());
 }
 
+// Below the smallest number with all its digits.
+TEST(InspectionPlan, WritesTheSmallestToleranceThatThereIs) {
+  InspectionPlan plan = test_part::plan();
+  plan.characteristics.front().tolerance = 1e-320;
+  const auto read = parse_plan(to_toml(plan));
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  EXPECT_EQ(*read, plan);
+}
+
+TEST(InspectionPlan, RefusesSectionsThatAreNoNumberOfThem) {
+  for (const std::string number : {"1e300", "-1", "0.5", "1000001"}) {
+    const std::string text = changed("\nsection = ", "\nsections = [" + number + "]  # ");
+    EXPECT_NE(complaint(text).find("a section is a whole number from 0 to 1000000, found "),
+              std::string::npos)
+        << complaint(text);
+  }
+}
+
 TEST(InspectionPlan, ReadsBackWhatItWrites) {
   InspectionPlan plan = test_part::plan();
   plan.title = "quotes \" and \\ and \n lines";

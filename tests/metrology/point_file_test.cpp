@@ -50,6 +50,8 @@ TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
             "p.csv:2:5: error: '6x' is not a finite number (hint: z expected here)");
   EXPECT_EQ(point_file_complaint("1 2 1e999\n"),
             "p.csv:1:5: error: '1e999' is not a finite number (hint: z expected here)");
+  EXPECT_EQ(point_file_complaint("# unit: inch\n1 2 1e308\n"),
+            "p.csv:2:5: error: '1e308' is not a finite number of mm (hint: z expected here)");
   EXPECT_EQ(point_file_complaint("feature,sektion,x,y,z\n"),
             "p.csv:1:9: error: unknown column 'sektion' (hint: did you mean section?)");
   EXPECT_EQ(point_file_complaint("feature,x,y\nA,1,2\n"),

@@ -1,48 +1,29 @@
 // The fuzzers' seeds, and with them all that a fuzzer has found, in the ordinary build.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <vector>
 
 #include "tests/fuzz/one_program.hpp"
+#include "tests/fuzz/seeds.hpp"
 
 namespace frustum::parser {
 namespace {
 
-namespace fs = std::filesystem;
-
-const fs::path kFolder = fs::path(FRUSTUM_SOURCE_DIR) / "tests" / "fuzz";
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 class FuzzSeeds : public testing::TestWithParam<Dialect> {};
 
 TEST_P(FuzzSeeds, DoNoHarm) {
-  int seeds = 0;
-  for (const auto& seed : fs::directory_iterator(kFolder / name_of(GetParam()) / "seeds")) {
-    EXPECT_NO_THROW(run_one_program(bytes_of(seed.path()), GetParam())) << seed.path();
-    ++seeds;
+  const auto seeds = fuzz::seeds_of(name_of(GetParam()));
+  for (const auto& seed : seeds) {
+    EXPECT_NO_THROW(run_one_program(fuzz::bytes_of(seed), GetParam())) << seed;
   }
-  EXPECT_GE(seeds, 2);
+  EXPECT_GE(seeds.size(), 2U);
 }
 
-// One broken line stops libFuzzer before it begins.
 TEST_P(FuzzSeeds, HaveADictionaryThatLibFuzzerReads) {
-  std::ifstream in(kFolder / name_of(GetParam()) / "words.dict");
-  int words = 0;
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line.front() == '#') continue;
-    ++words;
-    EXPECT_TRUE(line.size() > 2 && line.front() == '"' && line.back() == '"') << line;
-  }
-  EXPECT_GE(words, 40);
+  const fuzz::Dictionary dictionary = fuzz::dictionary_of(name_of(GetParam()));
+  EXPECT_THAT(dictionary.broken, testing::IsEmpty());
+  EXPECT_GE(dictionary.words, 40);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, FuzzSeeds, testing::ValuesIn(kDialects),
