@@ -125,7 +125,7 @@ Diagnostics TomlDocument::finish() const {
         visit(child, joined(path, name));
       } else {
         verdict.push_back(
-            placed(*root_.state_, &node, path, name,
+            placed(*root_.state_, node, path, name,
                    frustum::error("unknown-key"_id, "unknown key", suggestion(name, known))));
       }
     }

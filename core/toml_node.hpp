@@ -63,9 +63,8 @@ inline std::string joined(const std::string& path, std::string_view key) {
   return path + "." + std::string(key);
 }
 
-// With the file, and line, column and path of a key of a table; `table` may be null, which is one
-// that is missing.
-Diagnostic placed(const State& state, const Node* table, const std::string& path,
+// With the file, and line, column and path of a key of a table.
+Diagnostic placed(const State& state, const Node& table, const std::string& path,
                   std::string_view key, Diagnostic diagnostic);
 
 }  // namespace toml_detail

@@ -33,15 +33,14 @@ const char* kind_of(const Node& node) {
 
 }  // namespace
 
-Diagnostic toml_detail::placed(const State& state, const Node* table, const std::string& path,
+Diagnostic toml_detail::placed(const State& state, const Node& table, const std::string& path,
                                std::string_view key, Diagnostic diagnostic) {
   diagnostic.file = state.file.string();
   diagnostic.key = joined(path, key);
-  const Node* child = table != nullptr ? table->table()->find(key) : nullptr;
-  if (const Node* place = child != nullptr ? child : table) {
-    diagnostic.line = place->line;
-    diagnostic.column = place->column;
-  }
+  const Node* child = table.table()->find(key);
+  const Node& place = child != nullptr ? *child : table;
+  diagnostic.line = place.line;
+  diagnostic.column = place.column;
   return diagnostic;
 }
 
@@ -69,8 +68,9 @@ void TomlTable::fail(std::string_view key, const Diagnostic& found) const {
 
 void TomlTable::fail(std::string_view key, DiagnosticId id, std::string message,
                      std::string hint) const {
+  if (node_ == nullptr) return;  // the table is missing, which has been reported
   Diagnostic failure =
-      placed(*state_, node_, path_, key, frustum::error(id, std::move(message), std::move(hint)));
+      placed(*state_, *node_, path_, key, frustum::error(id, std::move(message), std::move(hint)));
   const bool is_new = state_->noted.emplace(failure.key, failure.message).second;
   if (is_new) state_->diagnostics.push_back(std::move(failure));
 }

@@ -393,6 +393,16 @@ TEST(TomlDocument, TakesTimeByTheNumberOfItsKeys) {
   EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
 }
 
+TEST(TomlDocument, SaysOnlyThatATableIsMissing) {
+  const TomlDocument document = parsed("a = 1\n");
+  (void)document.root().integer("a");
+  const TomlTable blank = document.root().table("blank");
+  (void)blank.vector("size");
+  blank.fail("size", "the blank is empty");
+  EXPECT_THAT(verdict(document),
+              ElementsAre("jobs/job.toml:1:1: error: blank: this key is missing"));
+}
+
 TEST(TomlDocument, RefusesPlacesBeyondAllSense) {
   const TomlDocument document = parsed("near = [1e15, -1e15, 0]\nfar = [0, 1e16, 0]\n");
   EXPECT_EQ(document.root().vector("near"), Vec3(1e15, -1e15, 0));
