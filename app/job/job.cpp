@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "app/job/export_request.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/job/mesh_input.hpp"
@@ -190,6 +193,11 @@ std::optional<ErrorDraw> read_draw(const TomlTable& root) {
   if (!table) return std::nullopt;
   const auto seed = table->integer("seed", Bound::non_negative);
   const auto index = table->integer_or("index", 0, Bound::non_negative);
+  constexpr std::int64_t kMostDraws = std::numeric_limits<std::uint32_t>::max();
+  if (index > kMostDraws) {
+    table->fail("index", "out-of-range"_id,
+                fmt::format("must be at most {}, is {}", kMostDraws, index));
+  }
   return ErrorDraw{static_cast<std::uint64_t>(seed), static_cast<std::uint32_t>(index)};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kinematics/errors/harmonic_order.hpp"
 #include "kinematics/errors/measured_errors.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
@@ -70,8 +71,7 @@ class ShapeReader {
                       "polynomial = [\"1 um\", \"-2 um\"]");
         break;
       case Kind::harmonic:
-        shape_.order = static_cast<int>(
-            std::clamp<std::int64_t>(table_.integer("harmonic", Bound::positive), 1, 1000));
+        read_order();
         shape_.amount = amount("amplitude");
         break;
       case Kind::cyclic:
@@ -99,6 +99,16 @@ class ShapeReader {
     }
     if (shape_.kind == Kind::harmonic || shape_.kind == Kind::cyclic) read_phase();
     if (shape_.kind != Kind::cyclic && shape_.kind != Kind::reversal) read_span();
+  }
+
+  void read_order() {
+    const std::int64_t order = table_.integer("harmonic", Bound::positive);
+    shape_.order = static_cast<int>(std::clamp<std::int64_t>(order, 1, kHighestHarmonic));
+    if (order > kHighestHarmonic) {
+      table_.fail("harmonic", "error-table"_id,
+                  fmt::format("the order of a harmonic is a whole number from 1 to {}, is {}",
+                              kHighestHarmonic, order));
+    }
   }
 
   void read_phase() {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "kinematics/errors/error_shape.hpp"
+#include "kinematics/errors/harmonic_order.hpp"
 
 namespace frustum::kinematics {
 namespace {
@@ -258,10 +259,12 @@ class TermReader {
       break;
     }
     if (shape_.kind == Kind::harmonic) {
-      shape_.order = static_cast<int>(
-          std::clamp(in_.quantity(UnitKind::none, "the order of the harmonic").value, 0.0, 1e4));
-      if (!(shape_.order >= 1 && shape_.order <= 1000))
-        in_.fail("the order of a harmonic is 1 or more");
+      const double order = in_.quantity(UnitKind::none, "the order of the harmonic").value;
+      shape_.order = static_cast<int>(std::clamp(order, 0.0, 1e4));
+      if (shape_.order != order || shape_.order < 1 || shape_.order > kHighestHarmonic) {
+        in_.fail(fmt::format("the order of a harmonic is a whole number from 1 to {}",
+                             kHighestHarmonic));
+      }
     }
     if (shape_.kind == Kind::polynomial) {
       while (!in_.done() && in_.peek() != "over" && in_.peek() != "times") {

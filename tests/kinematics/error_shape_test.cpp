@@ -241,6 +241,19 @@ times = { axis = "B", table = [-90, 0, 90], values = [2.5, 0.5, 2.5] }
   }
 }
 
+// 5000 was read as 1000.
+TEST(ErrorShape, OrdersThatAreTooHighAreRefusedInTables) {
+  const auto document =
+      TomlDocument::parse("EXX = { harmonic = 5000, amplitude = \"1 um\" }", "e.toml");
+  ASSERT_TRUE(document);
+  (void)read_errors(document->root());
+  const Diagnostics found = document->finish();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(to_string(found.front()),
+            "e.toml:1:9: error: EXX.harmonic: the order of a harmonic is a whole number from 1 to "
+            "1000, is 5000");
+}
+
 TEST(ErrorShape, WordsNameWhatIsWrong) {
   EXPECT_EQ(shape_problem("EXX=cyclic 2um"),
             "error EXX = cyclic 2um: a cyclic error needs its period, above 0: period 5mm");

@@ -65,8 +65,12 @@ TEST(GeometricErrors, NameWhatIsWrong) {
   EXPECT_EQ(problem_of("EXX=10"), "error EXX = 10: the amount has no unit");
   EXPECT_EQ(problem_of("EX0C=linear 10um"),
             "error EX0C = linear 10um: a location error is a constant");
-  EXPECT_EQ(problem_of("EXX=harmonic 0 10um"),
-            "error EXX = harmonic 0 10um: the order of a harmonic is 1 or more");
+  EXPECT_EQ(
+      problem_of("EXX=harmonic 0 10um"),
+      "error EXX = harmonic 0 10um: the order of a harmonic is a whole number from 1 to 1000");
+  EXPECT_EQ(problem_of("EXX=harmonic 2.5 10um"),
+            "error EXX = harmonic 2.5 10um: the order of a harmonic is a whole number from 1 to "
+            "1000");
   EXPECT_EQ(problem_of("EXX=linear 10um over 5mm"),
             "error EXX = linear 10um over 5mm: 'over 5mm' is not a span such as 0mm..200mm");
   EXPECT_EQ(problem_of("EXX=linear 10um sideways"),
