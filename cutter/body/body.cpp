@@ -74,7 +74,8 @@ double finest_concave_of(const Generatrix& generatrix, std::span<const Profile> 
     if (size > 0.0) finest = std::min(finest, size);
   };
   for (const GeneratrixSegment& s : generatrix.segments()) {
-    const auto [low, high] = std::minmax(s.from.z, s.to.z);
+    const double low = std::min(s.from.z, s.to.z);
+    const double high = std::max(s.from.z, s.to.z);
     const bool is_beside = std::ranges::any_of(concave, [&](const Profile& hull) {
       return low <= hull.height() && high >= hull.bottom();
     });

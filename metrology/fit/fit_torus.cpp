@@ -51,8 +51,8 @@ Torus bent(const Cylinder& tube, const NormalisedPoints& few) {
     right += at.residual * monomials;
   }
   const Row7 s = normal.ldlt().solve(right);
-  const auto [u, v] = tangents(tube.axis);
-  const auto across = [&](int i) -> Vec3 { return s[i] * u + s[i + 1] * v; };
+  const auto uv = tangents(tube.axis);
+  const auto across = [&](int i) -> Vec3 { return s[i] * uv.first + s[i + 1] * uv.second; };
   const UnitVec3 along = unit(tube.axis.vec() + across(2));
   const Vec3 bend = across(4) - across(4).dot(along.vec()) * along.vec();
   const UnitVec3 inward = UnitVec3::of(bend).value_or(unit(perpendicular_to(along)));

@@ -44,8 +44,9 @@ std::vector<Vec3> centres(const NormalisedPoints& local, const std::vector<Vec3>
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Vec3> chosen;
-  for (const auto& [at, centre] : found) {
+  for (const auto& candidate : found) {
     if (chosen.size() >= most) break;
+    const Vec3& centre = candidate.second;
     const bool fresh = std::none_of(chosen.begin(), chosen.end(),
                                     [&](const Vec3& c) { return (c - centre).norm() < 0.1; });
     if (fresh) chosen.push_back(centre);
