@@ -4,6 +4,8 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 namespace frustum {
 
@@ -12,6 +14,15 @@ std::string shortest_decimal(double value) {
   const auto end =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
   return {buffer.data(), end.ptr};
+}
+
+double as_stated(double value) {
+  if (!std::isfinite(value)) return value;
+  const std::string digits = fmt::format("{:.14e}", value);
+  double stated = 0.0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), stated);
+  constexpr double kRoundings = 4.0 * 0.5 * std::numeric_limits<double>::epsilon();
+  return std::abs(stated - value) <= kRoundings * std::abs(value) ? stated : value;
 }
 
 std::string fixed_decimal(double value, int decimals) {

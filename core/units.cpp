@@ -16,14 +16,21 @@ struct Unit {
 };
 
 constexpr std::array kUnits{
-    Unit{"mm", UnitKind::length, 1.0},        Unit{"um", UnitKind::length, 1e-3},
+    Unit{"mm", UnitKind::length, 1.0},
+    Unit{"um", UnitKind::length, 1e-3},
     Unit{"\u00b5m", UnitKind::length, 1e-3},  // micro sign
     Unit{"\u03bcm", UnitKind::length, 1e-3},  // Greek mu
-    Unit{"nm", UnitKind::length, 1e-6},       Unit{"m", UnitKind::length, 1e3},
-    Unit{"in", UnitKind::length, kMmPerInch}, Unit{"rad", UnitKind::angle, 1.0},
-    Unit{"mrad", UnitKind::angle, 1e-3},      Unit{"urad", UnitKind::angle, 1e-6},
-    Unit{"\u00b5rad", UnitKind::angle, 1e-6}, Unit{"\u03bcrad", UnitKind::angle, 1e-6},
-    Unit{"deg", UnitKind::angle, kRadPerDeg}, Unit{"arcsec", UnitKind::angle, kRadPerDeg / 3600.0},
+    Unit{"nm", UnitKind::length, 1e-6},
+    Unit{"m", UnitKind::length, 1e3},
+    Unit{"in", UnitKind::length, kMmPerInch},
+    Unit{"inch", UnitKind::length, kMmPerInch},
+    Unit{"rad", UnitKind::angle, 1.0},
+    Unit{"mrad", UnitKind::angle, 1e-3},
+    Unit{"urad", UnitKind::angle, 1e-6},
+    Unit{"\u00b5rad", UnitKind::angle, 1e-6},
+    Unit{"\u03bcrad", UnitKind::angle, 1e-6},
+    Unit{"deg", UnitKind::angle, kRadPerDeg},
+    Unit{"arcsec", UnitKind::angle, kRadPerDeg / 3600.0},
 };
 
 std::string_view trim(std::string_view text) {

@@ -99,6 +99,8 @@ struct SeamlessValue {
 struct CharacteristicResult {
   std::string name{};
   std::string kind{};
+  std::string parameter{};  // of a form, as the plan states it: "t", "p", "v", "q"; else empty
+  bool floating = false;    // a profile whose planned geometry was laid into its points
   double value = 0.0;
   std::string unit{};  // "um", "deg", "urad", "mm"
   // For characteristics that have one (half angle). 0 for those that compare lines: their value is

@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "core/units.hpp"
+#include "metrology/plan/plan_names.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
+#include "report/form_parameter.hpp"
 
 namespace frustum::report {
 namespace {
@@ -32,6 +34,9 @@ std::string accuracy_text(const CmmModel& cmm, PointSource source) {
                : "not stated: every U is 0, which says nothing about the machine";
   }
   std::string text = fmt::format("E0 = {:g} µm", cmm.e0_mm * kUmPerMm);
+  if (source == PointSource::measured_points && !cmm.length_per_error) {
+    return text + "; how errors grow with length is not stated, no U contains it";
+  }
   if (cmm.length_per_error) {
     text += fmt::format("; E = {:g} µm + L/{:g} (L in mm, E in µm)", cmm.e0_mm * kUmPerMm,
                         *cmm.length_per_error);
@@ -54,8 +59,16 @@ std::string stylus_text(const metrology::Stylus& stylus) {
 }
 
 std::string temperature_text(const metrology::ThermalState& state) {
-  return fmt::format("part {:g} °C, scales {:g} °C, {}", state.part, state.scales,
-                     state.compensated ? "compensated" : "not compensated");
+  constexpr double kMicro = 1e-6;
+  std::string text =
+      fmt::format("part {:g} °C, {:g} µm/(m K); scales {:g} °C, {:g} µm/(m K); {}", state.part,
+                  state.part_expansion / kMicro, state.scales, state.scale_expansion / kMicro,
+                  state.compensated ? "compensated" : "not compensated");
+  if (state.compensated) {
+    text += fmt::format(", sensors right to ± {:g} K, coefficients to ± {:g} µm/(m K)",
+                        state.sensor_error, state.expansion_error / kMicro);
+  }
+  return text;
 }
 
 std::string alignment_text(const InspectionPlan& plan) {
@@ -116,10 +129,31 @@ std::string association_text(const InspectionPlan& plan) {
   constexpr std::array<std::string_view, 5> kWords{"least squares", "minimum zone",
                                                    "maximum inscribed", "minimum circumscribed",
                                                    "outside the material"};
+  const auto words = [&](metrology::Criterion criterion) {
+    return kWords.at(static_cast<std::size_t>(criterion));
+  };
+  constexpr auto kUsual = metrology::Criterion::least_squares;
   std::string text = "least squares";
   for (const PlannedCharacteristic& c : plan.characteristics) {
-    if (c.criterion == metrology::Criterion::least_squares) continue;
-    text += fmt::format("; {}: {}", c.name, kWords.at(static_cast<std::size_t>(c.criterion)));
+    std::vector<std::string> others;
+    if (c.criterion != kUsual) others.emplace_back(words(c.criterion));
+    if (c.datum_criterion != kUsual) {
+      others.push_back(fmt::format("datum {}", words(c.datum_criterion)));
+    }
+    if (c.floating) others.emplace_back("floating, planned geometry fitted to the points");
+    if (!others.empty()) text += fmt::format("; {}: {}", c.name, fmt::join(others, ", "));
+  }
+  return text;
+}
+
+// Of the forms whose plan states one; empty when none does.
+std::string parameters_text(const InspectionPlan& plan) {
+  std::string text;
+  for (const PlannedCharacteristic& c : plan.characteristics) {
+    if (!c.parameter) continue;
+    const auto parameter = metrology::kParameterNames.at(static_cast<std::size_t>(*c.parameter));
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", c.name,
+                        parameter_text(name_of(c.kind), parameter));
   }
   return text;
 }
@@ -154,6 +188,9 @@ std::vector<Fact> measuring_statement(const InspectionPlan& plan, const CmmModel
   facts.push_back({"alignment", "Alignment", alignment_text(plan)});
   facts.push_back({"filter", "Filter", filters_text(plan, cmm)});
   facts.push_back({"association", "Association", association_text(plan)});
+  if (const std::string text = parameters_text(plan); !text.empty()) {
+    facts.push_back({"parameter", "Form parameter", text});
+  }
   facts.push_back({"uncertainty", "Uncertainty", uncertainty_text_of(plan)});
   facts.push_back({"decision_rule", "Decision rule", decision_text(plan.decision)});
   return facts;

@@ -17,7 +17,8 @@ namespace frustum::report {
 enum class PointSource { virtual_cmm, measured_points };
 
 // Facts with the keys source, accuracy, probe, stylus, temperature, alignment, filter, association,
-// uncertainty, decision_rule; those of which nothing is known or that do not apply are left out.
+// parameter, uncertainty, decision_rule; those of which nothing is known or that do not apply are
+// left out.
 [[nodiscard]] std::vector<Fact> measuring_statement(const metrology::InspectionPlan& plan,
                                                     const metrology::CmmModel& cmm,
                                                     PointSource source);

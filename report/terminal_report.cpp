@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/units.hpp"
+#include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
 
@@ -121,6 +122,7 @@ void write_machine_bodies(Page& page, const RunReport& report) {
 }
 
 void write_errors(Page& page, const RunReport& report) {
+  if (report.errors.empty() && report.machine.empty()) return;  // no machine tool was simulated
   if (report.errors.empty()) {
     page.labelled("Errors     ", "none injected");
     return;
@@ -150,7 +152,7 @@ void write_characteristics(Page& page, const RunReport& report) {
   for (const metrology::CharacteristicResult& c : characteristics) {
     const std::optional<double> used = used_share(c);
     const std::string plus_minus = c.nominal ? "+-" : "";
-    rows.push_back({printable(c.name), result_text(c) + " " + c.unit, nominal_text(c),
+    rows.push_back({printable(name_text(c)), result_text(c) + " " + c.unit, nominal_text(c),
                     plus_minus + value_text(c.tolerance, c.unit),
                     uncertainty_text(c.expanded_uncertainty), interval_text(c),
                     used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});

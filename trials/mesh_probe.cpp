@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/decimal.hpp"
 #include "core/units.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/plan/strategy.hpp"
@@ -22,9 +25,10 @@ MeshProbe turned_over(const stock::FacetSolid& solid) {
 std::optional<Diagnostic> note_of(const stock::WeldedMesh& joined, double mm,
                                   const std::filesystem::path& file) {
   if (joined.moved == 0) return std::nullopt;
-  std::string message =
-      fmt::format("{} corners of the mesh were joined with others {:.2g} um away or less",
-                  joined.moved, joined.farthest * mm * kUmPerMm);
+  const double um = joined.farthest * mm * kUmPerMm;
+  std::string message = fmt::format(
+      "{} corners of the mesh were joined with others {} um away or less", joined.moved,
+      um < 1.0 ? fixed_decimal(std::max(um, 0.001), 3) : fixed_decimal(um, um < 10.0 ? 1 : 0));
   if (joined.lost_facets > 0) {
     message += fmt::format("; {} facets without an area were left out", joined.lost_facets);
   }

@@ -66,6 +66,34 @@ int measure_job(const MeasureOptions& options) {
   return write_and_show(report, job->piece.plan, *exports, options);
 }
 
+// What every U of points lacks, as nothing else is known of the machine that measured them.
+std::optional<Diagnostic> missing_accuracy(const CmmModel& cmm) {
+  constexpr const char* kState =
+      "state its accuracy with --e0 \"1.8 um\" --l-per-um 350, or --cmm FILE";
+  Diagnostic missing;
+  if (metrology::point_uncertainty(cmm).is_zero()) {
+    missing = warning("unknown-accuracy"_id,
+                      "nothing is known of the machine that measured these points: uncertainties "
+                      "are 0",
+                      kState);
+  } else if (!cmm.length_per_error) {
+    missing = warning("unknown-accuracy"_id,
+                      "how the errors of the machine that measured these points grow with length "
+                      "(l_per_um) is not stated: no U contains that",
+                      kState);
+  } else if (cmm.e0_mm == 0.0 && !cmm.probe) {
+    missing =
+        warning("unknown-accuracy"_id,
+                "the error of a single point (e0) of the machine that measured these points is "
+                "not stated: no U contains it",
+                kState);
+  } else {
+    return std::nullopt;
+  }
+  missing.severity = Severity::note;
+  return missing;
+}
+
 Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
                                                 const InspectionPlan& plan,
                                                 const std::optional<LengthUnit>& unit,
@@ -79,13 +107,9 @@ Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
   const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
                                             : metrology::PointMeaning::surface;
   auto measurement = metrology::evaluate(plan, *points, meaning, cmm);
-  if (measurement && metrology::point_uncertainty(cmm).is_zero()) {
-    Diagnostic unknown =
-        warning("unknown-accuracy"_id,
-                "nothing is known of the machine that measured these points: uncertainties are 0",
-                "state its accuracy with --e0 \"1.8 um\" --l-per-um 350, or --cmm FILE");
-    unknown.severity = Severity::note;
-    measurement->diagnostics.push_back(std::move(unknown));
+  if (!measurement) return measurement;
+  if (auto missing = missing_accuracy(cmm)) {
+    measurement->diagnostics.push_back(*std::move(missing));
   }
   return measurement;
 }
@@ -147,7 +171,9 @@ int measure_by_plan(const MeasureOptions& options) {
   auto evidence = evidence_of(options, *plan, *cmm);
   if (!evidence) return refuse(evidence.error(), options);
   report::RunReport report;
-  report.title = plan->title;
+  const std::string& source = options.mesh.empty() ? options.points : options.mesh;
+  report.title =
+      plan->title.empty() ? std::filesystem::path(source).filename().string() : plan->title;
   report.version = FRUSTUM_VERSION;
   report.evidence = *std::move(evidence);
   report.measurement = *std::move(measurement);

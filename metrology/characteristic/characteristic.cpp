@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decimal.hpp"
 #include "metrology/characteristic/evaluators.hpp"
+#include "metrology/plan/plan_names.hpp"
 #include "metrology/rounding_slack.hpp"
 
 namespace frustum::metrology {
@@ -44,10 +46,14 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   CharacteristicResult result;
   result.name = planned.name;
   result.kind = std::string(name_of(planned.kind));
+  if (planned.parameter) {
+    result.parameter = kParameterNames.at(static_cast<std::size_t>(*planned.parameter));
+  }
+  result.floating = planned.floating;
   result.unit = std::string(evaluator.unit);
   result.value = value->value * evaluator.per_internal;
-  if (value->nominal) result.nominal = *value->nominal * evaluator.per_internal;
-  result.tolerance = planned.tolerance * evaluator.per_internal;
+  if (value->nominal) result.nominal = as_stated(*value->nominal * evaluator.per_internal);
+  result.tolerance = as_stated(planned.tolerance * evaluator.per_internal);
   const double nominal = value->nominal.value_or(0.0);
   result.pass = std::abs(value->value - nominal) <=
                 planned.tolerance + rounding_slack(value->value, nominal, planned.tolerance);

@@ -9,9 +9,10 @@
 namespace frustum::metrology {
 namespace {
 
-// A day that there is, alone or with a time of day.
+// A day that there is, alone or with a time of day, that with its distance from UTC or without.
 bool is_date(const std::string& text) {
-  static const std::regex kForm(R"((\d{4})-(\d\d)-(\d\d)(T([01]\d|2[0-3]):[0-5]\d:[0-5]\d)?)");
+  static const std::regex kForm(R"((\d{4})-(\d\d)-(\d\d)(T([01]\d|2[0-3]):[0-5]\d:[0-5]\d)"
+                                R"((Z|[+-](0\d|1[0-3]):[0-5]\d|[+-]14:00)?)?)");
   std::smatch parts;
   if (!std::regex_match(text, parts, kForm)) return false;
   const auto number = [&](std::size_t k) { return std::atoi(parts[k].str().c_str()); };
@@ -35,7 +36,8 @@ ReportHeader read_report_header(const TomlTable& table) {
   }
   if (!header.date.empty() && !is_date(header.date)) {
     table.fail("date", "wrong-date"_id, fmt::format("'{}' is no date", header.date),
-               "year, month, day: \"2026-11-23\" or \"2026-11-23T14:05:00\"");
+               "year, month, day: \"2026-11-23\", \"2026-11-23T14:05:00\" or "
+               "\"2026-11-23T14:05:00Z\"");
   }
   return header;
 }

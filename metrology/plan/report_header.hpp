@@ -22,7 +22,7 @@ struct ReportHeader {
   std::string serial_number{};
   std::string order{};
   std::string operated_by{};
-  std::string date{};  // ISO 8601: 2026-11-23, 2026-11-23T14:05:00
+  std::string date{};  // ISO 8601: 2026-11-23, 2026-11-23T14:05:00, 2026-11-23T14:05:00Z
   std::string cmm{};   // maker, type and number of the machine that measures
 
   bool operator==(const ReportHeader&) const = default;

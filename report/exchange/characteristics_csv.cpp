@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "report/exchange/csv_field.hpp"
+#include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
 
@@ -36,7 +37,7 @@ std::string characteristics_csv(const metrology::Measurement& measurement,
   const auto features = features_by_name(plan);
   for (const metrology::CharacteristicResult& c : measurement.characteristics) {
     const auto named = features.find(c.name);
-    csv += csv_field(c.name) + ',' + c.kind + ',' +
+    csv += csv_field(c.name) + ',' + kind_text(c) + ',' +
            csv_field(named == features.end() ? std::string() : named->second) + ',' +
            number(c.value) + ',' + number(c.nominal) + ',' + number(deviation_of(c)) + ',' +
            number(c.tolerance) + ',' + number(c.expanded_uncertainty) + ',' + c.unit + ',' +

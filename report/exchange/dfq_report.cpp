@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "report/form_parameter.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
@@ -45,11 +46,17 @@ class DfqText {
   std::string text_;
 };
 
-// "23.11.2026/14:05:00" of "2026-11-23T14:05:00"; nothing of a date without a time of day.
+// "23.11.2026/14:05:00" of "2026-11-23T14:05:00" and of "2026-11-23T14:05:00Z", as the field has no
+// place for a time zone; nothing of a date without a time of day.
 std::string time_text(const std::string& date) {
-  if (date.size() != std::string_view("2026-11-23T14:05:00").size()) return {};
+  if (date.size() < std::string_view("2026-11-23T14:05:00").size()) return {};
   return date.substr(8, 2) + '.' + date.substr(5, 2) + '.' + date.substr(0, 4) + '/' +
-         date.substr(11);
+         date.substr(11, 8);
+}
+
+// What a characteristic has no field of its own for, in one.
+std::string value_remark(const CharacteristicResult& c) {
+  return parameter_text(c.kind, c.parameter);
 }
 
 void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
@@ -62,6 +69,7 @@ void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {
   if (c.nominal) dfq.decimal("K2110", n, nominal - c.tolerance, decimals);
   dfq.decimal("K2111", n, nominal + c.tolerance, decimals);
   dfq.field("K2142", n, readable_text(c.unit));
+  if (const std::string text = value_remark(c); !text.empty()) dfq.field("K2900", n, text);
 }
 
 void add_value(DfqText& dfq, std::size_t n, const CharacteristicResult& c,

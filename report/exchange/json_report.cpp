@@ -66,6 +66,8 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   Json json;
   json["name"] = characteristic.name;
   json["kind"] = characteristic.kind;
+  if (!characteristic.parameter.empty()) json["parameter"] = characteristic.parameter;
+  if (characteristic.floating) json["floating"] = true;
   json["value"] = json_number(characteristic.value);
   json["unit"] = characteristic.unit;
   json["tolerance"] = json_number(characteristic.tolerance);

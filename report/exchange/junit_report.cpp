@@ -6,6 +6,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "report/form_parameter.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
@@ -62,7 +63,9 @@ class Suite {
 };
 
 std::string shortfall(const CharacteristicResult& c) {
-  std::string text = fmt::format("value {} {}", result_text(c), c.unit);
+  const std::string parameter = parameter_text(c.kind, c.parameter);
+  std::string text = fmt::format("{}{}value {} {}", parameter, parameter.empty() ? "" : ": ",
+                                 result_text(c), c.unit);
   if (const std::string nominal = nominal_text(c); !nominal.empty()) text += ", nominal " + nominal;
   text += fmt::format(", tolerance {}, expanded uncertainty {} (95 %)",
                       value_text(c.tolerance, c.unit), uncertainty_text(c.expanded_uncertainty));

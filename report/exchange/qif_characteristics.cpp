@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "core/units.hpp"
+#include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
 
@@ -209,6 +210,9 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
     add_reference(nominal_node, "CharacteristicDefinitionId", definition);
     add_nominal(nominal_node, row, result, parts, planned);
     const xml_node item_node = add_identified(items, name_of_characteristic(row, "Item"), item);
+    if (!result.parameter.empty()) {
+      add_text(item_node, "Description", parameter_text(result.kind, result.parameter));
+    }
     add_text(item_node, "Name", result.name);
     add_feature_ids(item_node, "FeatureItemIds", planned, features.items);
     const xml_node devices = add(item_node, "MeasurementDeviceIds");

@@ -2,7 +2,8 @@
 // each.
 //
 // Units: mm and deg, as the document states; combinedUncertainty is the standard uncertainty (k =
-// 1), half of the expanded uncertainty. Errors: none; a kind that QIF has no
+// 1), half of the expanded uncertainty. The parameter of a form whose plan states
+// one is the Description of its item. Errors: none; a kind that QIF has no
 // characteristic for is written as one of its general ones.
 #pragma once
 

@@ -104,6 +104,7 @@ std::string axes_html(const RunReport& report) {
 }
 
 std::string errors_html(const RunReport& report) {
+  if (report.errors.empty() && report.machine.empty()) return "";  // no machine tool was simulated
   if (report.errors.empty()) {
     return section("errors", "Injected errors",
                    "<p>None: the machine is geometrically ideal.</p>\n");

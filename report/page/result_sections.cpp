@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "report/form_parameter.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/tolerance_symbol.hpp"
 #include "report/number_text.hpp"
@@ -112,7 +113,7 @@ std::string characteristics_html(const RunReport& report) {
   Table table("Characteristics", headings, TableStyle::cards);
   for (const Characteristic& c : all) {
     const std::string kind =
-        c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(c.kind));
+        c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(kind_text(c)));
     std::vector<std::string> cells{fmt::format("<span class=\"what\">{}<span><b>{}</b>{}</span>"
                                                "</span>",
                                                tolerance_symbol(c.kind), html_text(c.name), kind),

@@ -55,7 +55,8 @@ TEST_F(EvidenceSystem, Fault2_38_MeasuredPointsCarryTheHeadOfTheirPlan) {
   ASSERT_LE(told.exit_code, 1) << told.err;
   const json evidence = json::parse(told.out)["evidence"];
   EXPECT_EQ(evidence["serial_number"], "1");
-  EXPECT_EQ(evidence["measuring"]["accuracy"], "E0 = 1.8 µm");
+  EXPECT_EQ(evidence["measuring"]["accuracy"],
+            "E0 = 1.8 µm; how errors grow with length is not stated, no U contains it");
   EXPECT_EQ(evidence["files"][1]["sha256"], sha256(read(folder_ / "a/points.csv")));
 }
 

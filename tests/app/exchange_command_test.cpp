@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <tuple>
 
 #include "tests/app/command_line.hpp"
 
@@ -311,6 +312,49 @@ TEST_F(ExchangeSystem, StatesTheAccuracyOfTheMachineThatMeasured) {
   EXPECT_NE(run(points).out.find("goes by an uncertainty of 0 for all characteristics"),
             std::string::npos);
   EXPECT_EQ(run(points + "--e0 '2 um'").out.find("goes by an uncertainty of 0"), std::string::npos);
+}
+
+TEST_F(ExchangeSystem, SaysWhichTermOfTheAccuracyIsMissing) {
+  write_plan();
+  write("p.csv", tube_points());
+  const std::string points = "measure --plan tube.plan.toml --points p.csv ";
+  const std::string length = "grow with length (l_per_um)", point = "of a single point (e0)";
+  for (const auto& [arguments, lacks_length, lacks_point] :
+       {std::tuple{"--e0 2um", true, false},
+        {"--l-per-um 300", false, true},
+        {"--e0 2um --l-per-um 300", false, false}}) {
+    // The points are perfect: a remark, and nothing else.
+    const json doc = json::parse(run(points + arguments + " --json").out);
+    const std::string text = doc["diagnostics"].dump();
+    EXPECT_EQ(text.find(length) != std::string::npos, lacks_length) << text;
+    EXPECT_EQ(text.find(point) != std::string::npos, lacks_point) << text;
+  }
+  EXPECT_EQ(run(points + "--l-per-um 300 --e0 '0.0001 inch' --quiet").exit_code, 0);
+}
+
+TEST_F(ExchangeSystem, PointsOfARealCmmHaveNoMachineTool) {
+  write_plan();
+  replace_in("tube.plan.toml", "title = \"Tube\"\n", "");
+  write("p.csv", tube_points());
+  const std::string points = "measure --plan tube.plan.toml --points p.csv ";
+  const Outcome shown = run(points);
+  EXPECT_TRUE(shown.out.starts_with("p.csv ")) << shown.out;
+  EXPECT_EQ(shown.out.find("Errors"), std::string::npos) << shown.out;
+  EXPECT_EQ(json::parse(run(points + "--json").out)["title"], "p.csv");
+}
+
+TEST_F(ExchangeSystem, DistancesOfJoinedCornersHaveNoExponent) {
+  write_plan();
+  // Far off, and large: two corners 0.9 mm apart are within the seam, 1e-9 of the size.
+  std::string scan = tube_scan();
+  scan.insert(scan.find("endsolid"),
+              "facet normal 0 0 0\nouter loop\nvertex 1e9 0 0\nvertex 1e9 1e7 0\nvertex 1e9 0 1e7\n"
+              "endloop\nendfacet\n"
+              "facet normal 0 0 0\nouter loop\nvertex 1e9 0 0.9\nvertex 1e9 -1e7 0\nvertex 1e9 0 "
+              "-1e7\nendloop\nendfacet\n");
+  write("tube.stl", scan);
+  const Outcome measured = run("measure --plan tube.plan.toml --mesh tube.stl --json");
+  EXPECT_NE(measured.out.find("others 900 um away"), std::string::npos) << measured.out;
 }
 
 TEST_F(ExchangeSystem, RefusesAccuraciesThatCannotBe) {

@@ -42,6 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"10um", 0.01, UnitKind::length}, Case{"10 \u00b5m", 0.01, UnitKind::length},
         Case{"10 \u03bcm", 0.01, UnitKind::length}, Case{"250 nm", 250e-6, UnitKind::length},
         Case{"1.5 m", 1500, UnitKind::length}, Case{"1e-3 in", 0.0254, UnitKind::length},
+        Case{"1e-3 inch", 0.0254, UnitKind::length}, Case{"2inch", 50.8, UnitKind::length},
         Case{"-0.5 mm", -0.5, UnitKind::length}, Case{"+0.5mm", 0.5, UnitKind::length},
         Case{"  3\tmm  ", 3.0, UnitKind::length}, Case{".5 mm", 0.5, UnitKind::length},
         Case{"1 rad", 1.0, UnitKind::angle}, Case{"2 mrad", 0.002, UnitKind::angle},

@@ -28,11 +28,15 @@ TEST(ReportHeader, Fault2_38_IsReadFromAPlanAndWrittenBack) {
 }
 
 TEST(ReportHeader, Fault2_38_RefusesWhatIsNoDateAndWhatIsMisspelt) {
-  for (const char* date : {"2026-11-23", "2000-02-29", "2026-11-23T00:00:00"}) {
+  for (const char* date :
+       {"2026-11-23", "2000-02-29", "2026-11-23T00:00:00", "2026-01-02T03:04:05Z",
+        "2026-01-02T03:04:05+01:00", "2026-01-02T03:04:05-14:00"}) {
     EXPECT_TRUE(faults_of(std::string("date = \"") + date + '"').empty()) << date;
   }
-  for (const char* date : {"23.11.2026", "2026-13-01", "2026-00-10", "2026-02-29", "2026-11-31",
-                           "2026-11-23T24:00:00", "2026-11-23 10:00:00", "today"}) {
+  for (const char* date :
+       {"23.11.2026", "2026-13-01", "2026-00-10", "2026-02-29", "2026-11-31", "2026-11-23T24:00:00",
+        "2026-11-23 10:00:00", "today", "2026-11-23Z", "2026-11-23T10:00:00z",
+        "2026-11-23T10:00:00+1", "2026-11-23T10:00:00+14:30"}) {
     const Diagnostics faults = faults_of(std::string("date = \"") + date + '"');
     ASSERT_EQ(faults.size(), 1U) << date;
     EXPECT_EQ(faults.front().key, "report.date");

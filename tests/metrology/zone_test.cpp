@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "measured_feature.hpp"
 #include "metrology/characteristic/characteristic.hpp"
@@ -292,6 +294,37 @@ TEST(Form, HasFourParameters) {
   EXPECT_NEAR(result->harmonics[1].amplitude, 0.002, 1e-7);
   EXPECT_NEAR(result->harmonics[3].amplitude, 0.001, 1e-7);
   EXPECT_NEAR(result->harmonics[4].amplitude, 0.0, 1e-7);
+}
+
+TEST(Form, ItsResultNamesTheParameterThatThePlanStates) {
+  const auto shaft = measured::cylinder("C", {0, 0, 0}, Vec3::UnitZ(), 10.0, {-5, 5}, 36);
+  const std::vector<FittedFeature> features{feature(shaft)};
+  PlannedCharacteristic c = measured::characteristic(K::roundness, {"C"});
+  EXPECT_EQ(evaluate(c, features)->parameter, "");
+  EXPECT_FALSE(evaluate(c, features)->floating);
+  const std::array<std::string, 4> names{"t", "p", "v", "q"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    c.parameter = static_cast<FormParameter>(i);
+    EXPECT_EQ(evaluate(c, features)->parameter, names[i]);
+  }
+  c = measured::characteristic(K::surface_profile, {"C"});
+  c.floating = true;
+  EXPECT_TRUE(evaluate(c, features)->floating);
+}
+
+// 18 um is 0.018000000000000002 mm, which is 18.000000000000004 um.
+TEST(Characteristics, ToleranceAndNominalAreTheNumbersOfThePlan) {
+  const auto shaft = measured::cylinder("C", {0, 0, 0}, Vec3::UnitZ(), 10.0, {-5, 5}, 36);
+  const std::vector<FittedFeature> features{feature(shaft)};
+  PlannedCharacteristic c = measured::characteristic(K::roundness, {"C"});
+  for (int tenths = 1; tenths < 2000; ++tenths) {
+    const double um = tenths / 10.0;
+    c.tolerance = um * 1e-3;  // as a plan is read
+    EXPECT_EQ(evaluate(c, features)->tolerance, um);
+  }
+  // What nobody would write stays as it is.
+  c.tolerance = 0.012345678901234567;
+  EXPECT_EQ(evaluate(c, features)->tolerance, 12.345678901234567);
 }
 
 TEST(Form, OfAHoleCountsPeaksTowardItsAxis) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
+#include <tuple>
 
 #include "report/exchange/export_file.hpp"
 #include "report/measuring_statement.hpp"
@@ -77,6 +78,71 @@ TEST(Evidence, Fault2_38_SaysHowWasMeasured) {
   EXPECT_EQ(value_of(measuring_statement(plan, {}, PointSource::measured_points), "accuracy")
                 .substr(0, 10),
             "not stated");
+}
+
+TEST(Evidence, NamesTheAssociationOfTheDatumToo) {
+  metrology::InspectionPlan plan;
+  metrology::PlannedCharacteristic c;
+  c.name = "pin.perpendicularity";
+  c.datum_criterion = metrology::Criterion::outside_material;
+  plan.characteristics.push_back(c);
+  c.name = "pin.parallelism";
+  c.criterion = metrology::Criterion::minimum_zone;
+  plan.characteristics.push_back(c);
+  c = {};
+  c.name = "pin.profile";
+  c.floating = true;
+  plan.characteristics.push_back(c);
+  EXPECT_EQ(value_of(measuring_statement(plan, {}, PointSource::virtual_cmm), "association"),
+            "least squares; pin.perpendicularity: datum outside the material; pin.parallelism: "
+            "minimum zone, datum outside the material; pin.profile: floating, planned geometry "
+            "fitted to the points");
+}
+
+TEST(Evidence, NamesTheParametersOfForms) {
+  metrology::InspectionPlan plan;
+  EXPECT_EQ(value_of(measuring_statement(plan, {}, PointSource::virtual_cmm), "parameter"), "");
+  using metrology::CharacteristicKind;
+  using metrology::FormParameter;
+  for (const auto& [name, kind, parameter] :
+       {std::tuple{"a", CharacteristicKind::roundness, FormParameter::p},
+        {"b", CharacteristicKind::cylindricity, FormParameter::v},
+        {"c", CharacteristicKind::straightness, FormParameter::t},
+        {"d", CharacteristicKind::flatness, FormParameter::q},
+        {"e", CharacteristicKind::cone_form, FormParameter::p}}) {
+    metrology::PlannedCharacteristic c;
+    c.name = name;
+    c.kind = kind;
+    c.parameter = parameter;
+    plan.characteristics.push_back(c);
+  }
+  EXPECT_EQ(value_of(measuring_statement(plan, {}, PointSource::virtual_cmm), "parameter"),
+            "a: RONp, highest peak; b: CYLv, deepest valley; c: STRt, peak to valley; d: FLTq, "
+            "root mean square; e: highest peak");
+}
+
+TEST(Evidence, StatesWhatTheUncertaintyTakesOfTemperatures) {
+  metrology::CmmModel cmm = stated_cmm();
+  cmm.temperature = metrology::ThermalState{.part = 22.0, .scales = 20.5};
+  EXPECT_EQ(value_of(measuring_statement({}, cmm, PointSource::virtual_cmm), "temperature"),
+            "part 22 °C, 11.5 µm/(m K); scales 20.5 °C, 8 µm/(m K); not compensated");
+  cmm.temperature->compensated = true;
+  cmm.temperature->sensor_error = 0.2;
+  cmm.temperature->expansion_error = 1e-6;
+  EXPECT_EQ(value_of(measuring_statement({}, cmm, PointSource::virtual_cmm), "temperature"),
+            "part 22 °C, 11.5 µm/(m K); scales 20.5 °C, 8 µm/(m K); compensated, sensors right to "
+            "± 0.2 K, coefficients to ± 1 µm/(m K)");
+}
+
+// The field has no place for a time zone.
+TEST(Evidence, ATimeOfUtcIsInEveryFormatThatHasAPlaceForIt) {
+  RunReport report = told_report();
+  report.evidence.header.date = "2026-01-02T03:04:05Z";
+  EXPECT_NE(exported(ExportFormat::dfq, report, {}).find("K0004/1 02.01.2026/03:04:05\n"),
+            std::string::npos);
+  EXPECT_NE(exported(ExportFormat::qif, report, {})
+                .find("<InspectionStart>2026-01-02T03:04:05Z</InspectionStart>"),
+            std::string::npos);
 }
 
 TEST(Evidence, Fault2_38_IsTheSameInEveryFormat) {

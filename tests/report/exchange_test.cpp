@@ -6,6 +6,8 @@
 #include <pugixml.hpp>
 
 #include "report/exchange/export_file.hpp"
+#include "report/page/html_report.hpp"
+#include "report/terminal_report.hpp"
 #include "tests/report/sample_report.hpp"
 
 namespace frustum::report {
@@ -94,6 +96,58 @@ TEST(JunitReport, TellsTheInterval) {
   EXPECT_STREQ(form.child("failure").attribute("message").value(),
                "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (95 %), 95 % "
                "interval 11.500 .. 15.250");
+}
+
+// The same section has 1.1 um as RONp and 2 um as RONt.
+TEST(Exports, NameTheParameterOfAForm) {
+  RunReport report = small_report();
+  report.collisions.clear();
+  auto& form = report.measurement.characteristics[0];
+  form.kind = "roundness";
+  form.parameter = "p";
+  report.measurement.characteristics[1].floating = true;
+  const metrology::InspectionPlan plan = plan_of(report);
+  EXPECT_NE(exported(ExportFormat::csv, report, plan).find("\ncone.form,roundness RONp,"),
+            std::string::npos);
+  EXPECT_STREQ(junit(report, plan)
+                   .child("testsuites")
+                   .child("testsuite")
+                   .first_child()
+                   .child("failure")
+                   .attribute("message")
+                   .value(),
+               "RONp, highest peak: value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 "
+               "(95 %)");
+  EXPECT_NE(exported(ExportFormat::dfq, report, plan)
+                .find("K2142/1 um\nK2900/1 RONp, highest peak\nK2001/2 2\n"),
+            std::string::npos);
+  pugi::xml_document qif;
+  ASSERT_TRUE(qif.load_string(exported(ExportFormat::qif, report, plan).c_str()));
+  const pugi::xml_node item = qif.document_element()
+                                  .child("Characteristics")
+                                  .child("CharacteristicItems")
+                                  .child("CircularityCharacteristicItem");
+  EXPECT_STREQ(item.child_value("Description"), "RONp, highest peak");
+  const std::string json = exported(ExportFormat::json, report, plan);
+  EXPECT_NE(json.find("\"kind\": \"roundness\",\n      \"parameter\": \"p\",\n"), std::string::npos)
+      << json;
+  EXPECT_NE(json.find("\"floating\": true"), std::string::npos);
+  EXPECT_NE(terminal_report(report).find("cone.form RONp "), std::string::npos);
+  EXPECT_NE(html_report(report).find("<small>roundness RONp</small>"), std::string::npos);
+  // Of a cone no standard has symbols.
+  form.kind = "cone_form";
+  EXPECT_NE(exported(ExportFormat::csv, report, plan).find("\ncone.form,cone_form highest peak,"),
+            std::string::npos);
+  // Where the plan states none, nothing is named.
+  form.parameter.clear();
+  report.measurement.characteristics[1].floating = false;
+  for (const ExportFormat format : {ExportFormat::qif, ExportFormat::csv, ExportFormat::json,
+                                    ExportFormat::junit, ExportFormat::dfq}) {
+    const std::string text = exported(format, report, plan);
+    for (const char* word : {"highest peak", "K2900", "parameter\"", "floating", "Description"}) {
+      EXPECT_EQ(text.find(word), std::string::npos) << word;
+    }
+  }
 }
 
 TEST(JunitReport, TellsErrorsFromFailures) {

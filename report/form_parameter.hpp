@@ -1,0 +1,27 @@
+// Which parameter of a form its value is: the symbols of the standards, and in words.
+//
+// A kind of which no standard has symbols (the form of a cone) gets words. Texts are empty, or
+// those of name and kind alone, where the plan states no parameter.
+// Units  : none
+// Errors : none
+// Source : ISO 12180-1 (CYL), ISO 12181-1 (RON), ISO 12780-1 (STR), ISO 12781-1 (FLT)
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "metrology/measurement.hpp"
+
+namespace frustum::report {
+
+// "RONp"; "highest peak" of a kind without symbols. `parameter` as plans state it: "p".
+[[nodiscard]] std::string parameter_symbol(std::string_view kind, std::string_view parameter);
+// "RONp, highest peak"
+[[nodiscard]] std::string parameter_text(std::string_view kind, std::string_view parameter);
+
+// "roundness RONp"
+[[nodiscard]] std::string kind_text(const metrology::CharacteristicResult& characteristic);
+// "bore.roundness RONp", for where the kind is not printed.
+[[nodiscard]] std::string name_text(const metrology::CharacteristicResult& characteristic);
+
+}  // namespace frustum::report
