@@ -222,7 +222,7 @@ Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, co
     if (!feature) return std::move(feature).error();
     features.push_back(std::move(*feature));
   }
-  auto measurement = evaluated(plan, std::move(features), cmm);
+  auto measurement = evaluated(plan, std::move(features), cmm, MeasuredBy::virtual_cmm);
   if (measurement) {
     for (Diagnostic& d : probing.collisions()) measurement->diagnostics.push_back(std::move(d));
     auto touches = std::move(probing).touches();
@@ -259,7 +259,7 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
     }
     fitted.push_back(std::move(*fit));
   }
-  auto measurement = evaluated(plan, std::move(fitted), cmm);
+  auto measurement = evaluated(plan, std::move(fitted), cmm, MeasuredBy::real_cmm);
   if (!measurement) return measurement;
   const NameIndex found(measurement->features, &MeasuredFeature::name);
   for (const PlannedFeature& feature : plan.features) {

@@ -31,7 +31,8 @@ namespace frustum::metrology {
 [[nodiscard]] Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part,
                                           const CmmModel& cmm = {});
 
-// Evaluates real CMM points. `cmm` states the machine's accuracy for the uncertainties only.
+// Evaluates real CMM points. `cmm` states the machine's accuracy for the uncertainties only; one
+// without errors states none.
 [[nodiscard]] Result<Measurement> evaluate(const InspectionPlan& plan,
                                            std::span<const FeaturePoints> features,
                                            PointMeaning meaning = PointMeaning::surface,

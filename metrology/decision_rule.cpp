@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "metrology/rounding_slack.hpp"
 
@@ -19,13 +20,16 @@ Verdict verdict_of(const CharacteristicResult& characteristic, DecisionRule rule
   if (rule == DecisionRule::simple) {
     return std::abs(characteristic.value - nominal) <= tolerance ? Verdict::pass : Verdict::fail;
   }
-  const TrueValueInterval interval = characteristic.interval.value_or(
-      TrueValueInterval{characteristic.value, characteristic.value});
-  // No verdict rests on what is not proven.
-  if (interval.coverage == Coverage::not_proven) return Verdict::uncertain;
-  const double low = interval.low - nominal;
-  const double high = interval.high - nominal;
-  if (low >= -tolerance && high <= tolerance) return Verdict::pass;
+  // This rule decides by nothing that is not proven or not known.
+  const std::optional<Coverage> coverage = characteristic.coverage();
+  if (coverage == Coverage::not_proven || coverage == Coverage::not_stated) {
+    return Verdict::uncertain;
+  }
+  const double low = characteristic.value - characteristic.expanded_uncertainty - nominal;
+  const double high = characteristic.value + characteristic.expanded_uncertainty - nominal;
+  // Of a size, which has no nominal, value - U may be below 0: it has no lower limit.
+  const bool is_above_lower = !characteristic.nominal || low >= -tolerance;
+  if (is_above_lower && high <= tolerance) return Verdict::pass;
   if (low > tolerance || high < -tolerance) return Verdict::fail;
   return Verdict::uncertain;
 }

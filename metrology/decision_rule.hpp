@@ -1,9 +1,10 @@
 // Whether a characteristic conforms, with the uncertainty of its measurement or without.
 //
-// Model    : simple: pass when |value - nominal| is within the tolerance. iso14253: pass when the
-//            whole interval of the true value is, fail when nothing of it is, else uncertain. Where
-//            no accuracy is stated the interval is the value; where its coverage is not proven it
-//            is uncertain
+// Model    : simple: pass when |value - nominal| is within the tolerance, whatever U is. iso14253,
+//            by value +- U, which every receiver of a result sees: pass when value + U is within
+//            the tolerance, and value - U of a value with two limits; fail when all of value +- U
+//            is outside, else uncertain. An ideal machine has U = 0; where the coverage of U is not
+//            proven, or no accuracy of a real machine is stated, it is uncertain
 // Units    : those of the characteristic
 // Shape    : one characteristic or all of a measurement
 // Errors   : read_decision notes a rule that there is not

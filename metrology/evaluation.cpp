@@ -15,30 +15,49 @@ namespace {
 constexpr std::string_view kStateAccuracy =
     "state its accuracy: inspection.cmm of a job, or --e0 and --l-per-um of frustum measure";
 
-// iso14253 decides by the uncertainty: without one it is no stricter than simple.
-std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
+// "'a', 'b' and 3 more" of those of which `holds` is true, "all characteristics"; empty: of none.
+template <typename Predicate>
+std::string names_of(const Measurement& measurement, Predicate holds) {
+  constexpr std::size_t kNamed = 5;
   std::string names;
   std::size_t count = 0;
   for (const CharacteristicResult& c : measurement.characteristics) {
-    if (c.expanded_uncertainty > 0.0) continue;
-    ++count;
-    names += (names.empty() ? "'" : ", '") + c.name + "'";
+    if (holds(c) && ++count <= kNamed) names += (names.empty() ? "'" : ", '") + c.name + "'";
   }
-  if (count == 0) return std::nullopt;
-  if (count == measurement.characteristics.size()) names = "all characteristics";
+  if (count > 1 && count == measurement.characteristics.size()) return "all characteristics";
+  if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
+  return names;
+}
+
+// What iso14253 cannot decide, because nothing is known of a real machine, or decides as simple
+// does, because a machine makes no error.
+std::optional<Diagnostic> without_uncertainty(const Measurement& measurement) {
+  const std::string unknown =
+      names_of(measurement, [](const auto& c) { return c.coverage() == Coverage::not_stated; });
+  if (!unknown.empty()) {
+    return warning("decision-without-accuracy"_id,
+                   fmt::format("decision = \"iso14253\" calls {} uncertain: no accuracy is stated "
+                               "of the machine that measured",
+                               unknown),
+                   std::string(kStateAccuracy));
+  }
+  const std::string ideal =
+      names_of(measurement, [](const auto& c) { return !(c.expanded_uncertainty > 0.0); });
+  if (ideal.empty()) return std::nullopt;
   return warning("decision-without-uncertainty"_id,
-                 fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", names),
+                 fmt::format("decision = \"iso14253\" goes by an uncertainty of 0 for {}", ideal),
                  std::string(kStateAccuracy));
 }
 
 // A size is what is not of either sign: the kind of its spread is known.
 bool is_size(const CharacteristicResult& c) { return c.spread.is_known(); }
 
+// U goes to the far end of the interval, which is cut at 0 first.
 void state(CharacteristicResult& c, double standard, double below, double above, bool is_proven) {
+  const double down = is_size(c) ? std::min(below, c.value) : below;
   c.standard_uncertainty = standard;
-  c.expanded_uncertainty = std::max(below, above);
-  const double low = c.value - below;
-  c.interval = {is_size(c) ? std::max(0.0, low) : low, c.value + above,
+  c.expanded_uncertainty = std::max(down, above);
+  c.interval = {c.value - down, c.value + above,
                 !is_proven   ? Coverage::not_proven
                 : is_size(c) ? Coverage::at_least_95
                              : Coverage::of_95};
@@ -66,15 +85,9 @@ void take(CharacteristicResult& c, SimulatedUncertainty simulated) {
 
 // What the 95 % of an interval are not proven for.
 std::optional<Diagnostic> not_proven(const Measurement& measurement) {
-  constexpr std::size_t kNamed = 5;
-  std::string names;
-  std::size_t count = 0;
-  for (const CharacteristicResult& c : measurement.characteristics) {
-    if (!c.interval || c.interval->coverage != Coverage::not_proven) continue;
-    if (++count <= kNamed) names += (names.empty() ? "'" : ", '") + c.name + "'";
-  }
-  if (count == 0) return std::nullopt;
-  if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
+  const std::string names =
+      names_of(measurement, [](const auto& c) { return c.coverage() == Coverage::not_proven; });
+  if (names.empty()) return std::nullopt;
   return warning("coverage-not-proven"_id,
                  fmt::format("that U and interval hold the truth in 95 % of measurements is not "
                              "proven for {}: an element touches single points (om, mi, mc)",
@@ -82,13 +95,31 @@ std::optional<Diagnostic> not_proven(const Measurement& measurement) {
                  "iso14253 calls them uncertain; least-squares elements and datums are proven");
 }
 
+// Whose interval is where the simulation says that the truth is, beside the value.
+std::optional<Diagnostic> corrected(const Measurement& measurement) {
+  const std::string names =
+      names_of(measurement, [](const auto& c) { return !c.is_value_in_interval(); });
+  if (names.empty()) return std::nullopt;
+  Diagnostic note = warning(
+      "interval-corrected"_id,
+      fmt::format("the interval of {} is corrected for a known bias of the measurement and does "
+                  "not contain the value, which is not corrected: U goes from the value to its far "
+                  "end",
+                  names),
+      "iso14253 decides by value +- U");
+  note.severity = Severity::note;
+  return note;
+}
+
 }  // namespace
 
 Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeature> features,
-                              const CmmModel& cmm) {
+                              const CmmModel& cmm, MeasuredBy by) {
   auto measurement = evaluated_values(plan, features);
   if (!measurement) return measurement;
   const PointUncertainty u = point_uncertainty(cmm);
+  const bool is_unknown = u.is_zero() && by == MeasuredBy::real_cmm;
+  for (CharacteristicResult& c : measurement->characteristics) c.is_accuracy_unknown = is_unknown;
   if (!u.is_zero()) {
     const auto uncertain = linear_uncertainty(plan, features, u);
     if (!uncertain) return uncertain.error();
@@ -102,7 +133,10 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
   if (plan.monte_carlo && u.is_zero()) {
     measurement->diagnostics.push_back(
         warning("nothing-simulated"_id,
-                "uncertainty: nothing was simulated, because the CMM is said to have no errors",
+                is_unknown ? "uncertainty: nothing was simulated, because no accuracy of the CMM "
+                             "is stated"
+                           : "uncertainty: nothing was simulated, because the CMM is said to have "
+                             "no errors",
                 std::string(kStateAccuracy)));
   } else if (plan.monte_carlo) {
     const auto simulated = simulated_uncertainties(
@@ -113,13 +147,10 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
     }
   }
   decide(*measurement, plan.decision);
-  if (auto unproven = not_proven(*measurement)) {
-    measurement->diagnostics.push_back(*std::move(unproven));
-  }
-  if (plan.decision == DecisionRule::iso14253) {
-    if (auto undecided = without_uncertainty(*measurement)) {
-      measurement->diagnostics.push_back(*std::move(undecided));
-    }
+  const bool is_iso = plan.decision == DecisionRule::iso14253;
+  for (auto& remark : {not_proven(*measurement), corrected(*measurement),
+                       is_iso ? without_uncertainty(*measurement) : std::nullopt}) {
+    if (remark) measurement->diagnostics.push_back(*remark);
   }
   return measurement;
 }

@@ -18,10 +18,14 @@
 
 namespace frustum::metrology {
 
+// Of a real machine of which nothing is stated nothing is known; a virtual one of no errors is ideal.
+enum class MeasuredBy { virtual_cmm, real_cmm };
+
 // `features` are in the workpiece frame. With uncertainties by simulation and verdicts by the rule
 // that the plan asks for.
 [[nodiscard]] Result<Measurement> evaluated(const InspectionPlan& plan,
                                             std::vector<FittedFeature> features,
-                                            const CmmModel& cmm);
+                                            const CmmModel& cmm,
+                                            MeasuredBy by = MeasuredBy::virtual_cmm);
 
 }  // namespace frustum::metrology

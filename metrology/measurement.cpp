@@ -32,6 +32,15 @@ Verdict CharacteristicResult::verdict() const {
   return uncertain ? Verdict::uncertain : Verdict::fail;
 }
 
+std::optional<Coverage> CharacteristicResult::coverage() const {
+  if (is_accuracy_unknown) return Coverage::not_stated;
+  return interval ? std::optional(interval->coverage) : std::nullopt;
+}
+
+bool CharacteristicResult::is_value_in_interval() const {
+  return !interval || (interval->low <= value && value <= interval->high);
+}
+
 Verdict Measurement::verdict() const {
   Verdict worst = Verdict::pass;
   for (const CharacteristicResult& c : characteristics) {

@@ -76,10 +76,11 @@ struct SimulatedUncertainty {
   bool stable = false;  // to the digits asked for, or as exact as that without noise
 };
 
-// How often an interval holds the true value, as far as that is proven.
-enum class Coverage { of_95, at_least_95, not_proven };
-inline constexpr std::array<std::string_view, 3> kCoverageNames{"95 %", "at least 95 %",
-                                                                "not proven"};
+// How often an interval and value +- U hold the true value, as far as that is proven. not_stated: no
+// accuracy of the real machine is, so there is neither.
+enum class Coverage { of_95, at_least_95, not_proven, not_stated };
+inline constexpr std::array<std::string_view, 4> kCoverageNames{"95 %", "at least 95 %",
+                                                                "not proven", "not stated"};
 [[nodiscard]] std::string_view name_of(Coverage coverage);
 
 // Where the true value is in 95 % of measurements, in the unit of its characteristic.
@@ -107,16 +108,20 @@ struct CharacteristicResult {
   // a deviation of either sign.
   std::optional<double> nominal{};
   double tolerance = 0.0;  // in `unit`: limit of the value, or of |value - nominal|
-  // In `unit`: value +- this holds the true value in 95 % of measurements. Of values of either sign
-  // twice the standard uncertainty; of sizes, which noise makes larger, to the far end of the
-  // interval.
+  // In `unit`: value +- this holds the true value as `coverage` says; to the far end of the
+  // interval. Of values of either sign without simulation twice the standard uncertainty.
   double expanded_uncertainty = 0.0;
   double standard_uncertainty = 0.0;                // in `unit`
   std::optional<TrueValueInterval> interval{};      // where the accuracy of the CMM is stated
   std::optional<SimulatedUncertainty> simulated{};  // where the plan asks for it
+  bool is_accuracy_unknown = false;  // a real machine measured, and nothing is stated of it
   bool pass = false;
   bool uncertain = false;  // not passed for the uncertainty alone
   [[nodiscard]] Verdict verdict() const;
+  // Nothing where the machine makes no error.
+  [[nodiscard]] std::optional<Coverage> coverage() const;
+  // An interval that is corrected for a known bias does not; true where there is none.
+  [[nodiscard]] bool is_value_in_interval() const;
   // The deviations that made the value, for plots: angle about the axis (rad) against deviation
   // (mm).
   std::vector<double> plot_angle{};

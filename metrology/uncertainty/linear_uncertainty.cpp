@@ -392,6 +392,10 @@ Measured asked_in(Way way, const InspectionPlan& plan, std::span<const FittedFea
 
 }  // namespace
 
+bool is_coverage_proven(const InspectionPlan& plan, const PlannedCharacteristic& characteristic) {
+  return way_of(plan, characteristic) != Way::draws;
+}
+
 Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
                                              std::span<const FittedFeature> features,
                                              const PointUncertainty& u) {
@@ -422,7 +426,7 @@ Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
     const Uncertain& uncertain = found[way][place];
     out.standard.push_back(uncertain.standard);
     out.bounds.push_back(uncertain.bounds);
-    out.is_proven.push_back(way != Way::draws);
+    out.is_proven.push_back(is_coverage_proven(plan, plan.characteristics[c]));
     if (way != Way::responses || !uncertain.either_sign) continue;
     for (const auto& [error, answer] : responses[place].of_first()) {
       answers.emplace_back(static_cast<int>(c), static_cast<int>(error), answer);

@@ -45,6 +45,10 @@ struct LinearUncertainty {
   Eigen::SparseMatrix<double, Eigen::RowMajor> answers{};
 };
 
+// Whether `is_proven` holds of a characteristic of the plan.
+[[nodiscard]] bool is_coverage_proven(const InspectionPlan& plan,
+                                      const PlannedCharacteristic& characteristic);
+
 // `features` as measured, in the workpiece frame.
 [[nodiscard]] Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
                                                            std::span<const FittedFeature> features,

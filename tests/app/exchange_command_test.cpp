@@ -307,11 +307,17 @@ TEST_F(ExchangeSystem, StatesTheAccuracyOfTheMachineThatMeasured) {
   };
   EXPECT_LT(form(mesh), 0.25);
   EXPECT_GT(form(mesh + "--cmm cmm.toml"), 1.0);
-  // Conformity proven by an uncertainty of nothing is reported.
+  // No conformity is proven by an uncertainty of nothing.
+  const Outcome simple = run(points);
+  EXPECT_EQ(simple.exit_code, 0) << simple.out;
+  EXPECT_EQ(json::parse(simple.out)["characteristics"][0]["coverage"], "not stated");
   replace_in("tube.plan.toml", "title", "decision = \"iso14253\"\ntitle");
-  EXPECT_NE(run(points).out.find("goes by an uncertainty of 0 for all characteristics"),
+  const Outcome unknown = run(points);
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_EQ(json::parse(unknown.out)["status"], "uncertain");
+  EXPECT_NE(unknown.out.find("calls all characteristics uncertain: no accuracy is stated"),
             std::string::npos);
-  EXPECT_EQ(run(points + "--e0 '2 um'").out.find("goes by an uncertainty of 0"), std::string::npos);
+  EXPECT_EQ(run(points + "--e0 '2 um'").out.find("no accuracy is stated"), std::string::npos);
 }
 
 TEST_F(ExchangeSystem, SaysWhichTermOfTheAccuracyIsMissing) {

@@ -176,6 +176,7 @@ TEST(DecisionRule, PassesWithinFailsBeyondAndElseDoesNotKnow) {
   c.tolerance = 1.0;
   const auto verdict = [&](double value, DecisionRule rule) {
     c.value = value;
+    c.expanded_uncertainty = 0.2;
     c.interval = TrueValueInterval{value - 0.2, value + 0.2};
     return verdict_of(c, rule);
   };
@@ -188,11 +189,13 @@ TEST(DecisionRule, PassesWithinFailsBeyondAndElseDoesNotKnow) {
     EXPECT_EQ(verdict(10.0 + 1.19 * side, iso14253), Verdict::uncertain);
     EXPECT_EQ(verdict(10.0 + 1.21 * side, iso14253), Verdict::fail);
   }
-  // The value itself need not be within its interval.
+  // The value need not be within its interval, which decides nothing: value +- U does.
   c.value = 11.5;
+  c.expanded_uncertainty = 2.0;
   c.interval = TrueValueInterval{.low = 9.5, .high = 10.5};
-  EXPECT_EQ(verdict_of(c, iso14253), Verdict::pass);
+  EXPECT_EQ(verdict_of(c, iso14253), Verdict::uncertain);
   c.value = 10.5;
+  c.expanded_uncertainty = 1.0;
   c.interval = TrueValueInterval{.low = 10.5, .high = 11.5};
   EXPECT_EQ(verdict_of(c, iso14253), Verdict::uncertain);
   Measurement m;
